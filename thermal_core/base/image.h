@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace thermal {
+
+/// One image plane that owns its pixels: row-major, top row first, no padding.
+template <typename T>
+class Plane {
+ public:
+  Plane() = default;
+  Plane(int width_px, int height_px, T value = T())
+      : width_px_(width_px),
+        height_px_(height_px),
+        pixels_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), value) {
+    assert(width_px >= 0 && height_px >= 0);
+  }
+
+  [[nodiscard]] int width_px() const noexcept { return width_px_; }
+  [[nodiscard]] int height_px() const noexcept { return height_px_; }
+  [[nodiscard]] std::size_t size() const noexcept { return pixels_.size(); }
+  [[nodiscard]] bool empty() const noexcept { return pixels_.empty(); }
+
+  [[nodiscard]] std::span<T> pixels() noexcept { return pixels_; }
+  [[nodiscard]] std::span<const T> pixels() const noexcept { return pixels_; }
+
+  [[nodiscard]] std::span<T> row(int y) noexcept { return {&pixels_[offset(0, y)], stride()}; }
+  [[nodiscard]] std::span<const T> row(int y) const noexcept { return {&pixels_[offset(0, y)], stride()}; }
+
+  [[nodiscard]] T& at(int x, int y) noexcept { return pixels_[offset(x, y)]; }
+  [[nodiscard]] const T& at(int x, int y) const noexcept { return pixels_[offset(x, y)]; }
+
+  [[nodiscard]] bool operator==(const Plane&) const = default;
+
+ private:
+  [[nodiscard]] std::size_t stride() const noexcept { return static_cast<std::size_t>(width_px_); }
+  [[nodiscard]] std::size_t offset(int x, int y) const noexcept {
+    assert(x >= 0 && x < width_px_ && y >= 0 && y < height_px_);
+    return static_cast<std::size_t>(y) * stride() + static_cast<std::size_t>(x);
+  }
+
+  int width_px_ = 0;
+  int height_px_ = 0;
+  std::vector<T> pixels_;
+};
+
+}  // namespace thermal

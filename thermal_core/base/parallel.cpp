@@ -1,0 +1,35 @@
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <thread>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+namespace thermal {
+
+struct ThreadLimit::Impl {
+  explicit Impl(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
+  tbb::global_control control;
+};
+
+ThreadLimit::ThreadLimit(int threads)
+    : impl_(std::make_unique<Impl>(threads > 0 ? static_cast<std::size_t>(threads)
+                                               : std::max(1U, std::thread::hardware_concurrency()))) {}
+
+ThreadLimit::~ThreadLimit() = default;
+
+void parallel_for(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t begin, std::size_t end)>& body) {
+  const std::size_t chunks = (count + grain - 1) / grain;
+  // Isolated: while it waits for its chunks, a thread must not pick up unrelated work that may block.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
+      const std::size_t begin = chunk * grain;
+      body(begin, std::min(begin + grain, count));
+    });
+  });
+}
+
+}  // namespace thermal

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "io/json_file.h"
+#include "labels/instances.h"
+#include "scene/manifest.h"
+
+namespace thermal {
+
+/// Collects one clip's labels, frame after frame, as a COCO document of its own: ids from 1, file names
+/// relative to the clip's folder, one entry in videos.
+class ClipAnnotations {
+ public:
+  explicit ClipAnnotations(const Manifest& manifest);
+
+  void add_frame(int frame, const std::vector<Instance>& instances);
+
+  [[nodiscard]] int count() const noexcept { return static_cast<int>(annotations_.size()); }
+
+  /// The document. Size classes are by the mean box area of a track over the clip (Bondi et al. 2018): small
+  /// below 200 px, large above 2000 px, else medium.
+  [[nodiscard]] Json document() const;
+
+ private:
+  const Manifest& manifest_;
+  std::vector<const ManifestObject*> objects_;  ///< by index; null where it is no actor
+  std::set<std::string> categories_;
+  std::map<std::string, int> category_ids_;
+  Json images_ = Json::array();
+  Json annotations_ = Json::array();
+};
+
+/// Joins clips' documents into the dataset's: ids run on, file names become relative to the dataset's folder,
+/// a category keeps its id. `clips` are their ids, in the same order.
+[[nodiscard]] Json join_annotations(const std::string& dataset, const std::vector<std::string>& clips,
+                                    const std::vector<Json>& documents);
+
+}  // namespace thermal

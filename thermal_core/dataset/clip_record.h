@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "io/json_file.h"
+
+namespace thermal {
+
+/// What a finished clip says of itself: clips/<clip>/clip.json.
+struct ClipRecord {
+  std::string clip;
+  std::string season;
+  std::uint32_t seed = 1;
+  int frames = 0;
+  int annotations = 0;
+  double frame_rate_hz = 9;
+  std::string pixels_sha256;                 ///< of the frames' own sums, in order: ir8, ir16, ir8, …
+  std::map<std::string, std::string> files;  ///< SHA-256 of every other file of the clip's folder
+};
+
+[[nodiscard]] Json to_json(const ClipRecord& record);
+
+/// DataError naming the file if it is not a clip's record.
+[[nodiscard]] ClipRecord read_clip_record(const Path& file);
+
+}  // namespace thermal

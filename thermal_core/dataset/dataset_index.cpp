@@ -1,0 +1,97 @@
+#include "dataset/dataset_index.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/version.h"
+#include "dataset/annotations.h"
+#include "io/sha256.h"
+
+namespace thermal {
+namespace {
+
+void check_same_config(const Layout& layout, const Json& config) {
+  const Json there = read_json(layout.dataset_json()).value("config", Json::object());
+  const std::vector<std::string> found = differences(config, there);
+  if (found.empty()) return;
+  constexpr std::size_t kMost = 8;
+  throw ConfigError(
+      fmt::format("{} holds a dataset made from another config: {}; expected the same config, or "
+                  "another folder",
+                  layout.root.string(), list_names(found, kMost)));
+}
+
+Json clip_entry(const DatasetIndex& index, const std::string& id) {
+  if (const auto done = index.finished.find(id); done != index.finished.end()) {
+    const ClipRecord& record = done->second;
+    return {{"id", id},
+            {"status", "done"},
+            {"season", record.season},
+            {"frames", record.frames},
+            {"annotations", record.annotations},
+            {"pixels_sha256", record.pixels_sha256},
+            {"record_sha256", sha256_of(to_text(to_json(record)))}};
+  }
+  if (const auto why = index.failed.find(id); why != index.failed.end()) {
+    return {{"id", id}, {"status", "failed"}, {"reason", why->second}};
+  }
+  return {{"id", id}, {"status", "pending"}};
+}
+
+std::string write_annotations(const Layout& layout, const DatasetIndex& index) {
+  std::vector<std::string> clips;
+  std::vector<Json> documents;
+  for (const std::string& id : index.clips) {
+    if (!index.finished.contains(id)) continue;
+    clips.push_back(id);
+    documents.push_back(read_json(layout.clip(id) / "labels.json"));
+  }
+  const std::string text = join_annotations(index.config.at("name"), clips, documents).dump() + "\n";
+  write_file_atomically(layout.annotations_json(), text);
+  return sha256_of(text);
+}
+
+}  // namespace
+
+DatasetIndex open_dataset(const Layout& layout, const Config& config) {
+  DatasetIndex index{.config = config.resolved, .clips = {}, .finished = {}, .failed = {}};
+  if (std::filesystem::exists(layout.dataset_json())) check_same_config(layout, config.resolved);
+  for (const ClipConfig& clip : config.clips) {
+    index.clips.push_back(clip.id);
+    const Path record = layout.clip(clip.id) / "clip.json";
+    if (std::filesystem::exists(record)) index.finished.emplace(clip.id, read_clip_record(record));
+  }
+  return index;
+}
+
+void write_dataset(const Layout& layout, const DatasetIndex& index) {
+  Json clips = Json::array();
+  int frames = 0;
+  int annotations = 0;
+  Sha256 pixels;
+  for (const std::string& id : index.clips) {
+    clips.push_back(clip_entry(index, id));
+    if (const auto done = index.finished.find(id); done != index.finished.end()) {
+      frames += done->second.frames;
+      annotations += done->second.annotations;
+      pixels.add(done->second.pixels_sha256);
+    }
+  }
+  const std::string annotations_sha256 = write_annotations(layout, index);
+  const Json document = {{"format", "veldt-dataset"},
+                         {"version", 1},
+                         {"veldt_version", kVersion},
+                         {"status", index.complete() ? "complete" : "unfinished"},
+                         {"frames", frames},
+                         {"annotations", annotations},
+                         {"pixels_sha256", pixels.hex()},
+                         {"annotations_sha256", annotations_sha256},
+                         {"kelvin_per_count", index.config.at("sensor").at("kelvin_per_count")},
+                         {"terms", {"direct"}},
+                         {"clips", std::move(clips)},
+                         {"config", index.config}};
+  write_file_atomically(layout.dataset_json(), to_text(document));
+}
+
+}  // namespace thermal

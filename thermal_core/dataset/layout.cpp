@@ -1,0 +1,9 @@
+#include "dataset/layout.h"
+
+#include <fmt/format.h>
+
+namespace thermal {
+
+std::string frame_name(int frame) { return fmt::format("{:06}.png", frame); }
+
+}  // namespace thermal

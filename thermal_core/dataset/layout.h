@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "io/files.h"
+
+namespace thermal {
+
+/// Where things are in a dataset's folder.
+struct Layout {
+  Path root;
+
+  [[nodiscard]] Path dataset_json() const { return root / "dataset.json"; }
+  [[nodiscard]] Path annotations_json() const { return root / "annotations.json"; }
+  [[nodiscard]] Path clip(const std::string& id) const { return root / "clips" / id; }
+  /// Where a clip is made before it is whole and renamed.
+  [[nodiscard]] Path unfinished_clip(const std::string& id) const { return root / "clips" / (id + ".part"); }
+  [[nodiscard]] Path passes() const { return root / "passes"; }
+  [[nodiscard]] Path passes(const std::string& id) const { return passes() / id; }
+};
+
+/// "000012.png"
+[[nodiscard]] std::string frame_name(int frame);
+
+}  // namespace thermal

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace thermal {
+
+/// How far a run is.
+struct Progress {
+  std::string clip;     ///< the one being worked on
+  int frames_done = 0;  ///< of the whole run, counting only frames this run has to make
+  int frames_total = 0;
+};
+
+/// How a long run talks to whoever started it. Both may be empty; neither is called from two threads at once.
+struct RunHooks {
+  std::function<void(const Progress&)> progress;
+  std::function<bool()> cancelled;
+
+  void report(const Progress& state) const {
+    if (progress) progress(state);
+  }
+  [[nodiscard]] bool stop_wanted() const { return cancelled && cancelled(); }
+};
+
+}  // namespace thermal

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "io/child_process.h"
+#include "io/files.h"
+
+namespace thermal {
+
+/// A Blender that renders the passes of some clips, one after another, in the background.
+class RenderJob {
+ public:
+  struct Task {
+    Path blender;
+    Path home;
+    Path config;  ///< resolved
+    Path passes;  ///< gets a folder for each clip
+    Path log;     ///< what Blender prints
+    std::vector<std::string> clips;
+    int threads = 0;  ///< 0: one a core
+  };
+
+  /// Starts Blender. It dies with the thread that calls this.
+  explicit RenderJob(const Task& task);
+  ~RenderJob();
+  RenderJob(const RenderJob&) = delete;
+  RenderJob& operator=(const RenderJob&) = delete;
+
+  /// Returns when the frame's file is whole (frame -1: when the clip's manifest is). IoError or ConfigError
+  /// saying in words why it never will be; Cancelled when `cancelled` says so.
+  void wait_for_frame(const std::string& clip, int frame, const std::function<bool()>& cancelled);
+
+  /// Waits until Blender has ended; the same faults.
+  void wait_for_end(const std::function<bool()>& cancelled);
+
+ private:
+  /// How many leading frames of a clip are whole, counting the manifest as one.
+  using Ready = std::map<std::string, int>;
+
+  void listen(const std::stop_token& stop);
+  void take_event(const std::string& line);
+  void take_end(const ExitStatus& status);
+  void wait_until(const std::function<bool()>& done, const std::function<bool()>& cancelled);
+  [[noreturn]] void throw_failure() const;
+
+  Task task_;
+  ChildProcess process_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Ready ready_;
+  bool ended_ = false;
+  bool config_fault_ = false;
+  std::string failure_;  ///< why Blender ended early; empty if it did not
+  std::string doing_ = "building the scene";
+  std::jthread listener_;
+};
+
+/// The arguments Blender is started with.
+[[nodiscard]] std::vector<std::string> render_command(const RenderJob::Task& task);
+
+}  // namespace thermal

@@ -1,0 +1,200 @@
+#include "io/child_process.h"
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <thread>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+namespace thermal {
+namespace {
+
+constexpr int kCannotRun = 127;
+
+[[noreturn]] void fail(const std::string& doing) {
+  throw IoError(fmt::format("cannot {}: {}", doing, std::strerror(errno)));
+}
+
+std::vector<char*> pointers(const std::vector<std::string>& argv) {
+  std::vector<char*> result;
+  for (const std::string& argument : argv) result.push_back(const_cast<char*>(argument.c_str()));
+  result.push_back(nullptr);
+  return result;
+}
+
+/// Becomes the program. Between fork and exec: nothing but system calls that are safe there.
+[[noreturn]] void become(char* const* argv, int in, int out, int error, int events, int parent) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(kCannotRun);  // the parent died before the line above
+  ::dup2(in, STDIN_FILENO);
+  ::dup2(out, STDOUT_FILENO);
+  ::dup2(error, STDERR_FILENO);
+  if (events >= 0) ::dup2(events, ChildProcess::kEventDescriptor);
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::signal(SIGPIPE, SIG_DFL);
+  ::execv(argv[0], argv);
+  ::_exit(kCannotRun);
+}
+
+struct Pipe {
+  Pipe() {
+    // Above the descriptors the child gives a meaning to, so that no dup2 there hits one of these.
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("make a pipe");
+    constexpr int kLowest = 10;
+    read = ::fcntl(ends[0], F_DUPFD_CLOEXEC, kLowest);
+    write = ::fcntl(ends[1], F_DUPFD_CLOEXEC, kLowest);
+    ::close(ends[0]);
+    ::close(ends[1]);
+    if (read < 0 || write < 0) fail("make a pipe");
+  }
+  int read;
+  int write;
+};
+
+int open_high(const char* file, int flags) {
+  constexpr int kLowest = 10;
+  const int low = ::open(file, flags | O_CLOEXEC, 0666);
+  if (low < 0) fail(fmt::format("open {}", file));
+  const int high = ::fcntl(low, F_DUPFD_CLOEXEC, kLowest);
+  ::close(low);
+  return high;
+}
+
+ExitStatus to_status(int raw) {
+  if (WIFSIGNALED(raw)) return {.code = 0, .signal = WTERMSIG(raw)};
+  return {.code = WEXITSTATUS(raw), .signal = 0};
+}
+
+}  // namespace
+
+std::string ExitStatus::in_words() const {
+  if (signal != 0) return fmt::format("was killed by signal {} ({})", signal, ::strsignal(signal));
+  return fmt::format("ended with exit code {}", code);
+}
+
+ChildProcess::ChildProcess(const std::vector<std::string>& argv, const Path& log) {
+  const std::vector<char*> arguments = pointers(argv);
+  const Pipe pipe;
+  const int input = open_high("/dev/null", O_RDONLY);
+  const int output = open_high(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
+  const int parent = ::getpid();
+  process_ = ::fork();
+  if (process_ == 0) become(arguments.data(), input, output, output, pipe.write, parent);
+  ::close(input);
+  ::close(output);
+  ::close(pipe.write);
+  events_ = pipe.read;
+  if (process_ < 0) {
+    ::close(events_);
+    fail("start " + argv.front());
+  }
+}
+
+ChildProcess::~ChildProcess() {
+  if (!status_) {
+    ::kill(-process_, SIGKILL);
+    (void)try_wait(0);
+  }
+  ::close(events_);
+}
+
+std::optional<std::string> ChildProcess::take_line() {
+  const std::size_t end = buffer_.find('\n');
+  if (end == std::string::npos) {
+    if (closed_) buffer_.clear();  // half a line, of a program that was killed: worthless
+    return std::nullopt;
+  }
+  std::string line = buffer_.substr(0, end);
+  buffer_.erase(0, end + 1);
+  return line;
+}
+
+std::optional<std::string> ChildProcess::next_line(int timeout_ms) {
+  if (auto line = take_line()) return line;
+  if (closed_) return std::nullopt;
+  pollfd waiting = {.fd = events_, .events = POLLIN, .revents = 0};
+  if (::poll(&waiting, 1, timeout_ms) <= 0) return std::nullopt;
+  std::array<char, 4096> chunk{};
+  const ssize_t bytes = ::read(events_, chunk.data(), chunk.size());
+  if (bytes > 0) buffer_.append(chunk.data(), static_cast<std::size_t>(bytes));
+  if (bytes == 0 || (bytes < 0 && errno != EINTR)) closed_ = true;
+  return take_line();
+}
+
+bool ChildProcess::try_wait(int options) {
+  if (status_) return true;
+  int raw = 0;
+  int ended = 0;
+  do {
+    ended = ::waitpid(process_, &raw, options);
+  } while (ended < 0 && errno == EINTR);
+  if (ended == process_) status_ = to_status(raw);
+  return status_.has_value();
+}
+
+ExitStatus ChildProcess::wait() {
+  (void)try_wait(0);
+  return status_.value_or(ExitStatus{});
+}
+
+void ChildProcess::stop() {
+  constexpr int kPatienceMs = 2000;
+  constexpr int kStepMs = 20;
+  ::kill(-process_, SIGTERM);
+  for (int waited_ms = 0; waited_ms < kPatienceMs && !try_wait(WNOHANG); waited_ms += kStepMs) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
+  }
+  ::kill(-process_, SIGKILL);
+  (void)try_wait(0);
+}
+
+Output run_program(const std::vector<std::string>& argv) {
+  const std::vector<char*> arguments = pointers(argv);
+  const Pipe out;
+  const Pipe error;
+  const int input = open_high("/dev/null", O_RDONLY);
+  const int parent = ::getpid();
+  const int process = ::fork();
+  if (process == 0) become(arguments.data(), input, out.write, error.write, -1, parent);
+  ::close(input);
+  ::close(out.write);
+  ::close(error.write);
+  if (process < 0) fail("start " + argv.front());
+  Output output;
+  std::array<pollfd, 2> waiting = {
+      {{.fd = out.read, .events = POLLIN, .revents = 0}, {.fd = error.read, .events = POLLIN, .revents = 0}}};
+  const std::array<std::string*, 2> texts = {&output.out, &output.error};
+  while (waiting[0].fd >= 0 || waiting[1].fd >= 0) {
+    if (::poll(waiting.data(), waiting.size(), -1) < 0 && errno != EINTR) break;
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+      if (waiting[i].fd < 0 || waiting[i].revents == 0) continue;
+      std::array<char, 4096> chunk{};
+      const ssize_t bytes = ::read(waiting[i].fd, chunk.data(), chunk.size());
+      if (bytes > 0) texts[i]->append(chunk.data(), static_cast<std::size_t>(bytes));
+      if (bytes == 0) waiting[i].fd = -1;
+    }
+  }
+  ::close(out.read);
+  ::close(error.read);
+  int raw = 0;
+  while (::waitpid(process, &raw, 0) < 0 && errno == EINTR) {
+  }
+  output.status = to_status(raw);
+  return output;
+}
+
+}  // namespace thermal

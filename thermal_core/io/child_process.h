@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/files.h"
+
+namespace thermal {
+
+/// How a program ended.
+struct ExitStatus {
+  int code = 0;    ///< what it returned; meaningless if a signal ended it
+  int signal = 0;  ///< the signal that ended it; 0 if none did
+
+  /// "ended with exit code 1", "was killed by signal 9 (Killed)".
+  [[nodiscard]] std::string in_words() const;
+};
+
+/// A running program with a channel on which it reports line by line.
+/// It has its own process group and dies with the thread that started it, even if that one is killed.
+class ChildProcess {
+ public:
+  /// Descriptor on which the program finds the channel's writing end.
+  static constexpr int kEventDescriptor = 3;
+
+  /// Starts argv[0] with output and error going to `log`. IoError if it cannot be started.
+  ChildProcess(const std::vector<std::string>& argv, const Path& log);
+  /// Kills the program's group if it still runs.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// Next line of the channel, waiting up to this long. Nothing if none came; ended() tells why.
+  [[nodiscard]] std::optional<std::string> next_line(int timeout_ms);
+  /// The channel is closed and all its lines are read.
+  [[nodiscard]] bool ended() const noexcept { return closed_ && buffer_.empty(); }
+
+  /// Waits for the end.
+  ExitStatus wait();
+  /// Asks the whole group to end; kills it after two seconds.
+  void stop();
+
+ private:
+  [[nodiscard]] std::optional<std::string> take_line();
+  [[nodiscard]] bool try_wait(int options);
+
+  int process_ = -1;
+  int events_ = -1;
+  bool closed_ = false;
+  std::string buffer_;
+  std::optional<ExitStatus> status_;
+};
+
+/// Runs a program to its end and returns what it wrote.
+struct Output {
+  ExitStatus status;
+  std::string out;
+  std::string error;
+};
+[[nodiscard]] Output run_program(const std::vector<std::string>& argv);
+
+}  // namespace thermal

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/json_file.h"
+#include "scene/season.h"
+#include "sensor/airsim_sensor.h"
+
+namespace thermal {
+
+struct ClipConfig {
+  std::string id;
+  Season season = Season::winter;
+  int frames = 0;
+  double frame_rate_hz = 9;
+};
+
+/// A dataset config: the parts the thermal side acts on, and the whole document with every default filled in.
+struct Config {
+  std::string name;
+  std::uint32_t seed = 1;
+  int width_px = 640;
+  int height_px = 512;
+  SensorParameters sensor;
+  std::vector<ClipConfig> clips;
+  Json resolved;
+
+  /// ConfigError naming the nearest id if there is no such clip. `where` says who asked.
+  [[nodiscard]] const ClipConfig& clip(const std::string& id, const std::string& where) const;
+};
+
+/// Changes one value of a document before it is checked. `assignment` is "key.other[2].last=value", the value
+/// JSON or else a plain string; "season=…" sets the season of every clip. ConfigError if the form is off.
+void apply_setting(Json& document, const std::string& assignment);
+
+/// Checks a document against configs/schema/config.schema.json and fills in its defaults.
+/// ConfigError with a line a fault, each starting with `name`.
+[[nodiscard]] Config resolve_config(Json document, const std::string& name, const Path& home);
+
+}  // namespace thermal

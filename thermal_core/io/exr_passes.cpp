@@ -1,0 +1,220 @@
+#include "io/exr_passes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <set>
+#include <string_view>
+
+#include <ImfChannelList.h>
+#include <ImfCompression.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "scene/manifest.h"
+
+namespace thermal {
+namespace {
+
+using PassNames = std::array<std::string_view, 2>;
+
+/// Spellings in use, Blender's first.
+constexpr PassNames kObjectIndex = {"IndexOB", "Object Index"};
+constexpr PassNames kMaterialIndex = {"IndexMA", "Material Index"};
+constexpr PassNames kDepth = {"Depth", "Z"};
+
+std::string type_name(Imf::PixelType type) {
+  if (type == Imf::HALF) return "half";
+  return type == Imf::UINT ? "uint" : "float";
+}
+
+std::string compression_name(Imf::Compression compression) {
+  static const std::array<const char*, 10> kNames = {"none",  "RLE", "ZIPS", "ZIP",  "PIZ",
+                                                     "PXR24", "B44", "B44A", "DWAA", "DWAB"};
+  const auto number = static_cast<std::size_t>(compression);
+  return number < kNames.size() ? kNames.at(number) : "unknown";
+}
+
+/// Takes "layer.pass.component" apart; a component is one letter.
+ExrChannel take_apart(const std::string& name, int part, Imf::PixelType type) {
+  ExrChannel channel = {
+      .part = part, .name = name, .layer = "", .pass = name, .component = "", .type = type_name(type)};
+  const std::size_t last = channel.pass.rfind('.');
+  if (last != std::string::npos && last + 2 == channel.pass.size()) {
+    channel.component = channel.pass.substr(last + 1);
+    channel.pass.erase(last);
+  }
+  const std::size_t dot = channel.pass.rfind('.');
+  if (dot != std::string::npos) {
+    channel.layer = channel.pass.substr(0, dot);
+    channel.pass.erase(0, dot + 1);
+  }
+  return channel;
+}
+
+const ExrChannel* find_pass(const ExrHeader& header, const PassNames& names, const std::string& layer) {
+  std::vector<const ExrChannel*> found;
+  for (const ExrChannel& channel : header.channels) {
+    const bool named = std::find(names.begin(), names.end(), channel.pass) != names.end();
+    if (named && (layer.empty() || channel.layer == layer)) found.push_back(&channel);
+  }
+  if (found.empty()) return nullptr;
+  std::set<std::string> layers;
+  for (const ExrChannel* channel : found) layers.insert(channel->layer);
+  if (layers.size() == 1) return found.front();
+  const std::vector<std::string> list(layers.begin(), layers.end());
+  throw DataError(fmt::format("{} is in several layers: {}; expected the manifest's \"layer\" to name one",
+                              found.front()->pass, list_names(list)));
+}
+
+/// Runs `read` on the opened file, turning the library's faults into ours.
+template <typename Read>
+auto with_file(const Path& file, const Read& read) {
+  if (!std::filesystem::exists(file))
+    throw IoError(fmt::format("cannot read {}: there is no such file", file.string()));
+  try {
+    Imf::MultiPartInputFile opened(file.c_str(), 1);
+    return read(opened);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw IoError(fmt::format("cannot read {}: {}", file.string(), error.what()));
+  }
+}
+
+ExrHeader header_of(const Imf::MultiPartInputFile& opened) {
+  ExrHeader header;
+  const Imf::Header& first = opened.header(0);
+  const Imath::Box2i window = first.dataWindow();
+  header.width_px = window.max.x - window.min.x + 1;
+  header.height_px = window.max.y - window.min.y + 1;
+  header.compression = compression_name(first.compression());
+  if (first.displayWindow() != window) {
+    throw DataError("the data window is not the display window; expected the whole picture");
+  }
+  for (int part = 0; part < opened.parts(); ++part) {
+    const Imf::ChannelList& channels = opened.header(part).channels();
+    if (opened.header(part).dataWindow() != window) {
+      throw DataError(fmt::format("part {} has another size than part 0; expected all alike", part));
+    }
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+      header.channels.push_back(take_apart(channel.name(), part, channel.channel().type));
+    }
+  }
+  return header;
+}
+
+/// Reads channels of one part into planes of float.
+std::vector<Plane<float>> read_channels(Imf::MultiPartInputFile& opened, const ExrHeader& header,
+                                        std::initializer_list<const ExrChannel*> channels) {
+  std::vector<Plane<float>> planes;
+  for (const ExrChannel* channel : channels) {
+    Plane<float>& plane = planes.emplace_back(header.width_px, header.height_px);
+    Imf::InputPart part(opened, channel->part);
+    const Imath::Box2i window = part.header().dataWindow();
+    Imf::FrameBuffer buffer;
+    buffer.insert(channel->name, Imf::Slice::Make(Imf::FLOAT, plane.pixels().data(), window, sizeof(float)));
+    part.setFrameBuffer(buffer);
+    part.readPixels(window.min.y, window.max.y);
+  }
+  return planes;
+}
+
+/// A plane of indices; the first that is none is named.
+Plane<std::uint16_t> to_indices(const Plane<float>& plane, const std::string& channel) {
+  Plane<std::uint16_t> indices(plane.width_px(), plane.height_px());
+  const auto in = plane.pixels();
+  const auto out = indices.pixels();
+  bool all_good = true;
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    const float value = in[i];
+    const bool inside = value >= 0 && value <= static_cast<float>(kLargestIndex);  // false for NaN
+    const int index = inside ? static_cast<int>(value) : 0;
+    all_good &= inside && static_cast<float>(index) == value;
+    out[i] = static_cast<std::uint16_t>(index);
+  }
+  if (all_good) return indices;
+  const auto is_index = [](float value) {
+    return value >= 0 && value <= static_cast<float>(kLargestIndex) && value == std::floor(value);
+  };
+  const auto bad = std::find_if_not(in.begin(), in.end(), is_index);
+  const auto at = static_cast<int>(bad - in.begin());
+  throw DataError(
+      fault(fmt::format("{} at pixel ({}, {})", channel, at % plane.width_px(), at / plane.width_px()),
+            fmt::format("{}", *bad), "", fmt::format("a whole number from 0 to {}", kLargestIndex)));
+}
+
+void check_size(const ExrHeader& header, int width_px, int height_px) {
+  if (width_px == 0 || (header.width_px == width_px && header.height_px == height_px)) return;
+  throw DataError(fault("size", fmt::format("{} x {}", header.width_px, header.height_px), "px",
+                        fmt::format("the manifest's {} x {} px", width_px, height_px)));
+}
+
+const ExrChannel& require_object_index(const ExrHeader& header, const std::string& layer) {
+  if (const ExrChannel* channel = header.find_object_index(layer)) return *channel;
+  std::vector<std::string> names;
+  for (const ExrChannel& channel : header.channels) names.push_back(channel.name);
+  throw DataError(
+      fmt::format("no object index channel{}; expected one like Scene.IndexOB.X, the file has: {}",
+                  layer.empty() ? "" : " in layer " + layer, list_names(names)));
+}
+
+/// Adds the file's name to faults found inside it.
+template <typename Work>
+auto naming(const Path& file, const Work& work) {
+  try {
+    return work();
+  } catch (const DataError& error) {
+    throw DataError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace
+
+const ExrChannel* ExrHeader::find_object_index(const std::string& layer) const {
+  return find_pass(*this, kObjectIndex, layer);
+}
+
+const ExrChannel* ExrHeader::find_material_index(const std::string& layer) const {
+  return find_pass(*this, kMaterialIndex, layer);
+}
+
+const ExrChannel* ExrHeader::find_depth(const std::string& layer) const {
+  return find_pass(*this, kDepth, layer);
+}
+
+ExrHeader read_exr_header(const Path& file) {
+  return naming(file, [&] { return with_file(file, header_of); });
+}
+
+Plane<float> read_exr_channel(const Path& file, const ExrHeader& header, const ExrChannel& channel) {
+  return with_file(file, [&](Imf::MultiPartInputFile& opened) {
+    return std::move(read_channels(opened, header, {&channel}).front());
+  });
+}
+
+Passes read_passes(const Path& file, const std::string& layer, int width_px, int height_px) {
+  return naming(file, [&] {
+    return with_file(file, [&](Imf::MultiPartInputFile& opened) {
+      const ExrHeader header = header_of(opened);
+      check_size(header, width_px, height_px);
+      const ExrChannel& objects = require_object_index(header, layer);
+      const ExrChannel* materials = header.find_material_index(objects.layer);
+      Passes passes;
+      passes.object_index = to_indices(read_channels(opened, header, {&objects}).front(), objects.name);
+      if (materials != nullptr) {
+        passes.material_index =
+            to_indices(read_channels(opened, header, {materials}).front(), materials->name);
+      }
+      return passes;
+    });
+  });
+}
+
+}  // namespace thermal

@@ -1,0 +1,106 @@
+#include "io/json_file.h"
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace thermal {
+namespace {
+
+/// "NAME:LINE:COLUMN" of a byte, both from 1.
+std::string position(std::string_view text, std::size_t byte, const std::string& name) {
+  const std::string_view before = text.substr(0, std::min(byte, text.size()));
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0: the first line
+  return fmt::format("{}:{}:{}", name, line, before.size() - line_begin + 1);
+}
+
+/// The library's words without its own numbering and position: what follows "syntax error".
+std::string reason(const std::string& what) {
+  const std::size_t begin = what.find("syntax error");
+  return begin == std::string::npos ? what : what.substr(begin);
+}
+
+/// Watches a parse for keys that come twice in one object, which JSON readers otherwise drop in silence.
+class DuplicateKeys {
+ public:
+  void see(Json::parse_event_t event, const Json& value) {
+    if (event == Json::parse_event_t::object_start) open_.emplace_back();
+    if (event == Json::parse_event_t::object_end) open_.pop_back();
+    if (event != Json::parse_event_t::key) return;
+    const auto key = value.get<std::string>();
+    if (!open_.back().insert(key).second && first_.empty()) first_ = key;
+  }
+  [[nodiscard]] const std::string& first() const noexcept { return first_; }
+
+ private:
+  std::vector<std::set<std::string>> open_;
+  std::string first_;
+};
+
+void collect_differences(const Json& here, const Json& there, const std::string& where,
+                         std::vector<std::string>& found) {
+  if (here == there) return;
+  if (here.is_object() && there.is_object()) {
+    const std::string prefix = where.empty() ? "" : where + ".";
+    for (const auto& [key, value] : here.items()) {
+      if (there.contains(key)) {
+        collect_differences(value, there[key], prefix + key, found);
+      } else {
+        found.push_back(fmt::format("{}{} is only here", prefix, key));
+      }
+    }
+    for (const auto& [key, value] : there.items()) {
+      if (!here.contains(key)) found.push_back(fmt::format("{}{} is only there", prefix, key));
+    }
+    return;
+  }
+  if (here.is_array() && there.is_array() && here.size() == there.size()) {
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      collect_differences(here[i], there[i], fmt::format("{}[{}]", where, i), found);
+    }
+    return;
+  }
+  if (here.is_array() && there.is_array()) {
+    found.push_back(fmt::format("{} has {} entries here and {} there", where, here.size(), there.size()));
+    return;
+  }
+  found.push_back(fmt::format("{} is {} here and {} there", where, here.dump(), there.dump()));
+}
+
+}  // namespace
+
+Json parse_json(std::string_view text, const std::string& name) {
+  DuplicateKeys duplicates;
+  const auto watch = [&duplicates](int /*depth*/, Json::parse_event_t event, Json& value) {
+    duplicates.see(event, value);
+    return true;
+  };
+  try {
+    Json json = Json::parse(text, watch);
+    if (duplicates.first().empty()) return json;
+  } catch (const Json::parse_error& error) {
+    // The library counts the offending byte from 1.
+    throw ConfigError(fmt::format("{}: not JSON: {}",
+                                  position(text, error.byte == 0 ? 0 : error.byte - 1, name),
+                                  reason(error.what())));
+  }
+  throw ConfigError(
+      fmt::format("{}: key \"{}\" comes twice in one object; expected once", name, duplicates.first()));
+}
+
+Json read_json(const Path& file) { return parse_json(read_file(file), file.string()); }
+
+std::string to_text(const Json& json) { return json.dump(2) + "\n"; }
+
+std::vector<std::string> differences(const Json& here, const Json& there) {
+  std::vector<std::string> found;
+  collect_differences(here, there, "", found);
+  return found;
+}
+
+}  // namespace thermal

@@ -1,0 +1,98 @@
+#include "io/manifest_file.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "io/json_file.h"
+#include "io/json_schema.h"
+
+namespace thermal {
+namespace {
+
+CameraIntrinsics read_camera(const Json& json) {
+  return {.width_px = json["width_px"],
+          .height_px = json["height_px"],
+          .fx_px = json["fx_px"],
+          .fy_px = json["fy_px"],
+          .cx_px = json["cx_px"],
+          .cy_px = json["cy_px"]};
+}
+
+ObjectClass read_class(const std::string& name) {
+  if (name == "actor") return ObjectClass::actor;
+  if (name == "plant") return ObjectClass::plant;
+  return name == "water" ? ObjectClass::water : ObjectClass::ground;
+}
+
+ManifestObject read_object(const Json& json) {
+  ManifestObject object;
+  object.index = json["index"];
+  object.name = json["name"];
+  object.object_class = read_class(json["class"]);
+  object.material = json["material"];
+  object.category = json.value("category", "");
+  object.species = json.value("species", "");
+  object.track_id = json.value("track_id", 0);
+  if (json.contains("bounds_m"))
+    object.bounds_m = json["bounds_m"].get<std::array<ManifestObject::Corner, 2>>();
+  return object;
+}
+
+ManifestMaterial read_material(const Json& json) {
+  return {.index = json["index"], .material = json["material"], .part = json.value("part", "")};
+}
+
+ActorPose read_pose(const Json& json) {
+  return {.index = json["index"],
+          .position_m = json["position_m"].get<std::array<double, 3>>(),
+          .heading_rad = json["heading_rad"]};
+}
+
+ManifestFrame read_frame(const Json& json) {
+  ManifestFrame frame;
+  frame.file = json["file"];
+  frame.time_s = json["time_s"];
+  if (json.contains("agl_m")) frame.agl_m = json["agl_m"];
+  if (json.contains("look_angle_deg")) frame.look_angle_deg = json["look_angle_deg"];
+  if (json.contains("camera_to_world"))
+    frame.camera_to_world = json["camera_to_world"].get<std::array<double, 16>>();
+  for (const Json& actor : json["actors"]) frame.actors.push_back(read_pose(actor));
+  return frame;
+}
+
+Manifest read_document(const Json& json) {
+  Manifest manifest;
+  manifest.clip = json["clip"];
+  manifest.scene = json["scene"];
+  manifest.seed = json["seed"];
+  manifest.frame_rate_hz = json["frame_rate_hz"];
+  manifest.layer = json["layer"];
+  manifest.camera = read_camera(json["camera"]);
+  for (const Json& object : json["objects"]) manifest.objects.push_back(read_object(object));
+  for (const Json& material : json["materials"]) manifest.materials.push_back(read_material(material));
+  for (const Json& frame : json["frames"]) manifest.frames.push_back(read_frame(frame));
+  return manifest;
+}
+
+}  // namespace
+
+Manifest read_manifest(const Path& file, const Path& home) {
+  const Json schema = read_json(home / "configs" / "schema" / "manifest.schema.json");
+  try {
+    Json document = read_json(file);
+    const std::vector<std::string> faults = check_and_fill(document, schema);
+    if (!faults.empty()) {
+      throw DataError(fmt::format("{}: {}", file.string(), fmt::join(faults, "\n" + file.string() + ": ")));
+    }
+    Manifest manifest = read_document(document);
+    manifest.validate();
+    return manifest;
+  } catch (const ConfigError& error) {  // not JSON: the file's fault, not the config's
+    throw DataError(error.what());
+  } catch (const DataError& error) {
+    const std::string what = error.what();
+    throw DataError(what.starts_with(file.string()) ? what : file.string() + ": " + what);
+  }
+}
+
+}  // namespace thermal

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+#include "radiometry/spectral_response.h"
+
+namespace thermal {
+
+/// What a blackbody of one temperature sends into a band.
+struct BandValue {
+  double radiance_w_m2_sr = 0;
+  double derivative_w_m2_sr_k = 0;  ///< with respect to temperature
+  double ln_radiance = 0;           ///< right where the radiance itself is below the smallest double
+};
+
+/// In-band radiance of a blackbody, the integral of response * Planck over wavelength: the reference every
+/// faster way is measured against.
+///
+/// Works in x = c2 / (wavelength T), where the integrand is x^3 / (e^x - 1) times the response: Gauss-Legendre, 12 points a panel, panels of at most 4 in x and within one segment of the response.
+/// e^-x at the band's long-wave end is taken out as a factor, so nothing underflows before the end and the
+/// logarithm is always right. Measured against 60-digit values: see thermal_core/ACCURACY.md.
+class BandRadiance {
+ public:
+  explicit BandRadiance(const SpectralResponse& response);
+
+  /// Value, derivative and logarithm at a temperature [K].
+  /// <= 0 K: radiance and derivative 0, logarithm -infinity. NaN: all NaN. Infinity: radiance and logarithm
+  /// infinity, derivative the Rayleigh-Jeans limit.
+  [[nodiscard]] BandValue evaluate(double temperature_k) const noexcept;
+
+  /// Radiance alone [W m^-2 sr^-1].
+  [[nodiscard]] double radiance(double temperature_k) const noexcept {
+    return evaluate(temperature_k).radiance_w_m2_sr;
+  }
+
+  /// Temperature [K] of the blackbody with this in-band radiance. <= 0 returns 0; NaN returns NaN; infinity
+  /// returns infinity. |result - true| <= 1e-9 of the temperature, 1 K to 1e6 K.
+  [[nodiscard]] double temperature(double radiance_w_m2_sr) const noexcept;
+
+  /// The same from the logarithm of the radiance, for radiances below the smallest double.
+  [[nodiscard]] double temperature_from_ln(double ln_radiance) const noexcept;
+
+ private:
+  /// One straight piece of the response, in wavenumber [1/m]. At a share s of the way from begin to end the
+  /// response is begin + rise * s * (nu_end / nu): straight in wavelength, and free of cancellation.
+  struct Segment {
+    double begin_per_m;
+    double width_per_m;
+    double begin_response;
+    double rise;
+  };
+  struct ScaledIntegral;
+
+  [[nodiscard]] ScaledIntegral integrate(double temperature_k) const noexcept;
+  static void add_segment(const Segment& segment, double x_stop, ScaledIntegral& sum) noexcept;
+
+  std::vector<Segment> segments_;  ///< from the long-wave end up
+};
+
+}  // namespace thermal

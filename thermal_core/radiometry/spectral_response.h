@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace thermal {
+
+/// Relative response of a camera against wavelength: straight lines between samples, zero outside them.
+class SpectralResponse {
+ public:
+  struct Sample {
+    double wavelength_um;
+    double response;
+  };
+
+  /// Response 1 from begin_um to end_um. Requires 0 < begin_um < end_um, both finite.
+  [[nodiscard]] static SpectralResponse flat(double begin_um, double end_um);
+
+  /// At least two samples, wavelengths positive and strictly rising, responses finite, none negative, not all
+  /// zero; ConfigError otherwise. Scaled so that the largest response is 1.
+  explicit SpectralResponse(std::vector<Sample> samples);
+
+  [[nodiscard]] std::span<const Sample> samples() const noexcept { return samples_; }
+  [[nodiscard]] double begin_um() const noexcept { return samples_.front().wavelength_um; }
+  [[nodiscard]] double end_um() const noexcept { return samples_.back().wavelength_um; }
+
+ private:
+  std::vector<Sample> samples_;
+};
+
+}  // namespace thermal

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace thermal {
+
+inline constexpr int kLargestIndex = 32767;  ///< Blender's pass_index ends here
+inline constexpr int kSkyIndex = 0;
+
+/// A pinhole camera in pixels. Continuous pixel coordinates: the top left pixel's centre is (0.5, 0.5).
+struct CameraIntrinsics {
+  int width_px = 0;
+  int height_px = 0;
+  double fx_px = 0;
+  double fy_px = 0;
+  double cx_px = 0;
+  double cy_px = 0;
+};
+
+enum class ObjectClass { ground, water, plant, actor };
+
+/// What one object index stands for.
+struct ManifestObject {
+  using Corner = std::array<double, 3>;
+  std::uint16_t index = 0;
+  std::string name;
+  ObjectClass object_class = ObjectClass::ground;
+  std::string material;  ///< where the material plane says nothing
+  std::string category;  ///< actors: what is labelled
+  std::string species;   ///< actors
+  int track_id = 0;      ///< actors
+  std::optional<std::array<Corner, 2>>
+      bounds_m;  ///< actors: box in actor axes, x forward, z up from the ground
+};
+
+/// What one material index stands for.
+struct ManifestMaterial {
+  std::uint16_t index = 0;
+  std::string material;
+  std::string part;
+};
+
+/// Where an actor stands in one frame.
+struct ActorPose {
+  std::uint16_t index = 0;
+  std::array<double, 3> position_m{};
+  double heading_rad = 0;
+};
+
+struct ManifestFrame {
+  std::string file;
+  double time_s = 0;
+  std::optional<double> agl_m;
+  std::optional<double> look_angle_deg;
+  std::optional<std::array<double, 16>> camera_to_world;  ///< row-major, OpenCV camera axes
+  std::vector<ActorPose> actors;
+};
+
+/// What the passes of one clip mean.
+struct Manifest {
+  std::string clip;
+  std::string scene;
+  std::uint32_t seed = 1;
+  double frame_rate_hz = 9;
+  std::string layer;  ///< EXR layer; empty: the only one
+  CameraIntrinsics camera;
+  std::vector<ManifestObject> objects;
+  std::vector<ManifestMaterial> materials;
+  std::vector<ManifestFrame> frames;
+
+  /// DataError if indices or track ids come twice, an actor has no category or track, or an actor in a frame
+  /// is not among the objects.
+  void validate() const;
+};
+
+}  // namespace thermal

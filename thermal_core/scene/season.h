@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string_view>
+
+namespace thermal {
+
+/// The two nights of the published Table 1: air at 273 K in winter, at 293 K in summer.
+enum class Season { winter, summer };
+
+[[nodiscard]] constexpr std::string_view season_name(Season season) noexcept {
+  return season == Season::winter ? "winter" : "summer";
+}
+
+}  // namespace thermal
