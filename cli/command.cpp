@@ -1,0 +1,90 @@
+#include "cli/command.h"
+
+#include <array>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "cli/stop_signal.h"
+#include "io/resources.h"
+
+namespace veldt {
+namespace {
+
+/// The one table of commands, in the order help shows them.
+constexpr std::array kCommands = {add_generate, add_render,   add_convert, add_inspect,
+                                  add_validate, add_radiance, add_doctor};
+
+void print_fault(const std::string& what) { fmt::print(stderr, "veldt: {}\n", what); }
+
+/// Runs a command and turns faults into words and exit codes.
+int run_guarded(const std::function<int()>& run) {
+  try {
+    return run();
+  } catch (const thermal::ConfigError& error) {
+    print_fault(error.what());
+    return kBadUsage;
+  } catch (const thermal::TryAgainError& error) {
+    print_fault(error.what());
+    return kTryAgain;
+  } catch (const thermal::Cancelled& error) {
+    print_fault(std::string(error.what()) + "; the same command goes on from here");
+    return 128 + stop_signal();
+  } catch (const std::exception& error) {
+    print_fault(error.what());
+    return kFailed;
+  }
+}
+
+}  // namespace
+
+CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
+                      const std::string& description) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->add_flag("--quiet", session.common.quiet, "Print faults only");
+  command->add_option("--progress", session.common.progress, "How to show progress, on standard error")
+      ->check(CLI::IsMember({"auto", "plain", "json", "none"}))
+      ->capture_default_str();
+  command->add_option("--threads", session.common.threads, "Threads to use; 0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  return command;
+}
+
+thermal::Config load_config(const thermal::Path& file, const thermal::Path& home) {
+  try {
+    return thermal::resolve_config(thermal::read_json(file), file.string(), home);
+  } catch (const thermal::IoError& error) {
+    throw thermal::ConfigError(error.what());
+  }
+}
+
+thermal::Path find_blender(const std::string& named) {
+  const thermal::Path found = thermal::find_program(named.empty() ? "blender" : named);
+  if (!found.empty()) return found;
+  if (!named.empty())
+    throw thermal::ConfigError(thermal::fault("--blender", named, "", "a program that can be run"));
+  throw thermal::IoError(
+      "no blender on PATH; install it (apt-get install blender) or name one with --blender PATH");
+}
+
+int run_command_line(int argc, const char* const* argv) {
+  CLI::App app(
+      "Labelled thermal drone video of the savanna, for training detectors.\n"
+      "Exit codes: 0 done, 1 failed, 2 bad usage or config, 3 some inputs rejected, 75 try again later.",
+      "veldt");
+  app.set_version_flag("--version", std::string(thermal::kVersion));
+  app.require_subcommand(1);
+  Session session;
+  for (const auto& add : kCommands) add(app, session);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kBadUsage;
+  }
+  return run_guarded(session.run);
+}
+
+}  // namespace veldt

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "io/config.h"
+
+namespace veldt {
+
+/// What a run ends with; scripts rely on the numbers.
+enum ExitCode : int {
+  kDone = 0,
+  kFailed = 1,
+  kBadUsage = 2,
+  kSomeRejected = 3,
+  kTryAgain = 75,
+};
+
+/// Options every command has.
+struct CommonOptions {
+  bool quiet = false;
+  std::string progress = "auto";
+  int threads = 0;
+};
+
+/// A parsed command line: what to run, and the options all commands share.
+struct Session {
+  CommonOptions common;
+  std::function<int()> run;
+};
+
+/// Each adds one command to the parser; parsing it sets session.run.
+void add_generate(CLI::App& app, Session& session);
+void add_render(CLI::App& app, Session& session);
+void add_convert(CLI::App& app, Session& session);
+void add_inspect(CLI::App& app, Session& session);
+void add_validate(CLI::App& app, Session& session);
+void add_radiance(CLI::App& app, Session& session);
+void add_doctor(CLI::App& app, Session& session);
+
+/// A subcommand with the common options.
+CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
+                      const std::string& description);
+
+/// Reads, checks and plans a config. Any fault of the file is a ConfigError.
+[[nodiscard]] thermal::Config load_config(const thermal::Path& file, const thermal::Path& home);
+
+/// The Blender to use: `named`, or "blender" on PATH where that is empty. ConfigError or IoError with what to do.
+[[nodiscard]] thermal::Path find_blender(const std::string& named);
+
+/// Parses and runs a command line; faults go to standard error. Returns the exit code.
+int run_command_line(int argc, const char* const* argv);
+
+}  // namespace veldt

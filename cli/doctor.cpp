@@ -1,0 +1,83 @@
+#include <memory>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "cli/command.h"
+#include "dataset/plan.h"
+#include "io/child_process.h"
+#include "io/resources.h"
+#include "io/versions.h"
+
+namespace veldt {
+namespace {
+
+/// One thing that is looked for.
+struct Finding {
+  std::string what;
+  std::string found;   ///< version and place; empty if it is missing
+  std::string remedy;  ///< how to get it
+};
+
+/// First line of what a program prints; empty if it cannot be run.
+std::string first_line(const std::vector<std::string>& argv) {
+  if (argv.front().empty()) return "";
+  const thermal::Output output = thermal::run_program(argv);
+  if (output.status.signal != 0 || output.status.code != 0) return "";
+  return output.out.substr(0, output.out.find('\n'));
+}
+
+Finding find_home() {
+  try {
+    return {"assets and scripts", thermal::find_home().string(), ""};
+  } catch (const thermal::IoError& error) {
+    return {"assets and scripts", "", error.what()};
+  }
+}
+
+std::vector<Finding> look() {
+  std::vector<Finding> findings = {{"veldt", std::string(thermal::kVersion), ""}, find_home()};
+  const std::string blender = thermal::find_program("blender").string();
+  const std::string blender_version = first_line({blender, "--version"});
+  findings.push_back({"Blender", blender_version.empty() ? "" : blender_version + ", " + blender,
+                      "apt-get install blender, or name one with --blender PATH"});
+  const std::string python = thermal::find_python().string();
+  const std::string numpy = first_line(
+      {python, "-c", "import sys, numpy; print(sys.version.split()[0], 'with NumPy', numpy.__version__)"});
+  findings.push_back({"Python", numpy.empty() ? "" : numpy + ", " + python, "apt-get install python3-numpy"});
+  for (const auto& [library, version] : thermal::library_versions())
+    findings.push_back({library, version, ""});
+  return findings;
+}
+
+int run(bool json) {
+  const std::vector<Finding> findings = look();
+  bool all_there = true;
+  thermal::Json report = thermal::Json::array();
+  for (const Finding& finding : findings) {
+    const bool there = !finding.found.empty();
+    all_there &= there;
+    if (json) {
+      report.push_back(
+          {{"what", finding.what}, {"found", finding.found}, {"remedy", there ? "" : finding.remedy}});
+    } else {
+      fmt::print("{:<20} {}\n", finding.what, there ? finding.found : "missing: " + finding.remedy);
+    }
+  }
+  if (json) fmt::print("{}\n", report.dump(2));
+  return all_there ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, Session& session) {
+  CLI::App* command = add_command(app, session, "doctor",
+                                  "What is installed, in which version, what is missing and how to get it");
+  auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "Print JSON");
+  command->callback([json, &session] { session.run = [json] { return run(*json); }; });
+}
+
+}  // namespace veldt

@@ -1,0 +1,107 @@
+#include "dataset/generate.h"
+
+#include <charconv>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/command.h"
+#include "cli/progress_bar.h"
+#include "cli/run_summary.h"
+#include "cli/stop_signal.h"
+#include "dataset/plan.h"
+#include "io/resources.h"
+
+namespace veldt {
+namespace {
+
+using Run = thermal::RunOutcome (*)(const thermal::Config&, const thermal::GenerateOptions&,
+                                    const thermal::RunHooks&);
+
+struct Options {
+  std::string config;
+  std::string out;
+  std::string blender;
+  std::string shard = "0/1";
+  std::vector<std::string> clips;
+  bool keep_passes = false;
+  bool dry_run = false;
+};
+
+/// "I/N", 0 <= I < N.
+thermal::Shard parse_shard(const std::string& text) {
+  thermal::Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard.index);
+  const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+  const auto second = slash ? std::from_chars(first.ptr + 1, end, shard.count) : first;
+  const bool good = slash && second.ec == std::errc() && second.ptr == end;
+  if (good && shard.index >= 0 && shard.index < shard.count) return shard;
+  throw thermal::ConfigError(thermal::fault("--shard", text, "", "I/N with I from 0 to N - 1"));
+}
+
+void print_plan(const std::vector<thermal::ClipPlan>& plan) {
+  fmt::print("{:<32} {:>8} {:>12} {:>16}\n", "clip", "frames", "with actors", "height [m AGL]");
+  for (const thermal::ClipPlan& clip : plan) {
+    fmt::print("{:<32} {:>8} {:>12} {:>8.1f} {:>7.1f}\n", clip.id, clip.frames, clip.frames_with_actors,
+               clip.min_agl_m, clip.max_agl_m);
+  }
+}
+
+int run(const Options& options, const CommonOptions& common, Run work) {
+  const thermal::Path home = thermal::find_home();
+  const thermal::Config config = load_config(options.config, home);
+  const thermal::GenerateOptions request = {.home = home,
+                                            .out = options.out,
+                                            .blender = options.dry_run ? "" : find_blender(options.blender),
+                                            .clips = options.clips,
+                                            .shard = parse_shard(options.shard),
+                                            .threads = common.threads,
+                                            .keep_passes = options.keep_passes};
+  (void)thermal::choose_clips(config, request.clips, request.shard);
+  const std::vector<thermal::ClipPlan> plan = thermal::plan_dataset(config.resolved, options.config, home);
+  if (options.dry_run) {
+    print_plan(plan);
+    return kDone;
+  }
+  watch_for_stop();
+  thermal::RunOutcome outcome;
+  {
+    ProgressBar bar(common);
+    outcome = work(config, request, hooks_for(bar));
+  }
+  return summarise(outcome, options.out, common);
+}
+
+void add(CLI::App& app, Session& session, const std::string& name, const std::string& description, Run work) {
+  CLI::App* command = add_command(app, session, name, description);
+  auto options = std::make_shared<Options>();
+  command->add_option("config", options->config, "Config of the dataset, JSON")->required();
+  command->add_option("--out", options->out, "Folder of the dataset")->required();
+  command->add_option("--clips", options->clips, "Only these clips")->delimiter(',')->type_name("ID,…");
+  command->add_option("--shard", options->shard, "Only every N-th clip, from the I-th")->type_name("I/N");
+  command->add_option("--blender", options->blender, "Blender to use instead of the one on PATH")
+      ->type_name("PATH");
+  if (name == "generate") {
+    command->add_flag("--keep-passes", options->keep_passes,
+                      "Keep the rendered EXR passes, for veldt convert");
+  }
+  command->add_flag("--dry-run", options->dry_run, "Check the config and print what would be made");
+  command->callback([options, &session, work] {
+    session.run = [options, &session, work] { return run(*options, session.common, work); };
+  });
+}
+
+}  // namespace
+
+void add_generate(CLI::App& app, Session& session) {
+  add(app, session, "generate", "Make a dataset from a config; resumes where an earlier run stopped",
+      thermal::generate);
+}
+
+void add_render(CLI::App& app, Session& session) {
+  add(app, session, "render", "Render passes and manifests only", thermal::render);
+}
+
+}  // namespace veldt

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "cli/command.h"
+#include "dataset/progress.h"
+
+namespace veldt {
+
+/// Shows how far a run is, on standard error: a bar with frames/s and time left on a terminal, a line every few
+/// seconds elsewhere, or a JSON object a line for machines.
+class ProgressBar {
+ public:
+  explicit ProgressBar(const CommonOptions& options);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void show(const thermal::Progress& progress);
+
+ private:
+  enum class Style { none, bar, plain, json };
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] static Style style_of(const CommonOptions& options);
+  void show_bar(const thermal::Progress& progress, double frames_per_s);
+  static void show_plain(const thermal::Progress& progress, double frames_per_s);
+  static void show_json(const thermal::Progress& progress, double frames_per_s);
+
+  Style style_;
+  Clock::time_point last_shown_;
+  Clock::time_point first_frame_at_;  ///< rate and time left leave the building of the scene out
+  int first_frame_ = 0;
+  bool line_open_ = false;
+};
+
+/// Callbacks for a run: progress to `bar`, stop on a signal.
+[[nodiscard]] thermal::RunHooks hooks_for(ProgressBar& bar);
+
+/// "1:05", "2:03:00".
+[[nodiscard]] std::string clock_time(double seconds);
+
+}  // namespace veldt

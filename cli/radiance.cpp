@@ -1,0 +1,110 @@
+#include <charconv>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/command.h"
+#include "io/response_file.h"
+#include "radiometry/band_radiance.h"
+
+namespace veldt {
+namespace {
+
+struct Options {
+  std::vector<double> temperatures_k;
+  std::vector<double> radiances_w_m2_sr;
+  std::string band_um = "8:14";
+  std::string response;
+  double emissivity = 1;
+  bool json = false;
+};
+
+/// "A:B", 0 < A < B.
+thermal::SpectralResponse parse_band(const std::string& text) {
+  double begin_um = 0;
+  double end_um = 0;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, begin_um);
+  const bool colon = first.ec == std::errc() && first.ptr != end && *first.ptr == ':';
+  const auto second = colon ? std::from_chars(first.ptr + 1, end, end_um) : first;
+  const bool good = colon && second.ec == std::errc() && second.ptr == end;
+  if (good && begin_um > 0 && begin_um < end_um) return thermal::SpectralResponse::flat(begin_um, end_um);
+  throw thermal::ConfigError(thermal::fault("--band-um", text, "um", "A:B with 0 < A < B"));
+}
+
+/// One row of the answer. The inverse of what was asked is filled in too.
+thermal::Json answer(const thermal::BandRadiance& band, double temperature_k, double emissivity) {
+  const thermal::BandValue value = band.evaluate(temperature_k);
+  return {{"temperature_k", temperature_k},
+          {"radiance_w_m2_sr", emissivity * value.radiance_w_m2_sr},
+          {"d_radiance_d_temperature_w_m2_sr_k", emissivity * value.derivative_w_m2_sr_k},
+          {"ln_radiance", value.ln_radiance + std::log(emissivity)}};
+}
+
+void print_table(const thermal::Json& rows) {
+  fmt::print("{:>24} {:>24} {:>24}\n", "temperature [K]", "radiance [W/m2/sr]", "derivative [W/m2/sr/K]");
+  for (const thermal::Json& row : rows) {
+    fmt::print("{:>24.17g} {:>24.17g} {:>24.17g}\n", row["temperature_k"].get<double>(),
+               row["radiance_w_m2_sr"].get<double>(),
+               row["d_radiance_d_temperature_w_m2_sr_k"].get<double>());
+  }
+}
+
+int run(const Options& options) {
+  if (!(options.emissivity > 0 && options.emissivity <= 1)) {
+    throw thermal::ConfigError(
+        thermal::fault("--emissivity", fmt::format("{}", options.emissivity), "", "above 0 and at most 1"));
+  }
+  const thermal::SpectralResponse response =
+      options.response.empty() ? parse_band(options.band_um) : thermal::read_response(options.response);
+  const thermal::BandRadiance band(response);
+  thermal::Json rows = thermal::Json::array();
+  for (const double temperature_k : options.temperatures_k) {
+    rows.push_back(answer(band, temperature_k, options.emissivity));
+  }
+  for (const double radiance : options.radiances_w_m2_sr) {
+    rows.push_back(answer(band, band.temperature(radiance / options.emissivity), options.emissivity));
+  }
+  if (!options.json) {
+    print_table(rows);
+    return kDone;
+  }
+  const thermal::Json document = {{"method", "reference"},
+                                  {"band_um", {response.begin_um(), response.end_um()}},
+                                  {"emissivity", options.emissivity},
+                                  {"values", rows}};
+  fmt::print("{}\n", document.dump(2));
+  return kDone;
+}
+
+}  // namespace
+
+void add_radiance(CLI::App& app, Session& session) {
+  CLI::App* command = add_command(app, session, "radiance",
+                                  "In-band radiance of a temperature, or temperature of a radiance");
+  auto options = std::make_shared<Options>();
+  auto* temperatures =
+      command->add_option("--temperature-k", options->temperatures_k, "Temperatures [K]")->delimiter(',');
+  auto* radiances = command->add_option("--radiance", options->radiances_w_m2_sr, "Radiances [W m^-2 sr^-1]")
+                        ->delimiter(',');
+  temperatures->excludes(radiances);
+  auto* band =
+      command->add_option("--band-um", options->band_um, "Band with a flat response [um]")->type_name("A:B");
+  command->add_option("--response", options->response, "Response curve, CSV: wavelength_um,response")
+      ->type_name("CSV")
+      ->excludes(band);
+  command->add_option("--emissivity", options->emissivity, "Emissivity of the surface")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "Print JSON");
+  command->callback([options, &session] {
+    session.run = [options] {
+      if (options->temperatures_k.empty() && options->radiances_w_m2_sr.empty()) {
+        throw thermal::ConfigError("nothing asked; expected --temperature-k T,… or --radiance L,…");
+      }
+      return run(*options);
+    };
+  });
+}
+
+}  // namespace veldt

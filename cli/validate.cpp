@@ -1,0 +1,78 @@
+#include "dataset/validate.h"
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/command.h"
+#include "dataset/plan.h"
+#include "io/resources.h"
+
+namespace veldt {
+namespace {
+
+struct Options {
+  std::string what;
+  bool json = false;
+};
+
+int validate_dataset(const Options& options) {
+  const thermal::DatasetCheck check = thermal::validate_dataset(options.what);
+  if (options.json) {
+    const thermal::Json report = {{"dataset", options.what},
+                                  {"valid", check.faults.empty()},
+                                  {"clips", check.clips},
+                                  {"files", check.files},
+                                  {"faults", check.faults}};
+    fmt::print("{}\n", report.dump(2));
+  } else {
+    for (const std::string& fault : check.faults) fmt::print("{}\n", fault);
+    fmt::print("{}: {} clips, {} files checked, {}\n", options.what, check.clips, check.files,
+               check.faults.empty() ? "all as written" : fmt::format("{} faults", check.faults.size()));
+  }
+  return check.faults.empty() ? kDone : kFailed;
+}
+
+int validate_config(const Options& options) {
+  const thermal::Path home = thermal::find_home();
+  const thermal::Config config = load_config(options.what, home);
+  const auto plan = thermal::plan_dataset(config.resolved, options.what, home);
+  int frames = 0;
+  int with_actors = 0;
+  for (const thermal::ClipPlan& clip : plan) {
+    frames += clip.frames;
+    with_actors += clip.frames_with_actors;
+  }
+  if (options.json) {
+    const thermal::Json report = {{"config", options.what},
+                                  {"valid", true},
+                                  {"clips", plan.size()},
+                                  {"frames", frames},
+                                  {"frames_with_actors", with_actors}};
+    fmt::print("{}\n", report.dump(2));
+  } else {
+    fmt::print("{}: {} clips, {} frames, {} with actors in view\n", options.what, plan.size(), frames,
+               with_actors);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& app, Session& session) {
+  CLI::App* command =
+      add_command(app, session, "validate",
+                  "Check a config (form and meaning) or a dataset (complete, every file as written)");
+  auto options = std::make_shared<Options>();
+  command->add_option("what", options->what, "A config, or the folder of a dataset")->required();
+  command->add_flag("--json", options->json, "Report as JSON");
+  command->callback([options, &session] {
+    session.run = [options] {
+      return std::filesystem::is_directory(options->what) ? validate_dataset(*options)
+                                                          : validate_config(*options);
+    };
+  });
+}
+
+}  // namespace veldt
