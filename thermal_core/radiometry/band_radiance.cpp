@@ -1,10 +1,13 @@
 #include "radiometry/band_radiance.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "base/error.h"
 #include "radiometry/planck.h"
 
 namespace thermal {
@@ -38,6 +41,18 @@ constexpr double kPanelWidth = 4.0;
 constexpr double kCutoff = 64.0;
 constexpr double kPeak = 3.0;
 
+/// Where response or emissivity bends, inside the response's band, by rising wavelength.
+std::vector<double> joined_knots(const SpectralResponse& response, const EmissivitySpectrum& emissivity) {
+  std::vector<double> knots;
+  for (const auto& sample : response.samples()) knots.push_back(sample.wavelength_um);
+  for (const double knot : emissivity.knots_um()) {
+    if (knot > response.begin_um() && knot < response.end_um()) knots.push_back(knot);
+  }
+  std::sort(knots.begin(), knots.end());
+  knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
+  return knots;
+}
+
 }  // namespace
 
 /// Integrals over the band in x = c2 nu / T, with e^-x0 taken out, x0 at the band's long-wave end.
@@ -52,17 +67,26 @@ struct BandRadiance::ScaledIntegral {
   }
 };
 
-BandRadiance::BandRadiance(const SpectralResponse& response) {
-  const auto samples = response.samples();
-  for (std::size_t i = samples.size() - 1; i > 0; --i) {
-    const auto& begin = samples[i];  // the long-wave end: the lower wavenumber
-    const auto& end = samples[i - 1];
-    if (begin.response == 0 && end.response == 0) continue;
-    const double width_um = begin.wavelength_um - end.wavelength_um;
-    segments_.push_back({.begin_per_m = 1e6 / begin.wavelength_um,
-                         .width_per_m = 1e6 * width_um / (begin.wavelength_um * end.wavelength_um),
-                         .begin_response = begin.response,
-                         .rise = end.response - begin.response});
+BandRadiance::BandRadiance(const SpectralResponse& response)
+    : BandRadiance(response, EmissivitySpectrum(1)) {}
+
+BandRadiance::BandRadiance(const SpectralResponse& response, const EmissivitySpectrum& emissivity) {
+  if (!emissivity.covers(response.begin_um(), response.end_um())) {
+    throw ConfigError(fmt::format("the emissivity spectrum does not cover the band; expected {} um to {} um",
+                                  response.begin_um(), response.end_um()));
+  }
+  const std::vector<double> knots = joined_knots(response, emissivity);
+  for (std::size_t i = knots.size() - 1; i > 0; --i) {
+    const double begin_um = knots[i];  // the long-wave end: the lower wavenumber
+    const double end_um = knots[i - 1];
+    const Line weight = {response.at(begin_um), response.at(end_um) - response.at(begin_um)};
+    const Line surface = {emissivity.at(begin_um), emissivity.at(end_um) - emissivity.at(begin_um)};
+    const auto is_zero = [](const Line& line) { return line.begin == 0 && line.rise == 0; };
+    if (is_zero(weight) || is_zero(surface)) continue;
+    segments_.push_back({.begin_per_m = 1e6 / begin_um,
+                         .width_per_m = 1e6 * (begin_um - end_um) / (begin_um * end_um),
+                         .response = weight,
+                         .emissivity = surface});
   }
 }
 
@@ -79,7 +103,8 @@ void BandRadiance::add_segment(const Segment& segment, double x_stop, ScaledInte
       const double x = x_begin + from_begin;
       const double nu = x * sum.nu_per_x;
       const double share = from_begin / x_width * ((x_begin + x_width) / x);
-      const double response = segment.begin_response + segment.rise * share;
+      const double response = (segment.response.begin + segment.response.rise * share) *
+                              (segment.emissivity.begin + segment.emissivity.rise * share);
       const double one_less_exp = -std::expm1(-x);
       const double weighted = half * weight * nu * nu * nu * response * std::exp(sum.x0 - x) / one_less_exp;
       sum.value += weighted;
@@ -91,6 +116,7 @@ void BandRadiance::add_segment(const Segment& segment, double x_stop, ScaledInte
 BandRadiance::ScaledIntegral BandRadiance::integrate(double temperature_k) const noexcept {
   ScaledIntegral sum{};
   sum.nu_per_x = temperature_k / kSecondRadiationConstant;
+  if (segments_.empty()) return sum;  // a surface that emits nothing in the band
   sum.x0 = segments_.front().begin_per_m / sum.nu_per_x;
   if (std::isinf(sum.x0)) return sum;
   const double x_stop = std::max(sum.x0, kPeak) + kCutoff;

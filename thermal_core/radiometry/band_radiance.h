@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "radiometry/emissivity.h"
 #include "radiometry/spectral_response.h"
 
 namespace thermal {
@@ -23,6 +24,10 @@ class BandRadiance {
  public:
   explicit BandRadiance(const SpectralResponse& response);
 
+  /// The same for a surface that is no blackbody: the integral of emissivity * response * Planck.
+  /// ConfigError if the spectrum does not cover the band.
+  BandRadiance(const SpectralResponse& response, const EmissivitySpectrum& emissivity);
+
   /// Value, derivative and logarithm at a temperature [K].
   /// <= 0 K: radiance and derivative 0, logarithm -infinity. NaN: all NaN. Infinity: radiance and logarithm
   /// infinity, derivative the Rayleigh-Jeans limit.
@@ -41,13 +46,18 @@ class BandRadiance {
   [[nodiscard]] double temperature_from_ln(double ln_radiance) const noexcept;
 
  private:
-  /// One straight piece of the response, in wavenumber [1/m]. At a share s of the way from begin to end the
-  /// response is begin + rise * s * (nu_end / nu): straight in wavelength, and free of cancellation.
+  /// A quantity that is straight in wavelength across a segment. At a share s of the way from begin to end in
+  /// wavenumber it is begin + rise * s * (nu_end / nu), which is free of cancellation.
+  struct Line {
+    double begin;
+    double rise;
+  };
+  /// A piece of the band in which response and emissivity are straight, in wavenumber [1/m].
   struct Segment {
     double begin_per_m;
     double width_per_m;
-    double begin_response;
-    double rise;
+    Line response;
+    Line emissivity;
   };
   struct ScaledIntegral;
 

@@ -20,6 +20,9 @@ class SpectralResponse {
   /// zero; ConfigError otherwise. Scaled so that the largest response is 1.
   explicit SpectralResponse(std::vector<Sample> samples);
 
+  /// Response at a wavelength [um]; 0 outside the samples.
+  [[nodiscard]] double at(double wavelength_um) const noexcept;
+
   [[nodiscard]] std::span<const Sample> samples() const noexcept { return samples_; }
   [[nodiscard]] double begin_um() const noexcept { return samples_.front().wavelength_um; }
   [[nodiscard]] double end_um() const noexcept { return samples_.back().wavelength_um; }

@@ -1,0 +1,76 @@
+#include "radiometry/atmosphere.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace thermal {
+namespace {
+
+constexpr double kZeroCelsius = 273.15;
+
+void check_range(const char* where, double value, const char* unit, double low, double high) {
+  if (value >= low && value <= high) return;
+  throw ConfigError(fault(where, fmt::format("{}", value), unit,
+                          fmt::format("{} to {}{}{}", low, high, *unit == '\0' ? "" : " ", unit)));
+}
+
+double with_clouds(double clear, double cloud_fraction) noexcept {
+  constexpr double kCloudGain = 0.84;
+  return clear + kCloudGain * (1 - clear) * cloud_fraction;
+}
+
+}  // namespace
+
+void Air::validate() const {
+  check_range("weather.air_temperature_k", temperature_k, "K", 200, 340);
+  check_range("weather.relative_humidity", relative_humidity, "", 0, 1);
+  check_range("weather.cloud_fraction", cloud_fraction, "", 0, 1);
+}
+
+double vapour_pressure_hpa(const Air& air) noexcept {
+  const double celsius = air.temperature_k - kZeroCelsius;
+  return air.relative_humidity * 6.112 * std::exp(17.62 * celsius / (243.12 + celsius));
+}
+
+double path_water_g_m3(const Air& air) noexcept {
+  constexpr double kMost = 25;
+  const double t = air.temperature_k - kZeroCelsius;
+  const double content = air.relative_humidity *
+                         std::exp(1.5587 + 0.06939 * t - 2.7816e-4 * t * t + 6.8455e-7 * t * t * t);
+  return std::min(content, kMost);
+}
+
+double path_transmittance(const Air& air, double range_m) noexcept {
+  constexpr double kLongest = 1000;
+  const double range = range_m < kLongest ? std::max(range_m, 0.0) : kLongest;  // NaN: the longest
+  const double root_range = std::sqrt(range);
+  const double root_water = std::sqrt(path_water_g_m3(air));
+  constexpr double kWeight = 1.9;
+  const double first = std::exp(-root_range * (0.006569 - 0.002276 * root_water));
+  const double second = std::exp(-root_range * (0.01262 - 0.00667 * root_water));
+  return std::clamp(kWeight * first + (1 - kWeight) * second, 0.0, 1.0);
+}
+
+double clear_zenith_emissivity(const Air& air) noexcept {
+  const double e = vapour_pressure_hpa(air);
+  return std::min(1.0, 0.24 + 2.98e-8 * e * e * std::exp(3000 / air.temperature_k));
+}
+
+double clear_sky_emissivity(const Air& air) noexcept {
+  const double zenith = clear_zenith_emissivity(air);
+  return zenith * (1.4 - 0.4 * zenith);
+}
+
+double sky_emissivity(const Air& air) noexcept {
+  return with_clouds(clear_sky_emissivity(air), air.cloud_fraction);
+}
+
+double zenith_emissivity(const Air& air) noexcept {
+  return with_clouds(clear_zenith_emissivity(air), air.cloud_fraction);
+}
+
+}  // namespace thermal

@@ -1,0 +1,39 @@
+#pragma once
+
+namespace thermal {
+
+/// The state of the air near the ground.
+struct Air {
+  double temperature_k = 293;
+  double relative_humidity = 0.7;  ///< 0 to 1
+  double cloud_fraction = 0;       ///< 0 clear to 1 overcast
+
+  /// ConfigError unless 200 K to 340 K, and the others from 0 to 1.
+  void validate() const;
+};
+
+/// Partial pressure of water vapour [hPa]; Magnus form, 17.62 and 243.12 C (WMO-No. 8, 2018), over water.
+[[nodiscard]] double vapour_pressure_hpa(const Air& air) noexcept;
+
+/// Water content of the air as the path model below wants it [g m^-3]; clamped to at most 25, its range.
+[[nodiscard]] double path_water_g_m3(const Air& air) noexcept;
+
+/// In-band (7.5-14 um) transmittance of a level path in the form FLIR publishes (after Passman and Larmore;
+/// coefficients as in Tran et al., Sensors 17, 2017). Within .017 of line-by-line figures at 100 m.
+/// The range is clamped to [0, 1000] m and the result to [0, 1], beyond which the fit turns unphysical.
+/// NaN and infinity count as 1000 m.
+[[nodiscard]] double path_transmittance(const Air& air, double range_m) noexcept;
+
+/// Emissivity of a clear sky at the zenith in 8-14 um: 0.24 + 2.98e-8 e^2 exp(3000 / T), e in hPa, at most 1
+/// (Idso, Water Resour. Res. 17, 295, 1981).
+[[nodiscard]] double clear_zenith_emissivity(const Air& air) noexcept;
+
+/// The same averaged over the hemisphere as a diffuse surface sees it: e_z (1.4 - 0.4 e_z) (Kimball, Idso and
+/// Aase, Water Resour. Res. 18, 931, 1982).
+[[nodiscard]] double clear_sky_emissivity(const Air& air) noexcept;
+
+/// With clouds: e_0 + G (1 - e_0) n, G = 0.84 (published .78 to .9).
+[[nodiscard]] double sky_emissivity(const Air& air) noexcept;
+[[nodiscard]] double zenith_emissivity(const Air& air) noexcept;
+
+}  // namespace thermal

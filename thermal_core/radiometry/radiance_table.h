@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "radiometry/band_radiance.h"
+
+namespace thermal {
+
+/// Temperature to in-band radiance for every pixel: straight lines between nodes a sixteenth of a kelvin apart,
+/// which single precision steps through without rounding, and the reference outside.
+class RadianceTable {
+ public:
+  static constexpr float kColdest = 180;  ///< [K]
+  static constexpr float kHottest = 436;  ///< [K], exclusive
+
+  /// Tabulates `band`, then measures the error of what it will compute between all nodes.
+  explicit RadianceTable(BandRadiance band);
+
+  /// Temperature plane [K] to radiance plane [W m^-2 sr^-1], of equal size; they may be the same memory.
+  /// Outside [kColdest, kHottest) the reference is called, which is right everywhere and about 100 times
+  /// slower: <= 0 K gives 0, NaN gives NaN, infinity infinity.
+  void radiances(std::span<const float> temperature_k, std::span<float> radiance_w_m2_sr) const noexcept;
+
+  /// Largest error between nodes, measured when the table was made, as a difference in temperature [K]. It
+  /// contains the rounding of nodes and of the result.
+  [[nodiscard]] double worst_error_k() const noexcept { return worst_error_k_; }
+  /// The same relative to the radiance.
+  [[nodiscard]] double worst_relative_error() const noexcept { return worst_relative_error_; }
+
+  [[nodiscard]] const BandRadiance& reference() const noexcept { return band_; }
+
+ private:
+  /// A node's radiance and the step to the next node's: side by side, one cache line a pixel.
+  struct Node {
+    float radiance_w_m2_sr;
+    float step_w_m2_sr;
+  };
+
+  [[nodiscard]] float between_nodes(float temperature_k) const noexcept;
+  void measure();
+
+  BandRadiance band_;
+  std::vector<Node> nodes_;
+  double worst_error_k_ = 0;
+  double worst_relative_error_ = 0;
+};
+
+}  // namespace thermal
