@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdio>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "cli/stop_signal.h"
 #include "io/resources.h"
@@ -15,9 +17,28 @@ namespace {
 
 /// The one table of commands, in the order help shows them.
 constexpr std::array kCommands = {add_generate, add_render,   add_convert, add_inspect,
-                                  add_validate, add_radiance, add_doctor};
+                                  add_validate, add_budget, add_radiance, add_doctor};
 
-void print_fault(const std::string& what) { fmt::print(stderr, "veldt: {}\n", what); }
+void print_fault(const std::string& what) {
+  std::istringstream lines(what);
+  for (std::string line; std::getline(lines, line);) fmt::print(stderr, "veldt: {}\n", line);
+}
+
+/// What is wrong with a command line, in one line.
+std::string usage_fault(const CLI::App* app, const CLI::Error& error) {
+  const std::vector<CLI::App*> named = app->get_subcommands();
+  if (!named.empty())
+    return fmt::format("veldt: {}; see veldt {} --help\n", error.what(), named.front()->get_name());
+  const std::vector<std::string> unknown = app->remaining();
+  if (!unknown.empty() && unknown.front().starts_with('-'))
+    return fmt::format("veldt: {} before a command; see veldt --help\n", unknown.front());
+  std::vector<std::string> known;
+  for (const CLI::App* command : app->get_subcommands({})) known.push_back(command->get_name());
+  const std::string choice = "expected one of " + thermal::list_names(known);
+  if (unknown.empty()) return fmt::format("veldt: no command; {}; see veldt --help\n", choice);
+  return fmt::format("veldt: \"{}\" is no command; {}{}\n", unknown.front(), choice,
+                     thermal::did_you_mean(unknown.front(), known));
+}
 
 /// Runs a command and turns faults into words and exit codes.
 int run_guarded(const std::function<int()>& run) {
@@ -77,6 +98,7 @@ int run_command_line(int argc, const char* const* argv) {
       "veldt");
   app.set_version_flag("--version", std::string(thermal::kVersion));
   app.require_subcommand(1);
+  app.failure_message(usage_fault);
   Session session;
   for (const auto& add : kCommands) add(app, session);
   try {

@@ -38,6 +38,7 @@ void add_render(CLI::App& app, Session& session);
 void add_convert(CLI::App& app, Session& session);
 void add_inspect(CLI::App& app, Session& session);
 void add_validate(CLI::App& app, Session& session);
+void add_budget(CLI::App& app, Session& session);
 void add_radiance(CLI::App& app, Session& session);
 void add_doctor(CLI::App& app, Session& session);
 

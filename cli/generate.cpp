@@ -79,7 +79,10 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
   auto options = std::make_shared<Options>();
   command->add_option("config", options->config, "Config of the dataset, JSON")->required();
   command->add_option("--out", options->out, "Folder of the dataset")->required();
-  command->add_option("--clips", options->clips, "Only these clips")->delimiter(',')->type_name("ID,…");
+  command->add_option("--clips", options->clips, "Only these clips")
+      ->delimiter(',')
+      ->allow_extra_args(false)  // else a CONFIG that follows would be taken for a clip
+      ->type_name("ID,…");
   command->add_option("--shard", options->shard, "Only every N-th clip, from the I-th")->type_name("I/N");
   command->add_option("--blender", options->blender, "Blender to use instead of the one on PATH")
       ->type_name("PATH");

@@ -2,6 +2,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -91,20 +92,35 @@ std::string verdict(const thermal::ExrHeader& header, const std::string& layer, 
       manifest ? "meanings from manifest.json" : "needs a manifest (--manifest FILE)");
 }
 
+/// Object indices and verdict; what stands against a conversion is a part of the answer, not a failure of it.
+std::pair<Json, std::string> describe_conversion(const Path& file, const thermal::ExrHeader& header,
+                                                 const std::string& layer,
+                                                 const std::optional<thermal::Manifest>& manifest) {
+  try {
+    const bool has_objects = header.find_object_index(layer) != nullptr;
+    Json objects = has_objects ? describe_indices(file, layer, manifest) : Json::array();
+    return {std::move(objects), verdict(header, layer, manifest.has_value())};
+  } catch (const thermal::DataError& error) {
+    std::string why = error.what();
+    if (why.starts_with(file.string() + ": ")) why.erase(0, file.string().size() + 2);
+    return {Json::array(), "cannot be converted: " + why};
+  }
+}
+
 Json describe(const Path& file, std::size_t files) {
   const thermal::ExrHeader header = thermal::read_exr_header(file);
   const std::optional<thermal::Manifest> manifest = manifest_beside(file);
   const std::string layer = manifest ? manifest->layer : "";
-  const bool has_objects = header.find_object_index(layer) != nullptr;
+  const auto [objects, conversion] = describe_conversion(file, header, layer, manifest);
   return {{"file", file.string()},
           {"files", files},
           {"width_px", header.width_px},
           {"height_px", header.height_px},
           {"compression", header.compression},
           {"channels", describe_channels(header)},
-          {"objects", has_objects ? describe_indices(file, layer, manifest) : Json::array()},
+          {"objects", objects},
           {"depth", describe_depth(file, header, layer)},
-          {"conversion", verdict(header, layer, manifest.has_value())}};
+          {"conversion", conversion}};
 }
 
 void print(const Json& report) {

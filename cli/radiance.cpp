@@ -1,11 +1,12 @@
 #include <charconv>
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "cli/command.h"
-#include "io/response_file.h"
+#include "io/spectrum_files.h"
 #include "radiometry/band_radiance.h"
 
 namespace veldt {
@@ -51,7 +52,17 @@ void print_table(const thermal::Json& rows) {
   }
 }
 
+void check_values(const std::vector<double>& values, const std::string& option, const std::string& unit) {
+  for (const double value : values) {
+    if (std::isfinite(value) && value >= 0) continue;
+    throw thermal::ConfigError(
+        thermal::fault(option, fmt::format("{}", value), unit, "a finite number, at least 0 " + unit));
+  }
+}
+
 int run(const Options& options) {
+  check_values(options.temperatures_k, "--temperature-k", "K");
+  check_values(options.radiances_w_m2_sr, "--radiance", "W m^-2 sr^-1");
   if (!(options.emissivity > 0 && options.emissivity <= 1)) {
     throw thermal::ConfigError(
         thermal::fault("--emissivity", fmt::format("{}", options.emissivity), "", "above 0 and at most 1"));
@@ -85,9 +96,15 @@ void add_radiance(CLI::App& app, Session& session) {
                                   "In-band radiance of a temperature, or temperature of a radiance");
   auto options = std::make_shared<Options>();
   auto* temperatures =
-      command->add_option("--temperature-k", options->temperatures_k, "Temperatures [K]")->delimiter(',');
-  auto* radiances = command->add_option("--radiance", options->radiances_w_m2_sr, "Radiances [W m^-2 sr^-1]")
-                        ->delimiter(',');
+      command->add_option("--temperature-k", options->temperatures_k, "Temperatures [K], at least 0")
+          ->delimiter(',')
+          ->allow_extra_args(false)
+          ->type_name("T,…");
+  auto* radiances =
+      command->add_option("--radiance", options->radiances_w_m2_sr, "Radiances [W m^-2 sr^-1], at least 0")
+          ->delimiter(',')
+          ->allow_extra_args(false)
+          ->type_name("L,…");
   temperatures->excludes(radiances);
   auto* band =
       command->add_option("--band-um", options->band_um, "Band with a flat response [um]")->type_name("A:B");

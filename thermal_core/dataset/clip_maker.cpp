@@ -16,6 +16,7 @@
 #include "io/png.h"
 #include "io/preview_video.h"
 #include "io/sha256.h"
+#include "scene/camera_geometry.h"
 #include "sensor/airsim_sensor.h"
 
 namespace thermal {
@@ -53,7 +54,7 @@ class ClipMaker {
       : task_(task),
         folder_(std::move(folder)),
         hooks_(hooks),
-        converter_(task.manifest, materials, task.clip.season, task.sensor),
+        converter_(task.manifest, materials, task.clip.season, task.sensor, task.physics),
         sensor_(task.sensor, sensor_clip(task), converter_.brightest_w_m2_sr()),
         video_(folder_ / "preview.mp4", task.manifest.frame_rate_hz, task.manifest.camera.width_px,
                task.manifest.camera.height_px),
@@ -78,11 +79,13 @@ class ClipMaker {
 
  private:
   static AirsimSensor::Clip sensor_clip(const ClipTask& task) {
+    const bool falloff = task.physics && task.physics->terms.falloff;
     return {.id = task.clip.id,
             .seed = task.seed,
             .frame_rate_hz = task.manifest.frame_rate_hz,
             .width_px = task.manifest.camera.width_px,
-            .height_px = task.manifest.camera.height_px};
+            .height_px = task.manifest.camera.height_px,
+            .noise_gain = falloff ? falloff_noise_gain(task.manifest.camera) : Plane<float>()};
   }
 
   FramePointer next(tbb::flow_control& control) {
@@ -100,9 +103,11 @@ class ClipMaker {
   FramePointer read(FramePointer work) const {
     const Path file = task_.passes / record_of(*work).file;
     const CameraIntrinsics& camera = task_.manifest.camera;
-    const Passes passes = read_passes(file, task_.manifest.layer, camera.width_px, camera.height_px);
+    const int finer = task_.manifest.supersample;
+    const Passes passes = read_passes(file, task_.manifest.layer, camera.width_px * finer,
+                                      camera.height_px * finer, converter_.needs());
     try {
-      work->scene = converter_.convert(passes);
+      work->scene = converter_.convert(passes, record_of(*work));
     } catch (const DataError& error) {
       throw DataError(fmt::format("{}: {}", file.string(), error.what()));
     }

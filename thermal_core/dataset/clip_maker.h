@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "dataset/clip_record.h"
 #include "dataset/layout.h"
+#include "imaging/scene_radiance.h"
 #include "io/config.h"
 #include "scene/manifest.h"
 #include "scene/material.h"
@@ -15,6 +17,7 @@ struct ClipTask {
   ClipConfig clip;
   std::uint32_t seed = 1;
   SensorParameters sensor;
+  std::optional<PhysicsSettings> physics;  ///< empty: the published model
   Manifest manifest;
   Path passes;  ///< folder of the EXR files
 };

@@ -1,5 +1,6 @@
 #include "dataset/convert.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "base/parallel.h"
 #include "dataset/clip_maker.h"
 #include "dataset/dataset_index.h"
+#include "dataset/physics.h"
 #include "io/manifest_file.h"
 #include "io/material_files.h"
 
@@ -18,8 +20,23 @@ namespace {
 /// One clip's passes.
 struct Source {
   Path folder;
+  Path manifest_file;
   Manifest manifest;
 };
+
+/// Folders of passes that a path means: itself, or those inside it, as in the passes folder of a dataset.
+std::vector<Path> folders_of(const Path& folder) {
+  if (!std::filesystem::is_directory(folder)) {
+    throw ConfigError(fault("passes", folder.string(), "", "a folder of EXR files with a manifest.json"));
+  }
+  if (std::filesystem::exists(folder / "manifest.json")) return {folder};
+  std::vector<Path> inside;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (std::filesystem::exists(entry.path() / "manifest.json")) inside.push_back(entry.path());
+  }
+  std::sort(inside.begin(), inside.end());
+  return inside.empty() ? std::vector<Path>{folder} : inside;
+}
 
 std::vector<Source> read_sources(const ConvertOptions& options) {
   if (!options.manifest.empty() && options.passes.size() != 1) {
@@ -28,9 +45,14 @@ std::vector<Source> read_sources(const ConvertOptions& options) {
   }
   std::vector<Source> sources;
   std::map<std::string, Path> seen;
-  for (const Path& folder : options.passes) {
+  std::vector<Path> folders;
+  for (const Path& named : options.passes) {
+    const std::vector<Path> meant = options.manifest.empty() ? folders_of(named) : std::vector<Path>{named};
+    folders.insert(folders.end(), meant.begin(), meant.end());
+  }
+  for (const Path& folder : folders) {
     const Path file = options.manifest.empty() ? folder / "manifest.json" : options.manifest;
-    Source source = {.folder = folder, .manifest = read_manifest(file, options.home)};
+    Source source = {.folder = folder, .manifest_file = file, .manifest = read_manifest(file, options.home)};
     const auto [first, fresh] = seen.emplace(source.manifest.clip, folder);
     if (!fresh) {
       throw DataError(fmt::format("{} and {} are both of clip {}; expected one folder a clip",
@@ -87,15 +109,18 @@ class Converter {
         hooks_(hooks),
         layout_{options.out},
         materials_(read_materials(options.home)),
-        index_(open_dataset(layout_, config)) {}
+        index_(open_dataset(layout_, config)) {
+    std::vector<const Manifest*> manifests;
+    for (const Source& source : sources) manifests.push_back(&source.manifest);
+    index_.budget = weigh_terms(outline_of(config, materials_, manifests), config.terms);
+  }
 
   RunOutcome run() {
     for (const Source& source : sources_) {
       if (index_.finished.contains(source.manifest.clip)) continue;
       progress_.frames_total += static_cast<int>(source.manifest.frames.size());
     }
-    if (!index_.complete() || !std::filesystem::exists(layout_.dataset_json()))
-      write_dataset(layout_, index_);
+    if (!index_.complete() || !index_.recorded) write_dataset(layout_, index_);
     for (const Source& source : sources_) {
       if (index_.finished.contains(source.manifest.clip)) {
         outcome_.already_there.push_back(source.manifest.clip);
@@ -133,9 +158,11 @@ class Converter {
   }
 
   void make(const Source& source) {
-    const ClipTask task = {.clip = config_.clip(source.manifest.clip, source.folder.string()),
+    const ClipConfig& clip = config_.clip(source.manifest.clip, source.folder.string());
+    const ClipTask task = {.clip = clip,
                            .seed = config_.seed,
                            .sensor = config_.sensor,
+                           .physics = physics_of(config_, clip, index_.budget.kept),
                            .manifest = source.manifest,
                            .passes = source.folder};
     const ClipHooks clip_hooks = {.wait_for_frame = {},
@@ -145,7 +172,11 @@ class Converter {
                                         hooks_.report(progress_);
                                       },
                                   .cancelled = hooks_.cancelled};
-    index_.finished[task.clip.id] = make_clip(task, materials_, layout_, clip_hooks);
+    try {
+      index_.finished[task.clip.id] = make_clip(task, materials_, layout_, clip_hooks);
+    } catch (const ConfigError& error) {  // the manifest names a material that is not there
+      throw DataError(fmt::format("{}: {}", source.manifest_file.string(), error.what()));
+    }
   }
 
   const std::vector<Source>& sources_;

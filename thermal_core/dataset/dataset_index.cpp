@@ -6,20 +6,29 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "dataset/annotations.h"
+#include "dataset/physics.h"
 #include "io/sha256.h"
 
 namespace thermal {
 namespace {
 
-void check_same_config(const Layout& layout, const Json& config) {
-  const Json there = read_json(layout.dataset_json()).value("config", Json::object());
-  const std::vector<std::string> found = differences(config, there);
+void check_same_config(const Layout& layout, const Json& config, const Json& there) {
+  const std::vector<std::string> found = differences(config, there.value("config", Json::object()));
   if (found.empty()) return;
   constexpr std::size_t kMost = 8;
   throw ConfigError(
       fmt::format("{} holds a dataset made from another config: {}; expected the same config, or "
                   "another folder",
                   layout.root.string(), list_names(found, kMost)));
+}
+
+/// Not so if a run ended after it had renamed a clip and before it told of it.
+bool is_recorded(const Layout& layout, const DatasetIndex& index, const Json& there) {
+  for (const Json& clip : there.at("clips")) {
+    const bool told = clip.at("status") == "done";
+    if (told != index.finished.contains(clip.at("id").get<std::string>())) return false;
+  }
+  return std::filesystem::exists(layout.annotations_json());
 }
 
 Json clip_entry(const DatasetIndex& index, const std::string& id) {
@@ -55,13 +64,16 @@ std::string write_annotations(const Layout& layout, const DatasetIndex& index) {
 }  // namespace
 
 DatasetIndex open_dataset(const Layout& layout, const Config& config) {
-  DatasetIndex index{.config = config.resolved, .clips = {}, .finished = {}, .failed = {}};
-  if (std::filesystem::exists(layout.dataset_json())) check_same_config(layout, config.resolved);
+  DatasetIndex index{.config = config.resolved, .budget = {}, .clips = {}, .finished = {}, .failed = {}};
+  const bool begun = std::filesystem::exists(layout.dataset_json());
+  const Json there = begun ? read_json(layout.dataset_json()) : Json();
+  if (begun) check_same_config(layout, config.resolved, there);
   for (const ClipConfig& clip : config.clips) {
     index.clips.push_back(clip.id);
     const Path record = layout.clip(clip.id) / "clip.json";
     if (std::filesystem::exists(record)) index.finished.emplace(clip.id, read_clip_record(record));
   }
+  index.recorded = begun && is_recorded(layout, index, there);
   return index;
 }
 
@@ -88,7 +100,7 @@ void write_dataset(const Layout& layout, const DatasetIndex& index) {
                          {"pixels_sha256", pixels.hex()},
                          {"annotations_sha256", annotations_sha256},
                          {"kelvin_per_count", index.config.at("sensor").at("kelvin_per_count")},
-                         {"terms", {"direct"}},
+                         {"physics", to_json(index.budget)},
                          {"clips", std::move(clips)},
                          {"config", index.config}};
   write_file_atomically(layout.dataset_json(), to_text(document));

@@ -6,6 +6,7 @@
 
 #include "dataset/clip_record.h"
 #include "dataset/layout.h"
+#include "imaging/budget.h"
 #include "io/config.h"
 
 namespace thermal {
@@ -13,9 +14,11 @@ namespace thermal {
 /// The state of a dataset as dataset.json tells it.
 struct DatasetIndex {
   Json config;                                 ///< resolved
+  Budget budget;                               ///< decided once, for all clips
   std::vector<std::string> clips;              ///< ids, in the config's order
   std::map<std::string, ClipRecord> finished;  ///< by id
   std::map<std::string, std::string> failed;   ///< by id: why
+  bool recorded = false;                       ///< the files on disk tell of all the finished clips
 
   [[nodiscard]] bool complete() const { return finished.size() == clips.size(); }
 };

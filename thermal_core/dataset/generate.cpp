@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "dataset/clip_maker.h"
 #include "dataset/dataset_index.h"
+#include "dataset/physics.h"
 #include "dataset/render_job.h"
 #include "io/manifest_file.h"
 #include "io/material_files.h"
@@ -51,7 +52,9 @@ class Generator {
         hooks_(hooks),
         layout_{options.out},
         materials_(read_materials(options.home)),
-        index_(open_dataset(layout_, config)) {}
+        index_(open_dataset(layout_, config)) {
+    index_.budget = weigh_terms(outline_of(config, materials_, options.home), config.terms);
+  }
 
   RunOutcome run() {
     for (const ClipConfig& clip : choose_clips(config_, options_.clips, options_.shard)) {
@@ -59,7 +62,7 @@ class Generator {
                                         : pending_.push_back(clip);
     }
     if (!pending_.empty()) make_pending();
-    if (!pending_.empty() || !std::filesystem::exists(layout_.dataset_json())) write_dataset(layout_, index_);
+    if (!pending_.empty() || !index_.recorded) write_dataset(layout_, index_);
     if (!options_.keep_passes) std::filesystem::remove_all(layout_.passes());
     outcome_.complete = index_.complete();
     return outcome_;
@@ -85,6 +88,7 @@ class Generator {
     const ClipTask task = {.clip = clip,
                            .seed = config_.seed,
                            .sensor = config_.sensor,
+                           .physics = physics_of(config_, clip, index_.budget.kept),
                            .manifest = read_manifest(passes / "manifest.json", options_.home),
                            .passes = passes};
     const ClipHooks clip_hooks = {

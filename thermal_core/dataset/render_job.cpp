@@ -71,7 +71,7 @@ void RenderJob::take_event(const std::string& line) {
     ready_[event["clip"]] = 2 + index;
     doing_ = fmt::format("rendering clip {} after frame {}", event["clip"].get<std::string>(), index);
   } else if (kind == "error") {
-    config_fault_ = event.value("kind", "") == "config";
+    if (event.value("kind", "") == "config") blame_ = Blame::config;
     const auto where = event.value("where", std::string());
     failure_ =
         event.value("message", std::string("unknown reason")) + (where.empty() ? "" : " (" + where + ")");
@@ -83,6 +83,7 @@ void RenderJob::take_end(const ExitStatus& status) {
   const std::lock_guard lock(mutex_);
   ended_ = true;
   if (failure_.empty() && status.signal != 0) {
+    blame_ = Blame::circumstances;
     failure_ =
         fmt::format("Blender {} while {}; if nobody stopped it, the machine may have run out of memory",
                     status.in_words(), doing_);
@@ -96,7 +97,9 @@ void RenderJob::take_end(const ExitStatus& status) {
 
 void RenderJob::throw_failure() const {
   if (failure_.empty()) throw IoError(fmt::format("Blender ended early while {}", doing_));
-  if (config_fault_) throw ConfigError(failure_);
+  if (is_disk_full(task_.passes)) throw TryAgainError(failure_ + "; the disk is full");
+  if (blame_ == Blame::config) throw ConfigError(failure_);
+  if (blame_ == Blame::circumstances) throw TryAgainError(failure_);
   throw IoError(failure_);
 }
 

@@ -32,8 +32,9 @@ class RenderJob {
   RenderJob(const RenderJob&) = delete;
   RenderJob& operator=(const RenderJob&) = delete;
 
-  /// Returns when the frame's file is whole (frame -1: when the clip's manifest is). IoError or ConfigError
-  /// saying in words why it never will be; Cancelled when `cancelled` says so.
+  /// Returns when the frame's file is whole (frame -1: when the clip's manifest is). Otherwise says in words
+  /// why it never will be: ConfigError; TryAgainError if Blender was killed or the disk is full; else IoError.
+  /// Cancelled when `cancelled` says so.
   void wait_for_frame(const std::string& clip, int frame, const std::function<bool()>& cancelled);
 
   /// Waits until Blender has ended; the same faults.
@@ -42,6 +43,8 @@ class RenderJob {
  private:
   /// How many leading frames of a clip are whole, counting the manifest as one.
   using Ready = std::map<std::string, int>;
+  /// Whose doing an early end is.
+  enum class Blame { config, blender, circumstances };
 
   void listen(const std::stop_token& stop);
   void take_event(const std::string& line);
@@ -55,7 +58,7 @@ class RenderJob {
   std::condition_variable changed_;
   Ready ready_;
   bool ended_ = false;
-  bool config_fault_ = false;
+  Blame blame_ = Blame::blender;
   std::string failure_;  ///< why Blender ended early; empty if it did not
   std::string doing_ = "building the scene";
   std::jthread listener_;

@@ -1,24 +1,43 @@
 #include "imaging/frame_converter.h"
 
+#include "imaging/supersample.h"
+
 namespace thermal {
+namespace {
+
+SceneRadiance make_scene(const Manifest& manifest, const MaterialLibrary& materials, Season season,
+                         const SensorParameters& parameters, const std::optional<PhysicsSettings>& physics) {
+  if (!physics) return {manifest, materials, season, radiance_of(parameters)};
+  return {manifest, materials, *physics};
+}
+
+}  // namespace
 
 FrameConverter::FrameConverter(const Manifest& manifest, const MaterialLibrary& materials, Season season,
-                               const SensorParameters& parameters)
-    : scene_radiance_(manifest, materials, season, radiance_of(parameters.radiance)),
+                               const SensorParameters& parameters, const std::optional<PhysicsSettings>& physics)
+    : supersample_(manifest.supersample),
+      scene_radiance_(make_scene(manifest, materials, season, parameters, physics)),
       brightest_w_m2_sr_(parameters.normalisation == Normalisation::table_max
-                             ? brightest_of_table_1(materials, season, radiance_of(parameters.radiance))
+                             ? brightest_of_table_1(materials, season, radiance_of(parameters))
                              : scene_radiance_.brightest_w_m2_sr()) {
   for (const ManifestObject& object : manifest.objects) {
     if (object.object_class == ObjectClass::actor) actor_indices_.push_back(object.index);
   }
 }
 
-SceneFrame FrameConverter::convert(const Passes& passes) const {
+SceneFrame FrameConverter::convert(const Passes& passes, const ManifestFrame& frame) const {
   const std::vector<IndexUse> uses = survey_indices(passes.object_index);
-  scene_radiance_.check_objects(uses);
-  if (!passes.material_index.empty()) scene_radiance_.check_materials(survey_indices(passes.material_index));
-  return {.radiance_w_m2_sr = scene_radiance_.radiance(passes),
-          .instances = extract_instances(passes.object_index, uses, actor_indices_)};
+  const SurfaceMap& surfaces = scene_radiance_.surfaces();
+  surfaces.check_objects(uses);
+  if (!passes.material_index.empty()) surfaces.check_materials(survey_indices(passes.material_index));
+  Plane<float> radiance = scene_radiance_.radiance(passes, frame);
+  if (supersample_ == 1) {
+    return {.radiance_w_m2_sr = std::move(radiance),
+            .instances = extract_instances(passes.object_index, uses, actor_indices_)};
+  }
+  const Plane<std::uint16_t> actors = block_actors(passes.object_index, supersample_, actor_indices_);
+  return {.radiance_w_m2_sr = block_means(radiance, supersample_),
+          .instances = extract_instances(actors, survey_indices(actors), actor_indices_)};
 }
 
 }  // namespace thermal

@@ -2,34 +2,30 @@
 
 #include <algorithm>
 #include <cassert>
-#include <string>
-
-#include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/text.h"
+#include "base/parallel.h"
+#include "imaging/supersample.h"
 
 namespace thermal {
 namespace {
 
-constexpr std::size_t kIndices = kLargestIndex + 1;
+constexpr std::size_t kRowsAChunk = 8;
 
 /// As the planes hold it, so that the brightest material's pixels are exactly the brightest count.
 float emitted(const Material& material, Season season, const SceneRadiance::RadianceOf& radiance_of) {
   return static_cast<float>(material.emissivity * radiance_of(material.temperature_k(season)));
 }
 
-void check_known(std::span<const IndexUse> uses, const std::vector<bool>& known, std::string_view plane,
-                 std::string_view list) {
-  for (const IndexUse& use : uses) {
-    if (known[use.index]) continue;
-    std::vector<std::string> names;
-    for (std::size_t index = 0; index < known.size(); ++index) {
-      if (known[index]) names.push_back(fmt::format("{}", index));
-    }
-    throw DataError(
-        fmt::format("{} at pixel ({}, {}) = {} ({} pixels); expected an index of the manifest's {}: {}",
-                    plane, use.first_x_px, use.first_y_px, use.index, use.pixels, list, list_names(names)));
+EmissivitySpectrum spectrum_of(const Material& material) {
+  return material.spectrum.value_or(EmissivitySpectrum(material.emissivity));
+}
+
+void require_poses(const Manifest& manifest) {
+  for (std::size_t i = 0; i < manifest.frames.size(); ++i) {
+    if (manifest.frames[i].camera_to_world) continue;
+    throw ConfigError("frames[" + std::to_string(i) +
+                      "].camera_to_world is missing; expected in every frame by the chosen terms");
   }
 }
 
@@ -37,49 +33,107 @@ void check_known(std::span<const IndexUse> uses, const std::vector<bool>& known,
 
 SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials, Season season,
                              const RadianceOf& radiance_of)
-    : by_object_(kIndices), by_material_(kIndices), known_objects_(kIndices), known_materials_(kIndices) {
-  const auto radiance_named = [&](const std::string& name, const std::string& where) {
-    return emitted(materials.find(name, where), season, radiance_of);
+    : map_(manifest, materials) {
+  for (const Surface& surface : map_.surfaces()) {
+    held_->optics.push_back({.emitted_w_m2_sr = emitted(*surface.material, season, radiance_of)});
+  }
+  chain_.push_back(emission(held_->optics));
+  find_brightest();
+}
+
+SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials,
+                             const PhysicsSettings& settings)
+    : map_(manifest, materials) {
+  held_->rays = std::make_unique<CameraRays>(finer(manifest.camera, manifest.supersample));
+  for (const Surface& surface : map_.surfaces()) add_optics(surface, settings);
+  compose(settings);
+  if (needs_.depth || needs_.normals) require_poses(manifest);
+  find_brightest();
+}
+
+void SceneRadiance::add_optics(const Surface& surface, const PhysicsSettings& settings) {
+  const Material& material = *surface.material;
+  const BandRadiance blackbody(settings.response);
+  const BandRadiance band(settings.response, spectrum_of(material));
+  const Weather& weather = settings.weather;
+  const double air_k = weather.air.temperature_k;
+  const double temperature_k = material.part_temperature_k(settings.terms.parts ? surface.part : "", weather);
+  SurfaceOptics optics;
+  optics.sky = held_->optics.empty();
+  optics.temperature_k = static_cast<float>(temperature_k);
+  optics.emitted_w_m2_sr =
+      static_cast<float>(optics.sky ? sky_emissivity(weather.air) * blackbody.radiance(air_k)
+                                    : band.radiance(temperature_k));
+  optics.emitted_as_air_w_m2_sr = static_cast<float>(band.radiance(air_k));
+  optics.reflected_air_w_m2_sr =
+      optics.sky ? 0.0F : static_cast<float>(blackbody.radiance(air_k) - band.radiance(air_k));
+  optics.angular = material.angular;
+  if (settings.terms.variation && material.variation.stddev_k > 0) {
+    optics.variation_stddev_k = static_cast<float>(material.variation.stddev_k);
+    optics.per_correlation_length = static_cast<float>(1 / material.variation.correlation_length_m);
+    optics.table = held_->tables.emplace_back(std::make_unique<RadianceTable>(band)).get();
+  }
+  held_->optics.push_back(optics);
+}
+
+void SceneRadiance::compose(const PhysicsSettings& settings) {
+  const Terms& terms = settings.terms;
+  const SurfaceOpticsList& optics = held_->optics;
+  const CameraRays& rays = *held_->rays;
+  if (terms.variation) {
+    held_->field = std::make_unique<VariationField>(settings.seed);
+    chain_.push_back(varied_emission(optics, *held_->field, rays));
+  } else {
+    chain_.push_back(emission(optics));
+  }
+  if (terms.sky) chain_.push_back(reflectivity(optics));
+  if (terms.sky || terms.angular) chain_.push_back(orientation(rays));
+  if (terms.angular) chain_.push_back(angular_emissivity(optics));
+  if (terms.sky) chain_.push_back(sky_reflection(optics, settings.weather.air));
+  if (terms.path) {
+    const double air_radiance =
+        BandRadiance(settings.response).radiance(settings.weather.air.temperature_k);
+    chain_.push_back(path(optics, settings.weather.air, static_cast<float>(air_radiance), rays));
+  }
+  needs_ = {.depth = terms.variation || terms.path, .normals = terms.sky || terms.angular};
+}
+
+void SceneRadiance::find_brightest() {
+  const auto& optics = held_->optics;
+  brightest_w_m2_sr_ = optics.front().emitted_w_m2_sr;
+  if (optics.size() == 1) return;
+  const auto dimmer = [](const SurfaceOptics& a, const SurfaceOptics& b) {
+    return a.emitted_w_m2_sr < b.emitted_w_m2_sr;
   };
-  known_objects_[kSkyIndex] = true;
-  by_object_[kSkyIndex] = radiance_named("sky", "material of index 0");
-  for (const ManifestObject& object : manifest.objects) {
-    const float value = radiance_named(object.material, fmt::format("object {}: material", object.name));
-    by_object_[object.index] = value;
-    known_objects_[object.index] = true;
-    brightest_w_m2_sr_ = std::max(brightest_w_m2_sr_, value);
-  }
-  known_materials_[0] = true;
-  for (const ManifestMaterial& material : manifest.materials) {
-    const float value = radiance_named(material.material, fmt::format("material index {}", material.index));
-    by_material_[material.index] = value;
-    known_materials_[material.index] = true;
-    brightest_w_m2_sr_ = std::max(brightest_w_m2_sr_, value);
-  }
-  if (brightest_w_m2_sr_ == 0) brightest_w_m2_sr_ = by_object_[kSkyIndex];
+  brightest_w_m2_sr_ = std::max_element(optics.begin() + 1, optics.end(), dimmer)->emitted_w_m2_sr;
 }
 
-void SceneRadiance::check_objects(std::span<const IndexUse> uses) const {
-  check_known(uses, known_objects_, "object index", "objects");
+void SceneRadiance::begin_row(const Passes& passes, int y, Row& row) const {
+  row.y = y;
+  if (needs_.depth) row.depth_m = passes.depth_m.row(y);
+  for (std::size_t axis = 0; needs_.normals && axis < 3; ++axis) row.normal[axis] = passes.normal[axis].row(y);
 }
 
-void SceneRadiance::check_materials(std::span<const IndexUse> uses) const {
-  check_known(uses, known_materials_, "material index", "materials");
-}
-
-Plane<float> SceneRadiance::radiance(const Passes& passes) const {
-  const auto objects = passes.object_index.pixels();
-  const auto materials = passes.material_index.pixels();
-  Plane<float> plane(passes.object_index.width_px(), passes.object_index.height_px());
-  const auto out = plane.pixels();
-  if (materials.empty()) {
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = by_object_[objects[i]];
-    return plane;
-  }
-  assert(materials.size() == objects.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i] = materials[i] != 0 ? by_material_[materials[i]] : by_object_[objects[i]];
-  }
+Plane<float> SceneRadiance::radiance(const Passes& passes, const ManifestFrame& frame) const {
+  const Plane<std::uint16_t>& objects = passes.object_index;
+  const bool has_materials = !passes.material_index.empty();
+  assert(!has_materials || passes.material_index.size() == objects.size());
+  const CameraPose pose = frame.camera_to_world ? pose_of(*frame.camera_to_world) : CameraPose{};
+  Plane<float> plane(objects.width_px(), objects.height_px());
+  const auto rows = static_cast<std::size_t>(objects.height_px());
+  parallel_for(rows, kRowsAChunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint16_t> numbers(static_cast<std::size_t>(objects.width_px()));
+    Row row;
+    row.pose = &pose;
+    row.surface = numbers;
+    for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      const auto materials = has_materials ? passes.material_index.row(y) : std::span<const std::uint16_t>();
+      map_.number(objects.row(y), materials, numbers);
+      begin_row(passes, y, row);
+      row.radiance_w_m2_sr = plane.row(y);
+      for (const RowTerm& term : chain_) term(row);
+    }
+  });
   return plane;
 }
 

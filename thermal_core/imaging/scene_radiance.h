@@ -2,45 +2,72 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
+#include <memory>
 #include <vector>
 
-#include "base/image.h"
-#include "labels/instances.h"
-#include "scene/manifest.h"
-#include "scene/material.h"
-#include "scene/passes.h"
+#include "imaging/row_terms.h"
+#include "imaging/surfaces.h"
+#include "scene/terms.h"
+#include "radiometry/spectral_response.h"
 #include "scene/season.h"
+#include "scene/weather.h"
 
 namespace thermal {
 
-/// Radiance of everything a clip's manifest names, direct emission only: emissivity * L(temperature).
-/// A pixel takes the material of its material index; where that is 0 or there is no material plane, the
-/// material of its object. Object index 0 is the material "sky".
+/// What the physical model of a scene is made from.
+struct PhysicsSettings {
+  Terms terms;
+  Weather weather;
+  SpectralResponse response = SpectralResponse::flat(8, 14);
+  std::uint32_t seed = 1;  ///< of the temperature field
+};
+
+/// Radiance that reaches the camera from everything a clip's manifest names.
 class SceneRadiance {
  public:
+  /// In-band radiance [W m^-2 sr^-1] of a blackbody.
   using RadianceOf = std::function<double(double temperature_k)>;
 
+  /// The published model: emissivity * L(temperature of Table 1), nothing else.
   /// ConfigError if a material of the manifest is not in the library.
   SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials, Season season,
                 const RadianceOf& radiance_of);
 
-  /// DataError naming the first pixel whose index the manifest lacks. `what` names the plane's meaning.
-  void check_objects(std::span<const IndexUse> uses) const;
-  void check_materials(std::span<const IndexUse> uses) const;
+  /// The physical model with the terms that were kept. The same fault, and ConfigError for a manifest without
+  /// the camera poses that the terms need.
+  SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials, const PhysicsSettings& settings);
 
-  /// Index planes to radiance plane [W m^-2 sr^-1]. All indices must be known: check them first.
-  [[nodiscard]] Plane<float> radiance(const Passes& passes) const;
+  [[nodiscard]] const SurfaceMap& surfaces() const noexcept { return map_; }
 
-  /// Radiance of the most radiant material the manifest names; of the sky where it names none.
+  /// Planes beside the object index that the chain reads.
+  [[nodiscard]] PassNeeds needs() const noexcept { return needs_; }
+
+  /// Planes to radiance plane [W m^-2 sr^-1]. All indices must be known: check them first. `frame` is the
+  /// manifest's. Safe to call from several threads; the same bits whatever their number.
+  [[nodiscard]] Plane<float> radiance(const Passes& passes, const ManifestFrame& frame = {}) const;
+
+  /// Radiance of the most radiant surface the manifest names; of the sky where it names none.
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
 
  private:
+  void add_optics(const Surface& surface, const PhysicsSettings& settings);
+  void compose(const PhysicsSettings& settings);
+  void find_brightest();
+  void begin_row(const Passes& passes, int y, Row& row) const;
+
+  // The chain's terms point into what is held here, so none of it may move.
+  struct Held {
+    SurfaceOpticsList optics;
+    std::vector<std::unique_ptr<RadianceTable>> tables;
+    std::unique_ptr<VariationField> field;
+    std::unique_ptr<CameraRays> rays;
+  };
+
+  SurfaceMap map_;
+  std::shared_ptr<Held> held_ = std::make_shared<Held>();
+  std::vector<RowTerm> chain_;
+  PassNeeds needs_;
   float brightest_w_m2_sr_ = 0;
-  std::vector<float> by_object_;  ///< by object index; only known_ ones mean anything
-  std::vector<float> by_material_;
-  std::vector<bool> known_objects_;
-  std::vector<bool> known_materials_;
 };
 
 /// Radiance of the most radiant of the rows of Table 1.

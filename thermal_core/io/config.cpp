@@ -9,12 +9,15 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/json_schema.h"
+#include "io/spectrum_files.h"
 
 namespace thermal {
 namespace {
 
-SensorParameters read_sensor(const Json& json) {
-  return {.radiance = json["radiance"] == "script" ? RadianceModel::script : RadianceModel::exact,
+SensorParameters read_sensor(const Json& json, const Path& home) {
+  const Path response = home / "assets" / "responses" / (json["response"].get<std::string>() + ".csv");
+  return {.response = read_response(response),
+          .radiance = json["radiance"] == "script" ? RadianceModel::script : RadianceModel::exact,
           .normalisation =
               json["normalisation"] == "table_max" ? Normalisation::table_max : Normalisation::scene_max,
           .blur_sigma_px = json["blur_sigma_px"],
@@ -22,6 +25,24 @@ SensorParameters read_sensor(const Json& json) {
           .flicker_noise_stddev_dn = json["flicker_noise_stddev_dn"],
           .fixed_pattern_ratio = json["fixed_pattern_ratio"],
           .kelvin_per_count = json["kelvin_per_count"]};
+}
+
+/// `otherwise` is the preset's choice for terms the config says nothing of.
+TermChoices read_terms(const Json& json, TermChoice otherwise) {
+  TermChoices choices;
+  for (const TermInfo& term : kTerms) {
+    const std::string choice = json.value(std::string(term.name), "");
+    TermChoice& chosen = choices.*term.choice;
+    chosen = otherwise;
+    if (choice == "on") chosen = TermChoice::on;
+    if (choice == "off") chosen = TermChoice::off;
+    if (choice == "auto") chosen = TermChoice::automatic;
+  }
+  return choices;
+}
+
+std::optional<double> read_optional(const Json& json, const char* key) {
+  return json.contains(key) ? std::optional<double>(json[key].get<double>()) : std::nullopt;
 }
 
 ClipConfig read_clip(const Json& json) {
@@ -86,6 +107,15 @@ const ClipConfig& Config::clip(const std::string& id, const std::string& where) 
                     did_you_mean(id, known));
 }
 
+Weather weather_of(const Config& config, Season season) {
+  Weather weather = weather_of(season);
+  weather.air.temperature_k = config.air_temperature_k.value_or(weather.air.temperature_k);
+  weather.air.relative_humidity = config.relative_humidity.value_or(weather.air.relative_humidity);
+  weather.air.cloud_fraction = config.cloud_fraction.value_or(weather.air.cloud_fraction);
+  weather.vehicle_stopped_s = config.vehicle_stopped_s;
+  return weather;
+}
+
 void apply_setting(Json& document, const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
@@ -115,7 +145,14 @@ Config resolve_config(Json document, const std::string& name, const Path& home) 
   config.seed = document["seed"];
   config.width_px = document["camera"]["width_px"];
   config.height_px = document["camera"]["height_px"];
-  config.sensor = read_sensor(document["sensor"]);
+  config.sensor = read_sensor(document["sensor"], home);
+  config.physical = document["sensor"]["preset"] == "physical";
+  config.terms = read_terms(document["terms"], config.physical ? TermChoice::automatic : TermChoice::off);
+  config.netd_k = 1e-3 * document["sensor"]["netd_mk"].get<double>();
+  config.air_temperature_k = read_optional(document["weather"], "air_temperature_k");
+  config.relative_humidity = read_optional(document["weather"], "relative_humidity");
+  config.cloud_fraction = read_optional(document["weather"], "cloud_fraction");
+  config.vehicle_stopped_s = document["weather"]["vehicle_stopped_s"];
   for (const Json& clip : document["clips"]) config.clips.push_back(read_clip(clip));
   check_ids(config.clips, faults);
   throw_faults(faults, name);

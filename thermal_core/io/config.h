@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/json_file.h"
 #include "scene/season.h"
+#include "scene/terms.h"
+#include "scene/weather.h"
 #include "sensor/airsim_sensor.h"
 
 namespace thermal {
@@ -24,12 +27,22 @@ struct Config {
   int width_px = 640;
   int height_px = 512;
   SensorParameters sensor;
+  bool physical = false;     ///< preset physical: every term the scene needs; else the published model
+  TermChoices terms;
+  double netd_k = 0.04;
+  std::optional<double> air_temperature_k;  ///< instead of the season's
+  std::optional<double> relative_humidity;
+  std::optional<double> cloud_fraction;
+  double vehicle_stopped_s = 3600;
   std::vector<ClipConfig> clips;
   Json resolved;
 
   /// ConfigError naming the nearest id if there is no such clip. `where` says who asked.
   [[nodiscard]] const ClipConfig& clip(const std::string& id, const std::string& where) const;
 };
+
+/// The weather of a clip: its season's, with what the config says instead.
+[[nodiscard]] Weather weather_of(const Config& config, Season season);
 
 /// Changes one value of a document before it is checked. `assignment` is "key.other[2].last=value", the value
 /// JSON or else a plain string; "season=…" sets the season of every clip. ConfigError if the form is off.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <set>
 #include <string_view>
 
@@ -28,6 +27,7 @@ using PassNames = std::array<std::string_view, 2>;
 constexpr PassNames kObjectIndex = {"IndexOB", "Object Index"};
 constexpr PassNames kMaterialIndex = {"IndexMA", "Material Index"};
 constexpr PassNames kDepth = {"Depth", "Z"};
+constexpr PassNames kNormal = {"Normal", "N"};
 
 std::string type_name(Imf::PixelType type) {
   if (type == Imf::HALF) return "half";
@@ -58,11 +58,14 @@ ExrChannel take_apart(const std::string& name, int part, Imf::PixelType type) {
   return channel;
 }
 
-const ExrChannel* find_pass(const ExrHeader& header, const PassNames& names, const std::string& layer) {
+/// `component` empty: the first there is.
+const ExrChannel* find_pass(const ExrHeader& header, const PassNames& names, const std::string& layer,
+                            const std::string& component = "") {
   std::vector<const ExrChannel*> found;
   for (const ExrChannel& channel : header.channels) {
     const bool named = std::find(names.begin(), names.end(), channel.pass) != names.end();
-    if (named && (layer.empty() || channel.layer == layer)) found.push_back(&channel);
+    const bool wanted = component.empty() || channel.component == component;
+    if (named && wanted && (layer.empty() || channel.layer == layer)) found.push_back(&channel);
   }
   if (found.empty()) return nullptr;
   std::set<std::string> layers;
@@ -110,16 +113,21 @@ ExrHeader header_of(const Imf::MultiPartInputFile& opened) {
   return header;
 }
 
-/// Reads channels of one part into planes of float.
+/// Reads channels into planes of float, decoding each part of the file once.
 std::vector<Plane<float>> read_channels(Imf::MultiPartInputFile& opened, const ExrHeader& header,
-                                        std::initializer_list<const ExrChannel*> channels) {
-  std::vector<Plane<float>> planes;
-  for (const ExrChannel* channel : channels) {
-    Plane<float>& plane = planes.emplace_back(header.width_px, header.height_px);
-    Imf::InputPart part(opened, channel->part);
-    const Imath::Box2i window = part.header().dataWindow();
+                                        const std::vector<const ExrChannel*>& channels) {
+  std::vector<Plane<float>> planes(channels.size());
+  for (int part_number = 0; part_number < opened.parts(); ++part_number) {
+    const Imath::Box2i window = opened.header(part_number).dataWindow();
     Imf::FrameBuffer buffer;
-    buffer.insert(channel->name, Imf::Slice::Make(Imf::FLOAT, plane.pixels().data(), window, sizeof(float)));
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      if (channels[i]->part != part_number) continue;
+      planes[i] = Plane<float>(header.width_px, header.height_px);
+      float* const pixels = planes[i].pixels().data();
+      buffer.insert(channels[i]->name, Imf::Slice::Make(Imf::FLOAT, pixels, window, sizeof(float)));
+    }
+    if (buffer.begin() == buffer.end()) continue;
+    Imf::InputPart part(opened, part_number);
     part.setFrameBuffer(buffer);
     part.readPixels(window.min.y, window.max.y);
   }
@@ -156,13 +164,24 @@ void check_size(const ExrHeader& header, int width_px, int height_px) {
                         fmt::format("the manifest's {} x {} px", width_px, height_px)));
 }
 
-const ExrChannel& require_object_index(const ExrHeader& header, const std::string& layer) {
-  if (const ExrChannel* channel = header.find_object_index(layer)) return *channel;
+/// What an EXR file has, for faults about what it has not.
+std::string names_of(const ExrHeader& header) {
   std::vector<std::string> names;
   for (const ExrChannel& channel : header.channels) names.push_back(channel.name);
+  return list_names(names);
+}
+
+const ExrChannel& require_object_index(const ExrHeader& header, const std::string& layer) {
+  if (const ExrChannel* channel = header.find_object_index(layer)) return *channel;
   throw DataError(
       fmt::format("no object index channel{}; expected one like Scene.IndexOB.X, the file has: {}",
-                  layer.empty() ? "" : " in layer " + layer, list_names(names)));
+                  layer.empty() ? "" : " in layer " + layer, names_of(header)));
+}
+
+const ExrChannel* require(const ExrChannel* channel, std::string_view what, const ExrHeader& header) {
+  if (channel != nullptr) return channel;
+  throw DataError(
+      fmt::format("no {} channel, which the chosen terms need; the file has: {}", what, names_of(header)));
 }
 
 /// Adds the file's name to faults found inside it.
@@ -189,6 +208,10 @@ const ExrChannel* ExrHeader::find_depth(const std::string& layer) const {
   return find_pass(*this, kDepth, layer);
 }
 
+const ExrChannel* ExrHeader::find_normal(const std::string& layer, const std::string& component) const {
+  return find_pass(*this, kNormal, layer, component);
+}
+
 ExrHeader read_exr_header(const Path& file) {
   return naming(file, [&] { return with_file(file, header_of); });
 }
@@ -199,18 +222,47 @@ Plane<float> read_exr_channel(const Path& file, const ExrHeader& header, const E
   });
 }
 
-Passes read_passes(const Path& file, const std::string& layer, int width_px, int height_px) {
+namespace {
+
+/// Channels of the planes that are needed: objects, then whichever of the others there are to be.
+struct ChosenChannels {
+  std::vector<const ExrChannel*> channels;
+  bool materials = false;
+};
+
+ChosenChannels choose_channels(const ExrHeader& header, const std::string& layer, const PassNeeds& needs) {
+  const ExrChannel& objects = require_object_index(header, layer);
+  ChosenChannels chosen{.channels = {&objects}, .materials = false};
+  if (const ExrChannel* materials = header.find_material_index(objects.layer)) {
+    chosen.channels.push_back(materials);
+    chosen.materials = true;
+  }
+  if (needs.depth) chosen.channels.push_back(require(header.find_depth(objects.layer), "depth", header));
+  if (!needs.normals) return chosen;
+  for (const char* component : {"X", "Y", "Z"}) {
+    const ExrChannel* channel = header.find_normal(objects.layer, component);
+    chosen.channels.push_back(require(channel, fmt::format("normal {}", component), header));
+  }
+  return chosen;
+}
+
+}  // namespace
+
+Passes read_passes(const Path& file, const std::string& layer, int width_px, int height_px,
+                   const PassNeeds& needs) {
   return naming(file, [&] {
     return with_file(file, [&](Imf::MultiPartInputFile& opened) {
       const ExrHeader header = header_of(opened);
       check_size(header, width_px, height_px);
-      const ExrChannel& objects = require_object_index(header, layer);
-      const ExrChannel* materials = header.find_material_index(objects.layer);
+      const ChosenChannels chosen = choose_channels(header, layer, needs);
+      std::vector<Plane<float>> planes = read_channels(opened, header, chosen.channels);
       Passes passes;
-      passes.object_index = to_indices(read_channels(opened, header, {&objects}).front(), objects.name);
-      if (materials != nullptr) {
-        passes.material_index =
-            to_indices(read_channels(opened, header, {materials}).front(), materials->name);
+      auto plane = planes.begin();
+      passes.object_index = to_indices(*plane++, chosen.channels[0]->name);
+      if (chosen.materials) passes.material_index = to_indices(*plane++, chosen.channels[1]->name);
+      if (needs.depth) passes.depth_m = std::move(*plane++);
+      for (Plane<float>& normal : passes.normal) {
+        if (needs.normals) normal = std::move(*plane++);
       }
       return passes;
     });

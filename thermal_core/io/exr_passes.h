@@ -31,6 +31,8 @@ struct ExrHeader {
   [[nodiscard]] const ExrChannel* find_object_index(const std::string& layer) const;
   [[nodiscard]] const ExrChannel* find_material_index(const std::string& layer) const;
   [[nodiscard]] const ExrChannel* find_depth(const std::string& layer) const;
+  /// Component "X", "Y" or "Z" of the normal pass.
+  [[nodiscard]] const ExrChannel* find_normal(const std::string& layer, const std::string& component) const;
 };
 
 /// Reads no pixels. IoError naming the file and the library's reason.
@@ -40,9 +42,10 @@ struct ExrHeader {
 [[nodiscard]] Plane<float> read_exr_channel(const Path& file, const ExrHeader& header,
                                             const ExrChannel& channel);
 
-/// Index planes of one frame. The size, unless 0, must be this one: checked before any memory is taken.
-/// DataError naming file, channel and pixel if there is no object index, or an index is negative, fractional,
+/// The planes of one frame that are needed, and no others. The size, unless 0, must be this one: checked before any memory is taken.
+/// DataError naming file, channel and pixel if there is no object index or a needed plane is missing, or an index is negative, fractional,
 /// NaN or above 32767; IoError if the file cannot be read.
-[[nodiscard]] Passes read_passes(const Path& file, const std::string& layer, int width_px, int height_px);
+[[nodiscard]] Passes read_passes(const Path& file, const std::string& layer, int width_px, int height_px,
+                                 const PassNeeds& needs = {});
 
 }  // namespace thermal

@@ -1,6 +1,7 @@
 #include "io/files.h"
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -69,7 +70,7 @@ std::string read_file(const Path& file) {
 
 void write_file_atomically(const Path& file, std::string_view content) {
   Path temporary = file;
-  temporary += fmt::format(".{}.tmp", ::getpid());
+  temporary += ".tmp";  // always the same, so that what a killed run left is written over
   write_all(temporary, reinterpret_cast<const std::byte*>(content.data()), content.size(), true);
   if (::rename(temporary.c_str(), file.c_str()) != 0) fail("rename to", file, errno);
   sync_folder(file.parent_path());
@@ -83,6 +84,13 @@ void make_folder(const Path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) fail("make folder", folder, error.value());
+}
+
+bool is_disk_full(const Path& folder) {
+  constexpr std::uintmax_t kNoRoom = 64 * 1024;
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(folder, error);
+  return !error && space.available < kNoRoom;
 }
 
 void sync_folder(const Path& folder) {

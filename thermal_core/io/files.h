@@ -23,6 +23,9 @@ void write_file(const Path& file, std::span<const std::byte> content);
 /// mkdir -p. IoError naming the folder and the system's reason.
 void make_folder(const Path& folder);
 
+/// So little room is left where this folder is (under 64 KiB) that a write there that failed, failed for that.
+[[nodiscard]] bool is_disk_full(const Path& folder);
+
 /// Flushes a folder's entries to disk, so that a rename in it survives a power cut.
 void sync_folder(const Path& folder);
 

@@ -5,8 +5,41 @@
 #include "base/error.h"
 #include "io/json_file.h"
 #include "io/json_schema.h"
+#include "io/spectrum_files.h"
 
 namespace thermal {
+namespace {
+
+AngularLaw read_law(const std::string& name) {
+  if (name == "water") return AngularLaw::water;
+  return name == "soil" ? AngularLaw::soil : AngularLaw::none;
+}
+
+MaterialPart read_part(const Json& json) {
+  return {.excess_factor = json["excess_factor"],
+          .offset_k = json["offset_k"],
+          .cooling_excess_k = json["cooling_excess_k"],
+          .cooling_time_s = json["cooling_time_s"]};
+}
+
+Material read_material(const Json& json, const Path& file) {
+  Material material;
+  material.name = file.stem().string();
+  material.emissivity = json["emissivity"];
+  material.winter_k = json["winter_k"];
+  material.summer_k = json["summer_k"];
+  material.in_table_1 = json["in_table_1"];
+  if (json.contains("spectrum")) {
+    material.spectrum = read_emissivity(file.parent_path() / json["spectrum"].get<std::string>());
+  }
+  material.angular = read_law(json["angular"]);
+  material.variation = {.stddev_k = json["variation"]["stddev_k"],
+                        .correlation_length_m = json["variation"]["correlation_length_m"]};
+  for (const auto& [part, values] : json["parts"].items()) material.parts[part] = read_part(values);
+  return material;
+}
+
+}  // namespace
 
 MaterialLibrary read_materials(const Path& home) {
   const Json schema = read_json(home / "configs" / "schema" / "material.schema.json");
@@ -17,11 +50,7 @@ MaterialLibrary read_materials(const Path& home) {
     Json document = read_json(file);
     const std::vector<std::string> faults = check_and_fill(document, schema);
     if (!faults.empty()) throw ConfigError(fmt::format("{}: {}", file.string(), faults.front()));
-    library.add({.name = file.stem().string(),
-                 .emissivity = document["emissivity"],
-                 .winter_k = document["winter_k"],
-                 .summer_k = document["summer_k"],
-                 .in_table_1 = document["in_table_1"]});
+    library.add(read_material(document, file));
   }
   return library;
 }

@@ -27,6 +27,8 @@ PreviewVideo::PreviewVideo(const Path& file, double frame_rate_hz, int width_px,
   impl_->picture.create(size, CV_8UC3);
   const int codec = cv::VideoWriter::fourcc('a', 'v', 'c', '1');
   if (!impl_->writer.open(file.string(), cv::CAP_FFMPEG, codec, frame_rate_hz, size, true)) {
+    if (is_disk_full(file.parent_path()))
+      throw TryAgainError(fmt::format("cannot write {}: No space left on device", file.string()));
     throw IoError(fmt::format("cannot write {}: OpenCV opened no H.264 encoder for {} x {} px", file.string(),
                               size.width, size.height));
   }

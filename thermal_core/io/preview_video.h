@@ -11,7 +11,7 @@ namespace thermal {
 /// Writes an H.264 video to look at, frame by frame. Lossy, and not among the pixels that are hashed.
 class PreviewVideo {
  public:
-  /// IoError if the file or the encoder cannot be opened.
+  /// IoError if the file or the encoder cannot be opened, TryAgainError if the disk is full.
   PreviewVideo(const Path& file, double frame_rate_hz, int width_px, int height_px);
   ~PreviewVideo();
   PreviewVideo(PreviewVideo&&) noexcept;

@@ -47,6 +47,11 @@ RunLengths mask_of(const Plane<std::uint16_t>& plane, std::uint16_t index, const
       inside = set;
     }
   }
+  if (inside) {  // the last column's run ends at the foot of the frame
+    const std::size_t end = static_cast<std::size_t>(box.x_px + box.width_px) * height;
+    counts.push_back(static_cast<std::uint32_t>(end - run_begin));
+    run_begin = end;
+  }
   const auto rest = static_cast<std::uint32_t>(plane.size() - run_begin);
   if (rest > 0) counts.push_back(rest);
   return counts;

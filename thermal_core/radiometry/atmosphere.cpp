@@ -1,9 +1,9 @@
 #include "radiometry/atmosphere.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 
@@ -23,6 +23,16 @@ double with_clouds(double clear, double cloud_fraction) noexcept {
   return clear + kCloudGain * (1 - clear) * cloud_fraction;
 }
 
+/// The published fit, clamped to where a transmittance can be.
+double fitted_transmittance(const Air& air, double range_m) noexcept {
+  constexpr double kWeight = 1.9;
+  const double root_range = std::sqrt(range_m);
+  const double root_water = std::sqrt(path_water_g_m3(air));
+  const double first = std::exp(-root_range * (0.006569 - 0.002276 * root_water));
+  const double second = std::exp(-root_range * (0.01262 - 0.00667 * root_water));
+  return std::clamp(kWeight * first + (1 - kWeight) * second, 0.0, 1.0);
+}
+
 }  // namespace
 
 void Air::validate() const {
@@ -39,20 +49,17 @@ double vapour_pressure_hpa(const Air& air) noexcept {
 double path_water_g_m3(const Air& air) noexcept {
   constexpr double kMost = 25;
   const double t = air.temperature_k - kZeroCelsius;
-  const double content = air.relative_humidity *
-                         std::exp(1.5587 + 0.06939 * t - 2.7816e-4 * t * t + 6.8455e-7 * t * t * t);
+  const double content =
+      air.relative_humidity * std::exp(1.5587 + 0.06939 * t - 2.7816e-4 * t * t + 6.8455e-7 * t * t * t);
   return std::min(content, kMost);
 }
 
 double path_transmittance(const Air& air, double range_m) noexcept {
   constexpr double kLongest = 1000;
+  constexpr double kShortest = 30;
   const double range = range_m < kLongest ? std::max(range_m, 0.0) : kLongest;  // NaN: the longest
-  const double root_range = std::sqrt(range);
-  const double root_water = std::sqrt(path_water_g_m3(air));
-  constexpr double kWeight = 1.9;
-  const double first = std::exp(-root_range * (0.006569 - 0.002276 * root_water));
-  const double second = std::exp(-root_range * (0.01262 - 0.00667 * root_water));
-  return std::clamp(kWeight * first + (1 - kWeight) * second, 0.0, 1.0);
+  if (range < kShortest) return std::pow(fitted_transmittance(air, kShortest), range / kShortest);
+  return fitted_transmittance(air, range);
 }
 
 double clear_zenith_emissivity(const Air& air) noexcept {

@@ -20,8 +20,9 @@ struct Air {
 
 /// In-band (7.5-14 um) transmittance of a level path in the form FLIR publishes (after Passman and Larmore;
 /// coefficients as in Tran et al., Sensors 17, 2017). Within .017 of line-by-line figures at 100 m.
-/// The range is clamped to [0, 1000] m and the result to [0, 1], beyond which the fit turns unphysical.
-/// NaN and infinity count as 1000 m.
+/// The fit's square root has an infinite slope at 0 and would make 5 m of air look like 30; below 30 m Beer's
+/// law through its value there takes over. The range is clamped to [0, 1000] m and the result to [0, 1], beyond
+/// which the fit turns unphysical. NaN and infinity count as 1000 m.
 [[nodiscard]] double path_transmittance(const Air& air, double range_m) noexcept;
 
 /// Emissivity of a clear sky at the zenith in 8-14 um: 0.24 + 2.98e-8 e^2 exp(3000 / T), e in hPa, at most 1

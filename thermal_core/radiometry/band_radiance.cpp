@@ -1,11 +1,11 @@
 #include "radiometry/band_radiance.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 #include "radiometry/planck.h"

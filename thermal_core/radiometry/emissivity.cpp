@@ -1,12 +1,12 @@
 #include "radiometry/emissivity.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 
@@ -22,8 +22,7 @@ void check_emissivity(const std::string& where, double value) {
 double fresnel_transmitted(std::complex<double> index, double cosine) {
   const std::complex<double> inside = std::sqrt(index * index - (1 - cosine * cosine));
   const auto reflected_s = std::norm((cosine - inside) / (cosine + inside));
-  const auto reflected_p =
-      std::norm((index * index * cosine - inside) / (index * index * cosine + inside));
+  const auto reflected_p = std::norm((index * index * cosine - inside) / (index * index * cosine + inside));
   return 1 - (reflected_s + reflected_p) / 2;
 }
 
@@ -66,9 +65,9 @@ EmissivitySpectrum::EmissivitySpectrum(std::vector<Sample> samples) : samples_(s
 double EmissivitySpectrum::at(double wavelength_um) const noexcept {
   if (wavelength_um <= samples_.front().wavelength_um) return samples_.front().emissivity;
   if (wavelength_um >= samples_.back().wavelength_um) return samples_.back().emissivity;
-  const auto after = std::upper_bound(
-      samples_.begin(), samples_.end(), wavelength_um,
-      [](double value_um, const Sample& sample) { return value_um < sample.wavelength_um; });
+  const auto after =
+      std::upper_bound(samples_.begin(), samples_.end(), wavelength_um,
+                       [](double value_um, const Sample& sample) { return value_um < sample.wavelength_um; });
   const Sample& next = *after;
   const Sample& last = *(after - 1);
   const double share = (wavelength_um - last.wavelength_um) / (next.wavelength_um - last.wavelength_um);

@@ -8,11 +8,7 @@
 namespace thermal {
 namespace {
 
-constexpr int kNodesPerKelvin = 16;
-constexpr int kSteps = (436 - 180) * kNodesPerKelvin;
 constexpr std::size_t kBlock = 256;
-
-double node_k(double node) { return static_cast<double>(RadianceTable::kColdest) + node / kNodesPerKelvin; }
 
 }  // namespace
 
@@ -32,9 +28,7 @@ void RadianceTable::measure() {
   // points show that rounding has not moved it.
   for (int quarter = 0; quarter < 4 * kSteps; ++quarter) {
     const double temperature_k = node_k(quarter / 4.0);
-    const auto in = static_cast<float>(temperature_k);
-    float out = 0;
-    radiances({&in, 1}, {&out, 1});
+    const float out = radiance(static_cast<float>(temperature_k));
     const BandValue exact = band_.evaluate(temperature_k);
     const double error = std::abs(static_cast<double>(out) - exact.radiance_w_m2_sr);
     worst_error_k_ = std::max(worst_error_k_, error / exact.derivative_w_m2_sr_k);
@@ -42,30 +36,23 @@ void RadianceTable::measure() {
   }
 }
 
-float RadianceTable::between_nodes(float temperature_k) const noexcept {
-  const float position = (temperature_k - kColdest) * kNodesPerKelvin;  // exact: no bits are lost
-  const auto index = static_cast<int>(position);
-  const Node node = nodes_[static_cast<std::size_t>(index)];
-  return node.radiance_w_m2_sr + (position - static_cast<float>(index)) * node.step_w_m2_sr;
+float RadianceTable::outside(float temperature_k) const noexcept {
+  return static_cast<float>(band_.radiance(static_cast<double>(temperature_k)));
 }
 
 void RadianceTable::radiances(std::span<const float> temperature_k,
                               std::span<float> radiance_w_m2_sr) const noexcept {
   assert(temperature_k.size() == radiance_w_m2_sr.size());
-  const auto inside = [](float value) { return value >= kColdest && value < kHottest; };  // false for NaN
   for (std::size_t begin = 0; begin < temperature_k.size(); begin += kBlock) {
     const auto in = temperature_k.subspan(begin, std::min(kBlock, temperature_k.size() - begin));
     const auto out = radiance_w_m2_sr.subspan(begin, in.size());
     bool all_inside = true;
-    for (const float value : in) all_inside &= inside(value);
+    for (const float value : in) all_inside &= is_inside(value);
     if (all_inside) {  // nearly always, and then without a branch a pixel
       for (std::size_t i = 0; i < in.size(); ++i) out[i] = between_nodes(in[i]);
       continue;
     }
-    for (std::size_t i = 0; i < in.size(); ++i) {
-      out[i] = inside(in[i]) ? between_nodes(in[i])
-                             : static_cast<float>(band_.radiance(static_cast<double>(in[i])));
-    }
+    for (std::size_t i = 0; i < in.size(); ++i) out[i] = radiance(in[i]);
   }
 }
 

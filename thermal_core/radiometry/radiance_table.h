@@ -22,6 +22,11 @@ class RadianceTable {
   /// slower: <= 0 K gives 0, NaN gives NaN, infinity infinity.
   void radiances(std::span<const float> temperature_k, std::span<float> radiance_w_m2_sr) const noexcept;
 
+  /// One temperature [K] to radiance, the same way.
+  [[nodiscard]] float radiance(float temperature_k) const noexcept {
+    return is_inside(temperature_k) ? between_nodes(temperature_k) : outside(temperature_k);
+  }
+
   /// Largest error between nodes, measured when the table was made, as a difference in temperature [K]. It
   /// contains the rounding of nodes and of the result.
   [[nodiscard]] double worst_error_k() const noexcept { return worst_error_k_; }
@@ -37,7 +42,22 @@ class RadianceTable {
     float step_w_m2_sr;
   };
 
-  [[nodiscard]] float between_nodes(float temperature_k) const noexcept;
+  static constexpr int kNodesPerKelvin = 16;
+  static constexpr int kSteps = static_cast<int>(kHottest - kColdest) * kNodesPerKelvin;
+
+  [[nodiscard]] static double node_k(double node) noexcept {
+    return static_cast<double>(kColdest) + node / kNodesPerKelvin;
+  }
+  [[nodiscard]] static bool is_inside(float temperature_k) noexcept {
+    return temperature_k >= kColdest && temperature_k < kHottest;  // false for NaN
+  }
+  [[nodiscard]] float between_nodes(float temperature_k) const noexcept {
+    const float position = (temperature_k - kColdest) * kNodesPerKelvin;  // exact: no bits are lost
+    const auto index = static_cast<int>(position);
+    const Node node = nodes_[static_cast<std::size_t>(index)];
+    return node.radiance_w_m2_sr + (position - static_cast<float>(index)) * node.step_w_m2_sr;
+  }
+  [[nodiscard]] float outside(float temperature_k) const noexcept;
   void measure();
 
   BandRadiance band_;

@@ -46,9 +46,9 @@ SpectralResponse::SpectralResponse(std::vector<Sample> samples) : samples_(std::
 
 double SpectralResponse::at(double wavelength_um) const noexcept {
   if (!(wavelength_um >= begin_um() && wavelength_um <= end_um())) return 0;
-  const auto next = std::lower_bound(
-      samples_.begin(), samples_.end(), wavelength_um,
-      [](const Sample& sample, double value_um) { return sample.wavelength_um < value_um; });
+  const auto next =
+      std::lower_bound(samples_.begin(), samples_.end(), wavelength_um,
+                       [](const Sample& sample, double value_um) { return sample.wavelength_um < value_um; });
   if (next->wavelength_um == wavelength_um) return next->response;
   const Sample& last = *(next - 1);
   const double share = (wavelength_um - last.wavelength_um) / (next->wavelength_um - last.wavelength_um);

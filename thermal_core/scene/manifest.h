@@ -68,6 +68,7 @@ struct Manifest {
   double frame_rate_hz = 9;
   std::string layer;  ///< EXR layer; empty: the only one
   CameraIntrinsics camera;
+  int supersample = 1;  ///< the passes have this many pixels for each of the camera's, each way
   std::vector<ManifestObject> objects;
   std::vector<ManifestMaterial> materials;
   std::vector<ManifestFrame> frames;

@@ -1,5 +1,6 @@
 #include "scene/material.h"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,6 +18,16 @@ void check_temperature(const std::string& where, double value_k) {
       fault(where, fmt::format("{}", value_k), "K", fmt::format("above 0 K and at most {} K", kHottest)));
 }
 
+void check_positive(const std::string& where, double value, const char* unit) {
+  if (value > 0 && std::isfinite(value)) return;
+  throw ConfigError(fault(where, fmt::format("{}", value), unit, "more than 0"));
+}
+
+void check_not_negative(const std::string& where, double value, const char* unit) {
+  if (value >= 0 && std::isfinite(value)) return;
+  throw ConfigError(fault(where, fmt::format("{}", value), unit, "at least 0"));
+}
+
 }  // namespace
 
 void Material::validate() const {
@@ -27,10 +38,31 @@ void Material::validate() const {
   }
   check_temperature(where + ": winter_k", winter_k);
   check_temperature(where + ": summer_k", summer_k);
+  check_not_negative(where + ": variation.stddev_k", variation.stddev_k, "K");
+  check_positive(where + ": variation.correlation_length_m", variation.correlation_length_m, "m");
+  for (const auto& [part, values] : parts) {
+    check_positive(where + ": parts." + part + ".cooling_time_s", values.cooling_time_s, "s");
+  }
 }
 
 double Material::temperature_k(Season season) const noexcept {
   return season == Season::winter ? winter_k : summer_k;
+}
+
+double Material::temperature_k(double air_k) const noexcept {
+  constexpr double kWinterAir = 273;
+  constexpr double kSummerAir = 293;
+  return winter_k + (summer_k - winter_k) * (air_k - kWinterAir) / (kSummerAir - kWinterAir);
+}
+
+double Material::part_temperature_k(const std::string& part, const Weather& weather) const noexcept {
+  const double air_k = weather.air.temperature_k;
+  const double mean_k = temperature_k(air_k);
+  const auto found = parts.find(part);
+  if (found == parts.end()) return mean_k;
+  const MaterialPart& p = found->second;
+  const double cooling_k = p.cooling_excess_k * std::exp(-weather.vehicle_stopped_s / p.cooling_time_s);
+  return air_k + p.excess_factor * (mean_k - air_k) + p.offset_k + cooling_k;
 }
 
 void MaterialLibrary::add(Material material) {

@@ -1,12 +1,29 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "radiometry/emissivity.h"
 #include "scene/season.h"
+#include "scene/weather.h"
 
 namespace thermal {
+
+/// How a region of an actor departs from the actor's mean temperature.
+struct MaterialPart {
+  double excess_factor = 1;      ///< of the mean's excess over the air: 0 is at air temperature
+  double offset_k = 0;           ///< on top of that
+  double cooling_excess_k = 0;   ///< when the engine stops; falls exponentially from then
+  double cooling_time_s = 3600;  ///< in which it falls to 1/e
+};
+
+/// A fractal field of temperature, fixed to the ground: mean zero.
+struct TemperatureVariation {
+  double stddev_k = 0;
+  double correlation_length_m = 1;
+};
 
 /// What a surface is made of, as far as a thermal camera can tell.
 struct Material {
@@ -16,9 +33,24 @@ struct Material {
   double summer_k = 293;    ///< night-time temperature, air at 293 K
   bool in_table_1 = false;  ///< one of the twelve rows of Table 1 (Bondi et al. 2018)
 
+  // Only the physical model looks at what follows.
+  std::optional<EmissivitySpectrum> spectrum;  ///< instead of `emissivity`
+  AngularLaw angular = AngularLaw::none;
+  TemperatureVariation variation;
+  std::map<std::string, MaterialPart> parts;
+
   /// ConfigError if a value is outside its domain.
   void validate() const;
+
+  /// Temperature in one of Table 1's nights.
   [[nodiscard]] double temperature_k(Season season) const noexcept;
+
+  /// Temperature [K] at any air temperature: the straight line through both nights of Table 1. The table's own
+  /// oddities stay (soil is warmer than air in winter and cooler in summer).
+  [[nodiscard]] double temperature_k(double air_k) const noexcept;
+
+  /// Temperature [K] of a part of an actor; of the whole where the part is empty or not listed.
+  [[nodiscard]] double part_temperature_k(const std::string& part, const Weather& weather) const noexcept;
 };
 
 /// Materials by name.

@@ -17,13 +17,11 @@ namespace {
 constexpr double kLargestCount = 255;
 constexpr std::size_t kPixelsAChunk = 16384;
 
-BandRadiance flat_8_14_um() { return BandRadiance(SpectralResponse::flat(8, 14)); }
-
-/// Apparent temperature by exact Planck in 8-14 um, tabulated for anything a savanna night holds.
-TemperatureTable apparent_temperature_table() {
+/// Apparent temperature by exact Planck, tabulated for anything a savanna night holds.
+TemperatureTable apparent_temperature_table(const SpectralResponse& response) {
   constexpr double kColdest = 180;
   constexpr double kHottest = 420;
-  const BandRadiance band = flat_8_14_um();
+  const BandRadiance band(response);
   const double low = band.radiance(kColdest);
   const double high = band.radiance(kHottest);
   return TemperatureTable([band](double radiance) { return band.temperature(radiance); }, low, high);
@@ -65,16 +63,16 @@ Count to_count(float value, float largest) noexcept {
 
 }  // namespace
 
-std::function<double(double temperature_k)> radiance_of(RadianceModel model) {
-  if (model == RadianceModel::script) return script_radiance;
-  return [band = flat_8_14_um()](double temperature_k) { return band.radiance(temperature_k); };
+std::function<double(double temperature_k)> radiance_of(const SensorParameters& parameters) {
+  if (parameters.radiance == RadianceModel::script) return script_radiance;
+  return [band = BandRadiance(parameters.response)](double temperature_k) { return band.radiance(temperature_k); };
 }
 
 AirsimSensor::AirsimSensor(const SensorParameters& parameters, Clip clip, float brightest_w_m2_sr)
     : parameters_(parameters),
       clip_(std::move(clip)),
       w_m2_sr_per_dn_(static_cast<double>(brightest_w_m2_sr) / kLargestCount),
-      temperature_table_(apparent_temperature_table()),
+      temperature_table_(apparent_temperature_table(parameters.response)),
       flicker_(clip_.seed, clip_.id, clip_.frame_rate_hz, clip_.width_px, clip_.height_px),
       fixed_pattern_(fixed_pattern(clip_.seed, clip_.id, clip_.width_px, clip_.height_px)) {
   assert(brightest_w_m2_sr > 0);
@@ -95,14 +93,18 @@ void AirsimSensor::add_noise(Plane<float>& signal_dn) {
   if (!fixed_pattern_dn_) {
     fixed_pattern_dn_ = static_cast<float>(parameters_.fixed_pattern_ratio * standard_deviation(signal_dn));
   }
+  Plane<float> noise_dn(signal_dn.width_px(), signal_dn.height_px());
   const auto white = static_cast<float>(parameters_.white_noise_stddev_dn);
   const auto flicker = static_cast<float>(parameters_.flicker_noise_stddev_dn);
-  if (white > 0) add_white_noise(clip_.seed, clip_.id, frame_, white, signal_dn);
-  if (flicker > 0) flicker_.add_next(flicker, signal_dn);
-  if (*fixed_pattern_dn_ == 0) return;
+  if (white > 0) add_white_noise(clip_.seed, clip_.id, frame_, white, noise_dn);
+  if (flicker > 0) flicker_.add_next(flicker, noise_dn);
+  const auto noise = noise_dn.pixels();
   const auto pattern = fixed_pattern_.pixels();
-  const auto out = signal_dn.pixels();
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] += *fixed_pattern_dn_ * pattern[i];
+  for (std::size_t i = 0; i < noise.size(); ++i) noise[i] += *fixed_pattern_dn_ * pattern[i];
+  const auto gain = clip_.noise_gain.pixels();
+  for (std::size_t i = 0; i < gain.size(); ++i) noise[i] *= gain[i];
+  const auto signal = signal_dn.pixels();
+  for (std::size_t i = 0; i < signal.size(); ++i) signal[i] += noise[i];
 }
 
 Plane<std::uint8_t> AirsimSensor::to_ir8(const Plane<float>& signal_dn) const {

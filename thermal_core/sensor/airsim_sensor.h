@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/image.h"
+#include "radiometry/spectral_response.h"
 #include "radiometry/temperature_table.h"
 #include "sensor/noise.h"
 
@@ -13,8 +14,8 @@ namespace thermal {
 
 /// Which in-band radiance a temperature has.
 enum class RadianceModel {
-  exact,  ///< Planck's law, 8-14 um, SI 2019 constants
-  script  ///< the 600-point trapezoid of the authors' published script
+  exact,  ///< Planck's law with SI 2019 constants and the sensor's response
+  script  ///< the 600-point trapezoid of the authors' published script, 8-14 um
 };
 
 /// What the brightest 8-bit count stands for.
@@ -26,6 +27,7 @@ enum class Normalisation {
 /// The sensor of AirSim-W (Bondi et al., COMPASS 2018). The paper gives no noise amplitudes; the defaults keep
 /// a person at 61 m (60 counts above soil in winter) clearly visible.
 struct SensorParameters {
+  SpectralResponse response = SpectralResponse::flat(8, 14);
   RadianceModel radiance = RadianceModel::exact;
   Normalisation normalisation = Normalisation::scene_max;
   double blur_sigma_px = 1;
@@ -35,8 +37,8 @@ struct SensorParameters {
   double kelvin_per_count = 0.01;    ///< step of the 16-bit frames
 };
 
-/// In-band radiance [W m^-2 sr^-1] of a blackbody at a temperature [K].
-[[nodiscard]] std::function<double(double temperature_k)> radiance_of(RadianceModel model);
+/// In-band radiance [W m^-2 sr^-1] of a blackbody at a temperature [K], by the sensor's model and response.
+[[nodiscard]] std::function<double(double temperature_k)> radiance_of(const SensorParameters& parameters);
 
 /// What the sensor makes of one frame.
 struct SensorFrame {
@@ -54,6 +56,7 @@ class AirsimSensor {
     double frame_rate_hz = 9;
     int width_px = 0;
     int height_px = 0;
+    Plane<float> noise_gain;  ///< factor on each pixel's noise, as lens fall-off makes it; empty: 1
   };
 
   /// @param brightest_w_m2_sr  radiance of count 255, > 0

@@ -1,0 +1,72 @@
+#include "imaging/budget.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/command.h"
+#include "dataset/physics.h"
+#include "io/material_files.h"
+#include "io/resources.h"
+
+namespace veldt {
+namespace {
+
+void print_materials(const thermal::SceneOutline& outline) {
+  for (const thermal::SceneOutline::Night& night : outline.nights) {
+    const auto nearest = std::min_element(night.looks.begin(), night.looks.end(),
+                                          [](const auto& a, const auto& b) { return a.range_m < b.range_m; });
+    fmt::print("\nair at {} K, humidity {}, range {:.0f} m [mK]\n{:<16}{:>10}{:>10}\n", night.weather.air.temperature_k,
+               night.weather.air.relative_humidity, nearest->range_m, "", "sky", "path");
+    for (const thermal::SceneOutline::Cover& cover : outline.covers) {
+      const thermal::MaterialShift shift =
+          thermal::shift_of(*cover.material, night.weather, nearest->range_m, outline.response);
+      fmt::print("{:<16}{:>+10.0f}{:>+10.0f}\n", cover.material->name, 1e3 * shift.sky_k, 1e3 * shift.path_k);
+    }
+  }
+}
+
+void print(const thermal::Budget& budget, const thermal::SceneOutline& outline) {
+  fmt::print("NETD {:.0f} mK: an automatic term is kept if it differs by more than {:.1f} mK across the pictures\n\n",
+             1e3 * outline.netd_k, 1e3 * outline.netd_k / 3);
+  fmt::print("{:<12}{:>8}{:>14}{:>22}  {}\n", "term", "choice", "spread [mK]", "largest on actor [mK]", "");
+  for (const thermal::TermEffect& effect : budget.effects) {
+    fmt::print("{:<12}{:>8}{:>14.1f}{:>22.1f}  {}\n", effect.name, choice_name(effect.choice), 1e3 * effect.spread_k,
+               1e3 * effect.actor_shift_k, effect.kept ? "kept" : "dropped");
+  }
+  fmt::print("\ndropped in all: {:.1f} mK\n", 1e3 * budget.dropped_k);
+  print_materials(outline);
+}
+
+int run(const std::string& file, bool json) {
+  const thermal::Path home = thermal::find_home();
+  const thermal::Config config = load_config(file, home);
+  const thermal::MaterialLibrary materials = thermal::read_materials(home);
+  const thermal::SceneOutline outline = thermal::outline_of(config, materials, home);
+  const thermal::Budget budget = thermal::weigh_terms(outline, config.terms);
+  if (json) {
+    fmt::print("{}\n", thermal::to_json(budget).dump(2));
+  } else {
+    print(budget, outline);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_budget(CLI::App& app, Session& session) {
+  CLI::App* command = add_command(app, session, "budget",
+                                  "Each physical term in mK against NETD: kept or dropped, and why");
+  struct Options {
+    std::string config;
+    bool json = false;
+  };
+  auto options = std::make_shared<Options>();
+  command->add_option("config", options->config, "Config of a dataset, JSON")->required();
+  command->add_flag("--json", options->json, "Print JSON");
+  command->callback([options, &session] {
+    session.run = [options] { return run(options->config, options->json); };
+  });
+}
+
+}  // namespace veldt

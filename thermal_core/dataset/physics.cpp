@@ -1,0 +1,169 @@
+#include "dataset/physics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "base/error.h"
+
+namespace thermal {
+namespace {
+
+constexpr double kActorShare = 0.03;
+constexpr double kSquareMetresPerHectare = 1e4;
+constexpr double kCrownM2 = 50;   // an umbrella acacia's, 8 m across
+constexpr double kShrubM2 = 0.8;  // 1 m across
+
+/// Rays over the picture: a grid of five by five.
+std::vector<SceneOutline::Look> looks_from(double height_m, double look_angle_rad, double half_width,
+                                           double half_height) {
+  std::vector<SceneOutline::Look> looks;
+  for (int row = -2; row <= 2; ++row) {
+    for (int column = -2; column <= 2; ++column) {
+      const double x = half_width * column / 2;
+      const double y = half_height * row / 2;
+      const double length = std::sqrt(x * x + y * y + 1);
+      // Downward part of the ray (x, y, 1) of a camera pitched down by the look angle.
+      const double down = (std::sin(look_angle_rad) + y * std::cos(look_angle_rad)) / length;
+      if (down <= 0.01) continue;  // at the sky
+      looks.push_back({.range_m = height_m / down, .ground_cosine = down, .axis_cosine = 1 / length});
+    }
+  }
+  return looks;
+}
+
+/// Collects looks by season.
+class Nights {
+ public:
+  explicit Nights(const Config& config) : config_(config) {}
+
+  void add(Season season, double height_m, double look_angle_deg, double half_width, double half_height) {
+    const double angle = look_angle_deg * std::numbers::pi / 180;
+    const auto looks = looks_from(height_m, angle, half_width, half_height);
+    auto& all = looks_[season];
+    all.insert(all.end(), looks.begin(), looks.end());
+  }
+
+  [[nodiscard]] std::vector<SceneOutline::Night> list() const {
+    std::vector<SceneOutline::Night> nights;
+    for (const auto& [season, looks] : looks_) {
+      if (!looks.empty()) nights.push_back({.weather = weather_of(config_, season), .looks = looks});
+    }
+    return nights;
+  }
+
+ private:
+  const Config& config_;
+  std::map<Season, std::vector<SceneOutline::Look>> looks_;
+};
+
+void add_actors(const std::set<std::string>& names, const MaterialLibrary& materials, SceneOutline& outline) {
+  for (const std::string& name : names) {
+    outline.covers.push_back({.material = &materials.find(name, "species: material"),
+                              .share = kActorShare / static_cast<double>(names.size()),
+                              .actor = true});
+  }
+}
+
+void add_ground(const Json& scene, const MaterialLibrary& materials, SceneOutline& outline) {
+  const Json& terrain = scene["terrain"];
+  const Json& plants = scene["plants"];
+  const double size_m = terrain["size_m"];
+  const double radius_m = terrain["water_radius_m"];
+  const double water = std::min(0.9, std::numbers::pi * radius_m * radius_m / (size_m * size_m));
+  const double acacia = std::min(0.9, plants["acacia_per_ha"].get<double>() * kCrownM2 / kSquareMetresPerHectare);
+  const double shrub = std::min(0.9, plants["shrub_per_ha"].get<double>() * kShrubM2 / kSquareMetresPerHectare);
+  const double open = (1 - water) * (1 - acacia) * (1 - shrub);
+  const double grass = terrain["grass_fraction"];
+  const std::map<std::string, double> shares = {{"soil", open * (1 - grass)},
+                                                {"grass", open * grass},
+                                                {"water", water},
+                                                {"acacia", (1 - water) * acacia},
+                                                {"shrub", (1 - water) * (1 - acacia) * shrub}};
+  for (const auto& [name, share] : shares) {
+    if (share > 0) outline.covers.push_back({.material = &materials.find(name, "scene"), .share = share});
+  }
+}
+
+SceneOutline empty_outline(const Config& config) {
+  return {.covers = {}, .nights = {}, .response = config.sensor.response, .netd_k = config.netd_k};
+}
+
+}  // namespace
+
+SceneOutline outline_of(const Config& config, const MaterialLibrary& materials, const Path& home) {
+  SceneOutline outline = empty_outline(config);
+  const Json& document = config.resolved;
+  add_ground(document["scene"], materials, outline);
+  std::set<std::string> actors;
+  for (const Json& group : document["scene"]["groups"]) {
+    const Path species = home / "assets" / "species" / (group["species"].get<std::string>() + ".json");
+    actors.insert(read_json(species).at("material").get<std::string>());
+  }
+  add_actors(actors, materials, outline);
+  const Json& camera = document["camera"];
+  const double pitch_m = 1e-6 * camera["pixel_pitch_um"].get<double>();
+  const double half_pixel_m = 0.5 * pitch_m / camera["focal_length_m"].get<double>();
+  Nights nights(config);
+  for (std::size_t i = 0; i < config.clips.size(); ++i) {
+    const Json flight = document["clips"][i].value("flight", Json::object());
+    if (flight.empty()) continue;
+    nights.add(config.clips[i].season, flight["altitude_m"], flight["look_angle_deg"],
+               half_pixel_m * config.width_px, half_pixel_m * config.height_px);
+  }
+  outline.nights = nights.list();
+  return outline;
+}
+
+SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
+                        const std::vector<const Manifest*>& manifests) {
+  SceneOutline outline = empty_outline(config);
+  Nights nights(config);
+  std::set<std::string> ground;
+  std::set<std::string> actors;
+  for (const Manifest* manifest : manifests) {
+    for (const ManifestObject& object : manifest->objects) {
+      (object.object_class == ObjectClass::actor ? actors : ground).insert(object.material);
+    }
+    const CameraIntrinsics& camera = manifest->camera;
+    const Season season = config.clip(manifest->clip, "manifest: clip").season;
+    for (const ManifestFrame& frame : manifest->frames) {
+      if (!frame.agl_m) continue;
+      constexpr double kStraightDown = 90;
+      nights.add(season, *frame.agl_m, frame.look_angle_deg.value_or(kStraightDown),
+                 0.5 * camera.width_px / camera.fx_px, 0.5 * camera.height_px / camera.fy_px);
+      break;  // a clip keeps its height and angle: one frame tells them
+    }
+  }
+  for (const std::string& name : ground) {
+    outline.covers.push_back({.material = &materials.find(name, "manifest: material"),
+                              .share = (1 - kActorShare) / static_cast<double>(ground.size())});
+  }
+  add_actors(actors, materials, outline);
+  outline.nights = nights.list();
+  return outline;
+}
+
+std::optional<PhysicsSettings> physics_of(const Config& config, const ClipConfig& clip, const Terms& terms) {
+  if (!config.physical) return std::nullopt;
+  return PhysicsSettings{.terms = terms,
+                         .weather = weather_of(config, clip.season),
+                         .response = config.sensor.response,
+                         .seed = config.seed};
+}
+
+Json to_json(const Budget& budget) {
+  Json terms = Json::array();
+  for (const TermEffect& effect : budget.effects) {
+    terms.push_back({{"term", effect.name},
+                     {"choice", choice_name(effect.choice)},
+                     {"spread_mk", 1e3 * effect.spread_k},
+                     {"actor_shift_mk", 1e3 * effect.actor_shift_k},
+                     {"kept", effect.kept}});
+  }
+  return {{"terms", std::move(terms)}, {"dropped_mk", 1e3 * budget.dropped_k}};
+}
+
+}  // namespace thermal

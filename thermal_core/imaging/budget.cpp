@@ -1,0 +1,181 @@
+#include "imaging/budget.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "radiometry/band_radiance.h"
+
+namespace thermal {
+namespace {
+
+/// A shift and how much of the pictures it applies to.
+struct Weighted {
+  double value = 0;
+  double weight = 0;
+};
+
+/// Value below which a share of the weight lies.
+double percentile(const std::vector<Weighted>& sorted, double share) {
+  double total = 0;
+  for (const Weighted& entry : sorted) total += entry.weight;
+  double below = 0;
+  for (const Weighted& entry : sorted) {
+    below += entry.weight;
+    if (below >= share * total) return entry.value;
+  }
+  return sorted.back().value;
+}
+
+double spread(std::vector<Weighted> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+  return percentile(values, 0.95) - percentile(values, 0.05);
+}
+
+/// Radiance of one material in one night, term by term.
+class MaterialModel {
+ public:
+  MaterialModel(const Material& material, const Weather& weather, const SpectralResponse& response)
+      : material_(material),
+        weather_(weather),
+        blackbody_(response),
+        band_(response, material.spectrum.value_or(EmissivitySpectrum(material.emissivity))),
+        air_radiance_(blackbody_.radiance(weather.air.temperature_k)),
+        emitted_as_air_(band_.radiance(weather.air.temperature_k)) {}
+
+  [[nodiscard]] double apparent_k(double radiance) const { return blackbody_.temperature(radiance); }
+  [[nodiscard]] double temperature_k() const { return material_.temperature_k(weather_.air.temperature_k); }
+  [[nodiscard]] double emitted(double temperature_k) const { return band_.radiance(temperature_k); }
+
+  /// Emission and reflection at an angle; factor 1 leaves the angle out.
+  [[nodiscard]] double with_sky(double factor) const {
+    const double sky = material_.angular == AngularLaw::water ? zenith_emissivity(weather_.air)
+                                                              : sky_emissivity(weather_.air);
+    return factor * emitted(temperature_k()) + (air_radiance_ - factor * emitted_as_air_) * sky;
+  }
+
+  [[nodiscard]] double with_path(double radiance, double range_m) const {
+    const double through = path_transmittance(weather_.air, range_m);
+    return through * radiance + (1 - through) * air_radiance_;
+  }
+
+ private:
+  const Material& material_;
+  const Weather& weather_;
+  BandRadiance blackbody_;
+  BandRadiance band_;
+  double air_radiance_;
+  double emitted_as_air_;
+};
+
+/// Shifts that each term makes in one night.
+class NightShifts {
+ public:
+  NightShifts(const SceneOutline& outline, const SceneOutline::Night& night) : outline_(outline), night_(night) {
+    for (const SceneOutline::Cover& cover : outline.covers) add_cover(cover);
+    add_falloff();
+  }
+
+  [[nodiscard]] TermEffect effect(const TermInfo& term) const {
+    const std::vector<Weighted>& all = shifts_.at(index_of(term.name));
+    return {.name = std::string(term.name),
+            .choice = TermChoice::automatic,
+            .spread_k = spread(all),
+            .actor_shift_k = actor_shifts_.at(index_of(term.name)),
+            .kept = false};
+  }
+
+ private:
+  static std::size_t index_of(std::string_view name) {
+    const auto found = std::find_if(std::begin(kTerms), std::end(kTerms),
+                                    [name](const TermInfo& term) { return term.name == name; });
+    return static_cast<std::size_t>(found - std::begin(kTerms));
+  }
+
+  void add(std::string_view term, double shift_k, double weight, bool actor) {
+    const std::size_t index = index_of(term);
+    shifts_.at(index).push_back({shift_k, weight});
+    if (actor) actor_shifts_.at(index) = std::max(actor_shifts_.at(index), std::abs(shift_k));
+  }
+
+  void add_cover(const SceneOutline::Cover& cover) {
+    const MaterialModel model(*cover.material, night_.weather, outline_.response);
+    add_variation(cover);
+    add_parts(cover, model);
+    const double direct_k = model.apparent_k(model.emitted(model.temperature_k()));
+    const double sky = model.with_sky(1);
+    const double sky_k = model.apparent_k(sky);
+    add("sky", sky_k - direct_k, cover.share, cover.actor);
+    const double share = cover.share / static_cast<double>(night_.looks.size());
+    for (const SceneOutline::Look& look : night_.looks) {
+      const double factor = angular_factor(cover.material->angular, look.ground_cosine);
+      add("angular", model.apparent_k(model.with_sky(factor)) - sky_k, share, cover.actor);
+      add("path", model.apparent_k(model.with_path(sky, look.range_m)) - sky_k, share, cover.actor);
+    }
+  }
+
+  /// Quantiles of a normal distribution at 5, 15, … 95 % stand for the field.
+  void add_variation(const SceneOutline::Cover& cover) {
+    constexpr double kQuantiles[] = {-1.645, -1.036, -0.674, -0.385, -0.126, 0.126, 0.385, 0.674, 1.036, 1.645};
+    for (const double quantile : kQuantiles) {
+      add("variation", quantile * cover.material->variation.stddev_k, cover.share / std::size(kQuantiles),
+          cover.actor);
+    }
+  }
+
+  void add_parts(const SceneOutline::Cover& cover, const MaterialModel& model) {
+    if (!cover.actor) return;
+    const double mean_k = model.apparent_k(model.emitted(model.temperature_k()));
+    for (const auto& [part, values] : cover.material->parts) {
+      const double part_k = cover.material->part_temperature_k(part, night_.weather);
+      add("parts", model.apparent_k(model.emitted(part_k)) - mean_k, 1, true);
+    }
+  }
+
+  /// The signal keeps its level; it is the noise that grows.
+  void add_falloff() {
+    for (const SceneOutline::Look& look : night_.looks) {
+      add("falloff", outline_.netd_k * std::pow(look.axis_cosine, -4), 1, false);
+    }
+  }
+
+  const SceneOutline& outline_;
+  const SceneOutline::Night& night_;
+  std::array<std::vector<Weighted>, std::size(kTerms)> shifts_;
+  std::array<double, std::size(kTerms)> actor_shifts_{};
+};
+
+}  // namespace
+
+Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices) {
+  Budget budget;
+  std::vector<NightShifts> nights;
+  for (const SceneOutline::Night& night : outline.nights) nights.emplace_back(outline, night);
+  for (const TermInfo& term : kTerms) {
+    TermEffect effect{.name = std::string(term.name)};
+    for (const NightShifts& night : nights) {
+      const TermEffect one = night.effect(term);
+      effect.spread_k = std::max(effect.spread_k, one.spread_k);
+      effect.actor_shift_k = std::max(effect.actor_shift_k, one.actor_shift_k);
+    }
+    effect.choice = choices.*term.choice;
+    effect.kept = effect.choice == TermChoice::on ||
+                  (effect.choice == TermChoice::automatic && effect.spread_k > outline.netd_k / 3);
+    budget.kept.*term.kept = effect.kept;
+    if (!effect.kept) budget.dropped_k += effect.spread_k;
+    budget.effects.push_back(effect);
+  }
+  return budget;
+}
+
+MaterialShift shift_of(const Material& material, const Weather& weather, double range_m,
+                       const SpectralResponse& response) {
+  const MaterialModel model(material, weather, response);
+  const double direct_k = model.apparent_k(model.emitted(model.temperature_k()));
+  const double sky = model.with_sky(1);
+  const double sky_k = model.apparent_k(sky);
+  return {.sky_k = sky_k - direct_k, .path_k = model.apparent_k(model.with_path(sky, range_m)) - sky_k};
+}
+
+}  // namespace thermal

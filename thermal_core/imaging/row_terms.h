@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "radiometry/atmosphere.h"
+#include "radiometry/radiance_table.h"
+#include "scene/camera_geometry.h"
+#include "scene/passes.h"
+#include "scene/variation_field.h"
+
+namespace thermal {
+
+/// The figures of one surface that the terms read.
+struct SurfaceOptics {
+  float emitted_w_m2_sr = 0;         ///< at its mean temperature
+  float emitted_as_air_w_m2_sr = 0;  ///< were it at air temperature
+  float reflected_air_w_m2_sr = 0;   ///< of surroundings that radiate as a blackbody at air temperature
+  float temperature_k = 0;
+  float variation_stddev_k = 0;
+  float per_correlation_length = 0;  ///< [1/m]
+  AngularLaw angular = AngularLaw::none;
+  bool sky = false;
+  const RadianceTable* table = nullptr;  ///< where the temperature varies
+};
+
+/// One row of a frame on its way through the terms, with room for what they hand on.
+struct Row {
+  int y = 0;
+  std::span<const std::uint16_t> surface;
+  std::span<const float> depth_m;                 ///< empty if no term needs it
+  std::array<std::span<const float>, 3> normal;   ///< the same
+  const CameraPose* pose = nullptr;
+  std::span<float> radiance_w_m2_sr;
+  std::vector<float> sky_view;                    ///< share of the sky a surface faces
+  std::vector<float> cosine;                      ///< of the angle it is seen at
+  std::vector<float> reflected_w_m2_sr;           ///< of blackbody surroundings at air temperature
+};
+
+/// Adds one term to a row. A scene's chain is a list of these: what is dropped is not there at all.
+using RowTerm = std::function<void(Row&)>;
+
+using SurfaceOpticsList = std::vector<SurfaceOptics>;
+
+/// Emission of every surface at its mean temperature.
+[[nodiscard]] RowTerm emission(const SurfaceOpticsList& surfaces);
+
+/// Emission with the fractal temperature field on the surfaces that have one. Depth that is not a positive
+/// finite number below 1e9 leaves a surface at its mean.
+[[nodiscard]] RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField& field,
+                                      const CameraRays& rays);
+
+/// Finds sky_view and cosine from the normals. Normals that face away from the camera are turned round; those
+/// that are zero, NaN or far from unit length count as facing sky and camera squarely.
+[[nodiscard]] RowTerm orientation(const CameraRays& rays);
+
+/// Emissivity falling off with angle; what is not emitted is added to `reflected`.
+[[nodiscard]] RowTerm angular_emissivity(const SurfaceOpticsList& surfaces);
+
+/// Fills `reflected` with each surface's share at normal incidence. Comes before angular_emissivity.
+[[nodiscard]] RowTerm reflectivity(const SurfaceOpticsList& surfaces);
+
+/// Adds the reflection of sky and surroundings: diffuse surfaces see a share sky_view of sky, water what stands
+/// in the mirror direction.
+[[nodiscard]] RowTerm sky_reflection(const SurfaceOpticsList& surfaces, const Air& air);
+
+/// Transmission and emission of the air over the true range. Depth that is NaN, infinite or beyond the path
+/// model counts as 1000 m; the sky itself is left alone.
+[[nodiscard]] RowTerm path(const SurfaceOpticsList& surfaces, const Air& air, float air_radiance_w_m2_sr,
+                           const CameraRays& rays);
+
+}  // namespace thermal

@@ -1,0 +1,75 @@
+#include "imaging/surfaces.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace thermal {
+namespace {
+
+constexpr std::size_t kIndices = kLargestIndex + 1;
+
+void check_known(std::span<const IndexUse> uses, const std::vector<bool>& known, std::string_view plane,
+                 std::string_view list) {
+  for (const IndexUse& use : uses) {
+    if (known[use.index]) continue;
+    std::vector<std::string> names;
+    for (std::size_t index = 0; index < known.size(); ++index) {
+      if (known[index]) names.push_back(fmt::format("{}", index));
+    }
+    throw DataError(fmt::format(
+        "{} at pixel ({}, {}) = {} ({} pixels); expected an index of the manifest's {}: {}", plane,
+        use.first_x_px, use.first_y_px, use.index, use.pixels, list, list_names(names)));
+  }
+}
+
+}  // namespace
+
+SurfaceMap::SurfaceMap(const Manifest& manifest, const MaterialLibrary& materials)
+    : by_object_(kIndices), by_material_(kIndices), known_objects_(kIndices), known_materials_(kIndices) {
+  known_objects_[kSkyIndex] = true;
+  by_object_[kSkyIndex] = add(materials.find("sky", "material of index 0"), "");
+  for (const ManifestObject& object : manifest.objects) {
+    const Material& material = materials.find(object.material, fmt::format("object {}: material", object.name));
+    by_object_[object.index] = add(material, "");
+    known_objects_[object.index] = true;
+  }
+  known_materials_[0] = true;
+  for (const ManifestMaterial& entry : manifest.materials) {
+    const Material& material = materials.find(entry.material, fmt::format("material index {}", entry.index));
+    by_material_[entry.index] = add(material, entry.part);
+    known_materials_[entry.index] = true;
+  }
+}
+
+std::uint16_t SurfaceMap::add(const Material& material, const std::string& part) {
+  const Surface surface = {.material = &material, .part = part};
+  const auto found = std::find(surfaces_.begin(), surfaces_.end(), surface);
+  const auto number = static_cast<std::uint16_t>(found - surfaces_.begin());
+  if (found == surfaces_.end()) surfaces_.push_back(surface);
+  return number;
+}
+
+void SurfaceMap::check_objects(std::span<const IndexUse> uses) const {
+  check_known(uses, known_objects_, "object index", "objects");
+}
+
+void SurfaceMap::check_materials(std::span<const IndexUse> uses) const {
+  check_known(uses, known_materials_, "material index", "materials");
+}
+
+void SurfaceMap::number(std::span<const std::uint16_t> objects, std::span<const std::uint16_t> materials,
+                        std::span<std::uint16_t> surfaces) const noexcept {
+  if (materials.empty()) {
+    for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i] = by_object_[objects[i]];
+    return;
+  }
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    surfaces[i] = materials[i] != 0 ? by_material_[materials[i]] : by_object_[objects[i]];
+  }
+}
+
+}  // namespace thermal

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/image.h"
+#include "scene/manifest.h"
+
+namespace thermal {
+
+/// The rays of a camera, the same for all its frames.
+class CameraRays {
+ public:
+  explicit CameraRays(const CameraIntrinsics& camera);
+
+  /// x and y of the ray through a column or row, z being 1, in camera axes.
+  [[nodiscard]] const std::vector<float>& x() const noexcept { return x_; }
+  [[nodiscard]] const std::vector<float>& y() const noexcept { return y_; }
+  /// Length of the ray with z = 1: range = depth * length.
+  [[nodiscard]] const Plane<float>& length() const noexcept { return length_; }
+  /// Width of a pixel at depth 1.
+  [[nodiscard]] float pixel_width() const noexcept { return pixel_width_; }
+
+ private:
+  std::vector<float> x_;
+  std::vector<float> y_;
+  Plane<float> length_;
+  float pixel_width_;
+};
+
+/// What a lens's cos^4 fall-off, once non-uniformity correction has evened out the signal, does to the noise of
+/// each pixel: its inverse, 1.37 at 22.5 deg off the axis.
+[[nodiscard]] Plane<float> falloff_noise_gain(const CameraIntrinsics& camera);
+
+/// Camera to world of one frame: where the camera is and where its axes point.
+struct CameraPose {
+  std::array<float, 3> position_m{};
+  std::array<std::array<float, 3>, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows, world = R camera
+};
+
+/// The pose of a row-major 4 x 4 matrix.
+[[nodiscard]] CameraPose pose_of(const std::array<double, 16>& camera_to_world) noexcept;
+
+}  // namespace thermal

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string_view>
+
+namespace thermal {
+
+/// Physical contributions to the signal beside the surface's own emission, which is always there.
+struct Terms {
+  bool variation = false;  ///< fractal temperature field over ground and plants
+  bool parts = false;      ///< regions of an actor at temperatures of their own
+  bool sky = false;        ///< reflection of sky and surroundings
+  bool angular = false;    ///< emissivity falling off with the angle of view
+  bool path = false;       ///< air between surface and camera: transmission and emission
+  bool falloff = false;    ///< lens: NUC takes it out of the signal, noise rises by its inverse
+
+  [[nodiscard]] bool operator==(const Terms&) const = default;
+};
+
+/// What a config says of one term; `automatic` leaves it to the budget.
+enum class TermChoice { off, on, automatic };
+
+[[nodiscard]] constexpr std::string_view choice_name(TermChoice choice) noexcept {
+  if (choice == TermChoice::automatic) return "auto";
+  return choice == TermChoice::on ? "on" : "off";
+}
+
+struct TermChoices {
+  TermChoice variation = TermChoice::off;
+  TermChoice parts = TermChoice::off;
+  TermChoice sky = TermChoice::off;
+  TermChoice angular = TermChoice::off;
+  TermChoice path = TermChoice::off;
+  TermChoice falloff = TermChoice::off;
+};
+
+/// One row for everything that goes through the terms in order: name, choice, outcome.
+struct TermInfo {
+  std::string_view name;
+  TermChoice TermChoices::*choice;
+  bool Terms::*kept;
+};
+inline constexpr TermInfo kTerms[] = {{"variation", &TermChoices::variation, &Terms::variation},
+                                      {"parts", &TermChoices::parts, &Terms::parts},
+                                      {"sky", &TermChoices::sky, &Terms::sky},
+                                      {"angular", &TermChoices::angular, &Terms::angular},
+                                      {"path", &TermChoices::path, &Terms::path},
+                                      {"falloff", &TermChoices::falloff, &Terms::falloff}};
+
+}  // namespace thermal
