@@ -1,0 +1,109 @@
+"""Renders the passes of a dataset's clips. Blender runs it:
+
+    blender -b --factory-startup --python-exit-code 1 --python render_passes.py -- --config FILE --out DIR
+            [--clip ID ...] [--events-fd N]
+
+For each clip it writes DIR/<clip>/manifest.json, then DIR/<clip>/000000.exr and so on; a file under such a name is
+whole. Run again, it goes on at a clip's first missing frame. Exit codes: 0 done, 1 failed, 2 the config is at fault.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+import traceback
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+# pylint: disable=wrong-import-position
+from veldt.config import load
+from veldt.events import Events
+from veldt.faults import ConfigError
+from veldt.manifest import build_manifest, frame_file, to_json
+from veldt.world import clip_of, plan_world
+from veldt_bl.render import first_missing, render_frames, set_up_renderer
+from veldt_bl.scene import Stage, build_stage
+
+
+def main(arguments: list[str]) -> int:
+    """Runs the command and returns its exit code."""
+    options = _parse(arguments)
+    events = Events(options.events_fd)
+    try:
+        _render(options, events)
+    except ConfigError as error:
+        return _fail(events, "config", error, 2)
+    except Exception as error:  # pylint: disable=broad-exception-caught
+        traceback.print_exc()
+        return _fail(events, "internal", error, 1)
+    events.tell("done")
+    return 0
+
+
+def _parse(arguments: list[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="render_passes.py", description="Renders the passes of a dataset's clips."
+    )
+    parser.add_argument("--config", type=Path, required=True)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument(
+        "--clip", action="extend", nargs="+", metavar="ID", help="only these clips; default all"
+    )
+    parser.add_argument("--events-fd", type=int, help="write progress here, one JSON object a line")
+    return parser.parse_args(arguments)
+
+
+def _render(options: argparse.Namespace, events: Events) -> None:
+    started_s = time.monotonic()
+    config = load(options.config)
+    clips = [clip_of(config, name) for name in options.clip] if options.clip else config["clips"]
+    stage = build_stage(plan_world(config))
+    set_up_renderer(stage.world.intrinsics, config["render"]["supersample"])
+    events.tell("scene_built", seconds=round(time.monotonic() - started_s, 3))
+    for clip in clips:
+        _render_clip(stage, clip, options.out / clip["id"], events)
+
+
+def _render_clip(stage: Stage, clip: dict, folder: Path, events: Events) -> None:
+    """Writes a clip's manifest, then the frames it lacks."""
+    name, frames = clip["id"], clip["frames"]
+    folder.mkdir(parents=True, exist_ok=True)
+    first = first_missing(folder, frames)
+    _write_manifest(
+        folder / "manifest.json", to_json(build_manifest(stage.world, clip)), has_frames=first > 0
+    )
+    events.tell("clip", clip=name, first_frame=first, frames=frames)
+    if first < frames:
+        stage.animate(clip)
+        render_frames(
+            folder, first, frames, lambda k: events.tell("frame", clip=name, index=k, file=frame_file(k))
+        )
+    events.tell("clip_done", clip=name)
+
+
+def _write_manifest(path: Path, text: str, has_frames: bool) -> None:
+    """Writes the manifest in one step; frames that are there already must have been made from the same one."""
+    if has_frames and (not path.exists() or path.read_text(encoding="utf-8") != text):
+        raise ConfigError(f"--out = {path.parent}; expected no frames there, or frames of this config")
+    part = path.with_suffix(".part")
+    part.write_text(text, encoding="utf-8")
+    os.replace(part, path)
+
+
+def _fail(events: Events, kind: str, error: Exception, code: int) -> int:
+    """Tells of an error, and of the place in these scripts that it came out of."""
+    here = str(Path(__file__).resolve().parent)
+    ours = [step for step in traceback.extract_tb(error.__traceback__) if step.filename.startswith(here)]
+    message = str(error) or type(error).__name__
+    events.tell(
+        "error", kind=kind, message=message, where=f"{Path(ours[-1].filename).name}:{ours[-1].lineno}"
+    )
+    print(message, file=sys.stderr)
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []))

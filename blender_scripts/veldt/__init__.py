@@ -1,0 +1,1 @@
+"""Plans a Veldt scene: pure Python and numpy, no bpy, the same answer on every machine."""

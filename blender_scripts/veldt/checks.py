@@ -1,0 +1,141 @@
+"""Finds what a schema cannot: configs whose values are fine one by one but make no sense together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TypeVar
+
+import numpy as np
+
+from . import assets
+from .actors import member_names
+from .faults import ConfigError, did_you_mean, listing
+from .flight import Flight
+from .splines import Loop
+
+_MOST_CELLS = 4000  # a side: 32 million triangles, some 10 GB in Blender
+_MOST_PLANTS = 2_000_000  # of a species
+_LEAST_LOOP_M = 1.0
+_LOOP_STEP_M = 1.0
+
+Value = TypeVar("Value")
+
+
+def check_names(config: dict) -> None:
+    """Everything named exists, and names that must differ do."""
+    groups, clips = config["scene"]["groups"], config["clips"]
+    _check_unique([group["name"] for group in groups], "scene.groups[{}].name", "a name no other group has")
+    _check_unique([clip["id"] for clip in clips], "clips[{}].id", "an id no other clip has")
+    for k, group in enumerate(groups):
+        where = f"scene.groups[{k}]"
+        known(dict.fromkeys(assets.names("species")), group["species"], f"{where}.species", "a species")
+        known(config["scene"]["paths"], group["path"], f"{where}.path", "a path of scene.paths")
+    targets = _targets(groups)
+    for k, clip in enumerate(clips):
+        if "flight" not in clip:
+            raise ConfigError(f"clips[{k}].flight is missing; expected how to fly: zigzag or follow")
+        _check_plan(f"clips[{k}].flight", clip["flight"], targets)
+
+
+def check_size(scene: dict) -> None:
+    """The place fits into a computer's memory."""
+    size_m, cell_m = scene["terrain"]["size_m"], scene["terrain"]["cell_m"]
+    if size_m > _MOST_CELLS * cell_m:
+        raise ConfigError(
+            f"scene.terrain.cell_m = {cell_m:g} m; expected at least {size_m / _MOST_CELLS:g} m"
+            f" for size_m = {size_m:g} m"
+        )
+    for key, per_ha in scene["plants"].items():
+        most_per_ha = _MOST_PLANTS / (size_m**2 / 1e4)
+        if per_ha > most_per_ha:
+            raise ConfigError(
+                f"scene.plants.{key} = {per_ha:g} per ha; expected at most {most_per_ha:g} per ha"
+                f" for size_m = {size_m:g} m"
+            )
+
+
+def check_paths(scene: dict, loops: Mapping[str, Loop]) -> None:
+    """Loops have a length, and whoever walks on them stays on the terrain."""
+    for name, loop in loops.items():
+        if loop.length_m < _LEAST_LOOP_M:
+            raise ConfigError(
+                f"scene.paths.{name} = {loop.length_m:.1f} m long; expected at least {_LEAST_LOOP_M:.0f} m"
+            )
+        spread_m = max((g["spread_m"] for g in scene["groups"] if g["path"] == name), default=0.0)
+        _check_inside(f"scene.paths.{name}", loop, spread_m, 0.5 * scene["terrain"]["size_m"])
+
+
+def check_flight(where: str, flight: Flight) -> None:
+    """The camera stays above ground and water."""
+    lowest = int(np.argmin(flight.agl_m))
+    if flight.agl_m[lowest] <= 0:
+        raise ConfigError(
+            f"{where}.flight: the camera is {-flight.agl_m[lowest]:.1f} m under the terrain"
+            f" at time_s = {flight.time_s[lowest]:.1f}; expected it above ground all along"
+        )
+
+
+def known(table: Mapping[str, Value], name: str, where: str, what: str) -> Value:
+    """table[name], or a ConfigError that lists what there is."""
+    if name in table:
+        return table[name]
+    raise ConfigError(f'{where} = "{name}"; expected {what}: {listing(table)}{did_you_mean(name, table)}')
+
+
+def _targets(groups: list[dict]) -> dict[str, None]:
+    """Names a flight can follow: groups, and members of groups, all different."""
+    members = dict.fromkeys(name for group in groups for name in member_names(group))
+    for k, group in enumerate(groups):
+        if group["name"] in members:
+            raise ConfigError(
+                f'scene.groups[{k}].name = "{group["name"]}"; expected a name no member of a group has'
+            )
+    return members | dict.fromkeys(group["name"] for group in groups)
+
+
+def _check_unique(names: list[str], where: str, rule: str) -> None:
+    seen = set()
+    for k, name in enumerate(names):
+        if name in seen:
+            raise ConfigError(f'{where.format(k)} = "{name}"; expected {rule}')
+        seen.add(name)
+
+
+def _check_plan(where: str, plan: dict, targets: dict[str, None]) -> None:
+    if plan["altitude_reference"] == "ground" and plan["altitude_m"] <= 0:
+        raise ConfigError(
+            f'{where}.altitude_m = {plan["altitude_m"]:g} m; expected more than 0 m above ground'
+        )
+    if plan["pattern"] == "zigzag":
+        _check_area(where, plan)
+    elif "target" not in plan:
+        raise ConfigError(
+            f'{where}.target is missing; expected an actor or a group, since pattern is "follow"'
+        )
+    elif plan["target"] not in targets:
+        near = did_you_mean(plan["target"], targets)
+        raise ConfigError(f'{where}.target = "{plan["target"]}"; expected an actor or a group{near}')
+
+
+def _check_area(where: str, plan: dict) -> None:
+    if "area_m" not in plan:
+        raise ConfigError(
+            f'{where}.area_m is missing; expected [x_min, y_min, x_max, y_max], since pattern is "zigzag"'
+        )
+    x0, y0, x1, y1 = plan["area_m"]
+    if not (x0 < x1 and y0 < y1):
+        raise ConfigError(f'{where}.area_m = {plan["area_m"]} m; expected x_min < x_max and y_min < y_max')
+
+
+def _check_inside(where: str, loop: Loop, spread_m: float, half_m: float) -> None:
+    """The loop, widened by the walkers' spread, within the terrain's square."""
+    points, _ = loop.at(np.arange(0.0, loop.length_m, _LOOP_STEP_M))
+    reach = np.abs(points).max(axis=1) + spread_m
+    farthest = int(np.argmax(reach))
+    if reach[farthest] > half_m:
+        x_m, y_m = points[farthest]
+        beside = f" (and walkers {spread_m:g} m beside it)" if spread_m > 0 else ""
+        raise ConfigError(
+            f"{where}: the loop reaches x = {x_m:.1f} m, y = {y_m:.1f} m{beside};"
+            f" expected within {half_m:g} m of the middle in x and y"
+        )

@@ -1,0 +1,34 @@
+"""Which number stands for what in the index planes.
+
+Object index 0 is sky. Ground and water have one index each, every plant species one, every actor its own, the same in
+all clips of a dataset: it is the actor's track id.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from .faults import ConfigError
+
+GROUND, WATER, FIRST_PLANT, FIRST_ACTOR = 1, 2, 3, 101
+LAST = 32767  # Blender clamps a larger pass_index silently
+
+
+def plan_indices(actor_names: Sequence[str]) -> dict[str, int]:
+    """Index of each actor, counted up from FIRST_ACTOR in the order given; ConfigError past LAST."""
+    room = LAST - FIRST_ACTOR + 1
+    if len(actor_names) > room:
+        raise ConfigError(
+            f"scene.groups = {len(actor_names)} actors; expected at most {room}, one object index each"
+        )
+    return {name: FIRST_ACTOR + k for k, name in enumerate(actor_names)}
+
+
+def plan_plant_indices(plant_names: Sequence[str]) -> dict[str, int]:
+    """Index of each plant species, counted up from FIRST_PLANT in the order given."""
+    return {name: FIRST_PLANT + k for k, name in enumerate(plant_names)}
+
+
+def plan_material_indices(pairs: Sequence[tuple[str, str]]) -> dict[tuple[str, str], int]:
+    """Index of each (material, part), part empty for what has none, counted up from 1 in order of first mention."""
+    return {pair: 1 + k for k, pair in enumerate(dict.fromkeys(pairs))}

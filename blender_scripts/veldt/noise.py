@@ -1,0 +1,89 @@
+"""Random values that hang on a seed, a name and a place, and on nothing else.
+
+Only integer mixing and +, -, * on doubles are used, never a library's cos or exp: these round alike on every
+machine, so a scene is the same everywhere, bit for bit.
+"""
+
+from __future__ import annotations
+
+import zlib
+
+import numpy as np
+
+_MASK = (1 << 64) - 1
+
+
+def stream(seed: int, subsystem: str, *entity: int) -> np.random.Generator:
+    """The random generator of one entity of one subsystem, unlike that of any other."""
+    key = [seed, zlib.crc32(subsystem.encode()), *entity]
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(key)))
+
+
+def lattice_hash(seed: int, name: str, ix: np.ndarray, iy: np.ndarray) -> np.ndarray:
+    """64 well mixed bits for each lattice point (ix, iy), integers of any sign; uint64, shape of ix and iy.
+
+    The mixer is the finaliser of SplitMix64 (Steele, Lea & Flood 2014), once for each coordinate.
+    """
+    key = np.uint64((seed << 32 | zlib.crc32(name.encode())) & _MASK)
+    with np.errstate(over="ignore"):  # numpy warns of the wrap-around of single values, though not of arrays
+        bits = _mix(np.asarray(ix, np.int64).astype(np.uint64) ^ key)
+        return _mix(bits + np.asarray(iy, np.int64).astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15))
+
+
+def lattice_uniform(seed: int, name: str, ix: np.ndarray, iy: np.ndarray) -> np.ndarray:
+    """A uniform value in [0, 1) for each lattice point."""
+    return (lattice_hash(seed, name, ix, iy) >> np.uint64(11)) * 2.0**-53
+
+
+def gradient_noise(seed: int, name: str, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Smooth noise with lattice period 1: zero at lattice points, mean 0, within [-1, 1], C2 (Perlin 2002).
+
+    Gradients fill the square [-1, 1]^2 instead of the unit circle, which spares the cosines.
+    """
+    x, y = np.asarray(x, float), np.asarray(y, float)
+    ix, iy = np.floor(x), np.floor(y)
+    u, v = x - ix, y - iy
+    corners = [[_slope(seed, name, ix + i, iy + j, u - i, v - j) for i in (0, 1)] for j in (0, 1)]
+    a, b = _fade(u), _fade(v)
+    low = corners[0][0] + a * (corners[0][1] - corners[0][0])
+    high = corners[1][0] + a * (corners[1][1] - corners[1][0])
+    return low + b * (high - low)
+
+
+def fractal_noise(
+    seed: int,
+    name: str,
+    x_m: np.ndarray,
+    y_m: np.ndarray,
+    wavelength_m: float,
+    octaves: int,
+    gain: float = 0.5,
+) -> np.ndarray:
+    """Octaves of gradient noise: octave k has wavelength_m / 2^k and amplitude gain^k. Mean 0, about [-1, 1].
+
+    Each octave is turned (by the 3-4-5 triangle's angle) and shifted against the last one, which hides the lattices.
+    """
+    total = np.zeros(np.broadcast(x_m, y_m).shape)
+    x, y = np.asarray(x_m, float) / wavelength_m, np.asarray(y_m, float) / wavelength_m
+    for k in range(octaves):
+        total += gain**k * gradient_noise(seed, f"{name}/{k}", x, y)
+        x, y = 2.0 * (0.8 * x - 0.6 * y) + 0.37, 2.0 * (0.6 * x + 0.8 * y) + 0.71
+    return total
+
+
+def _mix(bits: np.ndarray) -> np.ndarray:
+    bits = (bits ^ (bits >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    bits = (bits ^ (bits >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return bits ^ (bits >> np.uint64(31))
+
+
+def _slope(seed: int, name: str, ix, iy, dx, dy) -> np.ndarray:
+    """The plane through a lattice point's zero with the gradient drawn there."""
+    bits = lattice_hash(seed, name, ix, iy)
+    gx = (bits >> np.uint64(32)) * 2.0**-31 - 1.0
+    gy = (bits & np.uint64(0xFFFFFFFF)) * 2.0**-31 - 1.0
+    return gx * dx + gy * dy
+
+
+def _fade(t: np.ndarray) -> np.ndarray:
+    return t * t * t * (t * (t * 6.0 - 15.0) + 10.0)

@@ -1,0 +1,144 @@
+"""Triangle meshes of the simple solids that bodies and plants are made of. Lengths in m."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+_RING_STEPS = 4  # rings between two given ones
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """points_m (n, 3); triangles (m, 3), counter-clockwise from outside; slot (m,), each triangle's material slot."""
+
+    points_m: np.ndarray
+    triangles: np.ndarray
+    slot: np.ndarray
+
+    def moved(self, by_m) -> Mesh:
+        """The same mesh elsewhere."""
+        return Mesh(self.points_m + np.asarray(by_m, float), self.triangles, self.slot)
+
+    def mirrored(self) -> Mesh:
+        """The mirror image in the plane y = 0, its triangles still facing outward."""
+        return Mesh(self.points_m * [1.0, -1.0, 1.0], self.triangles[:, ::-1], self.slot)
+
+    def with_slot(self, slot: int) -> Mesh:
+        """The same mesh, all of it in one material slot."""
+        return Mesh(self.points_m, self.triangles, np.full(len(self.triangles), slot))
+
+
+def joined(meshes: Sequence[Mesh]) -> Mesh:
+    """All meshes as one."""
+    first = np.cumsum([0] + [len(mesh.points_m) for mesh in meshes])
+    return Mesh(
+        np.concatenate([mesh.points_m for mesh in meshes]),
+        np.concatenate([mesh.triangles + start for mesh, start in zip(meshes, first)]),
+        np.concatenate([mesh.slot for mesh in meshes]),
+    )
+
+
+def facets(points_m: np.ndarray, triangles: np.ndarray) -> Mesh:
+    """A mesh of bare triangles in slot 0."""
+    return Mesh(np.asarray(points_m, float), np.asarray(triangles), np.zeros(len(triangles), np.int64))
+
+
+def tube(rings_m: np.ndarray, sides: int = 14, roundness: float = 0.5) -> Mesh:
+    """A smooth tube through elliptic rings, its ends rounded off.
+
+    rings_m (n, 5), n >= 2: centre x y z, half width across (about y), half height (in the plane x z).
+    roundness: how far the rounded ends stand out, in smaller half axes of the last ring.
+    """
+    rings = _with_caps(_smoothed_rings(np.asarray(rings_m, float)), roundness)
+    centre, wide, high = rings[:, :3], rings[:, 3], rings[:, 4]
+    across, up = _ring_axes(centre)
+    angle = 2.0 * np.pi * np.arange(sides) / sides
+    points = (
+        centre[:, None]
+        + np.cos(angle)[:, None] * (wide[:, None] * across)[:, None]
+        + np.sin(angle)[:, None] * (high[:, None] * up)[:, None]
+    )
+    return facets(points.reshape(-1, 3), _tube_triangles(len(rings), sides))
+
+
+def ellipsoid(
+    centre_m, radii_m, yaw_deg: float = 0.0, tilt_deg: float = 0.0, rings: int = 9, sides: int = 14
+) -> Mesh:
+    """An ellipsoid with radii along its own x, y, z, tilted about its x axis, then turned about the vertical."""
+    polar = np.pi * (np.arange(rings) + 0.5) / rings
+    angle = 2.0 * np.pi * np.arange(sides) / sides
+    unit = np.stack(
+        [
+            np.outer(np.sin(polar), np.cos(angle)),
+            np.outer(np.sin(polar), np.sin(angle)),
+            np.outer(np.cos(polar), np.ones(sides)),
+        ],
+        axis=-1,
+    )
+    points = unit.reshape(-1, 3) * np.asarray(radii_m, float) @ _rotation(yaw_deg, tilt_deg).T
+    return facets(points + np.asarray(centre_m, float), _tube_triangles(rings, sides)[:, ::-1])
+
+
+def _smoothed_rings(rings: np.ndarray) -> np.ndarray:
+    """Catmull-Rom curves through all five columns."""
+    if len(rings) < 3:
+        return rings
+    ends = np.concatenate([[2 * rings[0] - rings[1]], rings, [2 * rings[-1] - rings[-2]]])
+    p0, p1, p2, p3 = ends[:-3], ends[1:-2], ends[2:-1], ends[3:]
+    u = (np.arange(_RING_STEPS) / _RING_STEPS)[None, :, None]
+    p0, p1, p2, p3 = (p[:, None] for p in (p0, p1, p2, p3))
+    inner = 0.5 * (
+        2 * p1
+        + u * (p2 - p0)
+        + u**2 * (2 * p0 - 5 * p1 + 4 * p2 - p3)
+        + u**3 * (3 * p1 - p0 - 3 * p2 + p3)
+    )
+    return np.concatenate([inner.reshape(-1, 5), rings[-1:]])
+
+
+def _with_caps(rings: np.ndarray, roundness: float) -> np.ndarray:
+    """Three shrinking rings past each end, the last one nearly a point."""
+    return np.concatenate(
+        [
+            _cap(rings[0], rings[0] - rings[1], roundness)[::-1],
+            rings,
+            _cap(rings[-1], rings[-1] - rings[-2], roundness),
+        ]
+    )
+
+
+def _cap(ring: np.ndarray, outward: np.ndarray, roundness: float) -> np.ndarray:
+    direction = outward[:3] / max(np.linalg.norm(outward[:3]), 1e-12)
+    reach = roundness * ring[3:].min()
+    angle = np.radians([35.0, 65.0, 89.0])[:, None]
+    return np.concatenate([ring[:3] + reach * np.sin(angle) * direction, ring[3:] * np.cos(angle)], axis=1)
+
+
+def _ring_axes(centre: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Unit vectors (n, 3) across (level, about +y) and up of each ring, both at right angles to the tube."""
+    along = np.gradient(centre, axis=0)
+    along /= np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-12)
+    across = np.array([0.0, 1.0, 0.0]) - along[:, 1:2] * along
+    across /= np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-12)
+    return across, np.cross(along, across)
+
+
+def _tube_triangles(rings: int, sides: int) -> np.ndarray:
+    """Side faces of stacked rings, and a fan that closes each end."""
+    here = np.arange(rings * sides).reshape(rings, sides)
+    right = np.roll(here, -1, axis=1)
+    a, b, c, d = here[:-1].ravel(), right[:-1].ravel(), right[1:].ravel(), here[1:].ravel()
+    fan = np.stack([np.zeros(sides - 2, np.int64), np.arange(2, sides), np.arange(1, sides - 1)], axis=1)
+    return np.concatenate(
+        [np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1), fan, fan[:, ::-1] + (rings - 1) * sides]
+    )
+
+
+def _rotation(yaw_deg: float, tilt_deg: float) -> np.ndarray:
+    cy, sy = np.cos(np.radians(yaw_deg)), np.sin(np.radians(yaw_deg))
+    ct, st = np.cos(np.radians(tilt_deg)), np.sin(np.radians(tilt_deg))
+    yaw = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
+    return yaw @ np.array([[1.0, 0.0, 0.0], [0.0, ct, -st], [0.0, st, ct]])

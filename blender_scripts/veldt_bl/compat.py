@@ -1,0 +1,46 @@
+"""Every difference between Blender versions that matters here."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+VERSION = bpy.app.version
+
+
+def fill_triangles(mesh: bpy.types.Mesh, triangles: np.ndarray) -> None:
+    """Makes (m, 3) triangles the faces of a mesh that has points only."""
+    count = len(triangles)
+    mesh.loops.add(3 * count)
+    mesh.polygons.add(count)
+    mesh.loops.foreach_set("vertex_index", np.ascontiguousarray(triangles, np.int32).ravel())
+    mesh.polygons.foreach_set("loop_start", np.arange(0, 3 * count, 3, dtype=np.int32))
+    if VERSION < (3, 6, 0):  # later the sizes of faces follow from where they start
+        mesh.polygons.foreach_set("loop_total", np.full(count, 3, np.int32))
+
+
+def new_geometry_socket(tree: bpy.types.NodeTree, in_out: str) -> None:
+    """Adds a group socket `Geometry`; in_out is INPUT or OUTPUT."""
+    if VERSION >= (4, 0, 0):
+        tree.interface.new_socket("Geometry", in_out=in_out, socket_type="NodeSocketGeometry")
+    else:
+        sockets = tree.inputs if in_out == "INPUT" else tree.outputs
+        sockets.new("NodeSocketGeometry", "Geometry")
+
+
+def use_nodes(material: bpy.types.Material) -> bpy.types.NodeTree:
+    """The material's node tree, empty."""
+    if VERSION < (5, 0, 0):  # from then on all materials have nodes
+        material.use_nodes = True
+    material.node_tree.nodes.clear()
+    return material.node_tree
+
+
+def write_multilayer_exr(settings: bpy.types.ImageFormatSettings) -> None:
+    """Output as multilayer EXR, whole floats, lossless ZIP."""
+    if VERSION >= (5, 0, 0):
+        settings.media_type = "MULTI_LAYER_IMAGE"
+        settings.use_exr_interleave = True  # one part with all channels, as earlier versions write
+    settings.file_format = "OPEN_EXR_MULTILAYER"
+    settings.color_depth = "32"
+    settings.exr_codec = "ZIP"

@@ -1,0 +1,56 @@
+"""Numpy meshes and flat materials as Blender data."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+
+from veldt.shapes import Mesh
+
+from . import compat
+
+
+def new_material(name: str, index: int) -> bpy.types.Material:
+    """A black material, the cheapest there is: only its index is ever looked at."""
+    material = bpy.data.materials.new(name)
+    material.pass_index = index
+    tree = compat.use_nodes(material)
+    black = tree.nodes.new("ShaderNodeEmission")
+    black.inputs["Strength"].default_value = 0.0
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(black.outputs["Emission"], output.inputs["Surface"])
+    return material
+
+
+def new_mesh(
+    name: str, mesh: Mesh, materials: Sequence[bpy.types.Material], smooth: bool = True
+) -> bpy.types.Mesh:
+    """A Blender mesh; materials[k] fills slot k."""
+    data = new_points(name, mesh.points_m)
+    compat.fill_triangles(data, mesh.triangles)
+    for material in materials:
+        data.materials.append(material)
+    data.polygons.foreach_set("material_index", mesh.slot.astype(np.int32))
+    data.polygons.foreach_set("use_smooth", np.full(len(mesh.triangles), smooth))
+    data.update(calc_edges=True)
+    return data
+
+
+def new_points(name: str, points_m: np.ndarray) -> bpy.types.Mesh:
+    """A mesh of bare points."""
+    data = bpy.data.meshes.new(name)
+    data.vertices.add(len(points_m))
+    data.vertices.foreach_set("co", points_m.astype(np.float32).ravel())
+    return data
+
+
+def new_object(
+    name: str, data: bpy.types.ID, index: int, collection: bpy.types.Collection | None = None
+) -> bpy.types.Object:
+    """An object with an object index, linked into the collection, by default the scene's own."""
+    new = bpy.data.objects.new(name, data)
+    new.pass_index = index
+    (collection or bpy.context.scene.collection).objects.link(new)
+    return new

@@ -1,0 +1,90 @@
+"""Builds a planned world in Blender, once, and sets it in motion clip by clip."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from veldt import assets, ids
+from veldt.ground import build_ground, plan_cover
+from veldt.plant_shapes import build_variants
+from veldt.shapes import Mesh, facets
+from veldt.terrain import Terrain, Water
+from veldt.world import GRASS, SOIL, WATER, World
+
+from . import actors, camera
+from .meshes import new_material, new_mesh, new_object
+from .plants import add_plants
+
+_SHEET_CORNERS = 64
+_TWIN_DEPTH_M = 10000.0
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A world built in Blender's current scene."""
+
+    world: World
+    camera: bpy.types.Object
+    puppets: list[actors.Puppet]
+
+    def animate(self, clip: dict) -> None:
+        """Replaces all motion by that of a clip, whose first frame is frame 0."""
+        flight = self.world.flight(clip)
+        for moving in (self.camera, *(part for p in self.puppets for part in (p.trunk, *p.limbs))):
+            moving.animation_data_clear()
+        for action in list(bpy.data.actions):
+            bpy.data.actions.remove(action)
+        camera.animate(self.camera, flight)
+        for puppet in self.puppets:
+            actors.animate(puppet, self.world.terrain, flight.time_s)
+
+
+def build_stage(world: World) -> Stage:
+    """The world as objects of an empty scene."""
+    _empty_scene()
+    materials = {
+        (material, part): new_material(f"{material} {part}".strip(), index)
+        for (material, part), index in world.material_indices.items()
+    }
+    _add_ground(world, materials)
+    if world.terrain.water is not None:
+        _add_water(world.terrain.water, materials[WATER])
+    for name, planting in world.plantings.items():
+        data = assets.load("plants", name)
+        if len(planting.scale) > 0:
+            variants = build_variants(name, data, world.config["seed"])
+            add_plants(name, planting, variants, materials[data["material"], ""], world.plant_indices[name])
+    puppets = actors.add_actors(world.actors, materials)
+    return Stage(world, camera.add_camera(world.intrinsics), puppets)
+
+
+def _empty_scene() -> None:
+    for thing in list(bpy.data.objects):
+        bpy.data.objects.remove(thing)
+    bpy.context.scene.world = None
+
+
+def _add_ground(world: World, materials: dict) -> None:
+    terrain: Terrain = world.terrain
+    cover = plan_cover(terrain, world.config["scene"]["terrain"], world.config["seed"])
+    ground = build_ground(terrain, cover)
+    slots = [materials[SOIL], materials[GRASS]]
+    mesh = new_mesh("ground", Mesh(ground.points_m, ground.triangles, ground.cover), slots)
+    new_object("ground", mesh, ids.GROUND)
+    # Cycles merges a mesh that only one object uses into the tree it rebuilds each frame, which for the ground takes
+    # longer than the picture. A second user, deep down where no camera ray may meet it, keeps the ground's own tree.
+    twin = new_object("ground twin", mesh, ids.GROUND)
+    twin.location.z = -_TWIN_DEPTH_M
+    twin.visible_camera = False
+
+
+def _add_water(water: Water, material: bpy.types.Material) -> None:
+    """A flat disc; its rim lies under the banks, so the shoreline is where the ground rises through it."""
+    angle = 2.0 * np.pi * np.arange(_SHEET_CORNERS) / _SHEET_CORNERS
+    rim = water.disc_radius_m * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    points = np.column_stack([rim, np.full(_SHEET_CORNERS, water.level_m)])
+    fan = np.array([[0, k, k + 1] for k in range(1, _SHEET_CORNERS - 1)])
+    new_object("water", new_mesh("water", facets(points, fan), [material]), ids.WATER)

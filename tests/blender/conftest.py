@@ -1,0 +1,19 @@
+"""The small place of `scenes.tiny`, planned and rendered once for all tests."""
+
+import pytest
+
+from rendering import Run, render
+from scenes import tiny
+from veldt.world import World, plan_world
+
+
+@pytest.fixture(scope="session", name="full")
+def _full(tmp_path_factory) -> Run:
+    run = render(tmp_path_factory.mktemp("full"), tiny())
+    assert run.code == 0, run.log
+    return run
+
+
+@pytest.fixture(scope="session", name="world")
+def _world() -> World:
+    return plan_world(tiny())

@@ -1,0 +1,85 @@
+"""Runs the renderer as the `veldt` command does: a child process that tells its progress through a pipe."""
+
+import json
+import os
+import resource
+import shutil
+import signal
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from exr import read_planes
+from veldt.config import ROOT
+
+BLENDER = os.environ.get("BLENDER") or shutil.which("blender")
+needs_blender = pytest.mark.skipif(BLENDER is None, reason="no Blender: neither on PATH nor named by BLENDER")
+
+PLANES = (
+    "Scene.IndexOB.X",
+    "Scene.IndexMA.X",
+    "Scene.Depth.Z",
+    "Scene.Normal.X",
+    "Scene.Normal.Y",
+    "Scene.Normal.Z",
+)
+
+
+@dataclass
+class Run:
+    """What a run of the renderer left behind."""
+
+    code: int
+    out: Path
+    events: list[dict]
+    log: str
+
+    def planes(self, clip: str, frame: int) -> dict[str, np.ndarray]:
+        """The passes of one frame."""
+        return read_planes(self.out / clip / f"{frame:06d}.exr")
+
+    def manifest(self, clip: str) -> dict:
+        """The manifest of a clip."""
+        return json.loads((self.out / clip / "manifest.json").read_text())
+
+
+def _limit_files(size_bytes: int | None) -> None:
+    """Lets this process write no file longer than that, as if the disk were full; for a child before it starts."""
+    if size_bytes is not None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size_bytes, size_bytes))
+
+
+def render(
+    folder: Path,
+    config: dict,
+    *options: str,
+    threads: int = 2,
+    out: Path | None = None,
+    largest_file_bytes: int | None = None,
+) -> Run:
+    """Renders a config, by default into `folder`/out; `options` go to render_passes.py."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "config.json").write_text(json.dumps(config))
+    out = out or folder / "out"
+    script = ROOT / "blender_scripts" / "render_passes.py"
+    reader, writer = os.pipe()
+    command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "-t", str(threads)]
+    command += ["--python", str(script), "--", "--config", str(folder / "config.json"), "--out", str(out)]
+    command += ["--events-fd", str(writer), *options]
+    with open(reader, encoding="utf-8") as events:  # a pipe holds 64 KiB, far more than these few events
+        done = subprocess.run(
+            command,
+            pass_fds=[writer],
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+            preexec_fn=lambda: _limit_files(largest_file_bytes),
+        )
+        os.close(writer)
+        told = [json.loads(line) for line in events]
+    return Run(done.returncode, out, told, done.stdout + done.stderr)

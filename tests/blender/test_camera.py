@@ -1,0 +1,41 @@
+"""Projection and poses."""
+
+import numpy as np
+import pytest
+
+from scenes import tiny
+from veldt.camera import Intrinsics, intrinsics_of, look, project
+
+LENS = Intrinsics(640, 512, 1000.0)
+
+
+def test_focal_length_in_pixels():
+    lens = intrinsics_of(tiny()["camera"] | {"width_px": 640, "height_px": 512, "pixel_pitch_um": 17})
+    assert lens.f_px == pytest.approx(0.013 / 17e-6)
+    assert lens.centre_px == (320, 256)
+
+
+def test_straight_down_the_flight_direction_is_up_in_the_picture():
+    pose = look(np.array([[10.0, 20.0, 100.0]]), np.array([[0.0, 1.0]]), np.array([np.pi / 2]))[0]
+    points = np.array([[10, 20, 0], [10, 30, 0], [20, 20, 0]], float)
+    pixels, depth = project(LENS, pose, points)
+    assert pixels == pytest.approx(np.array([[320, 256], [320, 156], [420, 256]]))
+    assert depth == pytest.approx([100, 100, 100])
+
+
+@pytest.mark.parametrize("depression_deg", [1, 30, 45, 89, 90])
+def test_poses_are_right_handed_rotations_without_roll(depression_deg):
+    angle = np.linspace(0, 6, 7)
+    bearing = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    poses = look(np.zeros((7, 3)), bearing, np.full(7, np.radians(depression_deg)))
+    rotation = poses[:, :3, :3]
+    assert rotation.transpose(0, 2, 1) @ rotation == pytest.approx(np.tile(np.eye(3), (7, 1, 1)))
+    assert np.linalg.det(rotation) == pytest.approx(np.ones(7))
+    assert not rotation[:, 2, 0].any()  # the picture's rows are level
+    assert rotation[:, 2, 2] == pytest.approx(-np.sin(np.radians(depression_deg)) * np.ones(7))
+
+
+def test_points_behind_the_camera_have_no_positive_depth():
+    pose = look(np.zeros((1, 3)), np.array([[1.0, 0.0]]), np.array([0.0]))[0]
+    _, depth = project(LENS, pose, np.array([[-5.0, 0, 0], [5.0, 0, 0]]))
+    assert depth == pytest.approx([-5, 5])

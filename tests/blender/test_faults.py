@@ -1,0 +1,157 @@
+"""Configs that cannot be meant are refused in exact words."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from scenes import tiny
+from veldt.config import ROOT
+from veldt.faults import ConfigError
+from veldt.world import plan_world
+
+
+def _set(path, value):
+    """A change of a config: the item at `path`, or its removal where value is None."""
+
+    def change(config):
+        *way, last = path
+        for step in way:
+            config = config[step]
+        if value is None:
+            del config[last]
+        else:
+            config[last] = value
+
+    return change
+
+
+GROUP, CLIP = ("scene", "groups", 1), ("clips", 0)
+ZIGZAG, FOLLOW = (*CLIP, "flight"), ("clips", 1, "flight")
+
+FAULTS = {
+    "unknown species": (
+        _set((*GROUP, "species"), "elefant"),
+        'scene.groups[1].species = "elefant"; expected a species: {species} (did you mean "elephant"?)',
+    ),
+    "unknown path": (
+        _set((*GROUP, "path"), "lop"),
+        'scene.groups[1].path = "lop"; expected a path of scene.paths: loop (did you mean "loop"?)',
+    ),
+    "unknown path, nothing near": (
+        _set((*GROUP, "path"), "river"),
+        'scene.groups[1].path = "river"; expected a path of scene.paths: loop',
+    ),
+    "two groups of one name": (
+        _set((*GROUP, "name"), "people"),
+        'scene.groups[1].name = "people"; expected a name no other group has',
+    ),
+    "a group named like a member": (
+        _set((*GROUP, "name"), "people_2"),
+        'scene.groups[1].name = "people_2"; expected a name no member of a group has',
+    ),
+    "two clips of one id": (
+        _set(("clips", 1, "id"), "down"),
+        'clips[1].id = "down"; expected an id no other clip has',
+    ),
+    "more actors than indices": (
+        _set((*GROUP, "count"), 32700),
+        "scene.groups = 32704 actors; expected at most 32667, one object index each",
+    ),
+    "no area": (
+        _set((*ZIGZAG, "area_m"), None),
+        'clips[0].flight.area_m is missing; expected [x_min, y_min, x_max, y_max], since pattern is "zigzag"',
+    ),
+    "area inside out": (
+        _set((*ZIGZAG, "area_m"), [30, -30, -30, 30]),
+        "clips[0].flight.area_m = [30, -30, -30, 30] m; expected x_min < x_max and y_min < y_max",
+    ),
+    "area without height": (
+        _set((*ZIGZAG, "area_m"), [-30, 5, 30, 5]),
+        "clips[0].flight.area_m = [-30, 5, 30, 5] m; expected x_min < x_max and y_min < y_max",
+    ),
+    "no target": (
+        _set((*FOLLOW, "target"), None),
+        'clips[1].flight.target is missing; expected an actor or a group, since pattern is "follow"',
+    ),
+    "unknown target": (
+        _set((*FOLLOW, "target"), "zebra_2"),
+        'clips[1].flight.target = "zebra_2"; expected an actor or a group (did you mean "zebras_2"?)',
+    ),
+    "no height above ground": (
+        _set((*ZIGZAG, "altitude_m"), -4),
+        "clips[0].flight.altitude_m = -4 m; expected more than 0 m above ground",
+    ),
+    "more cells than memory": (
+        _set(("scene", "terrain"), {"size_m": 10000, "cell_m": 0.25}),
+        "scene.terrain.cell_m = 0.25 m; expected at least 2.5 m for size_m = 10000 m",
+    ),
+    "more plants than memory": (
+        lambda config: config["scene"].update(terrain={"size_m": 10000}, plants={"shrub_per_ha": 500}),
+        "scene.plants.shrub_per_ha = 500 per ha; expected at most 200 per ha for size_m = 10000 m",
+    ),
+    "path off the terrain": (
+        _set(("scene", "paths", "loop", "points_m"), [[61, 0], [0, 30], [-30, 0], [0, -30]]),
+        "scene.paths.loop: the loop reaches x = 61.0 m, y = 0.0 m (and walkers 1 m beside it);"
+        " expected within 60 m of the middle in x and y",
+    ),
+    "path without length": (
+        _set(("scene", "paths", "loop", "points_m"), [[1, 1], [1, 1], [1, 1]]),
+        "scene.paths.loop = 0.0 m long; expected at least 1 m",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_fault(name):
+    change, message = FAULTS[name]
+    with pytest.raises(ConfigError) as fault:
+        plan_world(tiny(change))
+    assert str(fault.value) == message.format(species=", ".join(_species()))
+
+
+def _species():
+    return sorted(path.stem for path in (ROOT / "assets" / "species").glob("*.json"))
+
+
+def test_a_datum_flight_under_the_terrain_is_found():
+    def change(config):
+        flat = {"relief_m": 0, "water_radius_m": 0}
+        config["scene"]["terrain"].update(flat)
+        config["clips"][0]["flight"].update(altitude_reference="datum", altitude_m=-4.2)
+
+    with pytest.raises(ConfigError) as fault:
+        plan_world(tiny(change))
+    assert str(fault.value) == (
+        "clips[0].flight: the camera is 4.2 m under the terrain at time_s = 0.0; expected it above ground all along"
+    )
+
+
+def _run(tmp_path: Path, config: dict, *options: str) -> subprocess.CompletedProcess:
+    path = tmp_path / "config.json"
+    path.write_text(json.dumps(config))
+    script = ROOT / "blender_scripts" / "plan_dataset.py"
+    command = [sys.executable, str(script), "--config", str(path), *options]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def test_the_command_says_a_fault_in_one_line_and_exits_2(tmp_path):
+    done = _run(tmp_path, tiny(FAULTS["two clips of one id"][0]), "--json")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == 'clips[1].id = "down"; expected an id no other clip has\n'
+
+
+def test_the_command_plans_in_json_and_in_words(tmp_path):
+    done = _run(tmp_path, tiny(), "--json")
+    plan = json.loads(done.stdout)
+    assert (done.returncode, done.stderr, plan["objects"]) == (0, "", 6)
+    assert [(clip["id"], clip["frames"], clip["duration_s"]) for clip in plan["clips"]] == [
+        ("down", 3, 0.333),
+        ("side", 3, 0.333),
+    ]
+    assert plan["clips"][1]["frames_with_actors"] == 3
+    words = _run(tmp_path, tiny()).stdout.splitlines()
+    assert words[1].startswith("side: 3 frames, 0.333 s, actors in 3, ")
+    assert words[2] == f'6 actors, {plan["plants"]} plants'

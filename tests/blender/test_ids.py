@@ -1,0 +1,24 @@
+"""Object and material indices."""
+
+import pytest
+
+from veldt import ids
+from veldt.faults import ConfigError
+
+
+def test_actors_count_up_and_stay_off_the_place():
+    assert ids.plan_indices(["a", "b"]) == {"a": 101, "b": 102}
+    assert max(ids.plan_plant_indices(["acacia", "shrub"]).values()) < ids.FIRST_ACTOR
+
+
+def test_the_last_index_is_used_and_no_more():
+    names = [str(k) for k in range(32667)]
+    assert ids.plan_indices(names)["32666"] == 32767
+    with pytest.raises(ConfigError) as fault:
+        ids.plan_indices([*names, "one more"])
+    assert str(fault.value) == "scene.groups = 32668 actors; expected at most 32667, one object index each"
+
+
+def test_materials_are_numbered_once_each_in_order():
+    pairs = [("soil", ""), ("human", "head"), ("soil", ""), ("human", "legs")]
+    assert ids.plan_material_indices(pairs) == {("soil", ""): 1, ("human", "head"): 2, ("human", "legs"): 3}

@@ -1,0 +1,62 @@
+"""The manifest keeps to its schema and says what was planned."""
+
+import json
+
+import jsonschema
+import numpy as np
+import pytest
+
+from scenes import flat, tiny
+from veldt.actors import track
+from veldt.config import ROOT
+from veldt.manifest import build_manifest, to_json
+from veldt.world import plan_world
+
+SCHEMA = json.loads((ROOT / "configs" / "schema" / "manifest.schema.json").read_text())
+
+
+@pytest.mark.parametrize("clip", [0, 1])
+def test_it_keeps_to_the_schema(world, clip):
+    text = to_json(build_manifest(world, world.config["clips"][clip]))
+    jsonschema.validate(json.loads(text), SCHEMA)
+
+
+def test_the_text_is_the_manifest(world):
+    manifest = build_manifest(world, world.config["clips"][0])
+    assert json.loads(to_json(manifest)) == manifest
+
+
+def test_every_material_of_an_object_is_listed(world):
+    manifest = build_manifest(world, world.config["clips"][0])
+    listed = {entry["material"] for entry in manifest["materials"]}
+    assert {entry["material"] for entry in manifest["objects"]} <= listed
+    parts = {(entry["material"], entry.get("part")) for entry in manifest["materials"]}
+    assert {
+        ("human", "face"),
+        ("human", "hands"),
+        ("elephant", "ears"),
+        ("soil", None),
+        ("grass", None),
+    } <= parts
+
+
+def test_actors_are_where_they_walk(world):
+    clip = world.config["clips"][1]
+    frames = build_manifest(world, clip)["frames"]
+    actor = world.actors[3]
+    walk = track(actor, world.terrain, np.array([frame["time_s"] for frame in frames]))
+    told = [entry for frame in frames for entry in frame["actors"] if entry["index"] == actor.index]
+    # Times are rounded to 1e-9 s, places to 1e-6 m, angles to 1e-9 rad.
+    assert [entry["position_m"] for entry in told] == [pytest.approx(p, abs=2e-6) for p in walk.position_m]
+    assert [entry["heading_rad"] for entry in told] == pytest.approx(walk.heading_rad, abs=1e-8)
+
+
+def test_tracks_are_the_same_in_all_clips_of_a_dataset(world):
+    down, side = (build_manifest(world, clip)["objects"] for clip in world.config["clips"])
+    assert down == side
+
+
+def test_a_place_without_water_or_plants_lists_none():
+    world = plan_world(tiny(flat))
+    classes = {entry["class"] for entry in build_manifest(world, world.config["clips"][0])["objects"]}
+    assert classes == {"ground", "actor"}

@@ -1,0 +1,187 @@
+"""A real Blender renders a small scene: files, events, indices, determinism, resume and faults."""
+
+import shutil
+
+import numpy as np
+
+from rendering import PLANES, Run, needs_blender, render
+from scenes import tiny
+from veldt import ids
+from veldt.exr_files import is_whole
+from veldt.manifest import build_manifest
+
+pytestmark = needs_blender
+
+CLIPS = ("down", "side")
+
+
+def _assert_same_pixels(one: Run, other: Run, clip: str, frames: int = 3) -> None:
+    for frame in range(frames):
+        first, second = one.planes(clip, frame), other.planes(clip, frame)
+        assert all(np.array_equal(first[name], second[name]) for name in PLANES)
+
+
+def test_files_are_whole_and_nothing_else_is_left(full):
+    for clip in CLIPS:
+        names = sorted(path.name for path in (full.out / clip).iterdir())
+        assert names == ["000000.exr", "000001.exr", "000002.exr", "manifest.json"]
+        planes = full.planes(clip, 2)
+        assert set(PLANES) <= set(planes)
+        assert all(plane.shape == (80, 96) for plane in planes.values())
+
+
+def test_manifests_are_the_planned_ones(full, world):
+    for number, clip in enumerate(CLIPS):
+        assert full.manifest(clip) == build_manifest(world, world.config["clips"][number])
+
+
+def test_events_tell_the_story_in_order(full):
+    expected = ["scene_built"]
+    for clip in CLIPS:
+        expected += [
+            ("clip", clip),
+            *[("frame", clip, k, f"{k:06d}.exr") for k in range(3)],
+            ("clip_done", clip),
+        ]
+    expected.append("done")
+    told = [
+        {"frame": lambda e: ("frame", e["clip"], e["index"], e["file"])}.get(
+            event["event"], lambda e: (e["event"], e["clip"]) if "clip" in e else e["event"]
+        )(event)
+        for event in full.events
+    ]
+    assert told == expected
+    assert full.events[0]["seconds"] > 0
+    assert full.events[1] == {"event": "clip", "clip": "down", "first_frame": 0, "frames": 3}
+
+
+def test_index_planes_hold_whole_listed_numbers(full):
+    for clip in CLIPS:
+        manifest = full.manifest(clip)
+        objects = {entry["index"] for entry in manifest["objects"]} | {0}
+        materials = {entry["index"] for entry in manifest["materials"]} | {0}
+        for frame in range(3):
+            planes = full.planes(clip, frame)
+            assert set(np.unique(planes["Scene.IndexOB.X"])) <= objects
+            assert set(np.unique(planes["Scene.IndexMA.X"])) <= materials
+
+
+def test_objects_wear_their_own_materials(full):
+    for clip in CLIPS:
+        manifest = full.manifest(clip)
+        material = {entry["index"]: entry["material"] for entry in manifest["materials"]}
+        worn = {entry["index"]: {entry["material"]} for entry in manifest["objects"]} | {
+            ids.GROUND: {"soil", "grass"}
+        }
+        planes = full.planes(clip, 0)
+        pairs = np.stack([planes["Scene.IndexOB.X"], planes["Scene.IndexMA.X"]], axis=-1).reshape(-1, 2)
+        for index, slot in np.unique(pairs[pairs[:, 0] > 0].astype(int), axis=0):
+            assert material[slot] in worn[index]
+
+
+def test_the_scene_shows_what_it_should(full):
+    seen = {
+        int(k) for clip in CLIPS for frame in range(3) for k in np.unique(full.planes(clip, frame)[PLANES[0]])
+    }
+    assert {ids.GROUND, ids.WATER, ids.FIRST_PLANT, ids.FIRST_PLANT + 1, 103, 104} <= seen
+
+
+def test_clips_and_threads_change_no_pixel(full, tmp_path):
+    """One thread, the clips in the other order: the same pixels as with two threads in the config's order."""
+    run = render(tmp_path, tiny(), "--clip", "side", "--clip", "down", threads=1)
+    assert run.code == 0, run.log
+    assert [event["clip"] for event in run.events if event["event"] == "clip"] == ["side", "down"]
+    for clip in CLIPS:
+        _assert_same_pixels(full, run, clip)
+        assert (run.out / clip / "manifest.json").read_bytes() == (
+            full.out / clip / "manifest.json"
+        ).read_bytes()
+
+
+def test_a_killed_clip_goes_on_where_it_stopped(full, tmp_path):
+    out = tmp_path / "out"
+    shutil.copytree(full.out / "down", out / "down")
+    for gone in ("000001.exr", "000002.exr"):
+        (out / "down" / gone).unlink()
+    (out / "down" / "part_000001.exr").write_bytes(b"half a frame")
+    kept = (out / "down" / "000000.exr").stat().st_mtime_ns
+    run = render(tmp_path, tiny(), "--clip", "down", out=out)
+    assert run.code == 0, run.log
+    assert run.events[1] == {"event": "clip", "clip": "down", "first_frame": 1, "frames": 3}
+    assert [event["index"] for event in run.events if event["event"] == "frame"] == [1, 2]
+    assert (out / "down" / "000000.exr").stat().st_mtime_ns == kept
+    assert sorted(path.name for path in (out / "down").iterdir())[-1] == "manifest.json"
+    _assert_same_pixels(full, run, "down")
+
+
+def test_frames_of_another_config_are_left_alone(full, tmp_path):
+    out = tmp_path / "out"
+    shutil.copytree(full.out, out)
+    run = render(tmp_path, tiny(lambda config: config.update(seed=8)), out=out)
+    assert run.code == 2
+    message = f"--out = {out / 'down'}; expected no frames there, or frames of this config"
+    assert run.events[-1]["message"] == message
+    assert (out / "down" / "manifest.json").read_bytes() == (full.out / "down" / "manifest.json").read_bytes()
+
+
+def test_a_fault_of_the_config_is_told_and_exits_2(tmp_path):
+    run = render(tmp_path, tiny(lambda config: config["clips"][1].update(id="down")))
+    assert run.code == 2
+    where = run.events[-1].pop("where")
+    assert run.events == [
+        {
+            "event": "error",
+            "kind": "config",
+            "message": 'clips[1].id = "down"; expected an id no other clip has',
+        }
+    ]
+    assert where.startswith("checks.py:")
+    assert not run.out.exists()
+
+
+def test_an_unknown_clip_is_told(tmp_path):
+    run = render(tmp_path, tiny(), "--clip", "dwn")
+    assert run.code == 2
+    assert run.events[-1]["message"] == (
+        '--clip = "dwn"; expected a clip of the config: down, side (did you mean "down"?)'
+    )
+
+
+def test_a_failure_names_the_line(tmp_path):
+    (tmp_path / "out").write_text("a file where the folder should be")
+    run = render(tmp_path, tiny())
+    assert run.code == 1
+    error = run.events[-1]
+    assert (error["event"], error["kind"]) == ("error", "internal")
+    assert "Not a directory" in error["message"]
+    assert error["where"].startswith("render_passes.py:")
+
+
+def test_a_frame_cut_short_never_gets_its_final_name(tmp_path):
+    """Blender itself reports such a frame as saved."""
+    run = render(tmp_path, tiny(), largest_file_bytes=30_000)
+    assert run.code == 1
+    frame = run.out / "down" / "000000.exr"
+    assert run.events[-1]["message"] == f"{frame}: Blender could not write all of it; is the disk full?"
+    assert not [event for event in run.events if event["event"] == "frame"]
+    assert not frame.exists()
+    assert run.log.count("Saved:") == 1  # and the frames after it are not tried
+
+
+def test_broken_files_are_told_from_whole_ones(full, tmp_path):
+    whole = (full.out / "down" / "000000.exr").read_bytes()
+    copy = tmp_path / "copy.exr"
+    zeroed = whole[:800] + bytes(200) + whole[1000:]
+    for content in (
+        whole,
+        whole[:-1],
+        whole + b"x",
+        whole[: len(whole) // 2],
+        whole[:300],
+        whole[:3],
+        b"",
+        zeroed,
+    ):
+        copy.write_bytes(content)
+        assert is_whole(copy) == (content is whole)
+    assert not is_whole(tmp_path / "none.exr")

@@ -1,0 +1,120 @@
+"""What Blender draws is where it was planned, to the pixel."""
+
+import numpy as np
+
+from raster import draw, farthest_from_an_edge, plant_triangles, world_triangles
+from rendering import PLANES, needs_blender, render
+from scenes import flat, tiny
+from veldt import ids
+from veldt.camera import project
+from veldt.plan import box_corners_m
+from veldt.world import plan_world
+
+pytestmark = needs_blender
+
+CLIPS = ("down", "side")
+
+
+def test_ground_and_water_are_where_they_were_planned(full, world):
+    """Depth and pose put every pixel of ground and water back onto the terrain."""
+    lens = world.intrinsics
+    cx_px, cy_px = lens.centre_px
+    column, row = np.meshgrid(np.arange(lens.width_px) + 0.5, np.arange(lens.height_px) + 0.5)
+    rays = np.stack([(column - cx_px) / lens.f_px, (row - cy_px) / lens.f_px, np.ones_like(row)], axis=-1)
+    for clip in CLIPS:
+        planes, manifest = full.planes(clip, 1), full.manifest(clip)
+        pose = np.array(manifest["frames"][1]["camera_to_world"]).reshape(4, 4)
+        place = (rays * planes["Scene.Depth.Z"][..., None]) @ pose[:3, :3].T + pose[:3, 3]
+        wet = planes["Scene.IndexOB.X"] == ids.WATER
+        dry = planes["Scene.IndexOB.X"] == ids.GROUND
+        height_m = world.terrain.height_m(place[..., 0], place[..., 1])
+        # Blender computes in float32 at coordinates up to 60 m, eps 4e-6 m; some tens of roundings, slopes below 1.
+        assert np.abs(place[..., 2] - height_m)[dry].max() < 2e-4
+        assert np.abs(place[..., 2] - world.terrain.water.level_m)[wet].max(initial=0.0) < 2e-4
+        assert (height_m[wet] < world.terrain.water.level_m).all()
+
+
+def test_boxes_hold_their_actors(full, world):
+    """No pixel of an actor lies outside its projected box."""
+    for number, clip in enumerate(CLIPS):
+        flight = world.flight(world.config["clips"][number])
+        for actor in world.actors:
+            corners, _ = project(
+                world.intrinsics, flight.camera_to_world, box_corners_m(world, flight, actor)
+            )
+            for frame in range(3):
+                row, column = np.nonzero(full.planes(clip, frame)["Scene.IndexOB.X"] == actor.index)
+                pixels = np.stack([column, row], axis=1) + 0.5
+                # Poses in the manifest and in Blender differ by float32: about 1e-3 px.
+                assert (pixels > corners[frame].min(axis=0) - 0.01).all()
+                assert (pixels < corners[frame].max(axis=0) + 0.01).all()
+
+
+def _crowd(config: dict) -> None:
+    """Everybody on a level, bare place, seen from above and from the side at half time steps."""
+    flat(config)
+    config["scene"]["terrain"]["size_m"] = 400  # no sky in the picture
+    config["camera"] = {"width_px": 320, "height_px": 256, "pixel_pitch_um": 30}
+    config["scene"]["groups"] = [
+        {"name": name, "species": name, "path": "loop", "start_m": 6 * k}
+        for k, name in enumerate(("human", "elephant", "zebra"))
+    ]
+    follow = {"pattern": "follow", "target": "elephant", "altitude_m": 25}
+    config["clips"] = [
+        {
+            "id": "down",
+            "season": "winter",
+            "frames": 2,
+            "frame_rate_hz": 3,
+            "flight": follow | {"look_angle_deg": 90},
+        },
+        {
+            "id": "side",
+            "season": "winter",
+            "frames": 2,
+            "frame_rate_hz": 3,
+            "flight": follow | {"look_angle_deg": 40, "azimuth_deg": 70},
+        },
+    ]
+
+
+def _assert_pictures_agree(world, flight, frame: int, rendered: np.ndarray, triangles: dict) -> None:
+    """An independent drawing agrees with Blender's index plane in every pixel off the projected edges."""
+    pose = flight.camera_to_world[frame]
+    expected = draw(world, pose, triangles, ids.GROUND)
+    assert all(np.count_nonzero(expected == index) > 20 for index in triangles)
+    row, column = np.nonzero(expected != rendered)
+    # float32 poses move a body by 1e-5 m and turn the view by 1e-6 rad: 0.01 px is several times that.
+    edges = np.concatenate(list(triangles.values()))
+    assert farthest_from_an_edge(world, pose, edges, np.stack([column, row], axis=1)) < 0.01
+    # The outlines are some hundred px long, and a hundredth px of every px can be on either side.
+    assert len(row) < 10
+
+
+def test_bodies_fill_exactly_the_pixels_they_should(tmp_path):
+    config = tiny(_crowd)
+    world, run = plan_world(config), render(tmp_path, config)
+    assert run.code == 0, run.log
+    for clip in config["clips"]:
+        flight = world.flight(clip)
+        for frame in range(clip["frames"]):
+            bodies = {a.index: world_triangles(world, a, flight.time_s[frame]) for a in world.actors}
+            _assert_pictures_agree(world, flight, frame, run.planes(clip["id"], frame)[PLANES[0]], bodies)
+
+
+def _grove(config: dict) -> None:
+    """A level place with a few plants and nobody in sight."""
+    flat(config)
+    config["scene"]["terrain"]["size_m"] = 160
+    config["scene"]["plants"] = {"acacia_per_ha": 20, "shrub_per_ha": 60}
+    config["scene"]["groups"], config["clips"] = [], config["clips"][:1]
+    config["clips"][0]["frames"] = 1
+
+
+def test_plants_fill_exactly_the_pixels_they_should(tmp_path):
+    config = tiny(_grove)
+    world, run = plan_world(config), render(tmp_path, config)
+    assert run.code == 0, run.log
+    plants = {index: plant_triangles(world, name) for name, index in world.plant_indices.items()}
+    flight = world.flight(config["clips"][0])
+    _assert_pictures_agree(world, flight, 0, run.planes("down", 0)[PLANES[0]], plants)

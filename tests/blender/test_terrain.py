@@ -1,0 +1,83 @@
+"""The ground: size, relief, water, and heights that agree with the mesh."""
+
+import numpy as np
+import pytest
+
+from scenes import tiny
+from veldt.terrain import build_terrain
+
+FULL = {"size_m": 800, "cell_m": 4, "relief_m": 24, "hill_wavelength_m": 300, "water_radius_m": 40}
+
+
+@pytest.fixture(scope="module", name="terrain")
+def _terrain():
+    return build_terrain(FULL, 3)
+
+
+def _grid():
+    axis = np.linspace(-400, 400, 201)
+    return np.meshgrid(axis, axis)
+
+
+def test_the_same_seed_makes_the_same_ground(terrain):
+    assert np.array_equal(build_terrain(FULL, 3).heights_m, terrain.heights_m)
+    assert not np.array_equal(build_terrain(FULL, 4).heights_m, terrain.heights_m)
+
+
+def test_it_has_the_size_cells_and_relief_asked_for(terrain):
+    assert terrain.heights_m.shape == (201, 201)
+    assert terrain.cell_m == 4
+    dry = build_terrain(FULL | {"water_radius_m": 0}, 3)
+    assert np.ptp(dry.heights_m) == pytest.approx(24, rel=1e-12)  # a scaled span: a few roundings
+    assert dry.water is None
+
+
+def test_cells_are_stretched_to_fit():
+    assert build_terrain(FULL | {"size_m": 100, "cell_m": 3}, 3).cell_m == pytest.approx(100 / 33)
+
+
+def test_heights_meet_the_grid_and_are_planes_between(terrain):
+    x, y = _grid()
+    # Grid coordinates and cell shares round by some eps of 800 m, times slopes below 1.
+    assert np.abs(terrain.height_m(x, y) - terrain.heights_m).max() < 1e-11
+    middle = terrain.height_m(x[:-1, :-1] + 2, y[:-1, :-1] + 2)
+    assert np.abs(middle - 0.5 * (terrain.heights_m[:-1, :-1] + terrain.heights_m[1:, 1:])).max() < 1e-11
+
+
+def test_beyond_the_border_the_border_goes_on(terrain):
+    assert terrain.height_m(1e4, 0.0) == terrain.height_m(400.0, 0.0)
+
+
+def test_water_lies_in_the_middle_and_nowhere_else(terrain):
+    x, y = _grid()
+    ground, surface, shore = terrain.height_m(x, y), terrain.surface_m(x, y), terrain.shore_m(x, y)
+    wet = surface > ground
+    assert np.array_equal(surface[wet], np.full(wet.sum(), terrain.water.level_m))
+    assert terrain.surface_m(0.0, 0.0) == terrain.water.level_m
+    radius = np.sqrt(wet.sum() * 16 / np.pi)
+    # The shore wanders by up to 45 % of the radius over about eight independent stretches.
+    assert radius == pytest.approx(40, rel=0.45 / np.sqrt(8))
+    # The rendered sheet is a disc: all the water is inside it, and no other ground in it is lower.
+    disc = np.hypot(x, y) < terrain.water.disc_radius_m
+    assert not (wet & ~disc).any()
+    assert (ground[disc & (shore > 0)] > terrain.water.level_m).all()
+
+
+def test_smoothed_ground_stays_within_the_ground(terrain):
+    x, y = _grid()
+    smooth = terrain.smooth_surface_m(x, y)
+    surface = terrain.surface_m(x, y)
+    assert surface.min() <= smooth.min() and smooth.max() <= surface.max()
+    assert np.abs(np.diff(smooth, axis=1)).max() < 0.5 * np.abs(np.diff(surface, axis=1)).max()
+
+
+def test_water_smaller_than_a_cell_does_no_harm():
+    terrain = build_terrain(FULL | {"size_m": 150, "cell_m": 50, "water_radius_m": 2}, 3)
+    assert np.isfinite(terrain.heights_m).all()
+
+
+def test_a_place_without_relief_is_level():
+    terrain = build_terrain(
+        tiny(lambda c: c["scene"]["terrain"].update(relief_m=0, water_radius_m=0))["scene"]["terrain"], 1
+    )
+    assert not terrain.heights_m.any()
