@@ -1,0 +1,77 @@
+"""Checks on the repository's files that no compiler makes: JSON that parses, configs that match the schema,
+no paths of a developer's machine. Standard input names the files, one a line, relative to the root.
+
+Exit 0 when all is well; 1 with one line a fault, `<file>[:<line>]: <what>; expected <rule>`.
+"""
+
+import json
+import re
+import sys
+from pathlib import Path
+
+import jsonschema
+
+CONFIG_SCHEMA = Path("configs/schema/config.schema.json")
+# A home or working folder at the start of a path; the look-behind leaves URLs and relative paths alone.
+MACHINE_PATH = re.compile(r"(?<![\w./-])/(?:home|root|work|Users)/")
+
+
+def json_faults(path: Path) -> list[str]:
+    """One line if the file is not JSON; a schema is also checked as a schema, a config against its schema."""
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except json.JSONDecodeError as error:
+        return [f"{path}:{error.lineno}: {error.msg} at column {error.colno}; expected JSON"]
+    if path.name.endswith(".schema.json"):
+        return schema_faults(path, document)
+    if path.parent == CONFIG_SCHEMA.parent.parent:
+        return config_faults(path, document)
+    return []
+
+
+def schema_faults(path: Path, schema: dict) -> list[str]:
+    """One line if a JSON Schema breaks the rules for schemas."""
+    try:
+        jsonschema.Draft202012Validator.check_schema(schema)
+    except jsonschema.SchemaError as error:
+        return [f"{path}: {error.json_path}: {error.message}; expected a JSON Schema of draft 2020-12"]
+    return []
+
+
+def config_faults(path: Path, config: dict) -> list[str]:
+    """One line for each place where a config departs from the config schema."""
+    validator = jsonschema.Draft202012Validator(json.loads(CONFIG_SCHEMA.read_text(encoding="utf-8")))
+    return [
+        f"{path}: {error.json_path}: {error.message}; expected what {CONFIG_SCHEMA} says"
+        for error in validator.iter_errors(config)
+    ]
+
+
+def machine_path_faults(path: Path) -> list[str]:
+    """One line for each line of text that names a folder of a developer's machine; binaries are skipped."""
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except UnicodeDecodeError:
+        return []
+    return [
+        f"{path}:{number}: a path of a machine; expected a path relative to the repository"
+        for number, line in enumerate(lines, start=1)
+        if MACHINE_PATH.search(line)
+    ]
+
+
+def file_faults(path: Path) -> list[str]:
+    """All faults of one file."""
+    return machine_path_faults(path) + (json_faults(path) if path.suffix == ".json" else [])
+
+
+def main() -> int:
+    """Checks every file named on standard input and prints what is wrong with them."""
+    paths = [Path(line) for line in sys.stdin.read().splitlines()]
+    faults = [fault for path in paths for fault in file_faults(path)]
+    print("\n".join(faults) or f"{len(paths)} files are sound")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,60 @@
+"""A small config: two clips that a real Blender makes in two seconds."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable
+
+FRAMES = 8
+CLIPS = ("down", "side")
+
+_TINY = {
+    "name": "tiny",
+    "seed": 7,
+    "scene": {
+        "terrain": {
+            "size_m": 120,
+            "cell_m": 2,
+            "relief_m": 5,
+            "hill_wavelength_m": 80,
+            "water_radius_m": 10,
+            "grass_patch_m": 12,
+        },
+        "plants": {"acacia_per_ha": 30, "shrub_per_ha": 100},
+        "paths": {"loop": {"points_m": [[28, 0], [0, 28], [-28, 0], [0, -28]]}},
+        "groups": [
+            {"name": "people", "species": "human", "path": "loop", "count": 3, "spacing_m": 3, "spread_m": 1},
+            {"name": "herd", "species": "elephant", "path": "loop", "count": 2, "spacing_m": 8, "start_m": 16},
+            {"name": "zebras", "species": "zebra", "path": "loop", "count": 2, "start_m": 28},
+        ],
+    },
+    "camera": {"width_px": 96, "height_px": 80, "pixel_pitch_um": 100},
+    "clips": [
+        {
+            "id": "down",
+            "season": "winter",
+            "frames": FRAMES,
+            "flight": {
+                "pattern": "zigzag",
+                "area_m": [13, -10, 33, 10],  # its first lane leads over the people
+                "heading_deg": 90,
+                "lane_spacing_m": 10,
+                "altitude_m": 40,
+            },
+        },
+        {
+            "id": "side",
+            "season": "summer",
+            "frames": FRAMES,
+            "flight": {"pattern": "follow", "target": "herd", "look_angle_deg": 45, "altitude_m": 25},
+        },
+    ],
+}
+
+
+def tiny(change: Callable[[dict], None] | None = None) -> dict:
+    """A small place with people, elephants and zebras, after `change` had its way with it."""
+    config = copy.deepcopy(_TINY)
+    if change is not None:
+        change(config)
+    return config

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+/// What the fault says that `work` throws; a text that equals no message if it throws none of this kind.
+/// Other exceptions pass through, and Catch2 reports them.
+template <typename Fault, typename Work>
+std::string message_of(const Work& work) {
+  try {
+    work();
+  } catch (const Fault& fault) {
+    return fault.what();
+  }
+  return "(no fault was thrown)";
+}

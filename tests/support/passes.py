@@ -1,0 +1,69 @@
+"""Passes of a clip made up by the tests: small, and known to the last pixel."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from pictures import write_exr
+
+WIDTH, HEIGHT, FRAMES = 24, 16, 3
+GROUND, SHRUB, WALKER, ELEPHANT = 1, 4, 101, 102
+OBJECTS, DEPTH = "Scene.IndexOB.X", "Scene.Depth.Z"
+
+
+def manifest(clip: str = "one", frames: int = FRAMES) -> dict:
+    """What the indices of a clip mean."""
+    actor = {"class": "actor"}
+    return {
+        "format": "veldt-passes",
+        "version": 1,
+        "clip": clip,
+        "scene": "made_up",
+        "seed": 5,
+        "camera": {"width_px": WIDTH, "height_px": HEIGHT, "fx_px": 30, "fy_px": 30, "cx_px": 12, "cy_px": 8},
+        "objects": [
+            {"index": GROUND, "name": "ground", "class": "ground", "material": "soil"},
+            {"index": SHRUB, "name": "shrub", "class": "plant", "material": "shrub"},
+            actor | {"index": WALKER, "name": "walker", "material": "human", "category": "human", "track_id": 7},
+            actor
+            | {"index": ELEPHANT, "name": "cow", "material": "elephant", "category": "elephant", "track_id": 9},
+        ],
+        "materials": [],
+        "frames": [{"file": f"{k:06d}.exr", "time_s": k / 9} for k in range(frames)],
+    }
+
+
+def object_index(frame: int) -> np.ndarray:
+    """A walker on its way to the right, half of an elephant at the left border, a shrub, sky above."""
+    plane = np.full((HEIGHT, WIDTH), GROUND, np.float32)
+    plane[:2] = 0
+    plane[10:14, 0:5] = ELEPHANT
+    plane[5:9, 8 + frame : 10 + frame] = WALKER
+    plane[7:10, 9:12] = SHRUB  # hides a part of the walker
+    return plane
+
+
+def write_clip(folder: Path, clip: str = "one", frames: int = FRAMES) -> Path:
+    """Writes a clip's passes and manifest into a new folder."""
+    folder.mkdir()
+    for frame in range(frames):
+        depth = np.full((HEIGHT, WIDTH), 40.0 + frame)
+        depth[:2] = 1e10  # what Blender writes for the sky
+        write_exr(folder / f"{frame:06d}.exr", {OBJECTS: object_index(frame), DEPTH: depth})
+    write_manifest(folder, manifest(clip, frames))
+    return folder
+
+
+def write_manifest(folder: Path, document: dict) -> None:
+    """Writes a manifest beside the passes."""
+    (folder / "manifest.json").write_text(json.dumps(document, indent=1), encoding="utf-8")
+
+
+def change_index(folder: Path, frame: int, value: float, x_px: int = 3, y_px: int = 2) -> None:
+    """Writes a frame anew with another value in one pixel of its object index."""
+    plane = object_index(frame)
+    plane[y_px, x_px] = value
+    write_exr(folder / f"{frame:06d}.exr", {OBJECTS: plane})

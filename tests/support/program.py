@@ -1,0 +1,84 @@
+"""Runs the built program as a user would, in a folder of its own."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = Path(os.environ.get("VELDT_PROGRAM") or ROOT / "build" / "release" / "bin" / "veldt")
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a run ended."""
+
+    code: int
+    out: str
+    err: str
+
+    def json(self):
+        """What it printed, read as JSON."""
+        return json.loads(self.out)
+
+
+class Veldt:
+    """The program, run in `folder`: what it says of files is then as short as their names."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+
+    def __call__(self, *arguments, env: dict | None = None, under: Sequence[str] = ()) -> Ended:
+        """Runs to the end. `env` changes the environment; `under` is a command that runs the program."""
+        done = subprocess.run(
+            [*under, PROGRAM, *map(str, arguments)],
+            cwd=self.folder,
+            env=_environment(env),
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+        )
+        return Ended(done.returncode, done.stdout, done.stderr)
+
+    def start(self, *arguments, env: dict | None = None) -> subprocess.Popen:
+        """Starts a run in the background; its progress can be read from `stderr`, line by line."""
+        return subprocess.Popen(
+            [PROGRAM, *map(str, arguments)],
+            cwd=self.folder,
+            env=_environment(env),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    def write(self, name: str, content) -> Path:
+        """Writes a file of text, or of JSON."""
+        file = self.folder / name
+        file.write_text(content if isinstance(content, str) else json.dumps(content), encoding="utf-8")
+        return file
+
+    def read(self, name: str | Path):
+        """Reads a file of JSON."""
+        return json.loads((self.folder / name).read_text(encoding="utf-8"))
+
+    def pixels(self, dataset: str | Path) -> dict[str, str]:
+        """Hashes of a dataset's pixels, clip by clip; the dataset must be complete."""
+        index = self.read(Path(dataset) / "dataset.json")
+        assert index["status"] == "complete"
+        return {"all": index["pixels_sha256"]} | {c["id"]: c["pixels_sha256"] for c in index["clips"]}
+
+
+def _environment(changes: dict | None) -> dict:
+    """This process's environment without settings of the program, then changed."""
+    inherited = {key: value for key, value in os.environ.items() if not key.startswith("VELDT_")}
+    return inherited | (changes or {})
+
+
+def files_below(folder: Path) -> list[str]:
+    """Names of all files in a folder and below, sorted."""
+    return sorted(str(file.relative_to(folder)) for file in folder.rglob("*") if file.is_file())
