@@ -1,8 +1,8 @@
 #include "imaging/budget.h"
 
-#include <fmt/format.h>
-
 #include <memory>
+
+#include <fmt/format.h>
 
 #include "cli/command.h"
 #include "dataset/physics.h"
@@ -16,8 +16,9 @@ void print_materials(const thermal::SceneOutline& outline) {
   for (const thermal::SceneOutline::Night& night : outline.nights) {
     const auto nearest = std::min_element(night.looks.begin(), night.looks.end(),
                                           [](const auto& a, const auto& b) { return a.range_m < b.range_m; });
-    fmt::print("\nair at {} K, humidity {}, range {:.0f} m [mK]\n{:<16}{:>10}{:>10}\n", night.weather.air.temperature_k,
-               night.weather.air.relative_humidity, nearest->range_m, "", "sky", "path");
+    fmt::print("\nair at {} K, humidity {}, range {:.0f} m [mK]\n{:<16}{:>10}{:>10}\n",
+               night.weather.air.temperature_k, night.weather.air.relative_humidity, nearest->range_m, "",
+               "sky", "path");
     for (const thermal::SceneOutline::Cover& cover : outline.covers) {
       const thermal::MaterialShift shift =
           thermal::shift_of(*cover.material, night.weather, nearest->range_m, outline.response);
@@ -27,12 +28,14 @@ void print_materials(const thermal::SceneOutline& outline) {
 }
 
 void print(const thermal::Budget& budget, const thermal::SceneOutline& outline) {
-  fmt::print("NETD {:.0f} mK: an automatic term is kept if it differs by more than {:.1f} mK across the pictures\n\n",
-             1e3 * outline.netd_k, 1e3 * outline.netd_k / 3);
+  fmt::print(
+      "NETD {:.0f} mK: an automatic term is kept if it differs by more than {:.1f} mK across the "
+      "pictures\n\n",
+      1e3 * outline.netd_k, 1e3 * outline.netd_k / 3);
   fmt::print("{:<12}{:>8}{:>14}{:>22}  {}\n", "term", "choice", "spread [mK]", "largest on actor [mK]", "");
   for (const thermal::TermEffect& effect : budget.effects) {
-    fmt::print("{:<12}{:>8}{:>14.1f}{:>22.1f}  {}\n", effect.name, choice_name(effect.choice), 1e3 * effect.spread_k,
-               1e3 * effect.actor_shift_k, effect.kept ? "kept" : "dropped");
+    fmt::print("{:<12}{:>8}{:>14.1f}{:>22.1f}  {}\n", effect.name, choice_name(effect.choice),
+               1e3 * effect.spread_k, 1e3 * effect.actor_shift_k, effect.kept ? "kept" : "dropped");
   }
   fmt::print("\ndropped in all: {:.1f} mK\n", 1e3 * budget.dropped_k);
   print_materials(outline);
@@ -55,8 +58,8 @@ int run(const std::string& file, bool json) {
 }  // namespace
 
 void add_budget(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(app, session, "budget",
-                                  "Each physical term in mK against NETD: kept or dropped, and why");
+  CLI::App* command =
+      add_command(app, session, "budget", "Each physical term in mK against NETD: kept or dropped, and why");
   struct Options {
     std::string config;
     bool json = false;
@@ -64,9 +67,8 @@ void add_budget(CLI::App& app, Session& session) {
   auto options = std::make_shared<Options>();
   command->add_option("config", options->config, "Config of a dataset, JSON")->required();
   command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &session] {
-    session.run = [options] { return run(options->config, options->json); };
-  });
+  command->callback(
+      [options, &session] { session.run = [options] { return run(options->config, options->json); }; });
 }
 
 }  // namespace veldt

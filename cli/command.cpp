@@ -16,8 +16,8 @@ namespace veldt {
 namespace {
 
 /// The one table of commands, in the order help shows them.
-constexpr std::array kCommands = {add_generate, add_render,   add_convert, add_inspect,
-                                  add_validate, add_budget, add_radiance, add_doctor};
+constexpr std::array kCommands = {add_generate, add_render,   add_convert, add_inspect, add_validate,
+                                  add_budget,   add_radiance, add_bench,   add_doctor};
 
 void print_fault(const std::string& what) {
   std::istringstream lines(what);
@@ -83,7 +83,7 @@ thermal::Config load_config(const thermal::Path& file, const thermal::Path& home
 }
 
 thermal::Path find_blender(const std::string& named) {
-  const thermal::Path found = thermal::find_program(named.empty() ? "blender" : named);
+  thermal::Path found = thermal::find_program(named.empty() ? "blender" : named);
   if (!found.empty()) return found;
   if (!named.empty())
     throw thermal::ConfigError(thermal::fault("--blender", named, "", "a program that can be run"));

@@ -73,8 +73,10 @@ void add_ground(const Json& scene, const MaterialLibrary& materials, SceneOutlin
   const double size_m = terrain["size_m"];
   const double radius_m = terrain["water_radius_m"];
   const double water = std::min(0.9, std::numbers::pi * radius_m * radius_m / (size_m * size_m));
-  const double acacia = std::min(0.9, plants["acacia_per_ha"].get<double>() * kCrownM2 / kSquareMetresPerHectare);
-  const double shrub = std::min(0.9, plants["shrub_per_ha"].get<double>() * kShrubM2 / kSquareMetresPerHectare);
+  const double acacia =
+      std::min(0.9, plants["acacia_per_ha"].get<double>() * kCrownM2 / kSquareMetresPerHectare);
+  const double shrub =
+      std::min(0.9, plants["shrub_per_ha"].get<double>() * kShrubM2 / kSquareMetresPerHectare);
   const double open = (1 - water) * (1 - acacia) * (1 - shrub);
   const double grass = terrain["grass_fraction"];
   const std::map<std::string, double> shares = {{"soil", open * (1 - grass)},

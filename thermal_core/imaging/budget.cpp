@@ -29,7 +29,8 @@ double percentile(const std::vector<Weighted>& sorted, double share) {
 
 double spread(std::vector<Weighted> values) {
   if (values.empty()) return 0;
-  std::sort(values.begin(), values.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+  std::sort(values.begin(), values.end(),
+            [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
   return percentile(values, 0.95) - percentile(values, 0.05);
 }
 
@@ -72,7 +73,8 @@ class MaterialModel {
 /// Shifts that each term makes in one night.
 class NightShifts {
  public:
-  NightShifts(const SceneOutline& outline, const SceneOutline::Night& night) : outline_(outline), night_(night) {
+  NightShifts(const SceneOutline& outline, const SceneOutline::Night& night)
+      : outline_(outline), night_(night) {
     for (const SceneOutline::Cover& cover : outline.covers) add_cover(cover);
     add_falloff();
   }
@@ -117,7 +119,8 @@ class NightShifts {
 
   /// Quantiles of a normal distribution at 5, 15, … 95 % stand for the field.
   void add_variation(const SceneOutline::Cover& cover) {
-    constexpr double kQuantiles[] = {-1.645, -1.036, -0.674, -0.385, -0.126, 0.126, 0.385, 0.674, 1.036, 1.645};
+    constexpr double kQuantiles[] = {-1.645, -1.036, -0.674, -0.385, -0.126,
+                                     0.126,  0.385,  0.674,  1.036,  1.645};
     for (const double quantile : kQuantiles) {
       add("variation", quantile * cover.material->variation.stddev_k, cover.share / std::size(kQuantiles),
           cover.actor);

@@ -48,7 +48,7 @@ struct TermEffect {
 struct Budget {
   std::vector<TermEffect> effects;  ///< in the order of kTerms
   Terms kept;
-  double dropped_k = 0;             ///< spreads of what was dropped, added up
+  double dropped_k = 0;  ///< spreads of what was dropped, added up
 };
 
 /// Decides which terms a scene needs: an automatic one is kept if what it changes differs across the pictures by

@@ -14,7 +14,8 @@ SceneRadiance make_scene(const Manifest& manifest, const MaterialLibrary& materi
 }  // namespace
 
 FrameConverter::FrameConverter(const Manifest& manifest, const MaterialLibrary& materials, Season season,
-                               const SensorParameters& parameters, const std::optional<PhysicsSettings>& physics)
+                               const SensorParameters& parameters,
+                               const std::optional<PhysicsSettings>& physics)
     : supersample_(manifest.supersample),
       scene_radiance_(make_scene(manifest, materials, season, parameters, physics)),
       brightest_w_m2_sr_(parameters.normalisation == Normalisation::table_max

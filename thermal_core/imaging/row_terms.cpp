@@ -3,86 +3,143 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/polynomial.h"
+#include "imaging/row_kernels.h"
+
 namespace thermal {
 namespace {
 
-constexpr float kSkyDepth = 1e9F;
+/// One figure of every surface, for looking up by number.
+template <typename T = float, typename Get>
+std::vector<T> column(const SurfaceOpticsList& surfaces, const Get& get) {
+  std::vector<T> values;
+  for (const SurfaceOptics& surface : surfaces) values.push_back(static_cast<T>(get(surface)));
+  return values;
+}
 
-/// A function of [0, 1] or of another interval, tabulated for reading with straight lines between nodes.
-class Curve {
- public:
-  template <typename Function>
-  Curve(double end, int steps, const Function& function)
-      : steps_per_unit_(static_cast<float>(steps / end)), last_(static_cast<float>(steps)) {
-    for (int node = 0; node <= steps + 1; ++node) {
-      values_.push_back(static_cast<float>(function(std::min(end, end * node / steps))));
-    }
-  }
-
-  /// At x, held constant past both ends; x must not be NaN.
-  [[nodiscard]] float at(float x) const noexcept {
-    const float position = std::clamp(x * steps_per_unit_, 0.0F, last_);
-    const auto node = static_cast<int>(position);
-    const float* const value = values_.data() + node;
-    return value[0] + (position - static_cast<float>(node)) * (value[1] - value[0]);
-  }
-
- private:
-  float steps_per_unit_;
-  float last_;
-  std::vector<float> values_;
+/// World direction of a row's rays along one axis: along + across * ray_x.
+struct RayLine {
+  float along;
+  float across;
 };
 
-/// x and y in the world of what a pixel shows: origin + depth * direction.
-struct GroundPoint {
-  float x;
-  float y;
-};
-
-GroundPoint ground_point(const CameraPose& pose, float ray_x, float ray_y, float depth_m) noexcept {
-  const auto& r = pose.rotation;
-  return {pose.position_m[0] + depth_m * (r[0][0] * ray_x + r[0][1] * ray_y + r[0][2]),
-          pose.position_m[1] + depth_m * (r[1][0] * ray_x + r[1][1] * ray_y + r[1][2])};
+RayLine ray_line(const Row& row, const CameraRays& rays, std::size_t axis) {
+  const auto& r = row.pose->rotation.at(axis);
+  return {r[1] * rays.y()[static_cast<std::size_t>(row.y)] + r[2], r[0]};
 }
 
 /// Radiance of a clear sky's direction against a blackbody's at air temperature: the zenith's emissivity, seen
 /// through a path longer by the secant.
-Curve mirrored_sky(const Air& air) {
-  constexpr int kSteps = 256;
-  const double through = 1 - zenith_emissivity(air);
-  return Curve(1, kSteps, [through](double cosine) {
-    constexpr double kLowest = 0.05;  // 3 deg above the horizon: no plane's secant means anything below
-    return 1 - std::pow(through, 1 / std::max(cosine, kLowest));
-  });
+double mirrored_sky(const Air& air, double cosine) {
+  constexpr double kLowest = 0.05;  // 3 deg above the horizon: no plane's secant means anything below
+  return 1 - std::pow(1 - zenith_emissivity(air), 1 / std::max(cosine, kLowest));
+}
+
+/// A function of the cosine at which water is seen, tabulated: water is rare, its functions are slow.
+class WaterCurve {
+ public:
+  template <typename Function>
+  explicit WaterCurve(const Function& function) {
+    for (int node = 0; node <= kSteps + 1; ++node) {
+      values_.push_back(static_cast<float>(function(std::min(1.0, static_cast<double>(node) / kSteps))));
+    }
+  }
+  [[nodiscard]] float at(float cosine) const noexcept {
+    const float position = cosine * kSteps;
+    const auto node = static_cast<std::size_t>(position);
+    return values_[node] + (position - static_cast<float>(node)) * (values_[node + 1] - values_[node]);
+  }
+
+ private:
+  static constexpr int kSteps = 4096;
+  std::vector<float> values_;
+};
+
+bool is_water(const SurfaceOptics& surface) { return surface.angular == AngularLaw::water; }
+
+/// Polynomials for what the path takes away. See path_transmittance: Beer's law up to 30 m, then the fit in
+/// sqrt(range). Against it in double: below 1e-7, which is 0.01 mK for 20 K between surface and air.
+kernels::Absorption fit_absorption(const Air& air) {
+  constexpr double kNearEnd = 30;
+  constexpr double kFarthest = 1000;
+  const double first = std::sqrt(kNearEnd);
+  const double last = std::sqrt(kFarthest);
+  const auto absorbed = [&air](double range_m) { return 1 - path_transmittance(air, range_m); };
+  kernels::Absorption fit;
+  fit.near_end_m = static_cast<float>(kNearEnd);
+  fit.farthest_m = static_cast<float>(kFarthest);
+  fit.far_middle = static_cast<float>((first + last) / 2);
+  fit.far_half = static_cast<float>((last - first) / 2);
+  // A power series about 0 for the near part: what no range takes away must be exactly nothing.
+  const double exponent = std::log(path_transmittance(air, kNearEnd));
+  double term = 1;
+  for (std::size_t k = 1; k < kernels::Absorption::kTerms; ++k) {
+    term *= exponent / static_cast<double>(k);
+    fit.near.at(k) = static_cast<float>(-term);
+  }
+  const auto far = fit_polynomial(
+      [&](double x) {
+        const double root = (first + last) / 2 + x * (last - first) / 2;
+        return absorbed(std::clamp(root * root, kNearEnd, kFarthest));
+      },
+      kernels::Absorption::kTerms);
+  std::transform(far.begin(), far.end(), fit.far.begin(), [](double c) { return static_cast<float>(c); });
+  return fit;
 }
 
 }  // namespace
 
 RowTerm emission(const SurfaceOpticsList& surfaces) {
-  return [&surfaces](Row& row) {
-    for (std::size_t i = 0; i < row.surface.size(); ++i) {
-      row.radiance_w_m2_sr[i] = surfaces[row.surface[i]].emitted_w_m2_sr;
-    }
+  return [emitted = column(surfaces, [](const auto& s) { return s.emitted_w_m2_sr; })](Row& row) {
+    kernels::look_up(row.surface.data(), emitted.data(), row.radiance_w_m2_sr.data(), row.surface.size());
   };
 }
 
-RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField& field, const CameraRays& rays) {
-  return [&surfaces, &field, &rays](Row& row) {
-    const float ray_y = rays.y()[static_cast<std::size_t>(row.y)];
-    for (std::size_t i = 0; i < row.surface.size(); ++i) {
-      const SurfaceOptics& surface = surfaces[row.surface[i]];
-      const float depth_m = row.depth_m[i];
-      const bool varies = surface.variation_stddev_k > 0 && depth_m > 0 && depth_m < kSkyDepth;
-      if (!varies) {
-        row.radiance_w_m2_sr[i] = surface.emitted_w_m2_sr;
-        continue;
-      }
-      const GroundPoint point = ground_point(*row.pose, rays.x()[i], ray_y, depth_m);
-      const float scale = surface.per_correlation_length;
-      const float value = field.sample(point.x * scale, point.y * scale, depth_m * rays.pixel_width() * scale);
-      row.radiance_w_m2_sr[i] =
-          surface.table->radiance(surface.temperature_k + surface.variation_stddev_k * value);
+RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField& field,
+                        const CameraRays& rays) {
+  std::vector<float> nodes;
+  std::vector<std::int32_t> first_node;
+  std::vector<float> position;
+  std::vector<float> spread;
+  for (const SurfaceOptics& surface : surfaces) {
+    first_node.push_back(static_cast<std::int32_t>(nodes.size()));
+    if (surface.table != nullptr) {
+      surface.table->append_nodes(nodes);
+      position.push_back((surface.temperature_k - RadianceTable::kColdest) * RadianceTable::kNodesPerKelvin);
+      spread.push_back(surface.variation_stddev_k * RadianceTable::kNodesPerKelvin);
+    } else {
+      nodes.insert(nodes.end(), {surface.emitted_w_m2_sr, 0.0F});
+      position.push_back(0);
+      spread.push_back(0);
     }
+  }
+  return [&field, &rays, nodes, first_node, position, spread,
+          scale = column(surfaces, [](const auto& s) { return s.per_correlation_length; })](Row& row) {
+    const std::size_t width = row.surface.size();
+    for (auto* scratch : {&row.place_x, &row.place_y, &row.footprint, &row.variation}) scratch->resize(width);
+    const RayLine x = ray_line(row, rays, 0);
+    const RayLine y = ray_line(row, rays, 1);
+    kernels::find_places({.surface = row.surface.data(),
+                          .per_correlation_length = scale.data(),
+                          .depth_m = row.depth_m.data(),
+                          .ray_x = rays.x().data(),
+                          .origin_x_m = row.pose->position_m[0],
+                          .origin_y_m = row.pose->position_m[1],
+                          .x_along = x.along,
+                          .x_across = x.across,
+                          .y_along = y.along,
+                          .y_across = y.across,
+                          .pixel_width = rays.pixel_width()},
+                         row.place_x.data(), row.place_y.data(), row.footprint.data(), width);
+    field.sample(row.place_x, row.place_y, row.footprint, row.variation);
+    kernels::emit_varied({.surface = row.surface.data(),
+                          .position = position.data(),
+                          .spread = spread.data(),
+                          .table = first_node.data(),
+                          .node_w_m2_sr = nodes.data(),
+                          .variation = row.variation.data(),
+                          .last_node = RadianceTable::kSteps - 1},
+                         row.radiance_w_m2_sr.data(), width);
   };
 }
 
@@ -91,79 +148,84 @@ RowTerm orientation(const CameraRays& rays) {
     const std::size_t width = row.surface.size();
     row.sky_view.resize(width);
     row.cosine.resize(width);
-    const auto& r = row.pose->rotation;
-    const float ray_y = rays.y()[static_cast<std::size_t>(row.y)];
-    const auto length = rays.length().row(row.y);
-    for (std::size_t i = 0; i < width; ++i) {
-      const float nx = row.normal[0][i];
-      const float ny = row.normal[1][i];
-      const float nz = row.normal[2][i];
-      const float ray_x = rays.x()[i];
-      const float along = nx * (r[0][0] * ray_x + r[0][1] * ray_y + r[0][2]) +
-                          ny * (r[1][0] * ray_x + r[1][1] * ray_y + r[1][2]) +
-                          nz * (r[2][0] * ray_x + r[2][1] * ray_y + r[2][2]);
-      const float norm2 = nx * nx + ny * ny + nz * nz;
-      const bool usable = norm2 > 0.81F && norm2 < 1.21F;  // false for NaN
-      const float up = along > 0 ? -nz : nz;
-      row.cosine[i] = usable ? std::min(std::abs(along) / length[i], 1.0F) : 1.0F;
-      row.sky_view[i] = usable ? std::clamp(0.5F + 0.5F * up, 0.0F, 1.0F) : 1.0F;
+    const RayLine x = ray_line(row, rays, 0);
+    const RayLine y = ray_line(row, rays, 1);
+    const RayLine z = ray_line(row, rays, 2);
+    kernels::orient({.nx = row.normal[0].data(),
+                     .ny = row.normal[1].data(),
+                     .nz = row.normal[2].data(),
+                     .ray_x = rays.x().data(),
+                     .ray_length = rays.length().row(row.y).data(),
+                     .x_along = x.along,
+                     .x_across = x.across,
+                     .y_along = y.along,
+                     .y_across = y.across,
+                     .z_along = z.along,
+                     .z_across = z.across},
+                    row.sky_view.data(), row.cosine.data(), width);
+  };
+}
+
+RowTerm water_pixels(const SurfaceOpticsList& surfaces) {
+  return [wet = column<char>(surfaces, is_water)](Row& row) {
+    row.water.clear();
+    for (std::size_t i = 0; i < row.surface.size(); ++i) {
+      if (wet[row.surface[i]] != 0) row.water.push_back(i);
     }
   };
 }
 
 RowTerm reflectivity(const SurfaceOpticsList& surfaces) {
-  return [&surfaces](Row& row) {
+  return [reflected = column(surfaces, [](const auto& s) { return s.reflected_air_w_m2_sr; })](Row& row) {
     row.reflected_w_m2_sr.resize(row.surface.size());
-    for (std::size_t i = 0; i < row.surface.size(); ++i) {
-      row.reflected_w_m2_sr[i] = surfaces[row.surface[i]].reflected_air_w_m2_sr;
-    }
+    kernels::look_up(row.surface.data(), reflected.data(), row.reflected_w_m2_sr.data(), row.surface.size());
   };
 }
 
 RowTerm angular_emissivity(const SurfaceOpticsList& surfaces) {
-  constexpr int kSteps = 1024;
-  const auto law = [](AngularLaw which) {
-    return Curve(1, kSteps, [which](double cosine) { return angular_factor(which, cosine); });
+  const auto loss = [](const SurfaceOptics& s) {
+    return s.angular == AngularLaw::soil ? 1 - angular_factor(AngularLaw::soil, 0) : 0.0;
   };
-  return [&surfaces, water = law(AngularLaw::water), soil = law(AngularLaw::soil)](Row& row) {
-    const bool reflects = !row.reflected_w_m2_sr.empty();
-    for (std::size_t i = 0; i < row.surface.size(); ++i) {
-      const SurfaceOptics& surface = surfaces[row.surface[i]];
-      if (surface.angular == AngularLaw::none) continue;
-      const float factor = (surface.angular == AngularLaw::water ? water : soil).at(row.cosine[i]);
+  const WaterCurve water([](double cosine) { return angular_factor(AngularLaw::water, cosine); });
+  return [water, loss = column(surfaces, loss),
+          as_air = column(surfaces, [](const auto& s) { return s.emitted_as_air_w_m2_sr; })](Row& row) {
+    row.reflected_w_m2_sr.resize(row.surface.size());  // filled by reflectivity, or else never read
+    kernels::fall_off({.surface = row.surface.data(),
+                       .loss = loss.data(),
+                       .emitted_as_air_w_m2_sr = as_air.data(),
+                       .cosine = row.cosine.data()},
+                      row.radiance_w_m2_sr.data(), row.reflected_w_m2_sr.data(), row.surface.size());
+    for (const std::size_t i : row.water) {
+      const float factor = water.at(row.cosine[i]);
       row.radiance_w_m2_sr[i] *= factor;
-      if (reflects) row.reflected_w_m2_sr[i] += (1 - factor) * surface.emitted_as_air_w_m2_sr;
+      row.reflected_w_m2_sr[i] += (1 - factor) * as_air[row.surface[i]];
     }
   };
 }
 
-RowTerm sky_reflection(const SurfaceOpticsList& surfaces, const Air& air) {
+RowTerm sky_reflection(const Air& air) {
   const auto sky_deficit = static_cast<float>(1 - sky_emissivity(air));
-  return [&surfaces, sky_deficit, mirrored = mirrored_sky(air)](Row& row) {
-    for (std::size_t i = 0; i < row.surface.size(); ++i) {
-      const bool mirror = surfaces[row.surface[i]].angular == AngularLaw::water;
-      const float surroundings = mirror ? mirrored.at(row.cosine[i]) : 1 - row.sky_view[i] * sky_deficit;
-      row.radiance_w_m2_sr[i] += row.reflected_w_m2_sr[i] * surroundings;
+  const WaterCurve mirrored([&air](double cosine) { return mirrored_sky(air, cosine); });
+  return [sky_deficit, mirrored](Row& row) {
+    // Water first: the diffuse kernel that follows then finds nothing more to reflect there.
+    for (const std::size_t i : row.water) {
+      row.radiance_w_m2_sr[i] += row.reflected_w_m2_sr[i] * mirrored.at(row.cosine[i]);
+      row.reflected_w_m2_sr[i] = 0;
     }
+    kernels::reflect({.reflected_w_m2_sr = row.reflected_w_m2_sr.data(),
+                      .sky_view = row.sky_view.data(),
+                      .sky_deficit = sky_deficit},
+                     row.radiance_w_m2_sr.data(), row.surface.size());
   };
 }
 
-RowTerm path(const SurfaceOpticsList& surfaces, const Air& air, float air_radiance_w_m2_sr,
-             const CameraRays& rays) {
-  constexpr double kLongest = 1000;
-  constexpr int kSteps = 2048;
-  // Against the root of the range, in which the fit is smooth from end to end.
-  const Curve absorbed(std::sqrt(kLongest), kSteps,
-                       [&air](double root) { return 1 - path_transmittance(air, root * root); });
-  return [&surfaces, &rays, absorbed, air_radiance_w_m2_sr](Row& row) {
-    constexpr auto kFarthest = static_cast<float>(kLongest);
-    const auto length = rays.length().row(row.y);
-    for (std::size_t i = 0; i < row.surface.size(); ++i) {
-      const float range_m = row.depth_m[i] * length[i];
-      const float clamped_m = range_m < kFarthest ? std::max(range_m, 0.0F) : kFarthest;  // NaN: the farthest
-      const float share = surfaces[row.surface[i]].sky ? 0.0F : absorbed.at(std::sqrt(clamped_m));
-      row.radiance_w_m2_sr[i] += share * (air_radiance_w_m2_sr - row.radiance_w_m2_sr[i]);
-    }
+RowTerm path(const Air& air, float air_radiance_w_m2_sr, const CameraRays& rays) {
+  return [&rays, absorption = fit_absorption(air), air_radiance_w_m2_sr](Row& row) {
+    kernels::pass_air({.surface = row.surface.data(),
+                       .depth_m = row.depth_m.data(),
+                       .ray_length = rays.length().row(row.y).data(),
+                       .air_w_m2_sr = air_radiance_w_m2_sr},
+                      absorption, row.radiance_w_m2_sr.data(), row.surface.size());
   };
 }
 

@@ -23,21 +23,25 @@ struct SurfaceOptics {
   float variation_stddev_k = 0;
   float per_correlation_length = 0;  ///< [1/m]
   AngularLaw angular = AngularLaw::none;
-  bool sky = false;
   const RadianceTable* table = nullptr;  ///< where the temperature varies
 };
 
-/// One row of a frame on its way through the terms, with room for what they hand on.
+/// One row of a frame on its way through the terms, with room for what they hand on. Surface 0 is the sky.
 struct Row {
   int y = 0;
   std::span<const std::uint16_t> surface;
-  std::span<const float> depth_m;                 ///< empty if no term needs it
-  std::array<std::span<const float>, 3> normal;   ///< the same
+  std::span<const float> depth_m;                ///< empty if no term needs it
+  std::array<std::span<const float>, 3> normal;  ///< the same
   const CameraPose* pose = nullptr;
   std::span<float> radiance_w_m2_sr;
-  std::vector<float> sky_view;                    ///< share of the sky a surface faces
-  std::vector<float> cosine;                      ///< of the angle it is seen at
-  std::vector<float> reflected_w_m2_sr;           ///< of blackbody surroundings at air temperature
+  std::vector<float> sky_view;           ///< share of the sky a surface faces
+  std::vector<float> cosine;             ///< of the angle it is seen at
+  std::vector<float> reflected_w_m2_sr;  ///< of blackbody surroundings at air temperature
+  std::vector<std::size_t> water;        ///< pixels of water
+  std::vector<float> place_x;            ///< on the ground [correlation lengths]
+  std::vector<float> place_y;
+  std::vector<float> footprint;
+  std::vector<float> variation;
 };
 
 /// Adds one term to a row. A scene's chain is a list of these: what is dropped is not there at all.
@@ -49,13 +53,16 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 [[nodiscard]] RowTerm emission(const SurfaceOpticsList& surfaces);
 
 /// Emission with the fractal temperature field on the surfaces that have one. Depth that is not a positive
-/// finite number below 1e9 leaves a surface at its mean.
+/// finite number below 1e9 leaves a surface at its mean; temperatures are held within the tables' 180 to 436 K.
 [[nodiscard]] RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField& field,
                                       const CameraRays& rays);
 
 /// Finds sky_view and cosine from the normals. Normals that face away from the camera are turned round; those
 /// that are zero, NaN or far from unit length count as facing sky and camera squarely.
 [[nodiscard]] RowTerm orientation(const CameraRays& rays);
+
+/// Lists the row's pixels of water, which reflects and falls off in ways of its own.
+[[nodiscard]] RowTerm water_pixels(const SurfaceOpticsList& surfaces);
 
 /// Emissivity falling off with angle; what is not emitted is added to `reflected`.
 [[nodiscard]] RowTerm angular_emissivity(const SurfaceOpticsList& surfaces);
@@ -65,11 +72,10 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 
 /// Adds the reflection of sky and surroundings: diffuse surfaces see a share sky_view of sky, water what stands
 /// in the mirror direction.
-[[nodiscard]] RowTerm sky_reflection(const SurfaceOpticsList& surfaces, const Air& air);
+[[nodiscard]] RowTerm sky_reflection(const Air& air);
 
 /// Transmission and emission of the air over the true range. Depth that is NaN, infinite or beyond the path
 /// model counts as 1000 m; the sky itself is left alone.
-[[nodiscard]] RowTerm path(const SurfaceOpticsList& surfaces, const Air& air, float air_radiance_w_m2_sr,
-                           const CameraRays& rays);
+[[nodiscard]] RowTerm path(const Air& air, float air_radiance_w_m2_sr, const CameraRays& rays);
 
 }  // namespace thermal

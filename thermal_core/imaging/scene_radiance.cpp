@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -19,6 +22,17 @@ float emitted(const Material& material, Season season, const SceneRadiance::Radi
 
 EmissivitySpectrum spectrum_of(const Material& material) {
   return material.spectrum.value_or(EmissivitySpectrum(material.emissivity));
+}
+
+/// The field's values stay within 6 standard deviations, and the tables it is turned to radiance with end.
+void check_varied_range(const Material& material, double mean_k) {
+  const double reach_k = 6 * material.variation.stddev_k;
+  constexpr auto kLow = static_cast<double>(RadianceTable::kColdest);
+  constexpr auto kHigh = static_cast<double>(RadianceTable::kHottest);
+  if (mean_k - reach_k >= kLow && mean_k + reach_k < kHigh) return;
+  throw ConfigError(
+      fmt::format("material {}: variation about {:.1f} K by up to {:.1f} K; expected within {} K to {} K",
+                  material.name, mean_k, reach_k, kLow, kHigh));
 }
 
 void require_poses(const Manifest& manifest) {
@@ -59,16 +73,16 @@ void SceneRadiance::add_optics(const Surface& surface, const PhysicsSettings& se
   const double air_k = weather.air.temperature_k;
   const double temperature_k = material.part_temperature_k(settings.terms.parts ? surface.part : "", weather);
   SurfaceOptics optics;
-  optics.sky = held_->optics.empty();
+  const bool is_sky = held_->optics.empty();
   optics.temperature_k = static_cast<float>(temperature_k);
-  optics.emitted_w_m2_sr =
-      static_cast<float>(optics.sky ? sky_emissivity(weather.air) * blackbody.radiance(air_k)
-                                    : band.radiance(temperature_k));
+  optics.emitted_w_m2_sr = static_cast<float>(is_sky ? sky_emissivity(weather.air) * blackbody.radiance(air_k)
+                                                     : band.radiance(temperature_k));
   optics.emitted_as_air_w_m2_sr = static_cast<float>(band.radiance(air_k));
   optics.reflected_air_w_m2_sr =
-      optics.sky ? 0.0F : static_cast<float>(blackbody.radiance(air_k) - band.radiance(air_k));
+      is_sky ? 0.0F : static_cast<float>(blackbody.radiance(air_k) - band.radiance(air_k));
   optics.angular = material.angular;
   if (settings.terms.variation && material.variation.stddev_k > 0) {
+    check_varied_range(material, temperature_k);
     optics.variation_stddev_k = static_cast<float>(material.variation.stddev_k);
     optics.per_correlation_length = static_cast<float>(1 / material.variation.correlation_length_m);
     optics.table = held_->tables.emplace_back(std::make_unique<RadianceTable>(band)).get();
@@ -87,13 +101,15 @@ void SceneRadiance::compose(const PhysicsSettings& settings) {
     chain_.push_back(emission(optics));
   }
   if (terms.sky) chain_.push_back(reflectivity(optics));
-  if (terms.sky || terms.angular) chain_.push_back(orientation(rays));
+  if (terms.sky || terms.angular) {
+    chain_.push_back(orientation(rays));
+    chain_.push_back(water_pixels(optics));
+  }
   if (terms.angular) chain_.push_back(angular_emissivity(optics));
-  if (terms.sky) chain_.push_back(sky_reflection(optics, settings.weather.air));
+  if (terms.sky) chain_.push_back(sky_reflection(settings.weather.air));
   if (terms.path) {
-    const double air_radiance =
-        BandRadiance(settings.response).radiance(settings.weather.air.temperature_k);
-    chain_.push_back(path(optics, settings.weather.air, static_cast<float>(air_radiance), rays));
+    const double air_radiance = BandRadiance(settings.response).radiance(settings.weather.air.temperature_k);
+    chain_.push_back(path(settings.weather.air, static_cast<float>(air_radiance), rays));
   }
   needs_ = {.depth = terms.variation || terms.path, .normals = terms.sky || terms.angular};
 }
@@ -111,7 +127,8 @@ void SceneRadiance::find_brightest() {
 void SceneRadiance::begin_row(const Passes& passes, int y, Row& row) const {
   row.y = y;
   if (needs_.depth) row.depth_m = passes.depth_m.row(y);
-  for (std::size_t axis = 0; needs_.normals && axis < 3; ++axis) row.normal[axis] = passes.normal[axis].row(y);
+  for (std::size_t axis = 0; needs_.normals && axis < 3; ++axis)
+    row.normal[axis] = passes.normal[axis].row(y);
 }
 
 Plane<float> SceneRadiance::radiance(const Passes& passes, const ManifestFrame& frame) const {

@@ -7,9 +7,9 @@
 
 #include "imaging/row_terms.h"
 #include "imaging/surfaces.h"
-#include "scene/terms.h"
 #include "radiometry/spectral_response.h"
 #include "scene/season.h"
+#include "scene/terms.h"
 #include "scene/weather.h"
 
 namespace thermal {

@@ -20,9 +20,9 @@ void check_known(std::span<const IndexUse> uses, const std::vector<bool>& known,
     for (std::size_t index = 0; index < known.size(); ++index) {
       if (known[index]) names.push_back(fmt::format("{}", index));
     }
-    throw DataError(fmt::format(
-        "{} at pixel ({}, {}) = {} ({} pixels); expected an index of the manifest's {}: {}", plane,
-        use.first_x_px, use.first_y_px, use.index, use.pixels, list, list_names(names)));
+    throw DataError(
+        fmt::format("{} at pixel ({}, {}) = {} ({} pixels); expected an index of the manifest's {}: {}",
+                    plane, use.first_x_px, use.first_y_px, use.index, use.pixels, list, list_names(names)));
   }
 }
 
@@ -33,7 +33,8 @@ SurfaceMap::SurfaceMap(const Manifest& manifest, const MaterialLibrary& material
   known_objects_[kSkyIndex] = true;
   by_object_[kSkyIndex] = add(materials.find("sky", "material of index 0"), "");
   for (const ManifestObject& object : manifest.objects) {
-    const Material& material = materials.find(object.material, fmt::format("object {}: material", object.name));
+    const Material& material =
+        materials.find(object.material, fmt::format("object {}: material", object.name));
     by_object_[object.index] = add(material, "");
     known_objects_[object.index] = true;
   }

@@ -46,7 +46,7 @@ class SurfaceMap {
   std::uint16_t add(const Material& material, const std::string& part);
 
   std::vector<Surface> surfaces_;
-  std::vector<std::uint16_t> by_object_;    ///< by object index; only known_ ones mean anything
+  std::vector<std::uint16_t> by_object_;  ///< by object index; only known_ ones mean anything
   std::vector<std::uint16_t> by_material_;
   std::vector<bool> known_objects_;
   std::vector<bool> known_materials_;

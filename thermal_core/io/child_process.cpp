@@ -27,6 +27,7 @@ constexpr int kCannotRun = 127;
 
 std::vector<char*> pointers(const std::vector<std::string>& argv) {
   std::vector<char*> result;
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): execv takes char* const* and writes nothing
   for (const std::string& argument : argv) result.push_back(const_cast<char*>(argument.c_str()));
   result.push_back(nullptr);
   return result;

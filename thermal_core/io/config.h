@@ -27,7 +27,7 @@ struct Config {
   int width_px = 640;
   int height_px = 512;
   SensorParameters sensor;
-  bool physical = false;     ///< preset physical: every term the scene needs; else the published model
+  bool physical = false;  ///< preset physical: every term the scene needs; else the published model
   TermChoices terms;
   double netd_k = 0.04;
   std::optional<double> air_temperature_k;  ///< instead of the season's

@@ -94,7 +94,7 @@ auto with_file(const Path& file, const Read& read) {
 ExrHeader header_of(const Imf::MultiPartInputFile& opened) {
   ExrHeader header;
   const Imf::Header& first = opened.header(0);
-  const Imath::Box2i window = first.dataWindow();
+  const Imath::Box2i& window = first.dataWindow();
   header.width_px = window.max.x - window.min.x + 1;
   header.height_px = window.max.y - window.min.y + 1;
   header.compression = compression_name(first.compression());

@@ -99,7 +99,7 @@ void sync_folder(const Path& folder) {
   if (::fsync(descriptor.number()) != 0 && errno != EINVAL) fail("sync", named, errno);
 }
 
-FolderLock::FolderLock(const Path& folder) : descriptor_(-1) {
+FolderLock::FolderLock(const Path& folder) {
   make_folder(folder);
   Descriptor lock(folder / ".lock", O_RDWR | O_CREAT, "lock");
   if (::flock(lock.number(), LOCK_EX | LOCK_NB) != 0) {

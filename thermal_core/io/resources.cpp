@@ -33,7 +33,7 @@ Path find_home() {
     if (is_home(folder)) return folder;
     if (folder == folder.root_path()) break;
   }
-  const Path installed = program.parent_path().parent_path() / "share" / "veldt";
+  Path installed = program.parent_path().parent_path() / "share" / "veldt";
   if (is_home(installed)) return installed;
   throw IoError(fmt::format("no folder with assets and blender_scripts at or above {}; set VELDT_HOME to it",
                             program.parent_path().string()));

@@ -51,7 +51,8 @@ std::vector<Pair> read_pairs(const Path& file, std::string_view header) {
 template <typename Curve>
 Curve read_curve(const Path& file, std::string_view header) {
   std::vector<typename Curve::Sample> samples;
-  for (const auto& [wavelength_um, value] : read_pairs(file, header)) samples.push_back({wavelength_um, value});
+  for (const auto& [wavelength_um, value] : read_pairs(file, header))
+    samples.push_back({wavelength_um, value});
   try {
     return Curve(std::move(samples));
   } catch (const ConfigError& error) {

@@ -13,6 +13,8 @@ class RadianceTable {
  public:
   static constexpr float kColdest = 180;  ///< [K]
   static constexpr float kHottest = 436;  ///< [K], exclusive
+  static constexpr int kNodesPerKelvin = 16;
+  static constexpr int kSteps = static_cast<int>(kHottest - kColdest) * kNodesPerKelvin;
 
   /// Tabulates `band`, then measures the error of what it will compute between all nodes.
   explicit RadianceTable(BandRadiance band);
@@ -25,6 +27,11 @@ class RadianceTable {
   /// One temperature [K] to radiance, the same way.
   [[nodiscard]] float radiance(float temperature_k) const noexcept {
     return is_inside(temperature_k) ? between_nodes(temperature_k) : outside(temperature_k);
+  }
+
+  /// Adds the table's nodes for kernels that read several tables: radiance and step to the next, in turn.
+  void append_nodes(std::vector<float>& nodes) const {
+    for (const Node& node : nodes_) nodes.insert(nodes.end(), {node.radiance_w_m2_sr, node.step_w_m2_sr});
   }
 
   /// Largest error between nodes, measured when the table was made, as a difference in temperature [K]. It
@@ -41,9 +48,6 @@ class RadianceTable {
     float radiance_w_m2_sr;
     float step_w_m2_sr;
   };
-
-  static constexpr int kNodesPerKelvin = 16;
-  static constexpr int kSteps = static_cast<int>(kHottest - kColdest) * kNodesPerKelvin;
 
   [[nodiscard]] static double node_k(double node) noexcept {
     return static_cast<double>(kColdest) + node / kNodesPerKelvin;

@@ -36,7 +36,8 @@ class CameraRays {
 /// Camera to world of one frame: where the camera is and where its axes point.
 struct CameraPose {
   std::array<float, 3> position_m{};
-  std::array<std::array<float, 3>, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows, world = R camera
+  std::array<std::array<float, 3>, 3> rotation{
+      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows, world = R camera
 };
 
 /// The pose of a row-major 4 x 4 matrix.

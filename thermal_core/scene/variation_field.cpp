@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cassert>
 #include <cmath>
 
+#include "base/clones.h"
+#include "base/image.h"
 #include "base/rng.h"
 
 namespace thermal {
@@ -73,6 +77,51 @@ Plane<float> halved(const Plane<float>& fine) {
   return coarse;
 }
 
+/// Largest whole number not above the value, which an int must hold.
+inline int floor_to_int(float value) noexcept {
+  const auto truncated = static_cast<int>(value);
+  return truncated - (static_cast<float>(truncated) > value ? 1 : 0);
+}
+
+/// Reads a level's texels at places with straight lines between them. Branch-free, so that it vectorises.
+VELDT_CLONES void sample_all(const float* __restrict texels, const float* __restrict x,
+                             const float* __restrict y, const float* __restrict footprint,
+                             float* __restrict value, std::size_t count) noexcept {
+  constexpr float kFarthest = 1e5F;  // beyond it, single precision no longer tells texels apart
+  constexpr int kAllTexels = 87381;  // of all levels together: 256^2 + 128^2 + … + 1
+  constexpr int kBias = 127;         // of a float's exponent
+  constexpr int kMantissaBits = 23;
+  constexpr int kTexelsBits = 8;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float wanted = footprint[i] * kTexelsPerLength;
+    const bool usable = (std::abs(x[i]) < kFarthest) & (std::abs(y[i]) < kFarthest) & (wanted >= 0) &
+                        (wanted < static_cast<float>(kTexels));  // false for NaN
+    const float texel = usable ? wanted : 0.0F;
+    // From 1.5 texels on, the next level is nearer: its number is the exponent of texels / 0.75, at least 0.
+    const int exponent =
+        static_cast<int>(std::bit_cast<std::uint32_t>(texel * (1 / 0.75F)) >> kMantissaBits) - kBias;
+    const int level = exponent > 0 ? exponent : 0;
+    const float shrink = std::bit_cast<float>(static_cast<std::uint32_t>(kBias - level) << kMantissaBits);
+    // A texel of a coarser level has its middle half a texel minus half a fine one further on.
+    const float shift = 0.5F - 0.5F * shrink;
+    const float u = (usable ? x[i] : 0.0F) * (kTexelsPerLength * shrink) - shift;
+    const float v = (usable ? y[i] : 0.0F) * (kTexelsPerLength * shrink) - shift;
+    const int column = floor_to_int(u);
+    const int row = floor_to_int(v);
+    const int mask = (kTexels >> level) - 1;
+    const int first = kAllTexels - (kAllTexels >> (2 * level));
+    const int above = first + ((row & mask) << (kTexelsBits - level));
+    const int below = first + (((row + 1) & mask) << (kTexelsBits - level));
+    const int left = column & mask;
+    const int right = (column + 1) & mask;
+    const float s = u - static_cast<float>(column);
+    const float t = v - static_cast<float>(row);
+    const float top = texels[above + left] + s * (texels[above + right] - texels[above + left]);
+    const float bottom = texels[below + left] + s * (texels[below + right] - texels[below + left]);
+    value[i] = usable ? top + t * (bottom - top) : 0.0F;
+  }
+}
+
 }  // namespace
 
 VariationField::VariationField(std::uint32_t seed) {
@@ -83,39 +132,18 @@ VariationField::VariationField(std::uint32_t seed) {
     amplitude *= kRoughness;
   }
   standardise(field);
-  Plane<float>& finest = levels_.emplace_back(kTexels, kTexels);
-  std::transform(field.begin(), field.end(), finest.pixels().begin(),
+  Plane<float> level(kTexels, kTexels);
+  std::transform(field.begin(), field.end(), level.pixels().begin(),
                  [](double value) { return static_cast<float>(value); });
-  while (levels_.back().width_px() > 1) levels_.push_back(halved(levels_.back()));
+  for (; level.width_px() >= 1; level = halved(level)) {
+    texels_.insert(texels_.end(), level.pixels().begin(), level.pixels().end());
+  }
 }
 
-float VariationField::sample(float x, float y, float footprint) const noexcept {
-  constexpr float kFarthest = 1e6F;  // beyond it, single precision no longer tells texels apart
-  const bool usable = std::abs(x) < kFarthest && std::abs(y) < kFarthest;  // false for NaN
-  if (!usable || !(footprint * kTexelsPerLength < static_cast<float>(kTexels))) return 0;
-  std::size_t level = 0;
-  float texels_per_length = kTexelsPerLength;
-  while (footprint * texels_per_length > 1.5F) {  // from 1.5 texels on, the next level is nearer
-    texels_per_length *= 0.5F;
-    ++level;
-  }
-  const Plane<float>& plane = levels_[level];
-  const int mask = plane.width_px() - 1;
-  // A texel of a coarser level has its middle half a texel minus half a fine one further on.
-  const float shift = 0.5F - 0.5F * texels_per_length / kTexelsPerLength;
-  const float u = x * texels_per_length - shift;
-  const float v = y * texels_per_length - shift;
-  const float column = std::floor(u);
-  const float row = std::floor(v);
-  const float s = u - column;
-  const float t = v - row;
-  const int x0 = static_cast<int>(column) & mask;
-  const int y0 = static_cast<int>(row) & mask;
-  const int x1 = (x0 + 1) & mask;
-  const int y1 = (y0 + 1) & mask;
-  const float above = plane.at(x0, y0) + s * (plane.at(x1, y0) - plane.at(x0, y0));
-  const float below = plane.at(x0, y1) + s * (plane.at(x1, y1) - plane.at(x0, y1));
-  return above + t * (below - above);
+void VariationField::sample(std::span<const float> x, std::span<const float> y,
+                            std::span<const float> footprint, std::span<float> value) const noexcept {
+  assert(x.size() == value.size() && y.size() == value.size() && footprint.size() == value.size());
+  sample_all(texels_.data(), x.data(), y.data(), footprint.data(), value.data(), value.size());
 }
 
 }  // namespace thermal

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
-
-#include "base/image.h"
 
 namespace thermal {
 
@@ -15,12 +14,23 @@ class VariationField {
  public:
   explicit VariationField(std::uint32_t seed);
 
-  /// Value at a place, averaged over about a footprint. All in correlation lengths: x and y of any finite size,
-  /// footprint >= 0. A footprint past sixteen gives 0, the mean; NaN anywhere gives 0.
-  [[nodiscard]] float sample(float x, float y, float footprint) const noexcept;
+  /// Values at places, each averaged over about a footprint. All in correlation lengths: |x| and |y| below 1e5,
+  /// footprint >= 0. A footprint of sixteen and more gives 0, the mean, and so do places further out, negative
+  /// footprints and NaN.
+  /// All spans are of one length.
+  void sample(std::span<const float> x, std::span<const float> y, std::span<const float> footprint,
+              std::span<float> value) const noexcept;
+
+  /// The same for one place.
+  [[nodiscard]] float sample(float x, float y, float footprint) const noexcept {
+    float value = 0;
+    sample({&x, 1}, {&y, 1}, {&footprint, 1}, {&value, 1});
+    return value;
+  }
 
  private:
-  std::vector<Plane<float>> levels_;  ///< each half the size of the one before
+  /// Pictures of the field, one after another, each half the size of the one before, down to a single texel.
+  std::vector<float> texels_;
 };
 
 }  // namespace thermal

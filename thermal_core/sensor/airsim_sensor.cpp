@@ -65,7 +65,9 @@ Count to_count(float value, float largest) noexcept {
 
 std::function<double(double temperature_k)> radiance_of(const SensorParameters& parameters) {
   if (parameters.radiance == RadianceModel::script) return script_radiance;
-  return [band = BandRadiance(parameters.response)](double temperature_k) { return band.radiance(temperature_k); };
+  return [band = BandRadiance(parameters.response)](double temperature_k) {
+    return band.radiance(temperature_k);
+  };
 }
 
 AirsimSensor::AirsimSensor(const SensorParameters& parameters, Clip clip, float brightest_w_m2_sr)

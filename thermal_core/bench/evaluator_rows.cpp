@@ -1,0 +1,153 @@
+#include "bench/evaluator_rows.h"
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "radiometry/planck.h"
+#include "radiometry/radiance_table.h"
+#include "radiometry/script_radiance.h"
+#include "radiometry/temperature_table.h"
+
+namespace thermal {
+namespace {
+
+constexpr std::size_t kPixels = 640 * 512;
+constexpr double kColdest = 200;
+constexpr double kHottest = 400;
+
+using PlaneFunction = std::function<void(std::span<const float>, std::span<float>)>;
+
+/// Temperatures over the whole range in an order that no cache can guess: multiples of the golden ratio.
+std::vector<float> spread_temperatures() {
+  constexpr double kGolden = 0.6180339887498949;
+  std::vector<float> values;
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    const double turn = kGolden * static_cast<double>(i);
+    values.push_back(static_cast<float>(kColdest + (kHottest - kColdest) * (turn - std::floor(turn))));
+  }
+  return values;
+}
+
+/// Plain Gauss-Legendre in wavenumber, 8 points over the whole band.
+double plain_gauss(double temperature_k) {
+  static constexpr std::array<std::array<double, 2>, 4> kRule = {
+      {{0.183434642495649805, 0.362683783378361983},
+       {0.525532409916328986, 0.313706645877887287},
+       {0.796666477413626740, 0.222381034453374471},
+       {0.960289856497536232, 0.101228536290376259}}};
+  constexpr double kLow = 1e6 / 14;
+  constexpr double kHigh = 1e6 / 8;
+  double sum = 0;
+  for (const auto& [node, weight] : kRule) {
+    for (const double side : {-node, node}) {
+      const double nu = (kLow + kHigh) / 2 + side * (kHigh - kLow) / 2;
+      sum += weight * nu * nu * nu / std::expm1(kSecondRadiationConstant * nu / temperature_k);
+    }
+  }
+  return kFirstRadiationConstant * sum * (kHigh - kLow) / 2;
+}
+
+/// The series of Widger and Woodall (Bull. Am. Meteorol. Soc. 57, 1217, 1976) with this many terms.
+double widger_woodall(double temperature_k, int terms) {
+  const auto tail = [&](double wavelength_m) {
+    const double x = kSecondRadiationConstant / (wavelength_m * temperature_k);
+    double sum = 0;
+    for (int n = 1; n <= terms; ++n) {
+      const double k = 1.0 / n;
+      sum += std::exp(-n * x) * k * (x * x * x + 3 * k * (x * x + 2 * k * (x + k)));
+    }
+    return sum;
+  };
+  const double t_c2 = temperature_k / kSecondRadiationConstant;
+  return kFirstRadiationConstant * t_c2 * t_c2 * t_c2 * t_c2 * (tail(14e-6) - tail(8e-6));
+}
+
+PlaneFunction pixel_by_pixel(double (*function)(double)) {
+  return [function](std::span<const float> in, std::span<float> out) {
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      out[i] = static_cast<float>(function(static_cast<double>(in[i])));
+    }
+  };
+}
+
+/// One evaluator: its error in double where it has one, then its time on a plane.
+BenchRow forward_row(const std::string& name, const std::function<double(float)>& value,
+                     const PlaneFunction& plane, const BandRadiance& reference, std::size_t pixels) {
+  BenchRow row{.group = "temperature to radiance", .name = name};
+  const std::vector<float> all = spread_temperatures();
+  const std::span<const float> in = std::span(all).first(pixels);
+  ErrorStatistics errors;
+  for (const float temperature_k : in) {
+    const BandValue exact = reference.evaluate(static_cast<double>(temperature_k));
+    errors.add(value(temperature_k) / exact.radiance_w_m2_sr - 1,
+               exact.radiance_w_m2_sr / exact.derivative_w_m2_sr_k);
+  }
+  errors.write_to(row);
+  std::vector<float> out(pixels);
+  const double seconds = shortest_run_s([&] { plane(in, out); });
+  row.ns_per_pixel = 1e9 * seconds / static_cast<double>(pixels);
+  row.times_memcpy = seconds / memcpy_s(pixels * sizeof(float));
+  return row;
+}
+
+BenchRow forward_row(const std::string& name, double (*function)(double), const BandRadiance& reference,
+                     std::size_t pixels) {
+  return forward_row(
+      name, [function](float t) { return function(static_cast<double>(t)); }, pixel_by_pixel(function),
+      reference, pixels);
+}
+
+BenchRow inverse_row(const std::string& name, const PlaneFunction& plane, const BandRadiance& reference,
+                     std::size_t pixels) {
+  BenchRow row{.group = "radiance to temperature", .name = name};
+  const std::vector<float> temperatures = spread_temperatures();
+  std::vector<float> in(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    in[i] = static_cast<float>(reference.radiance(static_cast<double>(temperatures[i])));
+  }
+  std::vector<float> out(pixels);
+  plane(in, out);
+  ErrorStatistics errors;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double exact_k = reference.temperature(static_cast<double>(in[i]));
+    errors.add(static_cast<double>(out[i]) / exact_k - 1, exact_k);
+  }
+  errors.write_to(row);
+  const double seconds = shortest_run_s([&] { plane(in, out); });
+  row.ns_per_pixel = 1e9 * seconds / static_cast<double>(pixels);
+  row.times_memcpy = seconds / memcpy_s(pixels * sizeof(float));
+  return row;
+}
+
+}  // namespace
+
+std::vector<BenchRow> evaluator_rows() {
+  constexpr std::size_t kSlow = 4096;  // pixels for what takes microseconds each
+  constexpr std::size_t kMiddling = 65536;
+  static const BandRadiance reference(SpectralResponse::flat(8, 14));
+  const RadianceTable table(reference);
+  const TemperatureTable inverse([](double radiance) { return reference.temperature(radiance); },
+                                 reference.radiance(kColdest - 1), reference.radiance(kHottest + 1));
+  return {
+      forward_row(
+          "reference, panelled Gauss", [](double t) { return reference.radiance(t); }, reference, kMiddling),
+      forward_row("published script, 600 points", script_radiance, reference, kSlow),
+      forward_row("Gauss-Legendre, 8 points", plain_gauss, reference, kMiddling),
+      forward_row(
+          "Widger-Woodall, 8 terms", [](double t) { return widger_woodall(t, 8); }, reference, kMiddling),
+      forward_row(
+          "Widger-Woodall, 12 terms", [](double t) { return widger_woodall(t, 12); }, reference, kMiddling),
+      forward_row(
+          "table, lines of 1/16 K", [&table](float t) { return static_cast<double>(table.radiance(t)); },
+          [&table](std::span<const float> in, std::span<float> out) { table.radiances(in, out); }, reference,
+          kPixels),
+      inverse_row("reference, Newton", pixel_by_pixel([](double l) { return reference.temperature(l); }),
+                  reference, kSlow),
+      inverse_row(
+          "table, 8192 lines",
+          [&inverse](std::span<const float> in, std::span<float> out) { inverse.temperatures(in, out); },
+          reference, kPixels)};
+}
+
+}  // namespace thermal

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "bench/measure.h"
+
+namespace thermal {
+
+/// Temperature to radiance and back, 8-14 um, 200 to 400 K: ours, the published script, and textbook ways.
+[[nodiscard]] std::vector<BenchRow> evaluator_rows();
+
+}  // namespace thermal

@@ -1,0 +1,105 @@
+#include "imaging/row_kernels.h"
+
+#include <cmath>
+
+#include "base/clones.h"
+
+namespace thermal::kernels {
+namespace {
+
+/// Sum of coefficient * x^k, lowest power first.
+inline float polynomial(const std::array<float, Absorption::kTerms>& coefficients, float x) noexcept {
+  float sum = coefficients[Absorption::kTerms - 1];
+  for (std::size_t k = Absorption::kTerms - 1; k-- > 0;) sum = sum * x + coefficients[k];
+  return sum;
+}
+
+}  // namespace
+
+VELDT_CLONES void look_up(const std::uint16_t* __restrict surface, const float* __restrict by_surface,
+                          float* __restrict out, std::size_t count) noexcept {
+  for (std::size_t i = 0; i < count; ++i) out[i] = by_surface[surface[i]];
+}
+
+VELDT_CLONES void find_places(const PlaceInput& in, float* __restrict x, float* __restrict y,
+                              float* __restrict footprint, std::size_t count) noexcept {
+  const PlaceInput p = in;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float scale = p.per_correlation_length[p.surface[i]];
+    const float depth = p.depth_m[i] * scale;
+    x[i] = p.origin_x_m * scale + depth * (p.x_along + p.x_across * p.ray_x[i]);
+    y[i] = p.origin_y_m * scale + depth * (p.y_along + p.y_across * p.ray_x[i]);
+    footprint[i] = depth * p.pixel_width;
+  }
+}
+
+VELDT_CLONES void emit_varied(const VariedInput& in, float* __restrict radiance, std::size_t count) noexcept {
+  const VariedInput p = in;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint16_t surface = p.surface[i];
+    const float wanted = p.position[surface] + p.spread[surface] * p.variation[i];
+    const float positive = wanted > 0 ? wanted : 0.0F;
+    const float position = positive < p.last_node ? positive : p.last_node;
+    const auto node = static_cast<std::int32_t>(position);
+    const std::int32_t at = p.table[surface] + 2 * node;
+    radiance[i] = p.node_w_m2_sr[at] + (position - static_cast<float>(node)) * p.node_w_m2_sr[at + 1];
+  }
+}
+
+VELDT_CLONES void orient(const OrientationInput& in, float* __restrict sky_view, float* __restrict cosine,
+                         std::size_t count) noexcept {
+  const OrientationInput p = in;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float nx = p.nx[i];
+    const float ny = p.ny[i];
+    const float nz = p.nz[i];
+    const float along = nx * (p.x_along + p.x_across * p.ray_x[i]) +
+                        ny * (p.y_along + p.y_across * p.ray_x[i]) +
+                        nz * (p.z_along + p.z_across * p.ray_x[i]);
+    const float norm2 = nx * nx + ny * ny + nz * nz;
+    const bool usable = (norm2 > 0.81F) & (norm2 < 1.21F);  // false for NaN
+    const float up = 0.5F + 0.5F * (along > 0 ? -nz : nz);
+    const float clamped = up > 0 ? (up < 1 ? up : 1.0F) : 0.0F;
+    const float seen = std::abs(along) / p.ray_length[i];
+    sky_view[i] = usable ? clamped : 1.0F;
+    cosine[i] = usable ? (seen < 1 ? seen : 1.0F) : 1.0F;
+  }
+}
+
+VELDT_CLONES void fall_off(const AngularInput& in, float* __restrict radiance, float* __restrict reflected,
+                           std::size_t count) noexcept {
+  const AngularInput p = in;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float tilt = 1 - p.cosine[i];
+    const float lost = p.loss[p.surface[i]] * tilt * tilt;
+    radiance[i] -= lost * radiance[i];
+    reflected[i] += lost * p.emitted_as_air_w_m2_sr[p.surface[i]];
+  }
+}
+
+VELDT_CLONES void reflect(const ReflectionInput& in, float* __restrict radiance, std::size_t count) noexcept {
+  const ReflectionInput p = in;
+  for (std::size_t i = 0; i < count; ++i) {
+    radiance[i] += p.reflected_w_m2_sr[i] * (1 - p.sky_view[i] * p.sky_deficit);
+  }
+}
+
+VELDT_CLONES void pass_air(const PathInput& in, const Absorption& absorption, float* __restrict radiance,
+                           std::size_t count) noexcept {
+  const PathInput p = in;
+  const Absorption a = absorption;
+  const float per_near = 1 / a.near_end_m;
+  const float per_half = 1 / a.far_half;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float range_m = p.depth_m[i] * p.ray_length[i];
+    const float within_m = range_m < a.farthest_m ? range_m : a.farthest_m;  // NaN: the farthest
+    const float clamped_m = within_m > 0 ? within_m : 0.0F;
+    const float near = polynomial(a.near, clamped_m * per_near);
+    const float far = polynomial(a.far, (std::sqrt(clamped_m) - a.far_middle) * per_half);
+    const float absorbed = clamped_m < a.near_end_m ? near : far;
+    const float share = p.surface[i] != 0 ? absorbed : 0.0F;
+    radiance[i] += share * (p.air_w_m2_sr - radiance[i]);
+  }
+}
+
+}  // namespace thermal::kernels
