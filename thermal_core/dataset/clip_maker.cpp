@@ -1,6 +1,6 @@
 #include "dataset/clip_maker.h"
 
-#include <memory>
+#include <array>
 #include <span>
 #include <string>
 #include <utility>
@@ -38,7 +38,6 @@ struct FrameWork {
   WrittenPicture ir8;
   WrittenPicture ir16;
 };
-using FramePointer = std::shared_ptr<FrameWork>;  // TBB copies what it passes on
 
 template <typename T>
 WrittenPicture write_picture(const Plane<T>& picture, const Path& file) {
@@ -62,18 +61,17 @@ class ClipMaker {
 
   ClipRecord make() {
     using tbb::filter_mode;
-    tbb::parallel_pipeline(
-        kFramesInFlight,
-        tbb::make_filter<void, FramePointer>(filter_mode::serial_in_order,
-                                             [this](tbb::flow_control& control) { return next(control); }) &
-            tbb::make_filter<FramePointer, FramePointer>(
-                filter_mode::parallel, [this](FramePointer work) { return read(std::move(work)); }) &
-            tbb::make_filter<FramePointer, FramePointer>(
-                filter_mode::serial_in_order, [this](FramePointer work) { return expose(std::move(work)); }) &
-            tbb::make_filter<FramePointer, FramePointer>(
-                filter_mode::parallel, [this](FramePointer work) { return write(std::move(work)); }) &
-            tbb::make_filter<FramePointer, void>(filter_mode::serial_in_order,
-                                                 [this](const FramePointer& work) { collect(*work); }));
+    const auto enter = tbb::make_filter<void, FrameWork*>(
+        filter_mode::serial_in_order, [this](tbb::flow_control& control) { return next(control); });
+    const auto reading = tbb::make_filter<FrameWork*, FrameWork*>(
+        filter_mode::parallel, [this](FrameWork* work) { return read(work); });
+    const auto exposing = tbb::make_filter<FrameWork*, FrameWork*>(
+        filter_mode::serial_in_order, [this](FrameWork* work) { return expose(work); });
+    const auto writing = tbb::make_filter<FrameWork*, FrameWork*>(
+        filter_mode::parallel, [this](FrameWork* work) { return write(work); });
+    const auto leave = tbb::make_filter<FrameWork*, void>(filter_mode::serial_in_order,
+                                                          [this](FrameWork* work) { collect(*work); });
+    tbb::parallel_pipeline(kFramesInFlight, enter & reading & exposing & writing & leave);
     return finish();
   }
 
@@ -88,19 +86,19 @@ class ClipMaker {
             .noise_gain = falloff ? falloff_noise_gain(task.manifest.camera) : Plane<float>()};
   }
 
-  FramePointer next(tbb::flow_control& control) {
+  FrameWork* next(tbb::flow_control& control) {
     if (hooks_.cancelled && hooks_.cancelled()) throw Cancelled();
     if (next_frame_ == static_cast<int>(task_.manifest.frames.size())) {
       control.stop();
       return nullptr;
     }
     if (hooks_.wait_for_frame) hooks_.wait_for_frame(next_frame_);
-    auto work = std::make_shared<FrameWork>();
-    work->frame = next_frame_++;
-    return work;
+    FrameWork& work = in_flight_[static_cast<std::size_t>(next_frame_) % kFramesInFlight];
+    work.frame = next_frame_++;
+    return &work;
   }
 
-  FramePointer read(FramePointer work) const {
+  FrameWork* read(FrameWork* work) const {
     const Path file = task_.passes / record_of(*work).file;
     const CameraIntrinsics& camera = task_.manifest.camera;
     const int finer = task_.manifest.supersample;
@@ -114,12 +112,12 @@ class ClipMaker {
     return work;
   }
 
-  FramePointer expose(FramePointer work) {
+  FrameWork* expose(FrameWork* work) {
     work->pictures = sensor_.expose(work->scene.radiance_w_m2_sr);
     return work;
   }
 
-  FramePointer write(FramePointer work) const {
+  FrameWork* write(FrameWork* work) const {
     const std::string name = frame_name(work->frame);
     work->ir8 = write_picture(work->pictures.ir8, folder_ / "ir8" / name);
     work->ir16 = write_picture(work->pictures.ir16, folder_ / "ir16" / name);
@@ -188,6 +186,9 @@ class ClipMaker {
   Sha256 pixels_;
   ClipRecord record_;
   std::string frames_jsonl_;
+  /// Frame k is in place k modulo their number. That one is free again when k enters: frames leave in order.
+  /// Pointers, because what TBB allocates to pass on larger things, it loses when a stage throws.
+  std::array<FrameWork, kFramesInFlight> in_flight_;
   int next_frame_ = 0;
 };
 

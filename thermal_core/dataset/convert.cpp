@@ -63,6 +63,18 @@ std::vector<Source> read_sources(const ConvertOptions& options) {
   return sources;
 }
 
+/// DataError if the manifest names a material that is not there.
+void check_materials(const Source& source, const MaterialLibrary& materials) {
+  try {
+    for (std::size_t i = 0; i < source.manifest.objects.size(); ++i)
+      (void)materials.find(source.manifest.objects[i].material, fmt::format("objects[{}].material", i));
+    for (std::size_t i = 0; i < source.manifest.materials.size(); ++i)
+      (void)materials.find(source.manifest.materials[i].material, fmt::format("materials[{}].material", i));
+  } catch (const ConfigError& error) {
+    throw DataError(fmt::format("{}: {}", source.manifest_file.string(), error.what()));
+  }
+}
+
 /// What stands for a config where none is given.
 Json default_document(const std::vector<Source>& sources) {
   Json clips = Json::array();
@@ -103,12 +115,12 @@ Config only_clips_of(Config config, const std::vector<Source>& sources) {
 class Converter {
  public:
   Converter(const ConvertOptions& options, const std::vector<Source>& sources, const Config& config,
-            const RunHooks& hooks)
+            const MaterialLibrary& materials, const RunHooks& hooks)
       : sources_(sources),
         config_(config),
+        materials_(materials),
         hooks_(hooks),
         layout_{options.out},
-        materials_(read_materials(options.home)),
         index_(open_dataset(layout_, config)) {
     std::vector<const Manifest*> manifests;
     for (const Source& source : sources) manifests.push_back(&source.manifest);
@@ -172,18 +184,14 @@ class Converter {
                                         hooks_.report(progress_);
                                       },
                                   .cancelled = hooks_.cancelled};
-    try {
-      index_.finished[task.clip.id] = make_clip(task, materials_, layout_, clip_hooks);
-    } catch (const ConfigError& error) {  // the manifest names a material that is not there
-      throw DataError(fmt::format("{}: {}", source.manifest_file.string(), error.what()));
-    }
+    index_.finished[task.clip.id] = make_clip(task, materials_, layout_, clip_hooks);
   }
 
   const std::vector<Source>& sources_;
   const Config& config_;
+  const MaterialLibrary& materials_;
   const RunHooks& hooks_;
   Layout layout_;
-  MaterialLibrary materials_;
   DatasetIndex index_;
   Progress progress_;
   RunOutcome outcome_;
@@ -194,9 +202,11 @@ class Converter {
 RunOutcome convert(const ConvertOptions& options, const RunHooks& hooks) {
   const ThreadLimit limit(options.threads);
   const std::vector<Source> sources = read_sources(options);
+  const MaterialLibrary materials = read_materials(options.home);
+  for (const Source& source : sources) check_materials(source, materials);
   const Config config = only_clips_of(resolve(options, sources), sources);
   const FolderLock lock(options.out);
-  return Converter(options, sources, config, hooks).run();
+  return Converter(options, sources, config, materials, hooks).run();
 }
 
 }  // namespace thermal

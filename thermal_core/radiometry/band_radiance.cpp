@@ -79,9 +79,9 @@ BandRadiance::BandRadiance(const SpectralResponse& response, const EmissivitySpe
   for (std::size_t i = knots.size() - 1; i > 0; --i) {
     const double begin_um = knots[i];  // the long-wave end: the lower wavenumber
     const double end_um = knots[i - 1];
-    const Line weight = {response.at(begin_um), response.at(end_um) - response.at(begin_um)};
-    const Line surface = {emissivity.at(begin_um), emissivity.at(end_um) - emissivity.at(begin_um)};
-    const auto is_zero = [](const Line& line) { return line.begin == 0 && line.rise == 0; };
+    const Line weight = {response.at(begin_um), response.at(end_um)};
+    const Line surface = {emissivity.at(begin_um), emissivity.at(end_um)};
+    const auto is_zero = [](const Line& line) { return line.begin == 0 && line.end == 0; };
     if (is_zero(weight) || is_zero(surface)) continue;
     segments_.push_back({.begin_per_m = 1e6 / begin_um,
                          .width_per_m = 1e6 * (begin_um - end_um) / (begin_um * end_um),
@@ -102,9 +102,11 @@ void BandRadiance::add_segment(const Segment& segment, double x_stop, ScaledInte
       const double from_begin = middle + half * node;
       const double x = x_begin + from_begin;
       const double nu = x * sum.nu_per_x;
-      const double share = from_begin / x_width * ((x_begin + x_width) / x);
-      const double response = (segment.response.begin + segment.response.rise * share) *
-                              (segment.emissivity.begin + segment.emissivity.rise * share);
+      // Shares of the way in wavelength, which goes as 1 / x, from one end of the segment to the other.
+      const double begin_share = (x_width - from_begin) / x_width * (x_begin / x);
+      const double end_share = from_begin / x_width * ((x_begin + x_width) / x);
+      const double response =
+          segment.response.at(begin_share, end_share) * segment.emissivity.at(begin_share, end_share);
       const double one_less_exp = -std::expm1(-x);
       const double weighted = half * weight * nu * nu * nu * response * std::exp(sum.x0 - x) / one_less_exp;
       sum.value += weighted;

@@ -46,11 +46,15 @@ class BandRadiance {
   [[nodiscard]] double temperature_from_ln(double ln_radiance) const noexcept;
 
  private:
-  /// A quantity that is straight in wavelength across a segment. At a share s of the way from begin to end in
-  /// wavenumber it is begin + rise * s * (nu_end / nu), which is free of cancellation.
+  /// A quantity that is straight in wavelength across a segment: its values at the ends. In between they are
+  /// weighted by shares that are both positive, so that nothing cancels where one of them is zero.
   struct Line {
     double begin;
-    double rise;
+    double end;
+
+    [[nodiscard]] double at(double begin_share, double end_share) const noexcept {
+      return begin * begin_share + end * end_share;
+    }
   };
   /// A piece of the band in which response and emissivity are straight, in wavenumber [1/m].
   struct Segment {

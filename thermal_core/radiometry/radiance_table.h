@@ -16,7 +16,7 @@ class RadianceTable {
   static constexpr int kNodesPerKelvin = 16;
   static constexpr int kSteps = static_cast<int>(kHottest - kColdest) * kNodesPerKelvin;
 
-  /// Tabulates `band`, then measures the error of what it will compute between all nodes.
+  /// Tabulates `band`, then measures how far it departs from the reference between all nodes.
   explicit RadianceTable(BandRadiance band);
 
   /// Temperature plane [K] to radiance plane [W m^-2 sr^-1], of equal size; they may be the same memory.
@@ -34,8 +34,8 @@ class RadianceTable {
     for (const Node& node : nodes_) nodes.insert(nodes.end(), {node.radiance_w_m2_sr, node.step_w_m2_sr});
   }
 
-  /// Largest error between nodes, measured when the table was made, as a difference in temperature [K]. It
-  /// contains the rounding of nodes and of the result.
+  /// Bound of the error between nodes, as a difference in temperature [K]: the largest departure of the curve from
+  /// its lines, measured when the table was made, and the most that rounding of nodes and result adds.
   [[nodiscard]] double worst_error_k() const noexcept { return worst_error_k_; }
   /// The same relative to the radiance.
   [[nodiscard]] double worst_relative_error() const noexcept { return worst_relative_error_; }
