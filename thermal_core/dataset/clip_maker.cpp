@@ -105,7 +105,7 @@ class ClipMaker {
     const Passes passes = read_passes(file, task_.manifest.layer, camera.width_px * finer,
                                       camera.height_px * finer, converter_.needs());
     try {
-      work->scene = converter_.convert(passes, record_of(*work));
+      converter_.convert(passes, record_of(*work), work->scene);
     } catch (const DataError& error) {
       throw DataError(fmt::format("{}: {}", file.string(), error.what()));
     }

@@ -27,18 +27,24 @@ FrameConverter::FrameConverter(const Manifest& manifest, const MaterialLibrary& 
 }
 
 SceneFrame FrameConverter::convert(const Passes& passes, const ManifestFrame& frame) const {
+  SceneFrame scene;
+  convert(passes, frame, scene);
+  return scene;
+}
+
+void FrameConverter::convert(const Passes& passes, const ManifestFrame& frame, SceneFrame& out) const {
   const std::vector<IndexUse> uses = survey_indices(passes.object_index);
   const SurfaceMap& surfaces = scene_radiance_.surfaces();
   surfaces.check_objects(uses);
   if (!passes.material_index.empty()) surfaces.check_materials(survey_indices(passes.material_index));
-  Plane<float> radiance = scene_radiance_.radiance(passes, frame);
   if (supersample_ == 1) {
-    return {.radiance_w_m2_sr = std::move(radiance),
-            .instances = extract_instances(passes.object_index, uses, actor_indices_)};
+    scene_radiance_.radiance(passes, frame, out.radiance_w_m2_sr);
+    out.instances = extract_instances(passes.object_index, uses, actor_indices_);
+    return;
   }
   const Plane<std::uint16_t> actors = block_actors(passes.object_index, supersample_, actor_indices_);
-  return {.radiance_w_m2_sr = block_means(radiance, supersample_),
-          .instances = extract_instances(actors, survey_indices(actors), actor_indices_)};
+  out.radiance_w_m2_sr = block_means(scene_radiance_.radiance(passes, frame), supersample_);
+  out.instances = extract_instances(actors, survey_indices(actors), actor_indices_);
 }
 
 }  // namespace thermal

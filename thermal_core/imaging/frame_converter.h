@@ -32,6 +32,9 @@ class FrameConverter {
   /// threads.
   [[nodiscard]] SceneFrame convert(const Passes& passes, const ManifestFrame& frame = {}) const;
 
+  /// The same into a frame whose memory is used again.
+  void convert(const Passes& passes, const ManifestFrame& frame, SceneFrame& out) const;
+
   /// Radiance of count 255 [W m^-2 sr^-1].
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
 

@@ -132,11 +132,19 @@ void SceneRadiance::begin_row(const Passes& passes, int y, Row& row) const {
 }
 
 Plane<float> SceneRadiance::radiance(const Passes& passes, const ManifestFrame& frame) const {
+  Plane<float> plane;
+  radiance(passes, frame, plane);
+  return plane;
+}
+
+void SceneRadiance::radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const {
   const Plane<std::uint16_t>& objects = passes.object_index;
   const bool has_materials = !passes.material_index.empty();
   assert(!has_materials || passes.material_index.size() == objects.size());
   const CameraPose pose = frame.camera_to_world ? pose_of(*frame.camera_to_world) : CameraPose{};
-  Plane<float> plane(objects.width_px(), objects.height_px());
+  if (out.width_px() != objects.width_px() || out.height_px() != objects.height_px()) {
+    out = Plane<float>(objects.width_px(), objects.height_px());
+  }
   const auto rows = static_cast<std::size_t>(objects.height_px());
   parallel_for(rows, kRowsAChunk, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint16_t> numbers(static_cast<std::size_t>(objects.width_px()));
@@ -147,11 +155,10 @@ Plane<float> SceneRadiance::radiance(const Passes& passes, const ManifestFrame& 
       const auto materials = has_materials ? passes.material_index.row(y) : std::span<const std::uint16_t>();
       map_.number(objects.row(y), materials, numbers);
       begin_row(passes, y, row);
-      row.radiance_w_m2_sr = plane.row(y);
+      row.radiance_w_m2_sr = out.row(y);
       for (const RowTerm& term : chain_) term(row);
     }
   });
-  return plane;
 }
 
 float brightest_of_table_1(const MaterialLibrary& materials, Season season,

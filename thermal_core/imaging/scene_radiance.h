@@ -46,6 +46,9 @@ class SceneRadiance {
   /// manifest's. Safe to call from several threads; the same bits whatever their number.
   [[nodiscard]] Plane<float> radiance(const Passes& passes, const ManifestFrame& frame = {}) const;
 
+  /// The same into a plane whose memory is used again if it has the right size.
+  void radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const;
+
   /// Radiance of the most radiant surface the manifest names; of the sky where it names none.
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
 

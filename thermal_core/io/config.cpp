@@ -14,9 +14,22 @@
 namespace thermal {
 namespace {
 
-SensorParameters read_sensor(const Json& json, const Path& home) {
-  const Path response = home / "assets" / "responses" / (json["response"].get<std::string>() + ".csv");
-  return {.response = read_response(response),
+/// A response curve of assets/responses by name.
+SpectralResponse find_response(const std::string& response, const std::string& name, const Path& home) {
+  const Path folder = home / "assets" / "responses";
+  std::vector<std::string> known;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    known.push_back(entry.path().stem().string());
+  std::sort(known.begin(), known.end());
+  if (std::binary_search(known.begin(), known.end(), response))
+    return read_response(folder / (response + ".csv"));
+  throw ConfigError(
+      fault(name + ": sensor.response", fmt::format("\"{}\"", response), "", "one of " + list_names(known)) +
+      did_you_mean(response, known));
+}
+
+SensorParameters read_sensor(const Json& json, const std::string& name, const Path& home) {
+  return {.response = find_response(json["response"], name, home),
           .radiance = json["radiance"] == "script" ? RadianceModel::script : RadianceModel::exact,
           .normalisation =
               json["normalisation"] == "table_max" ? Normalisation::table_max : Normalisation::scene_max,
@@ -145,7 +158,7 @@ Config resolve_config(Json document, const std::string& name, const Path& home) 
   config.seed = document["seed"];
   config.width_px = document["camera"]["width_px"];
   config.height_px = document["camera"]["height_px"];
-  config.sensor = read_sensor(document["sensor"], home);
+  config.sensor = read_sensor(document["sensor"], name, home);
   config.physical = document["sensor"]["preset"] == "physical";
   config.terms = read_terms(document["terms"], config.physical ? TermChoice::automatic : TermChoice::off);
   config.netd_k = 1e-3 * document["sensor"]["netd_mk"].get<double>();

@@ -30,7 +30,7 @@ class VariationField {
 
  private:
   /// Pictures of the field, one after another, each half the size of the one before, down to a single texel.
-  std::vector<float> texels_;
+  std::vector<std::int32_t> texels_;
 };
 
 }  // namespace thermal
