@@ -1,6 +1,8 @@
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -8,6 +10,7 @@
 #include "cli/command.h"
 #include "io/spectrum_files.h"
 #include "radiometry/band_radiance.h"
+#include "radiometry/radiance_table.h"
 
 namespace veldt {
 namespace {
@@ -18,6 +21,7 @@ struct Options {
   std::string band_um = "8:14";
   std::string response;
   double emissivity = 1;
+  std::string method = "reference";
   bool json = false;
 };
 
@@ -34,14 +38,41 @@ thermal::SpectralResponse parse_band(const std::string& text) {
   throw thermal::ConfigError(thermal::fault("--band-um", text, "um", "A:B with 0 < A < B"));
 }
 
-/// One row of the answer. The inverse of what was asked is filled in too.
-thermal::Json answer(const thermal::BandRadiance& band, double temperature_k, double emissivity) {
-  const thermal::BandValue value = band.evaluate(temperature_k);
-  return {{"temperature_k", temperature_k},
-          {"radiance_w_m2_sr", emissivity * value.radiance_w_m2_sr},
-          {"d_radiance_d_temperature_w_m2_sr_k", emissivity * value.derivative_w_m2_sr_k},
-          {"ln_radiance", value.ln_radiance + std::log(emissivity)}};
-}
+/// How radiance is computed from temperature, and how far off it may be.
+class Evaluator {
+ public:
+  Evaluator(const thermal::SpectralResponse& response, const std::string& method) : band_(response) {
+    if (method == "table") table_.emplace(band_);
+  }
+
+  [[nodiscard]] double temperature_k(double radiance) const { return band_.temperature(radiance); }
+
+  /// One row of the answer for a surface of this emissivity.
+  [[nodiscard]] thermal::Json answer(double temperature_k, double emissivity) const {
+    const thermal::BandValue value = band_.evaluate(temperature_k);
+    const double radiance = table_ ? static_cast<double>(table_->radiance(static_cast<float>(temperature_k)))
+                                   : value.radiance_w_m2_sr;
+    return {{"temperature_k", temperature_k},
+            {"radiance_w_m2_sr", emissivity * radiance},
+            {"d_radiance_d_temperature_w_m2_sr_k", emissivity * value.derivative_w_m2_sr_k},
+            {"ln_radiance", value.ln_radiance + std::log(emissivity)},
+            {"relative_error_bound", bound(temperature_k, value)}};
+  }
+
+ private:
+  /// table: what it measured of itself. reference: rounding of temperature and wavelengths grows with the
+  /// problem's condition T L'/L, and some forty operations round once each.
+  [[nodiscard]] double bound(double temperature_k, const thermal::BandValue& value) const {
+    if (table_) return table_->worst_relative_error();
+    constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2;
+    const bool known = value.radiance_w_m2_sr > 0;
+    const double condition = known ? temperature_k * value.derivative_w_m2_sr_k / value.radiance_w_m2_sr : 0;
+    return (6 * condition + 44) * kRounding;
+  }
+
+  thermal::BandRadiance band_;
+  std::optional<thermal::RadianceTable> table_;
+};
 
 void print_table(const thermal::Json& rows) {
   fmt::print("{:>24} {:>24} {:>24}\n", "temperature [K]", "radiance [W/m2/sr]", "derivative [W/m2/sr/K]");
@@ -69,19 +100,20 @@ int run(const Options& options) {
   }
   const thermal::SpectralResponse response =
       options.response.empty() ? parse_band(options.band_um) : thermal::read_response(options.response);
-  const thermal::BandRadiance band(response);
+  const Evaluator evaluator(response, options.method);
   thermal::Json rows = thermal::Json::array();
   for (const double temperature_k : options.temperatures_k) {
-    rows.push_back(answer(band, temperature_k, options.emissivity));
+    rows.push_back(evaluator.answer(temperature_k, options.emissivity));
   }
   for (const double radiance : options.radiances_w_m2_sr) {
-    rows.push_back(answer(band, band.temperature(radiance / options.emissivity), options.emissivity));
+    const double temperature_k = evaluator.temperature_k(radiance / options.emissivity);
+    rows.push_back(evaluator.answer(temperature_k, options.emissivity));
   }
   if (!options.json) {
     print_table(rows);
     return kDone;
   }
-  const thermal::Json document = {{"method", "reference"},
+  const thermal::Json document = {{"method", options.method},
                                   {"band_um", {response.begin_um(), response.end_um()}},
                                   {"emissivity", options.emissivity},
                                   {"values", rows}};
@@ -112,6 +144,9 @@ void add_radiance(CLI::App& app, Session& session) {
       ->type_name("CSV")
       ->excludes(band);
   command->add_option("--emissivity", options->emissivity, "Emissivity of the surface")
+      ->capture_default_str();
+  command->add_option("--method", options->method, "reference, or the table the frames are made with")
+      ->check(CLI::IsMember({"reference", "table"}))
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &session] {

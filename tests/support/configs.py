@@ -24,7 +24,14 @@ _TINY = {
         "paths": {"loop": {"points_m": [[28, 0], [0, 28], [-28, 0], [0, -28]]}},
         "groups": [
             {"name": "people", "species": "human", "path": "loop", "count": 3, "spacing_m": 3, "spread_m": 1},
-            {"name": "herd", "species": "elephant", "path": "loop", "count": 2, "spacing_m": 8, "start_m": 16},
+            {
+                "name": "herd",
+                "species": "elephant",
+                "path": "loop",
+                "count": 2,
+                "spacing_m": 8,
+                "start_m": 16,
+            },
             {"name": "zebras", "species": "zebra", "path": "loop", "count": 2, "start_m": 28},
         ],
     },

@@ -31,7 +31,8 @@ inline void write_exr(const std::filesystem::path& file, int width_px, int heigh
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (type == Imf::HALF) reinterpret_cast<half*>(data.data())[i] = half(pixels[i]);
       if (type == Imf::FLOAT) reinterpret_cast<float*>(data.data())[i] = pixels[i];
-      if (type == Imf::UINT) reinterpret_cast<std::uint32_t*>(data.data())[i] = static_cast<std::uint32_t>(pixels[i]);
+      if (type == Imf::UINT)
+        reinterpret_cast<std::uint32_t*>(data.data())[i] = static_cast<std::uint32_t>(pixels[i]);
     }
     buffer.insert(name, Imf::Slice(type, data.data(), bytes, bytes * static_cast<std::size_t>(width_px)));
   }

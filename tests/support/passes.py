@@ -27,9 +27,16 @@ def manifest(clip: str = "one", frames: int = FRAMES) -> dict:
         "objects": [
             {"index": GROUND, "name": "ground", "class": "ground", "material": "soil"},
             {"index": SHRUB, "name": "shrub", "class": "plant", "material": "shrub"},
-            actor | {"index": WALKER, "name": "walker", "material": "human", "category": "human", "track_id": 7},
             actor
-            | {"index": ELEPHANT, "name": "cow", "material": "elephant", "category": "elephant", "track_id": 9},
+            | {"index": WALKER, "name": "walker", "material": "human", "category": "human", "track_id": 7},
+            actor
+            | {
+                "index": ELEPHANT,
+                "name": "cow",
+                "material": "elephant",
+                "category": "elephant",
+                "track_id": 9,
+            },
         ],
         "materials": [],
         "frames": [{"file": f"{k:06d}.exr", "time_s": k / 9} for k in range(frames)],

@@ -29,7 +29,7 @@ class TemporaryFolder {
 
   /// Writes a file of the folder and returns its full path.
   [[nodiscard]] std::filesystem::path file(std::string_view name, std::string_view content) const {
-    const std::filesystem::path file = path_ / name;
+    std::filesystem::path file = path_ / name;
     std::ofstream(file, std::ios::binary) << content;
     return file;
   }

@@ -14,20 +14,22 @@ Manifest manifest_of(const CameraIntrinsics& camera, double height_m, double loo
   Manifest manifest;
   manifest.clip = "bench";
   manifest.camera = camera;
-  manifest.objects = {
-      {.index = kSoil, .name = "soil", .object_class = ObjectClass::ground, .material = "soil"},
-      {.index = kGrass, .name = "grass", .object_class = ObjectClass::ground, .material = "grass"},
-      {.index = kWater, .name = "water", .object_class = ObjectClass::water, .material = "water"},
-      {.index = kShrub, .name = "shrub", .object_class = ObjectClass::plant, .material = "shrub"}};
+  const auto place = [&manifest](std::uint16_t index, const std::string& name, ObjectClass object_class) {
+    ManifestObject object;
+    object.index = index;
+    object.name = name;
+    object.object_class = object_class;
+    object.material = name;
+    manifest.objects.push_back(object);
+  };
+  place(kSoil, "soil", ObjectClass::ground);
+  place(kGrass, "grass", ObjectClass::ground);
+  place(kWater, "water", ObjectClass::water);
+  place(kShrub, "shrub", ObjectClass::plant);
   for (const auto& [index, name] : {std::pair{kHuman, "human"}, std::pair{kElephant, "elephant"}}) {
-    ManifestObject actor;
-    actor.index = index;
-    actor.name = name;
-    actor.object_class = ObjectClass::actor;
-    actor.material = name;
-    actor.category = name;
-    actor.track_id = index;
-    manifest.objects.push_back(actor);
+    place(index, name, ObjectClass::actor);
+    manifest.objects.back().category = name;
+    manifest.objects.back().track_id = index;
   }
   const double sine = std::sin(look_angle_rad);
   const double cosine = std::cos(look_angle_rad);

@@ -63,7 +63,7 @@ double widger_woodall(double temperature_k, int terms) {
   return kFirstRadiationConstant * t_c2 * t_c2 * t_c2 * t_c2 * (tail(14e-6) - tail(8e-6));
 }
 
-PlaneFunction pixel_by_pixel(double (*function)(double)) {
+PlaneFunction pixel_by_pixel(const std::function<double(double)>& function) {
   return [function](std::span<const float> in, std::span<float> out) {
     for (std::size_t i = 0; i < in.size(); ++i) {
       out[i] = static_cast<float>(function(static_cast<double>(in[i])));
@@ -91,8 +91,8 @@ BenchRow forward_row(const std::string& name, const std::function<double(float)>
   return row;
 }
 
-BenchRow forward_row(const std::string& name, double (*function)(double), const BandRadiance& reference,
-                     std::size_t pixels) {
+BenchRow forward_row(const std::string& name, const std::function<double(double)>& function,
+                     const BandRadiance& reference, std::size_t pixels) {
   return forward_row(
       name, [function](float t) { return function(static_cast<double>(t)); }, pixel_by_pixel(function),
       reference, pixels);
@@ -125,13 +125,14 @@ BenchRow inverse_row(const std::string& name, const PlaneFunction& plane, const 
 std::vector<BenchRow> evaluator_rows() {
   constexpr std::size_t kSlow = 4096;  // pixels for what takes microseconds each
   constexpr std::size_t kMiddling = 65536;
-  static const BandRadiance reference(SpectralResponse::flat(8, 14));
+  const BandRadiance reference(SpectralResponse::flat(8, 14));
   const RadianceTable table(reference);
-  const TemperatureTable inverse([](double radiance) { return reference.temperature(radiance); },
+  const TemperatureTable inverse([&reference](double radiance) { return reference.temperature(radiance); },
                                  reference.radiance(kColdest - 1), reference.radiance(kHottest + 1));
   return {
       forward_row(
-          "reference, panelled Gauss", [](double t) { return reference.radiance(t); }, reference, kMiddling),
+          "reference, panelled Gauss", [&reference](double t) { return reference.radiance(t); }, reference,
+          kMiddling),
       forward_row("published script, 600 points", script_radiance, reference, kSlow),
       forward_row("Gauss-Legendre, 8 points", plain_gauss, reference, kMiddling),
       forward_row(
@@ -142,8 +143,9 @@ std::vector<BenchRow> evaluator_rows() {
           "table, lines of 1/16 K", [&table](float t) { return static_cast<double>(table.radiance(t)); },
           [&table](std::span<const float> in, std::span<float> out) { table.radiances(in, out); }, reference,
           kPixels),
-      inverse_row("reference, Newton", pixel_by_pixel([](double l) { return reference.temperature(l); }),
-                  reference, kSlow),
+      inverse_row("reference, Newton",
+                  pixel_by_pixel([&reference](double l) { return reference.temperature(l); }), reference,
+                  kSlow),
       inverse_row(
           "table, 8192 lines",
           [&inverse](std::span<const float> in, std::span<float> out) { inverse.temperatures(in, out); },

@@ -9,10 +9,7 @@
 namespace thermal {
 namespace {
 
-const SpectralResponse& flat_8_14_um() {
-  static const SpectralResponse response = SpectralResponse::flat(8, 14);
-  return response;
-}
+SpectralResponse flat_8_14_um() { return SpectralResponse::flat(8, 14); }
 
 /// The terms' formulas once more, in double and without a table, for a single pixel.
 class ExactChain {

@@ -26,7 +26,7 @@ RadianceTable::RadianceTable(BandRadiance band) : band_(std::move(band)) {
 void RadianceTable::measure() {
   // Radiance is convex, so a line between two nodes is furthest from it at the middle. Node and result are floats,
   // half an eps off each at most, and so are, of itself, the step and what is taken of it.
-  constexpr double kRounding = std::numeric_limits<float>::epsilon() / 2;
+  constexpr double kRounding = static_cast<double>(std::numeric_limits<float>::epsilon()) / 2;
   double here = band_.radiance(node_k(0));
   for (int node = 0; node < kSteps; ++node) {
     const double next = band_.radiance(node_k(node + 1));

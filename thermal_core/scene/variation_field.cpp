@@ -113,6 +113,7 @@ VELDT_CLONES void sample_all(const std::int32_t* __restrict texels, const float*
   constexpr int kTexelsBits = 8;
   for (std::size_t i = 0; i < count; ++i) {
     const float wanted = footprint[i] * kTexelsPerLength;
+    // NOLINTNEXTLINE(clang-diagnostic-bitwise-instead-of-logical): && would branch, and the loop not vectorise
     const bool usable = (std::abs(x[i]) < kFarthest) & (std::abs(y[i]) < kFarthest) & (wanted >= 0) &
                         (wanted < static_cast<float>(kTexels));  // false for NaN
     const float texel = usable ? wanted : 0.0F;

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "io/material_files.h"
+#include "io/spectrum_files.h"
+#include "radiometry/emissivity.h"
+#include "radiometry/spectral_response.h"
+
+/// The materials that come with the program.
+inline const thermal::MaterialLibrary& materials() {
+  static const thermal::MaterialLibrary kLibrary = thermal::read_materials(VELDT_SOURCE_DIR);
+  return kLibrary;
+}
+
+inline const thermal::Material& material(const std::string& name) { return materials().find(name, "test"); }
+
+/// A response curve that comes with the program.
+inline thermal::SpectralResponse response(const std::string& name) {
+  return thermal::read_response(std::string(VELDT_SOURCE_DIR) + "/assets/responses/" + name + ".csv");
+}
+
+/// Dark below 9.4 um and bright above, as quartz sand is: a step a tenth of a micrometre wide.
+inline thermal::EmissivitySpectrum quartz() {
+  return thermal::EmissivitySpectrum({{7, 0.75}, {9.35, 0.75}, {9.45, 0.97}, {16, 0.97}});
+}

@@ -1,0 +1,219 @@
+#include "imaging/budget.h"
+
+#include <cmath>
+
+#include "accuracy/physical/assets.h"
+#include "support/catch.h"
+
+using namespace thermal;
+
+namespace {
+
+const SpectralResponse kBand = SpectralResponse::flat(8, 14);
+const Weather kWinter = weather_of(Season::winter);
+const Weather kSummer = weather_of(Season::summer);
+
+/// One night's figures for a material [mK].
+struct Shifts {
+  double sky;
+  double path_61m;
+  double path_122m;
+};
+
+struct PublishedRow {
+  const char* material;
+  Shifts winter;
+  Shifts summer;
+};
+
+/// Computed in 60-digit arithmetic from the formulas of atmosphere.h, printed to whole mK: diffuse level
+/// surfaces, air at 273 K and 60 % in winter, 293 K and 70 % in summer, flat 8 to 14 um.
+constexpr PublishedRow kPublished[] = {{"soil", {1601, -47, -66}, {3284, 417, 603}},
+                                       {"grass", {806, 47, 66}, {1497, 67, 97}},
+                                       {"human", {232, -508, -716}, {490, -413, -597}},
+                                       {"elephant", {641, -427, -601}, {1360, -209, -303}},
+                                       {"truck", {4214, 241, 339}, {7702, 334, 482}}};
+
+void check_night(const Material& material, const Weather& weather, const Shifts& expected) {
+  const MaterialShift near = shift_of(material, weather, 61, kBand);
+  const MaterialShift far = shift_of(material, weather, 122, kBand);
+  CAPTURE(material.name, weather.air.temperature_k);
+  // To the printed digit: half a mK.
+  CHECK_THAT(1e3 * near.sky_k, WithinAbs(expected.sky, 0.5));
+  CHECK_THAT(1e3 * near.path_k, WithinAbs(expected.path_61m, 0.5));
+  CHECK_THAT(1e3 * far.path_k, WithinAbs(expected.path_122m, 0.5));
+  CHECK(far.sky_k == near.sky_k);
+}
+
+Material made_of(const std::string& name, double emissivity) {
+  Material result;
+  result.name = name;
+  result.emissivity = emissivity;
+  result.winter_k = 278;
+  result.summer_k = 288;
+  return result;
+}
+
+constexpr TermChoice kAuto = TermChoice::automatic;
+constexpr TermChoices kAllAuto = {kAuto, kAuto, kAuto, kAuto, kAuto, kAuto};
+
+/// Soil, grass and a person seen straight down from a distance in a winter's night.
+SceneOutline savanna_from(double range_m) {
+  SceneOutline outline;
+  outline.covers = {
+      {&material("soil"), 0.5, false}, {&material("grass"), 0.4, false}, {&material("human"), 0.1, true}};
+  outline.nights = {{kWinter, {{range_m, 1, 1}}}};
+  return outline;
+}
+
+const TermEffect& effect(const Budget& budget, const std::string& name) {
+  for (const TermEffect& one : budget.effects) {
+    if (one.name == name) return one;
+  }
+  throw std::out_of_range(name);
+}
+
+}  // namespace
+
+TEST_CASE("Shifts of apparent temperature are the published ones, in every row, to the printed mK") {
+  for (const PublishedRow& row : kPublished) {
+    check_night(material(row.material), kWinter, row.winter);
+    check_night(material(row.material), kSummer, row.summer);
+  }
+}
+
+TEST_CASE("There is a line in the budget for each term, in their order") {
+  const Budget budget = weigh_terms(savanna_from(61), kAllAuto);
+  REQUIRE(budget.effects.size() == std::size(kTerms));
+  for (std::size_t i = 0; i < std::size(kTerms); ++i) {
+    CHECK(budget.effects[i].name == kTerms[i].name);
+    CHECK(budget.effects[i].kept == budget.kept.*kTerms[i].kept);
+  }
+}
+
+TEST_CASE("The air is dropped for a tripod 5 m away and kept for a drone at 61 m") {
+  // Three materials: the spread from the 5th to the 95th percentile is between the most different of them. At
+  // 61 m that is grass against person, 47 + 508 mK by the table above, on top of the sky's reflection as
+  // there.
+  const Budget drone = weigh_terms(savanna_from(61), kAllAuto);
+  CHECK(drone.kept.path);
+  CHECK_THAT(1e3 * effect(drone, "path").spread_k, WithinAbs(47 + 508, 1));
+  CHECK_THAT(1e3 * effect(drone, "path").actor_shift_k, WithinAbs(508, 0.5));
+
+  // A shot of ground alone: soil and grass differ by 94 mK at 61 m, and by a tenth of that at 5 m.
+  SceneOutline ground = savanna_from(5);
+  ground.covers.pop_back();
+  const Budget tripod = weigh_terms(ground, kAllAuto);
+  CHECK_FALSE(tripod.kept.path);
+  CHECK(effect(tripod, "path").spread_k < ground.netd_k / 3);
+  ground.nights[0].looks[0].range_m = 61;
+  CHECK(weigh_terms(ground, kAllAuto).kept.path);
+}
+
+TEST_CASE("Blackbodies reflect no sky, others do") {
+  const Material black = made_of("soot", 1);
+  const Material other = made_of("lamp black", 1);
+  const Material grey = made_of("rock", 0.9);
+  SceneOutline outline;
+  outline.nights = {{kWinter, {{61, 1, 1}}}};
+  outline.covers = {{&black, 0.5, false}, {&other, 0.5, false}};
+  const Budget of_black = weigh_terms(outline, kAllAuto);
+  CHECK_FALSE(of_black.kept.sky);
+  CHECK_THAT(effect(of_black, "sky").spread_k, WithinAbs(0, 1e-9));  // the inverse's accuracy
+  outline.covers[1].material = &grey;
+  CHECK(weigh_terms(outline, kAllAuto).kept.sky);
+}
+
+TEST_CASE("What shifts everything alike is dropped: contrast is what a detector sees") {
+  SceneOutline outline = savanna_from(61);
+  outline.covers = {{&material("truck"), 1, false}};
+  const Budget budget = weigh_terms(outline, kAllAuto);
+  CHECK(effect(budget, "sky").spread_k == 0);
+  CHECK_FALSE(budget.kept.sky);
+  CHECK_FALSE(budget.kept.path);
+}
+
+TEST_CASE("On and off go before the rule") {
+  TermChoices choices = kAllAuto;
+  choices.path = TermChoice::off;
+  choices.falloff = TermChoice::on;
+  const Budget budget = weigh_terms(savanna_from(61), choices);
+  CHECK_FALSE(budget.kept.path);
+  CHECK(budget.kept.falloff);
+  CHECK(effect(budget, "path").choice == TermChoice::off);
+  CHECK(effect(budget, "falloff").spread_k == 0);  // one look alone: nothing differs
+  const Budget none = weigh_terms(savanna_from(61), TermChoices());
+  CHECK(none.kept == Terms());
+}
+
+TEST_CASE("The sum of what was dropped is the sum of the dropped lines") {
+  for (const double range_m : {5.0, 61.0}) {
+    TermChoices choices = kAllAuto;
+    choices.sky = TermChoice::off;
+    const Budget budget = weigh_terms(savanna_from(range_m), choices);
+    double sum_k = 0;
+    for (const TermEffect& one : budget.effects) sum_k += one.kept ? 0 : one.spread_k;
+    CHECK(budget.dropped_k == sum_k);
+    CHECK(budget.dropped_k >= effect(budget, "sky").spread_k);
+  }
+}
+
+TEST_CASE("A term is kept where its spread is more than a third of the NETD") {
+  SceneOutline outline = savanna_from(61);
+  const double spread_k = effect(weigh_terms(outline, kAllAuto), "path").spread_k;
+  outline.netd_k = 3 * spread_k * 0.999;
+  CHECK(weigh_terms(outline, kAllAuto).kept.path);
+  outline.netd_k = 3 * spread_k * 1.001;
+  CHECK_FALSE(weigh_terms(outline, kAllAuto).kept.path);
+}
+
+TEST_CASE("Of several nights the one that matters most decides, for all: never frame by frame") {
+  SceneOutline outline = savanna_from(5);
+  outline.covers.pop_back();
+  const double near_k = effect(weigh_terms(outline, kAllAuto), "path").spread_k;
+  outline.nights.push_back({kSummer, {{122, 1, 1}}});
+  const Budget both = weigh_terms(outline, kAllAuto);
+  // Soil against grass in summer, by the table: 603 - 97 mK.
+  CHECK_THAT(1e3 * effect(both, "path").spread_k, WithinAbs(603 - 97, 1));
+  CHECK(near_k < outline.netd_k / 3);
+  CHECK(both.kept.path);
+}
+
+TEST_CASE("Angles matter to water that is seen at several, not to plants") {
+  SceneOutline outline;
+  outline.nights = {{kWinter, {{61, 1, 1}, {80, 0.7, 1}, {120, 0.4, 1}}}};
+  outline.covers = {{&material("water"), 1, false}};
+  CHECK(weigh_terms(outline, kAllAuto).kept.angular);
+  outline.covers = {{&material("grass"), 1, false}};
+  CHECK(effect(weigh_terms(outline, kAllAuto), "angular").spread_k == 0);
+}
+
+TEST_CASE("Fall-off is weighed as what it does to noise: cos^-4 of the NETD towards the corners") {
+  SceneOutline outline = savanna_from(61);
+  outline.nights[0].looks = {{61, 1, 1}, {64, 0.95, std::cos(22.5 * 3.14159265358979 / 180)}};
+  const Budget budget = weigh_terms(outline, kAllAuto);
+  // cos^4 of 22.5 deg is .729 to the digits given: noise is 1 / .729 - 1 = .372 of the NETD higher.
+  CHECK_THAT(effect(budget, "falloff").spread_k / outline.netd_k, WithinAbs(0.372, 0.001));
+  CHECK(budget.kept.falloff);
+}
+
+TEST_CASE("Variation spreads by 3.3 standard deviations, as a normal distribution does from 5 % to 95 %") {
+  SceneOutline outline;
+  outline.nights = {{kWinter, {{61, 1, 1}}}};
+  outline.covers = {{&material("soil"), 1, false}};
+  // Of ten equal shares the lowest and the highest hold 5 % at their middles: 2 * 1.645 standard deviations.
+  const double stddev_k = material("soil").variation.stddev_k;
+  CHECK_THAT(effect(weigh_terms(outline, kAllAuto), "variation").spread_k,
+             WithinRel(2 * 1.645 * stddev_k, 1e-3));
+}
+
+TEST_CASE("Parts are weighed over actors alone") {
+  const Budget budget = weigh_terms(savanna_from(61), kAllAuto);
+  // A face at 1.45 times the person's excess of 19 K over the air, against a pack at .15: more than 20 K
+  // apart.
+  CHECK(effect(budget, "parts").spread_k > 20);
+  CHECK(budget.kept.parts);
+  SceneOutline empty = savanna_from(61);
+  empty.covers.pop_back();
+  CHECK(effect(weigh_terms(empty, kAllAuto), "parts").spread_k == 0);
+}

@@ -1,0 +1,128 @@
+#include "accuracy/physical/assets.h"
+#include "base/error.h"
+#include "dataset/physics.h"
+#include "io/config.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+
+using namespace thermal;
+
+namespace {
+
+/// The smallest config of the physical preset, with some keys set as `--set` does.
+Config config_with(const std::vector<std::string>& settings) {
+  Json document = parse_json(R"({"name": "test", "sensor": {"preset": "physical"},
+                                 "clips": [{"id": "a", "season": "winter", "frames": 1}]})",
+                             "test.json");
+  for (const std::string& setting : settings) apply_setting(document, setting);
+  return resolve_config(std::move(document), "test.json", VELDT_SOURCE_DIR);
+}
+
+std::string fault_of(const std::string& setting) {
+  return message_of<ConfigError>([&] { (void)config_with({setting}); });
+}
+
+std::vector<TermChoice> choices(const Config& config) {
+  std::vector<TermChoice> result;
+  for (const TermInfo& term : kTerms) result.push_back(config.terms.*term.choice);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("The physical preset leaves every term to the budget, the published one drops them all") {
+  CHECK(config_with({}).physical);
+  CHECK(choices(config_with({})) == std::vector(std::size(kTerms), TermChoice::automatic));
+  const Config published = config_with({"sensor.preset=airsim_w"});
+  CHECK_FALSE(published.physical);
+  CHECK(choices(published) == std::vector(std::size(kTerms), TermChoice::off));
+}
+
+TEST_CASE("A choice stands against the preset's") {
+  for (const char* preset : {"physical", "airsim_w"}) {
+    const Config config = config_with(
+        {std::string("sensor.preset=") + preset, "terms.sky=on", "terms.path=off", "terms.parts=auto"});
+    CHECK(config.terms.sky == TermChoice::on);
+    CHECK(config.terms.path == TermChoice::off);
+    CHECK(config.terms.parts == TermChoice::automatic);
+  }
+}
+
+TEST_CASE("A term has one of three choices and a known name") {
+  CHECK(fault_of("terms.sky=maybe") == R"(test.json: terms.sky = "maybe"; expected one of on, off, auto)");
+  CHECK(fault_of("terms.skies=on") ==
+        "test.json: terms.skies is not a known key; expected one of variation, parts, sky, angular, path, "
+        "falloff");
+}
+
+TEST_CASE("Without weather in the config, a clip's air is its season's") {
+  const Config config = config_with({});
+  const Weather winter = weather_of(config, Season::winter);
+  CHECK(winter.air.temperature_k == 273);
+  CHECK(winter.air.relative_humidity == 0.6);
+  CHECK(winter.air.cloud_fraction == 0);
+  CHECK(winter.vehicle_stopped_s == 3600);
+  const Weather summer = weather_of(config, Season::summer);
+  CHECK(summer.air.temperature_k == 293);
+  CHECK(summer.air.relative_humidity == 0.7);
+}
+
+TEST_CASE("What the config says of the weather goes before the season, value by value") {
+  const Config config = config_with({"weather.air_temperature_k=281.5", "weather.cloud_fraction=0.5"});
+  for (const Season season : {Season::winter, Season::summer}) {
+    const Weather weather = weather_of(config, season);
+    CHECK(weather.air.temperature_k == 281.5);
+    CHECK(weather.air.cloud_fraction == 0.5);
+    CHECK(weather.air.relative_humidity == weather_of(season).air.relative_humidity);
+  }
+  CHECK(weather_of(config_with({"weather.vehicle_stopped_s=60"}), Season::winter).vehicle_stopped_s == 60);
+}
+
+TEST_CASE("Weather that cannot be is a fault") {
+  CHECK(fault_of("weather.air_temperature_k=150") ==
+        "test.json: weather.air_temperature_k = 150 K; expected at least 200 and at most 340 K");
+  CHECK(fault_of("weather.relative_humidity=60") ==
+        "test.json: weather.relative_humidity = 60; expected at least 0 and at most 1");
+  CHECK(fault_of("weather.cloud_fraction=-1") ==
+        "test.json: weather.cloud_fraction = -1; expected at least 0 and at most 1");
+}
+
+TEST_CASE("The response is a file that comes with the program") {
+  const Config config = config_with({"sensor.response=vox_germanium"});
+  CHECK(config.sensor.response.begin_um() == 7);
+  CHECK(config.sensor.response.end_um() == 15);
+  CHECK(config.sensor.response.at(10) == 1);
+  CHECK(config_with({}).sensor.response.end_um() == 14);
+  const std::string known = "flat_7_5_13_5um, flat_8_14um, vox_germanium";
+  CHECK(fault_of("sensor.response=gold") ==
+        "test.json: sensor.response = \"gold\"; expected one of " + known);
+  CHECK(fault_of("sensor.response=flat_8_15um") ==
+        "test.json: sensor.response = \"flat_8_15um\"; expected one of " + known +
+            "; did you mean \"flat_8_14um\"?");
+}
+
+TEST_CASE(
+    "A clip's physics are its weather, its response and the terms that were kept; the published model has "
+    "none") {
+  const Config config =
+      config_with({"weather.air_temperature_k=281.5", "sensor.response=vox_germanium", "seed=9"});
+  const Terms kept = {.sky = true, .path = true};
+  const auto physics = physics_of(config, config.clips[0], kept);
+  REQUIRE(physics);
+  CHECK(physics->terms == kept);
+  CHECK(physics->weather.air.temperature_k == 281.5);
+  CHECK(physics->response.end_um() == 15);
+  CHECK(physics->seed == 9);
+  const Config published = config_with({"sensor.preset=airsim_w"});
+  CHECK_FALSE(physics_of(published, published.clips[0], kept));
+}
+
+TEST_CASE("The flat responses are flat, and the camera's peaks near 10 um") {
+  for (const double um : {8.0, 11.0, 14.0}) CHECK(response("flat_8_14um").at(um) == 1);
+  for (const double um : {7.5, 10.0, 13.5}) CHECK(response("flat_7_5_13_5um").at(um) == 1);
+  const SpectralResponse camera = response("vox_germanium");
+  CHECK(camera.at(10) == 1);
+  CHECK(camera.at(7) == 0);
+  CHECK(camera.at(15) == 0);
+  CHECK(camera.at(14) < 0.5);
+}

@@ -1,0 +1,164 @@
+#include "imaging/supersample.h"
+
+#include <cmath>
+#include <limits>
+
+#include "accuracy/physical/chain_scene.h"
+#include "imaging/frame_converter.h"
+#include "support/catch.h"
+
+using namespace thermal;
+
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+template <typename T>
+Plane<T> plane_of(int width, const std::vector<T>& pixels) {
+  Plane<T> result(width, static_cast<int>(pixels.size()) / width);
+  std::copy(pixels.begin(), pixels.end(), result.pixels().begin());
+  return result;
+}
+
+constexpr std::uint16_t kAnna = 5;
+constexpr std::uint16_t kBen = 6;
+constexpr std::array kActors = {kAnna, kBen};
+
+/// The label of one block.
+std::uint16_t label_of(int factor, const std::vector<std::uint16_t>& block) {
+  return block_actors(plane_of(factor, block), factor, kActors).at(0, 0);
+}
+
+/// A clip whose passes are `supersample` times finer than its camera of 2 x 1 px.
+FrameConverter converter(int supersample, const Terms& terms) {
+  Manifest manifest = chain_scene::manifest();
+  manifest.camera = {2, 1, chain_scene::kFocalPx, chain_scene::kFocalPx, 1, 0.5};
+  manifest.supersample = supersample;
+  return FrameConverter(manifest, chain_scene::library(), Season::winter, SensorParameters(),
+                        chain_scene::settings(terms));
+}
+
+SceneFrame convert(int supersample, const Passes& passes, const Terms& terms = {}) {
+  return converter(supersample, terms).convert(passes, chain_scene::manifest().frames[0]);
+}
+
+/// Two pixels of 8 x 8: the left one's upper rows are a person, everything else is soil.
+Passes person_over(int rows) {
+  Passes passes = chain_scene::uniform_passes(16, 8, chain_scene::kSoil, 122, {0, 0, 1});
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < 8; ++x) passes.object_index.at(x, y) = chain_scene::kHuman;
+  }
+  return passes;
+}
+
+}  // namespace
+
+TEST_CASE("Means of blocks are means, exactly where their sums are") {
+  const Plane<float> fine = plane_of<float>(4, {1, 2, 10, 20,  //
+                                                3, 4, 30, 40});
+  CHECK(block_means(fine, 2) == plane_of<float>(2, {2.5F, 25}));
+  CHECK(block_means(fine, 1) == fine);
+}
+
+TEST_CASE("A NaN spreads to its block and no further") {
+  const Plane<float> means = block_means(plane_of<float>(4, {1, kNaN, 1, 1,  //
+                                                             1, 1, 1, 1}),
+                                         2);
+  CHECK(std::isnan(means.at(0, 0)));
+  CHECK(means.at(1, 0) == 1);
+}
+
+TEST_CASE("Means of many are right to the rounding of floats") {
+  Plane<float> fine(8, 8);
+  double sum = 0;
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    fine.pixels()[i] = 50 + 0.123F * static_cast<float>(i);
+    sum += static_cast<double>(fine.pixels()[i]);
+  }
+  // 63 additions of positive numbers and a product, half an eps each at most.
+  CHECK_THAT(static_cast<double>(block_means(fine, 8).at(0, 0)), WithinRel(sum / 64, 64 * 6e-8));
+}
+
+TEST_CASE("A pixel is labelled as the actor that covers at least half of it") {
+  CHECK(label_of(2, {kAnna, kAnna, 1, 1}) == kAnna);  // exactly half
+  CHECK(label_of(2, {kAnna, 1, 1, 1}) == 0);
+  CHECK(label_of(2, {kAnna, kBen, 1, 1}) == 0);                            // half of actors, but of no one
+  CHECK(label_of(2, {1, 1, 1, 1}) == 0);                                   // 1 is no actor
+  CHECK(label_of(3, {kBen, kBen, kBen, kBen, kBen, 1, 1, 1, 1}) == kBen);  // 5 of 9
+  CHECK(label_of(3, {kBen, kBen, kBen, kBen, 1, 1, 1, 1, 1}) == 0);        // 4 of 9
+  CHECK(label_of(1, {kBen}) == kBen);
+}
+
+TEST_CASE("Of two actors with half each, the lower index") {
+  CHECK(label_of(2, {kBen, kBen, kAnna, kAnna}) == kAnna);
+  CHECK(label_of(2, {kAnna, kBen, kBen, kAnna}) == kAnna);
+}
+
+TEST_CASE("Blocks are labelled where they are") {
+  const Plane<std::uint16_t> fine = plane_of<std::uint16_t>(4, {1, 1, kBen, kBen,    //
+                                                                1, 1, kBen, 1,       //
+                                                                kAnna, kAnna, 0, 0,  //
+                                                                kAnna, 1, 0, 0});
+  CHECK(block_actors(fine, 2, kActors) == plane_of<std::uint16_t>(2, {0, kBen, kAnna, 0}));
+}
+
+TEST_CASE("A finer camera sees the same field with more pixels") {
+  const CameraIntrinsics camera = {640, 512, 764.5, 765.5, 320.25, 256};
+  const CameraIntrinsics fine = finer(camera, 4);
+  CHECK(fine.width_px == 2560);
+  CHECK(fine.height_px == 2048);
+  CHECK(fine.fx_px == 4 * 764.5);
+  CHECK(fine.fy_px == 4 * 765.5);
+  CHECK(fine.cx_px == 1281);
+  CHECK(fine.cy_px == 1024);
+}
+
+TEST_CASE(
+    "A pixel that is half person, half soil has the mean of their radiances, not of their temperatures") {
+  const Plane<float> mixed = convert(8, person_over(4)).radiance_w_m2_sr;
+  REQUIRE(mixed.width_px() == 2);
+  const auto soil = static_cast<double>(mixed.at(1, 0));
+  const auto person = static_cast<double>(convert(8, person_over(8)).radiance_w_m2_sr.at(0, 0));
+  CHECK_THAT(static_cast<double>(mixed.at(0, 0)), WithinRel((soil + person) / 2, 64 * 6e-8));
+  // At the mean of both temperatures it would be darker: radiance is convex in temperature.
+  const PhysicsSettings settings = chain_scene::settings({});
+  const BandRadiance blackbody(settings.response);
+  const double of_mean_k =
+      blackbody.radiance((blackbody.temperature(soil) + blackbody.temperature(person)) / 2);
+  CHECK(static_cast<double>(mixed.at(0, 0)) > of_mean_k * (1 + 1e-4));
+}
+
+TEST_CASE("A person of an eighth of a pixel warms it by an eighth") {
+  const Plane<float> mixed = convert(8, person_over(1)).radiance_w_m2_sr;
+  const auto soil = static_cast<double>(mixed.at(1, 0));
+  const auto person = static_cast<double>(convert(8, person_over(8)).radiance_w_m2_sr.at(0, 0));
+  CHECK_THAT(static_cast<double>(mixed.at(0, 0)), WithinRel(soil + (person - soil) / 8, 64 * 6e-8));
+}
+
+TEST_CASE("Labels of a supersampled frame are in the camera's pixels, by half") {
+  CHECK(convert(8, person_over(3)).instances.empty());
+  const SceneFrame frame = convert(8, person_over(4));
+  REQUIRE(frame.instances.size() == 1);
+  CHECK(frame.instances[0].index == chain_scene::kHuman);
+  CHECK(frame.instances[0].area_px == 1);
+}
+
+TEST_CASE("Every sub-pixel has its own air and angle before the mean is taken") {
+  // Half at 30 m, half at 300 m: the mean of what either range gives, not what the mean range gives.
+  const Terms path = {.path = true};
+  Passes passes = chain_scene::uniform_passes(16, 8, chain_scene::kHuman, 30, {0, 0, 1});
+  const auto near = static_cast<double>(convert(8, passes, path).radiance_w_m2_sr.at(0, 0));
+  for (int y = 4; y < 8; ++y) {
+    for (float& depth_m : passes.depth_m.row(y)) depth_m = 300;
+  }
+  const auto mixed = static_cast<double>(convert(8, passes, path).radiance_w_m2_sr.at(0, 0));
+  const auto far = static_cast<double>(
+      convert(8, chain_scene::uniform_passes(16, 8, chain_scene::kHuman, 300, {0, 0, 1}), path)
+          .radiance_w_m2_sr.at(0, 0));
+  const auto middle = static_cast<double>(
+      convert(8, chain_scene::uniform_passes(16, 8, chain_scene::kHuman, 165, {0, 0, 1}), path)
+          .radiance_w_m2_sr.at(0, 0));
+  // Rays of the upper half and of the lower are of equal length, by symmetry.
+  CHECK_THAT(mixed, WithinRel((near + far) / 2, 64 * 6e-8));
+  CHECK(mixed > middle * (1 + 1e-4));
+}

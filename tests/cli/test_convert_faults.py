@@ -1,0 +1,275 @@
+"""Passes and requests `convert` must refuse: exact words, exit codes, and nothing half made."""
+
+import shutil
+
+import numpy as np
+import pytest
+
+import passes
+from pictures import write_exr
+from program import ROOT, files_below
+
+MATERIALS = ", ".join(sorted(file.stem for file in (ROOT / "assets" / "materials").glob("*.json")))
+INDEX = "expected a whole number from 0 to 32767"
+FRAME = "one/000001.exr"
+
+
+def _index(value):
+    return lambda folder: passes.change_index(folder, 1, value)
+
+
+def _frame(planes):
+    return lambda folder: write_exr(folder / "000001.exr", planes)
+
+
+def _bytes(content):
+    return lambda folder: (folder / "000001.exr").write_bytes(content)
+
+
+def _manifest(change):
+    """Changes the manifest of a clip."""
+
+    def apply(folder):
+        document = passes.manifest(folder.name)
+        change(document)
+        passes.write_manifest(folder, document)
+
+    return apply
+
+
+def _cut_short(folder):
+    file = folder / "000001.exr"
+    file.write_bytes(file.read_bytes()[:-40])
+
+
+FLAT = np.full((passes.HEIGHT, passes.WIDTH), 30.0)
+BAD_FRAMES = {
+    "index that is not a number": (_index(np.nan), f"{passes.OBJECTS} at pixel (3, 2) = nan; {INDEX}"),
+    "infinite index": (_index(np.inf), f"{passes.OBJECTS} at pixel (3, 2) = inf; {INDEX}"),
+    "negative index": (_index(-1), f"{passes.OBJECTS} at pixel (3, 2) = -1; {INDEX}"),
+    "half an index": (_index(1.5), f"{passes.OBJECTS} at pixel (3, 2) = 1.5; {INDEX}"),
+    "index past the last": (_index(32768), f"{passes.OBJECTS} at pixel (3, 2) = 32768; {INDEX}"),
+    "index the manifest lacks": (
+        _index(103),
+        "object index at pixel (3, 2) = 103 (1 pixels); expected an index of the manifest's objects: 0, 1, 4, 101, 102",
+    ),
+    "material index the manifest lacks": (
+        _frame({passes.OBJECTS: passes.object_index(1), "Scene.IndexMA.X": FLAT}),
+        "material index at pixel (0, 0) = 30 (384 pixels); expected an index of the manifest's materials: 0",
+    ),
+    "no object index": (
+        _frame({"Scene.Depth.Z": FLAT, "Scene.Normal.X": FLAT, "RGBA": FLAT}),
+        "no object index channel; expected one like Scene.IndexOB.X, the file has: RGBA, Scene.Depth.Z, Scene.Normal.X",
+    ),
+    "two layers": (
+        _frame({"A.IndexOB.X": passes.object_index(1), "B.IndexOB.X": passes.object_index(1)}),
+        'IndexOB is in several layers: A, B; expected the manifest\'s "layer" to name one',
+    ),
+    "another size": (
+        _frame({passes.OBJECTS: passes.object_index(1)[:12]}),
+        "size = 24 x 12 px; expected the manifest's 24 x 16 px",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BAD_FRAMES)
+def test_a_bad_frame_rejects_its_clip_and_no_other(veldt, name):
+    """Exit code 3, the good clip made; once mended the same command completes the dataset, as if nothing had been."""
+    spoil, message = BAD_FRAMES[name]
+    for clip in ("one", "two"):
+        passes.write_clip(veldt.folder / clip, clip)
+    run = ("convert", "one", "two", "--out", "out", "--quiet")
+    assert veldt(*run[:3], "--out", "usual", "--quiet").code == 0
+    spoil(veldt.folder / "one")
+    done = veldt(*run)
+    assert (done.code, done.out) == (3, "")
+    assert done.err == f"veldt: clip one rejected: {FRAME}: {message}\n"
+    assert [file.name for file in (veldt.folder / "out" / "clips").iterdir()] == ["two"]
+    failed = veldt.read("out/dataset.json")["clips"][0]
+    assert failed == {"id": "one", "status": "failed", "reason": f"{FRAME}: {message}"}
+    shutil.rmtree(veldt.folder / "one")
+    passes.write_clip(veldt.folder / "one", "one")
+    assert veldt(*run).code == 0
+    assert veldt.pixels("out") == veldt.pixels("usual")
+
+
+UNREADABLE = {
+    "missing": (lambda folder: (folder / "000001.exr").unlink(), "there is no such file"),
+    "no picture at all": (_bytes(b"not an EXR file"), "File is not an image file."),
+    "empty": (_bytes(b""), ""),
+    "cut short": (_cut_short, ""),
+}
+
+
+@pytest.mark.parametrize("name", UNREADABLE)
+def test_a_frame_that_cannot_be_read(veldt, name):
+    spoil, reason = UNREADABLE[name]
+    spoil(passes.write_clip(veldt.folder / "one"))
+    done = veldt("convert", "one", "--out", "out", "--quiet")
+    assert (done.code, done.out) == (1, "")
+    assert done.err.startswith(f"veldt: clip one rejected: cannot read {FRAME}: ")
+    assert done.err.endswith(f"{reason}\n") and done.err.count("\n") == 1
+    assert not list((veldt.folder / "out" / "clips").iterdir())
+
+
+def test_how_a_run_with_rejected_clips_is_summed_up(veldt):
+    for clip in ("one", "two"):
+        passes.write_clip(veldt.folder / clip, clip)
+    passes.change_index(veldt.folder / "two", 2, -7)
+    done = veldt("convert", "one", "two", "--out", "out", "--progress", "none")
+    assert (done.code, done.out) == (3, "out: 1 clips made, 3 frames; the dataset is not complete yet\n")
+    assert (
+        done.err
+        == f"veldt: clip two rejected: two/000002.exr: {passes.OBJECTS} at pixel (3, 2) = -7; {INDEX}\n"
+    )
+
+
+# --- manifests --------------------------------------------------------------------------------------------------------
+
+
+def _set_in(place: str, key: str, value):
+    return _manifest(lambda document: document[place][2].update({key: value}))
+
+
+BAD_MANIFESTS = {
+    "unknown key": (
+        _manifest(lambda document: document.update(clips="one")),
+        'clips is not a known key; expected one of {keys}; did you mean "clip"?',
+    ),
+    "another format": (
+        _manifest(lambda document: document.update(format="coco")),
+        'format = "coco"; expected veldt-passes',
+    ),
+    "index past the last": (
+        _set_in("objects", "index", 40000),
+        "objects[2].index = 40000; expected at least 1 and at most 32767",
+    ),
+    "index twice": (_set_in("objects", "index", 102), "objects[3].index = 102; expected each value once"),
+    "track twice": (_set_in("objects", "track_id", 9), "objects[3].track_id = 9; expected each value once"),
+    "actor without category": (
+        _manifest(lambda document: document["objects"][2].pop("category")),
+        "objects[2].category is missing; expected one for every actor",
+    ),
+    "unknown material of an object": (
+        _set_in("objects", "material", "humn"),
+        'objects[2].material = "humn"; expected one of {materials}; did you mean "human"?',
+    ),
+    "unknown material of an index": (
+        _manifest(lambda document: document["materials"].append({"index": 1, "material": "lava"})),
+        'materials[0].material = "lava"; expected one of {materials}',
+    ),
+    "no frames": (
+        _manifest(lambda document: document.update(frames=[])),
+        "frames = a list of 0; expected at least 1 entries",
+    ),
+    "a frame in another folder": (
+        _set_in("frames", "file", "../x.exr"),
+        'frames[2].file = "../x.exr"; expected text like ^[^/\\\\]+$',
+    ),
+    "nobody's position": (
+        _set_in("frames", "actors", [{"index": 55, "position_m": [0, 0, 0], "heading_rad": 0}]),
+        "frames[2].actors[0].index = 55; expected the index of an actor in objects",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BAD_MANIFESTS)
+def test_a_manifest_that_cannot_be_meant(veldt, name):
+    spoil, message = BAD_MANIFESTS[name]
+    spoil(passes.write_clip(veldt.folder / "one"))
+    keys = ", ".join(veldt.read(ROOT / "configs" / "schema" / "manifest.schema.json")["properties"])
+    done = veldt("convert", "one", "--out", "out")
+    assert done.err == f"veldt: one/manifest.json: {message.format(keys=keys, materials=MATERIALS)}\n"
+    assert (done.code, done.out) == (1, "")
+    assert not (veldt.folder / "out").exists()
+
+
+def test_a_manifest_that_is_not_json(veldt):
+    """The column is that of the last letter of the word that should not be there."""
+    passes.write_clip(veldt.folder / "one")
+    veldt.write("one/manifest.json", '{"format": "veldt-passes"\n "clip": "one"}')
+    done = veldt("convert", "one", "--out", "out")
+    assert (done.code, done.err) == (
+        1,
+        "veldt: one/manifest.json:2:7: not JSON: syntax error while parsing object - unexpected string literal;"
+        " expected '}'\n",
+    )
+
+
+# --- requests ---------------------------------------------------------------------------------------------------------
+
+SET_FORM = "expected KEY=VALUE"
+REQUESTS = {
+    "setting without a value": (["--set", "season"], f'--set = "season"; {SET_FORM}'),
+    "setting without a key": (["--set", "=3"], f'--set = "=3"; {SET_FORM}'),
+    "setting inside a number": (
+        ["--set", "seed.more=3"],
+        f'--set = "seed.more=3"; {SET_FORM} with the key of an object',
+    ),
+    "setting of a clip that is not there": (
+        ["--set", "clips[4].season=summer"],
+        '--set = "clips[4].season=summer"; expected an entry of clips, [0] to [0]',
+    ),
+    "setting of an unknown key": (
+        ["--set", "sensor.blur_sgma_px=1"],
+        '--set: sensor.blur_sgma_px is not a known key; expected one of {sensor}; did you mean "blur_sigma_px"?',
+    ),
+    "setting of a wrong type": (
+        ["--set", "sensor.blur_sigma_px=wide"],
+        '--set: sensor.blur_sigma_px = "wide"; expected a number',
+    ),
+    "setting out of range": (
+        ["--set", "sensor.blur_sigma_px=-1"],
+        "--set: sensor.blur_sigma_px = -1 px; expected at least 0 and at most 10 px",
+    ),
+    "unknown season": (
+        ["--set", "season=spring"],
+        '--set: clips[0].season = "spring"; expected one of winter, summer',
+    ),
+    "config that is missing": (["--config", "none.json"], "cannot read none.json: No such file or directory"),
+    "config of other clips": (
+        ["--config", "config.json"],
+        'one: clip = "one"; expected one of ones; did you mean "ones"?',
+    ),
+    "one manifest for two clips": (
+        ["two", "--manifest", "one/manifest.json"],
+        "--manifest = one/manifest.json; expected one folder of passes beside it, not 2",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REQUESTS)
+def test_request_that_cannot_be_meant(veldt, name):
+    options, message = REQUESTS[name]
+    for clip in ("one", "two"):
+        passes.write_clip(veldt.folder / clip, clip)
+    veldt.write("config.json", {"name": "x", "clips": [{"id": "ones", "season": "winter", "frames": 3}]})
+    schema = veldt.read(ROOT / "configs" / "schema" / "config.schema.json")["properties"]
+    done = veldt("convert", "one", *options, "--out", "out")
+    assert done.err == f"veldt: {message.format(sensor=', '.join(schema['sensor']['properties']))}\n"
+    assert (done.code, done.out) == (2, "")
+    assert not (veldt.folder / "out").exists()
+
+
+def test_two_folders_of_one_clip(veldt):
+    passes.write_clip(veldt.folder / "one")
+    shutil.copytree(veldt.folder / "one", veldt.folder / "copy")
+    done = veldt("convert", "one", "copy", "--out", "out")
+    assert done.err == "veldt: one and copy are both of clip one; expected one folder a clip\n"
+    assert (done.code, done.out) == (1, "")
+    assert not (veldt.folder / "out").exists()
+
+
+def test_a_dataset_of_other_settings_is_left_alone(veldt):
+    passes.write_clip(veldt.folder / "one")
+    assert veldt("convert", "one", "--out", "out", "--quiet").code == 0
+    before = {name: (veldt.folder / "out" / name).read_bytes() for name in files_below(veldt.folder / "out")}
+    done = veldt("convert", "one", "--out", "out", "--set", "season=summer", "sensor.blur_sigma_px=0.5")
+    assert (done.code, done.out) == (2, "")
+    assert done.err == (
+        'veldt: out holds a dataset made from another config: clips[0].season is "summer" here and "winter" there,'
+        " sensor.blur_sigma_px is 0.5 here and 1 there; expected the same config, or another folder\n"
+    )
+    assert {
+        name: (veldt.folder / "out" / name).read_bytes() for name in files_below(veldt.folder / "out")
+    } == before

@@ -1,0 +1,54 @@
+"""`doctor` says what is there, and how to get what is not."""
+
+import re
+
+PARTS = [
+    "veldt",
+    "assets and scripts",
+    "Blender",
+    "Python",
+    "OpenEXR",
+    "OpenImageIO",
+    "OpenCV",
+    "oneTBB",
+    "OpenSSL",
+]
+VERSION = re.compile(r"\d+\.\d+")
+
+
+def test_everything_it_needs_has_a_version(veldt):
+    """Blender may be missing where the tests run; everything else is linked in, or runs them."""
+    report = {finding["what"]: finding for finding in veldt("doctor", "--json").json()}
+    assert list(report)[: len(PARTS)] == PARTS
+    for what in set(report) - {"Blender", "assets and scripts"}:
+        assert VERSION.search(report[what]["found"]), what
+    assert report["Python"]["found"].endswith("python3") and "with NumPy" in report["Python"]["found"]
+
+
+def test_what_is_missing_is_said_with_its_remedy(veldt):
+    done = veldt("doctor", env={"PATH": ""})
+    assert (done.code, done.err) == (1, "")
+    missing = [line for line in done.out.splitlines() if "missing" in line]
+    assert missing == [
+        "Blender              missing: apt-get install blender, or name one with --blender PATH",
+    ]
+
+
+def test_a_blender_that_does_not_start_counts_as_missing(veldt):
+    veldt.write("blender", "#!/bin/sh\nexit 1\n").chmod(0o755)
+    done = veldt("doctor", "--json", env={"PATH": str(veldt.folder)})
+    assert done.code == 1
+    assert [finding["what"] for finding in done.json() if not finding["found"]] == ["Blender"]
+
+
+def test_a_blender_is_named_with_its_version_and_place(veldt):
+    veldt.write("blender", "#!/bin/sh\necho Blender 9.8.7\necho built today\n").chmod(0o755)
+    done = veldt("doctor", env={"PATH": str(veldt.folder)})
+    assert f"Blender              Blender 9.8.7, {veldt.folder}/blender\n" in done.out
+    assert (done.code, done.err) == (0, "")
+
+
+def test_a_home_that_is_none_is_said(veldt):
+    done = veldt("doctor", env={"VELDT_HOME": "/proc"})
+    assert done.code == 1
+    assert 'missing: VELDT_HOME = "/proc"; expected a folder with assets and blender_scripts' in done.out

@@ -1,0 +1,209 @@
+"""`generate` from start to end with a stand-in for Blender, so that every moment of a run can be held and hit.
+
+tests/integration does the same with a real one.
+"""
+
+import os
+import signal
+
+import pytest
+
+import fake_blender
+from configs import CLIPS, FRAMES, tiny
+from processes import running_with, wait_until
+from program import Veldt, files_below
+
+
+def _run(veldt, *options, command="generate") -> list[str]:
+    """The arguments of a run; its folder is named in full to tell its processes from those of other tests."""
+    blender, out = veldt.folder / "fake_blender", veldt.folder / "out"
+    return [
+        command,
+        "config.json",
+        "--out",
+        str(out),
+        "--progress",
+        "none",
+        "--blender",
+        str(blender),
+        *options,
+    ]
+
+
+def _generate(veldt, *options, command="generate"):
+    done = veldt(*_run(veldt, *options, "--quiet", command=command))
+    assert (done.code, done.out, done.err) == (0, "", "")
+
+
+@pytest.fixture(scope="module", name="usual")
+def _usual(tmp_path_factory) -> Veldt:
+    """A place with the dataset of an undisturbed run."""
+    veldt = Veldt(tmp_path_factory.mktemp("usual"))
+    _prepare(veldt)
+    done = veldt(*_run(veldt))
+    assert (done.code, done.out, done.err) == (0, f"{veldt.folder}/out: 2 clips made, 16 frames\n", "")
+    return veldt
+
+
+@pytest.fixture(autouse=True)
+def _ready(veldt):
+    _prepare(veldt)
+
+
+def _prepare(veldt):
+    """Lays out the config and the stand-in for Blender."""
+    fake_blender.install(veldt.folder)
+    veldt.write("config.json", tiny())
+
+
+def _has_renderer(veldt) -> bool:
+    return bool(running_with(veldt.folder / "out" / "passes"))
+
+
+def _frames_of(folder) -> int:
+    return len(list(folder.glob("*.png")))
+
+
+# --- what is made -----------------------------------------------------------------------------------------------------
+
+
+def test_the_dataset_is_laid_out_as_documented(usual):
+    pictures = [f"{kind}/{k:06d}.png" for kind in ("ir8", "ir16") for k in range(FRAMES)]
+    of_a_clip = ["clip.json", "frames.jsonl", "labels.json", "preview.mp4", *pictures]
+    expected = [f"clips/{clip}/{name}" for clip in CLIPS for name in of_a_clip]
+    assert files_below(usual.folder / "out") == sorted(
+        [".lock", "annotations.json", "dataset.json", *expected]
+    )
+    assert usual("validate", "out").code == 0
+    assert len(set(usual.pixels("out").values())) == 3
+
+
+def test_a_finished_dataset_is_left_alone(veldt, usual):
+    _generate(veldt)
+    times = {file: file.stat().st_mtime_ns for file in (veldt.folder / "out").rglob("*")}
+    done = veldt(*_run(veldt))
+    assert (done.code, done.err) == (0, "")
+    assert done.out == f"{veldt.folder}/out: nothing to do, 2 clips were there already\n"
+    assert {file: file.stat().st_mtime_ns for file in (veldt.folder / "out").rglob("*")} == times
+    assert veldt.pixels("out") == usual.pixels("out")
+
+
+def test_kept_passes_convert_to_the_same_pixels(veldt, usual):
+    _generate(veldt, "--keep-passes")
+    kept = [f"{clip}/{name}" for clip in CLIPS for name in ("000000.exr", "000007.exr", "manifest.json")]
+    assert set(kept) < set(files_below(veldt.folder / "out" / "passes"))
+    folders = [f"out/passes/{clip}" for clip in CLIPS]
+    assert veldt("convert", *folders, "--out", "converted", "--config", "config.json", "--quiet").code == 0
+    assert veldt.pixels("converted") == usual.pixels("out")
+
+
+def test_render_makes_passes_that_convert_to_the_same_pixels(veldt, usual):
+    _generate(veldt, command="render")
+    assert not (veldt.folder / "out" / "clips").exists()
+    folders = [f"out/passes/{clip}" for clip in CLIPS]
+    assert veldt("convert", *folders, "--out", "converted", "--config", "config.json", "--quiet").code == 0
+    assert veldt.pixels("converted") == usual.pixels("out")
+
+
+@pytest.mark.parametrize("parts", [["--clips", "side"], ["--shard", "1/2"]])
+def test_a_part_is_made_and_the_rest_later(veldt, usual, parts):
+    done = veldt(*_run(veldt, *parts))
+    assert (done.code, done.err) == (0, "")
+    assert done.out == f"{veldt.folder}/out: 1 clips made, 8 frames; the dataset is not complete yet\n"
+    statuses = {clip["id"]: clip["status"] for clip in veldt.read("out/dataset.json")["clips"]}
+    assert statuses == {"down": "pending", "side": "done"}
+    assert veldt("validate", "out").out.startswith("out/clips/down: not made yet (status pending)\n")
+    assert veldt(*_run(veldt)).out == f"{veldt.folder}/out: 1 clips made, 8 frames; 1 were there already\n"
+    assert veldt.pixels("out") == usual.pixels("out")
+
+
+def test_more_shards_than_clips_leave_some_nothing_to_do(veldt, usual):
+    done = veldt(*_run(veldt, "--shard", "2/3"))
+    assert (done.code, done.out, done.err) == (
+        0,
+        f"{veldt.folder}/out: nothing to do, 0 clips were there already\n",
+        "",
+    )
+    for shard in ("0/3", "1/3"):
+        _generate(veldt, "--shard", shard)
+    assert veldt.pixels("out") == usual.pixels("out")
+
+
+# --- killed -----------------------------------------------------------------------------------------------------------
+
+MOMENTS = {
+    "before the first frame": ("down", -1),
+    "in the first clip": ("down", 3),
+    "at the end of the first clip": ("down", 7),
+    "between the clips": ("side", -1),
+    "in the second clip": ("side", 5),
+    "at the very end": ("side", 7),
+}
+
+
+def _reached(veldt, clip: str, frame: int) -> bool:
+    """Whether a run that is held there has done all it can."""
+    clips = veldt.folder / "out" / "clips"
+    if frame == FRAMES - 1:
+        return (clips / clip).exists()
+    return (clips / f"{clip}.part").exists() and _frames_of(clips / f"{clip}.part" / "ir16") == frame + 1
+
+
+@pytest.mark.parametrize("moment", MOMENTS)
+def test_killed_at_any_moment_it_goes_on_to_the_same_dataset(veldt, usual, moment):
+    run = veldt.start(*_run(veldt), env=fake_blender.hold_after(*MOMENTS[moment]))
+    assert wait_until(lambda: _reached(veldt, *MOMENTS[moment]), 60)
+    assert _has_renderer(veldt)
+    run.kill()
+    assert run.communicate() == ("", "")
+    assert run.returncode == -signal.SIGKILL
+    assert wait_until(lambda: not _has_renderer(veldt), 2)  # the renderer dies with whoever started it
+    _generate(veldt)
+    assert veldt.pixels("out") == usual.pixels("out")
+    assert files_below(veldt.folder / "out") == files_below(usual.folder / "out")
+    assert (veldt.folder / "out" / "annotations.json").read_bytes() == (
+        usual.folder / "out" / "annotations.json"
+    ).read_bytes()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_asked_to_stop_it_stops_the_renderer_and_goes_on_later(veldt, usual, number):
+    run = veldt.start(*_run(veldt), env=fake_blender.hold_after("side", 2))
+    assert wait_until(lambda: _reached(veldt, "side", 2), 60)
+    os.kill(run.pid, number)
+    out, err = run.communicate(timeout=3)
+    assert (run.returncode, out) == (128 + number, "")
+    assert err == "veldt: stopped on request; the same command goes on from here\n"
+    assert not _has_renderer(veldt)
+    assert veldt(*_run(veldt)).out == f"{veldt.folder}/out: 1 clips made, 8 frames; 1 were there already\n"
+    assert veldt.pixels("out") == usual.pixels("out")
+
+
+def test_a_second_run_in_the_same_folder_is_turned_away(veldt, usual):
+    run = veldt.start(*_run(veldt), env=fake_blender.hold_after("down", 3))
+    assert wait_until(lambda: _reached(veldt, "down", 3), 60)
+    second = veldt(*_run(veldt))
+    assert (second.code, second.out) == (75, "")
+    assert (
+        second.err
+        == f"veldt: {veldt.folder}/out is in use by another run of veldt; try again when that one has ended\n"
+    )
+    run.kill()
+    run.communicate()
+    _generate(veldt)
+    assert veldt.pixels("out") == usual.pixels("out")
+
+
+def test_a_config_changed_between_kill_and_resume_is_refused(veldt):
+    """Even if not one clip was finished: the folder belongs to the config it was begun with."""
+    run = veldt.start(*_run(veldt), env=fake_blender.hold_after("down", 3))
+    assert wait_until(lambda: _reached(veldt, "down", 3), 60)
+    run.kill()
+    run.communicate()
+    veldt.write("config.json", tiny(lambda config: config.update(seed=8)))
+    done = veldt(*_run(veldt))
+    assert (done.code, done.out) == (2, "")
+    assert done.err == (
+        f"veldt: {veldt.folder}/out holds a dataset made from another config: seed is 8 here and 7 there;"
+        " expected the same config, or another folder\n"
+    )

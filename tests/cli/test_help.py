@@ -1,0 +1,95 @@
+"""The command line explains itself, and says what is wrong with it."""
+
+import re
+
+import pytest
+
+COMMON = {"--help", "--quiet", "--progress", "--threads"}
+RENDERING = {"--out", "--clips", "--shard", "--blender", "--dry-run"}
+OPTIONS = {
+    "generate": RENDERING | {"--keep-passes"},
+    "render": RENDERING,
+    "convert": {"--out", "--manifest", "--config", "--set"},
+    "inspect": {"--json"},
+    "validate": {"--json"},
+    "budget": {"--json"},
+    "radiance": {
+        "--temperature-k",
+        "--radiance",
+        "--band-um",
+        "--response",
+        "--emissivity",
+        "--method",
+        "--json",
+    },
+    "bench": {"--suite", "--json"},
+    "doctor": {"--json"},
+}
+COMMANDS = ", ".join(OPTIONS)
+
+
+def _options_in(text: str) -> set[str]:
+    """Options that start a line of a help text."""
+    return set(re.findall(r"^ +(?:-\w,)?(--[a-z-]+)", text, re.MULTILINE))
+
+
+def test_help_lists_the_commands_and_exit_codes(veldt):
+    done = veldt("--help")
+    assert (done.code, done.err) == (0, "")
+    assert re.findall(r"^  ([a-z]+) {4,}", done.out, re.MULTILINE) == COMMANDS.split(", ")
+    assert "0 done, 1 failed, 2 bad usage or config, 3 some inputs rejected, 75 try again later" in done.out
+
+
+@pytest.mark.parametrize("command", OPTIONS)
+def test_help_of_a_command_lists_its_options(veldt, command):
+    done = veldt(command, "--help")
+    assert (done.code, done.err) == (0, "")
+    assert _options_in(done.out) == COMMON | OPTIONS[command]
+
+
+def test_version(veldt):
+    done = veldt("--version")
+    assert (done.code, done.err) == (0, "")
+    assert re.fullmatch(r"\d+\.\d+\.\d+\n", done.out)
+
+
+USAGE_FAULTS = {
+    "no command": ([], f"no command; expected one of {COMMANDS}; see veldt --help"),
+    "unknown command": (["evaporate"], f'"evaporate" is no command; expected one of {COMMANDS}'),
+    "misspelt command": (
+        ["genrate", "config.json"],
+        f'"genrate" is no command; expected one of {COMMANDS}; did you mean "generate"?',
+    ),
+    "option without a command": (["--out", "x"], "--out before a command; see veldt --help"),
+    "unknown option": (
+        ["generate", "config.json", "--out", "x", "--sead"],
+        "The following argument was not expected: --sead; see veldt generate --help",
+    ),
+    "no config": (["generate", "--out", "x"], "config is required; see veldt generate --help"),
+    "no output folder": (["render", "config.json"], "--out is required; see veldt render --help"),
+    "no passes": (["convert", "--out", "x"], "passes is required; see veldt convert --help"),
+    "unknown way to show progress": (
+        ["doctor", "--progress", "loud"],
+        "--progress: loud not in {auto,plain,json,none}; see veldt doctor --help",
+    ),
+    "negative threads": (
+        ["doctor", "--threads", "-1"],
+        "--threads: Value -1 not in range 0 to 1024; see veldt doctor --help",
+    ),
+    "a number that is none": (
+        ["radiance", "--temperature-k", "300,warm"],
+        "Could not convert: --temperature-k = 300,warm; see veldt radiance --help",
+    ),
+    "options that exclude each other": (
+        ["radiance", "--temperature-k", "300", "--radiance", "50"],
+        "--temperature-k excludes --radiance; see veldt radiance --help",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", USAGE_FAULTS)
+def test_usage_fault(veldt, name):
+    arguments, message = USAGE_FAULTS[name]
+    done = veldt(*arguments)
+    assert (done.code, done.out, done.err) == (2, "", f"veldt: {message}\n")
+    assert not list(veldt.folder.iterdir())

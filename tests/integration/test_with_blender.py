@@ -1,0 +1,182 @@
+"""`generate` with a real Blender: the same pixels every time, whatever happens on the way."""
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+
+import pytest
+
+from configs import CLIPS, FRAMES, tiny
+from processes import running_with, wait_until
+from program import ROOT, Veldt
+
+IN_WORDS = "; if nobody stopped it, the machine may have run out of memory"
+
+
+@pytest.fixture(scope="module", name="usual")
+def _usual(tmp_path_factory, blender) -> Veldt:
+    """A place with the dataset of an undisturbed run, its passes kept."""
+    veldt = Veldt(tmp_path_factory.mktemp("usual"))
+    veldt.write("config.json", tiny())
+    done = veldt("generate", "config.json", "--out", "out", "--keep-passes", "--quiet", "--blender", blender)
+    assert (done.code, done.out, done.err) == (0, "", "")
+    return veldt
+
+
+@pytest.fixture(name="command")
+def _command(veldt, blender) -> list[str]:
+    """The arguments of the same run in a place of its own, which is named in full to find its processes."""
+    veldt.write("config.json", tiny())
+    return ["generate", "config.json", "--out", str(veldt.folder / "out"), "--blender", blender]
+
+
+def _complete(veldt, command, usual) -> None:
+    """Runs to the end and compares with the undisturbed run."""
+    done = veldt(*command, "--quiet")
+    assert (done.code, done.out, done.err) == (0, "", "")
+    assert veldt.pixels("out") == usual.pixels("out")
+    assert (veldt.folder / "out" / "annotations.json").read_bytes() == (
+        usual.folder / "out" / "annotations.json"
+    ).read_bytes()
+    assert veldt("validate", "out").code == 0
+
+
+MOMENTS = {
+    "building the scene": {"clip": "down", "frames_done": 0},
+    "in the first clip": {"clip": "down", "frames_done": 3},
+    "between the clips": {"clip": "side", "frames_done": FRAMES},
+    "in the second clip": {"clip": "side", "frames_done": FRAMES + 3},
+}
+
+
+def _start(veldt, command, moment: dict) -> subprocess.Popen:
+    """Starts a run and returns as soon as its progress says so."""
+    run = veldt.start(*command, "--progress", "json")
+    for line in run.stderr:
+        told = json.loads(line)
+        if moment.items() <= told.items():
+            return run
+    raise AssertionError(f"the run ended before {moment}: {run.communicate()}")
+
+
+# --- the same again ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_again_and_whatever_the_threads(veldt, command, usual, threads):
+    _complete(veldt, [*command, "--threads", str(threads)], usual)
+
+
+def test_a_finished_dataset_is_left_alone_and_starts_no_blender(usual, blender):
+    times = {file: file.stat().st_mtime_ns for file in (usual.folder / "out" / "clips").rglob("*")}
+    done = usual("generate", "config.json", "--out", "out", "--keep-passes", "--blender", blender)
+    assert (done.code, done.err) == (0, "")
+    assert done.out == "out: nothing to do, 2 clips were there already\n"
+    assert {file: file.stat().st_mtime_ns for file in (usual.folder / "out" / "clips").rglob("*")} == times
+
+
+def test_kept_passes_convert_to_the_same_pixels(usual):
+    folders = [f"out/passes/{clip}" for clip in CLIPS]
+    done = usual("convert", *folders, "--out", "converted", "--config", "config.json", "--quiet")
+    assert (done.code, done.out, done.err) == (0, "", "")
+    assert usual.pixels("converted") == usual.pixels("out")
+
+
+def test_shards_into_one_folder_make_the_undivided_dataset(veldt, command, usual):
+    done = veldt(*command, "--shard", "0/2", "--quiet")
+    assert (done.code, done.out, done.err) == (0, "", "")
+    assert [clip["status"] for clip in veldt.read("out/dataset.json")["clips"]] == ["done", "pending"]
+    _complete(veldt, [*command, "--shard", "1/2"], usual)
+
+
+# --- disturbed --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("moment", MOMENTS)
+def test_killed_at_any_moment_it_goes_on_to_the_same_dataset(veldt, command, usual, moment):
+    run = _start(veldt, command, MOMENTS[moment])
+    run.kill()
+    run.communicate()
+    assert run.returncode == -signal.SIGKILL
+    assert wait_until(lambda: not running_with(veldt.folder / "out"), 2)  # Blender is gone, too
+    assert veldt.read("out/dataset.json")["status"] == "unfinished"
+    _complete(veldt, command, usual)
+
+
+def test_killed_again_and_again(veldt, command, usual):
+    """After 2 frames, 5 frames, the first clip and 1 frame, and 3 frames of what was then left."""
+    for frames_done in (2, 5, FRAMES + 1, 3):
+        run = _start(veldt, command, {"frames_done": frames_done})
+        run.kill()
+        run.communicate()
+    assert (veldt.folder / "out" / "clips" / "down").exists()
+    _complete(veldt, command, usual)
+
+
+def test_a_killed_blender_is_told_in_words(veldt, command, usual):
+    run = _start(veldt, command, MOMENTS["in the first clip"])
+    (blender,) = running_with(veldt.folder / "out" / "passes")
+    os.kill(blender, signal.SIGKILL)
+    out, err = run.communicate(timeout=10)
+    assert (run.returncode, out) == (75, "")
+    last = err.splitlines()[-1]
+    doing = r"rendering clip (down|side)( after frame \d)?"
+    assert re.fullmatch(rf"veldt: Blender was killed by signal 9 \(Killed\) while {doing}{IN_WORDS}", last)
+    _complete(veldt, command, usual)
+
+
+@pytest.mark.parametrize("moment", ["building the scene", "in the second clip"])
+def test_ctrl_c_stops_blender_too(veldt, command, usual, moment):
+    run = _start(veldt, command, MOMENTS[moment])
+    asked_s = time.monotonic()
+    os.kill(run.pid, signal.SIGINT)
+    out, err = run.communicate(timeout=10)
+    assert (run.returncode, out) == (130, "")
+    assert err.splitlines()[-1] == "veldt: stopped on request; the same command goes on from here"
+    assert not running_with(veldt.folder / "out")
+    assert time.monotonic() - asked_s < 3
+    _complete(veldt, command, usual)
+
+
+def test_a_second_run_in_the_same_folder_is_turned_away(veldt, command, usual):
+    run = _start(veldt, command, MOMENTS["building the scene"])
+    second = veldt(*command)
+    assert (second.code, second.out) == (75, "")
+    assert second.err == (
+        f"veldt: {veldt.folder}/out is in use by another run of veldt; try again when that one has ended\n"
+    )
+    assert run.communicate()[0] == f"{veldt.folder}/out: 2 clips made, 16 frames\n"
+    assert veldt.pixels("out") == usual.pixels("out")
+
+
+# --- Blender's own faults ---------------------------------------------------------------------------------------------
+
+
+def test_a_fault_in_the_scripts_is_one_line_that_names_its_place(veldt, command):
+    """Not the page that Blender prints, which stays in the log."""
+    for part in ("assets", "blender_scripts", "configs"):
+        shutil.copytree(ROOT / part, veldt.folder / "home" / part)
+    script = veldt.folder / "home" / "blender_scripts" / "veldt_bl" / "render.py"
+    lines = script.read_text().splitlines()
+    body = next(k for k, line in enumerate(lines) if line.startswith("    scene = bpy.context.scene"))
+    lines[body] = '    raise RuntimeError("no such pass: heat")'
+    script.write_text("\n".join(lines))
+    done = veldt(*command, "--progress", "none", env={"VELDT_HOME": str(veldt.folder / "home")})
+    assert (done.code, done.out) == (1, "")
+    assert done.err == f"veldt: no such pass: heat (render.py:{body + 1})\n"
+    assert "Traceback" in (veldt.folder / "out" / "passes" / "blender.log").read_text()
+
+
+def test_a_file_in_the_way_of_the_passes_is_named(veldt, command, usual):
+    (veldt.folder / "out" / "passes").mkdir(parents=True)
+    veldt.write("out/passes/side", "a file where the clip's folder should be")
+    done = veldt(*command, "--progress", "none")
+    assert (done.code, done.out) == (1, "")
+    place = re.escape(f"'{veldt.folder}/out/passes/side'")
+    assert re.fullmatch(rf"veldt: \[Errno 17\] File exists: {place} \(render_passes\.py:\d+\)\n", done.err)
+    (veldt.folder / "out" / "passes" / "side").unlink()
+    _complete(veldt, command, usual)

@@ -1,0 +1,27 @@
+#include "base/error.h"
+
+#include <type_traits>
+
+#include "support/catch.h"
+
+using namespace thermal;
+
+TEST_CASE("A fault says where, what, in which unit, and what was expected") {
+  CHECK(fault("camera.height_m", "-3", "m", "at least 0 m") ==
+        "camera.height_m = -3 m; expected at least 0 m");
+}
+
+TEST_CASE("A fault without a unit has no gap for it") {
+  CHECK(fault("--shard", "3/2", "", "I/N with I below N") == "--shard = 3/2; expected I/N with I below N");
+}
+
+TEST_CASE("Every fault a person can act on is an Error, and no kind is mistaken for another") {
+  STATIC_REQUIRE(std::is_base_of_v<Error, ConfigError>);
+  STATIC_REQUIRE(std::is_base_of_v<Error, DataError>);
+  STATIC_REQUIRE(std::is_base_of_v<Error, IoError>);
+  STATIC_REQUIRE(std::is_base_of_v<Error, TryAgainError>);
+  STATIC_REQUIRE(std::is_base_of_v<Error, Cancelled>);
+  // The exit code hangs on the kind: a full disk (75) must not be caught as a broken file (1).
+  STATIC_REQUIRE_FALSE(std::is_base_of_v<IoError, TryAgainError>);
+  CHECK(std::string(Cancelled().what()) == "stopped on request");
+}

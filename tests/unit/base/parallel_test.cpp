@@ -1,0 +1,77 @@
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "support/catch.h"
+
+using namespace thermal;
+
+namespace {
+
+/// Threads seen at work by chunks that take long enough for others to join in.
+std::set<std::thread::id> threads_at_work() {
+  std::set<std::thread::id> threads;
+  std::mutex mutex;
+  parallel_for(64, 1, [&](std::size_t, std::size_t) {
+    std::this_thread::sleep_for(std::chrono::microseconds(500));
+    const std::lock_guard lock(mutex);
+    threads.insert(std::this_thread::get_id());
+  });
+  return threads;
+}
+
+}  // namespace
+
+TEST_CASE("Chunks cover every index exactly once") {
+  const auto count = GENERATE(as<std::size_t>{}, 0, 1, 7, 64, 1000);
+  const auto grain = GENERATE(as<std::size_t>{}, 1, 7, 64, 5000);
+  std::vector<std::atomic<int>> visits(count);
+  parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) ++visits[i];
+  });
+  CHECK(std::all_of(visits.begin(), visits.end(), [](const auto& n) { return n == 1; }));
+}
+
+TEST_CASE("Chunks are the same whatever the number of threads") {
+  const auto chunks_with = [](int threads) {
+    const ThreadLimit limit(threads);
+    std::set<std::pair<std::size_t, std::size_t>> chunks;
+    std::mutex mutex;
+    parallel_for(1001, 10, [&](std::size_t begin, std::size_t end) {
+      const std::lock_guard lock(mutex);
+      chunks.emplace(begin, end);
+    });
+    return chunks;
+  };
+  const auto alone = chunks_with(1);
+  CHECK(alone.size() == 101);
+  CHECK(alone.contains({1000, 1001}));  // the last is shorter
+  CHECK(chunks_with(4) == alone);
+}
+
+TEST_CASE("A limit of one thread keeps all work on the caller's") {
+  const ThreadLimit limit(1);
+  CHECK(threads_at_work() == std::set<std::thread::id>{std::this_thread::get_id()});
+}
+
+TEST_CASE("A limit bounds the threads at work, and ends with its scope") {
+  {
+    const ThreadLimit limit(2);
+    CHECK(threads_at_work().size() <= 2);
+  }
+  if (std::thread::hardware_concurrency() > 1) CHECK(threads_at_work().size() > 1);
+}
+
+TEST_CASE("A fault in a chunk reaches the caller") {
+  const auto work = [](std::size_t begin, std::size_t) {
+    if (begin == 50) throw std::runtime_error("chunk 50");
+  };
+  CHECK_THROWS_WITH(parallel_for(100, 1, work), "chunk 50");
+}

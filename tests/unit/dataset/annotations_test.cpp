@@ -1,0 +1,118 @@
+#include "dataset/annotations.h"
+
+#include "support/catch.h"
+
+using namespace thermal;
+
+namespace {
+
+ManifestObject actor(std::uint16_t index, const std::string& category, int track_id) {
+  ManifestObject object;
+  object.index = index;
+  object.object_class = ObjectClass::actor;
+  object.category = category;
+  object.track_id = track_id;
+  return object;
+}
+
+/// Two frames of 10 x 8 px with a person (index 3) and an animal Veldt does not know (index 4).
+Manifest manifest() {
+  Manifest result;
+  result.clip = "night_1";
+  result.frame_rate_hz = 5;
+  result.camera.width_px = 10;
+  result.camera.height_px = 8;
+  result.objects = {actor(3, "human", 21), actor(4, "antelope", 22)};
+  result.frames.resize(2);
+  result.frames[1].time_s = 0.2;
+  return result;
+}
+
+/// An instance whose box has these sides; the pixels are not looked at.
+Instance instance(std::uint16_t index, int width_px, int height_px) {
+  return {
+      .index = index, .box = {1, 2, width_px, height_px}, .area_px = 5, .truncated = true, .mask = {19, 1}};
+}
+
+Json document_of(const std::vector<std::vector<Instance>>& frames) {
+  const Manifest used = manifest();
+  ClipAnnotations annotations(used);
+  for (std::size_t i = 0; i < frames.size(); ++i) annotations.add_frame(static_cast<int>(i), frames[i]);
+  return annotations.document();
+}
+
+std::string size_class_of(const std::vector<std::pair<int, int>>& boxes) {
+  const Manifest used = manifest();
+  ClipAnnotations annotations(used);
+  for (const auto& [width_px, height_px] : boxes)
+    annotations.add_frame(0, {instance(3, width_px, height_px)});
+  return annotations.document()["annotations"][0]["size_class"];
+}
+
+}  // namespace
+
+TEST_CASE("An annotation has COCO's fields, and video's") {
+  const Json document = document_of({{instance(3, 4, 5)}});
+  CHECK(document["annotations"][0].dump() ==
+        R"({"id":1,"image_id":1,"category_id":1,"bbox":[1.0,2.0,4.0,5.0],"area":5,)"
+        R"("segmentation":{"size":[8,10],"counts":"c01"},"iscrowd":0,"track_id":21,"truncated":true,)"
+        R"("size_class":"small"})");
+  CHECK(
+      document["images"][0].dump() ==
+      R"({"id":1,"file_name":"ir8/000000.png","width":10,"height":8,"video_id":1,"frame_index":0,"time_s":0.0})");
+  CHECK(document["videos"][0].dump() ==
+        R"({"id":1,"name":"night_1","width":10,"height":8,"frame_rate_hz":5.0,"frames":1})");
+}
+
+TEST_CASE("Ids of images and annotations run from 1; a frame without actors is an image too") {
+  const Json document = document_of({{}, {instance(3, 1, 1), instance(4, 1, 1)}});
+  REQUIRE(document["images"].size() == 2);
+  REQUIRE(document["annotations"].size() == 2);
+  CHECK(document["images"][1]["id"] == 2);
+  CHECK(document["images"][1]["frame_index"] == 1);
+  CHECK(document["images"][1]["time_s"] == 0.2);
+  CHECK(document["annotations"][0]["id"] == 1);
+  CHECK(document["annotations"][1]["id"] == 2);
+  CHECK(document["annotations"][1]["image_id"] == 2);
+}
+
+TEST_CASE("Categories are those of the clip's actors, by id") {
+  CHECK(document_of({{}})["categories"].dump() == R"([{"id":1,"name":"human"},{"id":11,"name":"antelope"}])");
+}
+
+// Bondi et al., COMPASS 2018: small below 200 px, large above 2000 px, by the mean over the video.
+TEST_CASE("A track's size class goes by its mean box area") {
+  CHECK(size_class_of({{199, 1}}) == "small");
+  CHECK(size_class_of({{20, 10}}) == "medium");
+  CHECK(size_class_of({{50, 40}}) == "medium");
+  CHECK(size_class_of({{2001, 1}}) == "large");
+  CHECK(size_class_of({{10, 10}, {30, 10}}) == "medium");  // 100 and 300
+}
+
+TEST_CASE("Joined documents have ids that run on and files below the dataset's folder") {
+  const Json one = document_of({{instance(3, 1, 1)}, {instance(3, 1, 1)}});
+  const Json joined = join_annotations("nights", {"a", "b"}, {one, one});
+  CHECK(joined["info"]["description"] == "nights");
+  REQUIRE(joined["videos"].size() == 2);
+  CHECK(joined["videos"][1]["id"] == 2);
+  REQUIRE(joined["images"].size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(joined["images"][i]["id"] == i + 1);
+    CHECK(joined["images"][i]["video_id"] == i / 2 + 1);
+    CHECK(joined["annotations"][i]["id"] == i + 1);
+    CHECK(joined["annotations"][i]["image_id"] == i + 1);
+  }
+  CHECK(joined["images"][0]["file_name"] == "clips/a/ir8/000000.png");
+  CHECK(joined["images"][3]["file_name"] == "clips/b/ir8/000001.png");
+}
+
+TEST_CASE("A category keeps its name when clips that number it differently are joined") {
+  Json other = document_of({{instance(4, 1, 1)}});
+  other["categories"] =
+      Json::array({{{"id", 11}, {"name", "aardvark"}}});  // 11 there, antelope's number here
+  const Json joined = join_annotations("nights", {"a", "b"}, {document_of({{instance(4, 1, 1)}}), other});
+  CHECK(joined["categories"].dump() ==
+        R"([{"id":1,"name":"human"},{"id":11,"name":"aardvark"},{"id":12,"name":"antelope"}])");
+  CHECK(joined["annotations"][0]["category_id"] == 12);
+  CHECK(joined["annotations"][1]["category_id"] == 11);
+}

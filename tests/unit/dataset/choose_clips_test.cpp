@@ -1,0 +1,43 @@
+#include "base/error.h"
+#include "dataset/generate.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+
+using namespace thermal;
+
+namespace {
+
+Config five_clips() {
+  Config config;
+  for (const char* id : {"a", "b", "c", "d", "e"}) config.clips.push_back({.id = id});
+  return config;
+}
+
+std::string chosen(const std::vector<std::string>& ids, const Shard& shard) {
+  std::string names;
+  for (const ClipConfig& clip : choose_clips(five_clips(), ids, shard)) names += clip.id;
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("Without a choice all clips are made, in the config's order") {
+  CHECK(chosen({}, {}) == "abcde");
+  CHECK(chosen({"d", "a"}, {}) == "ad");
+}
+
+TEST_CASE("Shards take turns, and together they take every clip once") {
+  CHECK(chosen({}, {0, 2}) == "ace");
+  CHECK(chosen({}, {1, 2}) == "bd");
+  CHECK(chosen({}, {6, 7}).empty());
+}
+
+TEST_CASE("A clip belongs to one shard whatever else is asked for") {
+  CHECK(chosen({"b", "c"}, {0, 2}) == "c");
+  CHECK(chosen({"b", "c"}, {1, 2}) == "b");
+}
+
+TEST_CASE("A clip the config lacks is a fault") {
+  CHECK(message_of<ConfigError>([] { (void)chosen({"f"}, {}); }) ==
+        "--clips = \"f\"; expected one of a, b, c, d, e");
+}

@@ -1,0 +1,137 @@
+#include "dataset/clip_maker.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "io/manifest_file.h"
+#include "io/material_files.h"
+#include "io/png.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+#include "support/temporary_folder.h"
+#include "support/tiny_clip.h"
+
+using namespace thermal;
+
+namespace {
+
+/// A folder with the passes of clip "a", and a dataset to make it in.
+struct Workplace {
+  TemporaryFolder folder;
+  Path passes = tiny_clip::write(folder / "passes", "a");
+  Layout layout{folder / "dataset"};
+
+  [[nodiscard]] ClipTask task() const {
+    ClipTask task;
+    task.clip.id = "a";
+    task.clip.frames = tiny_clip::kFrames;
+    task.manifest = read_manifest(passes / "manifest.json", VELDT_SOURCE_DIR);
+    task.passes = passes;
+    return task;
+  }
+  [[nodiscard]] ClipRecord make(const ClipHooks& hooks = {}) const {
+    return make_clip(task(), read_materials(VELDT_SOURCE_DIR), layout, hooks);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("A clip has its pictures, labels, frame records and preview, and a record with the sum of each") {
+  const Workplace place;
+  const ClipRecord record = place.make();
+  CHECK(record.clip == "a");
+  CHECK(record.frames == 3);
+  CHECK(record.annotations == 5);  // the person has left by the third frame
+  CHECK(record.files.size() == 2 * 3 + 3);
+  for (const auto& [name, sum] : record.files) {
+    CAPTURE(name);
+    CHECK(std::filesystem::exists(place.layout.clip("a") / name));
+    CHECK(sum.size() == 64);
+  }
+  CHECK(to_json(read_clip_record(place.layout.clip("a") / "clip.json")) == to_json(record));
+  CHECK_FALSE(std::filesystem::exists(place.layout.unfinished_clip("a")));
+}
+
+TEST_CASE("Pictures have the camera's size, and the elephant is warmer than the ground") {
+  const Workplace place;
+  (void)place.make();
+  const auto ir16 = read_png16(place.layout.clip("a") / "ir16/000000.png");
+  CHECK(ir16.width_px() == tiny_clip::kWidth);
+  CHECK(ir16.height_px() == tiny_clip::kHeight);
+  CHECK(ir16.at(17, 14) > ir16.at(5, 5) + 300);  // 290 K against 278 K, of .01 K each
+  CHECK(read_png8(place.layout.clip("a") / "ir8/000000.png").width_px() == tiny_clip::kWidth);
+}
+
+TEST_CASE("A clip made twice has the same pixels, with one thread or two") {
+  const auto record_with = [](int threads) {
+    const ThreadLimit limit(threads);
+    return Workplace().make();
+  };
+  const ClipRecord once = record_with(1);
+  const ClipRecord twice = record_with(2);
+  CHECK(once.pixels_sha256 == twice.pixels_sha256);
+  for (const auto& [name, sum] : once.files) {
+    if (name == "preview.mp4") continue;  // lossy, and the encoder's own
+    CHECK(twice.files.at(name) == sum);
+  }
+}
+
+TEST_CASE("A clip's pixels are its own: another seed or another id makes others") {
+  const Workplace place;
+  const MaterialLibrary materials = read_materials(VELDT_SOURCE_DIR);
+  const ClipRecord record = place.make();
+  ClipTask other_seed = place.task();
+  other_seed.seed = 2;
+  CHECK(make_clip(other_seed, materials, place.layout, {}).pixels_sha256 != record.pixels_sha256);
+  ClipTask other_id = place.task();
+  other_id.clip.id = "b";
+  CHECK(make_clip(other_id, materials, place.layout, {}).pixels_sha256 != record.pixels_sha256);
+}
+
+TEST_CASE("Whoever asked is told of every frame") {
+  int waited = 0;
+  int done = 0;
+  ClipHooks hooks;
+  hooks.wait_for_frame = [&](int frame) { CHECK(frame == waited++); };
+  hooks.frame_done = [&] { ++done; };
+  (void)Workplace().make(hooks);
+  CHECK(waited == 3);
+  CHECK(done == 3);
+}
+
+TEST_CASE("A clip that is cancelled is not there") {
+  const Workplace place;
+  ClipHooks hooks;
+  hooks.cancelled = [] { return true; };
+  CHECK_THROWS_AS(place.make(hooks), Cancelled);
+  CHECK_FALSE(std::filesystem::exists(place.layout.clip("a")));
+}
+
+TEST_CASE("A clip with a frame missing is not there, and the file is named") {
+  const Workplace place;
+  const Path frame = place.passes / tiny_clip::file_name(2);
+  std::filesystem::remove(frame);
+  CHECK(message_of<IoError>([&] { (void)place.make(); }) ==
+        "cannot read " + frame.string() + ": there is no such file");
+  CHECK_FALSE(std::filesystem::exists(place.layout.clip("a")));
+}
+
+TEST_CASE("A frame with an index the manifest lacks is named") {
+  const Workplace place;
+  ExrChannels planes = tiny_clip::planes(1);
+  planes.at("Scene.IndexOB.X")[41] = 99;
+  const Path frame = place.passes / tiny_clip::file_name(1);
+  write_exr(frame, tiny_clip::kWidth, tiny_clip::kHeight, planes);
+  CHECK(message_of<DataError>([&] { (void)place.make(); }) ==
+        frame.string() +
+            ": object index at pixel (1, 1) = 99 (1 pixels); expected an index of the manifest's "
+            "objects: 0, 1, 5, 6");
+}
+
+TEST_CASE("What an earlier run left half done is swept away") {
+  const Workplace place;
+  make_folder(place.layout.unfinished_clip("a") / "ir8");
+  write_file(place.layout.unfinished_clip("a") / "ir8/000099.png", {});
+  const ClipRecord record = place.make();
+  CHECK_FALSE(std::filesystem::exists(place.layout.clip("a") / "ir8/000099.png"));
+  CHECK(record.pixels_sha256 == Workplace().make().pixels_sha256);
+}

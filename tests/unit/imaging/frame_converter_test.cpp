@@ -1,0 +1,149 @@
+#include "imaging/frame_converter.h"
+
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+
+using namespace thermal;
+
+namespace {
+
+Material material_of(const std::string& name, double winter_k, bool in_table_1 = false) {
+  Material material;
+  material.name = name;
+  material.emissivity = 0.5;
+  material.winter_k = winter_k;
+  material.summer_k = 2 * winter_k;
+  material.in_table_1 = in_table_1;
+  return material;
+}
+
+MaterialLibrary materials() {
+  MaterialLibrary library;
+  library.add(material_of("sky", 10));
+  library.add(material_of("soil", 100, true));
+  library.add(material_of("grass", 200));
+  library.add(material_of("human", 300));
+  library.add(material_of("lava", 900, true));
+  return library;
+}
+
+/// Soil that is grass where the material plane says so, and a person.
+Manifest manifest() {
+  Manifest result;
+  result.objects.resize(2);
+  result.objects[0].index = 1;
+  result.objects[0].name = "ground";
+  result.objects[0].material = "soil";
+  result.objects[1].index = 7;
+  result.objects[1].name = "anna";
+  result.objects[1].material = "human";
+  result.objects[1].object_class = ObjectClass::actor;
+  result.materials = {{4, "grass", ""}};
+  return result;
+}
+
+Passes passes_of(const std::vector<std::uint16_t>& objects,
+                 const std::vector<std::uint16_t>& material_plane = {}) {
+  Passes passes;
+  passes.object_index = Plane<std::uint16_t>(static_cast<int>(objects.size()), 1);
+  std::copy(objects.begin(), objects.end(), passes.object_index.pixels().begin());
+  if (material_plane.empty()) return passes;
+  passes.material_index = Plane<std::uint16_t>(static_cast<int>(objects.size()), 1);
+  std::copy(material_plane.begin(), material_plane.end(), passes.material_index.pixels().begin());
+  return passes;
+}
+
+FrameConverter converter(Season season = Season::winter,
+                         Normalisation normalisation = Normalisation::scene_max) {
+  SensorParameters parameters;
+  parameters.normalisation = normalisation;
+  return FrameConverter(manifest(), materials(), season, parameters);
+}
+
+/// What the published model gives a material: emissivity times the band's radiance, in single precision.
+float radiance_at(double temperature_k) {
+  return static_cast<float>(0.5 * radiance_of(SensorParameters())(temperature_k));
+}
+
+std::vector<float> radiances(const FrameConverter& used, const Passes& passes) {
+  const Plane<float> plane = used.convert(passes).radiance_w_m2_sr;
+  return {plane.pixels().begin(), plane.pixels().end()};
+}
+
+}  // namespace
+
+TEST_CASE("A pixel radiates as its object's material does, index 0 as the sky") {
+  CHECK(radiances(converter(), passes_of({0, 1, 7})) ==
+        std::vector<float>{radiance_at(10), radiance_at(100), radiance_at(300)});
+}
+
+TEST_CASE("In summer it has summer's temperature") {
+  CHECK(radiances(converter(Season::summer), passes_of({1, 7})) ==
+        std::vector<float>{radiance_at(200), radiance_at(600)});
+}
+
+TEST_CASE("The material plane goes before the object, except where it is 0") {
+  CHECK(radiances(converter(), passes_of({1, 1, 7, 0}, {0, 4, 4, 4})) ==
+        std::vector<float>{radiance_at(100), radiance_at(200), radiance_at(200), radiance_at(200)});
+}
+
+TEST_CASE("The brightest count is the brightest surface of the manifest, or of Table 1") {
+  CHECK(converter().brightest_w_m2_sr() == radiance_at(300));
+  CHECK(converter(Season::winter, Normalisation::table_max).brightest_w_m2_sr() == radiance_at(900));
+}
+
+TEST_CASE("Only actors are labelled") {
+  const SceneFrame frame = converter().convert(passes_of({1, 7, 7, 0}));
+  REQUIRE(frame.instances.size() == 1);
+  CHECK(frame.instances[0].index == 7);
+  CHECK(frame.instances[0].area_px == 2);
+}
+
+TEST_CASE("An index the manifest lacks is a fault that says where, how often, and what there is") {
+  CHECK(message_of<DataError>([] {
+          (void)converter().convert(passes_of({1, 0, 5, 5}));
+        }) ==
+        "object index at pixel (2, 0) = 5 (2 pixels); expected an index of the manifest's objects: 0, 1, 7");
+  CHECK(message_of<DataError>([] {
+          (void)converter().convert(passes_of({1, 1, 1}, {4, 9, 0}));
+        }) ==
+        "material index at pixel (1, 0) = 9 (1 pixels); expected an index of the manifest's materials: 0, 4");
+}
+
+TEST_CASE("A material the library lacks is a fault that names its object") {
+  const auto fault_in = [](const Manifest& wrong) {
+    return message_of<ConfigError>(
+        [&] { (void)FrameConverter(wrong, materials(), Season::winter, SensorParameters()); });
+  };
+  Manifest wrong_object = manifest();
+  wrong_object.objects[1].material = "humn";
+  CHECK(fault_in(wrong_object) ==
+        "object anna: material = \"humn\"; expected one of grass, human, lava, sky, "
+        "soil; did you mean \"human\"?");
+  Manifest wrong_material = manifest();
+  wrong_material.materials[0].material = "marble";
+  CHECK(fault_in(wrong_material) ==
+        "material index 4 = \"marble\"; expected one of grass, human, lava, sky, soil");
+}
+
+TEST_CASE("A finer frame is converted first and averaged after") {
+  Manifest finer = manifest();
+  finer.supersample = 2;
+  const FrameConverter used(finer, materials(), Season::winter, SensorParameters());
+  Passes passes;
+  passes.object_index = Plane<std::uint16_t>(4, 2, 1);
+  passes.object_index.at(0, 0) = passes.object_index.at(1, 1) = 7;  // half of the left block
+  passes.object_index.at(2, 0) = 7;                                 // a quarter of the right one
+  const SceneFrame frame = used.convert(passes);
+  REQUIRE(frame.radiance_w_m2_sr.width_px() == 2);
+  REQUIRE(frame.radiance_w_m2_sr.height_px() == 1);
+  // Sums of four single-precision values, and a division: 4 roundings of 6e-8.
+  const auto soil = static_cast<double>(radiance_at(100));
+  const auto human = static_cast<double>(radiance_at(300));
+  CHECK_THAT(static_cast<double>(frame.radiance_w_m2_sr.at(0, 0)), WithinRel((soil + human) / 2, 4 * 6e-8));
+  CHECK_THAT(static_cast<double>(frame.radiance_w_m2_sr.at(1, 0)),
+             WithinRel((3 * soil + human) / 4, 4 * 6e-8));
+  REQUIRE(frame.instances.size() == 1);
+  CHECK(frame.instances[0].box == PixelBox{0, 0, 1, 1});  // half of a pixel is labelled, a quarter is not
+}

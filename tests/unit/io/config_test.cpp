@@ -1,0 +1,129 @@
+#include "io/config.h"
+
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+
+using namespace thermal;
+
+namespace {
+
+/// The least a config can say.
+Json least() {
+  return parse_json(R"({"name": "night", "clips": [
+      {"id": "a", "season": "winter", "frames": 3, "flight": {"pattern": "zigzag"}},
+      {"id": "b", "season": "summer", "frames": 4, "flight": {"pattern": "zigzag"}}]})",
+                    "");
+}
+
+Config resolved(const Json& document) { return resolve_config(document, "night.json", VELDT_SOURCE_DIR); }
+
+std::string fault_in(const Json& document) {
+  return message_of<ConfigError>([&] { (void)resolved(document); });
+}
+
+Json with_setting(const std::string& assignment) {
+  Json document = least();
+  apply_setting(document, assignment);
+  return document;
+}
+
+std::string fault_in_setting(const std::string& assignment) {
+  return message_of<ConfigError>([&] { (void)with_setting(assignment); });
+}
+
+}  // namespace
+
+TEST_CASE("The least a config can say is enough, and all defaults are written out") {
+  const Config config = resolved(least());
+  CHECK(config.name == "night");
+  CHECK(config.seed == 1);
+  CHECK(config.width_px == 640);
+  CHECK(config.height_px == 512);
+  REQUIRE(config.clips.size() == 2);
+  CHECK(config.clips[1].id == "b");
+  CHECK(config.clips[1].season == Season::summer);
+  CHECK(config.clips[1].frames == 4);
+  CHECK(config.clips[1].frame_rate_hz == 9);
+  CHECK(config.resolved["sensor"]["kelvin_per_count"] == 0.01);
+  CHECK(config.resolved["clips"][0]["flight"]["altitude_m"] == 61);
+}
+
+TEST_CASE("Resolving what is resolved changes nothing") {
+  const Config config = resolved(least());
+  CHECK(resolved(config.resolved).resolved == config.resolved);
+}
+
+TEST_CASE("Defaults of schema and library are the same") {
+  const SensorParameters from_schema = resolved(least()).sensor;
+  const SensorParameters from_library;
+  CHECK(from_schema.radiance == from_library.radiance);
+  CHECK(from_schema.normalisation == from_library.normalisation);
+  CHECK(from_schema.blur_sigma_px == from_library.blur_sigma_px);
+  CHECK(from_schema.white_noise_stddev_dn == from_library.white_noise_stddev_dn);
+  CHECK(from_schema.flicker_noise_stddev_dn == from_library.flicker_noise_stddev_dn);
+  CHECK(from_schema.fixed_pattern_ratio == from_library.fixed_pattern_ratio);
+  CHECK(from_schema.kelvin_per_count == from_library.kelvin_per_count);
+}
+
+TEST_CASE("Every fault has a line, each with the config's name") {
+  Json document = least();
+  document["clips"][0]["frames"] = 0;
+  document["clips"][1]["flight"]["patern"] = "follow";
+  document["camera"]["width_px"] = "640";
+  CHECK_THAT(
+      fault_in(document),
+      StartsWith("night.json: clips[0].frames = 0; expected at least 1 and at most 1000000\n"
+                 "night.json: clips[1].flight.patern is not a known key; expected one of pattern, ") &&
+          EndsWith("; did you mean \"pattern\"?\nnight.json: camera.width_px = \"640\"; expected a whole "
+                   "number"));
+}
+
+TEST_CASE("A clip's id comes once") {
+  CHECK(fault_in(with_setting("clips[1].id=a")) == "night.json: clips[1].id = \"a\"; expected each id once");
+}
+
+TEST_CASE("A setting changes one value, as JSON or as plain text") {
+  CHECK(with_setting("seed=7")["seed"] == 7);
+  CHECK(with_setting("name=other")["name"] == "other");
+  CHECK(with_setting("name=\"7\"")["name"] == "7");
+  CHECK(with_setting("clips[1].flight.altitude_m=30.5")["clips"][1]["flight"]["altitude_m"] == 30.5);
+  CHECK(with_setting("sensor.blur_sigma_px=0")["sensor"]["blur_sigma_px"] == 0);  // makes what is on the way
+  CHECK(with_setting("name=a=b")["name"] == "a=b");
+  CHECK(with_setting("name=")["name"].get<std::string>().empty());
+}
+
+TEST_CASE("The season is that of every clip") {
+  const Json document = with_setting("season=summer");
+  CHECK(document["clips"][0]["season"] == "summer");
+  CHECK(document["clips"][1]["season"] == "summer");
+}
+
+TEST_CASE("A setting that cannot be meant is a fault") {
+  CHECK(fault_in_setting("seed") == "--set = \"seed\"; expected KEY=VALUE");
+  CHECK(fault_in_setting("=7") == "--set = \"=7\"; expected KEY=VALUE");
+  CHECK(fault_in_setting("name.first=7") ==
+        "--set = \"name.first=7\"; expected KEY=VALUE with the key of an object");
+  CHECK(fault_in_setting("sensor..x=7") ==
+        "--set = \"sensor..x=7\"; expected KEY=VALUE with the key of an object");
+  CHECK(fault_in_setting("clips[2].id=c") ==
+        "--set = \"clips[2].id=c\"; expected an entry of clips, [0] to [1]");
+  CHECK(fault_in_setting("clips[x].id=c") ==
+        "--set = \"clips[x].id=c\"; expected an entry of clips, [0] to [1]");
+  CHECK(fault_in_setting("clips[].id=c") ==
+        "--set = \"clips[].id=c\"; expected an entry of clips, [0] to [1]");
+}
+
+TEST_CASE("A setting's value is checked like any other") {
+  CHECK(fault_in(with_setting("sensor.blur_sigma_px=-1")) ==
+        "night.json: sensor.blur_sigma_px = -1 px; expected at least 0 and at most 10 px");
+}
+
+TEST_CASE("An unknown clip is a fault with the nearest id") {
+  Json document = least();
+  document["clips"][0]["id"] = "winter_zigzag";
+  const Config config = resolved(document);
+  CHECK(config.clip("b", "--clips").frames == 4);
+  CHECK(message_of<ConfigError>([&] { (void)config.clip("winter_zigzg", "--clips"); }) ==
+        "--clips = \"winter_zigzg\"; expected one of winter_zigzag, b; did you mean \"winter_zigzag\"?");
+}

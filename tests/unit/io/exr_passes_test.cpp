@@ -1,0 +1,196 @@
+#include "io/exr_passes.h"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/exr.h"
+#include "support/message_of.h"
+#include "support/temporary_folder.h"
+
+using namespace thermal;
+
+namespace {
+
+const std::vector<float> kObjects = {0, 1, 2, 3, 300, 32767};
+const std::vector<float> kMaterials = {5, 4, 3, 2, 1, 0};
+const std::vector<float> kAnything(6, 0.5F);
+
+std::vector<int> pixels_of(const Plane<std::uint16_t>& plane) {
+  return {plane.pixels().begin(), plane.pixels().end()};
+}
+
+/// A folder with one EXR file of 3 x 2 px.
+struct Exr {
+  explicit Exr(const ExrChannels& channels, Imf::PixelType type = Imf::FLOAT,
+               Imf::Compression compression = Imf::ZIP_COMPRESSION) {
+    write_exr(file, 3, 2, channels, type, compression);
+  }
+  [[nodiscard]] Passes read(const std::string& layer = "") const { return read_passes(file, layer, 3, 2); }
+
+  TemporaryFolder folder;
+  Path file = folder / "000000.exr";
+};
+
+/// What is wrong with the data of a file, without its name.
+std::string fault_in(const ExrChannels& channels, const std::string& layer = "") {
+  const Exr exr(channels);
+  const std::string message = message_of<DataError>([&] { (void)exr.read(layer); });
+  const std::string name = exr.file.string() + ": ";
+  return message.starts_with(name) ? message.substr(name.size()) : "not named: " + message;
+}
+
+/// The fault of an object index plane whose pixel (1, 1) is `value`.
+std::string fault_of_index(float value) {
+  std::vector<float> pixels = kObjects;
+  pixels[4] = value;
+  return fault_in({{"Scene.IndexOB.X", pixels}});
+}
+
+}  // namespace
+
+TEST_CASE("Index planes are read exactly") {
+  const Exr exr(
+      {{"Scene.IndexOB.X", kObjects}, {"Scene.IndexMA.X", kMaterials}, {"Scene.Depth.Z", kAnything}});
+  const Passes passes = exr.read();
+  CHECK(passes.object_index.width_px() == 3);
+  CHECK(passes.object_index.height_px() == 2);
+  CHECK(pixels_of(passes.object_index) == std::vector<int>{0, 1, 2, 3, 300, 32767});
+  CHECK(pixels_of(passes.material_index) == std::vector<int>{5, 4, 3, 2, 1, 0});
+}
+
+TEST_CASE("A file without a material index has none") {
+  CHECK(Exr({{"Scene.IndexOB.X", kObjects}}).read().material_index.empty());
+}
+
+TEST_CASE("Planes are read only where they are asked for") {
+  const Exr exr({{"Scene.IndexOB.X", kObjects},
+                 {"Scene.Depth.Z", {1, 2, 3, 4, 5, 1e10F}},
+                 {"Scene.Normal.X", {0, 0, 0, 0, 0, 0}},
+                 {"Scene.Normal.Y", {1, 0, 0, 0, 0, 0}},
+                 {"Scene.Normal.Z", {0, 1, 1, 1, 1, 1}}});
+  CHECK(exr.read().depth_m.empty());
+  const Passes passes = read_passes(exr.file, "", 3, 2, {.depth = true, .normals = true});
+  CHECK(passes.depth_m.at(1, 1) == 5);
+  CHECK(passes.normal[1].at(0, 0) == 1);
+  CHECK(passes.normal[2].at(0, 0) == 0);
+}
+
+TEST_CASE("A plane the terms need must be there") {
+  const Exr exr({{"Scene.IndexOB.X", kObjects}});
+  CHECK(message_of<DataError>([&] { (void)read_passes(exr.file, "", 3, 2, {.depth = true}); }) ==
+        exr.file.string() + ": no depth channel, which the chosen terms need; the file has: Scene.IndexOB.X");
+}
+
+TEST_CASE("Other renderers' spellings are understood") {
+  const auto name = GENERATE(as<std::string>{}, "Scene.IndexOB.X", "ViewLayer.IndexOB.X",
+                             "RenderLayer.IndexOB.X", "View Layer.IndexOB.X", "ViewLayer.Object Index.V",
+                             "IndexOB.X", "IndexOB", "Object Index", "rig.left.IndexOB.Z");
+  CAPTURE(name);
+  CHECK(pixels_of(Exr({{name, kObjects}, {"Combined.R", kAnything}}).read().object_index) ==
+        std::vector<int>{0, 1, 2, 3, 300, 32767});
+}
+
+TEST_CASE("Pixels may be stored as any type the format has") {
+  const std::vector<float> small = {0, 1, 2, 3, 300, 2048};  // all of them exact in half precision
+  const auto type = GENERATE(Imf::HALF, Imf::FLOAT, Imf::UINT);
+  CHECK(pixels_of(Exr({{"Scene.IndexOB.X", small}}, type).read().object_index) ==
+        std::vector<int>{0, 1, 2, 3, 300, 2048});
+}
+
+TEST_CASE("Channel names are taken apart") {
+  const Exr exr({{"Scene.IndexOB.X", kObjects}, {"a.b.Depth", kAnything}, {"Z", kAnything}}, Imf::HALF);
+  const ExrHeader header = read_exr_header(exr.file);
+  CHECK(header.width_px == 3);
+  CHECK(header.height_px == 2);
+  CHECK(header.compression == "ZIP");
+  REQUIRE(header.channels.size() == 3);
+  CHECK(header.channels[0].layer == "Scene");
+  CHECK(header.channels[0].pass == "IndexOB");
+  CHECK(header.channels[0].component == "X");
+  CHECK(header.channels[0].type == "half");
+  CHECK(header.channels[1].pass == "Z");
+  CHECK(header.channels[1].layer.empty());
+  CHECK(header.channels[1].component.empty());
+  CHECK(header.channels[2].layer == "a.b");
+  CHECK(header.channels[2].pass == "Depth");
+  CHECK(read_exr_channel(exr.file, header, header.channels[1]).at(2, 1) == 0.5F);
+}
+
+TEST_CASE("Compressions are called by their names") {
+  const auto [compression, name] = GENERATE(table<Imf::Compression, std::string>(
+      {{Imf::NO_COMPRESSION, "none"}, {Imf::RLE_COMPRESSION, "RLE"}, {Imf::PIZ_COMPRESSION, "PIZ"}}));
+  const Exr exr({{"IndexOB", kObjects}}, Imf::FLOAT, compression);
+  CHECK(read_exr_header(exr.file).compression == name);
+  CHECK(pixels_of(exr.read().object_index)[5] == 32767);
+}
+
+TEST_CASE("With several layers, the manifest says which") {
+  const ExrChannels channels = {{"Actors.IndexOB.X", std::vector<float>(6, 1)},
+                                {"Scene.IndexOB.X", kObjects}};
+  CHECK(pixels_of(Exr(channels).read("Actors").object_index) == std::vector<int>(6, 1));
+  CHECK(pixels_of(Exr(channels).read("Scene").object_index)[5] == 32767);
+  CHECK(fault_in(channels) ==
+        "IndexOB is in several layers: Actors, Scene; expected the manifest's \"layer\" to name one");
+}
+
+TEST_CASE("Without an object index the channels there are get listed") {
+  const ExrChannels channels = {{"Scene.Combined.R", kAnything}, {"Scene.Depth.Z", kAnything}};
+  CHECK(fault_in(channels) ==
+        "no object index channel; expected one like Scene.IndexOB.X, the file has: "
+        "Scene.Combined.R, Scene.Depth.Z");
+  CHECK(fault_in({{"Scene.IndexOB.X", kObjects}}, "Actors") ==
+        "no object index channel in layer Actors; expected one like Scene.IndexOB.X, the file has: "
+        "Scene.IndexOB.X");
+}
+
+TEST_CASE("What is no index is told with its channel and pixel") {
+  const std::string where = "Scene.IndexOB.X at pixel (1, 1) = ";
+  const std::string rule = "; expected a whole number from 0 to 32767";
+  CHECK(fault_of_index(std::numeric_limits<float>::quiet_NaN()) == where + "nan" + rule);
+  CHECK(fault_of_index(-1) == where + "-1" + rule);
+  CHECK(fault_of_index(2.5F) == where + "2.5" + rule);
+  CHECK(fault_of_index(32768) == where + "32768" + rule);
+  CHECK(fault_of_index(std::numeric_limits<float>::infinity()) == where + "inf" + rule);
+  CHECK(fault_of_index(1e-30F) == where + "1e-30" + rule);
+}
+
+TEST_CASE("A bad material index is told too") {
+  CHECK(fault_in({{"Scene.IndexOB.X", kObjects}, {"Scene.IndexMA.X", {0, 0, 0.25F, 0, 0, 0}}}) ==
+        "Scene.IndexMA.X at pixel (2, 0) = 0.25; expected a whole number from 0 to 32767");
+}
+
+TEST_CASE("Minus zero is index 0") {
+  CHECK(pixels_of(Exr({{"IndexOB", std::vector<float>(6, -0.0F)}}).read().object_index) ==
+        std::vector<int>(6, 0));
+}
+
+TEST_CASE("A file of another size than the manifest says is a fault") {
+  const Exr exr({{"Scene.IndexOB.X", kObjects}});
+  CHECK(message_of<DataError>([&] { (void)read_passes(exr.file, "", 640, 512); }) ==
+        exr.file.string() + ": size = 3 x 2 px; expected the manifest's 640 x 512 px");
+  CHECK(read_passes(exr.file, "", 0, 0).object_index.size() == 6);  // 0: any size
+}
+
+TEST_CASE("A file that is not there, or no EXR, cannot be read") {
+  const TemporaryFolder folder;
+  const Path missing = folder / "missing.exr";
+  CHECK(message_of<IoError>([&] { (void)read_passes(missing, "", 3, 2); }) ==
+        "cannot read " + missing.string() + ": there is no such file");
+  const Path text = folder.file("text.exr", "this is a text, and long enough to hold a header");
+  CHECK_THAT(message_of<IoError>([&] { (void)read_passes(text, "", 3, 2); }),
+             StartsWith("cannot read " + text.string() + ": "));
+}
+
+TEST_CASE("A file cut short anywhere is an error that names it, never a picture") {
+  const Exr exr({{"Scene.IndexOB.X", kObjects}});
+  const auto bytes = std::filesystem::file_size(exr.file);
+  for (auto length = bytes; length-- > 0;) {
+    std::filesystem::resize_file(exr.file, length);
+    CAPTURE(length, bytes);
+    REQUIRE_THAT(message_of<IoError>([&] { (void)exr.read(); }),
+                 StartsWith("cannot read " + exr.file.string()));
+  }
+}

@@ -1,0 +1,125 @@
+#include "io/files.h"
+
+#include <algorithm>
+#include <csignal>
+#include <iterator>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+#include "support/temporary_folder.h"
+
+using namespace thermal;
+
+namespace {
+
+std::ptrdiff_t entries_of(const Path& folder) {
+  return std::distance(std::filesystem::directory_iterator(folder), {});
+}
+
+/// Another process that holds a folder's lock until it is killed.
+class Holder {
+ public:
+  explicit Holder(const Path& folder) {
+    int ready[2] = {};
+    REQUIRE(::pipe(ready) == 0);
+    process_ = ::fork();
+    if (process_ == 0) {
+      const FolderLock lock(folder);
+      (void)!::write(ready[1], "x", 1);
+      ::pause();
+      ::_exit(0);
+    }
+    char byte = 0;
+    REQUIRE(::read(ready[0], &byte, 1) == 1);
+    ::close(ready[0]);
+    ::close(ready[1]);
+  }
+  ~Holder() { kill(); }
+  Holder(const Holder&) = delete;
+  Holder& operator=(const Holder&) = delete;
+
+  void kill() {
+    if (process_ <= 0) return;
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, nullptr, 0);
+    process_ = 0;
+  }
+
+ private:
+  pid_t process_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("A file is read whole, whatever is in it") {
+  const TemporaryFolder folder;
+  const std::string content("a\0b\r\n\xFF", 6);
+  CHECK(read_file(folder.file("data", content)) == content);
+  CHECK(read_file(folder.file("empty", "")).empty());
+}
+
+TEST_CASE("What cannot be read is named, with the system's reason") {
+  const TemporaryFolder folder;
+  const Path missing = folder / "missing.json";
+  CHECK(message_of<IoError>([&] { (void)read_file(missing); }) ==
+        "cannot read " + missing.string() + ": No such file or directory");
+  CHECK(message_of<IoError>([&] { (void)read_file(folder.path()); }) ==
+        "cannot read " + folder.path().string() + ": Is a directory");
+}
+
+TEST_CASE("Writing atomically leaves the file, and nothing beside it") {
+  const TemporaryFolder folder;
+  const Path file = folder.file("data.json", "a longer text that was there before");
+  write_file_atomically(file, "new");
+  CHECK(read_file(file) == "new");
+  CHECK(entries_of(folder.path()) == 1);
+}
+
+TEST_CASE("What cannot be written is named, and the old file stays") {
+  const TemporaryFolder folder;
+  const Path nowhere = folder / "no/folder/data.json";
+  CHECK_THAT(message_of<IoError>([&] { write_file_atomically(nowhere, "x"); }),
+             StartsWith("cannot write " + nowhere.string()) && EndsWith(": No such file or directory"));
+  std::filesystem::create_directories(folder / "taken/by");
+  const Path taken = folder / "taken";
+  CHECK(message_of<IoError>([&] { write_file_atomically(taken, "x"); }) ==
+        "cannot rename to " + taken.string() + ": Is a directory");
+  CHECK(std::filesystem::is_directory(taken / "by"));
+}
+
+TEST_CASE("A full disk means: try again later") {
+  if (!std::filesystem::exists("/dev/full")) return;  // Linux has it
+  const std::string text = "x";
+  CHECK(message_of<TryAgainError>([&] { write_file("/dev/full", std::as_bytes(std::span(text))); }) ==
+        "cannot write /dev/full: No space left on device");
+}
+
+TEST_CASE("Folders are made with those above them; a file in the way is a fault") {
+  const TemporaryFolder folder;
+  make_folder(folder / "a/b/c");
+  make_folder(folder / "a/b/c");
+  CHECK(std::filesystem::is_directory(folder / "a/b/c"));
+  (void)folder.file("file", "");
+  CHECK(message_of<IoError>([&] { make_folder(folder / "file/below"); }) ==
+        "cannot make folder " + (folder / "file/below").string() + ": Not a directory");
+}
+
+TEST_CASE("One process at a time holds a folder") {
+  const TemporaryFolder folder;
+  const Path data = folder / "data";
+  Holder holder(data);
+  CHECK(message_of<TryAgainError>([&] { const FolderLock second(data); }) ==
+        data.string() + " is in use by another run of veldt; try again when that one has ended");
+  holder.kill();
+  CHECK_NOTHROW(FolderLock(data));  // a dead process holds nothing
+}
+
+TEST_CASE("A folder is free again when its lock ends") {
+  const TemporaryFolder folder;
+  { const FolderLock first(folder / "data"); }
+  CHECK_NOTHROW(FolderLock(folder / "data"));
+}

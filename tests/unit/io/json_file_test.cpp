@@ -1,0 +1,70 @@
+#include "io/json_file.h"
+
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+#include "support/temporary_folder.h"
+
+using namespace thermal;
+
+namespace {
+
+std::string fault_in(const std::string& text) {
+  return message_of<ConfigError>([&] { (void)parse_json(text, "night.json"); });
+}
+
+}  // namespace
+
+TEST_CASE("JSON keeps its keys in order, and its numbers' kinds") {
+  const Json json = parse_json(R"({"z": 1, "a": 2.0, "m": [true, null]})", "night.json");
+  CHECK(json.dump() == R"({"z":1,"a":2.0,"m":[true,null]})");
+  CHECK(to_text(json) == "{\n  \"z\": 1,\n  \"a\": 2.0,\n  \"m\": [\n    true,\n    null\n  ]\n}\n");
+}
+
+TEST_CASE("What is not JSON is shown to the line and column") {
+  CHECK_THAT(fault_in("{\n  \"a\": 1,\n  \"b\": oops\n}"),
+             StartsWith("night.json:3:8: not JSON: syntax error while parsing value - invalid literal"));
+  CHECK_THAT(fault_in("{\"a\": 1,}"),
+             StartsWith("night.json:1:9: not JSON: syntax error while parsing object key - unexpected '}'"));
+  CHECK_THAT(fault_in("{\"a\": 1"),
+             StartsWith("night.json:1:8: not JSON: syntax error while parsing object"));
+  CHECK_THAT(fault_in(""), StartsWith("night.json:1:1: not JSON: syntax error while parsing value"));
+  CHECK_THAT(fault_in("{}\n{}"), StartsWith("night.json:2:1: not JSON: syntax error"));
+}
+
+TEST_CASE("A key that comes twice in one object is a fault, not a silent choice") {
+  CHECK(fault_in(R"({"a": 1, "b": {"c": 1, "c": 2}})") ==
+        "night.json: key \"c\" comes twice in one object; expected once");
+  CHECK_NOTHROW(parse_json(R"({"a": {"c": 1}, "b": [{"c": 2}, {"c": 3}]})", "night.json"));
+}
+
+TEST_CASE("A JSON file's faults name it") {
+  const TemporaryFolder folder;
+  const Path broken = folder.file("broken.json", "[1, 2");
+  CHECK_THAT(message_of<ConfigError>([&] { (void)read_json(broken); }),
+             StartsWith(broken.string() + ":1:6: not JSON: "));
+  CHECK_THROWS_AS(read_json(folder / "missing.json"), IoError);
+}
+
+TEST_CASE("Equal documents have no differences") {
+  const Json json = parse_json(R"({"a": [1, {"b": 2}], "c": "d"})", "");
+  CHECK(differences(json, json).empty());
+  CHECK(
+      differences(json, parse_json(R"({"c": "d", "a": [1, {"b": 2}]})", "")).empty());  // order says nothing
+}
+
+TEST_CASE("Every difference is told with its place and both values") {
+  const Json here =
+      parse_json(R"({"sensor": {"blur_sigma_px": 1, "preset": "a"}, "n": 1, "l": [1, 2, 3]})", "");
+  const Json there =
+      parse_json(R"({"sensor": {"blur_sigma_px": 2, "preset": "a"}, "m": 1, "l": [1, 5, 3]})", "");
+  CHECK(differences(here, there) == std::vector<std::string>{"sensor.blur_sigma_px is 1 here and 2 there",
+                                                             "n is only here", "l[1] is 2 here and 5 there",
+                                                             "m is only there"});
+}
+
+TEST_CASE("Lists of different lengths, and values of different kinds, differ as a whole") {
+  CHECK(differences({{"clips", {1, 2}}}, {{"clips", {1}}}) ==
+        std::vector<std::string>{"clips has 2 entries here and 1 there"});
+  CHECK(differences({{"a", "1"}}, {{"a", 1}}) == std::vector<std::string>{"a is \"1\" here and 1 there"});
+}

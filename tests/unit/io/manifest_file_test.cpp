@@ -1,0 +1,100 @@
+#include "io/manifest_file.h"
+
+#include "base/error.h"
+#include "io/json_file.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+#include "support/temporary_folder.h"
+
+using namespace thermal;
+
+namespace {
+
+Json example() {
+  return parse_json(R"({
+    "format": "veldt-passes", "version": 1, "clip": "night_1", "seed": 4294967295, "frame_rate_hz": 5,
+    "camera": {"width_px": 64, "height_px": 48, "fx_px": 70.5, "fy_px": 70.5, "cx_px": 32, "cy_px": 24},
+    "objects": [
+      {"index": 1, "name": "ground", "class": "ground", "material": "soil"},
+      {"index": 9, "name": "anna", "class": "actor", "material": "human", "category": "human", "species": "human",
+       "track_id": 3, "bounds_m": [[-0.2, -0.3, 0], [0.2, 0.3, 1.8]]}],
+    "materials": [{"index": 2, "material": "grass"}],
+    "frames": [{"file": "000000.exr", "time_s": 1.5, "agl_m": 61,
+                "camera_to_world": [1,0,0,5, 0,1,0,6, 0,0,1,7, 0,0,0,1],
+                "actors": [{"index": 9, "position_m": [1, 2, 3], "heading_rad": 0.5}]},
+               {"file": "000001.exr"}]})",
+                    "");
+}
+
+std::string fault_in(const Json& document) {
+  const TemporaryFolder folder;
+  const Path file = folder.file("manifest.json", document.dump());
+  const std::string message = message_of<DataError>([&] { (void)read_manifest(file, VELDT_SOURCE_DIR); });
+  const std::string name = file.string() + ": ";
+  return message.starts_with(name) ? message.substr(name.size()) : "not named: " + message;
+}
+
+}  // namespace
+
+TEST_CASE("A manifest is read into what it says") {
+  const TemporaryFolder folder;
+  const Manifest manifest = read_manifest(folder.file("manifest.json", example().dump()), VELDT_SOURCE_DIR);
+  CHECK(manifest.clip == "night_1");
+  CHECK(manifest.seed == 4294967295);
+  CHECK(manifest.frame_rate_hz == 5);
+  CHECK(manifest.layer.empty());
+  CHECK(manifest.camera.width_px == 64);
+  CHECK(manifest.camera.fx_px == 70.5);
+  REQUIRE(manifest.objects.size() == 2);
+  CHECK(manifest.objects[0].object_class == ObjectClass::ground);
+  CHECK_FALSE(manifest.objects[0].bounds_m.has_value());
+  CHECK(manifest.objects[1].object_class == ObjectClass::actor);
+  CHECK(manifest.objects[1].track_id == 3);
+  REQUIRE(manifest.objects[1].bounds_m.has_value());
+  CHECK((*manifest.objects[1].bounds_m)[1][2] == 1.8);
+  CHECK(manifest.materials.at(0).material == "grass");
+  REQUIRE(manifest.frames.size() == 2);
+  CHECK(manifest.frames[0].time_s == 1.5);
+  CHECK(manifest.frames[0].agl_m == 61);
+  REQUIRE(manifest.frames[0].camera_to_world.has_value());
+  CHECK((*manifest.frames[0].camera_to_world)[7] == 6);
+  CHECK(manifest.frames[0].actors.at(0).position_m[2] == 3);
+  CHECK_FALSE(manifest.frames[1].agl_m.has_value());
+  CHECK(manifest.frames[1].actors.empty());
+}
+
+TEST_CASE("What a manifest must not say is told, and where") {
+  Json document = example();
+  SECTION("an index past Blender's largest") {
+    document["objects"][0]["index"] = 32768;
+    CHECK(fault_in(document) == "objects[0].index = 32768; expected at least 1 and at most 32767");
+  }
+  SECTION("another format") {
+    document["format"] = "veldt-dataset";
+    CHECK(fault_in(document) == "format = \"veldt-dataset\"; expected veldt-passes");
+  }
+  SECTION("a file outside its folder") {
+    document["frames"][1]["file"] = "../000001.exr";
+    CHECK_THAT(fault_in(document), StartsWith("frames[1].file = \"../000001.exr\"; expected "));
+  }
+  SECTION("a pose that is no matrix") {
+    document["frames"][0]["camera_to_world"] = {1, 2, 3};
+    CHECK(fault_in(document) == "frames[0].camera_to_world = a list of 3; expected 16 entries");
+  }
+  SECTION("an index twice") {
+    document["objects"][1]["index"] = 1;
+    CHECK(fault_in(document) == "objects[1].index = 1; expected each value once");
+  }
+}
+
+TEST_CASE("A manifest that is not JSON is the data's fault, with line and column") {
+  const TemporaryFolder folder;
+  const Path file = folder.file("manifest.json", "{\n");
+  CHECK_THAT(message_of<DataError>([&] { (void)read_manifest(file, VELDT_SOURCE_DIR); }),
+             StartsWith(file.string() + ":2:1: not JSON: "));
+}
+
+TEST_CASE("A manifest that is not there cannot be read") {
+  CHECK(message_of<IoError>([] { (void)read_manifest("/nowhere/manifest.json", VELDT_SOURCE_DIR); }) ==
+        "cannot read /nowhere/manifest.json: No such file or directory");
+}

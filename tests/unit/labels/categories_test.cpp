@@ -1,0 +1,21 @@
+#include "labels/categories.h"
+
+#include "support/catch.h"
+
+using namespace thermal;
+
+TEST_CASE("A known category has the same id in every dataset") {
+  const auto none = number_categories({});
+  const auto some = number_categories({"zebra", "antelope"});
+  CHECK(none.at("human") == 1);
+  CHECK(none.at("elephant") == 2);
+  CHECK(none.at("vehicle") == 10);
+  for (const auto& [name, id] : none) CHECK(some.at(name) == id);
+}
+
+TEST_CASE("Categories Veldt does not know follow in alphabetical order") {
+  const auto ids = number_categories({"warthog", "human", "antelope"});
+  CHECK(ids.at("antelope") == 11);
+  CHECK(ids.at("warthog") == 12);
+  CHECK(ids.size() == 12);
+}
