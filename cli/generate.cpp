@@ -1,5 +1,6 @@
 #include "dataset/generate.h"
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 
@@ -41,9 +42,11 @@ thermal::Shard parse_shard(const std::string& text) {
   throw thermal::ConfigError(thermal::fault("--shard", text, "", "I/N with I from 0 to N - 1"));
 }
 
-void print_plan(const std::vector<thermal::ClipPlan>& plan) {
+void print_plan(const std::vector<thermal::ClipPlan>& plan, const std::vector<thermal::ClipConfig>& chosen) {
   fmt::print("{:<32} {:>8} {:>12} {:>16}\n", "clip", "frames", "with actors", "height [m AGL]");
   for (const thermal::ClipPlan& clip : plan) {
+    const auto is_it = [&clip](const thermal::ClipConfig& one) { return one.id == clip.id; };
+    if (std::none_of(chosen.begin(), chosen.end(), is_it)) continue;
     fmt::print("{:<32} {:>8} {:>12} {:>8.1f} {:>7.1f}\n", clip.id, clip.frames, clip.frames_with_actors,
                clip.min_agl_m, clip.max_agl_m);
   }
@@ -59,10 +62,10 @@ int run(const Options& options, const CommonOptions& common, Run work) {
                                             .shard = parse_shard(options.shard),
                                             .threads = common.threads,
                                             .keep_passes = options.keep_passes};
-  (void)thermal::choose_clips(config, request.clips, request.shard);
+  const std::vector<thermal::ClipConfig> chosen = thermal::choose_clips(config, request.clips, request.shard);
   const std::vector<thermal::ClipPlan> plan = thermal::plan_dataset(config.resolved, options.config, home);
   if (options.dry_run) {
-    print_plan(plan);
+    print_plan(plan, chosen);
     return kDone;
   }
   watch_for_stop();

@@ -11,9 +11,9 @@ class ConfigError(Exception):
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """` (did you mean "x"?)` for the closest known name, or nothing where none is close."""
+    """`; did you mean "x"?` for the closest known name, or nothing where none is close."""
     near = difflib.get_close_matches(name, list(known), n=1)
-    return f' (did you mean "{near[0]}"?)' if near else ""
+    return f'; did you mean "{near[0]}"?' if near else ""
 
 
 def listing(names: Iterable[str]) -> str:

@@ -34,11 +34,11 @@ ZIGZAG, FOLLOW = (*CLIP, "flight"), ("clips", 1, "flight")
 FAULTS = {
     "unknown species": (
         _set((*GROUP, "species"), "elefant"),
-        'scene.groups[1].species = "elefant"; expected a species: {species} (did you mean "elephant"?)',
+        'scene.groups[1].species = "elefant"; expected a species: {species}; did you mean "elephant"?',
     ),
     "unknown path": (
         _set((*GROUP, "path"), "lop"),
-        'scene.groups[1].path = "lop"; expected a path of scene.paths: loop (did you mean "loop"?)',
+        'scene.groups[1].path = "lop"; expected a path of scene.paths: loop; did you mean "loop"?',
     ),
     "unknown path, nothing near": (
         _set((*GROUP, "path"), "river"),
@@ -78,7 +78,7 @@ FAULTS = {
     ),
     "unknown target": (
         _set((*FOLLOW, "target"), "zebra_2"),
-        'clips[1].flight.target = "zebra_2"; expected an actor or a group (did you mean "zebras_2"?)',
+        'clips[1].flight.target = "zebra_2"; expected an actor or a group; did you mean "zebras_2"?',
     ),
     "no height above ground": (
         _set((*ZIGZAG, "altitude_m"), -4),

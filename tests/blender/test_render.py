@@ -143,7 +143,7 @@ def test_an_unknown_clip_is_told(tmp_path):
     run = render(tmp_path, tiny(), "--clip", "dwn")
     assert run.code == 2
     assert run.events[-1]["message"] == (
-        '--clip = "dwn"; expected a clip of the config: down, side (did you mean "down"?)'
+        '--clip = "dwn"; expected a clip of the config: down, side; did you mean "down"?'
     )
 
 

@@ -76,15 +76,15 @@ FORM = {
 MEANING = {
     "unknown species": (
         _with("scene.groups.1.species", "elefant"),
-        f'scene.groups[1].species = "elefant"; expected a species: {SPECIES} (did you mean "elephant"?)',
+        f'scene.groups[1].species = "elefant"; expected a species: {SPECIES}; did you mean "elephant"?',
     ),
     "unknown path": (
         _with("scene.groups.0.path", "loopp"),
-        'scene.groups[0].path = "loopp"; expected a path of scene.paths: loop (did you mean "loop"?)',
+        'scene.groups[0].path = "loopp"; expected a path of scene.paths: loop; did you mean "loop"?',
     ),
     "unknown target": (
         _with(f"{FOLLOW}.target", "hurd"),
-        'clips[1].flight.target = "hurd"; expected an actor or a group (did you mean "herd"?)',
+        'clips[1].flight.target = "hurd"; expected an actor or a group; did you mean "herd"?',
     ),
     "follow whom": (
         _with(f"{FOLLOW}.target", None),

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "base/error.h"
 
@@ -40,6 +41,7 @@ class Nights {
   explicit Nights(const Config& config) : config_(config) {}
 
   void add(Season season, double height_m, double look_angle_deg, double half_width, double half_height) {
+    if (!seen_.insert({season, height_m, look_angle_deg}).second) return;  // many clips fly alike
     const double angle = look_angle_deg * std::numbers::pi / 180;
     const auto looks = looks_from(height_m, angle, half_width, half_height);
     auto& all = looks_[season];
@@ -57,6 +59,7 @@ class Nights {
  private:
   const Config& config_;
   std::map<Season, std::vector<SceneOutline::Look>> looks_;
+  std::set<std::tuple<Season, double, double>> seen_;
 };
 
 void add_actors(const std::set<std::string>& names, const MaterialLibrary& materials, SceneOutline& outline) {

@@ -49,9 +49,9 @@ class MaterialModel {
   [[nodiscard]] double temperature_k() const { return material_.temperature_k(weather_.air.temperature_k); }
   [[nodiscard]] double emitted(double temperature_k) const { return band_.radiance(temperature_k); }
 
-  /// Emission and reflection at an angle; factor 1 leaves the angle out.
-  [[nodiscard]] double with_sky(double factor) const {
-    const double sky = material_.angular == AngularLaw::water ? zenith_emissivity(weather_.air)
+  /// Emission and reflection at an angle; a fall-off factor of 1 leaves the angle out.
+  [[nodiscard]] double with_sky(double factor, double cosine) const {
+    const double sky = material_.angular == AngularLaw::water ? mirrored_sky_emissivity(weather_.air, cosine)
                                                               : sky_emissivity(weather_.air);
     return factor * emitted(temperature_k()) + (air_radiance_ - factor * emitted_as_air_) * sky;
   }
@@ -106,13 +106,14 @@ class NightShifts {
     add_variation(cover);
     add_parts(cover, model);
     const double direct_k = model.apparent_k(model.emitted(model.temperature_k()));
-    const double sky = model.with_sky(1);
-    const double sky_k = model.apparent_k(sky);
-    add("sky", sky_k - direct_k, cover.share, cover.actor);
     const double share = cover.share / static_cast<double>(night_.looks.size());
     for (const SceneOutline::Look& look : night_.looks) {
+      const double sky = model.with_sky(1, look.ground_cosine);
+      const double sky_k = model.apparent_k(sky);
       const double factor = angular_factor(cover.material->angular, look.ground_cosine);
-      add("angular", model.apparent_k(model.with_sky(factor)) - sky_k, share, cover.actor);
+      const double tilted_k = model.apparent_k(model.with_sky(factor, look.ground_cosine));
+      add("sky", sky_k - direct_k, share, cover.actor);
+      add("angular", tilted_k - sky_k, share, cover.actor);
       add("path", model.apparent_k(model.with_path(sky, look.range_m)) - sky_k, share, cover.actor);
     }
   }
@@ -176,7 +177,7 @@ MaterialShift shift_of(const Material& material, const Weather& weather, double 
                        const SpectralResponse& response) {
   const MaterialModel model(material, weather, response);
   const double direct_k = model.apparent_k(model.emitted(model.temperature_k()));
-  const double sky = model.with_sky(1);
+  const double sky = model.with_sky(1, 1);
   const double sky_k = model.apparent_k(sky);
   return {.sky_k = sky_k - direct_k, .path_k = model.apparent_k(model.with_path(sky, range_m)) - sky_k};
 }

@@ -28,13 +28,6 @@ RayLine ray_line(const Row& row, const CameraRays& rays, std::size_t axis) {
   return {r[1] * rays.y()[static_cast<std::size_t>(row.y)] + r[2], r[0]};
 }
 
-/// Radiance of a clear sky's direction against a blackbody's at air temperature: the zenith's emissivity, seen
-/// through a path longer by the secant.
-double mirrored_sky(const Air& air, double cosine) {
-  constexpr double kLowest = 0.05;  // 3 deg above the horizon: no plane's secant means anything below
-  return 1 - std::pow(1 - zenith_emissivity(air), 1 / std::max(cosine, kLowest));
-}
-
 /// A function of the cosine at which water is seen, tabulated: water is rare, its functions are slow.
 class WaterCurve {
  public:
@@ -205,7 +198,7 @@ RowTerm angular_emissivity(const SurfaceOpticsList& surfaces) {
 
 RowTerm sky_reflection(const Air& air) {
   const auto sky_deficit = static_cast<float>(1 - sky_emissivity(air));
-  const WaterCurve mirrored([&air](double cosine) { return mirrored_sky(air, cosine); });
+  const WaterCurve mirrored([&air](double cosine) { return mirrored_sky_emissivity(air, cosine); });
   return [sky_deficit, mirrored](Row& row) {
     // Water first: the diffuse kernel that follows then finds nothing more to reflect there.
     for (const std::size_t i : row.water) {

@@ -80,4 +80,9 @@ double zenith_emissivity(const Air& air) noexcept {
   return with_clouds(clear_zenith_emissivity(air), air.cloud_fraction);
 }
 
+double mirrored_sky_emissivity(const Air& air, double cosine) noexcept {
+  constexpr double kLowest = 0.05;
+  return 1 - std::pow(1 - zenith_emissivity(air), 1 / std::max(cosine, kLowest));
+}
+
 }  // namespace thermal

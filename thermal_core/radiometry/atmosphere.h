@@ -37,4 +37,8 @@ struct Air {
 [[nodiscard]] double sky_emissivity(const Air& air) noexcept;
 [[nodiscard]] double zenith_emissivity(const Air& air) noexcept;
 
+/// Emissivity of the sky in the direction that still water mirrors: the zenith's, seen through a path longer by
+/// the secant. A cosine below 0.05, 3 deg above the horizon, where no plane's secant holds, counts as 0.05.
+[[nodiscard]] double mirrored_sky_emissivity(const Air& air, double cosine) noexcept;
+
 }  // namespace thermal
