@@ -113,8 +113,9 @@ VELDT_CLONES void sample_all(const std::int32_t* __restrict texels, const float*
   constexpr int kTexelsBits = 8;
   for (std::size_t i = 0; i < count; ++i) {
     const float wanted = footprint[i] * kTexelsPerLength;
-    // NOLINTNEXTLINE(clang-diagnostic-bitwise-instead-of-logical): && would branch, and the loop not vectorise
-    const bool usable = (std::abs(x[i]) < kFarthest) & (std::abs(y[i]) < kFarthest) & (wanted >= 0) &
+    const float far_x = std::abs(x[i]);
+    const float far_y = std::abs(y[i]);
+    const bool usable = (far_x < kFarthest) & (far_y < kFarthest) & (wanted >= 0) &
                         (wanted < static_cast<float>(kTexels));  // false for NaN
     const float texel = usable ? wanted : 0.0F;
     // From 1.5 texels on, the next level is nearer: its number is the exponent of texels / 0.75, at least 0.
