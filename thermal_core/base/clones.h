@@ -9,3 +9,11 @@
 #else
 #define VELDT_CLONES
 #endif
+
+/// Before a small function that a function with VELDT_CLONES calls in its loops: it becomes part of both versions.
+/// (A compiler may otherwise keep it apart, and then in the plain version only.)
+#if defined(__GNUC__)
+#define VELDT_INLINE __attribute__((always_inline)) inline
+#else
+#define VELDT_INLINE inline
+#endif

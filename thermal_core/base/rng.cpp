@@ -5,34 +5,55 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/clones.h"
+
 namespace thermal {
 namespace {
 
-constexpr std::size_t kLanes = 16;          // counters worked on together, so that loops vectorise
-constexpr std::size_t kBatch = 4 * kLanes;  // numbers they make
+constexpr std::size_t kLanes = 16;  // counters worked on together, so that loops vectorise
 using Words = std::array<std::uint32_t, kLanes>;
 
-/// The four output words of counters block, block + 1, …, one array a word.
-std::array<Words, 4> generate_lanes(const RandomField& field, std::uint32_t block) noexcept {
-  std::array<Words, 4> words{};
+/// The four output words of counters block, block + 1, …, one array a word: Philox4x32::generate() with a lane a
+/// counter.
+VELDT_INLINE void generate_lanes(const RandomField& field, std::uint32_t block,
+                                 std::array<Words, 4>& words) noexcept {
+  const auto clip_low = static_cast<std::uint32_t>(field.clip);
+  const auto clip_high = static_cast<std::uint32_t>(field.clip >> 32);
+  const std::uint32_t frame = field.frame;
+  const Philox4x32::Key first_key = {field.seed, field.stream};
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const Philox4x32::Counter counter = {block + static_cast<std::uint32_t>(lane), field.frame,
-                                         static_cast<std::uint32_t>(field.clip),
-                                         static_cast<std::uint32_t>(field.clip >> 32)};
-    const Philox4x32::Counter out = Philox4x32::generate(counter, {field.seed, field.stream});
-    for (std::size_t word = 0; word < 4; ++word) words[word][lane] = out[word];
+    std::uint32_t c0 = block + static_cast<std::uint32_t>(lane);
+    std::uint32_t c1 = frame;
+    std::uint32_t c2 = clip_low;
+    std::uint32_t c3 = clip_high;
+    std::uint32_t k0 = first_key[0];
+    std::uint32_t k1 = first_key[1];
+#pragma GCC unroll 7
+    for (int round = 0; round < Philox4x32::kRounds; ++round) {
+      const std::uint64_t a = std::uint64_t{Philox4x32::kFirst} * c0;
+      const std::uint64_t b = std::uint64_t{Philox4x32::kSecond} * c2;
+      c0 = static_cast<std::uint32_t>(b >> 32) ^ c1 ^ k0;
+      c1 = static_cast<std::uint32_t>(b);
+      c2 = static_cast<std::uint32_t>(a >> 32) ^ c3 ^ k1;
+      c3 = static_cast<std::uint32_t>(a);
+      k0 += Philox4x32::kFirstKeyStep;
+      k1 += Philox4x32::kSecondKeyStep;
+    }
+    words[0][lane] = c0;
+    words[1][lane] = c1;
+    words[2][lane] = c2;
+    words[3][lane] = c3;
   }
-  return words;
 }
 
 /// Uniform in [0, 1) with 24 bits, exactly.
-float to_unit(std::uint32_t word) noexcept {
+VELDT_INLINE float to_unit(std::uint32_t word) noexcept {
   return static_cast<float>(static_cast<std::int32_t>(word >> 8)) * 0x1p-24F;
 }
 
 /// ln of (word + 1) / 2^31 rounded to float, word < 2^31; at most 0.
 /// Mantissa in [sqrt(1/2), sqrt(2)), then f - f^2/2 + f^3 Q(f), Q fitted at Chebyshev nodes (error 6e-8).
-float log_unit(std::uint32_t word) noexcept {
+VELDT_INLINE float log_unit(std::uint32_t word) noexcept {
   const float u = (static_cast<float>(static_cast<std::int32_t>(word)) + 1.0F) * 0x1p-31F;
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(u);
   const std::uint32_t offset = bits - 0x3F3504F3;  // bits of sqrt(1/2)
@@ -54,9 +75,14 @@ struct SinCos {
   float cos;
 };
 
+/// The value, negated if the second bit of `quarter` is set.
+VELDT_INLINE float with_sign(float value, std::uint32_t quarter) noexcept {
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ ((quarter & 2U) << 30));
+}
+
 /// Sine and cosine of word / 2^32 of a full turn: the octant from the top bits, the rest by polynomial on
 /// +-1/8 turn (errors 3e-9 and 5e-11 before rounding).
-SinCos turn(std::uint32_t word) noexcept {
+VELDT_INLINE SinCos turn(std::uint32_t word) noexcept {
   const std::uint32_t quarter = (word + 0x20000000U) >> 30;
   const auto rest = static_cast<std::int32_t>(word - (quarter << 30));
   const float v = static_cast<float>(rest) * 0x1p-32F;
@@ -64,45 +90,60 @@ SinCos turn(std::uint32_t word) noexcept {
   const float s = v * (6.28318529F + v2 * (-41.3416626F + v2 * (81.5925482F + v2 * -75.4018403F)));
   const float c = 1.0F + v2 * (-19.7392087F + v2 * (64.9393162F + v2 * (-85.4428484F + v2 * 59.2202879F)));
   const bool odd = (quarter & 1U) != 0;
-  const float sine = odd ? c : s;
-  const float cosine = odd ? s : c;
-  return {quarter >= 2 ? -sine : sine, (quarter == 1 || quarter == 2) ? -cosine : cosine};
+  return {with_sign(odd ? c : s, quarter), with_sign(odd ? s : c, quarter + 1)};
 }
 
-/// Writes values [first, first + out.size()) where make(block, batch) fills a whole batch.
-template <typename MakeBatch>
-void fill(std::size_t first, std::span<float> out, MakeBatch make) noexcept {
-  assert(first % 4 == 0);
-  std::array<float, kBatch> batch{};
-  for (std::size_t done = 0; done < out.size(); done += kBatch) {
-    make(static_cast<std::uint32_t>((first + done) / 4), batch);
-    const std::size_t count = std::min(kBatch, out.size() - done);
-    std::copy_n(batch.begin(), count, out.begin() + static_cast<std::ptrdiff_t>(done));
+VELDT_CLONES void uniform_batches(const RandomField& field, std::uint32_t block, std::size_t batches,
+                                  float* out) noexcept {
+  std::array<Words, 4> words{};
+  for (std::size_t batch = 0; batch < batches; ++batch) {
+    generate_lanes(field, block + static_cast<std::uint32_t>(batch * kLanes), words);
+    for (std::size_t word = 0; word < 4; ++word) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) *out++ = to_unit(words[word][lane]);
+    }
   }
+}
+
+VELDT_CLONES void normal_batches(const RandomField& field, std::uint32_t block, std::size_t batches,
+                                 float* out) noexcept {
+  std::array<Words, 4> words{};
+  for (std::size_t batch = 0; batch < batches; ++batch, out += kRandomBatch) {
+    generate_lanes(field, block + static_cast<std::uint32_t>(batch * kLanes), words);
+    for (std::size_t pair = 0; pair < 4; pair += 2) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const float radius = std::sqrt(-2.0F * log_unit(words[pair][lane] >> 1));
+        const SinCos direction = turn(words[pair + 1][lane]);
+        out[pair * kLanes + lane] = radius * direction.cos;
+        out[(pair + 1) * kLanes + lane] = radius * direction.sin;
+      }
+    }
+  }
+}
+
+/// Writes values [first, first + out.size()), where make(block, batches, out) makes whole batches.
+template <typename MakeBatches>
+void fill(std::size_t first, std::span<float> out, MakeBatches make) noexcept {
+  assert(first % kRandomBatch == 0);
+  const std::size_t whole = out.size() / kRandomBatch;
+  make(static_cast<std::uint32_t>(first / 4), whole, out.data());
+  const std::span<float> rest = out.subspan(whole * kRandomBatch);
+  if (rest.empty()) return;
+  std::array<float, kRandomBatch> batch{};
+  make(static_cast<std::uint32_t>(first / 4 + whole * kLanes), 1, batch.data());
+  std::copy_n(batch.begin(), rest.size(), rest.begin());
 }
 
 }  // namespace
 
 void fill_uniform(const RandomField& field, std::size_t first, std::span<float> out) noexcept {
-  fill(first, out, [&field](std::uint32_t block, std::array<float, kBatch>& batch) {
-    const std::array<Words, 4> words = generate_lanes(field, block);
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      for (std::size_t word = 0; word < 4; ++word) batch[4 * lane + word] = to_unit(words[word][lane]);
-    }
+  fill(first, out, [&field](std::uint32_t block, std::size_t batches, float* place) {
+    uniform_batches(field, block, batches, place);
   });
 }
 
 void fill_normal(const RandomField& field, std::size_t first, std::span<float> out) noexcept {
-  fill(first, out, [&field](std::uint32_t block, std::array<float, kBatch>& batch) {
-    const std::array<Words, 4> words = generate_lanes(field, block);
-    for (std::size_t pair = 0; pair < 4; pair += 2) {
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const float radius = std::sqrt(-2.0F * log_unit(words[pair][lane] >> 1));
-        const SinCos direction = turn(words[pair + 1][lane]);
-        batch[4 * lane + pair] = radius * direction.cos;
-        batch[4 * lane + pair + 1] = radius * direction.sin;
-      }
-    }
+  fill(first, out, [&field](std::uint32_t block, std::size_t batches, float* place) {
+    normal_batches(field, block, batches, place);
   });
 }
 

@@ -15,14 +15,18 @@ struct Philox4x32 {
   using Counter = std::array<std::uint32_t, 4>;
   using Key = std::array<std::uint32_t, 2>;
   static constexpr int kRounds = 7;
+  static constexpr std::uint32_t kFirst = 0xD2511F53;  // multipliers of the two halves
+  static constexpr std::uint32_t kSecond = 0xCD9E8D57;
+  static constexpr std::uint32_t kFirstKeyStep = 0x9E3779B9;
+  static constexpr std::uint32_t kSecondKeyStep = 0xBB67AE85;
 
   [[nodiscard]] static constexpr Counter generate(Counter counter, Key key, int rounds = kRounds) noexcept {
     for (int round = 0; round < rounds; ++round) {
-      const std::uint64_t a = std::uint64_t{0xD2511F53} * counter[0];
-      const std::uint64_t b = std::uint64_t{0xCD9E8D57} * counter[2];
+      const std::uint64_t a = std::uint64_t{kFirst} * counter[0];
+      const std::uint64_t b = std::uint64_t{kSecond} * counter[2];
       counter = {static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(b),
                  static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(a)};
-      key = {key[0] + 0x9E3779B9, key[1] + 0xBB67AE85};
+      key = {key[0] + kFirstKeyStep, key[1] + kSecondKeyStep};
     }
     return counter;
   }
@@ -45,12 +49,16 @@ struct RandomField {
   return hash;
 }
 
-/// Values [first, first + out.size()) of a field, uniform in [0, 1). `first` is a multiple of 4.
+/// Numbers are made in batches of so many.
+inline constexpr std::size_t kRandomBatch = 64;
+
+/// Values [first, first + out.size()) of a field, uniform in [0, 1). `first` is a multiple of kRandomBatch.
+/// Value 64 b + 16 w + l is made of word w of counter 16 b + l.
 void fill_uniform(const RandomField& field, std::size_t first, std::span<float> out) noexcept;
 
 /// The same for the standard normal distribution (Box and Muller 1958), |value| <= 6.7.
 /// Logarithm and sine are polynomials of our own (absolute error below 3e-7 of the value's scale), so that the
-/// bits do not depend on the C library. `first` is a multiple of 4.
+/// bits do not depend on the C library. `first` is a multiple of kRandomBatch.
 void fill_normal(const RandomField& field, std::size_t first, std::span<float> out) noexcept;
 
 }  // namespace thermal

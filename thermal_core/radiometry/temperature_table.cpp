@@ -1,14 +1,39 @@
 #include "radiometry/temperature_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <utility>
+
+#include "base/clones.h"
 
 namespace thermal {
 namespace {
 
 constexpr int kSteps = 8192;
+constexpr std::size_t kBlock = 256;
+
+struct Nodes {
+  float low_w_m2_sr;
+  float nodes_per_w_m2_sr;
+};
+
+/// Where between which nodes radiances lie; false if one is outside, which then counts as at the first node.
+VELDT_CLONES bool find_nodes(const Nodes& nodes, const float* radiances, std::size_t count,
+                             std::int32_t* node, float* share) noexcept {
+  constexpr auto kLast = static_cast<float>(kSteps);
+  std::int32_t outside = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float position = (radiances[i] - nodes.low_w_m2_sr) * nodes.nodes_per_w_m2_sr;
+    const float clamped = position >= 0.0F && position <= kLast ? position : 0.0F;
+    outside |= clamped == position ? 0 : 1;  // NaN is not
+    node[i] = static_cast<std::int32_t>(clamped);
+    share[i] = clamped - static_cast<float>(node[i]);
+  }
+  return outside == 0;
+}
 
 }  // namespace
 
@@ -44,11 +69,24 @@ float TemperatureTable::between_nodes(float position) const noexcept {
 void TemperatureTable::temperatures(std::span<const float> radiance_w_m2_sr,
                                     std::span<float> temperature_k) const {
   assert(radiance_w_m2_sr.size() == temperature_k.size());
-  for (std::size_t i = 0; i < radiance_w_m2_sr.size(); ++i) {
-    const float position = (radiance_w_m2_sr[i] - low_w_m2_sr_) * nodes_per_w_m2_sr_;
-    const bool inside = position >= 0 && position <= last_position_;
-    temperature_k[i] = inside ? between_nodes(position)
-                              : static_cast<float>(inverse_(static_cast<double>(radiance_w_m2_sr[i])));
+  const Nodes nodes = {.low_w_m2_sr = low_w_m2_sr_, .nodes_per_w_m2_sr = nodes_per_w_m2_sr_};
+  std::array<float, kBlock> radiances{};  // a copy: input and output may be the same memory
+  std::array<std::int32_t, kBlock> node{};
+  std::array<float, kBlock> share{};
+  for (std::size_t first = 0; first < radiance_w_m2_sr.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, radiance_w_m2_sr.size() - first);
+    std::copy_n(&radiance_w_m2_sr[first], count, radiances.begin());
+    const bool inside = find_nodes(nodes, radiances.data(), count, node.data(), share.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* below = &nodes_k_[static_cast<std::size_t>(node[i])];
+      temperature_k[first + i] = below[0] + share[i] * (below[1] - below[0]);
+    }
+    if (inside) continue;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float position = (radiances[i] - low_w_m2_sr_) * nodes_per_w_m2_sr_;
+      if (position >= 0 && position <= last_position_) continue;
+      temperature_k[first + i] = static_cast<float>(inverse_(static_cast<double>(radiances[i])));
+    }
   }
 }
 
