@@ -39,10 +39,11 @@ def schema_faults(path: Path, schema: dict) -> list[str]:
 
 
 def config_faults(path: Path, config: dict) -> list[str]:
-    """One line for each place where a config departs from the config schema."""
-    validator = jsonschema.Draft202012Validator(json.loads(CONFIG_SCHEMA.read_text(encoding="utf-8")))
+    """One line for each place where a config departs from the schema it names, or else the config schema."""
+    schema = path.parent / config["$schema"] if "$schema" in config else CONFIG_SCHEMA
+    validator = jsonschema.Draft202012Validator(json.loads(schema.read_text(encoding="utf-8")))
     return [
-        f"{path}: {error.json_path}: {error.message}; expected what {CONFIG_SCHEMA} says"
+        f"{path}: {error.json_path}: {error.message}; expected what {schema} says"
         for error in validator.iter_errors(config)
     ]
 

@@ -61,7 +61,7 @@ def _render(options: argparse.Namespace, events: Events) -> None:
     config = load(options.config)
     clips = [clip_of(config, name) for name in options.clip] if options.clip else config["clips"]
     stage = build_stage(plan_world(config))
-    set_up_renderer(stage.world.intrinsics, config["render"]["supersample"])
+    set_up_renderer(stage.world.passes_intrinsics, config["render"]["supersample"])
     events.tell("scene_built", seconds=round(time.monotonic() - started_s, 3))
     for clip in clips:
         _render_clip(stage, clip, options.out / clip["id"], events)

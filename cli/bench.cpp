@@ -4,6 +4,7 @@
 
 #include "base/version.h"
 #include "bench/radiance_suite.h"
+#include "bench/sensor_suite.h"
 #include "cli/command.h"
 #include "io/material_files.h"
 #include "io/resources.h"
@@ -39,18 +40,46 @@ void print_table(const std::vector<thermal::BenchRow>& rows) {
   }
 }
 
-int run(bool json) {
-  const auto rows = thermal::run_radiance_suite(thermal::read_materials(thermal::find_home()));
+thermal::Json to_json(const thermal::StageRow& row) {
+  thermal::Json figures = thermal::Json::object();
+  for (const thermal::Figure& figure : row.figures) figures[figure.name] = figure.value;
+  return {{"group", row.group},
+          {"name", row.name},
+          {"ms_per_frame", row.ms_per_frame},
+          {"times_memcpy", row.times_memcpy},
+          {"figures", figures}};
+}
+
+void print_table(const std::vector<thermal::StageRow>& rows) {
+  std::string group;
+  for (const thermal::StageRow& row : rows) {
+    if (row.group != group) {
+      fmt::print("\n{:<34}{:>10}{:>10}\n", row.group, "ms/frame", "x memcpy");
+      group = row.group;
+    }
+    const std::string copies = row.times_memcpy > 0 ? fmt::format("{:.1f}", row.times_memcpy) : "";
+    fmt::print("  {:<32}{:>10.3f}{:>10} ", row.name, row.ms_per_frame, copies);
+    for (const thermal::Figure& figure : row.figures) fmt::print("  {} {:.2g}", figure.name, figure.value);
+    fmt::print("\n");
+  }
+}
+
+template <typename Row>
+int show(const std::string& suite, const std::vector<Row>& rows, bool json) {
   if (!json) {
     print_table(rows);
     return kDone;
   }
   thermal::Json list = thermal::Json::array();
-  for (const thermal::BenchRow& row : rows) list.push_back(to_json(row));
-  const thermal::Json document = {
-      {"veldt_version", thermal::kVersion}, {"suite", "radiance"}, {"rows", list}};
+  for (const Row& row : rows) list.push_back(to_json(row));
+  const thermal::Json document = {{"veldt_version", thermal::kVersion}, {"suite", suite}, {"rows", list}};
   fmt::print("{}\n", document.dump(2));
   return kDone;
+}
+
+int run(const std::string& suite, bool json) {
+  if (suite == "sensor") return show(suite, thermal::run_sensor_suite(), json);
+  return show(suite, thermal::run_radiance_suite(thermal::read_materials(thermal::find_home())), json);
 }
 
 }  // namespace
@@ -64,10 +93,11 @@ void add_bench(CLI::App& app, Session& session) {
   };
   auto options = std::make_shared<Options>();
   command->add_option("--suite", options->suite, "What to measure")
-      ->check(CLI::IsMember({"radiance"}))
+      ->check(CLI::IsMember({"radiance", "sensor"}))
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &session] { session.run = [options] { return run(options->json); }; });
+  command->callback(
+      [options, &session] { session.run = [options] { return run(options->suite, options->json); }; });
 }
 
 }  // namespace veldt

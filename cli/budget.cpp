@@ -41,13 +41,19 @@ void print(const thermal::Budget& budget, const thermal::SceneOutline& outline) 
   print_materials(outline);
 }
 
-int run(const std::string& file, bool json) {
+struct Options {
+  std::string config;
+  std::vector<std::string> settings;
+  bool json = false;
+};
+
+int run(const Options& options) {
   const thermal::Path home = thermal::find_home();
-  const thermal::Config config = load_config(file, home);
+  const thermal::Config config = load_config(options.config, options.settings, home);
   const thermal::MaterialLibrary materials = thermal::read_materials(home);
   const thermal::SceneOutline outline = thermal::outline_of(config, materials, home);
   const thermal::Budget budget = thermal::weigh_terms(outline, config.terms);
-  if (json) {
+  if (options.json) {
     fmt::print("{}\n", thermal::to_json(budget).dump(2));
   } else {
     print(budget, outline);
@@ -60,15 +66,11 @@ int run(const std::string& file, bool json) {
 void add_budget(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "budget", "Each physical term in mK against NETD: kept or dropped, and why");
-  struct Options {
-    std::string config;
-    bool json = false;
-  };
   auto options = std::make_shared<Options>();
   command->add_option("config", options->config, "Config of a dataset, JSON")->required();
+  add_settings(command, options->settings);
   command->add_flag("--json", options->json, "Print JSON");
-  command->callback(
-      [options, &session] { session.run = [options] { return run(options->config, options->json); }; });
+  command->callback([options, &session] { session.run = [options] { return run(*options); }; });
 }
 
 }  // namespace veldt

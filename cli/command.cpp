@@ -74,9 +74,17 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
   return command;
 }
 
-thermal::Config load_config(const thermal::Path& file, const thermal::Path& home) {
+void add_settings(CLI::App* command, std::vector<std::string>& settings) {
+  command->add_option("--set", settings, "Change the config, e.g. season=summer sensor.preset=boson_640_14mm")
+      ->type_name("KEY=VALUE");
+}
+
+thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
+                            const thermal::Path& home) {
   try {
-    return thermal::resolve_config(thermal::read_json(file), file.string(), home);
+    thermal::Json document = thermal::read_json(file);
+    for (const std::string& setting : settings) thermal::apply_setting(document, setting);
+    return thermal::resolve_config(std::move(document), file.string(), home);
   } catch (const thermal::IoError& error) {
     throw thermal::ConfigError(error.what());
   }

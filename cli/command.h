@@ -47,8 +47,12 @@ void add_doctor(CLI::App& app, Session& session);
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
                       const std::string& description);
 
-/// Reads, checks and plans a config. Any fault of the file is a ConfigError.
-[[nodiscard]] thermal::Config load_config(const thermal::Path& file, const thermal::Path& home);
+/// Adds --set KEY=VALUE …, changes to a config.
+void add_settings(CLI::App* command, std::vector<std::string>& settings);
+
+/// Reads a config, changes it by `settings` and checks it. Any fault of the file is a ConfigError.
+[[nodiscard]] thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
+                                          const thermal::Path& home);
 
 /// The Blender to use: `named`, or "blender" on PATH where that is empty. ConfigError or IoError with what to do.
 [[nodiscard]] thermal::Path find_blender(const std::string& named);

@@ -17,10 +17,11 @@ struct Options {
   std::string out;
   std::string manifest;
   std::string config;
+  std::string variants;
   std::vector<std::string> settings;
 };
 
-std::optional<thermal::Json> read_config(const std::string& file) {
+std::optional<thermal::Json> read_document(const std::string& file) {
   if (file.empty()) return std::nullopt;
   try {
     return thermal::read_json(file);
@@ -33,18 +34,20 @@ int run(const Options& options, const CommonOptions& common) {
   thermal::ConvertOptions request = {.home = thermal::find_home(),
                                      .passes = {options.passes.begin(), options.passes.end()},
                                      .manifest = options.manifest,
-                                     .config = read_config(options.config),
+                                     .config = read_document(options.config),
                                      .config_name = options.config,
                                      .settings = options.settings,
+                                     .variants = read_document(options.variants),
+                                     .variants_name = options.variants,
                                      .out = options.out,
                                      .threads = common.threads};
   watch_for_stop();
-  thermal::RunOutcome outcome;
+  std::vector<thermal::ConvertOutcome> outcomes;
   {
     ProgressBar bar(common);
-    outcome = thermal::convert(request, hooks_for(bar));
+    outcomes = thermal::convert(request, hooks_for(bar));
   }
-  return summarise(outcome, options.out, common);
+  return summarise(outcomes, common);
 }
 
 }  // namespace
@@ -60,9 +63,11 @@ void add_convert(CLI::App& app, Session& session) {
   command->add_option("--config", options->config, "Config to take season, seed and sensor from")
       ->type_name("FILE");
   command
-      ->add_option("--set", options->settings,
-                   "Change the config, e.g. season=summer sensor.blur_sigma_px=0.5")
-      ->type_name("KEY=VALUE");
+      ->add_option(
+          "--variants", options->variants,
+          "List of changes to the config: a dataset each, in a folder of its name, all from one reading")
+      ->type_name("FILE");
+  add_settings(command, options->settings);
   command->callback(
       [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
 }

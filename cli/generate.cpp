@@ -26,6 +26,7 @@ struct Options {
   std::string blender;
   std::string shard = "0/1";
   std::vector<std::string> clips;
+  std::vector<std::string> settings;
   bool keep_passes = false;
   bool dry_run = false;
 };
@@ -54,7 +55,7 @@ void print_plan(const std::vector<thermal::ClipPlan>& plan, const std::vector<th
 
 int run(const Options& options, const CommonOptions& common, Run work) {
   const thermal::Path home = thermal::find_home();
-  const thermal::Config config = load_config(options.config, home);
+  const thermal::Config config = load_config(options.config, options.settings, home);
   const thermal::GenerateOptions request = {.home = home,
                                             .out = options.out,
                                             .blender = options.dry_run ? "" : find_blender(options.blender),
@@ -93,6 +94,7 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
     command->add_flag("--keep-passes", options->keep_passes,
                       "Keep the rendered EXR passes, for veldt convert");
   }
+  add_settings(command, options->settings);
   command->add_flag("--dry-run", options->dry_run, "Check the config and print what would be made");
   command->callback([options, &session, work] {
     session.run = [options, &session, work] { return run(*options, session.common, work); };

@@ -112,15 +112,17 @@ Json describe(const Path& file, std::size_t files) {
   const std::optional<thermal::Manifest> manifest = manifest_beside(file);
   const std::string layer = manifest ? manifest->layer : "";
   const auto [objects, conversion] = describe_conversion(file, header, layer, manifest);
-  return {{"file", file.string()},
-          {"files", files},
-          {"width_px", header.width_px},
-          {"height_px", header.height_px},
-          {"compression", header.compression},
-          {"channels", describe_channels(header)},
-          {"objects", objects},
-          {"depth", describe_depth(file, header, layer)},
-          {"conversion", conversion}};
+  Json report = {{"file", file.string()},
+                 {"files", files},
+                 {"width_px", header.width_px},
+                 {"height_px", header.height_px},
+                 {"compression", header.compression},
+                 {"channels", describe_channels(header)},
+                 {"objects", objects},
+                 {"depth", describe_depth(file, header, layer)},
+                 {"conversion", conversion}};
+  if (manifest && manifest->overscan_px > 0) report["overscan_px"] = manifest->overscan_px;
+  return report;
 }
 
 void print(const Json& report) {
@@ -128,6 +130,9 @@ void print(const Json& report) {
              report["width_px"].get<int>(), report["height_px"].get<int>(),
              report["compression"].get<std::string>());
   if (report["files"] > 1) fmt::print("; the first of {} files", report["files"].get<std::size_t>());
+  if (report.contains("overscan_px")) {
+    fmt::print("\n  {} of the camera's px on every side are overscan", report["overscan_px"].get<int>());
+  }
   fmt::print("\nchannels\n");
   for (const Json& channel : report["channels"]) {
     fmt::print("  {:<28} {}\n", channel["name"].get<std::string>(), channel["type"].get<std::string>());

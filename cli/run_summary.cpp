@@ -1,25 +1,53 @@
 #include "cli/run_summary.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
 
 namespace veldt {
+namespace {
+
+/// "1 clip", "2 clips".
+std::string counted(std::size_t count, const std::string& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// The line that tells of a dataset.
+std::string summary_of(const thermal::RunOutcome& run) {
+  const std::size_t there = run.already_there.size();
+  const std::string were = there == 1 ? "was" : "were";
+  if (run.made.empty() && run.failed.empty())
+    return fmt::format("nothing to do, {} {} there already", counted(there, "clip"), were);
+  std::string line = fmt::format("{} made, {}", counted(run.made.size(), "clip"),
+                                 counted(static_cast<std::size_t>(run.frames_made), "frame"));
+  if (there > 0) line += fmt::format("; {} {} there already", there, were);
+  return run.complete ? line : line + "; the dataset is not complete yet";
+}
+
+bool has_clips(const thermal::ConvertOutcome& outcome) {
+  return !outcome.run.made.empty() || !outcome.run.already_there.empty();
+}
+
+bool has_faults(const thermal::ConvertOutcome& outcome) { return !outcome.run.failed.empty(); }
+
+}  // namespace
 
 int summarise(const thermal::RunOutcome& outcome, const thermal::Path& out, const CommonOptions& options) {
-  for (const auto& [clip, why] : outcome.failed)
-    fmt::print(stderr, "veldt: clip {} rejected: {}\n", clip, why);
-  const bool nothing_left = outcome.made.empty() && outcome.failed.empty();
-  if (!options.quiet && nothing_left) {
-    fmt::print("{}: nothing to do, {} clips were there already\n", out.string(),
-               outcome.already_there.size());
-  } else if (!options.quiet) {
-    fmt::print("{}: {} clips made, {} frames", out.string(), outcome.made.size(), outcome.frames_made);
-    if (!outcome.already_there.empty()) fmt::print("; {} were there already", outcome.already_there.size());
-    fmt::print("{}\n", outcome.complete ? "" : "; the dataset is not complete yet");
+  return summarise({{.variant = "", .out = out, .run = outcome}}, options);
+}
+
+int summarise(const std::vector<thermal::ConvertOutcome>& outcomes, const CommonOptions& options) {
+  for (const auto& [variant, out, run] : outcomes) {
+    const std::string whose = variant.empty() ? "" : variant + ": ";
+    for (const auto& [clip, why] : run.failed)
+      fmt::print(stderr, "veldt: {}clip {} rejected: {}\n", whose, clip, why);
   }
-  if (outcome.failed.empty()) return kDone;
-  return outcome.made.empty() && outcome.already_there.empty() ? kFailed : kSomeRejected;
+  for (const auto& [variant, out, run] : outcomes) {
+    if (!options.quiet) fmt::print("{}: {}\n", out.string(), summary_of(run));
+  }
+  if (std::none_of(outcomes.begin(), outcomes.end(), has_faults)) return kDone;
+  return std::any_of(outcomes.begin(), outcomes.end(), has_clips) ? kSomeRejected : kFailed;
 }
 
 }  // namespace veldt

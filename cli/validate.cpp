@@ -14,10 +14,15 @@ namespace {
 
 struct Options {
   std::string what;
+  std::vector<std::string> settings;
   bool json = false;
 };
 
 int validate_dataset(const Options& options) {
+  if (!options.settings.empty()) {
+    throw thermal::ConfigError(
+        thermal::fault("--set", options.settings.front(), "", "a config to check, not a dataset"));
+  }
   const thermal::DatasetCheck check = thermal::validate_dataset(options.what);
   if (options.json) {
     const thermal::Json report = {{"dataset", options.what},
@@ -36,7 +41,7 @@ int validate_dataset(const Options& options) {
 
 int validate_config(const Options& options) {
   const thermal::Path home = thermal::find_home();
-  const thermal::Config config = load_config(options.what, home);
+  const thermal::Config config = load_config(options.what, options.settings, home);
   const auto plan = thermal::plan_dataset(config.resolved, options.what, home);
   int frames = 0;
   int with_actors = 0;
@@ -66,6 +71,7 @@ void add_validate(CLI::App& app, Session& session) {
                   "Check a config (form and meaning) or a dataset (complete, every file as written)");
   auto options = std::make_shared<Options>();
   command->add_option("what", options->what, "A config, or the folder of a dataset")->required();
+  add_settings(command, options->settings);
   command->add_flag("--json", options->json, "Report as JSON");
   command->callback([options, &session] {
     session.run = [options] {

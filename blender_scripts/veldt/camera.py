@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .faults import ConfigError
+
 
 @dataclass(frozen=True)
 class Intrinsics:
@@ -27,6 +29,26 @@ def intrinsics_of(settings: dict) -> Intrinsics:
     """Intrinsics of the config's `camera`: f_px = focal length / pixel pitch."""
     f_px = settings["focal_length_m"] / (settings["pixel_pitch_um"] * 1e-6)
     return Intrinsics(settings["width_px"], settings["height_px"], f_px)
+
+
+def overscan_of(config: dict) -> int:
+    """How many px a config's passes reach beyond the picture on every side, for the lens to draw on.
+
+    ConfigError if the lens distorts and nobody has worked it out: `veldt` does, before it starts Blender.
+    """
+    given_px = config["render"].get("overscan_px")
+    if given_px is None and any(config["camera"]["distortion"].values()):
+        raise ConfigError(
+            "render.overscan_px is missing; expected what camera.distortion needs, which veldt fills in"
+        )
+    return given_px or 0
+
+
+def widened(intrinsics: Intrinsics, overscan_px: int) -> Intrinsics:
+    """The same camera with so many pixels more on every side."""
+    return Intrinsics(
+        intrinsics.width_px + 2 * overscan_px, intrinsics.height_px + 2 * overscan_px, intrinsics.f_px
+    )
 
 
 def look(position_m: np.ndarray, bearing: np.ndarray, depression_rad: np.ndarray) -> np.ndarray:

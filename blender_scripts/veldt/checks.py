@@ -11,6 +11,7 @@ from . import assets
 from .actors import member_names
 from .faults import ConfigError, did_you_mean, listing
 from .flight import Flight
+from .placement import by_area
 from .splines import Loop
 
 _MOST_CELLS = 4000  # a side: 32 million triangles, some 10 GB in Blender
@@ -45,12 +46,21 @@ def check_size(scene: dict) -> None:
             f"scene.terrain.cell_m = {cell_m:g} m; expected at least {size_m / _MOST_CELLS:g} m"
             f" for size_m = {size_m:g} m"
         )
-    for key, per_ha in scene["plants"].items():
-        most_per_ha = _MOST_PLANTS / (size_m**2 / 1e4)
+
+
+def check_plants(scene: dict) -> None:
+    """Every species exists, some of it shall stand somewhere, and all of it fits into memory."""
+    size_m = scene["terrain"]["size_m"]
+    most_per_ha = _MOST_PLANTS / (size_m**2 / 1e4)
+    for name, wanted in scene["plants"].items():
+        known(dict.fromkeys(assets.names("plants")), name, "scene.plants", "a plant")
+        where = f"scene.plants.{name}.per_ha"
+        per_ha = max(by_area(wanted["per_ha"]))
+        if per_ha <= 0:
+            raise ConfigError(f"{where} = {wanted['per_ha']} per ha; expected more than 0 per ha somewhere")
         if per_ha > most_per_ha:
             raise ConfigError(
-                f"scene.plants.{key} = {per_ha:g} per ha; expected at most {most_per_ha:g} per ha"
-                f" for size_m = {size_m:g} m"
+                f"{where} = {per_ha:g} per ha; expected at most {most_per_ha:g} per ha for size_m = {size_m:g} m"
             )
 
 

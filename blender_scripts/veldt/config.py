@@ -14,6 +14,7 @@ from .faults import ConfigError
 
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = ROOT / "configs" / "schema" / "config.schema.json"
+SENSORS = ROOT / "assets" / "sensors"
 
 
 def load(path: Path) -> dict:
@@ -28,9 +29,30 @@ def load(path: Path) -> dict:
 
 
 def resolve(config: dict) -> dict:
-    """A copy of `config` with every default of the schema filled in."""
+    """A copy of `config` with every default filled in: its camera preset's, then the schema's."""
     schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
-    return with_defaults(schema, config)
+    name = config.get("sensor", {}).get(
+        "preset", schema["properties"]["sensor"]["properties"]["preset"]["default"]
+    )
+    try:
+        preset = json.loads((SENSORS / f"{name}.json").read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ConfigError(f'sensor.preset = "{name}"; expected a file of {SENSORS}') from error
+    return with_defaults(schema, merged({key: preset.get(key, {}) for key in ("camera", "sensor")}, config))
+
+
+def merged(below: dict, above: dict) -> dict:
+    """`below` with everything that `above` has instead, objects key by key."""
+    both = {
+        key: merged(below[key], above[key])
+        for key in below.keys() & above.keys()
+        if _are_dicts(below[key], above[key])
+    }
+    return {**below, **above, **both}
+
+
+def _are_dicts(*values) -> bool:
+    return all(isinstance(value, dict) for value in values)
 
 
 def with_defaults(schema: dict, value):

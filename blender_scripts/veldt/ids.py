@@ -25,7 +25,12 @@ def plan_indices(actor_names: Sequence[str]) -> dict[str, int]:
 
 
 def plan_plant_indices(plant_names: Sequence[str]) -> dict[str, int]:
-    """Index of each plant species, counted up from FIRST_PLANT in the order given."""
+    """Index of each plant species, counted up from FIRST_PLANT in the order given; ConfigError past FIRST_ACTOR."""
+    room = FIRST_ACTOR - FIRST_PLANT
+    if len(plant_names) > room:
+        raise ConfigError(
+            f"scene.plants = {len(plant_names)} species; expected at most {room}, one object index each"
+        )
     return {name: FIRST_PLANT + k for k, name in enumerate(plant_names)}
 
 

@@ -34,6 +34,7 @@ def build_manifest(world: World, clip: dict) -> dict:
         "frame_rate_hz": clip["frame_rate_hz"],
         "layer": LAYER,
         "supersample": world.config["render"]["supersample"],
+        "overscan_px": world.overscan_px,
         "camera": _camera(world),
         "objects": _place(world) + _actors(world),
         "materials": [

@@ -11,6 +11,8 @@ from veldt.shapes import Mesh
 
 from . import compat
 
+_TWIN_DEPTH_M = 10000.0
+
 
 def new_material(name: str, index: int) -> bpy.types.Material:
     """A black material, the cheapest there is: only its index is ever looked at."""
@@ -44,6 +46,13 @@ def new_points(name: str, points_m: np.ndarray) -> bpy.types.Mesh:
     data.vertices.add(len(points_m))
     data.vertices.foreach_set("co", points_m.astype(np.float32).ravel())
     return data
+
+
+def add_twin(mesh: bpy.types.Mesh, index: int) -> None:
+    """One more user of a mesh, deep down where no camera ray may meet it."""
+    twin = new_object(f"{mesh.name} twin", mesh, index)
+    twin.location.z = -_TWIN_DEPTH_M
+    twin.visible_camera = False
 
 
 def new_object(

@@ -2,28 +2,86 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import bpy
 import numpy as np
 
+from veldt import assets
+from veldt.flight import Flight
 from veldt.placement import Planting
-from veldt.shapes import Mesh
+from veldt.plant_shapes import build_variants
+from veldt.views import circles_seen
+from veldt.world import World
 
 from . import compat
-from .meshes import new_mesh, new_object, new_points
+from .meshes import add_twin, new_mesh, new_object, new_points
+
+_EVERYWHERE_M = 1e6
 
 
-def add_plants(
-    name: str, planting: Planting, variants: list[Mesh], material: bpy.types.Material, index: int
+@dataclass(frozen=True)
+class Flora:
+    """All plants of a scene: the view that tells which of them are in it, and how far any reaches from its root."""
+
+    view: bpy.types.Object
+    reach_m: float
+
+
+def add_flora(world: World, materials: dict[tuple[str, str], bpy.types.Material]) -> Flora:
+    """Puts all plants of a world into the scene."""
+    view = bpy.data.objects.new("view", None)
+    bpy.context.scene.collection.objects.link(view)
+    reach_m = 0.0
+    for name, planting in world.plantings.items():
+        if len(planting.scale) > 0:
+            data = assets.load("plants", name)
+            variants = _variants(name, data, world.config["seed"], materials[data["material"], ""])
+            _add_species(name, planting, variants, world.plant_indices[name], view)
+            reach_m = max(reach_m, planting.scale.max() * max(_reach_m(mesh) for mesh in variants))
+    return Flora(view, float(reach_m))
+
+
+def animate(flora: Flora, world: World, flight: Flight) -> None:
+    """Keys on frames 0, 1, … which plants are in the scene: those that may be in the picture, and some more.
+
+    Blender goes through all instances there are before each frame, which for a whole savanna takes longer than the
+    picture. So an empty is keyed to the middle and the size of what the camera sees; the node trees look at it.
+    """
+    low_m, high_m = world.terrain.heights_m.min(), world.terrain.heights_m.max() + flora.reach_m
+    circles = circles_seen(world.passes_intrinsics, flight.camera_to_world, low_m, high_m)
+    for frame, ((x_m, y_m), radius_m) in enumerate(zip(*circles)):
+        flora.view.location = x_m, y_m, 0.0
+        flora.view.scale = [min(radius_m + flora.reach_m, _EVERYWHERE_M)] * 3
+        flora.view.keyframe_insert("location", frame=frame)
+        flora.view.keyframe_insert("scale", frame=frame)
+
+
+def _variants(name: str, data: dict, seed: int, material: bpy.types.Material) -> list[bpy.types.Mesh]:
+    """The meshes of a species' variants, at its drawn size and standing at the origin."""
+    return [new_mesh(name, mesh, [material], smooth=False) for mesh in build_variants(name, data, seed)]
+
+
+def _reach_m(mesh: bpy.types.Mesh) -> float:
+    """The largest distance of a mesh's points from its origin."""
+    return max(vertex.co.length for vertex in mesh.vertices)
+
+
+def _add_species(
+    name: str, planting: Planting, variants: list[bpy.types.Mesh], index: int, view: bpy.types.Object
 ) -> None:
     """Puts one species into the scene; instances carry the object index of the variant they copy."""
-    variants_of = bpy.data.collections.new(
-        f"{name} variants"
-    )  # not linked to the scene: only its copies are seen
+    # Not linked to the scene: only copies of it are seen.
+    variants_of = bpy.data.collections.new(f"{name} variants")
     for k, mesh in enumerate(variants):
         # Instances are picked by number from the collection's objects in order of their names.
-        new_object(f"{name} {k:03d}", new_mesh(name, mesh, [material], smooth=False), index, variants_of)
+        new_object(f"{name} {k:03d}", mesh, index, variants_of)
+        # While a mesh has a single user, Cycles moves its points there, and depths differ in their last bits. Two more
+        # users that no camera ray meets keep a plant's the same however many of its kind are in the scene.
+        for _ in range(2):
+            add_twin(mesh, index)
     points = new_object(f"{name} places", _points(name, planting), index)
-    points.modifiers.new("plants", "NODES").node_group = _instancer(name, variants_of)
+    points.modifiers.new("plants", "NODES").node_group = _instancer(name, variants_of, view)
 
 
 def _points(name: str, planting: Planting) -> bpy.types.Mesh:
@@ -39,7 +97,7 @@ def _points(name: str, planting: Planting) -> bpy.types.Mesh:
     return points
 
 
-def _instancer(name: str, variants: bpy.types.Collection) -> bpy.types.NodeTree:
+def _instancer(name: str, variants: bpy.types.Collection, view: bpy.types.Object) -> bpy.types.NodeTree:
     tree = bpy.data.node_groups.new(f"{name} instancer", "GeometryNodeTree")
     compat.new_geometry_socket(tree, "INPUT")
     compat.new_geometry_socket(tree, "OUTPUT")
@@ -51,6 +109,7 @@ def _instancer(name: str, variants: bpy.types.Collection) -> bpy.types.NodeTree:
     place = tree.nodes.new("GeometryNodeInstanceOnPoints")
     place.inputs["Pick Instance"].default_value = True
     tree.links.new(source.outputs["Geometry"], place.inputs["Points"])
+    tree.links.new(_is_in(tree, view), place.inputs["Selection"])
     tree.links.new(copies.outputs[0], place.inputs["Instance"])  # its name differs between versions
     for attribute, kind, socket in (
         ("variant", "INT", "Instance Index"),
@@ -60,6 +119,34 @@ def _instancer(name: str, variants: bpy.types.Collection) -> bpy.types.NodeTree:
         tree.links.new(_attribute(tree, attribute, kind), place.inputs[socket])
     tree.links.new(place.outputs["Instances"], result.inputs["Geometry"])
     return tree
+
+
+def _is_in(tree: bpy.types.NodeTree, view: bpy.types.Object) -> bpy.types.NodeSocket:
+    """Whether a point is above or below the circle of the view."""
+    circle = tree.nodes.new("GeometryNodeObjectInfo")
+    circle.inputs["Object"].default_value = view
+    here = tree.nodes.new("GeometryNodeInputPosition").outputs["Position"]
+    aside = _vector(tree, "SUBTRACT", here, circle.outputs["Location"])
+    level = _vector(tree, "MULTIPLY", aside.outputs["Vector"], (1.0, 1.0, 0.0))
+    distance = _vector(tree, "LENGTH", level.outputs["Vector"]).outputs["Value"]
+    radius = _vector(tree, "DOT_PRODUCT", circle.outputs["Scale"], (1.0, 0.0, 0.0)).outputs["Value"]
+    less = tree.nodes.new("ShaderNodeMath")
+    less.operation = "LESS_THAN"
+    tree.links.new(distance, less.inputs[0])
+    tree.links.new(radius, less.inputs[1])
+    return less.outputs["Value"]
+
+
+def _vector(tree: bpy.types.NodeTree, operation: str, *values) -> bpy.types.Node:
+    """A node of vector mathematics; values are sockets or constants."""
+    node = tree.nodes.new("ShaderNodeVectorMath")
+    node.operation = operation
+    for socket, value in zip(node.inputs, values):
+        if isinstance(value, tuple):
+            socket.default_value = value
+        else:
+            tree.links.new(value, socket)
+    return node
 
 
 def _attribute(tree: bpy.types.NodeTree, name: str, kind: str) -> bpy.types.NodeSocket:

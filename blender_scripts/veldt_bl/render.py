@@ -21,7 +21,7 @@ _PART = "part_"
 def set_up_renderer(intrinsics: Intrinsics, supersample: int) -> None:
     """One ray a pixel, through its centre, and nothing but the passes: indices, depth, normals.
 
-    The picture has supersample x supersample pixels for each of the camera's.
+    The picture has supersample x supersample pixels for each of those of `intrinsics`.
     """
     scene = bpy.context.scene
     render, cycles = scene.render, scene.cycles

@@ -7,19 +7,16 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from veldt import assets, ids
+from veldt import ids
 from veldt.ground import build_ground, plan_cover
-from veldt.plant_shapes import build_variants
 from veldt.shapes import Mesh, facets
 from veldt.terrain import Terrain, Water
 from veldt.world import GRASS, SOIL, WATER, World
 
-from . import actors, camera
-from .meshes import new_material, new_mesh, new_object
-from .plants import add_plants
+from . import actors, camera, plants
+from .meshes import add_twin, new_material, new_mesh, new_object
 
 _SHEET_CORNERS = 64
-_TWIN_DEPTH_M = 10000.0
 
 
 @dataclass(frozen=True)
@@ -29,15 +26,21 @@ class Stage:
     world: World
     camera: bpy.types.Object
     puppets: list[actors.Puppet]
+    flora: plants.Flora
 
     def animate(self, clip: dict) -> None:
         """Replaces all motion by that of a clip, whose first frame is frame 0."""
         flight = self.world.flight(clip)
-        for moving in (self.camera, *(part for p in self.puppets for part in (p.trunk, *p.limbs))):
+        for moving in (
+            self.camera,
+            self.flora.view,
+            *(part for p in self.puppets for part in (p.trunk, *p.limbs)),
+        ):
             moving.animation_data_clear()
         for action in list(bpy.data.actions):
             bpy.data.actions.remove(action)
         camera.animate(self.camera, flight)
+        plants.animate(self.flora, self.world, flight)
         for puppet in self.puppets:
             actors.animate(puppet, self.world.terrain, flight.time_s)
 
@@ -52,13 +55,9 @@ def build_stage(world: World) -> Stage:
     _add_ground(world, materials)
     if world.terrain.water is not None:
         _add_water(world.terrain.water, materials[WATER])
-    for name, planting in world.plantings.items():
-        data = assets.load("plants", name)
-        if len(planting.scale) > 0:
-            variants = build_variants(name, data, world.config["seed"])
-            add_plants(name, planting, variants, materials[data["material"], ""], world.plant_indices[name])
+    flora = plants.add_flora(world, materials)
     puppets = actors.add_actors(world.actors, materials)
-    return Stage(world, camera.add_camera(world.intrinsics), puppets)
+    return Stage(world, camera.add_camera(world.passes_intrinsics), puppets, flora)
 
 
 def _empty_scene() -> None:
@@ -76,9 +75,7 @@ def _add_ground(world: World, materials: dict) -> None:
     new_object("ground", mesh, ids.GROUND)
     # Cycles merges a mesh that only one object uses into the tree it rebuilds each frame, which for the ground takes
     # longer than the picture. A second user, deep down where no camera ray may meet it, keeps the ground's own tree.
-    twin = new_object("ground twin", mesh, ids.GROUND)
-    twin.location.z = -_TWIN_DEPTH_M
-    twin.visible_camera = False
+    add_twin(mesh, ids.GROUND)
 
 
 def _add_water(water: Water, material: bpy.types.Material) -> None:

@@ -6,7 +6,7 @@
 
 #include "imaging/frame_converter.h"
 #include "io/material_files.h"
-#include "sensor/airsim_sensor.h"
+#include "sensor/thermal_camera.h"
 #include "support/catch.h"
 
 using namespace thermal;
@@ -40,12 +40,12 @@ Manifest twelve_objects() {
 }
 
 SensorParameters script_parameters(RadianceModel model) {
-  return {.radiance = model,
-          .normalisation = Normalisation::table_max,
-          .blur_sigma_px = 0,
-          .white_noise_stddev_dn = 0,
-          .flicker_noise_stddev_dn = 0,
-          .fixed_pattern_ratio = 0};
+  SensorParameters parameters;
+  parameters.radiance = model;
+  parameters.optics.blur_sigma_px = 0;
+  parameters.noise.amount = 0;
+  parameters.agc.mode = AgcMode::table_max;
+  return parameters;
 }
 
 /// Counts of Table 1 through the whole chain: manifest, materials, radiance, sensor.
@@ -56,8 +56,8 @@ Counts counts_of(RadianceModel model, Season season) {
   Passes passes;
   passes.object_index = Plane<std::uint16_t>(kRows, 1);
   for (int i = 0; i < kRows; ++i) passes.object_index.at(i, 0) = static_cast<std::uint16_t>(i + 1);
-  AirsimSensor sensor(parameters, {.id = manifest.clip, .width_px = kRows, .height_px = 1, .noise_gain = {}},
-                      converter.brightest_w_m2_sr());
+  ThermalCamera sensor(parameters, {.id = manifest.clip, .width_px = kRows, .height_px = 1, .noise_gain = {}},
+                       converter.brightest_w_m2_sr());
   const SensorFrame frame = sensor.expose(converter.convert(passes).radiance_w_m2_sr);
   Counts counts{};
   for (int i = 0; i < kRows; ++i) counts[static_cast<std::size_t>(i)] = frame.ir8.at(i, 0);

@@ -33,6 +33,17 @@ def plant_triangles(world, name: str) -> np.ndarray:
     return np.concatenate(plants)
 
 
+def covered_m2(triangles_m: np.ndarray, step_m: float = 0.04) -> float:
+    """Ground that triangles (m, 3, 3) hide from straight above, counted in squares of step_m."""
+    flat_m = triangles_m[..., :2]
+    low_m = flat_m.min(axis=(0, 1))
+    squares = np.zeros(np.ceil((flat_m.max(axis=(0, 1)) - low_m) / step_m).astype(int)[::-1] + 1, int)
+    nearness = np.zeros(squares.shape)
+    for corners in (flat_m - low_m) / step_m:
+        _draw_triangle(squares, nearness, 1, corners, np.ones(3))
+    return squares.sum() * step_m**2
+
+
 def draw(world, pose: np.ndarray, triangles: dict[int, np.ndarray], ground_index: int) -> np.ndarray:
     """Object indices (height, width) seen through pixel centres: bodies by index, and the ground at height 0."""
     lens = world.intrinsics

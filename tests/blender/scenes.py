@@ -8,7 +8,7 @@ import configs
 def tiny(change=None) -> dict:
     """The program's small place, denser and flown over at large, defaults filled in after `change` had its way."""
     config = configs.tiny()
-    config["scene"]["plants"] = {"acacia_per_ha": 60, "shrub_per_ha": 200}
+    config["scene"]["plants"] = {"acacia": {"per_ha": 60}, "shrub": {"per_ha": 200}}
     config["scene"]["groups"][0]["count"] = 2
     for clip in config["clips"]:
         clip["frames"] = 3
@@ -26,4 +26,4 @@ def tiny(change=None) -> dict:
 def flat(config: dict) -> None:
     """Makes the place level and bare, so that nothing but actors hides actors."""
     config["scene"]["terrain"].update(relief_m=0, water_radius_m=0)
-    config["scene"]["plants"] = {"acacia_per_ha": 0, "shrub_per_ha": 0}
+    config["scene"]["plants"] = {}

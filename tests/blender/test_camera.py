@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.camera import Intrinsics, intrinsics_of, look, project
+from veldt.camera import Intrinsics, intrinsics_of, look, overscan_of, project, widened
+from veldt.faults import ConfigError
 
 LENS = Intrinsics(640, 512, 1000.0)
 
@@ -39,3 +40,25 @@ def test_points_behind_the_camera_have_no_positive_depth():
     pose = look(np.zeros((1, 3)), np.array([[1.0, 0.0]]), np.array([0.0]))[0]
     _, depth = project(LENS, pose, np.array([[-5.0, 0, 0], [5.0, 0, 0]]))
     assert depth == pytest.approx([-5, 5])
+
+
+def test_a_widened_camera_sees_the_same_with_more_around_it():
+    lens = Intrinsics(641, 512, 1000.0)
+    wide = widened(lens, 7)
+    assert (wide.width_px, wide.height_px) == (655, 526)
+    point = np.array([[3.0, -2.0, 50.0]])
+    shift = project(wide, np.eye(4), point)[0] - project(lens, np.eye(4), point)[0]
+    assert shift == pytest.approx(np.array([[7, 7]]))
+
+
+def test_overscan_is_the_configs_or_none():
+    assert overscan_of(tiny()) == 0
+    assert overscan_of(tiny(lambda config: config.update(render={"overscan_px": 12}))) == 12
+
+
+def test_a_lens_that_distorts_needs_to_know_its_overscan():
+    with pytest.raises(ConfigError) as fault:
+        overscan_of(tiny(lambda config: config["camera"].update(distortion={"p2": -0.001})))
+    assert str(fault.value) == (
+        "render.overscan_px is missing; expected what camera.distortion needs, which veldt fills in"
+    )

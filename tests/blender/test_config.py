@@ -1,4 +1,4 @@
-"""Defaults come from the schema, at every depth, and nowhere else."""
+"""Defaults come from the camera's preset, then from the schema, at every depth, and nowhere else."""
 
 import json
 from pathlib import Path
@@ -31,6 +31,26 @@ def test_resolving_leaves_its_input_alone_and_its_output_as_it_is():
     assert given == {"name": "x", "clips": [CLIP]}
     assert resolve(resolved) == resolved
     jsonschema.validate(resolved, json.loads(SCHEMA.read_text()))
+
+
+def test_a_preset_stands_above_the_defaults_and_below_the_config():
+    config = resolve(
+        {
+            "name": "x",
+            "clips": [CLIP],
+            "camera": {"width_px": 320},
+            "sensor": {"preset": "boson_640_14mm", "noise": {"row_ratio": 0.7}},
+        }
+    )
+    assert (config["camera"]["width_px"], config["camera"]["pixel_pitch_um"]) == (320, 12)
+    noise = config["sensor"]["noise"]
+    assert (noise["row_ratio"], noise["column_ratio"], noise["banding_ratio"]) == (0.7, 0.2, 0)
+
+
+def test_an_unknown_preset_is_a_fault():
+    with pytest.raises(ConfigError) as fault:
+        resolve({"name": "x", "clips": [CLIP], "sensor": {"preset": "bosun"}})
+    assert str(fault.value) == f'sensor.preset = "bosun"; expected a file of {ROOT / "assets" / "sensors"}'
 
 
 def test_demo_config_keeps_to_the_schema():

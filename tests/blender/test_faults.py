@@ -89,8 +89,20 @@ FAULTS = {
         "scene.terrain.cell_m = 0.25 m; expected at least 2.5 m for size_m = 10000 m",
     ),
     "more plants than memory": (
-        lambda config: config["scene"].update(terrain={"size_m": 10000}, plants={"shrub_per_ha": 500}),
-        "scene.plants.shrub_per_ha = 500 per ha; expected at most 200 per ha for size_m = 10000 m",
+        lambda config: config["scene"].update(terrain={"size_m": 10000}, plants={"shrub": {"per_ha": 500}}),
+        "scene.plants.shrub.per_ha = 500 per ha; expected at most 200 per ha for size_m = 10000 m",
+    ),
+    "unknown plant": (
+        _set(("scene", "plants"), {"acaica": {"per_ha": 3}}),
+        'scene.plants = "acaica"; expected a plant: {plants}; did you mean "acacia"?',
+    ),
+    "no plants anywhere": (
+        _set(("scene", "plants"), {"log": {"per_ha": [0, 0, 0]}}),
+        "scene.plants.log.per_ha = [0, 0, 0] per ha; expected more than 0 per ha somewhere",
+    ),
+    "fewer plants than none": (
+        _set(("scene", "plants"), {"log": {"per_ha": -2}}),
+        "scene.plants.log.per_ha = -2 per ha; expected more than 0 per ha somewhere",
     ),
     "path off the terrain": (
         _set(("scene", "paths", "loop", "points_m"), [[61, 0], [0, 30], [-30, 0], [0, -30]]),
@@ -109,11 +121,11 @@ def test_fault(name):
     change, message = FAULTS[name]
     with pytest.raises(ConfigError) as fault:
         plan_world(tiny(change))
-    assert str(fault.value) == message.format(species=", ".join(_species()))
+    assert str(fault.value) == message.format(species=_names("species"), plants=_names("plants"))
 
 
-def _species():
-    return sorted(path.stem for path in (ROOT / "assets" / "species").glob("*.json"))
+def _names(kind):
+    return ", ".join(sorted(path.stem for path in (ROOT / "assets" / kind).glob("*.json")))
 
 
 def test_a_datum_flight_under_the_terrain_is_found():

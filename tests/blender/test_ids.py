@@ -11,6 +11,14 @@ def test_actors_count_up_and_stay_off_the_place():
     assert max(ids.plan_plant_indices(["acacia", "shrub"]).values()) < ids.FIRST_ACTOR
 
 
+def test_plants_have_the_indices_before_the_actors_and_no_more():
+    names = [str(k) for k in range(98)]
+    assert ids.plan_plant_indices(names)["97"] == ids.FIRST_ACTOR - 1
+    with pytest.raises(ConfigError) as fault:
+        ids.plan_plant_indices([*names, "one more"])
+    assert str(fault.value) == "scene.plants = 99 species; expected at most 98, one object index each"
+
+
 def test_the_last_index_is_used_and_no_more():
     names = [str(k) for k in range(32667)]
     assert ids.plan_indices(names)["32666"] == 32767

@@ -60,3 +60,12 @@ def test_a_place_without_water_or_plants_lists_none():
     world = plan_world(tiny(flat))
     classes = {entry["class"] for entry in build_manifest(world, world.config["clips"][0])["objects"]}
     assert classes == {"ground", "actor"}
+
+
+def test_the_camera_is_the_pictures_own_whatever_the_passes_reach():
+    wide = plan_world(tiny(lambda config: config.update(render={"overscan_px": 12, "supersample": 2})))
+    manifest = build_manifest(wide, wide.config["clips"][0])
+    assert (manifest["overscan_px"], manifest["supersample"]) == (12, 2)
+    assert (manifest["camera"]["width_px"], manifest["camera"]["height_px"]) == (96, 80)
+    assert (manifest["camera"]["cx_px"], manifest["camera"]["cy_px"]) == (48, 40)
+    jsonschema.validate(manifest, SCHEMA)

@@ -10,6 +10,7 @@ from program import ROOT
 SCHEMA = json.loads((ROOT / "configs" / "schema" / "config.schema.json").read_text(encoding="utf-8"))
 KEYS = ", ".join(SCHEMA["properties"])
 SPECIES = ", ".join(sorted(file.stem for file in (ROOT / "assets" / "species").glob("*.json")))
+PRESETS = ", ".join(sorted(file.stem for file in (ROOT / "assets" / "sensors").glob("*.json")))
 
 
 def _with(path: str, value):
@@ -51,8 +52,28 @@ FORM = {
         "clips[0].frame_rate_hz = 0 Hz; expected at least 0.1 and at most 240 Hz",
     ),
     "too large": (
-        _with("sensor.blur_sigma_px", 10.5),
-        "sensor.blur_sigma_px = 10.5 px; expected at least 0 and at most 10 px",
+        _with("sensor.optics.blur_sigma_px", 10.5),
+        "sensor.optics.blur_sigma_px = 10.5 px; expected at least 0 and at most 10 px",
+    ),
+    "no plants of a kind": (
+        _with("scene.plants.acacia.per_ha", 0),
+        "scene.plants.acacia.per_ha = 0 per hectare; expected more than 0 and at most 10000 per hectare",
+    ),
+    "fewer plants than none": (
+        _with("scene.plants.acacia.per_ha", [20, -1, 60]),
+        "scene.plants.acacia.per_ha[1] = -1 per hectare; expected at least 0 and at most 10000 per hectare",
+    ),
+    "plants of too few areas": (
+        _with("scene.plants.acacia.per_ha", [20, 60]),
+        "scene.plants.acacia.per_ha = a list of 2; expected 3 entries",
+    ),
+    "plants in words": (
+        _with("scene.plants.acacia.per_ha", "many"),
+        'scene.plants.acacia.per_ha = "many"; expected a number or a list',
+    ),
+    "plants of no number": (
+        _with("scene.plants.acacia", {}),
+        "scene.plants.acacia.per_ha is missing; expected it to be given",
     ),
     "unknown choice": (
         _with("clips.0.season", "wintr"),
@@ -186,3 +207,26 @@ def test_a_good_config_is_summed_up(veldt):
         "frames": 16,
         "frames_with_actors": 16,
     }
+
+
+OUT = ("--out", "out")
+COMMANDS = {"generate": OUT, "render": OUT, "validate": (), "budget": ()}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_setting_is_checked_like_the_config(veldt, command):
+    veldt.write("config.json", tiny())
+    settings = ("--set", "season=summer", "sensor.preset=boson_640_41mm")
+    done = veldt(command, "config.json", *COMMANDS[command], *settings)
+    assert (done.code, done.out) == (2, "")
+    assert done.err == (
+        f'veldt: config.json: sensor.preset = "boson_640_41mm"; expected one of {PRESETS};'
+        ' did you mean "boson_640_14mm"?\n'
+    )
+
+
+def test_settings_change_the_config(veldt):
+    veldt.write("config.json", tiny())
+    done = veldt("validate", "config.json", "--set", "season=summer", "clips[0].frames=3")
+    assert (done.code, done.err) == (0, "")
+    assert done.out == "config.json: 2 clips, 11 frames, 11 with actors in view\n"

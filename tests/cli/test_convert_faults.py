@@ -117,7 +117,7 @@ def test_how_a_run_with_rejected_clips_is_summed_up(veldt):
         passes.write_clip(veldt.folder / clip, clip)
     passes.change_index(veldt.folder / "two", 2, -7)
     done = veldt("convert", "one", "two", "--out", "out", "--progress", "none")
-    assert (done.code, done.out) == (3, "out: 1 clips made, 3 frames; the dataset is not complete yet\n")
+    assert (done.code, done.out) == (3, "out: 1 clip made, 3 frames; the dataset is not complete yet\n")
     assert (
         done.err
         == f"veldt: clip two rejected: two/000002.exr: {passes.OBJECTS} at pixel (3, 2) = -7; {INDEX}\n"
@@ -211,16 +211,16 @@ REQUESTS = {
         '--set = "clips[4].season=summer"; expected an entry of clips, [0] to [0]',
     ),
     "setting of an unknown key": (
-        ["--set", "sensor.blur_sgma_px=1"],
-        '--set: sensor.blur_sgma_px is not a known key; expected one of {sensor}; did you mean "blur_sigma_px"?',
+        ["--set", "sensor.optics.blur_sgma_px=1"],
+        '--set: sensor.optics.blur_sgma_px is not a known key; expected one of {optics}; did you mean "blur_sigma_px"?',
     ),
     "setting of a wrong type": (
-        ["--set", "sensor.blur_sigma_px=wide"],
-        '--set: sensor.blur_sigma_px = "wide"; expected a number',
+        ["--set", "sensor.optics.blur_sigma_px=wide"],
+        '--set: sensor.optics.blur_sigma_px = "wide"; expected a number',
     ),
     "setting out of range": (
-        ["--set", "sensor.blur_sigma_px=-1"],
-        "--set: sensor.blur_sigma_px = -1 px; expected at least 0 and at most 10 px",
+        ["--set", "sensor.optics.blur_sigma_px=-1"],
+        "--set: sensor.optics.blur_sigma_px = -1 px; expected at least 0 and at most 10 px",
     ),
     "unknown season": (
         ["--set", "season=spring"],
@@ -245,8 +245,9 @@ def test_request_that_cannot_be_meant(veldt, name):
         passes.write_clip(veldt.folder / clip, clip)
     veldt.write("config.json", {"name": "x", "clips": [{"id": "ones", "season": "winter", "frames": 3}]})
     schema = veldt.read(ROOT / "configs" / "schema" / "config.schema.json")["properties"]
+    optics = schema["sensor"]["properties"]["optics"]["properties"]
     done = veldt("convert", "one", *options, "--out", "out")
-    assert done.err == f"veldt: {message.format(sensor=', '.join(schema['sensor']['properties']))}\n"
+    assert done.err == f"veldt: {message.format(optics=', '.join(optics))}\n"
     assert (done.code, done.out) == (2, "")
     assert not (veldt.folder / "out").exists()
 
@@ -264,11 +265,13 @@ def test_a_dataset_of_other_settings_is_left_alone(veldt):
     passes.write_clip(veldt.folder / "one")
     assert veldt("convert", "one", "--out", "out", "--quiet").code == 0
     before = {name: (veldt.folder / "out" / name).read_bytes() for name in files_below(veldt.folder / "out")}
-    done = veldt("convert", "one", "--out", "out", "--set", "season=summer", "sensor.blur_sigma_px=0.5")
+    done = veldt(
+        "convert", "one", "--out", "out", "--set", "season=summer", "sensor.optics.blur_sigma_px=0.5"
+    )
     assert (done.code, done.out) == (2, "")
     assert done.err == (
         'veldt: out holds a dataset made from another config: clips[0].season is "summer" here and "winter" there,'
-        " sensor.blur_sigma_px is 0.5 here and 1 there; expected the same config, or another folder\n"
+        " sensor.optics.blur_sigma_px is 0.5 here and 1 there; expected the same config, or another folder\n"
     )
     assert {
         name: (veldt.folder / "out" / name).read_bytes() for name in files_below(veldt.folder / "out")

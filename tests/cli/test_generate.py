@@ -109,11 +109,11 @@ def test_render_makes_passes_that_convert_to_the_same_pixels(veldt, usual):
 def test_a_part_is_made_and_the_rest_later(veldt, usual, parts):
     done = veldt(*_run(veldt, *parts))
     assert (done.code, done.err) == (0, "")
-    assert done.out == f"{veldt.folder}/out: 1 clips made, 8 frames; the dataset is not complete yet\n"
+    assert done.out == f"{veldt.folder}/out: 1 clip made, 8 frames; the dataset is not complete yet\n"
     statuses = {clip["id"]: clip["status"] for clip in veldt.read("out/dataset.json")["clips"]}
     assert statuses == {"down": "pending", "side": "done"}
     assert veldt("validate", "out").out.startswith("out/clips/down: not made yet (status pending)\n")
-    assert veldt(*_run(veldt)).out == f"{veldt.folder}/out: 1 clips made, 8 frames; 1 were there already\n"
+    assert veldt(*_run(veldt)).out == f"{veldt.folder}/out: 1 clip made, 8 frames; 1 was there already\n"
     assert veldt.pixels("out") == usual.pixels("out")
 
 
@@ -175,7 +175,7 @@ def test_asked_to_stop_it_stops_the_renderer_and_goes_on_later(veldt, usual, num
     assert (run.returncode, out) == (128 + number, "")
     assert err == "veldt: stopped on request; the same command goes on from here\n"
     assert not _has_renderer(veldt)
-    assert veldt(*_run(veldt)).out == f"{veldt.folder}/out: 1 clips made, 8 frames; 1 were there already\n"
+    assert veldt(*_run(veldt)).out == f"{veldt.folder}/out: 1 clip made, 8 frames; 1 was there already\n"
     assert veldt.pixels("out") == usual.pixels("out")
 
 

@@ -5,14 +5,14 @@ import re
 import pytest
 
 COMMON = {"--help", "--quiet", "--progress", "--threads"}
-RENDERING = {"--out", "--clips", "--shard", "--blender", "--dry-run"}
+RENDERING = {"--out", "--clips", "--shard", "--blender", "--set", "--dry-run"}
 OPTIONS = {
     "generate": RENDERING | {"--keep-passes"},
     "render": RENDERING,
-    "convert": {"--out", "--manifest", "--config", "--set"},
+    "convert": {"--out", "--manifest", "--config", "--variants", "--set"},
     "inspect": {"--json"},
-    "validate": {"--json"},
-    "budget": {"--json"},
+    "validate": {"--set", "--json"},
+    "budget": {"--set", "--json"},
     "radiance": {
         "--temperature-k",
         "--radiance",

@@ -68,6 +68,12 @@ def test_in_json(veldt, clip):
     assert sum(entry["pixels"] for entry in objects) == SIZE
 
 
+def test_overscan_is_told(veldt, clip):
+    passes.write_manifest(clip, passes.manifest() | {"overscan_px": 2})
+    assert veldt("inspect", "one").out.splitlines()[2] == "  2 of the camera's px on every side are overscan"
+    assert veldt("inspect", "one", "--json").json()["overscan_px"] == 2
+
+
 def test_without_a_manifest(veldt, clip):
     (clip / "manifest.json").unlink()
     report = veldt("inspect", "one", "--json").json()

@@ -55,6 +55,12 @@ DAMAGE = {
 }
 
 
+def test_settings_are_for_configs(veldt, dataset):
+    done = veldt("validate", dataset, "--set", "season=summer")
+    assert (done.code, done.out) == (2, "")
+    assert done.err == "veldt: --set = season=summer; expected a config to check, not a dataset\n"
+
+
 def test_a_whole_dataset_is_valid(veldt, dataset):
     done = veldt("validate", "out")
     # A clip's files: 3 frames of each kind, clip.json, labels.json, frames.jsonl, preview.mp4; then annotations.json.

@@ -15,7 +15,7 @@ WIDTH, HEIGHT = 320, 256
 
 def _apart(config: dict) -> None:
     """Nobody hides anybody: no plants, and groups far from each other. Every group is followed by a clip."""
-    config["scene"]["plants"] = {"acacia_per_ha": 0, "shrub_per_ha": 0}
+    config["scene"]["plants"] = {}
     for k, group in enumerate(config["scene"]["groups"]):
         group.update(start_m=50 * k, spacing_m=6 + 2 * k)
     config["camera"] = {"width_px": WIDTH, "height_px": HEIGHT, "pixel_pitch_um": 30}

@@ -1,4 +1,4 @@
-"""The preset `physical` and supersampling on what a real Blender renders, down to the dataset on disk."""
+"""The model `physical` and supersampling on what a real Blender renders, down to the dataset on disk."""
 
 import struct
 
@@ -8,7 +8,7 @@ from configs import tiny
 
 
 def _physical(config: dict) -> None:
-    config["sensor"] = {"preset": "physical"}
+    config["sensor"] = {"model": "physical", "netd_mk": 40}
     config["render"] = {"supersample": 2}
     for clip in config["clips"]:
         clip["frames"] = 2
@@ -64,7 +64,7 @@ def test_threads_and_conversion_again_change_no_pixel(made):
 def test_terms_change_the_picture(made):
     """Without the sky's reflection, and as the published model has it, the same passes look different."""
     seen = {made.pixels("out")["all"]}
-    for setting in ("terms.sky=off", "sensor.preset=airsim_w"):
+    for setting in ("terms.sky=off", "sensor.model=published"):
         done = made(
             "convert", "out/passes", "--out", setting, "--config", "config.json", "--set", setting, "--quiet"
         )

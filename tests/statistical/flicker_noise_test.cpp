@@ -1,153 +1,165 @@
+#include "sensor/flicker_noise.h"
+
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
-#include "sensor/noise.h"
+#include "base/parallel.h"
+#include "support/cameras.h"
 #include "support/catch.h"
+#include "support/statistics.h"
 
 using namespace thermal;
+using statistics::kSigmas;
 
 namespace {
 
-constexpr double kSigmas = 5;
-constexpr double kTwoPi = 2 * std::numbers::pi;
-
-Plane<float> next_of(FlickerNoise& noise, int width_px, int height_px) {
-  Plane<float> picture(width_px, height_px);
-  noise.add_next(1, picture);
-  return picture;
-}
-
-double mean_square(const Plane<float>& picture) {
+double mean_square(const std::vector<float>& values) {
   double sum = 0;
-  for (const float value : picture.pixels()) sum += static_cast<double>(value) * static_cast<double>(value);
-  return sum / static_cast<double>(picture.size());
+  for (const float value : values) sum += static_cast<double>(value) * static_cast<double>(value);
+  return sum / static_cast<double>(values.size());
 }
 
-/// Periodograms of all pixels, averaged, at chosen frequencies.
-class Spectrum {
- public:
-  Spectrum(std::vector<double> cycles, int frames, std::size_t pixels)
-      : cycles_(std::move(cycles)),
-        frames_(frames),
-        real_(cycles_.size(), std::vector<float>(pixels)),
-        imaginary_(real_) {}
+constexpr double kFrameRate = 60;
+constexpr int kFrames = 16384;
+constexpr std::size_t kPixels = 10240;
 
-  void add(int frame, const Plane<float>& picture) {
-    const auto pixels = picture.pixels();
-    const double window =
-        1 - std::cos(kTwoPi * (frame + 0.5) / frames_);  // Hann's: no leak from low frequencies
-    for (std::size_t k = 0; k < cycles_.size(); ++k) {
-      const double phase_rad = kTwoPi * cycles_[k] * frame / frames_;
-      const auto cosine = static_cast<float>(window * std::cos(phase_rad));
-      const auto sine = static_cast<float>(window * std::sin(phase_rad));
-      for (std::size_t i = 0; i < pixels.size(); ++i) {
-        real_[k][i] += cosine * pixels[i];
-        imaginary_[k][i] += sine * pixels[i];
-      }
+/// Whole cycles of the clip, evenly spread over 0.02 to 20 Hz; windows overlap from 3 cycles on.
+std::vector<double> three_decades() {
+  std::vector<double> cycles;
+  for (int k = 0; k <= 12; ++k) {
+    const double hz = 0.02 * std::pow(10, k / 4.0);
+    const double nearest = std::round(hz * kFrames / kFrameRate);
+    cycles.push_back(k == 0 ? nearest : std::max(nearest, cycles.back() + 3));
+  }
+  return cycles;
+}
+
+/// Mean over pixels of the periodograms of one run, chunk of pixels by chunk of pixels, each through all frames.
+std::vector<double> measured_powers(const FlickerFilter& filter, const std::vector<double>& cycles) {
+  constexpr std::size_t kChunk = 512;
+  FlickerNoise noise(3, "clip", filter, kPixels);
+  std::vector<std::vector<double>> chunks(kPixels / kChunk);
+  parallel_for(kPixels, kChunk, [&](std::size_t begin, std::size_t end) {
+    statistics::Spectrum spectrum(cycles, kFrames, end - begin);
+    std::vector<float> pixels;
+    for (int frame = 0; frame < kFrames; ++frame) {
+      pixels.assign(end - begin, 0);
+      noise.add_next(static_cast<std::uint32_t>(frame), begin, 1, pixels);
+      spectrum.add(frame, pixels);
     }
+    for (std::size_t k = 0; k < cycles.size(); ++k) chunks[begin / kChunk].push_back(spectrum.power(k));
+  });
+  std::vector<double> powers(cycles.size());
+  for (const std::vector<double>& chunk : chunks) {
+    for (std::size_t k = 0; k < powers.size(); ++k) powers[k] += chunk[k] / kPixels;
   }
+  return powers;
+}
 
-  /// In any unit, the same for all frequencies.
-  [[nodiscard]] double power(std::size_t k) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < real_[k].size(); ++i) {
-      sum +=
-          std::pow(static_cast<double>(real_[k][i]), 2) + std::pow(static_cast<double>(imaginary_[k][i]), 2);
-    }
-    return sum / static_cast<double>(real_[k].size());
-  }
-
- private:
-  std::vector<double> cycles_;
-  int frames_;
-  std::vector<std::vector<float>> real_;
-  std::vector<std::vector<float>> imaginary_;
-};
-
-/// Least-squares line through points (x, y): its slope, and how much unit noise on y would make of it.
-struct Line {
-  double slope = 0;
-  double slope_per_noise = 0;
-};
-
-Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
-  double mean = 0;
-  for (const double value : x) mean += value / static_cast<double>(x.size());
-  double spread = 0;
-  double rise = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    spread += (x[i] - mean) * (x[i] - mean);
-    rise += (x[i] - mean) * y[i];
-  }
-  return {.slope = rise / spread, .slope_per_noise = 1 / std::sqrt(spread)};
+/// What the filter's spectrum is through Hann's window: two thirds of it, and a sixth from either side.
+double windowed(const FlickerFilter& filter, double cycles) {
+  const auto density = [&](double at) { return filter.density(at * kFrameRate / kFrames, kFrameRate); };
+  return kFrameRate / 2 * (4 * density(cycles) + density(cycles - 1) + density(cycles + 1)) / 6;
 }
 
 }  // namespace
 
 TEST_CASE("1/f noise is as strong in the first frame as in any later one") {
-  constexpr int kSide = 256;
-  constexpr double kPixels = kSide * kSide;
-  FlickerNoise noise(3, "clip", 9, kSide, kSide);
-  for (int frame = 0; frame <= 500; ++frame) {
-    const Plane<float> picture = next_of(noise, kSide, kSide);
+  constexpr std::size_t kMany = 65536;
+  const FlickerFilter filter = FlickerFilter::design(9);
+  FlickerNoise noise(3, "clip", filter, kMany);
+  for (std::uint32_t frame = 0; frame <= 500; ++frame) {
+    std::vector<float> pixels(kMany);
+    noise.add_next(frame, 0, 2, pixels);
     if (frame > 1 && frame < 499) continue;
     CAPTURE(frame);
-    // Pixels are independent normals of variance 1.
-    CHECK_THAT(mean_square(picture), WithinAbs(1, kSigmas * std::sqrt(2 / kPixels)));
+    // Pixels are independent normals.
+    CHECK_THAT(mean_square(pixels), WithinRel(4 * filter.variance(), kSigmas * std::sqrt(2.0 / kMany)));
   }
 }
 
-TEST_CASE("1/f noise of one pixel says nothing of its neighbour's") {
-  constexpr int kSide = 512;
-  FlickerNoise noise(3, "clip", 9, kSide, kSide);
-  (void)next_of(noise, kSide, kSide);
-  const Plane<float> picture = next_of(noise, kSide, kSide);
-  double across = 0;
-  double down = 0;
-  for (int y = 1; y < kSide; ++y) {
-    for (int x = 1; x < kSide; ++x) {
-      const double here = static_cast<double>(picture.at(x, y));
-      across += here * static_cast<double>(picture.at(x - 1, y));
-      down += here * static_cast<double>(picture.at(x, y - 1));
+TEST_CASE("1/f noise remembers from the first frame on as it does later") {
+  constexpr std::size_t kMany = 65536;
+  const FlickerFilter filter = FlickerFilter::design(9);
+  FlickerNoise noise(4, "clip", filter, kMany);
+  std::array<std::vector<float>, 302> frames;
+  for (std::uint32_t frame = 0; frame < frames.size(); ++frame) {
+    frames[frame].resize(kMany);
+    noise.add_next(frame, 0, 1, frames[frame]);
+  }
+  for (const std::size_t lag : {std::size_t{1}, std::size_t{9}, std::size_t{90}}) {
+    const auto covariance = [&](std::size_t frame) {
+      double sum = 0;
+      for (std::size_t i = 0; i < kMany; ++i) {
+        sum += static_cast<double>(frames[frame][i]) * static_cast<double>(frames[frame + lag][i]);
+      }
+      return sum / kMany;
+    };
+    // Each is a mean of products of normals of that variance: deviation at most sqrt(2 / n) of it, and the two at
+    // most sqrt(2) as much, were they independent.
+    CHECK_THAT(covariance(0) - covariance(200),
+               WithinAbs(0, kSigmas * filter.variance() * 2 / std::sqrt(kMany)));
+  }
+}
+
+TEST_CASE(
+    "The spectrum of 1/f noise falls as 1/f over three decades, from the level of white noise at 1 Hz") {
+  const FlickerFilter filter = FlickerFilter::design(kFrameRate);
+  const std::vector<double> cycles = three_decades();
+  const std::vector<double> powers = measured_powers(filter, cycles);
+  // A periodogram scatters by its own size, averaged over the pixels by this much.
+  const double scatter = 1 / std::sqrt(static_cast<double>(kPixels));
+  std::vector<double> log_frequency;
+  std::vector<double> log_power;
+  for (std::size_t k = 0; k < cycles.size(); ++k) {
+    const double hz = cycles[k] * kFrameRate / kFrames;
+    CAPTURE(hz);
+    CHECK_THAT(powers[k], WithinRel(windowed(filter, cycles[k]), kSigmas * scatter));
+    // White noise of variance 1 has power 1. The filter's ripple is 0.5 dB, 12 %; the window adds up to 1 % at
+    // its 5 lowest cycles: 1 / (3 cycles^2).
+    CHECK_THAT(powers[k] * hz, WithinAbs(1, 0.12 + 0.013 + kSigmas * scatter));
+    log_frequency.push_back(std::log(hz));
+    log_power.push_back(std::log(powers[k]));
+  }
+  const statistics::Line line = statistics::fit_line(log_frequency, log_power);
+  const double by_chance = kSigmas * scatter * line.slope_per_noise;
+  CAPTURE(line.slope, by_chance);
+  CHECK(by_chance < 0.01);
+  CHECK_THAT(line.slope, WithinAbs(-1, 0.03));
+}
+
+TEST_CASE("1/f noise of one pixel says nothing of its neighbours'") {
+  constexpr std::size_t kMany = std::size_t{1} << 18;
+  const FlickerFilter filter = FlickerFilter::design(9);
+  FlickerNoise noise(3, "clip", filter, kMany);
+  for (std::uint32_t frame = 0; frame < 3; ++frame) {
+    std::vector<float> pixels(kMany);
+    noise.add_next(frame, 0, 1, pixels);
+    for (const std::size_t shift : std::array<std::size_t, 6>{1, 16, 64, 256, 512, 16384}) {
+      double sum = 0;
+      for (std::size_t i = shift; i < kMany; ++i) {
+        sum += static_cast<double>(pixels[i]) * static_cast<double>(pixels[i - shift]);
+      }
+      const double pairs = static_cast<double>(kMany - shift);
+      CAPTURE(frame, shift);
+      CHECK_THAT(sum / pairs / filter.variance(), WithinAbs(0, kSigmas / std::sqrt(pairs)));
     }
   }
-  constexpr double kPairs = (kSide - 1.0) * (kSide - 1.0);
-  CHECK_THAT(across / kPairs, WithinAbs(0, kSigmas / std::sqrt(kPairs)));
-  CHECK_THAT(down / kPairs, WithinAbs(0, kSigmas / std::sqrt(kPairs)));
 }
 
-TEST_CASE("The spectrum of 1/f noise falls as 1/f over two decades") {
-  constexpr int kFrames = 8192;
-  constexpr double kFrameRate = 60;
-  constexpr int kWidth = 64;
-  constexpr int kHeight = 32;
-  constexpr double kPixels = kWidth * kHeight;
-  // Whole cycles in the clip, evenly spread over 0.03 to 3 Hz, far enough apart to be independent.
-  std::vector<double> cycles;
-  std::vector<double> decades;
-  for (int k = 0; k <= 20; ++k) {
-    cycles.push_back(std::round(0.03 * std::pow(10, 0.1 * k) * kFrames / kFrameRate) + (k < 4 ? k : 0));
-    decades.push_back(std::log10(cycles.back()));
-  }
-  Spectrum spectrum(cycles, kFrames, static_cast<std::size_t>(kPixels));
-  FlickerNoise noise(3, "clip", kFrameRate, kWidth, kHeight);
-  for (int frame = 0; frame < kFrames; ++frame) spectrum.add(frame, next_of(noise, kWidth, kHeight));
-  std::vector<double> log_power;
-  for (std::size_t k = 0; k < cycles.size(); ++k) log_power.push_back(std::log10(spectrum.power(k)));
-  const Line line = fit_line(decades, log_power);
-
-  // A periodogram scatters by its own size; averaged over the pixels, its logarithm by this much.
-  const double scatter = 1 / (std::numbers::ln10 * std::sqrt(kPixels));
-  const double by_chance = kSigmas * scatter * line.slope_per_noise;
-  // Corners a decade apart leave a ripple of 2 sech(pi^2 / ln 10) = 5.5 % or 0.023 in the logarithm, one period a
-  // decade; over two periods it tilts a line by at most 1.5 / pi of that.
-  const double ripple = 0.023 * 1.5 / std::numbers::pi;
-  // No corner above 10 Hz: at 3 Hz 5 % are missing, 0.022 in the logarithm, ten times less a decade below, which
-  // tilts the line by less than half of it.
-  const double cut = 0.022 / 2;
-  CAPTURE(line.slope, by_chance);
-  CHECK(by_chance < 0.02);
-  CHECK_THAT(line.slope, WithinAbs(-1, by_chance + ripple + cut));
+TEST_CASE("In a camera's picture 1/f noise adds its variance at the knee asked for") {
+  SensorParameters parameters = cameras::perfect_sensor();
+  parameters.noise = {.amount = 1, .flicker_knee_hz = GENERATE(0.25, 2.0)};
+  parameters.netd_mk = 100;
+  constexpr int kSide = 256;
+  ThermalCamera camera = cameras::camera(parameters, {.width_px = kSide, .height_px = kSide});
+  const SensorFrame frame = camera.expose(cameras::uniform_scene(kSide, kSide, 300));
+  double squares_k2 = 0;
+  for (const std::uint16_t count : frame.ir16.pixels()) squares_k2 += std::pow(0.01 * count - 300, 2);
+  const double flicker = parameters.noise.flicker_knee_hz * FlickerFilter::design(9).variance();
+  // White noise of (100 mK)^2 and as much times the filter's variance; rounding to counts adds 1/12 of one squared.
+  // A curve of 1.3 % a kelvin between radiance and temperature changes the variance of 0.3 K by 1e-5.
+  CHECK_THAT(squares_k2 / (kSide * kSide),
+             WithinRel(0.01 * (1 + flicker) + 1e-4 / 12, kSigmas * std::sqrt(2.0) / kSide));
 }

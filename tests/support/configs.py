@@ -20,7 +20,7 @@ _TINY = {
             "water_radius_m": 10,
             "grass_patch_m": 12,
         },
-        "plants": {"acacia_per_ha": 30, "shrub_per_ha": 100},
+        "plants": {"acacia": {"per_ha": 30}, "shrub": {"per_ha": 100}},
         "paths": {"loop": {"points_m": [[28, 0], [0, 28], [-28, 0], [0, -28]]}},
         "groups": [
             {"name": "people", "species": "human", "path": "loop", "count": 3, "spacing_m": 3, "spread_m": 1},

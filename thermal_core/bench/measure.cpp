@@ -32,13 +32,12 @@ void ErrorStatistics::write_to(BenchRow& row) const {
   row.rms_mk = 1e3 * std::sqrt(sum2_k_ / count);
 }
 
-double shortest_run_s(const std::function<void()>& work) {
-  constexpr double kBudget = 0.5;
+double shortest_run_s(const std::function<void()>& work, double budget_s) {
   constexpr int kLeastRuns = 3;
   work();
   double shortest = std::numeric_limits<double>::infinity();
   const auto begin = std::chrono::steady_clock::now();
-  for (int run = 0; run < kLeastRuns || seconds_since(begin) < kBudget; ++run) {
+  for (int run = 0; run < kLeastRuns || seconds_since(begin) < budget_s; ++run) {
     const auto start = std::chrono::steady_clock::now();
     work();
     shortest = std::min(shortest, seconds_since(start));
@@ -46,14 +45,16 @@ double shortest_run_s(const std::function<void()>& work) {
   return shortest;
 }
 
-double memcpy_s(std::size_t bytes) {
+double memcpy_s(std::size_t bytes, double budget_s) {
   const std::vector<char> from(bytes, 1);
   std::vector<char> to(bytes);
-  return shortest_run_s([&] {
-    std::memcpy(to.data(), from.data(), bytes);
-    // The compiler must not see that nobody reads the copy.
-    asm volatile("" : : "r"(to.data()) : "memory");
-  });
+  return shortest_run_s(
+      [&] {
+        std::memcpy(to.data(), from.data(), bytes);
+        // The compiler must not see that nobody reads the copy.
+        asm volatile("" : : "r"(to.data()) : "memory");
+      },
+      budget_s);
 }
 
 void mark_dominated(std::vector<BenchRow>& rows) {

@@ -35,11 +35,11 @@ class ErrorStatistics {
   std::size_t count_ = 0;
 };
 
-/// Shortest of several runs [s], after one to warm up. Runs until half a second is spent, at least three times.
-[[nodiscard]] double shortest_run_s(const std::function<void()>& work);
+/// Shortest of several runs [s], after one to warm up. Runs until the budget is spent, at least three times.
+[[nodiscard]] double shortest_run_s(const std::function<void()>& work, double budget_s = 0.5);
 
 /// Time [s] to copy this many bytes with memcpy, measured now.
-[[nodiscard]] double memcpy_s(std::size_t bytes);
+[[nodiscard]] double memcpy_s(std::size_t bytes, double budget_s = 0.5);
 
 /// Marks rows that another row of their group beats in time and in worst temperature error.
 void mark_dominated(std::vector<BenchRow>& rows);

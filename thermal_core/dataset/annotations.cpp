@@ -38,10 +38,16 @@ std::map<int, std::string> size_classes(const Json& annotations) {
   return classes;
 }
 
+/// What a user projects points of the scene with.
+Json camera_entry(const CameraIntrinsics& camera, const LensDistortion& lens) {
+  return {{"fx_px", camera.fx_px}, {"fy_px", camera.fy_px}, {"cx_px", camera.cx_px}, {"cy_px", camera.cy_px},
+          {"k1", lens.k1},         {"k2", lens.k2},         {"p1", lens.p1},         {"p2", lens.p2}};
+}
+
 }  // namespace
 
-ClipAnnotations::ClipAnnotations(const Manifest& manifest)
-    : manifest_(manifest), objects_(kLargestIndex + 1, nullptr) {
+ClipAnnotations::ClipAnnotations(const Manifest& manifest, const LensDistortion& lens)
+    : manifest_(manifest), lens_(lens), objects_(kLargestIndex + 1, nullptr) {
   for (const ManifestObject& object : manifest.objects) {
     if (object.object_class != ObjectClass::actor) continue;
     objects_[object.index] = &object;
@@ -50,7 +56,7 @@ ClipAnnotations::ClipAnnotations(const Manifest& manifest)
   category_ids_ = number_categories(categories_);
 }
 
-void ClipAnnotations::add_frame(int frame, const std::vector<Instance>& instances) {
+void ClipAnnotations::add_frame(int frame, const std::vector<Instance>& instances, bool frozen) {
   const auto at = static_cast<std::size_t>(frame);
   const CameraIntrinsics& camera = manifest_.camera;
   const int image_id = frame + 1;
@@ -60,7 +66,8 @@ void ClipAnnotations::add_frame(int frame, const std::vector<Instance>& instance
                      {"height", camera.height_px},
                      {"video_id", 1},
                      {"frame_index", frame},
-                     {"time_s", manifest_.frames[at].time_s}});
+                     {"time_s", manifest_.frames[at].time_s},
+                     {"ffc", frozen}});
   for (const Instance& instance : instances) {
     const ManifestObject& actor = *objects_[instance.index];
     const PixelBox& box = instance.box;
@@ -76,7 +83,8 @@ void ClipAnnotations::add_frame(int frame, const std::vector<Instance>& instance
           {{"size", {camera.height_px, camera.width_px}}, {"counts", encode_coco_rle(instance.mask)}}},
          {"iscrowd", 0},
          {"track_id", actor.track_id},
-         {"truncated", instance.truncated}});
+         {"truncated", instance.truncated},
+         {"noisy", frozen}});
   }
 }
 
@@ -93,7 +101,8 @@ Json ClipAnnotations::document() const {
                                    {"width", manifest_.camera.width_px},
                                    {"height", manifest_.camera.height_px},
                                    {"frame_rate_hz", manifest_.frame_rate_hz},
-                                   {"frames", images_.size()}}})},
+                                   {"frames", images_.size()},
+                                   {"camera", camera_entry(manifest_.camera, lens_)}}})},
           {"images", images_},
           {"annotations", annotations}};
 }

@@ -7,6 +7,7 @@
 
 #include "io/json_file.h"
 #include "labels/instances.h"
+#include "scene/lens_distortion.h"
 #include "scene/manifest.h"
 
 namespace thermal {
@@ -15,9 +16,11 @@ namespace thermal {
 /// relative to the clip's folder, one entry in videos.
 class ClipAnnotations {
  public:
-  explicit ClipAnnotations(const Manifest& manifest);
+  /// `lens`: the distortion the labels went through; it is told with the camera, so that users can project.
+  explicit ClipAnnotations(const Manifest& manifest, const LensDistortion& lens = {});
 
-  void add_frame(int frame, const std::vector<Instance>& instances);
+  /// `frozen`: the shutter was closed, and the picture is one of before; what is labelled is where things are now.
+  void add_frame(int frame, const std::vector<Instance>& instances, bool frozen = false);
 
   [[nodiscard]] int count() const noexcept { return static_cast<int>(annotations_.size()); }
 
@@ -27,6 +30,7 @@ class ClipAnnotations {
 
  private:
   const Manifest& manifest_;
+  LensDistortion lens_;
   std::vector<const ManifestObject*> objects_;  ///< by index; null where it is no actor
   std::set<std::string> categories_;
   std::map<std::string, int> category_ids_;

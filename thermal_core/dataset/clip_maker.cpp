@@ -1,65 +1,67 @@
 #include "dataset/clip_maker.h"
 
 #include <array>
-#include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 
 #include "base/error.h"
-#include "dataset/annotations.h"
-#include "imaging/frame_converter.h"
+#include "base/parallel.h"
+#include "dataset/clip_output.h"
 #include "io/exr_passes.h"
-#include "io/png.h"
-#include "io/preview_video.h"
-#include "io/sha256.h"
 #include "scene/camera_geometry.h"
-#include "sensor/airsim_sensor.h"
 
 namespace thermal {
 namespace {
 
 constexpr std::size_t kFramesInFlight = 8;
 
-/// One picture as it was written: sums of its pixels and of its file.
-struct WrittenPicture {
-  std::string pixels_sha256;
-  std::string file_sha256;
-};
-
-/// A frame on its way through the pipeline.
+/// A frame on its way through the pipeline: what each output makes of it.
 struct FrameWork {
-  int frame = 0;
-  SceneFrame scene;
-  SensorFrame pictures;
-  WrittenPicture ir8;
-  WrittenPicture ir16;
+  int number = 0;
+  std::vector<ClipOutput::Frame> frames;
 };
 
-template <typename T>
-WrittenPicture write_picture(const Plane<T>& picture, const Path& file) {
-  const std::vector<std::byte> png = encode_png(picture);
-  write_file(file, png);
-  return {.pixels_sha256 = sha256_of(std::as_bytes(picture.pixels())), .file_sha256 = sha256_of(png)};
+using Outputs = std::vector<ClipOutput>;
+
+Outputs open_outputs(const std::vector<ClipTask>& tasks, const Manifest& manifest,
+                     const MaterialLibrary& materials) {
+  Outputs outputs;
+  outputs.reserve(tasks.size());
+  for (const ClipTask& task : tasks) {
+    try {
+      outputs.emplace_back(task, manifest, materials);
+    } catch (const ConfigError& error) {
+      throw ConfigError(task.variant.empty() ? error.what() : task.variant + ": " + error.what());
+    }
+  }
+  return outputs;
 }
 
-/// Makes one clip: the stages of the pipeline, and what they share.
+PassNeeds needs_of(const Outputs& outputs) {
+  PassNeeds all;
+  for (const ClipOutput& output : outputs) {
+    const PassNeeds needs = output.needs();
+    all = {.depth = all.depth || needs.depth, .normals = all.normals || needs.normals};
+  }
+  return all;
+}
+
+/// Makes one clip for all its tasks: the stages of the pipeline, and what they share.
 class ClipMaker {
  public:
-  ClipMaker(const ClipTask& task, const MaterialLibrary& materials, Path folder, const ClipHooks& hooks)
-      : task_(task),
-        folder_(std::move(folder)),
+  ClipMaker(const ClipPasses& passes, const std::vector<ClipTask>& tasks, const MaterialLibrary& materials,
+            const ClipHooks& hooks)
+      : passes_(passes),
         hooks_(hooks),
-        converter_(task.manifest, materials, task.clip.season, task.sensor, task.physics),
-        sensor_(task.sensor, sensor_clip(task), converter_.brightest_w_m2_sr()),
-        video_(folder_ / "preview.mp4", task.manifest.frame_rate_hz, task.manifest.camera.width_px,
-               task.manifest.camera.height_px),
-        annotations_(task.manifest) {}
+        camera_(passes_camera(passes.manifest)),
+        outputs_(open_outputs(tasks, passes.manifest, materials)),
+        needs_(needs_of(outputs_)) {
+    for (FrameWork& work : in_flight_) work.frames.resize(outputs_.size());
+  }
 
-  ClipRecord make() {
+  std::vector<ClipRecord> make() {
     using tbb::filter_mode;
     const auto enter = tbb::make_filter<void, FrameWork*>(
         filter_mode::serial_in_order, [this](tbb::flow_control& control) { return next(control); });
@@ -72,120 +74,63 @@ class ClipMaker {
     const auto leave = tbb::make_filter<FrameWork*, void>(filter_mode::serial_in_order,
                                                           [this](FrameWork* work) { collect(*work); });
     tbb::parallel_pipeline(kFramesInFlight, enter & reading & exposing & writing & leave);
-    return finish();
+    std::vector<ClipRecord> records;
+    for (ClipOutput& output : outputs_) records.push_back(output.finish());
+    for (const ClipOutput& output : outputs_) output.move_into_place();
+    return records;
   }
 
  private:
-  static AirsimSensor::Clip sensor_clip(const ClipTask& task) {
-    const bool falloff = task.physics && task.physics->terms.falloff;
-    return {.id = task.clip.id,
-            .seed = task.seed,
-            .frame_rate_hz = task.manifest.frame_rate_hz,
-            .width_px = task.manifest.camera.width_px,
-            .height_px = task.manifest.camera.height_px,
-            .noise_gain = falloff ? falloff_noise_gain(task.manifest.camera) : Plane<float>()};
-  }
-
   FrameWork* next(tbb::flow_control& control) {
     if (hooks_.cancelled && hooks_.cancelled()) throw Cancelled();
-    if (next_frame_ == static_cast<int>(task_.manifest.frames.size())) {
+    if (next_frame_ == static_cast<int>(passes_.manifest.frames.size())) {
       control.stop();
       return nullptr;
     }
     if (hooks_.wait_for_frame) hooks_.wait_for_frame(next_frame_);
     FrameWork& work = in_flight_[static_cast<std::size_t>(next_frame_) % kFramesInFlight];
-    work.frame = next_frame_++;
+    work.number = next_frame_++;
     return &work;
   }
 
   FrameWork* read(FrameWork* work) const {
-    const Path file = task_.passes / record_of(*work).file;
-    const CameraIntrinsics& camera = task_.manifest.camera;
-    const int finer = task_.manifest.supersample;
-    const Passes passes = read_passes(file, task_.manifest.layer, camera.width_px * finer,
-                                      camera.height_px * finer, converter_.needs());
+    const Manifest& manifest = passes_.manifest;
+    const Path file = passes_.folder / manifest.frames[static_cast<std::size_t>(work->number)].file;
+    const Passes passes = read_passes(file, manifest.layer, camera_.width_px, camera_.height_px, needs_);
     try {
-      converter_.convert(passes, record_of(*work), work->scene);
+      for (std::size_t i = 0; i < outputs_.size(); ++i)
+        outputs_[i].convert(passes, work->number, work->frames[i]);
     } catch (const DataError& error) {
       throw DataError(fmt::format("{}: {}", file.string(), error.what()));
     }
     return work;
   }
 
+  /// Frames come one by one here: with several outputs, those are what there is to share between cores.
   FrameWork* expose(FrameWork* work) {
-    work->pictures = sensor_.expose(work->scene.radiance_w_m2_sr);
+    parallel_for(outputs_.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) outputs_[i].expose(work->frames[i]);
+    });
     return work;
   }
 
   FrameWork* write(FrameWork* work) const {
-    const std::string name = frame_name(work->frame);
-    work->ir8 = write_picture(work->pictures.ir8, folder_ / "ir8" / name);
-    work->ir16 = write_picture(work->pictures.ir16, folder_ / "ir16" / name);
+    for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i].write(work->number, work->frames[i]);
     return work;
   }
 
   void collect(const FrameWork& work) {
-    video_.add(work.pictures.ir8);
-    annotations_.add_frame(work.frame, work.scene.instances);
-    pixels_.add(work.ir8.pixels_sha256);
-    pixels_.add(work.ir16.pixels_sha256);
-    record_.files["ir8/" + frame_name(work.frame)] = work.ir8.file_sha256;
-    record_.files["ir16/" + frame_name(work.frame)] = work.ir16.file_sha256;
-    frames_jsonl_ += frame_line(work).dump() + "\n";
+    parallel_for(outputs_.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) outputs_[i].collect(work.number, work.frames[i]);
+    });
     if (hooks_.frame_done) hooks_.frame_done();
   }
 
-  Json frame_line(const FrameWork& work) const {
-    const ManifestFrame& frame = record_of(work);
-    Json line = {{"frame_index", work.frame}, {"time_s", frame.time_s}};
-    if (frame.agl_m) line["agl_m"] = *frame.agl_m;
-    if (frame.look_angle_deg) line["look_angle_deg"] = *frame.look_angle_deg;
-    if (frame.camera_to_world) line["camera_to_world"] = *frame.camera_to_world;
-    line["ffc"] = false;
-    line["agc"] = {
-        {"mode", task_.sensor.normalisation == Normalisation::table_max ? "table_max" : "scene_max"},
-        {"brightest_w_m2_sr", converter_.brightest_w_m2_sr()}};
-    line["ir8_sha256"] = work.ir8.pixels_sha256;
-    line["ir16_sha256"] = work.ir16.pixels_sha256;
-    return line;
-  }
-
-  /// Writes what is about the clip as a whole.
-  ClipRecord finish() {
-    { const PreviewVideo closed = std::move(video_); }
-    add_text("labels.json", to_text(annotations_.document()));
-    add_text("frames.jsonl", frames_jsonl_);
-    record_.files["preview.mp4"] = sha256_of(read_file(folder_ / "preview.mp4"));
-    record_.clip = task_.clip.id;
-    record_.season = season_name(task_.clip.season);
-    record_.seed = task_.seed;
-    record_.frames = next_frame_;
-    record_.annotations = annotations_.count();
-    record_.frame_rate_hz = task_.manifest.frame_rate_hz;
-    record_.pixels_sha256 = pixels_.hex();
-    write_file_atomically(folder_ / "clip.json", to_text(to_json(record_)));
-    return record_;
-  }
-
-  void add_text(const std::string& name, const std::string& text) {
-    write_file(folder_ / name, std::as_bytes(std::span(text)));
-    record_.files[name] = sha256_of(text);
-  }
-
-  const ManifestFrame& record_of(const FrameWork& work) const {
-    return task_.manifest.frames[static_cast<std::size_t>(work.frame)];
-  }
-
-  const ClipTask& task_;
-  Path folder_;
+  const ClipPasses& passes_;
   const ClipHooks& hooks_;
-  FrameConverter converter_;
-  AirsimSensor sensor_;
-  PreviewVideo video_;
-  ClipAnnotations annotations_;
-  Sha256 pixels_;
-  ClipRecord record_;
-  std::string frames_jsonl_;
+  CameraIntrinsics camera_;  ///< of the passes
+  Outputs outputs_;
+  PassNeeds needs_;  ///< of all outputs
   /// Frame k is in place k modulo their number. That one is free again when k enters: frames leave in order.
   /// Pointers, because what TBB allocates to pass on larger things, it loses when a stage throws.
   std::array<FrameWork, kFramesInFlight> in_flight_;
@@ -194,18 +139,14 @@ class ClipMaker {
 
 }  // namespace
 
-ClipRecord make_clip(const ClipTask& task, const MaterialLibrary& materials, const Layout& layout,
+std::vector<ClipRecord> make_clips(const ClipPasses& passes, const std::vector<ClipTask>& tasks,
+                                   const MaterialLibrary& materials, const ClipHooks& hooks) {
+  return ClipMaker(passes, tasks, materials, hooks).make();
+}
+
+ClipRecord make_clip(const ClipPasses& passes, const ClipTask& task, const MaterialLibrary& materials,
                      const ClipHooks& hooks) {
-  const Path unfinished = layout.unfinished_clip(task.clip.id);
-  std::filesystem::remove_all(unfinished);
-  make_folder(unfinished / "ir8");
-  make_folder(unfinished / "ir16");
-  ClipRecord record = ClipMaker(task, materials, unfinished, hooks).make();
-  const Path finished = layout.clip(task.clip.id);
-  std::filesystem::remove_all(finished);
-  std::filesystem::rename(unfinished, finished);
-  sync_folder(finished.parent_path());
-  return record;
+  return make_clips(passes, {task}, materials, hooks).front();
 }
 
 }  // namespace thermal

@@ -2,38 +2,55 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "dataset/clip_record.h"
 #include "dataset/layout.h"
 #include "imaging/scene_radiance.h"
 #include "io/config.h"
+#include "scene/lens_distortion.h"
 #include "scene/manifest.h"
 #include "scene/material.h"
 
 namespace thermal {
 
-/// All it takes to turn one clip's passes into frames and labels.
+/// One clip as it was rendered.
+struct ClipPasses {
+  Manifest manifest;
+  Path folder;  ///< of the EXR files
+};
+
+/// What a dataset makes of a clip's passes: all it takes for frames and labels.
 struct ClipTask {
+  std::string variant;  ///< begins faults of what is asked for; empty where only one thing is
   ClipConfig clip;
   std::uint32_t seed = 1;
   SensorParameters sensor;
+  LensDistortion distortion;
   std::optional<PhysicsSettings> physics;  ///< empty: the published model
-  Manifest manifest;
-  Path passes;  ///< folder of the EXR files
+  Layout layout;                           ///< where it goes
 };
 
 /// How the making of a clip talks to whoever asked for it. All may be empty.
 struct ClipHooks {
   std::function<void(int frame)> wait_for_frame;  ///< returns when the frame's passes are whole; may throw
-  std::function<void()> frame_done;
+  std::function<void()> frame_done;               ///< of all tasks
   std::function<bool()> cancelled;
 };
 
-/// Makes clips/<clip> of a dataset: under a temporary name, renamed when whole, so that a clip is there
-/// completely or not at all. Frames are read, labelled and written in parallel and pass the sensor in order;
-/// at most eight are in memory.
-/// DataError or IoError naming the file; Cancelled if asked to stop. Pixels depend on the task alone.
-ClipRecord make_clip(const ClipTask& task, const MaterialLibrary& materials, const Layout& layout,
+/// Makes clips/<clip> of one dataset a task, and reads the passes once for all of them. Each is made under a
+/// temporary name and renamed when whole, so that a clip is there completely or not at all. Frames are read,
+/// labelled and written in parallel and pass the sensor in order; at most eight are in memory. Of 640 x 512 pixels a
+/// task has 18 MB in those, and with its camera's memory and the encoder of its preview about 110 MB; the planes of
+/// frames that are being read come once for all.
+/// DataError or IoError naming the file, and then no task has its clip; ConfigError; Cancelled if asked to stop.
+/// Pixels of a task depend on the passes and that task alone. Returns a record a task, in their order.
+std::vector<ClipRecord> make_clips(const ClipPasses& passes, const std::vector<ClipTask>& tasks,
+                                   const MaterialLibrary& materials, const ClipHooks& hooks);
+
+/// The same for one task.
+ClipRecord make_clip(const ClipPasses& passes, const ClipTask& task, const MaterialLibrary& materials,
                      const ClipHooks& hooks);
 
 }  // namespace thermal

@@ -1,5 +1,8 @@
 #include "dataset/dataset_index.h"
 
+#include <exception>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -22,8 +25,9 @@ void check_same_config(const Layout& layout, const Json& config, const Json& the
                   layout.root.string(), list_names(found, kMost)));
 }
 
-/// Not so if a run ended after it had renamed a clip and before it told of it.
+/// Not so if a run was killed after it had renamed a clip and before it told of it, or before it joined the labels.
 bool is_recorded(const Layout& layout, const DatasetIndex& index, const Json& there) {
+  if (!there.contains("annotations_sha256")) return false;
   for (const Json& clip : there.at("clips")) {
     const bool told = clip.at("status") == "done";
     if (told != index.finished.contains(clip.at("id").get<std::string>())) return false;
@@ -32,20 +36,39 @@ bool is_recorded(const Layout& layout, const DatasetIndex& index, const Json& th
 }
 
 Json clip_entry(const DatasetIndex& index, const std::string& id) {
-  if (const auto done = index.finished.find(id); done != index.finished.end()) {
-    const ClipRecord& record = done->second;
-    return {{"id", id},
-            {"status", "done"},
-            {"season", record.season},
-            {"frames", record.frames},
-            {"annotations", record.annotations},
-            {"pixels_sha256", record.pixels_sha256},
-            {"record_sha256", sha256_of(to_text(to_json(record)))}};
-  }
+  if (const auto done = index.finished.find(id); done != index.finished.end()) return done->second;
   if (const auto why = index.failed.find(id); why != index.failed.end()) {
     return {{"id", id}, {"status", "failed"}, {"reason", why->second}};
   }
   return {{"id", id}, {"status", "pending"}};
+}
+
+/// dataset.json; `annotations_sha256` is empty while annotations.json may lack clips.
+Json document_of(const DatasetIndex& index, const std::string& annotations_sha256) {
+  Json clips = Json::array();
+  int frames = 0;
+  int annotations = 0;
+  Sha256 pixels;
+  for (const std::string& id : index.clips) {
+    clips.push_back(clip_entry(index, id));
+    if (!index.finished.contains(id)) continue;
+    frames += clips.back()["frames"].get<int>();
+    annotations += clips.back()["annotations"].get<int>();
+    pixels.add(clips.back()["pixels_sha256"].get<std::string>());
+  }
+  Json document = {{"format", "veldt-dataset"},
+                   {"version", 1},
+                   {"veldt_version", kVersion},
+                   {"status", index.complete() ? "complete" : "unfinished"},
+                   {"frames", frames},
+                   {"annotations", annotations},
+                   {"pixels_sha256", pixels.hex()}};
+  if (!annotations_sha256.empty()) document["annotations_sha256"] = annotations_sha256;
+  document["kelvin_per_count"] = index.config.at("sensor").at("kelvin_per_count");
+  document["physics"] = to_json(index.budget);
+  document["clips"] = std::move(clips);
+  document["config"] = index.config;
+  return document;
 }
 
 std::string write_annotations(const Layout& layout, const DatasetIndex& index) {
@@ -63,6 +86,16 @@ std::string write_annotations(const Layout& layout, const DatasetIndex& index) {
 
 }  // namespace
 
+void DatasetIndex::add(const std::string& id, const ClipRecord& record) {
+  finished[id] = {{"id", id},
+                  {"status", "done"},
+                  {"season", record.season},
+                  {"frames", record.frames},
+                  {"annotations", record.annotations},
+                  {"pixels_sha256", record.pixels_sha256},
+                  {"record_sha256", sha256_of(to_text(to_json(record)))}};
+}
+
 DatasetIndex open_dataset(const Layout& layout, const Config& config) {
   DatasetIndex index{.config = config.resolved, .budget = {}, .clips = {}, .finished = {}, .failed = {}};
   const bool begun = std::filesystem::exists(layout.dataset_json());
@@ -71,39 +104,26 @@ DatasetIndex open_dataset(const Layout& layout, const Config& config) {
   for (const ClipConfig& clip : config.clips) {
     index.clips.push_back(clip.id);
     const Path record = layout.clip(clip.id) / "clip.json";
-    if (std::filesystem::exists(record)) index.finished.emplace(clip.id, read_clip_record(record));
+    if (std::filesystem::exists(record)) index.add(clip.id, read_clip_record(record));
   }
   index.recorded = begun && is_recorded(layout, index, there);
   return index;
 }
 
+void write_progress(const Layout& layout, const DatasetIndex& index) {
+  write_file_atomically(layout.dataset_json(), to_text(document_of(index, "")));
+}
+
 void write_dataset(const Layout& layout, const DatasetIndex& index) {
-  Json clips = Json::array();
-  int frames = 0;
-  int annotations = 0;
-  Sha256 pixels;
-  for (const std::string& id : index.clips) {
-    clips.push_back(clip_entry(index, id));
-    if (const auto done = index.finished.find(id); done != index.finished.end()) {
-      frames += done->second.frames;
-      annotations += done->second.annotations;
-      pixels.add(done->second.pixels_sha256);
-    }
-  }
   const std::string annotations_sha256 = write_annotations(layout, index);
-  const Json document = {{"format", "veldt-dataset"},
-                         {"version", 1},
-                         {"veldt_version", kVersion},
-                         {"status", index.complete() ? "complete" : "unfinished"},
-                         {"frames", frames},
-                         {"annotations", annotations},
-                         {"pixels_sha256", pixels.hex()},
-                         {"annotations_sha256", annotations_sha256},
-                         {"kelvin_per_count", index.config.at("sensor").at("kelvin_per_count")},
-                         {"physics", to_json(index.budget)},
-                         {"clips", std::move(clips)},
-                         {"config", index.config}};
-  write_file_atomically(layout.dataset_json(), to_text(document));
+  write_file_atomically(layout.dataset_json(), to_text(document_of(index, annotations_sha256)));
+}
+
+void write_dataset_after_fault(const Layout& layout, const DatasetIndex& index) noexcept {
+  try {
+    write_dataset(layout, index);
+  } catch (const std::exception&) {  // the next run finds it not recorded
+  }
 }
 
 }  // namespace thermal

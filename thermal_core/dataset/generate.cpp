@@ -61,7 +61,12 @@ class Generator {
       index_.finished.contains(clip.id) ? outcome_.already_there.push_back(clip.id)
                                         : pending_.push_back(clip);
     }
-    if (!pending_.empty()) make_pending();
+    try {
+      if (!pending_.empty()) make_pending();
+    } catch (...) {
+      write_dataset_after_fault(layout_, index_);
+      throw;
+    }
     if (!pending_.empty() || !index_.recorded) write_dataset(layout_, index_);
     if (!options_.keep_passes) std::filesystem::remove_all(layout_.passes());
     outcome_.complete = index_.complete();
@@ -70,12 +75,12 @@ class Generator {
 
  private:
   void make_pending() {
-    write_dataset(layout_, index_);  // from here on the folder belongs to this config
+    write_progress(layout_, index_);  // from here on the folder belongs to this config
     progress_.frames_total = frames_of(pending_);
     RenderJob job(render_task(config_, options_, layout_, pending_));
     for (const ClipConfig& clip : pending_) {
       make(clip, job);
-      write_dataset(layout_, index_);
+      write_progress(layout_, index_);
     }
     job.wait_for_end(hooks_.cancelled);
   }
@@ -84,13 +89,16 @@ class Generator {
     progress_.clip = clip.id;
     hooks_.report(progress_);
     job.wait_for_frame(clip.id, -1, hooks_.cancelled);
-    const Path passes = layout_.passes(clip.id);
-    const ClipTask task = {.clip = clip,
+    const Path folder = layout_.passes(clip.id);
+    const ClipPasses passes = {.manifest = read_manifest(folder / "manifest.json", options_.home),
+                               .folder = folder};
+    const ClipTask task = {.variant = "",
+                           .clip = clip,
                            .seed = config_.seed,
                            .sensor = config_.sensor,
+                           .distortion = config_.distortion,
                            .physics = physics_of(config_, clip, index_.budget.kept),
-                           .manifest = read_manifest(passes / "manifest.json", options_.home),
-                           .passes = passes};
+                           .layout = layout_};
     const ClipHooks clip_hooks = {
         .wait_for_frame = [&](int frame) { job.wait_for_frame(clip.id, frame, hooks_.cancelled); },
         .frame_done =
@@ -99,10 +107,10 @@ class Generator {
               hooks_.report(progress_);
             },
         .cancelled = hooks_.cancelled};
-    index_.finished[clip.id] = make_clip(task, materials_, layout_, clip_hooks);
+    index_.add(clip.id, make_clip(passes, task, materials_, clip_hooks));
     outcome_.made.push_back(clip.id);
     outcome_.frames_made += clip.frames;
-    if (!options_.keep_passes) std::filesystem::remove_all(passes);
+    if (!options_.keep_passes) std::filesystem::remove_all(folder);
   }
 
   const Config& config_;

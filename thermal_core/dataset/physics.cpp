@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -14,8 +16,6 @@ namespace {
 
 constexpr double kActorShare = 0.03;
 constexpr double kSquareMetresPerHectare = 1e4;
-constexpr double kCrownM2 = 50;   // an umbrella acacia's, 8 m across
-constexpr double kShrubM2 = 0.8;  // 1 m across
 
 /// Rays over the picture: a grid of five by five.
 std::vector<SceneOutline::Look> looks_from(double height_m, double look_angle_rad, double half_width,
@@ -70,23 +70,47 @@ void add_actors(const std::set<std::string>& names, const MaterialLibrary& mater
   }
 }
 
-void add_ground(const Json& scene, const MaterialLibrary& materials, SceneOutline& outline) {
+struct Cover {
+  std::string material;
+  double crown_m2;
+  double share;  ///< of the ground under it, if nothing taller hides it
+};
+
+/// Plants an area or, of three areas, a mean one; they cover about as much each.
+double mean_per_ha(const Json& per_ha) {
+  if (!per_ha.is_array()) return per_ha;
+  const auto areas = per_ha.get<std::vector<double>>();
+  return std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
+}
+
+/// What the plants of `scene.plants` cover, the widest and so tallest first.
+std::vector<Cover> plant_covers(const Json& plants, const Path& home) {
+  std::vector<Cover> covers;
+  for (const auto& [name, wanted] : plants.items()) {
+    const Json plant = read_json(home / "assets" / "plants" / (name + ".json"));
+    const double crown_m2 = plant.at("cover_m2");
+    const double share = mean_per_ha(wanted["per_ha"]) * crown_m2 / kSquareMetresPerHectare;
+    covers.push_back({plant.at("material"), crown_m2, std::min(0.9, share)});
+  }
+  std::ranges::stable_sort(covers, std::ranges::greater(), &Cover::crown_m2);
+  return covers;
+}
+
+void add_ground(const Json& scene, const MaterialLibrary& materials, const Path& home,
+                SceneOutline& outline) {
   const Json& terrain = scene["terrain"];
-  const Json& plants = scene["plants"];
   const double size_m = terrain["size_m"];
   const double radius_m = terrain["water_radius_m"];
   const double water = std::min(0.9, std::numbers::pi * radius_m * radius_m / (size_m * size_m));
-  const double acacia =
-      std::min(0.9, plants["acacia_per_ha"].get<double>() * kCrownM2 / kSquareMetresPerHectare);
-  const double shrub =
-      std::min(0.9, plants["shrub_per_ha"].get<double>() * kShrubM2 / kSquareMetresPerHectare);
-  const double open = (1 - water) * (1 - acacia) * (1 - shrub);
+  std::map<std::string, double> shares = {{"water", water}};
+  double open = 1 - water;
+  for (const Cover& cover : plant_covers(scene["plants"], home)) {
+    shares[cover.material] += open * cover.share;
+    open *= 1 - cover.share;
+  }
   const double grass = terrain["grass_fraction"];
-  const std::map<std::string, double> shares = {{"soil", open * (1 - grass)},
-                                                {"grass", open * grass},
-                                                {"water", water},
-                                                {"acacia", (1 - water) * acacia},
-                                                {"shrub", (1 - water) * (1 - acacia) * shrub}};
+  shares["soil"] += open * (1 - grass);
+  shares["grass"] += open * grass;
   for (const auto& [name, share] : shares) {
     if (share > 0) outline.covers.push_back({.material = &materials.find(name, "scene"), .share = share});
   }
@@ -101,7 +125,7 @@ SceneOutline empty_outline(const Config& config) {
 SceneOutline outline_of(const Config& config, const MaterialLibrary& materials, const Path& home) {
   SceneOutline outline = empty_outline(config);
   const Json& document = config.resolved;
-  add_ground(document["scene"], materials, outline);
+  add_ground(document["scene"], materials, home, outline);
   std::set<std::string> actors;
   for (const Json& group : document["scene"]["groups"]) {
     const Path species = home / "assets" / "species" / (group["species"].get<std::string>() + ".json");

@@ -4,9 +4,11 @@
 #include <optional>
 #include <vector>
 
+#include "imaging/resample.h"
 #include "imaging/scene_radiance.h"
 #include "labels/instances.h"
-#include "sensor/airsim_sensor.h"
+#include "scene/lens_distortion.h"
+#include "sensor/sensor_parameters.h"
 
 namespace thermal {
 
@@ -19,17 +21,19 @@ struct SceneFrame {
 /// The part of a frame's conversion that depends on that frame alone.
 class FrameConverter {
  public:
-  /// `physics` empty: the published model with the season's temperatures.
-  /// ConfigError if the manifest names an unknown material.
+  /// `physics` empty: the published model with the season's temperatures. `lens` is what the camera's lens does to
+  /// the pinhole's picture that the passes are.
+  /// ConfigError if the manifest names an unknown material, or its passes reach less far than the lens needs.
   FrameConverter(const Manifest& manifest, const MaterialLibrary& materials, Season season,
-                 const SensorParameters& parameters, const std::optional<PhysicsSettings>& physics = {});
+                 const SensorParameters& parameters, const std::optional<PhysicsSettings>& physics = {},
+                 const LensDistortion& lens = {});
 
   /// Planes that convert() wants beside the object index.
   [[nodiscard]] PassNeeds needs() const noexcept { return scene_radiance_.needs(); }
 
-  /// Passes of one frame, `supersample` times finer than the camera where the manifest says so: physics first,
-  /// means of radiance after. DataError if they hold an index the manifest lacks. Safe to call from several
-  /// threads.
+  /// Passes of one frame, `supersample` times finer than the camera and with overscan where the manifest says so:
+  /// physics first, then means of radiance, then the lens. Labels go through the lens with the radiance.
+  /// DataError if the passes hold an index the manifest lacks. Safe to call from several threads.
   [[nodiscard]] SceneFrame convert(const Passes& passes, const ManifestFrame& frame = {}) const;
 
   /// The same into a frame whose memory is used again.
@@ -39,7 +43,10 @@ class FrameConverter {
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
 
  private:
+  void convert_reshaped(const Passes& passes, const ManifestFrame& frame, SceneFrame& out) const;
+
   int supersample_;
+  std::optional<ResampleMap> map_;  ///< empty: the passes show the camera's picture as it is
   SceneRadiance scene_radiance_;
   float brightest_w_m2_sr_;
   std::vector<std::uint16_t> actor_indices_;

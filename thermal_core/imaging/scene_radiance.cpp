@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "imaging/supersample.h"
+#include "scene/camera_geometry.h"
 
 namespace thermal {
 namespace {
@@ -58,7 +58,7 @@ SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& ma
 SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials,
                              const PhysicsSettings& settings)
     : map_(manifest, materials) {
-  held_->rays = std::make_unique<CameraRays>(finer(manifest.camera, manifest.supersample));
+  held_->rays = std::make_unique<CameraRays>(passes_camera(manifest));
   for (const Surface& surface : map_.surfaces()) add_optics(surface, settings);
   compose(settings);
   if (needs_.depth || needs_.normals) require_poses(manifest);

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <vector>
 
+#include "scene/manifest.h"
+
 namespace thermal {
 
 Plane<float> block_means(const Plane<float>& fine, int factor) {
@@ -45,15 +47,6 @@ Plane<std::uint16_t> block_actors(const Plane<std::uint16_t>& fine, int factor,
     }
   }
   return coarse;
-}
-
-CameraIntrinsics finer(const CameraIntrinsics& camera, int factor) noexcept {
-  return {.width_px = camera.width_px * factor,
-          .height_px = camera.height_px * factor,
-          .fx_px = camera.fx_px * factor,
-          .fy_px = camera.fy_px * factor,
-          .cx_px = camera.cx_px * factor,
-          .cy_px = camera.cy_px * factor};
 }
 
 }  // namespace thermal

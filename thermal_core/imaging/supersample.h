@@ -4,7 +4,6 @@
 #include <span>
 
 #include "base/image.h"
-#include "scene/manifest.h"
 
 namespace thermal {
 
@@ -15,8 +14,5 @@ namespace thermal {
 /// else 0. Two actors that cover half each: the lower index.
 [[nodiscard]] Plane<std::uint16_t> block_actors(const Plane<std::uint16_t>& fine, int factor,
                                                 std::span<const std::uint16_t> actor_indices);
-
-/// The camera whose pixels are `factor` times finer.
-[[nodiscard]] CameraIntrinsics finer(const CameraIntrinsics& camera, int factor) noexcept;
 
 }  // namespace thermal

@@ -9,38 +9,13 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/json_schema.h"
-#include "io/spectrum_files.h"
+#include "io/lens_config.h"
+#include "io/sensor_config.h"
 
 namespace thermal {
 namespace {
 
-/// A response curve of assets/responses by name.
-SpectralResponse find_response(const std::string& response, const std::string& name, const Path& home) {
-  const Path folder = home / "assets" / "responses";
-  std::vector<std::string> known;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    known.push_back(entry.path().stem().string());
-  std::sort(known.begin(), known.end());
-  if (std::binary_search(known.begin(), known.end(), response))
-    return read_response(folder / (response + ".csv"));
-  throw ConfigError(
-      fault(name + ": sensor.response", fmt::format("\"{}\"", response), "", "one of " + list_names(known)) +
-      did_you_mean(response, known));
-}
-
-SensorParameters read_sensor(const Json& json, const std::string& name, const Path& home) {
-  return {.response = find_response(json["response"], name, home),
-          .radiance = json["radiance"] == "script" ? RadianceModel::script : RadianceModel::exact,
-          .normalisation =
-              json["normalisation"] == "table_max" ? Normalisation::table_max : Normalisation::scene_max,
-          .blur_sigma_px = json["blur_sigma_px"],
-          .white_noise_stddev_dn = json["white_noise_stddev_dn"],
-          .flicker_noise_stddev_dn = json["flicker_noise_stddev_dn"],
-          .fixed_pattern_ratio = json["fixed_pattern_ratio"],
-          .kelvin_per_count = json["kelvin_per_count"]};
-}
-
-/// `otherwise` is the preset's choice for terms the config says nothing of.
+/// `otherwise` is the model's choice for terms the config says nothing of.
 TermChoices read_terms(const Json& json, TermChoice otherwise) {
   TermChoices choices;
   for (const TermInfo& term : kTerms) {
@@ -151,6 +126,7 @@ void apply_setting(Json& document, const std::string& assignment) {
 
 Config resolve_config(Json document, const std::string& name, const Path& home) {
   const Json schema = read_json(home / "configs" / "schema" / "config.schema.json");
+  apply_preset(document, schema, name, home);
   std::vector<std::string> faults = check_and_fill(document, schema);
   throw_faults(faults, name);
   Config config;
@@ -158,17 +134,20 @@ Config resolve_config(Json document, const std::string& name, const Path& home) 
   config.seed = document["seed"];
   config.width_px = document["camera"]["width_px"];
   config.height_px = document["camera"]["height_px"];
-  config.sensor = read_sensor(document["sensor"], name, home);
-  config.physical = document["sensor"]["preset"] == "physical";
+  config.distortion = read_distortion(document["camera"]["distortion"]);
+  config.sensor = read_sensor(document, name, home);
+  config.physical = document["sensor"]["model"] == "physical";
   config.terms = read_terms(document["terms"], config.physical ? TermChoice::automatic : TermChoice::off);
-  config.netd_k = 1e-3 * document["sensor"]["netd_mk"].get<double>();
+  config.netd_k = config.sensor.netd_k();
   config.air_temperature_k = read_optional(document["weather"], "air_temperature_k");
   config.relative_humidity = read_optional(document["weather"], "relative_humidity");
   config.cloud_fraction = read_optional(document["weather"], "cloud_fraction");
   config.vehicle_stopped_s = document["weather"]["vehicle_stopped_s"];
   for (const Json& clip : document["clips"]) config.clips.push_back(read_clip(clip));
   check_ids(config.clips, faults);
+  fill_overscan(document, faults);
   throw_faults(faults, name);
+  config.overscan_px = document["render"]["overscan_px"];
   document.erase("$schema");
   config.resolved = std::move(document);
   return config;

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "io/json_file.h"
+#include "scene/lens_distortion.h"
 #include "scene/season.h"
 #include "scene/terms.h"
 #include "scene/weather.h"
-#include "sensor/airsim_sensor.h"
+#include "sensor/sensor_parameters.h"
 
 namespace thermal {
 
@@ -26,8 +27,10 @@ struct Config {
   std::uint32_t seed = 1;
   int width_px = 640;
   int height_px = 512;
+  LensDistortion distortion;
+  int overscan_px = 0;  ///< what the passes reach beyond the picture on every side
   SensorParameters sensor;
-  bool physical = false;  ///< preset physical: every term the scene needs; else the published model
+  bool physical = false;  ///< every term the scene needs; else the published model
   TermChoices terms;
   double netd_k = 0.04;
   std::optional<double> air_temperature_k;  ///< instead of the season's

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 /// Indented by two, newline at the end.
 [[nodiscard]] std::string to_text(const Json& json);
 
-/// Each place where two documents differ: "sensor.blur_sigma_px is 1 here and 2 there".
+/// Each place where two documents differ: "sensor.netd_mk is 40 here and 50 there".
 [[nodiscard]] std::vector<std::string> differences(const Json& here, const Json& there);
 
 }  // namespace thermal

@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kUnits = {
     {{"_w_m2_sr", "W m^-2 sr^-1"},
      {"_m_s", "m/s"},
-     {"_per_ha", "per hectare"},
+     {"per_ha", "per hectare"},
      {"_kelvin", "K"},
      {"_um", "um"},
      {"_hz", "Hz"},
@@ -82,23 +82,24 @@ class Checker {
   }
 
   bool has_type(const Json& value, const Json& schema) {
-    const auto type = schema.value("type", std::string());
-    if (type.empty()) return true;
-    static const std::array<std::pair<std::string_view, std::string_view>, 6> kWords = {
-        {{"object", "an object"},
-         {"array", "a list"},
-         {"string", "a string"},
-         {"integer", "a whole number"},
-         {"number", "a number"},
-         {"boolean", "true or false"}}};
-    const bool fits = (type == "object" && value.is_object()) || (type == "array" && value.is_array()) ||
-                      (type == "string" && value.is_string()) || (type == "integer" && is_whole(value)) ||
-                      (type == "number" && value.is_number()) || (type == "boolean" && value.is_boolean());
-    if (fits) return true;
-    for (const auto& [name, words] : kWords) {
-      if (name == type) add(value, std::string(words));
+    static const std::map<std::string_view, std::string_view> kWords = {
+        {"object", "an object"},       {"array", "a list"},    {"string", "a string"},
+        {"integer", "a whole number"}, {"number", "a number"}, {"boolean", "true or false"}};
+    if (!schema.contains("type")) return true;
+    std::vector<std::string_view> words;
+    const Json types = schema["type"].is_array() ? schema["type"] : Json::array({schema["type"]});
+    for (const auto& type : types.get<std::vector<std::string>>()) {
+      if (is_of_type(value, type)) return true;
+      words.push_back(kWords.at(type));
     }
+    add(value, fmt::format("{}", fmt::join(words, " or ")));
     return false;
+  }
+
+  static bool is_of_type(const Json& value, std::string_view type) {
+    return (type == "object" && value.is_object()) || (type == "array" && value.is_array()) ||
+           (type == "string" && value.is_string()) || (type == "integer" && is_whole(value)) ||
+           (type == "number" && value.is_number()) || (type == "boolean" && value.is_boolean());
   }
 
   static bool is_whole(const Json& value) {

@@ -68,6 +68,7 @@ Manifest read_document(const Json& json) {
   manifest.frame_rate_hz = json["frame_rate_hz"];
   manifest.layer = json["layer"];
   manifest.supersample = json["supersample"];
+  manifest.overscan_px = json["overscan_px"];
   manifest.camera = read_camera(json["camera"]);
   for (const Json& object : json["objects"]) manifest.objects.push_back(read_object(object));
   for (const Json& material : json["materials"]) manifest.materials.push_back(read_material(material));

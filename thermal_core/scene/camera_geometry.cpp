@@ -4,6 +4,24 @@
 
 namespace thermal {
 
+CameraIntrinsics finer(const CameraIntrinsics& camera, int factor) noexcept {
+  return {.width_px = camera.width_px * factor,
+          .height_px = camera.height_px * factor,
+          .fx_px = camera.fx_px * factor,
+          .fy_px = camera.fy_px * factor,
+          .cx_px = camera.cx_px * factor,
+          .cy_px = camera.cy_px * factor};
+}
+
+CameraIntrinsics passes_camera(const Manifest& manifest) noexcept {
+  CameraIntrinsics wider = manifest.camera;
+  wider.width_px += 2 * manifest.overscan_px;
+  wider.height_px += 2 * manifest.overscan_px;
+  wider.cx_px += manifest.overscan_px;
+  wider.cy_px += manifest.overscan_px;
+  return finer(wider, manifest.supersample);
+}
+
 CameraRays::CameraRays(const CameraIntrinsics& camera)
     : length_(camera.width_px, camera.height_px), pixel_width_(static_cast<float>(1 / camera.fx_px)) {
   for (int x = 0; x < camera.width_px; ++x) {

@@ -9,6 +9,12 @@
 
 namespace thermal {
 
+/// The camera whose pixels are `factor` times finer.
+[[nodiscard]] CameraIntrinsics finer(const CameraIntrinsics& camera, int factor) noexcept;
+
+/// The pinhole camera that the passes are a picture of: the manifest's, with overscan and supersampling.
+[[nodiscard]] CameraIntrinsics passes_camera(const Manifest& manifest) noexcept;
+
 /// The rays of a camera, the same for all its frames.
 class CameraRays {
  public:

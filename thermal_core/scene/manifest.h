@@ -69,6 +69,7 @@ struct Manifest {
   std::string layer;  ///< EXR layer; empty: the only one
   CameraIntrinsics camera;
   int supersample = 1;  ///< the passes have this many pixels for each of the camera's, each way
+  int overscan_px = 0;  ///< and so many of the camera's pixels more on every side
   std::vector<ManifestObject> objects;
   std::vector<ManifestMaterial> materials;
   std::vector<ManifestFrame> frames;

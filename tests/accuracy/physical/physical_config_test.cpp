@@ -9,9 +9,9 @@ using namespace thermal;
 
 namespace {
 
-/// The smallest config of the physical preset, with some keys set as `--set` does.
+/// The smallest config of the physical model, with some keys set as `--set` does.
 Config config_with(const std::vector<std::string>& settings) {
-  Json document = parse_json(R"({"name": "test", "sensor": {"preset": "physical"},
+  Json document = parse_json(R"({"name": "test", "sensor": {"model": "physical", "netd_mk": 40},
                                  "clips": [{"id": "a", "season": "winter", "frames": 1}]})",
                              "test.json");
   for (const std::string& setting : settings) apply_setting(document, setting);
@@ -30,18 +30,18 @@ std::vector<TermChoice> choices(const Config& config) {
 
 }  // namespace
 
-TEST_CASE("The physical preset leaves every term to the budget, the published one drops them all") {
+TEST_CASE("The physical model leaves every term to the budget, the published one drops them all") {
   CHECK(config_with({}).physical);
   CHECK(choices(config_with({})) == std::vector(std::size(kTerms), TermChoice::automatic));
-  const Config published = config_with({"sensor.preset=airsim_w"});
+  const Config published = config_with({"sensor.model=published"});
   CHECK_FALSE(published.physical);
   CHECK(choices(published) == std::vector(std::size(kTerms), TermChoice::off));
 }
 
-TEST_CASE("A choice stands against the preset's") {
-  for (const char* preset : {"physical", "airsim_w"}) {
+TEST_CASE("A choice stands against the model's") {
+  for (const char* model : {"physical", "published"}) {
     const Config config = config_with(
-        {std::string("sensor.preset=") + preset, "terms.sky=on", "terms.path=off", "terms.parts=auto"});
+        {std::string("sensor.model=") + model, "terms.sky=on", "terms.path=off", "terms.parts=auto"});
     CHECK(config.terms.sky == TermChoice::on);
     CHECK(config.terms.path == TermChoice::off);
     CHECK(config.terms.parts == TermChoice::automatic);
@@ -113,7 +113,7 @@ TEST_CASE(
   CHECK(physics->weather.air.temperature_k == 281.5);
   CHECK(physics->response.end_um() == 15);
   CHECK(physics->seed == 9);
-  const Config published = config_with({"sensor.preset=airsim_w"});
+  const Config published = config_with({"sensor.model=published"});
   CHECK_FALSE(physics_of(published, published.clips[0], kept));
 }
 

@@ -102,17 +102,6 @@ TEST_CASE("Blocks are labelled where they are") {
   CHECK(block_actors(fine, 2, kActors) == plane_of<std::uint16_t>(2, {0, kBen, kAnna, 0}));
 }
 
-TEST_CASE("A finer camera sees the same field with more pixels") {
-  const CameraIntrinsics camera = {640, 512, 764.5, 765.5, 320.25, 256};
-  const CameraIntrinsics fine = finer(camera, 4);
-  CHECK(fine.width_px == 2560);
-  CHECK(fine.height_px == 2048);
-  CHECK(fine.fx_px == 4 * 764.5);
-  CHECK(fine.fy_px == 4 * 765.5);
-  CHECK(fine.cx_px == 1281);
-  CHECK(fine.cy_px == 1024);
-}
-
 TEST_CASE(
     "A pixel that is half person, half soil has the mean of their radiances, not of their temperatures") {
   const Plane<float> mixed = convert(8, person_over(4)).radiance_w_m2_sr;

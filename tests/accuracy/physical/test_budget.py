@@ -9,7 +9,7 @@ THIRD_OF_NETD_MK = 40 / 3
 
 
 def _physical(config):
-    config["sensor"] = {"preset": "physical"}
+    config["sensor"] = {"model": "physical", "netd_mk": 40}
 
 
 def _budget(veldt, change=_physical):
@@ -37,7 +37,7 @@ def test_a_term_is_kept_where_it_spreads_by_more_than_a_third_of_the_netd(veldt)
 
 def test_a_worse_camera_needs_fewer_terms(veldt):
     def blunt(config):
-        config["sensor"] = {"preset": "physical", "netd_mk": 10000}
+        config["sensor"] = {"model": "physical", "netd_mk": 10000}
 
     sharp, _ = _budget(veldt)
     dull, _ = _budget(veldt, blunt)

@@ -20,8 +20,7 @@ Manifest manifest() {
   Manifest result;
   result.clip = "night_1";
   result.frame_rate_hz = 5;
-  result.camera.width_px = 10;
-  result.camera.height_px = 8;
+  result.camera = {.width_px = 10, .height_px = 8, .fx_px = 11.5, .fy_px = 12.5, .cx_px = 5, .cy_px = 4};
   result.objects = {actor(3, "human", 21), actor(4, "antelope", 22)};
   result.frames.resize(2);
   result.frames[1].time_s = 0.2;
@@ -36,7 +35,7 @@ Instance instance(std::uint16_t index, int width_px, int height_px) {
 
 Json document_of(const std::vector<std::vector<Instance>>& frames) {
   const Manifest used = manifest();
-  ClipAnnotations annotations(used);
+  ClipAnnotations annotations(used, {.k1 = -0.5, .k2 = 0.25, .p1 = 0.125});
   for (std::size_t i = 0; i < frames.size(); ++i) annotations.add_frame(static_cast<int>(i), frames[i]);
   return annotations.document();
 }
@@ -56,12 +55,14 @@ TEST_CASE("An annotation has COCO's fields, and video's") {
   CHECK(document["annotations"][0].dump() ==
         R"({"id":1,"image_id":1,"category_id":1,"bbox":[1.0,2.0,4.0,5.0],"area":5,)"
         R"("segmentation":{"size":[8,10],"counts":"c01"},"iscrowd":0,"track_id":21,"truncated":true,)"
-        R"("size_class":"small"})");
+        R"("noisy":false,"size_class":"small"})");
   CHECK(
       document["images"][0].dump() ==
-      R"({"id":1,"file_name":"ir8/000000.png","width":10,"height":8,"video_id":1,"frame_index":0,"time_s":0.0})");
-  CHECK(document["videos"][0].dump() ==
-        R"({"id":1,"name":"night_1","width":10,"height":8,"frame_rate_hz":5.0,"frames":1})");
+      R"({"id":1,"file_name":"ir8/000000.png","width":10,"height":8,"video_id":1,"frame_index":0,"time_s":0.0,"ffc":false})");
+  CHECK(
+      document["videos"][0].dump() ==
+      R"({"id":1,"name":"night_1","width":10,"height":8,"frame_rate_hz":5.0,"frames":1,)"
+      R"("camera":{"fx_px":11.5,"fy_px":12.5,"cx_px":5.0,"cy_px":4.0,"k1":-0.5,"k2":0.25,"p1":0.125,"p2":0.0}})");
 }
 
 TEST_CASE("Ids of images and annotations run from 1; a frame without actors is an image too") {

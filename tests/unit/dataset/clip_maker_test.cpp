@@ -20,16 +20,23 @@ struct Workplace {
   Path passes = tiny_clip::write(folder / "passes", "a");
   Layout layout{folder / "dataset"};
 
-  [[nodiscard]] ClipTask task() const {
+  [[nodiscard]] ClipPasses rendered() const {
+    return {.manifest = read_manifest(passes / "manifest.json", VELDT_SOURCE_DIR), .folder = passes};
+  }
+  /// For a dataset in another folder than `layout` if it is named.
+  [[nodiscard]] ClipTask task(const std::string& dataset = "dataset") const {
     ClipTask task;
     task.clip.id = "a";
     task.clip.frames = tiny_clip::kFrames;
-    task.manifest = read_manifest(passes / "manifest.json", VELDT_SOURCE_DIR);
-    task.passes = passes;
+    task.layout = {folder / dataset};
     return task;
   }
-  [[nodiscard]] ClipRecord make(const ClipHooks& hooks = {}) const {
-    return make_clip(task(), read_materials(VELDT_SOURCE_DIR), layout, hooks);
+  [[nodiscard]] ClipRecord make(const ClipTask& task, const ClipHooks& hooks = {}) const {
+    return make_clip(rendered(), task, read_materials(VELDT_SOURCE_DIR), hooks);
+  }
+  [[nodiscard]] ClipRecord make(const ClipHooks& hooks = {}) const { return make(task(), hooks); }
+  [[nodiscard]] std::vector<ClipRecord> make_all(const std::vector<ClipTask>& tasks) const {
+    return make_clips(rendered(), tasks, read_materials(VELDT_SOURCE_DIR), {});
   }
 };
 
@@ -77,14 +84,13 @@ TEST_CASE("A clip made twice has the same pixels, with one thread or two") {
 
 TEST_CASE("A clip's pixels are its own: another seed or another id makes others") {
   const Workplace place;
-  const MaterialLibrary materials = read_materials(VELDT_SOURCE_DIR);
   const ClipRecord record = place.make();
   ClipTask other_seed = place.task();
   other_seed.seed = 2;
-  CHECK(make_clip(other_seed, materials, place.layout, {}).pixels_sha256 != record.pixels_sha256);
+  CHECK(place.make(other_seed).pixels_sha256 != record.pixels_sha256);
   ClipTask other_id = place.task();
   other_id.clip.id = "b";
-  CHECK(make_clip(other_id, materials, place.layout, {}).pixels_sha256 != record.pixels_sha256);
+  CHECK(place.make(other_id).pixels_sha256 != record.pixels_sha256);
 }
 
 TEST_CASE("Whoever asked is told of every frame") {
@@ -134,4 +140,71 @@ TEST_CASE("What an earlier run left half done is swept away") {
   const ClipRecord record = place.make();
   CHECK_FALSE(std::filesystem::exists(place.layout.clip("a") / "ir8/000099.png"));
   CHECK(record.pixels_sha256 == Workplace().make().pixels_sha256);
+}
+
+namespace {
+
+/// Tasks of three datasets that differ in all a variant may: season, seed, sensor.
+std::vector<ClipTask> three_tasks(const Workplace& place) {
+  std::vector<ClipTask> tasks = {place.task("one"), place.task("two"), place.task("three")};
+  tasks[1].clip.season = Season::summer;
+  tasks[1].seed = 7;
+  tasks[2].sensor.optics.blur_sigma_px = 0;
+  tasks[2].sensor.agc.mode = AgcMode::plateau;
+  return tasks;
+}
+
+}  // namespace
+
+TEST_CASE("Tasks made together come out as each does alone, file by file, with one thread or two") {
+  const Workplace together;
+  const Workplace alone;
+  const std::vector<ClipTask> tasks = three_tasks(together);
+  const ThreadLimit limit(GENERATE(1, 2));
+  const std::vector<ClipRecord> records = together.make_all(tasks);
+  REQUIRE(records.size() == 3);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    CAPTURE(i);
+    ClipTask task = tasks[i];
+    task.layout = alone.layout;
+    Json expected = to_json(alone.make(task));
+    Json found = to_json(records[i]);
+    expected["files"].erase("preview.mp4");  // lossy, and the encoder's own
+    found["files"].erase("preview.mp4");
+    CHECK(found == expected);
+    const Path folder = tasks[i].layout.clip("a");
+    CHECK(to_json(read_clip_record(folder / "clip.json")) == to_json(records[i]));
+    for (const auto& [name, sum] : records[i].files) CHECK(std::filesystem::exists(folder / name));
+  }
+  CHECK(records[0].pixels_sha256 != records[1].pixels_sha256);
+  CHECK(records[0].pixels_sha256 != records[2].pixels_sha256);
+}
+
+TEST_CASE("A frame is waited for and told of once, however many tasks there are") {
+  const Workplace place;
+  int waited = 0;
+  int done = 0;
+  ClipHooks hooks;
+  hooks.wait_for_frame = [&](int frame) { CHECK(frame == waited++); };
+  hooks.frame_done = [&] { ++done; };
+  (void)make_clips(place.rendered(), three_tasks(place), read_materials(VELDT_SOURCE_DIR), hooks);
+  CHECK(waited == 3);
+  CHECK(done == 3);
+}
+
+TEST_CASE("With a frame missing no task has its clip") {
+  const Workplace place;
+  std::filesystem::remove(place.passes / tiny_clip::file_name(2));
+  const std::vector<ClipTask> tasks = three_tasks(place);
+  CHECK_THROWS_AS(place.make_all(tasks), IoError);
+  for (const ClipTask& task : tasks) CHECK_FALSE(std::filesystem::exists(task.layout.clip("a")));
+}
+
+TEST_CASE("What a task asks of passes that cannot give it is told with its variant") {
+  const Workplace place;
+  std::vector<ClipTask> tasks = three_tasks(place);
+  tasks[1].variant = "list.json: variants[1] (barrel)";
+  tasks[1].distortion.k1 = -0.1;
+  CHECK_THAT(message_of<ConfigError>([&] { (void)place.make_all(tasks); }),
+             StartsWith("list.json: variants[1] (barrel): clip a: overscan_px = 0 px; expected at least "));
 }

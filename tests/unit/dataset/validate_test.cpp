@@ -22,7 +22,7 @@ struct Dataset {
     options.home = VELDT_SOURCE_DIR;
     options.passes = {tiny_clip::write(folder / "passes", "a"), tiny_clip::write(folder / "passes", "b")};
     options.out = root;
-    REQUIRE(convert(options, {}).complete);
+    REQUIRE(convert(options, {}).front().run.complete);
   }
   [[nodiscard]] Faults faults() const { return validate_dataset(root).faults; }
 
@@ -94,6 +94,15 @@ TEST_CASE("What is wrong with a file is told with its name") {
     std::filesystem::remove(clip / "clip.json");
     CHECK(dataset.faults() == Faults{(clip / "clip.json").string() + ": missing"});
   }
+}
+
+TEST_CASE("Annotations that no run has finished are named") {
+  const Dataset dataset;
+  Json index = read_json(dataset.root / "dataset.json");
+  index.erase("annotations_sha256");
+  write_file_atomically(dataset.root / "dataset.json", to_text(index));
+  CHECK(dataset.faults() == Faults{(dataset.root / "annotations.json").string() +
+                                   ": may lack clips (a run has not ended, or was killed)"});
 }
 
 TEST_CASE("A folder without a dataset cannot be checked") {

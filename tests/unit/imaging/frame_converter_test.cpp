@@ -1,6 +1,7 @@
 #include "imaging/frame_converter.h"
 
 #include "base/error.h"
+#include "sensor/thermal_camera.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 
@@ -54,10 +55,9 @@ Passes passes_of(const std::vector<std::uint16_t>& objects,
   return passes;
 }
 
-FrameConverter converter(Season season = Season::winter,
-                         Normalisation normalisation = Normalisation::scene_max) {
+FrameConverter converter(Season season = Season::winter, AgcMode mode = AgcMode::scene_max) {
   SensorParameters parameters;
-  parameters.normalisation = normalisation;
+  parameters.agc.mode = mode;
   return FrameConverter(manifest(), materials(), season, parameters);
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("The material plane goes before the object, except where it is 0") {
 
 TEST_CASE("The brightest count is the brightest surface of the manifest, or of Table 1") {
   CHECK(converter().brightest_w_m2_sr() == radiance_at(300));
-  CHECK(converter(Season::winter, Normalisation::table_max).brightest_w_m2_sr() == radiance_at(900));
+  CHECK(converter(Season::winter, AgcMode::table_max).brightest_w_m2_sr() == radiance_at(900));
 }
 
 TEST_CASE("Only actors are labelled") {
@@ -146,4 +146,91 @@ TEST_CASE("A finer frame is converted first and averaged after") {
              WithinRel((3 * soil + human) / 4, 4 * 6e-8));
   REQUIRE(frame.instances.size() == 1);
   CHECK(frame.instances[0].box == PixelBox{0, 0, 1, 1});  // half of a pixel is labelled, a quarter is not
+}
+
+namespace {
+
+/// Passes of 6 x 5 px about a picture of 4 x 3 px: soil, and a person in the two columns from `left` on.
+Passes wide_passes(int left) {
+  Passes passes;
+  passes.object_index = Plane<std::uint16_t>(6, 5, 1);
+  for (int y = 0; y < 5; ++y) passes.object_index.at(left, y) = passes.object_index.at(left + 1, y) = 7;
+  return passes;
+}
+
+Manifest wide_manifest() {
+  Manifest result = manifest();
+  result.clip = "night";
+  result.camera = {.width_px = 4, .height_px = 3, .fx_px = 4, .fy_px = 4, .cx_px = 2, .cy_px = 1.5};
+  result.overscan_px = 1;
+  return result;
+}
+
+FrameConverter wide_converter(const Manifest& used, const LensDistortion& lens = {}) {
+  return FrameConverter(used, materials(), Season::winter, SensorParameters(), {}, lens);
+}
+
+}  // namespace
+
+TEST_CASE("Overscan is cut off, from radiance and labels alike") {
+  const SceneFrame frame = wide_converter(wide_manifest()).convert(wide_passes(0));
+  REQUIRE(frame.radiance_w_m2_sr.width_px() == 4);
+  REQUIRE(frame.radiance_w_m2_sr.height_px() == 3);
+  CHECK(frame.radiance_w_m2_sr.at(0, 0) == radiance_at(300));
+  CHECK(frame.radiance_w_m2_sr.at(1, 0) == radiance_at(100));
+  REQUIRE(frame.instances.size() == 1);
+  CHECK(frame.instances[0].box == PixelBox{0, 0, 1, 3});
+  CHECK(frame.instances[0].truncated);
+  CHECK(wide_converter(wide_manifest()).convert(wide_passes(2)).instances[0].box == PixelBox{1, 0, 2, 3});
+  Passes outside = wide_passes(2);
+  outside.object_index = Plane<std::uint16_t>(6, 5, 1);
+  outside.object_index.at(0, 2) = 7;
+  CHECK(wide_converter(wide_manifest()).convert(outside).instances.empty());
+}
+
+TEST_CASE("Overscan counts in the camera's pixels, however fine the passes are") {
+  Manifest finer = wide_manifest();
+  finer.supersample = 2;
+  Passes passes;
+  passes.object_index = Plane<std::uint16_t>(12, 10, 1);
+  for (int i = 0; i < 4; ++i) passes.object_index.at(4 + i % 2, 6 + i / 2) = 7;  // the picture's pixel (1, 2)
+  const SceneFrame frame = wide_converter(finer).convert(passes);
+  REQUIRE(frame.radiance_w_m2_sr.width_px() == 4);
+  REQUIRE(frame.radiance_w_m2_sr.height_px() == 3);
+  REQUIRE(frame.instances.size() == 1);
+  CHECK(frame.instances[0].box == PixelBox{1, 2, 1, 1});
+  // A mean of four equal values: three sums and a product.
+  CHECK_THAT(static_cast<double>(frame.radiance_w_m2_sr.at(1, 2)),
+             WithinRel(static_cast<double>(radiance_at(300)), 4 * 6e-8));
+}
+
+TEST_CASE("Labels are distorted with the picture") {
+  // The outer pixels' centres are 2.5 px from the axis, x = 0.625. 0.875 (1 + k1 0.875^2) = 0.625 for this k1: they
+  // show what lies 3.5 px away, in the overscan. Their neighbours, at 1.5 px, show what lies at 1.59 px: soil.
+  const LensDistortion lens = {.k1 = (0.625 / 0.875 - 1) / (0.875 * 0.875)};
+  Manifest used = wide_manifest();
+  used.camera = {.width_px = 6, .height_px = 1, .fx_px = 4, .fy_px = 4, .cx_px = 3, .cy_px = 0.5};
+  Passes passes;
+  passes.object_index = Plane<std::uint16_t>(8, 3, 1);
+  passes.object_index.at(0, 1) = 7;
+  const SceneFrame frame = wide_converter(used, lens).convert(passes);
+  REQUIRE(frame.instances.size() == 1);
+  CHECK(frame.instances[0].box == PixelBox{0, 0, 1, 1});
+  CHECK(frame.instances[0].truncated);
+  // The source is the pixel's centre but for some 1e-15 px, which single precision cannot tell from 0 here.
+  CHECK_THAT(static_cast<double>(frame.radiance_w_m2_sr.at(0, 0)),
+             WithinRel(static_cast<double>(radiance_at(300)), 6e-8));
+  CHECK(frame.radiance_w_m2_sr.at(1, 0) == radiance_at(100));
+}
+
+TEST_CASE("Passes that reach less far than the lens needs are a fault that says how far") {
+  CHECK(message_of<ConfigError>([] {
+          Manifest narrow = wide_manifest();
+          narrow.camera = {
+              .width_px = 201, .height_px = 1, .fx_px = 100, .fy_px = 100, .cx_px = 100.5, .cy_px = 0.5};
+          (void)wide_converter(narrow, {.k1 = -0.128});
+        }) ==
+        "clip night: overscan_px = 1 px; expected at least 25 px for this lens distortion "
+        "(render.overscan_px), or a "
+        "manifest whose camera is smaller than its passes");
 }

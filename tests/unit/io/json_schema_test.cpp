@@ -31,6 +31,7 @@ const Json kSchema = parse_json(R"({
     "sensor": {"type": "object", "default": {}, "properties": {
       "preset": {"type": "string", "default": "airsim_w"},
       "noise": {"type": "object", "default": {}, "properties": {"stddev_dn": {"type": "number", "default": 2}}}}},
+    "spacing_m": {"type": ["number", "array"], "exclusiveMinimum": 0, "maxItems": 2, "items": {"type": "number", "minimum": 0}},
     "free": {"type": "object"}
   }
 })",
@@ -80,6 +81,16 @@ TEST_CASE("A value of the wrong type is a fault that says which type it is") {
   CHECK(faults_in(R"("sensor": [1, 2])") == Faults{"sensor = a list of 2; expected an object"});
   Json list = Json::array();
   CHECK(check_and_fill(list, kSchema) == Faults{"document = a list of 0; expected an object"});
+}
+
+TEST_CASE("A value may be of several types, each with its own rules") {
+  CHECK(faults_in(R"("spacing_m": 0.5)").empty());
+  CHECK(faults_in(R"("spacing_m": [0, 2])").empty());
+  CHECK(faults_in(R"("spacing_m": "2")") == Faults{"spacing_m = \"2\"; expected a number or a list"});
+  CHECK(faults_in(R"("spacing_m": 0)") == Faults{"spacing_m = 0 m; expected more than 0 m"});
+  CHECK(faults_in(R"("spacing_m": [1, -1])") == Faults{"spacing_m[1] = -1 m; expected at least 0 m"});
+  CHECK(faults_in(R"("spacing_m": [1, 1, 1])") ==
+        Faults{"spacing_m = a list of 3; expected at most 2 entries"});
 }
 
 TEST_CASE("A whole number may be written with a point") {
@@ -157,7 +168,7 @@ TEST_CASE("The unit is the longest suffix that is one") {
   CHECK(unit_of_key("pixel_pitch_um") == "um");
   CHECK(unit_of_key("netd_mk") == "mK");
   CHECK(unit_of_key("radiance_w_m2_sr") == "W m^-2 sr^-1");
-  CHECK(unit_of_key("acacia_per_ha") == "per hectare");
+  CHECK(unit_of_key("per_ha") == "per hectare");
   CHECK(unit_of_key("seed").empty());
   CHECK(unit_of_key("").empty());
 }

@@ -45,6 +45,8 @@ TEST_CASE("A manifest is read into what it says") {
   CHECK(manifest.layer.empty());
   CHECK(manifest.camera.width_px == 64);
   CHECK(manifest.camera.fx_px == 70.5);
+  CHECK(manifest.supersample == 1);
+  CHECK(manifest.overscan_px == 0);
   REQUIRE(manifest.objects.size() == 2);
   CHECK(manifest.objects[0].object_class == ObjectClass::ground);
   CHECK_FALSE(manifest.objects[0].bounds_m.has_value());
@@ -61,6 +63,16 @@ TEST_CASE("A manifest is read into what it says") {
   CHECK(manifest.frames[0].actors.at(0).position_m[2] == 3);
   CHECK_FALSE(manifest.frames[1].agl_m.has_value());
   CHECK(manifest.frames[1].actors.empty());
+}
+
+TEST_CASE("Passes can be finer than the camera and reach further") {
+  Json document = example();
+  document["supersample"] = 2;
+  document["overscan_px"] = 12;
+  const TemporaryFolder folder;
+  const Manifest manifest = read_manifest(folder.file("manifest.json", document.dump()), VELDT_SOURCE_DIR);
+  CHECK(manifest.supersample == 2);
+  CHECK(manifest.overscan_px == 12);
 }
 
 TEST_CASE("What a manifest must not say is told, and where") {

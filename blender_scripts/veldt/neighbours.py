@@ -1,0 +1,31 @@
+"""Which points of the plane are near each other."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def pairs_within(a_m: np.ndarray, b_m: np.ndarray, radius_m: float) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers (i, j), each (n,), of all pairs of a point a_m[i] and a point b_m[j] less than radius_m apart.
+
+    a_m (k, 2), b_m (l, 2). A point is near itself. The points are sorted into squares of radius_m, so that only nine
+    squares have to be looked through for each.
+    """
+    cell_a, cell_b = (np.floor(points / radius_m).astype(np.int64) for points in (a_m, b_m))
+    order = np.argsort(_key(cell_b), kind="stable")
+    keys = _key(cell_b)[order]
+    found = []
+    for step in [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1)]:
+        wanted = _key(cell_a + np.array(step))
+        first, past = np.searchsorted(keys, wanted, "left"), np.searchsorted(keys, wanted, "right")
+        i = np.repeat(np.arange(len(a_m)), past - first)
+        starts = np.cumsum(past - first) - (past - first)
+        j = order[np.arange(len(i)) + np.repeat(first - starts, past - first)]
+        near = ((a_m[i] - b_m[j]) ** 2).sum(axis=1) < radius_m**2
+        found.append((i[near], j[near]))
+    return np.concatenate([i for i, _ in found]), np.concatenate([j for _, j in found])
+
+
+def _key(cell: np.ndarray) -> np.ndarray:
+    """One number for each square, ascending row by row; unique as long as squares are fewer than 2^31 a side."""
+    return (cell[:, 0] << np.int64(32)) + cell[:, 1]

@@ -1,0 +1,180 @@
+"""What each plant's mesh is like: its size, its shape, what it is made of, and that it is light enough."""
+
+import hashlib
+
+import numpy as np
+import pytest
+
+from raster import covered_m2
+from veldt import assets
+from veldt.config import ROOT
+from veldt.faults import ConfigError
+from veldt.plant_shapes import build_variants
+
+SEED = 7
+NAMES = assets.names("plants")
+TREES = ("acacia", "hookthorn", "baobab")
+MOST_TRIANGLES = dict.fromkeys(NAMES, 260) | dict.fromkeys(TREES, 900) | {"shrub": 250, "elephant_grass": 120}
+
+# Least and greatest height over all sizes in m, and, where it tells the species, width of crown or foot.
+HEIGHTS_M = {
+    "acacia": (5, 8),
+    "hookthorn": (3, 6),
+    "baobab": (10, 18),
+    "shrub": (0.5, 1.5),
+    "elephant_grass": (1, 2.5),
+}
+WIDTHS_M = {"acacia": (6, 10)}
+
+
+def _variants(name, seed=SEED):
+    return [(mesh.points_m, mesh.points_m[mesh.triangles]) for mesh in _meshes(name, seed)]
+
+
+def _meshes(name, seed=SEED):
+    return build_variants(name, assets.load("plants", name), seed)
+
+
+def _slice(triangles_m, height_m):
+    """Points (n, 2) in which the edges of the triangles cross a level plane."""
+    start, end = triangles_m.reshape(-1, 3), np.roll(triangles_m, -1, axis=1).reshape(-1, 3)
+    cut = (start[:, 2] < height_m) != (end[:, 2] < height_m)
+    start, end = start[cut], end[cut]
+    share = (height_m - start[:, 2:]) / (end[:, 2:] - start[:, 2:])
+    return (start + share * (end - start))[:, :2]
+
+
+def _within(sizes_m, drawn_m, scale_range):
+    """Sizes from smallest to largest plant span the range given, to 10 %, and do not leave it by more than that."""
+    return np.multiply(drawn_m, scale_range) == pytest.approx(sizes_m, rel=0.1)
+
+
+@pytest.mark.parametrize("name", HEIGHTS_M)
+def test_heights_span_what_the_species_grows_to(name):
+    data = assets.load("plants", name)
+    for points_m, _ in _variants(name):
+        assert _within(HEIGHTS_M[name], points_m[:, 2].max(), data["scale_range"])
+
+
+@pytest.mark.parametrize("name", WIDTHS_M)
+def test_crowns_span_what_the_species_grows_to(name):
+    data = assets.load("plants", name)
+    for points_m, _ in _variants(name):
+        across_m = np.ptp(points_m[:, :2], axis=0)
+        assert _within(WIDTHS_M[name], across_m.max(), data["scale_range"])
+        assert across_m.min() > 0.85 * across_m.max()
+
+
+def test_an_umbrella_is_flat_and_stands_on_one_stem():
+    for points_m, triangles_m in _variants("acacia"):
+        top = points_m[:, 2].max()
+        wide = np.hypot(*points_m[:, :2].T) > 2.5
+        assert points_m[wide, 2].min() > 0.6 * top
+        assert np.ptp(_slice(triangles_m, 1.0), axis=0).max() < 0.6
+
+
+def _stems(cut_m):
+    """How many clusters the points of a slice make, neighbours being less than 15 cm apart."""
+    near = np.linalg.norm(cut_m[:, None] - cut_m, axis=2) < 0.15
+    for _ in range(len(cut_m)):
+        near = near @ near
+    return len(np.unique(near, axis=0))
+
+
+def test_a_hookthorn_has_several_stems():
+    for _, triangles_m in _variants("hookthorn"):
+        assert _stems(_slice(triangles_m, 0.35)) >= 4
+
+
+def test_a_baobab_is_a_barrel_with_a_bare_crown():
+    data = assets.load("plants", "baobab")
+    for points_m, triangles_m in _variants("baobab"):
+        girth_m = np.ptp(_slice(triangles_m, 1.5), axis=0).mean()
+        assert 3 <= girth_m * data["scale_range"][0] and girth_m * data["scale_range"][1] <= 7
+        # From above it hides far less than the disc its crown spans: no leaves.
+        assert covered_m2(triangles_m) < 0.5 * np.pi / 4 * np.ptp(points_m[:, :2], axis=0).max() ** 2
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_files_say_how_much_ground_is_hidden_from_above(name):
+    data = assets.load("plants", name)
+    low, high = data["scale_range"]
+    mean_square = (low**2 + low * high + high**2) / 3
+    hidden_m2 = np.mean(
+        [covered_m2(triangles_m) for seed in (1, 2, 3) for _, triangles_m in _variants(name, seed)]
+    )
+    # Nine variants and more, that differ from each other by a tenth, rocks by a quarter; the file has two digits.
+    assert hidden_m2 * mean_square == pytest.approx(data["cover_m2"], rel=0.15)
+
+
+@pytest.mark.parametrize("name", ("acacia", "hookthorn", "shrub"))
+def test_crowns_have_gaps(name):
+    for points_m, triangles_m in _variants(name):
+        disc_m2 = np.pi / 4 * np.prod(np.ptp(points_m[:, :2], axis=0))
+        assert 0.45 < covered_m2(triangles_m) / disc_m2 < 0.85
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_feet_reach_into_the_ground(name):
+    """On the gentle slopes that even logs lie on, no plant floats: it goes down to where its foot's lower side is."""
+    least_deg = min(assets.load("plants", any_name)["slope_deg"][0] for any_name in NAMES)
+    for points_m, triangles_m in _variants(name):
+        foot = _slice(triangles_m, 0.02)
+        assert -points_m[:, 2].min() > np.tan(np.radians(least_deg)) * np.hypot(*foot.T).max()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_ten_thousands_are_light_enough(name):
+    for mesh in _meshes(name):
+        assert len(mesh.triangles) <= MOST_TRIANGLES[name]
+        assert (mesh.slot == 0).all()
+        corners = mesh.points_m[mesh.triangles]
+        area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        assert np.isfinite(area).all() and (area > 1e-9).mean() > 0.99
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_files_name_a_material_and_the_sources_of_their_figures(name):
+    data = assets.load("plants", name)
+    assert (ROOT / "assets" / "materials" / f'{data["material"]}.json').exists()
+    assert all("estimate" in text for text in data["source"].values())
+
+
+def _hash(name, seed):
+    return [
+        hashlib.sha256(mesh.points_m.tobytes() + mesh.triangles.tobytes()).hexdigest()
+        for mesh in _meshes(name, seed)
+    ]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_seed_gives_the_same_meshes_again_and_another_seed_others(name):
+    first = _hash(name, 1)
+    assert first == _hash(name, 1)
+    assert len(set(first + _hash(name, 2))) == 2 * assets.load("plants", name)["variants"]
+
+
+@pytest.mark.parametrize(
+    "content, message",
+    [
+        (None, "assets/plants/palm.json: expected a readable file (No such file or directory)"),
+        ("", "assets/plants/palm.json: expected JSON (Expecting value: line 1 column 1 (char 0))"),
+    ],
+)
+def test_a_file_that_cannot_be_read_is_a_fault(tmp_path, monkeypatch, content, message):
+    monkeypatch.setattr(assets, "ROOT", tmp_path)
+    if content is not None:
+        (tmp_path / "assets" / "plants").mkdir(parents=True)
+        (tmp_path / "assets" / "plants" / "palm.json").write_text(content)
+    with pytest.raises(ConfigError) as fault:
+        assets.load("plants", "palm")
+    assert str(fault.value) == message
+
+
+def test_an_unknown_form_is_a_fault():
+    with pytest.raises(ConfigError) as fault:
+        build_variants("palm", {"form": "botle"}, SEED)
+    assert str(fault.value) == (
+        'assets/plants/palm.json: form = "botle"; expected one of bottle, bush, log, many_stemmed, mound, rock,'
+        ' tussock, umbrella; did you mean "bottle"?'
+    )

@@ -1,0 +1,201 @@
+"""Labels of a really rendered dataset behind a lens that distorts, against where the manifest says everybody is."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from configs import tiny
+from labels import check_labels
+from pictures import read_planes
+from program import Veldt
+
+WIDTH, HEIGHT = 320, 256
+LENS = {"k1": -0.2, "k2": 0.03, "p1": 0.001, "p2": -0.0005}
+PINHOLE = dict.fromkeys(LENS, 0)
+
+
+def _behind_a_lens(config: dict) -> None:
+    """Everybody in the open, seen from above and from the side, out to the corners of the picture."""
+    config["scene"]["plants"] = {}
+    config["camera"] = {"width_px": WIDTH, "height_px": HEIGHT, "pixel_pitch_um": 30, "distortion": LENS}
+    config["clips"] = [
+        {
+            "id": f"{target}_{look_angle_deg}",
+            "season": "winter",
+            "frames": 3,
+            "frame_rate_hz": 1,
+            "flight": {
+                "pattern": "follow",
+                "target": target,
+                "look_angle_deg": look_angle_deg,
+                "azimuth_deg": 70,
+                "altitude_m": 25,
+            },
+        }
+        for target, look_angle_deg in (("people", 90), ("herd", 45), ("zebras", 60))
+    ]
+
+
+class Rendered:
+    """A generated dataset with its passes, and a second one that a pinhole would have made of the same passes."""
+
+    def __init__(self, folder, blender: str, supersample: int):
+        config = tiny(_behind_a_lens) | {"render": {"supersample": supersample}}
+        veldt = Veldt(folder)
+        veldt.write("config.json", config)
+        keep = ("--keep-passes", "--blender", blender)
+        _check(veldt("generate", "config.json", "--out", "lens", "--quiet", *keep))
+        pinhole = ("--config", "config.json", "--set", "camera.distortion={}")
+        _check(veldt("convert", "lens/passes", "--out", "pinhole", "--quiet", *pinhole))
+        self.labels = {kind: veldt.read(f"{kind}/annotations.json") for kind in ("lens", "pinhole")}
+        self.manifests = {
+            c["id"]: veldt.read(f'lens/passes/{c["id"]}/manifest.json') for c in config["clips"]
+        }
+        self.planes = {
+            f"clips/{clip}/ir8/{k:06d}.png": read_planes(folder / "lens/passes" / clip / f"{k:06d}.exr")[
+                "Scene.IndexOB.X"
+            ]
+            for clip, manifest in self.manifests.items()
+            for k in range(len(manifest["frames"]))
+        }
+
+    def sightings(self, kind: str):
+        """(label, corners of its actor's box in normalised coordinates, manifest) of every label."""
+        images = {image["id"]: image for image in self.labels[kind]["images"]}
+        for label in self.labels[kind]["annotations"]:
+            image = images[label["image_id"]]
+            manifest = self.manifests[image["file_name"].split("/")[1]]
+            (actor,) = (o for o in manifest["objects"] if o.get("track_id") == label["track_id"])
+            yield label, _edges_of_box(manifest["frames"][image["frame_index"]], actor), manifest
+
+
+def _check(done) -> None:
+    assert (done.code, done.out, done.err) == (0, "", "")
+
+
+@pytest.fixture(scope="module", name="rendered")
+def _rendered(tmp_path_factory, blender) -> Rendered:
+    return Rendered(tmp_path_factory.mktemp("plain"), blender, 1)
+
+
+@pytest.fixture(scope="module", name="finer")
+def _finer(tmp_path_factory, blender) -> Rendered:
+    return Rendered(tmp_path_factory.mktemp("finer"), blender, 2)
+
+
+def _edges_of_box(frame: dict, actor: dict) -> np.ndarray:
+    """Normalised points (n, 2), x and y at depth 1, all along the edges of the actor's box.
+
+    Edges, because the lens bends them: a box reaches further than its corners.
+    """
+    (place,) = (a for a in frame["actors"] if a["index"] == actor["index"])
+    cos, sin = np.cos(place["heading_rad"]), np.sin(place["heading_rad"])
+    axes = np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]])  # forward, left, up
+    corners = np.array(list(itertools.product((0, 1), repeat=3)))
+    low, high = np.array(actor["bounds_m"])
+    ends = [(a, b) for a, b in itertools.combinations(corners, 2) if np.abs(a - b).sum() == 1]
+    share = np.linspace(0, 1, 33)[:, None]
+    picks = np.concatenate([a + share * (b - a) for a, b in ends])
+    world_m = (low + picks * (high - low)) @ axes + place["position_m"]
+    pose = np.array(frame["camera_to_world"]).reshape(4, 4)
+    x, y, depth = ((world_m - pose[:3, 3]) @ pose[:3, :3]).T
+    assert (depth > 0).all()
+    return np.stack([x / depth, y / depth], axis=-1)
+
+
+def _distort(points: np.ndarray, lens: dict) -> np.ndarray:
+    """OpenCV's formula (Camera Calibration and 3D Reconstruction, "Detailed Description")."""
+    x, y = points[..., 0], points[..., 1]
+    r2 = x * x + y * y
+    radial = 1 + lens["k1"] * r2 + lens["k2"] * r2 * r2
+    return np.stack(
+        [
+            x * radial + 2 * lens["p1"] * x * y + lens["p2"] * (r2 + 2 * x * x),
+            y * radial + lens["p1"] * (r2 + 2 * y * y) + 2 * lens["p2"] * x * y,
+        ],
+        axis=-1,
+    )
+
+
+def _undistort(points: np.ndarray, lens: dict) -> np.ndarray:
+    """The inverse by steps of the difference: the slope is within 0.25 of 1 here, so two steps gain a digit."""
+    seen = points
+    for _ in range(40):
+        seen = seen + (points - _distort(seen, lens))
+    return seen
+
+
+def _to_px(points: np.ndarray, camera: dict) -> np.ndarray:
+    scale, centre = (camera["fx_px"], camera["fy_px"]), (camera["cx_px"], camera["cy_px"])
+    return points * scale + centre
+
+
+def _check_inside(rendered: Rendered, kind: str, lens: dict, slack_px: float) -> int:
+    """Every label lies within its actor's projected box; how far the lens has moved one at the most, in px."""
+    moved_px = 0.0
+    for label, edges, manifest in rendered.sightings(kind):
+        points = _to_px(_distort(edges, lens), manifest["camera"])
+        x, y, width, height = label["bbox"]
+        assert (np.array([x, y]) >= points.min(axis=0) - slack_px).all()
+        assert (np.array([x + width, y + height]) <= points.max(axis=0) + slack_px).all()
+        if not label["truncated"]:
+            moved_px = max(moved_px, np.abs(points - _to_px(edges, manifest["camera"])).max())
+    return moved_px
+
+
+def test_overscan_is_what_the_lens_needs(rendered, finer):
+    """The corners show what lies furthest out; the same number for passes of any fineness."""
+    for dataset, supersample in ((rendered, 1), (finer, 2)):
+        for manifest in dataset.manifests.values():
+            camera = manifest["camera"]
+            assert (camera["width_px"], camera["height_px"]) == (WIDTH, HEIGHT)
+            corners = np.array(list(itertools.product((0.5, WIDTH - 0.5), (0.5, HEIGHT - 0.5))))
+            shown = (corners - (camera["cx_px"], camera["cy_px"])) / (camera["fx_px"], camera["fy_px"])
+            beyond_px = np.abs(_to_px(_undistort(shown, LENS), camera) - corners).max()
+            assert manifest["overscan_px"] == np.ceil(beyond_px)
+            shape = next(iter(dataset.planes.values())).shape
+            margin = 2 * manifest["overscan_px"]
+            assert shape == (supersample * (HEIGHT + margin), supersample * (WIDTH + margin))
+
+
+def test_every_label_holds_exactly_the_pixels_the_lens_shows(rendered):
+    """The nearest pixel of the passes to where the formula, inverted here on its own, says the lens looks."""
+    column, row = np.meshgrid(np.arange(WIDTH) + 0.5, np.arange(HEIGHT) + 0.5)
+    shown = {}
+    for name, plane in rendered.planes.items():
+        manifest = rendered.manifests[name.split("/")[1]]
+        camera = manifest["camera"]
+        points = np.stack(
+            [(column - camera["cx_px"]) / camera["fx_px"], (row - camera["cy_px"]) / camera["fy_px"]], axis=-1
+        )
+        place = np.floor(_to_px(_undistort(points, LENS), camera) + manifest["overscan_px"]).astype(int)
+        shown[name] = plane[place[..., 1], place[..., 0]]
+    assert check_labels(rendered.labels["lens"], shown, rendered.manifests) > 30
+
+
+def test_a_pinhole_makes_of_the_same_passes_what_lies_in_their_middle(rendered):
+    middle = {}
+    for name, plane in rendered.planes.items():
+        margin = rendered.manifests[name.split("/")[1]]["overscan_px"]
+        middle[name] = plane[margin:-margin, margin:-margin]
+    assert check_labels(rendered.labels["pinhole"], middle, rendered.manifests) > 30
+
+
+def test_labels_lie_within_their_actors_projected_box(rendered, finer):
+    """A label's edge is half a pixel beyond its last pixel's centre; behind a lens that centre looks up to half a pixel
+    past the centre of the nearest pixel of the passes, in either direction; of a finer picture's pixel half is inside
+    the body, so one of four centres that are a quarter of a pixel from its own. Poses: 0.01 px, as without a lens.
+    The lens shrinks by up to 1 and stretches nowhere beyond 1.01, the tangential part: 0.01 px more.
+    """
+    for dataset, sub_px in ((rendered, 0.0), (finer, 0.25)):
+        assert _check_inside(dataset, "pinhole", PINHOLE, 0.51 + sub_px) == 0
+        moved_px = _check_inside(dataset, "lens", LENS, 1.02 + sub_px)
+        assert moved_px > 3  # so a lens forgotten, or the wrong way round, would not have passed
+
+
+def test_users_are_told_the_camera_and_its_lens(rendered):
+    for kind, lens in (("lens", LENS), ("pinhole", PINHOLE)):
+        for video in rendered.labels[kind]["videos"]:
+            camera = rendered.manifests[video["name"]]["camera"]
+            assert video["camera"] == {k: camera[k] for k in ("fx_px", "fy_px", "cx_px", "cy_px")} | lens

@@ -1,0 +1,106 @@
+#include "dataset/dataset_index.h"
+
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/temporary_folder.h"
+
+using namespace thermal;
+
+namespace {
+
+Config two_clips() {
+  Config config;
+  config.name = "night";
+  config.clips = {{.id = "a"}, {.id = "b"}};
+  config.resolved = {{"name", "night"}, {"sensor", {{"kelvin_per_count", 0.01}}}};
+  return config;
+}
+
+/// A dataset of two clips, without their pictures: what it tells of them is made up here.
+struct Place {
+  TemporaryFolder folder;
+  Layout layout{folder.path()};
+  Config config = two_clips();
+
+  /// Puts a whole clip of two frames into the folder.
+  [[nodiscard]] ClipRecord finish(const std::string& id) const {
+    ClipRecord record;
+    record.clip = id;
+    record.frames = 2;
+    record.annotations = 1;
+    record.pixels_sha256 = "of " + id;
+    make_folder(layout.clip(id));
+    write_file_atomically(layout.clip(id) / "clip.json", to_text(to_json(record)));
+    write_file_atomically(layout.clip(id) / "labels.json", to_text(labels(id)));
+    return record;
+  }
+
+  static Json labels(const std::string& id) {
+    return {{"categories", Json::array()},
+            {"videos", {{{"id", 1}, {"name", id}}}},
+            {"images", Json::array()},
+            {"annotations", Json::array()}};
+  }
+
+  [[nodiscard]] DatasetIndex open() const { return open_dataset(layout, config); }
+  [[nodiscard]] Json told() const { return read_json(layout.dataset_json()); }
+  [[nodiscard]] std::size_t joined() const { return read_json(layout.annotations_json())["videos"].size(); }
+};
+
+}  // namespace
+
+TEST_CASE("As a run goes on, dataset.json tells of each clip and makes no promise for the annotations") {
+  const Place place;
+  DatasetIndex index = place.open();
+  CHECK_FALSE(index.recorded);
+  index.add("a", place.finish("a"));
+  write_progress(place.layout, index);
+  CHECK(place.told()["status"] == "unfinished");
+  CHECK(place.told()["frames"] == 2);
+  CHECK(place.told()["clips"][0]["status"] == "done");
+  CHECK(place.told()["clips"][1]["status"] == "pending");
+  CHECK_FALSE(place.told().contains("annotations_sha256"));
+  CHECK_FALSE(std::filesystem::exists(place.layout.annotations_json()));
+}
+
+TEST_CASE("A run that was killed before it joined the labels is found out, whatever annotations lie there") {
+  const Place place;
+  DatasetIndex index = place.open();
+  index.add("a", place.finish("a"));
+  write_dataset(place.layout, index);
+  CHECK(place.open().recorded);
+  index.add("b", place.finish("b"));
+  write_progress(place.layout, index);
+  CHECK(place.joined() == 1);
+  const DatasetIndex again = place.open();
+  CHECK(again.complete());
+  CHECK_FALSE(again.recorded);
+  write_dataset(place.layout, again);
+  CHECK(place.joined() == 2);
+  CHECK(place.open().recorded);
+}
+
+TEST_CASE("At the end dataset.json is as if all had been made in one go") {
+  const Place place;
+  DatasetIndex index = place.open();
+  index.add("a", place.finish("a"));
+  index.add("b", place.finish("b"));
+  write_dataset(place.layout, index);
+  const Json once = place.told();
+  write_dataset(place.layout, place.open());
+  CHECK(place.told() == once);
+  CHECK(once["status"] == "complete");
+  CHECK(once["frames"] == 4);
+  CHECK(once["annotations"] == 2);
+}
+
+TEST_CASE("After a fault what is whole is told, and one more fault is not") {
+  const Place place;
+  DatasetIndex index = place.open();
+  index.add("a", place.finish("a"));
+  write_dataset_after_fault(place.layout, index);
+  CHECK(place.open().recorded);
+  std::filesystem::remove(place.layout.clip("a") / "labels.json");
+  CHECK_THROWS_AS(write_dataset(place.layout, index), IoError);
+  write_dataset_after_fault(place.layout, index);
+}

@@ -1,0 +1,35 @@
+#include "scene/camera_geometry.h"
+
+#include "support/catch.h"
+
+using namespace thermal;
+
+namespace {
+
+constexpr CameraIntrinsics kCamera = {640, 512, 764.5, 765.5, 320.25, 256};
+
+}  // namespace
+
+TEST_CASE("A finer camera sees the same field with more pixels") {
+  const CameraIntrinsics fine = finer(kCamera, 4);
+  CHECK(fine.width_px == 2560);
+  CHECK(fine.height_px == 2048);
+  CHECK(fine.fx_px == 4 * 764.5);
+  CHECK(fine.fy_px == 4 * 765.5);
+  CHECK(fine.cx_px == 1281);
+  CHECK(fine.cy_px == 1024);
+}
+
+TEST_CASE("The camera of the passes sees further on every side, then finer") {
+  Manifest manifest;
+  manifest.camera = kCamera;
+  manifest.overscan_px = 10;
+  manifest.supersample = 2;
+  const CameraIntrinsics passes = passes_camera(manifest);
+  CHECK(passes.width_px == 2 * 660);
+  CHECK(passes.height_px == 2 * 532);
+  CHECK(passes.fx_px == 2 * 764.5);
+  CHECK(passes.fy_px == 2 * 765.5);
+  CHECK(passes.cx_px == 2 * 330.25);
+  CHECK(passes.cy_px == 2 * 266);
+}

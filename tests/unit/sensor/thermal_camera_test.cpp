@@ -1,0 +1,238 @@
+#include "sensor/thermal_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "base/parallel.h"
+#include "sensor/psf.h"
+#include "support/cameras.h"
+#include "support/catch.h"
+
+using namespace thermal;
+using cameras::camera;
+using cameras::full_sensor;
+using cameras::kLevel;
+using cameras::perfect_sensor;
+using cameras::same_pixels;
+using cameras::uniform_scene;
+
+namespace {
+
+constexpr int kWidth = 83;  // no multiple of a vector or a block
+constexpr int kHeight = 60;
+
+cameras::ClipOf clip(const char* id = "a", std::uint32_t seed = 1) {
+  return {.width_px = kWidth, .height_px = kHeight, .id = id, .seed = seed};
+}
+
+/// A scene of 100 levels on the left and 140 on the right, three quarters left.
+Plane<float> two_parts() {
+  Plane<float> scene(kWidth, kHeight, 100 * kLevel);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = kWidth * 3 / 4; x < kWidth; ++x) scene.at(x, y) = 140 * kLevel;
+  }
+  return scene;
+}
+
+std::vector<SensorFrame> frames_of(const SensorParameters& parameters, const cameras::ClipOf& clip,
+                                   int count) {
+  ThermalCamera camera = cameras::camera(parameters, clip);
+  std::vector<SensorFrame> frames;
+  for (int frame = 0; frame < count; ++frame) frames.push_back(camera.expose(two_parts()));
+  return frames;
+}
+
+std::vector<SensorFrame> frames_with(int threads, int count) {
+  const ThreadLimit limit(threads);
+  cameras::ClipOf large = clip();
+  large.width_px = 301;  // several chunks of pixels
+  large.height_px = 207;
+  ThermalCamera camera = cameras::camera(full_sensor(), large);
+  std::vector<SensorFrame> frames;
+  for (int frame = 0; frame < count; ++frame) {
+    frames.push_back(camera.expose(uniform_scene(301, 207, 280 + frame % 4)));
+  }
+  return frames;
+}
+
+bool same(const std::vector<SensorFrame>& a, const std::vector<SensorFrame>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const SensorFrame& one, const SensorFrame& other) {
+                      return same_pixels(one, other) && one.curve == other.curve &&
+                             one.shutter_closed == other.shutter_closed;
+                    });
+}
+
+}  // namespace
+
+TEST_CASE("A perfect camera shows whole levels as they are, by both of the paper's ways") {
+  SensorParameters parameters = perfect_sensor();
+  parameters.agc.mode = GENERATE(AgcMode::scene_max, AgcMode::table_max);
+  Plane<float> scene(256, 1);
+  for (int level = 0; level < 256; ++level) scene.at(level, 0) = static_cast<float>(level) * kLevel;
+  const SensorFrame frame = camera(parameters, {.width_px = 256, .height_px = 1}).expose(scene);
+  for (int level = 0; level < 256; ++level) CHECK(frame.ir8.at(level, 0) == level);
+}
+
+TEST_CASE("The paper's levels are rounded, the script's are cut off") {
+  SensorParameters parameters = perfect_sensor();
+  const bool script = GENERATE(false, true);
+  parameters.agc.mode = script ? AgcMode::table_max : AgcMode::scene_max;
+  Plane<float> scene(2, 1, 99.25F * kLevel);
+  scene.at(1, 0) = 99.75F * kLevel;
+  const SensorFrame frame = camera(parameters, {.width_px = 2, .height_px = 1}).expose(scene);
+  CHECK(frame.ir8.at(0, 0) == 99);
+  CHECK(frame.ir8.at(1, 0) == (script ? 99 : 100));
+}
+
+TEST_CASE("ir8 is what the curve makes of ir16, in every mode but the script's, with all noise") {
+  SensorParameters parameters = full_sensor();
+  parameters.agc.mode = GENERATE(AgcMode::scene_max, AgcMode::table_max, AgcMode::linear, AgcMode::percentile,
+                                 AgcMode::plateau);
+  parameters.agc.polarity = GENERATE(Polarity::white_hot, Polarity::black_hot);
+  for (const SensorFrame& frame : frames_of(parameters, clip(), 12)) {
+    const auto& thresholds = frame.curve.thresholds;
+    int wrong = 0;
+    for (std::size_t i = 0; i < frame.ir16.size(); ++i) {
+      const auto level =
+          std::upper_bound(thresholds.begin(), thresholds.end(), frame.ir16.pixels()[i]) - thresholds.begin();
+      const auto shown = parameters.agc.polarity == Polarity::black_hot ? 255 - level : level;
+      const auto allowed = parameters.agc.mode == AgcMode::table_max ? 1 : 0;  // of radiance, not of counts
+      wrong += std::abs(frame.ir8.pixels()[i] - shown) <= allowed ? 0 : 1;
+    }
+    REQUIRE(wrong == 0);
+  }
+}
+
+TEST_CASE("Frame n of a clip is the same in every run, also in one with other threads") {
+  const std::vector<SensorFrame> alone = frames_with(1, 12);
+  CHECK(same(frames_with(1, 12), alone));
+  CHECK(same(frames_with(2, 12), alone));
+  CHECK(same(frames_with(0, 12), alone));
+  CHECK_FALSE(
+      same_pixels(alone[4], alone[8]));  // the same scene in other noise, the shutter open at least once
+}
+
+TEST_CASE("Clips share nothing: made in turns or one after the other, they are the same") {
+  const std::vector<SensorFrame> a = frames_of(full_sensor(), clip("a"), 6);
+  const std::vector<SensorFrame> b = frames_of(full_sensor(), clip("b"), 6);
+  ThermalCamera one = camera(full_sensor(), clip("b"));
+  ThermalCamera other = camera(full_sensor(), clip("a"));
+  SensorFrame frame;  // one frame's memory for both
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    one.expose(two_parts(), frame);
+    REQUIRE(same_pixels(frame, b[i]));
+    other.expose(two_parts(), frame);
+    REQUIRE(same_pixels(frame, a[i]));
+  }
+  CHECK_FALSE(same_pixels(a[0], b[0]));
+  CHECK_FALSE(same_pixels(a[0], frames_of(full_sensor(), clip("a", 2), 1)[0]));
+}
+
+TEST_CASE("White noise is a function of seed and clip") {
+  SensorParameters parameters = perfect_sensor();
+  parameters.noise.amount = 1;
+  const SensorFrame frame = frames_of(parameters, clip("a", 1), 1)[0];
+  CHECK(same_pixels(frames_of(parameters, clip("a", 1), 1)[0], frame));
+  CHECK_FALSE(same_pixels(frames_of(parameters, clip("b", 1), 1)[0], frame));
+  CHECK_FALSE(same_pixels(frames_of(parameters, clip("a", 2), 1)[0], frame));
+}
+
+TEST_CASE("A camera that sees means of samples leaves their share of the footprint out of its blur") {
+  SensorParameters parameters = perfect_sensor();
+  parameters.optics.psf = Psf::physical;
+  const int supersample = GENERATE(1, 2, 4);
+  Plane<float> blurred = two_parts();
+  Convolution(psf_kernel(parameters.optics, parameters.response, supersample)).apply(blurred);
+  cameras::ClipOf sampled = clip();
+  sampled.supersample = supersample;
+  const SensorFrame expected = camera(perfect_sensor(), clip()).expose(blurred);
+  CHECK(same_pixels(camera(parameters, sampled).expose(two_parts()), expected));
+}
+
+TEST_CASE("The paper's fixed pattern is scaled by the first frame, and stays") {
+  SensorParameters parameters = perfect_sensor();
+  parameters.noise = {.amount = 0.5, .first_frame_ratio = 1};
+  parameters.netd_mk = 1e-6;  // no white noise to speak of
+  ThermalCamera sensor = camera(parameters, clip());
+  // 62 columns of 100 levels and 21 of 140: standard deviation 40 sqrt(62 * 21) / 83.
+  const double half_width = 0.5 * 40 * std::sqrt(62.0 * 21) / 83;
+  const SensorFrame first = sensor.expose(two_parts());
+  const SensorFrame second = sensor.expose(Plane<float>(kWidth, kHeight, 120 * kLevel));
+  double most = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const int pattern = second.ir8.at(x, y) - 120;
+      REQUIRE(std::abs(pattern) <= half_width + 0.5);
+      REQUIRE(std::abs(first.ir8.at(x, y) - (x < kWidth * 3 / 4 ? 100 : 140) - pattern) <=
+              1);  // both rounded
+      most = std::max<double>(most, std::abs(pattern));
+    }
+  }
+  CHECK(most >= half_width - 1);
+}
+
+TEST_CASE("Noise has the standard deviation of its NETD, behind any lens and at the edge of the field") {
+  SensorParameters parameters = perfect_sensor();
+  parameters.noise.amount = GENERATE(1.0, 2.0);
+  parameters.optics.f_number = 1.25;
+  parameters.netd_mk = 40;
+  Plane<float> gain(kWidth, kHeight, 1.5F);
+  ThermalCamera sensor(parameters, {.id = "a", .width_px = kWidth, .height_px = kHeight, .noise_gain = gain},
+                       60);
+  const SensorFrame frame = sensor.expose(uniform_scene(kWidth, kHeight, 300));
+  double squares_k2 = 0;
+  for (const std::uint16_t count : frame.ir16.pixels()) squares_k2 += std::pow(0.01 * count - 300, 2);
+  const double sigma_k = 0.040 * 1.25 * 1.25 * 1.5 * parameters.noise.amount;
+  constexpr double kPixels = kWidth * kHeight;
+  // Rounding to counts adds 1/12. The variance of n independent normals scatters by sqrt(2 / n): 5 sigma.
+  CHECK_THAT(squares_k2 / kPixels, WithinRel(sigma_k * sigma_k + 1e-4 / 12, 5 * std::sqrt(2 / kPixels)));
+}
+
+TEST_CASE("The picture freezes when the shutter closes, to the frame, and time goes on behind it") {
+  const double frame_rate_hz = GENERATE(9.0, 30.0, 60.0);
+  SensorParameters freezing = full_sensor();
+  freezing.agc.mode = AgcMode::linear;  // an adaptive curve remembers what it was shown
+  freezing.shutter = {.interval_s = 0.9, .freeze_s = 0.3};
+  SensorParameters open = freezing;
+  open.shutter.freeze_s = 0;
+  cameras::ClipOf small = clip();
+  small.width_px = 20;
+  small.height_px = 14;
+  small.frame_rate_hz = frame_rate_hz;
+  const double begins_s = Shutter(freezing.shutter, small.seed, small.id).begins_s();
+  ThermalCamera frozen_camera = camera(freezing, small);
+  ThermalCamera open_camera = camera(open, small);
+  SensorFrame last;
+  int closed = 0;
+  for (int frame = 0; frame < 10 * 0.9 * frame_rate_hz; ++frame) {
+    CAPTURE(frame_rate_hz, frame);
+    const Plane<float> scene = uniform_scene(20, 14, 280 + frame % 7);
+    const SensorFrame shown = frozen_camera.expose(scene);
+    const SensorFrame unfrozen = open_camera.expose(scene);
+    const bool expected = std::fmod(begins_s + frame / frame_rate_hz, 0.9) < 0.3;
+    REQUIRE(shown.shutter_closed == expected);
+    REQUIRE_FALSE(unfrozen.shutter_closed);
+    if (expected && frame > 0) REQUIRE((same_pixels(shown, last) && shown.curve == last.curve));
+    if (!expected || frame == 0) REQUIRE(same_pixels(shown, unfrozen));
+    if (expected && frame > 0) REQUIRE_FALSE(same_pixels(shown, unfrozen));
+    closed += expected ? 1 : 0;
+    last = shown;
+  }
+  CHECK(closed > 9 * 0.3 * frame_rate_hz - 10);
+}
+
+TEST_CASE("A blurred picture's mean is the scene's, and the blur is in radiance") {
+  SensorParameters parameters = perfect_sensor();
+  parameters.optics.blur_sigma_px = 1;
+  const SensorFrame frame = camera(parameters, {.width_px = 21, .height_px = 1}).expose([] {
+    Plane<float> line(21, 1, 100 * kLevel);
+    line.at(10, 0) = 200 * kLevel;
+    return line;
+  }());
+  const double share = static_cast<double>(gaussian_kernel(1)[0]);
+  CHECK(frame.ir8.at(10, 0) == std::lround(100 + 100 * share));
+  CHECK(frame.ir8.at(5, 0) == 100);
+}

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "sensor/agc.h"
+
+namespace thermal {
+
+/// The AGC modes once more, in double precision, from temperatures that were never rounded to counts and
+/// without a table: what Agc is measured against. Histograms have bins of 0.04 K as Agc's.
+class ReferenceAgc {
+ public:
+  ReferenceAgc(const AgcParameters& parameters, const AgcScene& scene);
+
+  /// Levels 0 to 255 of the next frame, white-hot. Every temperature is finite and in (0, 655) K.
+  [[nodiscard]] std::vector<int> next(const std::vector<double>& temperatures_k);
+
+ private:
+  void adapt(const std::vector<double>& temperatures_k);
+  [[nodiscard]] std::vector<double> equalised(const std::vector<double>& kept_k) const;
+  [[nodiscard]] double level(double temperature_k, double radiance_share) const;
+
+  AgcParameters parameters_;
+  AgcScene scene_;
+  double share_of_new_;
+  bool adapted_ = false;
+  double low_k_;
+  double high_k_;
+  std::vector<double> levels_;  ///< plateau: at the lower edge of each bin
+};
+
+}  // namespace thermal

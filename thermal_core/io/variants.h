@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/json_file.h"
+
+namespace thermal {
+
+/// One of the datasets that are made of the same passes: what it changes of the config they share.
+struct Variant {
+  std::string name;   ///< of its folder
+  std::string where;  ///< begins faults: "variants.json: variants[1] (summer_boson)"
+  Json changes;       ///< by key of a config; "season" is that of every clip
+};
+
+/// Checks a list of variants against configs/schema/variants.schema.json. What a variant changes is checked
+/// when it is part of a config (changed_by, resolve_config).
+/// ConfigError with a line a fault, each starting with `name`.
+[[nodiscard]] std::vector<Variant> read_variants(Json document, const std::string& name, const Path& home);
+
+/// A config's document with the variant's changes: objects are merged key by key, anything else is replaced.
+[[nodiscard]] Json changed_by(const Variant& variant, Json document);
+
+}  // namespace thermal

@@ -1,0 +1,116 @@
+#include "scene/lens_distortion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace thermal {
+namespace {
+
+/// Derivative of distort(); symmetric.
+struct Jacobian {
+  double xx = 1;
+  double xy = 0;
+  double yy = 1;
+
+  [[nodiscard]] double determinant() const noexcept { return xx * yy - xy * xy; }
+};
+
+Jacobian jacobian(const LensDistortion& lens, const LensPoint& point) noexcept {
+  const auto [x, y] = point;
+  const double r2 = x * x + y * y;
+  const double radial = 1 + r2 * (lens.k1 + r2 * lens.k2);
+  const double slope = 2 * (lens.k1 + 2 * r2 * lens.k2);  // of radial by x, divided by x
+  return {.xx = radial + slope * x * x + 2 * lens.p1 * y + 6 * lens.p2 * x,
+          .xy = slope * x * y + 2 * lens.p1 * x + 2 * lens.p2 * y,
+          .yy = radial + slope * y * y + 6 * lens.p1 * y + 2 * lens.p2 * x};
+}
+
+/// Whether nothing folds over on the way from the axis to a point of the pinhole's picture.
+bool is_unfolded(const LensDistortion& lens, const LensPoint& point) noexcept {
+  constexpr int kSteps = 32;  // the determinant is a polynomial of degree 8 along the way
+  for (int i = 1; i <= kSteps; ++i) {
+    const double share = static_cast<double>(i) / kSteps;
+    if (!(jacobian(lens, {share * point.x, share * point.y}).determinant() > 0)) return false;
+  }
+  return true;
+}
+
+std::string name_of(const LensDistortion& lens) {
+  return fmt::format("k1 {}, k2 {}, p1 {}, p2 {}", lens.k1, lens.k2, lens.p1, lens.p2);
+}
+
+/// How far outside the camera's picture a pinhole shows what the lens shows at this place [px]; below 0 inside.
+/// ConfigError if that is nowhere.
+double excess_px(const CameraIntrinsics& camera, const LensDistortion& lens, double u_px, double v_px) {
+  const LensPoint seen =
+      undistort(lens, {(u_px - camera.cx_px) / camera.fx_px, (v_px - camera.cy_px) / camera.fy_px});
+  if (!is_unfolded(lens, seen)) {
+    throw ConfigError(fault("camera.distortion", name_of(lens), "",
+                            "a distortion that is one to one as far as the corners of the picture"));
+  }
+  const double u_seen_px = camera.cx_px + camera.fx_px * seen.x;
+  const double v_seen_px = camera.cy_px + camera.fy_px * seen.y;
+  return 0.5 + std::max({-u_seen_px, u_seen_px - camera.width_px, -v_seen_px, v_seen_px - camera.height_px});
+}
+
+}  // namespace
+
+LensPoint distort(const LensDistortion& lens, const LensPoint& point) noexcept {
+  const auto [x, y] = point;
+  const double r2 = x * x + y * y;
+  const double radial = 1 + r2 * (lens.k1 + r2 * lens.k2);
+  return {.x = x * radial + 2 * lens.p1 * x * y + lens.p2 * (r2 + 2 * x * x),
+          .y = y * radial + lens.p1 * (r2 + 2 * y * y) + 2 * lens.p2 * x * y};
+}
+
+LensPoint undistort(const LensDistortion& lens, const LensPoint& point) noexcept {
+  constexpr int kMostSteps = 50;
+  constexpr double kLastStep = 1e-9;  // the error after a step goes with its square
+  LensPoint seen = point;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const LensPoint shown = distort(lens, seen);
+    const Jacobian slope = jacobian(lens, seen);
+    const double x_error = shown.x - point.x;
+    const double y_error = shown.y - point.y;
+    const double x_step = (slope.yy * x_error - slope.xy * y_error) / slope.determinant();
+    const double y_step = (slope.xx * y_error - slope.xy * x_error) / slope.determinant();
+    seen.x -= x_step;
+    seen.y -= y_step;
+    if (std::abs(x_step) + std::abs(y_step) < kLastStep) return seen;
+  }
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  return {.x = kNowhere, .y = kNowhere};
+}
+
+// If the lens folds nothing over between the axis and the border, what it shows within the picture's border is what
+// lies within the border's own source, so the border alone is looked at.
+int overscan_px(const CameraIntrinsics& camera, const LensDistortion& lens) {
+  if (lens.is_none()) return 0;
+  double most_px = 0;
+  const auto look = [&](int x, int y) {
+    most_px = std::max(most_px, excess_px(camera, lens, x + 0.5, y + 0.5));
+  };
+  for (int x = 0; x < camera.width_px; ++x) {
+    look(x, 0);
+    look(x, camera.height_px - 1);
+  }
+  for (int y = 0; y < camera.height_px; ++y) {
+    look(0, y);
+    look(camera.width_px - 1, y);
+  }
+  if (most_px > kMostOverscanPx) {
+    throw ConfigError(
+        fault("camera.distortion", name_of(lens), "",
+              fmt::format("a distortion that reaches at most {} px beyond the picture, not {:.0f} px",
+                          kMostOverscanPx, most_px)));
+  }
+  constexpr double kRoundingPx = 1e-6;
+  return static_cast<int>(std::ceil(most_px - kRoundingPx));
+}
+
+}  // namespace thermal

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "scene/manifest.h"
+
+namespace thermal {
+
+inline constexpr int kMostOverscanPx = 4096;
+
+/// What a lens does to the picture of a pinhole, by Brown and Conrady: names, order and meaning are OpenCV's.
+struct LensDistortion {
+  double k1 = 0;  ///< radial, r^2; negative: barrel
+  double k2 = 0;  ///< radial, r^4
+  double p1 = 0;  ///< tangential
+  double p2 = 0;  ///< tangential
+
+  /// A pinhole's picture.
+  [[nodiscard]] bool is_none() const noexcept { return *this == LensDistortion(); }
+  [[nodiscard]] bool operator==(const LensDistortion&) const = default;
+};
+
+/// A point of the picture in normalised coordinates: (u - cx) / fx to the right, (v - cy) / fy down.
+struct LensPoint {
+  double x = 0;
+  double y = 0;
+};
+
+/// Where the lens shows the point that a pinhole would show at `point`:
+/// x' = x (1 + k1 r^2 + k2 r^4) + 2 p1 x y + p2 (r^2 + 2 x^2), y' likewise with p1 and p2 exchanged.
+/// Source: OpenCV 4.6, Camera Calibration and 3D Reconstruction, "Detailed Description".
+[[nodiscard]] LensPoint distort(const LensDistortion& lens, const LensPoint& point) noexcept;
+
+/// The inverse: which point of a pinhole's picture the lens shows at `point`; Newton's method from the point itself.
+/// Where distort() is one to one from the axis to there, as overscan_px() checks, the error is at most 1e-12.
+/// NaN, NaN where the method finds no such point.
+[[nodiscard]] LensPoint undistort(const LensDistortion& lens, const LensPoint& point) noexcept;
+
+/// How many pixels more than the camera's a pinhole's picture needs on every side, so that each of the camera's
+/// pixels finds in it what the lens shows there, between the centres of four pixels; 0 without distortion.
+/// ConfigError if the lens shows a point of the scene twice within the picture, or needs more than
+/// kMostOverscanPx.
+[[nodiscard]] int overscan_px(const CameraIntrinsics& camera, const LensDistortion& lens);
+
+}  // namespace thermal

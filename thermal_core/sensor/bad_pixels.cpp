@@ -1,0 +1,82 @@
+#include "sensor/bad_pixels.h"
+
+#include <cmath>
+
+#include "base/rng.h"
+#include "sensor/streams.h"
+
+namespace thermal {
+namespace {
+
+/// Pixels whose uniform number falls below the share.
+std::vector<std::size_t> chosen(const RandomField& field, double share, std::size_t pixels) {
+  std::vector<std::size_t> list;
+  if (share <= 0) return list;
+  std::vector<float> numbers(pixels);
+  fill_uniform(field, 0, numbers);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    if (static_cast<double>(numbers[i]) < share) list.push_back(i);
+  }
+  return list;
+}
+
+}  // namespace
+
+BadPixels::BadPixels(const BadPixelParameters& parameters, std::uint32_t seed, std::string_view clip,
+                     double frame_rate_hz, int width_px, int height_px)
+    : parameters_(parameters), seed_(seed), clip_(hash_name(clip)) {
+  // A telegraph signal that flips at a rate r is in the other state after t with (1 - e^{-2 r t}) / 2.
+  flip_probability_ = static_cast<float>(-0.5 * std::expm1(-2 * parameters.blinking_hz / frame_rate_hz));
+  const std::size_t pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+  dead_ = chosen({.seed = seed, .stream = kDeadPixelStream, .clip = clip_, .frame = 0}, parameters.dead_share,
+                 pixels);
+  if (!dead_.empty()) is_dead_.resize(pixels);
+  for (const std::size_t pixel : dead_) is_dead_[pixel] = true;
+  blinking_ = chosen({.seed = seed, .stream = kBlinkingPixelStream, .clip = clip_, .frame = 0},
+                     parameters.blinking_share, pixels);
+  is_up_.resize(blinking_.size());
+}
+
+void BadPixels::apply(std::uint32_t frame, float noise_stddev, Plane<float>& signal) {
+  blink(frame, noise_stddev * static_cast<float>(parameters_.blinking_ratio), signal);
+  std::vector<float> shown;  // all are computed before any is changed; neighbours that are dead do not count
+  for (const std::size_t pixel : dead_) {
+    shown.push_back(parameters_.replace_dead ? living_mean(pixel, signal) : 0.0F);
+  }
+  for (std::size_t i = 0; i < dead_.size(); ++i) signal.pixels()[dead_[i]] = shown[i];
+}
+
+void BadPixels::blink(std::uint32_t frame, float height, Plane<float>& signal) {
+  if (blinking_.empty()) return;
+  std::vector<float> numbers(blinking_.size());
+  fill_uniform({.seed = seed_, .stream = kBlinkStream, .clip = clip_, .frame = frame}, 0, numbers);
+  const float probability = frame == 0 ? 0.5F : flip_probability_;  // both states are equally likely at first
+  for (std::size_t i = 0; i < blinking_.size(); ++i) {
+    if (numbers[i] < probability) is_up_[i] = !is_up_[i];
+    if (is_up_[i]) signal.pixels()[blinking_[i]] += height;
+  }
+}
+
+float BadPixels::living_mean(std::size_t pixel, const Plane<float>& signal) const {
+  const auto width = static_cast<std::size_t>(signal.width_px());
+  const auto x = static_cast<int>(pixel % width);
+  const auto y = static_cast<int>(pixel / width);
+  float sum = 0;
+  int count = 0;
+  for (int reach = 1; reach <= 2 && count == 0; ++reach) {  // sides first, then corners too
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int steps = std::abs(dx) + std::abs(dy);
+        const bool inside =
+            x + dx >= 0 && x + dx < signal.width_px() && y + dy >= 0 && y + dy < signal.height_px();
+        if (steps == 0 || steps > reach || !inside) continue;
+        if (is_dead_[static_cast<std::size_t>(y + dy) * width + static_cast<std::size_t>(x + dx)]) continue;
+        sum += signal.at(x + dx, y + dy);
+        ++count;
+      }
+    }
+  }
+  return count == 0 ? 0.0F : sum / static_cast<float>(count);
+}
+
+}  // namespace thermal

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "base/image.h"
+#include "sensor/sensor_parameters.h"
+
+namespace thermal {
+
+/// Pixels that do not work, and what the camera does about them. Which they are is a function of (seed, clip).
+/// Dead ones see nothing; the camera knows them and shows the mean of their living neighbours, or 0 if told not
+/// to. Blinking ones (random telegraph noise) jump between two levels at random; the camera does not know them.
+class BadPixels {
+ public:
+  BadPixels(const BadPixelParameters& parameters, std::uint32_t seed, std::string_view clip,
+            double frame_rate_hz, int width_px, int height_px);
+
+  /// Acts on the next frame's signal. `noise_stddev` is the white temporal noise's, in the signal's unit.
+  void apply(std::uint32_t frame, float noise_stddev, Plane<float>& signal);
+
+  [[nodiscard]] const std::vector<std::size_t>& dead() const noexcept { return dead_; }
+  [[nodiscard]] const std::vector<std::size_t>& blinking() const noexcept { return blinking_; }
+
+ private:
+  void blink(std::uint32_t frame, float height, Plane<float>& signal);
+  [[nodiscard]] float living_mean(std::size_t pixel, const Plane<float>& signal) const;
+
+  BadPixelParameters parameters_;
+  std::uint32_t seed_;
+  std::uint64_t clip_;
+  float flip_probability_;  ///< from one frame to the next
+  std::vector<std::size_t> dead_;
+  std::vector<bool> is_dead_;  ///< empty: none
+  std::vector<std::size_t> blinking_;
+  std::vector<bool> is_up_;  ///< of the blinking ones
+};
+
+}  // namespace thermal

@@ -1,0 +1,87 @@
+#include "sensor/pattern_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/clones.h"
+#include "base/rng.h"
+#include "sensor/streams.h"
+#include "sensor/vector_math.h"
+
+namespace thermal {
+namespace {
+
+VELDT_CLONES void add_row(const float* columns, std::size_t count, float row, float stddev, float* out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] += stddev * (row + columns[i]);
+}
+
+}  // namespace
+
+PatternNoise::PatternNoise(const NoiseParameters& parameters, std::uint32_t seed, std::string_view clip,
+                           int width_px, int height_px)
+    : parameters_(parameters),
+      seed_(seed),
+      clip_(hash_name(clip)),
+      width_px_(width_px),
+      height_px_(height_px) {
+  float phase = 0;
+  fill_uniform({.seed = seed_, .stream = kBandingPhaseStream, .clip = clip_, .frame = 0}, 0,
+               std::span(&phase, 1));
+  banding_phase_ = static_cast<double>(phase);
+}
+
+std::vector<float> PatternNoise::normals(std::uint32_t stream, std::uint32_t frame, int count) const {
+  std::vector<float> values(static_cast<std::size_t>(count));
+  fill_normal({.seed = seed_, .stream = stream, .clip = clip_, .frame = frame}, 0, values);
+  return values;
+}
+
+void PatternNoise::draw_fixed(std::uint32_t event) {
+  const int pixels = width_px_ * height_px_;
+  const NoiseParameters& ratios = parameters_;
+  if (ratios.drift_ratio > 0) drift_ = normals(kDriftStream, event, pixels);
+  if (ratios.fixed_pattern_ratio == 0 && ratios.row_ratio == 0 && ratios.column_ratio == 0) return;
+  fixed_ = normals(kFixedPatternStream, event, pixels);
+  for (float& value : fixed_) value *= static_cast<float>(ratios.fixed_pattern_ratio);
+  std::vector<float> columns = normals(kFixedColumnStream, event, width_px_);
+  for (float& value : columns) value *= static_cast<float>(ratios.column_ratio);
+  const std::vector<float> rows = normals(kFixedRowStream, event, height_px_);
+  for (std::size_t y = 0; y < rows.size(); ++y) {
+    add_row(columns.data(), columns.size(), static_cast<float>(ratios.row_ratio) * rows[y], 1,
+            &fixed_[y * columns.size()]);
+  }
+}
+
+void PatternNoise::begin_frame(std::uint32_t frame, double time_s, const ShutterState& shutter) {
+  if (event_ != shutter.event) draw_fixed(shutter.event);
+  event_ = shutter.event;
+  const double growth = 0.5 * std::sqrt(shutter.since_intervals) + 0.5 * shutter.since_intervals;
+  drifted_ = static_cast<float>(parameters_.drift_ratio * growth);
+  columns_ = normals(kTemporalColumnStream, frame, width_px_);
+  for (float& value : columns_) value *= static_cast<float>(parameters_.temporal_column_ratio);
+  rows_ = normals(kTemporalRowStream, frame, height_px_);
+  const double whole = parameters_.frame_ratio * static_cast<double>(normals(kFrameStream, frame, 1).front());
+  for (std::size_t y = 0; y < rows_.size(); ++y) {
+    const double turns = static_cast<double>(y) / parameters_.banding_period_px +
+                         parameters_.banding_hz * time_s + banding_phase_;
+    const double band =
+        parameters_.banding_ratio * std::numbers::sqrt2 * std::sin(2 * std::numbers::pi * turns);
+    rows_[y] =
+        static_cast<float>(parameters_.temporal_row_ratio * static_cast<double>(rows_[y]) + band + whole);
+  }
+}
+
+void PatternNoise::add(std::size_t first, float stddev, std::span<float> out) const {
+  if (!fixed_.empty()) add_scaled(std::span(fixed_).subspan(first, out.size()), stddev, out);
+  if (!drift_.empty()) add_scaled(std::span(drift_).subspan(first, out.size()), stddev * drifted_, out);
+  const auto width = static_cast<std::size_t>(width_px_);
+  for (std::size_t done = 0; done < out.size();) {
+    const std::size_t column = (first + done) % width;
+    const std::size_t count = std::min(width - column, out.size() - done);
+    add_row(&columns_[column], count, rows_[(first + done) / width], stddev, &out[done]);
+    done += count;
+  }
+}
+
+}  // namespace thermal

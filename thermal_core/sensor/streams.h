@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+namespace thermal {
+
+/// What the sensor's random numbers are for: one stream each. Never reuse a number.
+enum SensorStream : std::uint32_t {
+  kWhiteStream = 1,
+  kFirstFramePatternStream = 2,
+  kFixedPatternStream = 3,
+  kFixedRowStream = 4,
+  kFixedColumnStream = 5,
+  kDriftStream = 6,
+  kTemporalRowStream = 7,
+  kTemporalColumnStream = 8,
+  kFrameStream = 9,
+  kShutterPhaseStream = 10,
+  kBandingPhaseStream = 11,
+  kDeadPixelStream = 12,
+  kBlinkingPixelStream = 13,
+  kBlinkStream = 14,
+  kFlickerStream = 15,
+  kFlickerStartStream = 16,  ///< and the numbers after it, one for each pole
+};
+
+}  // namespace thermal

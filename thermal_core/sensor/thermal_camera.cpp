@@ -1,0 +1,250 @@
+#include "sensor/thermal_camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "base/clones.h"
+#include "base/parallel.h"
+#include "base/rng.h"
+#include "radiometry/band_radiance.h"
+#include "radiometry/script_radiance.h"
+#include "sensor/psf.h"
+#include "sensor/streams.h"
+#include "sensor/vector_math.h"
+
+namespace thermal {
+namespace {
+
+constexpr double kReferenceTemperatureK = 300;  // where a NETD is stated
+constexpr float kLargestCount = 65535;
+constexpr std::size_t kPixelsAChunk = 16384;
+constexpr std::size_t kPixelsABlock = 256;
+
+/// Apparent temperature by exact Planck, tabulated for anything a savanna night holds.
+TemperatureTable apparent_temperature_table(const SpectralResponse& response) {
+  constexpr double kColdest = 180;
+  constexpr double kHottest = 420;
+  const BandRadiance band(response);
+  const double low = band.radiance(kColdest);
+  const double high = band.radiance(kHottest);
+  return TemperatureTable([band](double radiance) { return band.temperature(radiance); }, low, high);
+}
+
+float netd_w_m2_sr(const SensorParameters& parameters) {
+  const BandValue at_300_k = BandRadiance(parameters.response).evaluate(kReferenceTemperatureK);
+  return static_cast<float>(parameters.noise.amount * parameters.netd_k() * at_300_k.derivative_w_m2_sr_k);
+}
+
+AgcScene agc_scene(const SensorParameters& parameters, double frame_rate_hz, float brightest_w_m2_sr) {
+  return {.kelvin_per_count = parameters.kelvin_per_count,
+          .frame_rate_hz = frame_rate_hz,
+          .netd_k = parameters.netd_k(),
+          .brightest_w_m2_sr = static_cast<double>(brightest_w_m2_sr),
+          .temperature_of = [band = BandRadiance(parameters.response)](double radiance) {
+            return band.temperature(radiance);
+          }};
+}
+
+/// NaN compares false: 0.
+VELDT_CLONES void copy_clipped(const float* in, std::size_t count, float most, float* out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float value = in[i] > 0.0F ? in[i] : 0.0F;
+    out[i] = value < most ? value : most;
+  }
+}
+
+VELDT_CLONES void follow(const float* target, std::size_t count, float share, float* state) {
+  for (std::size_t i = 0; i < count; ++i) state[i] += share * (target[i] - state[i]);
+}
+
+VELDT_CLONES void round_to_counts(const float* in, std::size_t count, float counts_per_unit,
+                                  std::uint16_t* out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float value = in[i] * counts_per_unit + 0.5F;
+    const float positive = value > 0.0F ? value : 0.0F;  // NaN compares false: 0
+    out[i] = static_cast<std::uint16_t>(
+        static_cast<std::int32_t>(positive < kLargestCount ? positive : kLargestCount));
+  }
+}
+
+/// Sum, and sum of squares about a middle value, of a chunk of pixels.
+struct Moments {
+  double sum = 0;
+  double squares = 0;
+};
+
+/// Standard deviation of all pixels; the order of summation depends on the size of the picture alone.
+double standard_deviation(const Plane<float>& picture) {
+  const auto pixels = picture.pixels();
+  const double middle = static_cast<double>(pixels.front());  // any value of the picture's order of magnitude
+  std::vector<Moments> chunks((pixels.size() + kPixelsAChunk - 1) / kPixelsAChunk);
+  parallel_for(pixels.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
+    Moments& moments = chunks[begin / kPixelsAChunk];
+    for (const float pixel : pixels.subspan(begin, end - begin)) {
+      const double difference = static_cast<double>(pixel) - middle;
+      moments.sum += difference;
+      moments.squares += difference * difference;
+    }
+  });
+  Moments total;
+  for (const Moments& chunk : chunks) {
+    total.sum += chunk.sum;
+    total.squares += chunk.squares;
+  }
+  const auto count = static_cast<double>(pixels.size());
+  const double mean = total.sum / count;
+  return std::sqrt(std::max(0.0, total.squares / count - mean * mean));
+}
+
+/// Uniform in +-half width, the paper's fixed pattern.
+std::vector<float> uniform_pattern(std::uint32_t seed, const std::string& clip, double half_width,
+                                   std::size_t pixels) {
+  std::vector<float> pattern(pixels);
+  fill_uniform({.seed = seed, .stream = kFirstFramePatternStream, .clip = hash_name(clip), .frame = 0}, 0,
+               pattern);
+  for (float& value : pattern) value = static_cast<float>(half_width) * (2 * value - 1);
+  return pattern;
+}
+
+}  // namespace
+
+std::function<double(double temperature_k)> radiance_of(const SensorParameters& parameters) {
+  if (parameters.radiance == RadianceModel::script) return script_radiance;
+  return [band = BandRadiance(parameters.response)](double temperature_k) {
+    return band.radiance(temperature_k);
+  };
+}
+
+ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, float brightest_w_m2_sr)
+    : parameters_(parameters),
+      clip_(std::move(clip)),
+      clip_hash_(hash_name(clip_.id)),
+      brightest_w_m2_sr_(static_cast<double>(brightest_w_m2_sr)),
+      temperature_table_(apparent_temperature_table(parameters.response)),
+      white_w_m2_sr_(netd_w_m2_sr(parameters)),
+      flicker_w_m2_sr_(white_w_m2_sr_ * static_cast<float>(std::sqrt(parameters.noise.flicker_knee_hz))),
+      saturation_w_m2_sr_(static_cast<float>(
+          BandRadiance(parameters.response)
+              .radiance((static_cast<double>(kLargestCount) + 1) * parameters.kelvin_per_count))),
+      follow_(parameters.time_constant_s > 0
+                  ? static_cast<float>(-std::expm1(-1 / (clip_.frame_rate_hz * parameters.time_constant_s)))
+                  : 1),
+      optics_(psf_kernel(parameters.optics, parameters.response, clip_.supersample)),
+      shutter_(parameters.shutter, clip_.seed, clip_.id),
+      pattern_(parameters.noise, clip_.seed, clip_.id, clip_.width_px, clip_.height_px),
+      bad_pixels_(parameters.bad_pixels, clip_.seed, clip_.id, clip_.frame_rate_hz, clip_.width_px,
+                  clip_.height_px),
+      agc_(parameters.agc, agc_scene(parameters, clip_.frame_rate_hz, brightest_w_m2_sr)),
+      signal_(clip_.width_px, clip_.height_px) {
+  assert(brightest_w_m2_sr > 0);
+  if (flicker_w_m2_sr_ > 0) {
+    flicker_.emplace(clip_.seed, clip_.id, FlickerFilter::design(clip_.frame_rate_hz), signal_.size());
+  }
+}
+
+SensorFrame ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr) {
+  SensorFrame frame;
+  expose(radiance_w_m2_sr, frame);
+  return frame;
+}
+
+void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out) {
+  const double time_s = frame_ / clip_.frame_rate_hz;
+  const ShutterState shutter = shutter_.at(time_s);
+  take_in(radiance_w_m2_sr);
+  pattern_.begin_frame(frame_, time_s, shutter);
+  expose_signal();
+  bad_pixels_.apply(frame_, white_w_m2_sr_, signal_);
+  ++frame_;
+  if (shutter.closed && !shown_.ir16.empty()) {
+    out = shown_;
+  } else {
+    count(out.ir16);
+    out.curve = agc_.next(out.ir16);
+    show(out);
+    if (parameters_.shutter.interval_s > 0) shown_ = out;
+  }
+  out.shutter_closed = shutter.closed;
+}
+
+void ThermalCamera::show(SensorFrame& frame) const {
+  const AgcParameters& agc = parameters_.agc;
+  if (agc.mode == AgcMode::table_max) {
+    truncate_to_levels(signal_, brightest_w_m2_sr_, agc.polarity, frame.ir8);
+  } else {
+    apply_tone_curve(frame.curve, agc.polarity, frame.ir16, frame.ir8);
+  }
+}
+
+/// Radiance onto the detector.
+void ThermalCamera::take_in(const Plane<float>& radiance_w_m2_sr) {
+  assert(radiance_w_m2_sr.size() == signal_.size());
+  const auto in = radiance_w_m2_sr.pixels();
+  const auto signal = signal_.pixels();
+  parallel_for(in.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
+    copy_clipped(&in[begin], end - begin, saturation_w_m2_sr_, &signal[begin]);
+  });
+  optics_.apply(signal_);
+  if (frame_ > 0) return;
+  if (follow_ < 1) membrane_.assign(signal.begin(), signal.end());  // at rest
+  const double ratio = parameters_.noise.amount * parameters_.noise.first_frame_ratio;
+  if (ratio > 0) {
+    first_frame_ = uniform_pattern(clip_.seed, clip_.id, ratio * standard_deviation(signal_), signal_.size());
+  }
+}
+
+/// Every pixel through the detector, in blocks that stay in the fastest cache.
+void ThermalCamera::expose_signal() {
+  const auto signal = signal_.pixels();
+  parallel_for(signal.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end; first += kPixelsABlock) {
+      const std::span<float> block = signal.subspan(first, std::min(kPixelsABlock, end - first));
+      if (!membrane_.empty()) lag(first, block);
+      add_noise(first, block);
+    }
+  });
+}
+
+void ThermalCamera::lag(std::size_t first, std::span<float> signal) {
+  follow(signal.data(), signal.size(), follow_, &membrane_[first]);
+  std::copy_n(membrane_.begin() + static_cast<std::ptrdiff_t>(first), signal.size(), signal.begin());
+}
+
+void ThermalCamera::add_noise(std::size_t first, std::span<float> signal) {
+  std::array<float, kPixelsABlock> normals{};
+  std::array<float, kPixelsABlock> buffer{};
+  const std::size_t count = signal.size();
+  const std::span<float> noise = std::span(buffer).first(count);
+  if (white_w_m2_sr_ > 0) {
+    fill_normal({.seed = clip_.seed, .stream = kWhiteStream, .clip = clip_hash_, .frame = frame_}, first,
+                std::span(normals).first(count));
+    add_scaled(std::span(normals).first(count), white_w_m2_sr_, noise);
+    if (flicker_) flicker_->add_next(frame_, first, flicker_w_m2_sr_, noise);
+    pattern_.add(first, white_w_m2_sr_, noise);
+  }
+  if (!first_frame_.empty()) add_scaled(std::span(first_frame_).subspan(first, count), 1, noise);
+  if (!clip_.noise_gain.empty()) multiply(clip_.noise_gain.pixels().subspan(first, count), noise);
+  add_scaled(noise, 1, signal);
+}
+
+void ThermalCamera::count(Plane<std::uint16_t>& ir16) const {
+  if (ir16.width_px() != clip_.width_px || ir16.height_px() != clip_.height_px) {
+    ir16 = Plane<std::uint16_t>(clip_.width_px, clip_.height_px);
+  }
+  const auto counts_per_kelvin = static_cast<float>(1 / parameters_.kelvin_per_count);
+  const auto signal = signal_.pixels();
+  const auto out = ir16.pixels();
+  parallel_for(signal.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
+    std::array<float, kPixelsABlock> temperatures_k{};
+    for (std::size_t first = begin; first < end; first += kPixelsABlock) {
+      const std::size_t size = std::min(kPixelsABlock, end - first);
+      temperature_table_.temperatures(signal.subspan(first, size), std::span(temperatures_k).first(size));
+      round_to_counts(temperatures_k.data(), size, counts_per_kelvin, &out[first]);
+    }
+  });
+}
+
+}  // namespace thermal
