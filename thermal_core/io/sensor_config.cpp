@@ -49,7 +49,7 @@ Json read_preset(const Path& file, const Json& schema) {
                         {"camera", keys["camera"]},
                         {"sensor", keys["sensor"]},
                         {"sources", {{"type", "object"}}}}}};
-  const Json preset = read_json(file);
+  Json preset = read_json(file);
   Json filled = preset;
   const std::vector<std::string> faults = check_and_fill(filled, rules);
   if (faults.empty()) return preset;
