@@ -10,6 +10,7 @@ from . import assets, checks, ids
 from .actors import Actor, plan_actors
 from .bodies import part_names
 from .camera import Intrinsics, intrinsics_of, overscan_of, widened
+from .density import plan_density
 from .flight import Flight, fly
 from .placement import Corridor, Planting, Site, place_plants
 from .splines import Loop
@@ -54,13 +55,14 @@ def plan_world(config: dict) -> World:
     checks.check_paths(scene, loops)
     actors = plan_actors(scene["groups"], loops, seed)
     terrain = build_terrain(scene["terrain"], seed)
+    areas = plan_density(terrain, scene["terrain"], seed)
     corridors = [_corridor(group, loops[group["path"]]) for group in scene["groups"]]
     world = World(
         config=config,
         intrinsics=intrinsics_of(config["camera"]),
         overscan_px=overscan_of(config),
         terrain=terrain,
-        plantings=place_plants(scene["plants"], Site(terrain, corridors=corridors), seed),
+        plantings=place_plants(scene["plants"], Site(terrain, areas.shares, corridors=corridors), seed),
         plant_indices=ids.plan_plant_indices(sorted(scene["plants"])),
         actors=actors,
         material_indices=ids.plan_material_indices(_materials(scene["plants"], actors)),
