@@ -1,7 +1,7 @@
 """Renders the passes of a dataset's clips. Blender runs it:
 
     blender -b --factory-startup --python-exit-code 1 --python render_passes.py -- --config FILE --out DIR
-            [--clip ID ...] [--events-fd N]
+            [--clip ID ...] [--preview] [--events-fd N]
 
 For each clip it writes DIR/<clip>/manifest.json, then DIR/<clip>/000000.exr and so on; a file under such a name is
 whole. Run again, it goes on at a clip's first missing frame. Exit codes: 0 done, 1 failed, 2 the config is at fault.
@@ -24,6 +24,7 @@ from veldt.events import Events
 from veldt.faults import ConfigError
 from veldt.manifest import build_manifest, frame_file, to_json
 from veldt.world import clip_of, plan_world
+from veldt_bl.preview import plan_pictures, render_pictures
 from veldt_bl.render import first_missing, render_frames, set_up_renderer
 from veldt_bl.scene import Stage, build_stage
 
@@ -52,6 +53,9 @@ def _parse(arguments: list[str]) -> argparse.Namespace:
     parser.add_argument(
         "--clip", action="extend", nargs="+", metavar="ID", help="only these clips; default all"
     )
+    parser.add_argument(
+        "--preview", action="store_true", help="instead of passes: DIR/map.png and colour stills beside it"
+    )
     parser.add_argument("--events-fd", type=int, help="write progress here, one JSON object a line")
     return parser.parse_args(arguments)
 
@@ -61,10 +65,26 @@ def _render(options: argparse.Namespace, events: Events) -> None:
     config = load(options.config)
     clips = [clip_of(config, name) for name in options.clip] if options.clip else config["clips"]
     stage = build_stage(plan_world(config))
-    set_up_renderer(stage.world.passes_intrinsics, config["render"]["supersample"])
     events.tell("scene_built", seconds=round(time.monotonic() - started_s, 3))
+    if options.preview:
+        _render_preview(stage, options.out, events)
+        return
+    set_up_renderer(stage.world.passes_intrinsics, config["render"]["supersample"])
     for clip in clips:
         _render_clip(stage, clip, options.out / clip["id"], events)
+
+
+def _render_preview(stage: Stage, folder: Path, events: Events) -> None:
+    """Writes a map and stills, and tells of them as of the frames of a clip `preview`."""
+    pictures = plan_pictures(stage)
+    events.tell("clip", clip="preview", first_frame=0, frames=len(pictures))
+    render_pictures(
+        stage,
+        pictures,
+        folder,
+        lambda k: events.tell("frame", clip="preview", index=k, file=pictures[k].file),
+    )
+    events.tell("clip_done", clip="preview")
 
 
 def _render_clip(stage: Stage, clip: dict, folder: Path, events: Events) -> None:
@@ -79,7 +99,10 @@ def _render_clip(stage: Stage, clip: dict, folder: Path, events: Events) -> None
     if first < frames:
         stage.animate(clip)
         render_frames(
-            folder, first, frames, lambda k: events.tell("frame", clip=name, index=k, file=frame_file(k))
+            folder,
+            range(first, frames),
+            stage.pose,
+            lambda k: events.tell("frame", clip=name, index=k, file=frame_file(k)),
         )
     events.tell("clip_done", clip=name)
 

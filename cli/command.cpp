@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -84,6 +85,7 @@ thermal::Config load_config(const thermal::Path& file, const std::vector<std::st
   try {
     thermal::Json document = thermal::read_json(file);
     for (const std::string& setting : settings) thermal::apply_setting(document, setting);
+    thermal::root_files(document, std::filesystem::absolute(file).parent_path());
     return thermal::resolve_config(std::move(document), file.string(), home);
   } catch (const thermal::IoError& error) {
     throw thermal::ConfigError(error.what());

@@ -28,6 +28,7 @@ struct Options {
   std::vector<std::string> clips;
   std::vector<std::string> settings;
   bool keep_passes = false;
+  bool preview = false;
   bool dry_run = false;
 };
 
@@ -53,6 +54,19 @@ void print_plan(const std::vector<thermal::ClipPlan>& plan, const std::vector<th
   }
 }
 
+int make_preview(const thermal::Config& config, const thermal::GenerateOptions& request,
+                 const CommonOptions& common) {
+  int pictures = 0;
+  {
+    ProgressBar bar(common);
+    pictures = thermal::preview(config, request, hooks_for(bar));
+  }
+  const thermal::Path folder = thermal::Layout{request.out}.preview();
+  if (!common.quiet)
+    fmt::print("{}: {} pictures; map.png is the place from above\n", folder.string(), pictures);
+  return kDone;
+}
+
 int run(const Options& options, const CommonOptions& common, Run work) {
   const thermal::Path home = thermal::find_home();
   const thermal::Config config = load_config(options.config, options.settings, home);
@@ -70,6 +84,7 @@ int run(const Options& options, const CommonOptions& common, Run work) {
     return kDone;
   }
   watch_for_stop();
+  if (options.preview) return make_preview(config, request, common);
   thermal::RunOutcome outcome;
   {
     ProgressBar bar(common);
@@ -93,6 +108,10 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
   if (name == "generate") {
     command->add_flag("--keep-passes", options->keep_passes,
                       "Keep the rendered EXR passes, for veldt convert");
+  }
+  if (name == "render") {
+    command->add_flag("--preview", options->preview,
+                      "Instead of passes, a map of the place and colour stills, for people to look at");
   }
   add_settings(command, options->settings);
   command->add_flag("--dry-run", options->dry_run, "Check the config and print what would be made");

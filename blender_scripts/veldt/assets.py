@@ -6,8 +6,9 @@ import json
 from functools import lru_cache
 from pathlib import Path
 
+from . import asset_checks, models
 from .config import ROOT
-from .faults import ConfigError
+from .faults import ConfigError, check_known
 
 
 @lru_cache(maxsize=None)
@@ -18,15 +19,37 @@ def names(kind: str) -> tuple[str, ...]:
 
 @lru_cache(maxsize=None)
 def load(kind: str, name: str) -> dict:
-    """One file's content; callers must not change it. ConfigError if it cannot be read as JSON."""
+    """One file's content; callers must not change it. ConfigError if it cannot be read, or lacks something.
+
+    A `model` comes with its defaults, its file's whole path and its size; plants with one have a single variant.
+    """
+    where = f"assets/{kind}/{name}.json"
+    data = _read(where, _folder(kind) / f"{name}.json")
+    asset_checks.check(where, kind, data)
+    if kind in ("species", "plants"):
+        check_known(data["material"], names("materials"), f"{where}: material", "a material")
+    if "model" in data:
+        parts = load("materials", data["material"]).get("parts", {})
+        data["model"] = models.checked(where, _folder(kind), data["model"], parts)
+        if kind == "plants":
+            data["variants"] = 1
+    return data
+
+
+def _read(where: str, path: Path) -> dict:
+    """The JSON object in a file."""
     try:
-        return json.loads((_folder(kind) / f"{name}.json").read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        if not text.strip():
+            raise ConfigError(f"{where}: the file is empty; expected JSON")
+        data = json.loads(text)
     except OSError as error:
-        raise ConfigError(
-            f"assets/{kind}/{name}.json: expected a readable file ({error.strerror})"
-        ) from error
+        raise ConfigError(f"{where}: expected a readable file ({error.strerror})") from error
     except ValueError as error:
-        raise ConfigError(f"assets/{kind}/{name}.json: expected JSON ({error})") from error
+        raise ConfigError(f"{where}: expected JSON ({error})") from error
+    if not isinstance(data, dict):
+        raise ConfigError(f"{where}: expected a JSON object")
+    return data
 
 
 def _folder(kind: str) -> Path:

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TypeVar
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from . import assets
-from .actors import member_names
-from .faults import ConfigError, did_you_mean, listing
+from .behaviours import member_names
+from .faults import ConfigError, check_known, did_you_mean
 from .flight import Flight
 from .placement import by_area
-from .splines import Loop
+from .routes import ROAD
+from .splines import Loop, self_crossing
 
 _MOST_CELLS = 4000  # a side: 32 million triangles, some 10 GB in Blender
 _MOST_PLANTS = 2_000_000  # of a species
 _LEAST_LOOP_M = 1.0
 _LOOP_STEP_M = 1.0
-
-Value = TypeVar("Value")
 
 
 def check_names(config: dict) -> None:
@@ -27,10 +25,6 @@ def check_names(config: dict) -> None:
     groups, clips = config["scene"]["groups"], config["clips"]
     _check_unique([group["name"] for group in groups], "scene.groups[{}].name", "a name no other group has")
     _check_unique([clip["id"] for clip in clips], "clips[{}].id", "an id no other clip has")
-    for k, group in enumerate(groups):
-        where = f"scene.groups[{k}]"
-        known(dict.fromkeys(assets.names("species")), group["species"], f"{where}.species", "a species")
-        known(config["scene"]["paths"], group["path"], f"{where}.path", "a path of scene.paths")
     targets = _targets(groups)
     for k, clip in enumerate(clips):
         if "flight" not in clip:
@@ -53,7 +47,7 @@ def check_plants(scene: dict) -> None:
     size_m = scene["terrain"]["size_m"]
     most_per_ha = _MOST_PLANTS / (size_m**2 / 1e4)
     for name, wanted in scene["plants"].items():
-        known(dict.fromkeys(assets.names("plants")), name, "scene.plants", "a plant")
+        check_known(name, assets.names("plants"), "scene.plants", "a plant")
         where = f"scene.plants.{name}.per_ha"
         per_ha = max(by_area(wanted["per_ha"]))
         if per_ha <= 0:
@@ -64,15 +58,43 @@ def check_plants(scene: dict) -> None:
             )
 
 
-def check_paths(scene: dict, loops: Mapping[str, Loop]) -> None:
-    """Loops have a length, and whoever walks on them stays on the terrain."""
-    for name, loop in loops.items():
-        if loop.length_m < _LEAST_LOOP_M:
+def check_paths(scene: dict) -> None:
+    """Every path is either given corner by corner, or to be drawn about a centre."""
+    for name, path in scene["paths"].items():
+        where = f"scene.paths.{name}"
+        if ("points_m" in path) == ("centre_m" in path):
+            found = "both are given" if "points_m" in path else "neither is given"
+            raise ConfigError(f"{where}: {found}; expected points_m, or centre_m and radius_m")
+        if "centre_m" in path and "radius_m" not in path:
             raise ConfigError(
-                f"scene.paths.{name} = {loop.length_m:.1f} m long; expected at least {_LEAST_LOOP_M:.0f} m"
+                f"{where}.radius_m is missing; expected how far from centre_m the loop shall be"
             )
-        spread_m = max((g["spread_m"] for g in scene["groups"] if g["path"] == name), default=0.0)
-        _check_inside(f"scene.paths.{name}", loop, spread_m, 0.5 * scene["terrain"]["size_m"])
+        if name == ROAD:
+            raise ConfigError(f'{where}; expected another name: "{ROAD}" is the road of scene.terrain')
+
+
+def check_road(terrain: dict, is_wet: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> None:
+    """A road given corner by corner is a loop that does not cross itself, on the place's dry ground."""
+    if terrain["road"]["width_m"] <= 0 or "points_m" not in terrain["road"]:
+        return
+    where, loop = "scene.terrain.road.points_m", Loop(terrain["road"]["points_m"])
+    _check_loop(where, loop, 0.0, 0.5 * terrain["size_m"])
+    points = loop.points_m(_LOOP_STEP_M)
+    wet = np.flatnonzero(is_wet(*points.T))
+    if len(wet) > 0:
+        x_m, y_m = points[wet[0]]
+        raise ConfigError(
+            f"{where}: the loop is in water at x = {x_m:.1f} m, y = {y_m:.1f} m; expected dry ground"
+        )
+
+
+def check_loops(scene: dict, loops: Mapping[str, Loop]) -> None:
+    """Loops have a length and do not cross themselves, and whoever walks on them stays on the terrain."""
+    for name, loop in loops.items():
+        spread_m = max(
+            (g.get("spread_m", 0.0) for g in scene["groups"] if g.get("path") == name), default=0.0
+        )
+        _check_loop(f"scene.paths.{name}", loop, spread_m, 0.5 * scene["terrain"]["size_m"])
 
 
 def check_flight(where: str, flight: Flight) -> None:
@@ -83,13 +105,6 @@ def check_flight(where: str, flight: Flight) -> None:
             f"{where}.flight: the camera is {-flight.agl_m[lowest]:.1f} m under the terrain"
             f" at time_s = {flight.time_s[lowest]:.1f}; expected it above ground all along"
         )
-
-
-def known(table: Mapping[str, Value], name: str, where: str, what: str) -> Value:
-    """table[name], or a ConfigError that lists what there is."""
-    if name in table:
-        return table[name]
-    raise ConfigError(f'{where} = "{name}"; expected {what}: {listing(table)}{did_you_mean(name, table)}')
 
 
 def _targets(groups: list[dict]) -> dict[str, None]:
@@ -135,6 +150,19 @@ def _check_area(where: str, plan: dict) -> None:
     x0, y0, x1, y1 = plan["area_m"]
     if not (x0 < x1 and y0 < y1):
         raise ConfigError(f'{where}.area_m = {plan["area_m"]} m; expected x_min < x_max and y_min < y_max')
+
+
+def _check_loop(where: str, loop: Loop, spread_m: float, half_m: float) -> None:
+    """The loop has a length, stays on the terrain's square with all walkers, and does not cross itself."""
+    if loop.length_m < _LEAST_LOOP_M:
+        raise ConfigError(f"{where} = {loop.length_m:.1f} m long; expected at least {_LEAST_LOOP_M:.0f} m")
+    _check_inside(where, loop, spread_m, half_m)
+    crossing_m = self_crossing(loop.points_m(_LOOP_STEP_M))
+    if crossing_m is not None:
+        x_m, y_m = crossing_m
+        raise ConfigError(
+            f"{where}: the loop crosses itself at x = {x_m:.1f} m, y = {y_m:.1f} m; expected a loop that does not"
+        )
 
 
 def _check_inside(where: str, loop: Loop, spread_m: float, half_m: float) -> None:

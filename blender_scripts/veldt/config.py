@@ -15,6 +15,7 @@ from .faults import ConfigError
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = ROOT / "configs" / "schema" / "config.schema.json"
 SENSORS = ROOT / "assets" / "sensors"
+MAPS = ("heightmap", "density_map")  # of scene.terrain, each with a file
 
 
 def load(path: Path) -> dict:
@@ -25,7 +26,16 @@ def load(path: Path) -> dict:
         raise ConfigError(f"config = {path}; expected a readable file ({error.strerror})") from error
     except ValueError as error:
         raise ConfigError(f"config = {path}; expected JSON ({error})") from error
-    return resolve(config)
+    return _with_whole_paths(resolve(config), Path(path).resolve().parent)
+
+
+def _with_whole_paths(config: dict, folder: Path) -> dict:
+    """The config, with files that it names relative to its own folder named in full."""
+    for name in MAPS:
+        given = config["scene"]["terrain"].get(name)
+        if given is not None:
+            given["file"] = str(folder / given["file"])
+    return config
 
 
 def resolve(config: dict) -> dict:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 
 class ConfigError(Exception):
@@ -19,3 +19,9 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
 def listing(names: Iterable[str]) -> str:
     """Names in a sentence; `none` where there are none."""
     return ", ".join(sorted(names)) or "none"
+
+
+def check_known(name: str, there: Collection[str], where: str, what: str) -> None:
+    """ConfigError that lists what there is, unless `name` is there."""
+    if name not in there:
+        raise ConfigError(f'{where} = "{name}"; expected {what}: {listing(there)}{did_you_mean(name, there)}')

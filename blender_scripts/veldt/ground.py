@@ -1,112 +1,45 @@
-"""The ground's mesh, cut into soil and grass along smooth borders."""
+"""The ground's mesh: fine where the road needs it, and cut along the borders of what covers it."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from .noise import fractal_noise
+from .covers import Layer
+from .roads import SHOULDER_M
 from .terrain import Terrain, grid_axis
+from .triangles import edges_of, split_edges
 
-SOIL, GRASS = 0, 1
-
-_COVER_OCTAVES = 5
-_WET_MARGIN_M = 5.0  # of bare soil round the water
 _BORDER_EDGE_M = 0.8  # triangles at a border are halved until their edges are about this short
-
-
-@dataclass(frozen=True)
-class Cover:
-    """What grows on the ground: grass where `value` is positive, soil elsewhere."""
-
-    seed: int
-    patch_m: float
-    threshold: float
-
-    def value(self, terrain: Terrain, x_m, y_m) -> np.ndarray:
-        """Signed and continuous; zero on the borders between grass and soil."""
-        patches = _patches(self.seed, self.patch_m, x_m, y_m) - self.threshold
-        return np.minimum(patches, (terrain.shore_m(x_m, y_m) - _WET_MARGIN_M) / self.patch_m)
+_COARSE = 1.5  # times that is still short: the diagonal of a square of 0.8 m is
+# Of triangles on the road and on its shoulders. A track's cross-section bends by 1.25 / m at most: the middle of an
+# edge of 0.36 m lies off it by 1.25 x 0.36^2 / 8 = 2 cm.
+_ROAD_EDGE_M, _SHOULDER_EDGE_M = 0.36, 0.8
 
 
 @dataclass(frozen=True)
 class GroundMesh:
-    """points_m (n, 3), triangles (m, 3) counter-clockwise from above, cover (m,) of SOIL or GRASS."""
+    """points_m (n, 3); triangles (m, 3) counter-clockwise from above; cover (m,), places in `materials`."""
 
     points_m: np.ndarray
     triangles: np.ndarray
     cover: np.ndarray
+    materials: tuple[str, ...]
 
 
-def plan_cover(terrain: Terrain, settings: dict, seed: int) -> Cover:
-    """The threshold that leaves grass on grass_fraction of the grid's dry ground, as far as the wet margin lets it."""
-    axis_m = grid_axis(terrain.size_m, terrain.heights_m.shape[0] - 1)
-    x_m, y_m = np.meshgrid(axis_m, axis_m)
-    patch_m = settings["grass_patch_m"]
-    shore_m = terrain.shore_m(x_m, y_m)
-    can_grow = shore_m > _WET_MARGIN_M
-    if not can_grow.any():
-        return Cover(seed, patch_m, np.inf)
-    share = settings["grass_fraction"] * np.count_nonzero(shore_m > 0) / np.count_nonzero(can_grow)
-    values = _patches(seed, patch_m, x_m[can_grow], y_m[can_grow])
-    if share >= 1.0:
-        return Cover(seed, patch_m, -np.inf)
-    return Cover(seed, patch_m, float(np.quantile(values, 1.0 - share)) if share > 0 else np.inf)
+def build_ground(terrain: Terrain, layers: Sequence[Layer], bare: str) -> GroundMesh:
+    """The terrain's mesh, cut along the borders of layers; what lies under none of them is `bare`.
 
-
-def build_ground(terrain: Terrain, cover: Cover) -> GroundMesh:
-    """The heightfield's triangles, refined near borders and cut along them; the shape of the ground stays exact."""
-    points, triangles = _grid_mesh(terrain)
-    values = cover.value(terrain, points[:, 0], points[:, 1])
-    for _ in range(max(0, round(np.log2(terrain.cell_m / _BORDER_EDGE_M)))):
-        edges = _edges_of(triangles[_is_mixed(values, triangles)])
-        middles = points[edges].mean(axis=1)
-        triangles = split_edges(triangles, edges, len(points))
-        points = np.concatenate([points, middles])
-        values = np.concatenate([values, cover.value(terrain, middles[:, 0], middles[:, 1])])
-    edges = _edges_of(triangles[_is_mixed(values, triangles)])
-    edges = edges[(values[edges[:, 0]] > 0) != (values[edges[:, 1]] > 0)]
-    triangles = split_edges(triangles, edges, len(points))
-    points = np.concatenate([points, _crossings(points, values, edges)])
-    values = np.concatenate([values, np.zeros(len(edges))])
-    # No triangle has corners on both sides any more, so its highest value tells.
-    return GroundMesh(points, triangles, np.where(values[triangles].max(axis=1) > 0, GRASS, SOIL))
-
-
-def split_edges(triangles: np.ndarray, edges: np.ndarray, first_new: int) -> np.ndarray:
-    """Triangles (m, 3) after putting one new vertex on each of `edges` (e, 2), numbered from `first_new`.
-
-    Edges are unique pairs, lower vertex first, in ascending order. Triangles with one, two or three such edges become
-    two, three or four, turning the same way; neighbours share the new vertices, so no crack opens.
+    Its shape is that of `Terrain.height_m`, exactly but for the road, where triangles are flat and the tracks are not.
     """
-    if len(edges) == 0:
-        return triangles
-    middle = _new_vertices(triangles, edges, first_new)
-    has = middle >= 0
-    count = has.sum(axis=1)
-    # Turn each triangle so that its single split edge, or the first of two that meet, comes first.
-    first = np.where(count == 1, has.argmax(axis=1), np.where(count == 2, (has.argmin(axis=1) + 1) % 3, 0))
-    turn = (first[:, None] + np.arange(3)) % 3
-    corner = np.take_along_axis(triangles, turn, axis=1)
-    middle = np.take_along_axis(middle, turn, axis=1)
-    parts = [triangles[count == 0]]
-    for number, pattern in _PATTERNS.items():
-        six = np.concatenate([corner[count == number], middle[count == number]], axis=1)
-        parts += [six[:, part] for part in pattern]
-    return np.concatenate(parts)
-
-
-# Corners 0 1 2, and 3 4 5 the new vertices on edges 0-1, 1-2, 2-0.
-_PATTERNS = {
-    1: ([0, 3, 2], [3, 1, 2]),
-    2: ([3, 1, 4], [0, 3, 4], [0, 4, 2]),
-    3: ([0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]),
-}
-
-
-def _patches(seed: int, patch_m: float, x_m, y_m) -> np.ndarray:
-    return fractal_noise(seed, "cover", x_m, y_m, 2.0 * patch_m, _COVER_OCTAVES, gain=0.5)
+    points, triangles = _grid_mesh(terrain)
+    points, triangles = _with_road(terrain, points, triangles)
+    cover = np.zeros(len(triangles), np.int64)
+    for number, layer in enumerate(layers, start=1):
+        points, triangles, cover = _laid(terrain, layer, number, points, triangles, cover)
+    return GroundMesh(points, triangles, cover, (bare, *(layer.material for layer in layers)))
 
 
 def _grid_mesh(terrain: Terrain) -> tuple[np.ndarray, np.ndarray]:
@@ -114,38 +47,76 @@ def _grid_mesh(terrain: Terrain) -> tuple[np.ndarray, np.ndarray]:
     lines = terrain.heights_m.shape[0]
     axis_m = grid_axis(terrain.size_m, lines - 1)
     x_m, y_m = np.meshgrid(axis_m, axis_m)
-    points = np.stack([x_m, y_m, terrain.heights_m], axis=-1).reshape(-1, 3)
+    heights_m = terrain.heights_m if terrain.road is None else terrain.road.cut(terrain.heights_m, x_m, y_m)
+    points = np.stack([x_m, y_m, heights_m], axis=-1).reshape(-1, 3)
     corner = np.arange(lines * lines).reshape(lines, lines)
     p00, p10, p01, p11 = (corner[:-1, :-1], corner[:-1, 1:], corner[1:, :-1], corner[1:, 1:])
     lower, upper = np.stack([p00, p10, p11], axis=-1), np.stack([p00, p11, p01], axis=-1)
     return points, np.concatenate([lower.reshape(-1, 3), upper.reshape(-1, 3)])
 
 
-def _is_mixed(values: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    grass = values[triangles] > 0
-    return grass.any(axis=1) & ~grass.all(axis=1)
+def _with_road(terrain: Terrain, points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The mesh with triangles on and beside the road halved until they are small enough for it."""
+    if terrain.road is None:
+        return points, triangles
+    off_m = terrain.road_m(points[:, 0], points[:, 1])
+    while True:
+        chosen = _coarse_on_road(points, triangles, off_m)
+        if len(chosen) == 0:
+            return points, triangles
+        edges = edges_of(triangles[chosen])
+        middles = _on_ground(terrain, points[edges].mean(axis=1))
+        triangles, _ = split_edges(triangles, edges, len(points))
+        points = np.concatenate([points, middles])
+        off_m = np.concatenate([off_m, terrain.road_m(middles[:, 0], middles[:, 1])])
 
 
-def _edges_of(triangles: np.ndarray) -> np.ndarray:
-    """Unique edges (e, 2) of triangles, lower vertex first, ascending."""
-    pairs = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    return _unpacked(np.unique(_packed(pairs)))
+def _coarse_on_road(points: np.ndarray, triangles: np.ndarray, off_m: np.ndarray) -> np.ndarray:
+    """Numbers of triangles that are too large for where they are; off_m (n,) is each point's distance to the road."""
+    nearest_m = off_m[triangles].min(axis=1)
+    about = np.flatnonzero(np.isfinite(nearest_m))
+    edge_m, nearest_m = _longest_m(points, triangles[about]), nearest_m[about]
+    on_road = (nearest_m < 0.5 * edge_m) & (edge_m > _ROAD_EDGE_M)
+    beside = (nearest_m < SHOULDER_M + edge_m) & (edge_m > _SHOULDER_EDGE_M)
+    return about[on_road | beside]
 
 
-def _new_vertices(triangles: np.ndarray, edges: np.ndarray, first_new: int) -> np.ndarray:
-    """For each triangle's edges 0-1, 1-2, 2-0 the number of the new vertex on it, or -1."""
-    wanted = _packed(edges)
-    keys = _packed(np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2))
-    place = np.minimum(np.searchsorted(wanted, keys), len(wanted) - 1)
-    return np.where(wanted[place] == keys, place + first_new, -1)
+def _laid(
+    terrain: Terrain, layer: Layer, number: int, points: np.ndarray, triangles: np.ndarray, cover: np.ndarray
+):
+    """Points, triangles and covers once a layer lies, as `number`, where nothing lies yet."""
+    values = layer.value(points[:, 0], points[:, 1])
+    for _ in range(max(0, round(np.log2(terrain.cell_m / _BORDER_EDGE_M)))):
+        cut = triangles[_is_cut(values, triangles, cover)]
+        edges = edges_of(cut[_longest_m(points, cut) > _COARSE * _BORDER_EDGE_M])
+        middles = _on_ground(terrain, points[edges].mean(axis=1))
+        triangles, parent = split_edges(triangles, edges, len(points))
+        points, cover = np.concatenate([points, middles]), cover[parent]
+        values = np.concatenate([values, layer.value(middles[:, 0], middles[:, 1])])
+    edges = edges_of(triangles[_is_cut(values, triangles, cover)])
+    edges = edges[(values[edges[:, 0]] > 0) != (values[edges[:, 1]] > 0)]
+    triangles, parent = split_edges(triangles, edges, len(points))
+    points = np.concatenate([points, _crossings(points, values, edges)])
+    values, cover = np.concatenate([values, np.zeros(len(edges))]), cover[parent]
+    # No bare triangle has corners on both sides any more, so its highest value tells.
+    return points, triangles, np.where((cover == 0) & (values[triangles].max(axis=1) > 0), number, cover)
 
 
-def _packed(pairs: np.ndarray) -> np.ndarray:
-    return pairs[..., 0].astype(np.int64) << 32 | pairs[..., 1]
+def _is_cut(values: np.ndarray, triangles: np.ndarray, cover: np.ndarray) -> np.ndarray:
+    """Which bare triangles a border runs through."""
+    inside = values[triangles] > 0
+    return (cover == 0) & inside.any(axis=1) & ~inside.all(axis=1)
 
 
-def _unpacked(keys: np.ndarray) -> np.ndarray:
-    return np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=-1)
+def _longest_m(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Length (m,) of each triangle's longest edge, seen from above."""
+    corners = points[triangles, :2]
+    return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+
+
+def _on_ground(terrain: Terrain, points: np.ndarray) -> np.ndarray:
+    """The same points (n, 3) at the ground's height."""
+    return np.column_stack([points[:, :2], terrain.height_m(points[:, 0], points[:, 1])])
 
 
 def _crossings(points: np.ndarray, values: np.ndarray, edges: np.ndarray) -> np.ndarray:

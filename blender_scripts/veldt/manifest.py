@@ -11,8 +11,9 @@ import numpy as np
 
 from . import assets, ids
 from .actors import Track, track
+from .covers import SOIL
 from .flight import Flight
-from .world import SOIL, WATER, World
+from .world import WATER, World
 
 LAYER = "Scene"
 
@@ -67,9 +68,9 @@ def _camera(world: World) -> dict:
 
 def _place(world: World) -> list[dict]:
     """Ground, water and plants, as far as the scene has them."""
-    place = [{"index": ids.GROUND, "name": "ground", "class": "ground", "material": SOIL[0]}]
-    if world.terrain.water is not None:
-        place.append({"index": ids.WATER, "name": "water", "class": "water", "material": WATER[0]})
+    place = [{"index": ids.GROUND, "name": "ground", "class": "ground", "material": SOIL}]
+    if world.terrain.waters:
+        place.append({"index": ids.WATER, "name": "water", "class": "water", "material": WATER})
     for name, index in world.plant_indices.items():
         if len(world.plantings[name].scale) > 0:
             material = assets.load("plants", name)["material"]

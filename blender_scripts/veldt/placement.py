@@ -33,10 +33,14 @@ class Planting:
 
 @dataclass(frozen=True)
 class Corridor:
-    """A walked line, points_m (n, 2) at most a metre apart, and how far from it walkers come."""
+    """A walked line, points_m (n, 2) at most a metre apart, and how far from it the bodies of walkers come."""
 
     points_m: np.ndarray
     half_width_m: float
+
+    def is_clear(self, points_m: np.ndarray, by_m: float) -> bool:
+        """Whether all points (n, 2) are by_m or more away from walkers."""
+        return len(pairs_within(points_m, self.points_m, by_m + self.half_width_m)[0]) == 0
 
 
 def _even_shares(x_m: np.ndarray, _) -> np.ndarray:
@@ -96,9 +100,8 @@ def place_plants(plants: Mapping[str, dict], site: Site, seed: int) -> dict[str,
     return {name: plantings[name] for name in sorted(plants)}
 
 
-def slope_deg(terrain: Terrain, x_m, y_m) -> np.ndarray:
-    """How steep the ground is at a place, over two metres."""
-    step = _SLOPE_STEP_M
+def slope_deg(terrain: Terrain, x_m, y_m, step: float = _SLOPE_STEP_M) -> np.ndarray:
+    """How steep the ground is at a place, between `step` metres before and behind it."""
     dx = terrain.height_m(x_m + step, y_m) - terrain.height_m(x_m - step, y_m)
     dy = terrain.height_m(x_m, y_m + step) - terrain.height_m(x_m, y_m - step)
     return np.degrees(np.arctan(np.sqrt(dx * dx + dy * dy) / (2.0 * step)))

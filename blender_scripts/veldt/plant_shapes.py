@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import still_shapes, tree_shapes
+from . import models, still_shapes, tree_shapes
 from .faults import ConfigError, did_you_mean, listing
 from .noise import stream
 from .shapes import Mesh
@@ -19,6 +19,11 @@ FORMS = {
     "rock": still_shapes.rock,
     "log": still_shapes.log,
 }
+
+
+def plant_parts(data: dict) -> tuple[str, ...]:
+    """Parts of a plant's meshes by slot: just the whole of it, unless a model from a file has more."""
+    return models.part_names(data) if "model" in data else ("",)
 
 
 def build_variants(name: str, data: dict, seed: int) -> list[Mesh]:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_RING_STEPS = 4  # rings between two given ones
+_RING_STEPS = 4  # rings for each given one, on curves through them
+_CAP_RINGS_DEG = {2: (48.0, 89.0), 3: (35.0, 65.0, 89.0)}  # where rings are on a rounded end, from its rim
 
 
 @dataclass(frozen=True)
@@ -26,13 +27,21 @@ class Mesh:
         """The mirror image in the plane y = 0, its triangles still facing outward."""
         return Mesh(self.points_m * [1.0, -1.0, 1.0], self.triangles[:, ::-1], self.slot)
 
+    def scaled(self, by: float) -> Mesh:
+        """The same mesh, larger or smaller about the origin."""
+        return Mesh(self.points_m * by, self.triangles, self.slot)
+
     def with_slot(self, slot: int) -> Mesh:
         """The same mesh, all of it in one material slot."""
         return Mesh(self.points_m, self.triangles, np.full(len(self.triangles), slot))
 
 
+NOTHING = Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.int64), np.zeros(0, np.int64))
+
+
 def joined(meshes: Sequence[Mesh]) -> Mesh:
     """All meshes as one."""
+    meshes = [NOTHING, *meshes]
     first = np.cumsum([0] + [len(mesh.points_m) for mesh in meshes])
     return Mesh(
         np.concatenate([mesh.points_m for mesh in meshes]),
@@ -46,13 +55,23 @@ def facets(points_m: np.ndarray, triangles: np.ndarray) -> Mesh:
     return Mesh(np.asarray(points_m, float), np.asarray(triangles), np.zeros(len(triangles), np.int64))
 
 
-def tube(rings_m: np.ndarray, sides: int = 14, roundness: float = 0.5) -> Mesh:
+def tube(
+    rings_m: np.ndarray,
+    sides: int | None = None,
+    roundness: float = 0.5,
+    steps: int = _RING_STEPS,
+    caps: int = 3,
+) -> Mesh:
     """A smooth tube through elliptic rings, its ends rounded off.
 
     rings_m (n, 5), n >= 2: centre x y z, half width across (about y), half height (in the plane x z).
+    sides: of each ring; if left out, more for thicker tubes.
     roundness: how far the rounded ends stand out, in smaller half axes of the last ring.
+    steps: rings for each given one, on curves through them.
+    caps: rings of each rounded end, 2 or 3.
     """
-    rings = _with_caps(_smoothed_rings(np.asarray(rings_m, float)), roundness)
+    sides = sides or _sides_for(rings_m[:, 3:].max())
+    rings = _with_caps(_smoothed_rings(np.asarray(rings_m, float), steps), roundness, caps)
     centre, wide, high = rings[:, :3], rings[:, 3], rings[:, 4]
     across, up = _ring_axes(centre)
     angle = 2.0 * np.pi * np.arange(sides) / sides
@@ -65,9 +84,10 @@ def tube(rings_m: np.ndarray, sides: int = 14, roundness: float = 0.5) -> Mesh:
 
 
 def ellipsoid(
-    centre_m, radii_m, yaw_deg: float = 0.0, tilt_deg: float = 0.0, rings: int = 9, sides: int = 14
+    centre_m, radii_m, yaw_deg: float = 0.0, tilt_deg: float = 0.0, rings: int = 9, sides: int | None = None
 ) -> Mesh:
     """An ellipsoid with radii along its own x, y, z, tilted about its x axis, then turned about the vertical."""
+    sides = sides or _sides_for(max(radii_m))
     polar = np.pi * (np.arange(rings) + 0.5) / rings
     angle = 2.0 * np.pi * np.arange(sides) / sides
     unit = np.stack(
@@ -82,13 +102,40 @@ def ellipsoid(
     return facets(points + np.asarray(centre_m, float), _tube_triangles(rings, sides)[:, ::-1])
 
 
-def _smoothed_rings(rings: np.ndarray) -> np.ndarray:
+def sheet(
+    outline_m: np.ndarray, thickness_m: float, centre_m, yaw_deg: float = 0.0, tilt_deg: float = 0.0
+) -> Mesh:
+    """A thin flap, thickest in its middle, inside a smooth closed outline through points (n, 2) of its own x, z.
+
+    The outline goes round from x to z and holds (0, 0), which is put at centre_m after tilting about x and turning
+    about the vertical, as an ellipsoid is.
+    """
+    rim = _smoothed_ring(outline_m)
+    layers = [(0.05, 0.5), (0.55, 0.42), (0.9, 0.2), (1.0, 0.0), (0.9, -0.2), (0.55, -0.42), (0.05, -0.5)]
+    points = [np.insert(share * rim, 1, -thickness_m * y, axis=1) for share, y in layers]
+    points = np.concatenate(points) @ _rotation(yaw_deg, tilt_deg).T + np.asarray(centre_m, float)
+    return facets(points, _tube_triangles(len(layers), len(rim))[:, ::-1])
+
+
+def _sides_for(radius_m: float) -> int:
+    """Enough sides for a round outline: those of a leg are 8, those of an elephant's body 16."""
+    return int(np.clip(6 + 30 * radius_m, 8, 16))
+
+
+def _smoothed_ring(points: np.ndarray) -> np.ndarray:
+    """A closed Catmull-Rom curve through points (n, 2): (2 n, 2)."""
+    before, after, next_after = (np.roll(points, k, axis=0) for k in (1, -1, -2))
+    between = (9.0 * (points + after) - before - next_after) / 16.0
+    return np.stack([points, between], axis=1).reshape(-1, 2)
+
+
+def _smoothed_rings(rings: np.ndarray, steps: int) -> np.ndarray:
     """Catmull-Rom curves through all five columns."""
     if len(rings) < 3:
         return rings
     ends = np.concatenate([[2 * rings[0] - rings[1]], rings, [2 * rings[-1] - rings[-2]]])
     p0, p1, p2, p3 = ends[:-3], ends[1:-2], ends[2:-1], ends[3:]
-    u = (np.arange(_RING_STEPS) / _RING_STEPS)[None, :, None]
+    u = (np.arange(steps) / steps)[None, :, None]
     p0, p1, p2, p3 = (p[:, None] for p in (p0, p1, p2, p3))
     inner = 0.5 * (
         2 * p1
@@ -99,21 +146,21 @@ def _smoothed_rings(rings: np.ndarray) -> np.ndarray:
     return np.concatenate([inner.reshape(-1, 5), rings[-1:]])
 
 
-def _with_caps(rings: np.ndarray, roundness: float) -> np.ndarray:
-    """Three shrinking rings past each end, the last one nearly a point."""
+def _with_caps(rings: np.ndarray, roundness: float, caps: int) -> np.ndarray:
+    """Shrinking rings past each end, the last one nearly a point."""
     return np.concatenate(
         [
-            _cap(rings[0], rings[0] - rings[1], roundness)[::-1],
+            _cap(rings[0], rings[0] - rings[1], roundness, caps)[::-1],
             rings,
-            _cap(rings[-1], rings[-1] - rings[-2], roundness),
+            _cap(rings[-1], rings[-1] - rings[-2], roundness, caps),
         ]
     )
 
 
-def _cap(ring: np.ndarray, outward: np.ndarray, roundness: float) -> np.ndarray:
+def _cap(ring: np.ndarray, outward: np.ndarray, roundness: float, caps: int) -> np.ndarray:
     direction = outward[:3] / max(np.linalg.norm(outward[:3]), 1e-12)
     reach = roundness * ring[3:].min()
-    angle = np.radians([35.0, 65.0, 89.0])[:, None]
+    angle = np.radians(_CAP_RINGS_DEG[caps])[:, None]
     return np.concatenate([ring[:3] + reach * np.sin(angle) * direction, ring[3:] * np.cos(angle)], axis=1)
 
 

@@ -1,58 +1,69 @@
-"""The ground's shape: a square heightfield of hills with a water hole in the middle.
+"""The ground's shape: hills, hollows, gullies and a crag on a square grid, still water, and a road cut in.
 
 Axes: x east, y north, z up, metres, origin in the middle of the place at height 0 of the datum.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .noise import fractal_noise
+from .drainage import carve, plan_drainage
+from .grey_images import read_grey, sample
+from .relief import Crag, hills_m, hollows_m, plan_crag
+from .roads import Road
+from .waters import REACH, Basin, Water, lay_water, nearest_shore_m, surface_m
 
-_HILL_OCTAVES = 5
-_SHORE_RAGGEDNESS = 0.45  # of the water radius: how far the shoreline wanders
-_BASIN_REACH = 2.5  # water radii over which hills give way to the basin
-_BANK_M = 0.4  # the basin's rim stands this much above the water
 _SMOOTHING_M = 40.0  # of the ground a drone's height is kept above
-
-
-@dataclass(frozen=True)
-class Water:
-    """A still sheet: the height of its surface, and a disc that holds all of it and no other ground as low."""
-
-    level_m: float
-    disc_radius_m: float
+_PAN_APART = 5.0  # radii of both waters that the pan is from the middle, at least
+_PAN_GRID_M = 25.0
 
 
 @dataclass(frozen=True)
 class Terrain:
-    """Heights on a square grid, [row of y, column of x], from -size/2 to size/2; between them the mesh's triangles."""
+    """Heights on a square grid, [row of y, column of x], from -size/2 to size/2; between them the mesh's triangles.
+
+    The road is finer than the grid, and cut in afterwards: along it heights are its own.
+    """
 
     seed: int
     size_m: float
     cell_m: float
     heights_m: np.ndarray
     smooth_m: np.ndarray
-    water_radius_m: float
-    water: Water | None
+    waters: tuple[Water, ...]
+    crag: Crag | None
+    road: Road | None = None
 
     def height_m(self, x_m, y_m) -> np.ndarray:
-        """Height of the ground mesh at (x, y), exactly; past the border the border's height goes on."""
-        return self._triangle_height(self.heights_m, x_m, y_m)
+        """Height of the ground at (x, y); past the border the border's height goes on.
+
+        Exactly that of the ground's mesh, and within 3 cm on the road.
+        """
+        height = self._triangle_height(self.heights_m, x_m, y_m)
+        return height if self.road is None else self.road.cut(height, x_m, y_m)
 
     def surface_m(self, x_m, y_m) -> np.ndarray:
         """Height of ground or water, whichever is on top."""
-        return _surface(self.height_m(x_m, y_m), self.shore_m(x_m, y_m), self.water)
+        return surface_m(self.height_m(x_m, y_m), self.waters, x_m, y_m)
 
     def smooth_surface_m(self, x_m, y_m) -> np.ndarray:
         """Surface smoothed by a Gaussian of 40 m: what a drone that holds its height above ground follows."""
         return self._triangle_height(self.smooth_m, x_m, y_m)
 
     def shore_m(self, x_m, y_m) -> np.ndarray:
-        """About the distance to the shoreline, negative in the water; infinite where there is none."""
-        return _shore(self.seed, self.water_radius_m, x_m, y_m)
+        """About the distance to the nearest shoreline, negative in the water; infinite where there is none."""
+        return nearest_shore_m(self.waters, x_m, y_m)
+
+    def road_m(self, x_m, y_m) -> np.ndarray:
+        """Distance (n,) to the road's border, negative on it; infinite well off it, and where there is none."""
+        return np.full(np.shape(x_m), np.inf) if self.road is None else self.road.distance_m(x_m, y_m)
+
+    def with_road(self, road: Road | None) -> Terrain:
+        """The same ground with a road cut in."""
+        return replace(self, road=road)
 
     def _triangle_height(self, heights_m: np.ndarray, x_m, y_m) -> np.ndarray:
         cells = heights_m.shape[0] - 1
@@ -66,17 +77,21 @@ class Terrain:
 
 
 def build_terrain(settings: dict, seed: int) -> Terrain:
-    """The terrain of `scene.terrain`; cells are stretched a little so that a whole number fits."""
+    """The terrain of `scene.terrain`, without its road; cells are stretched a little so that a whole number fits."""
     size_m = settings["size_m"]
     cells = max(1, round(size_m / settings["cell_m"]))
     x_m, y_m = np.meshgrid(grid_axis(size_m, cells), grid_axis(size_m, cells))
-    hills_m = _hills(settings, seed, x_m, y_m)
-    radius_m = settings["water_radius_m"]
-    shore_m = _shore(seed, radius_m, x_m, y_m)
-    water = _water(hills_m, shore_m, radius_m)
-    heights_m = _with_basin(hills_m, shore_m, radius_m, water)
-    smooth_m = _smoothed(_surface(heights_m, shore_m, water), _SMOOTHING_M / (size_m / cells))
-    return Terrain(seed, size_m, size_m / cells, heights_m, smooth_m, radius_m, water)
+    crag, land_m = _land(settings, seed, x_m, y_m)
+    is_crag = np.zeros(land_m.shape, bool) if crag is None else crag.share(x_m, y_m) > 0
+    basins = _plan_basins(settings, seed, np.where(is_crag, np.inf, land_m), x_m, y_m)
+    land_m = _drained(settings, seed, land_m, basins, x_m, y_m)
+    waters = []
+    for basin in basins:
+        water, land_m = lay_water(basin, land_m, x_m, y_m)
+        waters.append(water)
+    surface = surface_m(land_m, tuple(waters), x_m, y_m)
+    smooth_m = _smoothed(surface, _SMOOTHING_M / (size_m / cells))
+    return Terrain(seed, size_m, size_m / cells, land_m, smooth_m, tuple(waters), crag)
 
 
 def grid_axis(size_m: float, cells: int) -> np.ndarray:
@@ -91,46 +106,56 @@ def _cell(along_m: np.ndarray, size_m: float, cells: int) -> tuple[np.ndarray, n
     return cell, place - cell
 
 
-def _hills(settings: dict, seed: int, x_m, y_m) -> np.ndarray:
-    """Fractal hills whose lowest and highest points are relief_m apart, with mean height 0."""
-    raw = fractal_noise(seed, "hills", x_m, y_m, settings["hill_wavelength_m"], _HILL_OCTAVES, gain=0.42)
-    span = raw.max() - raw.min()
-    return (raw - raw.mean()) * (settings["relief_m"] / span if span > 0 else 0.0)
+def _land(settings: dict, seed: int, x_m, y_m) -> tuple[Crag | None, np.ndarray]:
+    """Where the crag is, and the land's heights before water comes to it: the user's map, or drawn from the seed."""
+    if "heightmap" in settings:
+        given = settings["heightmap"]
+        share = read_grey(given["file"], "scene.terrain.heightmap.file")
+        low_m, high_m = given["height_m"]
+        return None, low_m + (high_m - low_m) * sample(share, settings["size_m"], x_m, y_m)
+    crag = plan_crag(settings, seed, x_m, y_m)
+    land_m = hills_m(settings, seed, x_m, y_m) + hollows_m(settings["hollow_depth_m"], seed, x_m, y_m)
+    return crag, land_m if crag is None else land_m + crag.height_m(x_m, y_m)
 
 
-def _shore(seed: int, radius_m: float, x_m, y_m) -> np.ndarray:
-    x_m, y_m = np.asarray(x_m, float), np.asarray(y_m, float)
-    if radius_m <= 0:
-        return np.full(np.broadcast(x_m, y_m).shape, np.inf)
-    wander = fractal_noise(seed, "shore", x_m, y_m, 1.3 * radius_m, octaves=3)
-    return np.sqrt(x_m**2 + y_m**2) + _SHORE_RAGGEDNESS * radius_m * wander - radius_m
+def _plan_basins(settings: dict, seed: int, land_m: np.ndarray, x_m, y_m) -> list[Basin]:
+    """The water hole in the middle, and the pan; land_m is infinite where no pan may be."""
+    radius_m, pan_m = settings["water_radius_m"], settings["pan_radius_m"]
+    basins = [Basin(seed, "shore", (0.0, 0.0), radius_m)] if radius_m > 0 else []
+    if pan_m > 0:
+        centre_m = _lowest_place(settings, land_m, x_m, y_m)
+        basins += [Basin(seed, "pan", centre_m, pan_m)] if centre_m is not None else []
+    return basins
 
 
-def _water(hills_m: np.ndarray, shore_m: np.ndarray, radius_m: float) -> Water | None:
-    """A level under all the ground that the basin blends into, so that beyond the shoreline no ground lies below it."""
-    if radius_m <= 0:
+def _lowest_place(settings: dict, land_m: np.ndarray, x_m, y_m) -> tuple[float, float] | None:
+    """Where a pan gathers: low ground, well inside the place and well away from the middle."""
+    reach_m = REACH * settings["pan_radius_m"]
+    step = max(1, round(_PAN_GRID_M / (x_m[0, 1] - x_m[0, 0])))
+    x_m, y_m, land_m = (grid[::step, ::step] for grid in (x_m, y_m, land_m))
+    inside = np.maximum(np.abs(x_m), np.abs(y_m)) < 0.5 * settings["size_m"] - reach_m
+    apart_m = _PAN_APART * (settings["pan_radius_m"] + settings["water_radius_m"])
+    fit = inside & (np.hypot(x_m, y_m) > apart_m)
+    fit &= np.isfinite(land_m)
+    if not fit.any():
         return None
-    # On a coarse grid the basin may lie between all vertices; then the nearest ones stand for it.
-    around = shore_m <= max((_BASIN_REACH - 1) * radius_m, shore_m.min())
-    return Water(float(hills_m[around].min()) - _BANK_M, (1 + 1.2 * _SHORE_RAGGEDNESS) * radius_m)
+    place = np.where(fit, land_m, np.inf).argmin()
+    return float(x_m.ravel()[place]), float(y_m.ravel()[place])
 
 
-def _with_basin(hills_m, shore_m, radius_m: float, water: Water | None) -> np.ndarray:
-    """Hills, blended within _BASIN_REACH radii into a bowl that crosses the water level at the shoreline."""
-    if water is None:
-        return hills_m
-    out = shore_m / radius_m
-    depth_m = min(4.0, 0.1 * radius_m)
-    bowl_m = water.level_m + depth_m * np.clip(out, -1.0, 1.0) * (1.0 + 0.5 * np.clip(out, 0.0, 1.0))
-    t = np.clip(out / (_BASIN_REACH - 1), 0.0, 1.0)
-    return bowl_m + t * t * (3.0 - 2.0 * t) * (hills_m - bowl_m)
-
-
-def _surface(heights_m, shore_m, water: Water | None) -> np.ndarray:
-    """Water covers ground lower than its level, but only inside its own basin."""
-    if water is None:
-        return heights_m
-    return np.where(shore_m < 0, np.maximum(heights_m, water.level_m), heights_m)
+def _drained(settings: dict, seed: int, land_m: np.ndarray, basins: Sequence[Basin], x_m, y_m) -> np.ndarray:
+    """The land with gullies that lead to the waters and the borders."""
+    if settings["gully_depth_m"] <= 0:
+        return land_m
+    is_sink = np.zeros(land_m.shape, bool)
+    for basin in basins:
+        is_sink |= basin.shore_m(x_m, y_m) < 0
+    return carve(
+        land_m,
+        settings["size_m"],
+        plan_drainage(land_m, settings["size_m"], is_sink, seed),
+        settings["gully_depth_m"],
+    )
 
 
 def _smoothed(heights_m: np.ndarray, sigma_cells: float) -> np.ndarray:

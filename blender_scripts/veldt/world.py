@@ -4,19 +4,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from . import assets, checks, ids
-from .actors import Actor, plan_actors
-from .bodies import part_names
+from .actors import Actor
 from .camera import Intrinsics, intrinsics_of, overscan_of, widened
+from .cast import plan_cast
+from .covers import SOIL, Layer, plan_covers
 from .density import plan_density
+from .faults import check_known
 from .flight import Flight, fly
-from .placement import Corridor, Planting, Site, place_plants
-from .splines import Loop
+from .group_checks import check_groups
+from .placement import Planting, Site, place_plants
+from .plant_shapes import plant_parts
+from .road_plan import plan_road
+from .routes import plan_loops
+from .skeleton import part_names
 from .terrain import Terrain, build_terrain
+from .venues import Land
 
-SOIL, GRASS, WATER = ("soil", ""), ("grass", ""), ("water", "")
+WATER = "water"
 
 
 @dataclass(frozen=True)
@@ -27,6 +32,7 @@ class World:
     intrinsics: Intrinsics
     overscan_px: int
     terrain: Terrain
+    covers: list[Layer]
     plantings: dict[str, Planting]
     plant_indices: dict[str, int]
     actors: list[Actor]
@@ -51,21 +57,28 @@ def plan_world(config: dict) -> World:
     scene, seed = config["scene"], config["seed"]
     checks.check_size(scene)
     checks.check_plants(scene)
-    loops = {name: Loop(path["points_m"]) for name, path in scene["paths"].items()}
-    checks.check_paths(scene, loops)
-    actors = plan_actors(scene["groups"], loops, seed)
+    checks.check_paths(scene)
     terrain = build_terrain(scene["terrain"], seed)
+    checks.check_road(scene["terrain"], lambda x_m, y_m: terrain.shore_m(x_m, y_m) < 0)
+    terrain = terrain.with_road(plan_road(scene["terrain"]["road"], terrain, seed))
+    loops = plan_loops(scene["paths"], terrain, seed)
+    check_groups(scene["groups"], loops)
+    checks.check_loops(scene, loops)
+    cast = plan_cast(scene["groups"], Land(terrain, loops), seed)
     areas = plan_density(terrain, scene["terrain"], seed)
-    corridors = [_corridor(group, loops[group["path"]]) for group in scene["groups"]]
+    covers = plan_covers(terrain, scene["terrain"], seed)
     world = World(
         config=config,
         intrinsics=intrinsics_of(config["camera"]),
         overscan_px=overscan_of(config),
         terrain=terrain,
-        plantings=place_plants(scene["plants"], Site(terrain, areas.shares, corridors=corridors), seed),
+        covers=covers,
+        plantings=place_plants(
+            scene["plants"], Site(terrain, areas.shares, terrain.road_m, cast.corridors), seed
+        ),
         plant_indices=ids.plan_plant_indices(sorted(scene["plants"])),
-        actors=actors,
-        material_indices=ids.plan_material_indices(_materials(scene["plants"], actors)),
+        actors=cast.actors,
+        material_indices=ids.plan_material_indices(_materials(terrain, covers, scene["plants"], cast.actors)),
     )
     for k, clip in enumerate(config["clips"]):
         checks.check_flight(f"clips[{k}]", world.flight(clip))
@@ -75,17 +88,18 @@ def plan_world(config: dict) -> World:
 def clip_of(config: dict, clip_id: str) -> dict:
     """The config's clip of that id."""
     known = {clip["id"]: clip for clip in config["clips"]}
-    return checks.known(known, clip_id, "--clip", "a clip of the config")
+    check_known(clip_id, known, "--clip", "a clip of the config")
+    return known[clip_id]
 
 
-def _corridor(group: dict, loop: Loop) -> Corridor:
-    points, _ = loop.at(np.linspace(0.0, loop.length_m, int(loop.length_m) + 2))
-    return Corridor(points, group["spread_m"])
-
-
-def _materials(plants: dict, actors: list[Actor]) -> list[tuple[str, str]]:
+def _materials(
+    terrain: Terrain, covers: list[Layer], plants: dict, actors: list[Actor]
+) -> list[tuple[str, str]]:
     """Every (material, part) of the scene, the place's first."""
-    pairs = [SOIL, GRASS, WATER, *((assets.load("plants", name)["material"], "") for name in sorted(plants))]
+    names = [SOIL, *(layer.material for layer in covers), *([WATER] if terrain.waters else [])]
+    pairs = [(name, "") for name in names]
+    for plant in (assets.load("plants", name) for name in sorted(plants)):
+        pairs += [(plant["material"], part) for part in plant_parts(plant)]
     for species in dict.fromkeys(actor.species for actor in actors):
         data = assets.load("species", species)
         pairs += [(data["material"], part) for part in part_names(data)]

@@ -29,11 +29,16 @@ def add_camera(intrinsics: Intrinsics) -> bpy.types.Object:
     return camera
 
 
+def place(camera: bpy.types.Object, camera_to_world: np.ndarray) -> None:
+    """Puts the camera where a pose (4, 4) is."""
+    matrix = mathutils.Matrix((camera_to_world @ _FROM_OPENCV).tolist())
+    camera.location = matrix.to_translation()
+    camera.rotation_quaternion = matrix.to_quaternion()
+
+
 def animate(camera: bpy.types.Object, flight: Flight) -> None:
     """Keys the camera's pose on frames 0, 1, …"""
     for frame, pose in enumerate(flight.camera_to_world):
-        matrix = mathutils.Matrix((pose @ _FROM_OPENCV).tolist())
-        camera.location = matrix.to_translation()
-        camera.rotation_quaternion = matrix.to_quaternion()
+        place(camera, pose)
         camera.keyframe_insert("location", frame=frame)
         camera.keyframe_insert("rotation_quaternion", frame=frame)

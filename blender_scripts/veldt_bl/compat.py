@@ -28,12 +28,20 @@ def new_geometry_socket(tree: bpy.types.NodeTree, in_out: str) -> None:
         sockets.new("NodeSocketGeometry", "Geometry")
 
 
-def use_nodes(material: bpy.types.Material) -> bpy.types.NodeTree:
-    """The material's node tree, empty."""
-    if VERSION < (5, 0, 0):  # from then on all materials have nodes
-        material.use_nodes = True
-    material.node_tree.nodes.clear()
-    return material.node_tree
+def use_nodes(shaded: bpy.types.Material | bpy.types.World) -> bpy.types.NodeTree:
+    """The node tree of a material or a sky, empty."""
+    if VERSION < (5, 0, 0):  # from then on they all have nodes
+        shaded.use_nodes = True
+    shaded.node_tree.nodes.clear()
+    return shaded.node_tree
+
+
+def write_png(settings: bpy.types.ImageFormatSettings) -> None:
+    """Output as PNG, 8 bits a colour."""
+    if VERSION >= (5, 0, 0):
+        settings.media_type = "IMAGE"
+    settings.file_format = "PNG"
+    settings.color_mode, settings.color_depth = "RGB", "8"
 
 
 def write_multilayer_exr(settings: bpy.types.ImageFormatSettings) -> None:
@@ -44,3 +52,17 @@ def write_multilayer_exr(settings: bpy.types.ImageFormatSettings) -> None:
     settings.file_format = "OPEN_EXR_MULTILAYER"
     settings.color_depth = "32"
     settings.exr_codec = "ZIP"
+
+
+def import_gltf(path: str) -> None:
+    """Adds what is in a .glb file to the scene; RuntimeError if Blender cannot."""
+    # Any other shading fails in Debian's 3.4.1, whose importer wants an older numpy; only shapes count here.
+    bpy.ops.import_scene.gltf(filepath=path, import_shading="FLAT")
+
+
+def import_obj(path: str) -> None:
+    """Adds what is in a .obj file to the scene, y up in the file; RuntimeError if Blender cannot."""
+    if VERSION >= (3, 3, 0):
+        bpy.ops.wm.obj_import(filepath=path, forward_axis="NEGATIVE_Z", up_axis="Y")
+    else:
+        bpy.ops.import_scene.obj(filepath=path, axis_forward="-Z", axis_up="Y")

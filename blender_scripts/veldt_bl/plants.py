@@ -10,11 +10,11 @@ import numpy as np
 from veldt import assets
 from veldt.flight import Flight
 from veldt.placement import Planting
-from veldt.plant_shapes import build_variants
+from veldt.plant_shapes import build_variants, plant_parts
 from veldt.views import circles_seen
 from veldt.world import World
 
-from . import compat
+from . import compat, models
 from .meshes import add_twin, new_mesh, new_object, new_points
 
 _EVERYWHERE_M = 1e6
@@ -36,7 +36,7 @@ def add_flora(world: World, materials: dict[tuple[str, str], bpy.types.Material]
     for name, planting in world.plantings.items():
         if len(planting.scale) > 0:
             data = assets.load("plants", name)
-            variants = _variants(name, data, world.config["seed"], materials[data["material"], ""])
+            variants = _variants(name, data, world.config["seed"], materials)
             _add_species(name, planting, variants, world.plant_indices[name], view)
             reach_m = max(reach_m, planting.scale.max() * max(_reach_m(mesh) for mesh in variants))
     return Flora(view, float(reach_m))
@@ -57,9 +57,16 @@ def animate(flora: Flora, world: World, flight: Flight) -> None:
         flora.view.keyframe_insert("scale", frame=frame)
 
 
-def _variants(name: str, data: dict, seed: int, material: bpy.types.Material) -> list[bpy.types.Mesh]:
+def _variants(
+    name: str, data: dict, seed: int, materials: dict[tuple[str, str], bpy.types.Material]
+) -> list[bpy.types.Mesh]:
     """The meshes of a species' variants, at its drawn size and standing at the origin."""
-    return [new_mesh(name, mesh, [material], smooth=False) for mesh in build_variants(name, data, seed)]
+    slots = [materials[data["material"], part] for part in plant_parts(data)]
+    if "model" in data:
+        meshes = [models.load(f"assets/plants/{name}.json", data)]
+    else:
+        meshes = build_variants(name, data, seed)
+    return [new_mesh(name, mesh, slots, smooth=False) for mesh in meshes]
 
 
 def _reach_m(mesh: bpy.types.Mesh) -> float:

@@ -56,38 +56,54 @@ def first_missing(folder: Path, frames: int) -> int:
     return next((k for k in range(frames) if not (folder / frame_file(k)).exists()), frames)
 
 
-def render_frames(folder: Path, first: int, frames: int, on_frame: Callable[[int], None]) -> None:
-    """Renders frames first, first + 1, … frames - 1 into the folder; on_frame(k) when frame k is whole.
+def render_frames(
+    folder: Path, frames: range, pose: Callable[[int], None], on_frame: Callable[[int], None]
+) -> None:
+    """Renders frames into the folder; pose(k) before frame k is rendered, on_frame(k) when it is whole.
 
     OSError if a frame cannot be written whole, or if Blender stops before the last one.
     """
     scene = bpy.context.scene
     scene.render.filepath = str(folder / f"{_PART}######")
-    scene.frame_start, scene.frame_end = first, frames - 1
+    scene.frame_start, scene.frame_end = frames[0], frames[-1]
     done: list[int] = []
     failures: list[Exception] = []
 
-    def finish(rendered: bpy.types.Scene, *_) -> None:
-        """Blender only prints what a handler raises, so a failure is kept, and rendering interrupted as by Ctrl-C."""
+    def finish(number: int) -> None:
+        _finish_frame(folder, number)
+        on_frame(number)
+        done.append(number)
+
+    before, after = _handler(pose, failures), _handler(finish, failures)
+    bpy.app.handlers.frame_change_pre.append(before)
+    bpy.app.handlers.render_write.append(after)
+    try:
+        bpy.ops.render.render(animation=True)
+    finally:
+        bpy.app.handlers.frame_change_pre.remove(before)
+        bpy.app.handlers.render_write.remove(after)
+    if failures:
+        raise failures[0]
+    if len(done) < len(frames):
+        raise OSError(f"{folder}: Blender stopped after {len(done)} of {len(frames)} frames")
+
+
+def _handler(act: Callable[[int], None], failures: list[Exception]) -> Callable:
+    """Calls act(frame) for Blender until one of its handlers failed.
+
+    Blender only prints what a handler raises, so a failure is kept, and rendering interrupted as by Ctrl-C.
+    """
+
+    def handle(scene: bpy.types.Scene, *_) -> None:
         if failures:
             return
         try:
-            _finish_frame(folder, rendered.frame_current)
-            on_frame(rendered.frame_current)
-            done.append(rendered.frame_current)
+            act(scene.frame_current)
         except Exception as error:  # pylint: disable=broad-exception-caught
             failures.append(error)
             signal.raise_signal(signal.SIGINT)
 
-    bpy.app.handlers.render_write.append(finish)
-    try:
-        bpy.ops.render.render(animation=True)
-    finally:
-        bpy.app.handlers.render_write.remove(finish)
-    if failures:
-        raise failures[0]
-    if len(done) < frames - first:
-        raise OSError(f"{folder}: Blender stopped after {len(done)} of {frames - first} frames")
+    return handle
 
 
 def _finish_frame(folder: Path, number: int) -> None:

@@ -8,10 +8,11 @@ import bpy
 import numpy as np
 
 from veldt import ids
-from veldt.ground import build_ground, plan_cover
+from veldt.covers import SOIL
+from veldt.ground import build_ground
 from veldt.shapes import Mesh, facets
-from veldt.terrain import Terrain, Water
-from veldt.world import GRASS, SOIL, WATER, World
+from veldt.waters import Water
+from veldt.world import WATER, World
 
 from . import actors, camera, plants
 from .meshes import add_twin, new_material, new_mesh, new_object
@@ -25,24 +26,24 @@ class Stage:
 
     world: World
     camera: bpy.types.Object
-    puppets: list[actors.Puppet]
+    troupe: actors.Troupe
     flora: plants.Flora
 
     def animate(self, clip: dict) -> None:
         """Replaces all motion by that of a clip, whose first frame is frame 0."""
         flight = self.world.flight(clip)
-        for moving in (
-            self.camera,
-            self.flora.view,
-            *(part for p in self.puppets for part in (p.trunk, *p.limbs)),
-        ):
+        for moving in (self.camera, self.flora.view):
             moving.animation_data_clear()
         for action in list(bpy.data.actions):
             bpy.data.actions.remove(action)
         camera.animate(self.camera, flight)
         plants.animate(self.flora, self.world, flight)
-        for puppet in self.puppets:
-            actors.animate(puppet, self.world.terrain, flight.time_s)
+        self.troupe.rehearse(flight.time_s)
+        self.pose(0)
+
+    def pose(self, frame: int) -> None:
+        """Puts the actors where they are in a frame of the clip; all else moves by itself when frames change."""
+        self.troupe.pose(frame)
 
 
 def build_stage(world: World) -> Stage:
@@ -53,11 +54,11 @@ def build_stage(world: World) -> Stage:
         for (material, part), index in world.material_indices.items()
     }
     _add_ground(world, materials)
-    if world.terrain.water is not None:
-        _add_water(world.terrain.water, materials[WATER])
+    for water in world.terrain.waters:
+        _add_water(water, materials[WATER, ""])
     flora = plants.add_flora(world, materials)
-    puppets = actors.add_actors(world.actors, materials)
-    return Stage(world, camera.add_camera(world.passes_intrinsics), puppets, flora)
+    troupe = actors.add_actors(world.actors, materials)
+    return Stage(world, camera.add_camera(world.passes_intrinsics), troupe, flora)
 
 
 def _empty_scene() -> None:
@@ -67,10 +68,8 @@ def _empty_scene() -> None:
 
 
 def _add_ground(world: World, materials: dict) -> None:
-    terrain: Terrain = world.terrain
-    cover = plan_cover(terrain, world.config["scene"]["terrain"], world.config["seed"])
-    ground = build_ground(terrain, cover)
-    slots = [materials[SOIL], materials[GRASS]]
+    ground = build_ground(world.terrain, world.covers, SOIL)
+    slots = [materials[material, ""] for material in ground.materials]
     mesh = new_mesh("ground", Mesh(ground.points_m, ground.triangles, ground.cover), slots)
     new_object("ground", mesh, ids.GROUND)
     # Cycles merges a mesh that only one object uses into the tree it rebuilds each frame, which for the ground takes
@@ -81,7 +80,7 @@ def _add_ground(world: World, materials: dict) -> None:
 def _add_water(water: Water, material: bpy.types.Material) -> None:
     """A flat disc; its rim lies under the banks, so the shoreline is where the ground rises through it."""
     angle = 2.0 * np.pi * np.arange(_SHEET_CORNERS) / _SHEET_CORNERS
-    rim = water.disc_radius_m * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    rim = water.basin.centre_m + water.basin.disc_radius_m * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     points = np.column_stack([rim, np.full(_SHEET_CORNERS, water.level_m)])
     fan = np.array([[0, k, k + 1] for k in range(1, _SHEET_CORNERS - 1)])
     new_object("water", new_mesh("water", facets(points, fan), [material]), ids.WATER)

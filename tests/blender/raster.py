@@ -3,19 +3,15 @@
 import numpy as np
 
 from veldt import assets
-from veldt.actors import track
+from veldt.actors import poses
 from veldt.camera import project
 from veldt.plant_shapes import build_variants
 
 
-def world_triangles(world, actor, time_s: float) -> np.ndarray:
+def world_triangles(actor, time_s: float) -> np.ndarray:
     """Corners (m, 3, 3) of an actor's posed body in the world."""
-    walk = track(actor, world.terrain, np.array([time_s]))
-    mesh = actor.body.posed(walk.strides[0])
-    cos, sin = walk.heading[0]
-    turn = np.array([[cos, -sin, 0], [sin, cos, 0], [0, 0, 1]])
-    points = actor.scale * mesh.points_m @ turn.T + walk.position_m[0]
-    return points[mesh.triangles]
+    mesh = poses(actor, np.array([time_s])).mesh(actor.body, 0)
+    return mesh.points_m[mesh.triangles]
 
 
 def plant_triangles(world, name: str) -> np.ndarray:

@@ -1,52 +1,22 @@
-"""Bodies: true size, closed surfaces, left and right alike, feet that do not slide."""
+"""Bodies: closed surfaces, left and right alike, what variants change, and angles in the files' words."""
 
 import numpy as np
 import pytest
 
+from creatures import CART, PONY
 from veldt import assets
-from veldt.bodies import build_body
-from veldt.gait import STANCE, swing_rad
-from veldt.shapes import ellipsoid, tube
+from veldt.bodies import body_of, build_body, draw_variant, variant_names
+from veldt.shapes import NOTHING, ellipsoid, joined, sheet, tube
 
-SPECIES = assets.names("species")
-
-# Height and length at rest in m, from the sources the species files name: people by height, animals by the top of
-# the body and from head to tail. What is drawn may differ by a tenth: the bodies are simple.
-SIZES_M = {
-    "human": (1.75, None),
-    "elephant": (2.98, None),
-    "zebra": (None, 2.4),
-}
+KINDS = [(species, variant) for species in assets.names("species") for variant in variant_names(species)]
+MARE = body_of(PONY, "mare")
 
 
-@pytest.mark.parametrize("species", SPECIES)
-def test_files_say_what_they_are_and_where_their_numbers_come_from(species):
-    data = assets.load("species", species)
-    assert data["category"] and data["material"] and all(data["source"].values())
-    low, high = data["size_range"]
-    assert 0.5 < low <= 1.0 <= high < 1.5
+def _bone(body, name: str):
+    return next(bone for bone in body.bones if bone.name == name)
 
 
-@pytest.mark.parametrize("species", SIZES_M)
-def test_bodies_have_their_true_size(species):
-    points = build_body(species).posed(0.0).points_m
-    length, _, height = np.ptp(points, axis=0)
-    for measured, expected in zip((height, length), SIZES_M[species]):
-        assert expected is None or measured == pytest.approx(expected, rel=0.1)
-
-
-@pytest.mark.parametrize("species", SPECIES)
-def test_bodies_stand_on_the_ground_over_their_origin(species):
-    body = build_body(species)
-    low, high = body.bounds_m()
-    assert low[1] == pytest.approx(-high[1])
-    # A rigid foot is thrust into the ground by what it is longer than its leg; deeper than a tenth of a leg
-    # would look wrong.
-    assert -0.1 * body.leg_m < low[2] < 0.03
-    assert abs(low[0] + high[0]) < 0.5 * (high[0] - low[0])
-
-
-def _is_closed_and_faces_outward(mesh):
+def _is_closed_and_faces_outward(mesh) -> bool:
     edges = mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     forth, back = {tuple(e) for e in edges}, {tuple(e[::-1]) for e in edges}
     a, b, c = np.moveaxis(mesh.points_m[mesh.triangles], 1, 0)
@@ -54,11 +24,10 @@ def _is_closed_and_faces_outward(mesh):
     return forth == back and len(forth) == len(edges) and volume > 0
 
 
-@pytest.mark.parametrize("species", SPECIES)
-def test_surfaces_are_closed_and_face_outward(species):
-    body = build_body(species)
-    assert _is_closed_and_faces_outward(body.trunk)
-    assert all(_is_closed_and_faces_outward(limb.mesh) for limb in body.limbs)
+@pytest.mark.parametrize("species, variant", KINDS)
+def test_surfaces_are_closed_and_face_outward(species, variant):
+    meshes = [bone.mesh for bone in build_body(species, variant).bones if len(bone.mesh.triangles)]
+    assert meshes and all(_is_closed_and_faces_outward(mesh) for mesh in meshes)
 
 
 def test_an_ellipsoid_has_its_radii():
@@ -75,21 +44,73 @@ def test_a_tube_keeps_to_its_rings():
     assert (low[1:], high[1:]) == (pytest.approx([-1, -2]), pytest.approx([1, 2]))
 
 
-def test_a_foot_on_the_ground_keeps_up_with_it():
-    stride_m, leg_m = 1.4, 0.9
-    phase = np.linspace(0, STANCE, 50, endpoint=False)
-    foot_m = stride_m * phase - leg_m * np.sin(swing_rad(phase, stride_m, leg_m))
-    assert np.ptp(foot_m) < 1e-12
+def test_a_sheet_fills_its_outline_and_faces_outward():
+    square = np.array([[1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
+    mesh = sheet(square, 0.1, [0, 3, 0])
+    # Through the corners of a square, the smooth outline bulges by an eighth of a side between them.
+    assert np.ptp(mesh.points_m, axis=0) == pytest.approx([2.5, 0.1, 2.5])
+    assert mesh.points_m.mean(axis=0) == pytest.approx([0, 3, 0])
+    assert _is_closed_and_faces_outward(mesh)
 
 
-@pytest.mark.parametrize("species", SPECIES)
-def test_left_and_right_legs_take_turns(species):
-    limbs = build_body(species).limbs
-    assert all(abs(left.phase - right.phase) == 0.5 for left, right in zip(limbs[::2], limbs[1::2]))
+def test_nothing_joined_is_nothing():
+    assert joined([]).points_m.shape == NOTHING.points_m.shape == (0, 3)
 
 
-def test_legs_swing_without_a_jump_and_stay_under_the_body():
-    phase = np.linspace(0, 2, 2001)
-    angle = swing_rad(phase, 1.4, 0.9)
-    assert np.abs(np.diff(angle)).max() < 0.01
-    assert np.abs(swing_rad(phase, 50.0, 0.9)).max() <= np.arcsin(0.9)
+def test_pairs_are_mirror_images():
+    left, right = _bone(MARE, "fore_upper.left"), _bone(MARE, "fore_upper.right")
+    assert np.array_equal(left.joint_m * [1, -1, 1], right.joint_m)
+    assert np.array_equal(left.mesh.points_m * [1, -1, 1], right.mesh.points_m)
+    legs = MARE.legs
+    assert np.array_equal(legs[0].toe_m * [1, -1, 1], legs[1].toe_m)
+    assert [leg.phase for leg in legs] == [0.25, 0.75, 0.0, 0.5]
+
+
+def test_children_hang_on_the_bone_of_their_own_side():
+    names = [bone.name for bone in MARE.bones]
+    parents = {bone.name: names[bone.parent] for bone in MARE.bones if bone.parent >= 0}
+    assert parents["fore_foot.right"] == "fore_lower.right" and parents["fore_upper.right"] == "trunk"
+
+
+def test_shapes_of_other_variants_are_left_out():
+    tails = [_bone(body_of(PONY, variant), "tail").mesh for variant in ("mare", "foal")]
+    assert len(tails[0].triangles) > len(tails[1].triangles)
+
+
+def test_a_stretched_bone_grows_about_its_joint_and_takes_its_children_along():
+    long = PONY | {"variants": {"long": {"share": 1, "size_range": [1, 1], "stretch": {"neck": 1.5}}}}
+    body = body_of(long, "long")
+    neck, head = _bone(body, "neck"), _bone(body, "head")
+    assert np.array_equal(neck.joint_m, _bone(MARE, "neck").joint_m)
+    assert head.joint_m - neck.joint_m == pytest.approx([1.5 * 0.35, 0, 1.5 * 0.35])
+    assert head.mesh.points_m == pytest.approx(1.5 * _bone(MARE, "head").mesh.points_m)
+
+
+@pytest.mark.parametrize("bone", ["trunk", "fore_upper", "hind_lower"])
+def test_a_stretched_body_stands_on_the_ground(bone):
+    long = PONY | {"variants": {"long": {"share": 1, "size_range": [1, 1], "stretch": {bone: 1.3}}}}
+    assert min(leg.toe_m[2] for leg in body_of(long, "long").legs) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_angles_of_a_pair_are_mirrored():
+    ears = {"turn_deg": {"fore_upper": [10, 20, 30], "nowhere": [1, 1, 1]}}
+    turned = body_of(PONY | {"postures": {"stand": ears}}, "mare").postures["stand"].turn_rad
+    place = {bone.name: k for k, bone in enumerate(MARE.bones)}
+    assert turned[place["fore_upper.left"]] == pytest.approx(np.radians([10, 20, 30]))
+    assert turned[place["fore_upper.right"]] == pytest.approx(np.radians([-10, 20, -30]))
+    assert np.count_nonzero(turned) == 6
+
+
+def test_every_body_can_walk_and_graze():
+    assert {"walk", "graze"} <= set(body_of(CART, "plain").postures)
+
+
+def test_variants_come_as_often_as_their_shares_say():
+    species = "elephant"
+    drawn = [draw_variant(species, 7, "herd", k) for k in range(2000)]
+    shares = {name: entry["share"] for name, entry in assets.load("species", species)["variants"].items()}
+    for name, share in shares.items():
+        expected = share / sum(shares.values())
+        # Five standard deviations of a binomial share: one false alarm in a million.
+        assert drawn.count(name) / 2000 == pytest.approx(expected, abs=5 * np.sqrt(0.25 / 2000))
+    assert drawn[:9] == [draw_variant(species, 7, "herd", k) for k in range(9)]

@@ -19,7 +19,7 @@ def test_defaults_are_filled_in_at_every_depth():
     assert config["seed"] == 1
     assert config["camera"]["width_px"] == 640
     assert config["scene"]["terrain"]["size_m"] == 50
-    assert config["scene"]["terrain"]["cell_m"] == 3
+    assert config["scene"]["terrain"]["cell_m"] == 2
     assert config["scene"]["groups"][0]["count"] == 1
     assert "speed_m_s" not in config["scene"]["groups"][0]
     assert config["clips"][0]["flight"]["altitude_m"] == 61

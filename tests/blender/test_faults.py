@@ -31,6 +31,11 @@ def _set(path, value):
 GROUP, CLIP = ("scene", "groups", 1), ("clips", 0)
 ZIGZAG, FOLLOW = (*CLIP, "flight"), ("clips", 1, "flight")
 
+
+def _road(corners):
+    return _set(("scene", "terrain", "road"), {"width_m": 3.8, "points_m": corners})
+
+
 FAULTS = {
     "unknown species": (
         _set((*GROUP, "species"), "elefant"),
@@ -89,7 +94,9 @@ FAULTS = {
         "scene.terrain.cell_m = 0.25 m; expected at least 2.5 m for size_m = 10000 m",
     ),
     "more plants than memory": (
-        lambda config: config["scene"].update(terrain={"size_m": 10000}, plants={"shrub": {"per_ha": 500}}),
+        lambda config: config["scene"].update(
+            terrain={"size_m": 10000, "cell_m": 5}, plants={"shrub": {"per_ha": 500}}
+        ),
         "scene.plants.shrub.per_ha = 500 per ha; expected at most 200 per ha for size_m = 10000 m",
     ),
     "unknown plant": (
@@ -112,6 +119,31 @@ FAULTS = {
     "path without length": (
         _set(("scene", "paths", "loop", "points_m"), [[1, 1], [1, 1], [1, 1]]),
         "scene.paths.loop = 0.0 m long; expected at least 1 m",
+    ),
+    "road off the terrain": (
+        _road([[61, 0], [0, 30], [-30, 0], [0, -30]]),
+        "scene.terrain.road.points_m: the loop reaches x = 61.0 m, y = 0.0 m;"
+        " expected within 60 m of the middle in x and y",
+    ),
+    "road that crosses itself": (
+        _road([[40, 40], [-40, -40], [40, -40], [-40, 40]]),
+        "scene.terrain.road.points_m: the loop crosses itself at x = 0.2 m, y = 0.2 m; expected a loop that does not",
+    ),
+    "road through the water": (
+        _road([[5, 3], [-5, 5], [0, -5]]),
+        "scene.terrain.road.points_m: the loop is in water at x = 5.0 m, y = 3.0 m; expected dry ground",
+    ),
+    "road without length": (
+        _road([[30, 1], [30, 1], [30, 1]]),
+        "scene.terrain.road.points_m = 0.0 m long; expected at least 1 m",
+    ),
+    "heightmap that is not there": (
+        _set(("scene", "terrain", "heightmap"), {"file": "/none/hill.png", "height_m": [0, 9]}),
+        "scene.terrain.heightmap.file = /none/hill.png; expected a readable file (No such file or directory)",
+    ),
+    "density map that is not there": (
+        _set(("scene", "terrain", "density_map"), {"file": "/none/areas.exr"}),
+        "scene.terrain.density_map.file = /none/areas.exr; expected a readable file (No such file or directory)",
     ),
 }
 

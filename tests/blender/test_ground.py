@@ -4,22 +4,33 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.ground import GRASS, SOIL, build_ground, plan_cover, split_edges
+from veldt.covers import SOIL, plan_covers
+from veldt.ground import build_ground
+from veldt.road_plan import plan_road
 from veldt.terrain import build_terrain
+from veldt.triangles import split_edges
 
 SETTINGS = tiny()["scene"]["terrain"] | {"size_m": 240}
+WILD = {"pan_radius_m": 8, "craggy_fraction": 0.1, "gully_depth_m": 1, "road": {"width_m": 3.8, "fork": True}}
 
 
 def _build(**changes):
     settings = SETTINGS | changes
     terrain = build_terrain(settings, 5)
-    cover = plan_cover(terrain, settings, 5)
-    return terrain, cover, build_ground(terrain, cover)
+    terrain = terrain.with_road(plan_road(settings["road"], terrain, 5))
+    layers = plan_covers(terrain, settings, 5)
+    return terrain, layers, build_ground(terrain, layers, SOIL)
 
 
-@pytest.fixture(scope="module", name="built")
-def _built():
-    return _build()
+def _share(ground, areas, material, where=slice(None)):
+    """Of the area `where`, what lies under a material."""
+    is_it = (ground.cover == ground.materials.index(material)) if material in ground.materials else areas < 0
+    return areas[where][is_it[where]].sum() / areas[where].sum()
+
+
+@pytest.fixture(scope="module", name="built", params=[{}, WILD], ids=["plain", "wild"])
+def _built(request):
+    return _build(**request.param)
 
 
 def _areas(ground):
@@ -50,17 +61,35 @@ def test_neighbours_share_whole_edges(built):
 def test_the_mesh_is_the_heightfield(built):
     terrain, _, ground = built
     heights = terrain.height_m(ground.points_m[:, 0], ground.points_m[:, 1])
-    # Points on shared edges round by some eps of 120 m.
-    assert np.abs(heights - ground.points_m[:, 2]).max() < 1e-11
+    # Points on shared edges round by some eps of 120 m. Border points that cut edges on the road lie on the edge: 2 cm.
+    off_m = np.abs(heights - ground.points_m[:, 2])
+    on_road = np.isfinite(terrain.road_m(ground.points_m[:, 0], ground.points_m[:, 1]))
+    assert off_m[~on_road].max() < 1e-11
+    assert off_m.max() < 0.02
 
 
-def test_cover_changes_only_where_its_value_does(built):
-    terrain, cover, ground = built
-    values = cover.value(terrain, ground.points_m[:, 0], ground.points_m[:, 1])[ground.triangles]
-    clear = np.abs(values).min(axis=1) > 0.1  # well off the border, along which the value is interpolated
-    same = (values > 0).all(axis=1) | (values < 0).all(axis=1)
-    assert same[clear].all()
-    assert np.array_equal(ground.cover[clear] == GRASS, values[clear].max(axis=1) > 0)
+def test_the_road_is_in_the_mesh(built):
+    terrain, _, ground = built
+    if terrain.road is None:
+        pytest.skip("the plain place has no road")
+    middle = ground.points_m[ground.triangles].mean(axis=1)
+    about = np.isfinite(terrain.road_m(middle[:, 0], middle[:, 1]))
+    off_m = np.abs(terrain.height_m(middle[:, 0], middle[:, 1]) - middle[:, 2])
+    assert off_m[about].max() < 0.03
+    on_road = terrain.road_m(middle[:, 0], middle[:, 1]) < -0.1
+    assert (ground.cover[on_road] == ground.materials.index("road")).all()
+
+
+def test_covers_lie_where_their_values_say(built):
+    _, layers, ground = built
+    corners = ground.points_m[ground.triangles]
+    bare = np.ones(len(corners), bool)
+    for number, layer in enumerate(layers, start=1):
+        values = layer.value(corners[..., 0], corners[..., 1])
+        # Well off the border, along which the value is interpolated; and of one side with all corners.
+        clear = bare & (np.abs(values).min(axis=1) > 0.15) & (np.ptp(np.sign(values), axis=1) == 0)
+        assert np.array_equal(ground.cover[clear] == number, values[clear].max(axis=1) > 0), layer.material
+        bare &= ~(ground.cover == number)
 
 
 @pytest.mark.parametrize("share", [0.2, 0.55, 0.8])
@@ -71,12 +100,29 @@ def test_grass_has_its_share_of_the_dry_ground(share):
     areas = _areas(ground)
     # The threshold is a quantile over the 2 m grid: patches and shore are sampled every 2 m instead of measured,
     # which errs by some permille of the area; 1 % allows for it.
-    assert areas[dry & (ground.cover == GRASS)].sum() / areas[dry].sum() == pytest.approx(share, abs=0.01)
+    wet_soil = _share(ground, areas, "wet_soil", dry)  # on the bare margin, where no grass grows
+    assert 0 < wet_soil < 0.02
+    assert _share(ground, areas, "grass", dry) == pytest.approx(share, abs=0.01)
 
 
 def test_all_grass_and_no_grass():
-    assert set(_build(grass_fraction=0)[2].cover) == {SOIL}
-    assert set(_build(grass_fraction=1, water_radius_m=0)[2].cover) == {GRASS}
+    ground = _build(grass_fraction=0, water_radius_m=0)[2]
+    assert ground.materials == ("soil",) and not ground.cover.any()
+    ground = _build(grass_fraction=1, water_radius_m=0)[2]
+    assert {ground.materials[k] for k in set(ground.cover)} == {"grass"}
+
+
+def test_a_wild_place_has_all_covers():
+    terrain, _, ground = _build(**WILD)
+    areas = _areas(ground)
+    assert ground.materials == ("soil", "road", "wet_soil", "rock", "grass")
+    assert min(_share(ground, areas, material) for material in ground.materials) > 0
+    length_m = sum(line.length_m for line in terrain.road.lines)
+    # Where the spur leaves the loop both are one.
+    assert _share(ground, areas, "road") * 240**2 == pytest.approx(3.8 * length_m, rel=0.05)
+    middle = ground.points_m[ground.triangles].mean(axis=1)
+    near = np.abs(terrain.shore_m(middle[:, 0], middle[:, 1])) < 0.5
+    assert _share(ground, areas, "wet_soil", near) > 0.95
 
 
 @pytest.mark.parametrize(
@@ -86,7 +132,8 @@ def test_splitting_keeps_area_and_direction(edges, count):
     corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     edges = np.array(edges, int).reshape(-1, 2)
     for turn in range(3):
-        triangles = split_edges(np.roll([[0, 1, 2]], turn, axis=1), edges, 3)
+        triangles, parent = split_edges(np.roll([[0, 1, 2]], turn, axis=1), edges, 3)
+        assert not parent.any()
         points = np.concatenate([corners, corners[edges].mean(axis=1)])
         a, b, c = np.moveaxis(points[triangles], 1, 0)
         areas = 0.5 * np.cross(b - a, c - a)

@@ -158,7 +158,7 @@ def test_a_seed_gives_the_same_meshes_again_and_another_seed_others(name):
     "content, message",
     [
         (None, "assets/plants/palm.json: expected a readable file (No such file or directory)"),
-        ("", "assets/plants/palm.json: expected JSON (Expecting value: line 1 column 1 (char 0))"),
+        ("", "assets/plants/palm.json: the file is empty; expected JSON"),
     ],
 )
 def test_a_file_that_cannot_be_read_is_a_fault(tmp_path, monkeypatch, content, message):

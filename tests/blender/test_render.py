@@ -71,7 +71,7 @@ def test_objects_wear_their_own_materials(full):
         manifest = full.manifest(clip)
         material = {entry["index"]: entry["material"] for entry in manifest["materials"]}
         worn = {entry["index"]: {entry["material"]} for entry in manifest["objects"]} | {
-            ids.GROUND: {"soil", "grass"}
+            ids.GROUND: {"soil", "grass", "wet_soil", "rock"}
         }
         planes = full.planes(clip, 0)
         pairs = np.stack([planes["Scene.IndexOB.X"], planes["Scene.IndexMA.X"]], axis=-1).reshape(-1, 2)

@@ -30,8 +30,8 @@ def test_ground_and_water_are_where_they_were_planned(full, world):
         height_m = world.terrain.height_m(place[..., 0], place[..., 1])
         # Blender computes in float32 at coordinates up to 60 m, eps 4e-6 m; some tens of roundings, slopes below 1.
         assert np.abs(place[..., 2] - height_m)[dry].max() < 2e-4
-        assert np.abs(place[..., 2] - world.terrain.water.level_m)[wet].max(initial=0.0) < 2e-4
-        assert (height_m[wet] < world.terrain.water.level_m).all()
+        assert np.abs(place[..., 2] - world.terrain.waters[0].level_m)[wet].max(initial=0.0) < 2e-4
+        assert (height_m[wet] < world.terrain.waters[0].level_m).all()
 
 
 def test_boxes_hold_their_actors(full, world):
@@ -115,7 +115,7 @@ def test_bodies_fill_exactly_the_pixels_they_should(tmp_path):
     for clip in config["clips"]:
         flight = world.flight(clip)
         for frame in range(clip["frames"]):
-            bodies = {a.index: world_triangles(world, a, flight.time_s[frame]) for a in world.actors}
+            bodies = {a.index: world_triangles(a, flight.time_s[frame]) for a in world.actors}
             _assert_pictures_agree(world, flight, frame, run.planes(clip["id"], frame)[PLANES[0]], bodies)
 
 

@@ -4,9 +4,22 @@ import numpy as np
 import pytest
 
 from scenes import tiny
+from veldt.placement import slope_deg
 from veldt.terrain import build_terrain
 
-FULL = {"size_m": 800, "cell_m": 4, "relief_m": 24, "hill_wavelength_m": 300, "water_radius_m": 40}
+FULL = {
+    "size_m": 800,
+    "cell_m": 4,
+    "relief_m": 24,
+    "hill_wavelength_m": 300,
+    "water_radius_m": 40,
+    "pan_radius_m": 0,
+    "hollow_depth_m": 0,
+    "gully_depth_m": 0,
+    "craggy_fraction": 0,
+    "crag_relief_m": 14,
+}
+WILD = FULL | {"pan_radius_m": 15, "hollow_depth_m": 1, "gully_depth_m": 1.6, "craggy_fraction": 0.1}
 
 
 @pytest.fixture(scope="module", name="terrain")
@@ -29,7 +42,7 @@ def test_it_has_the_size_cells_and_relief_asked_for(terrain):
     assert terrain.cell_m == 4
     dry = build_terrain(FULL | {"water_radius_m": 0}, 3)
     assert np.ptp(dry.heights_m) == pytest.approx(24, rel=1e-12)  # a scaled span: a few roundings
-    assert dry.water is None
+    assert not dry.waters
 
 
 def test_cells_are_stretched_to_fit():
@@ -52,15 +65,15 @@ def test_water_lies_in_the_middle_and_nowhere_else(terrain):
     x, y = _grid()
     ground, surface, shore = terrain.height_m(x, y), terrain.surface_m(x, y), terrain.shore_m(x, y)
     wet = surface > ground
-    assert np.array_equal(surface[wet], np.full(wet.sum(), terrain.water.level_m))
-    assert terrain.surface_m(0.0, 0.0) == terrain.water.level_m
+    assert np.array_equal(surface[wet], np.full(wet.sum(), terrain.waters[0].level_m))
+    assert terrain.surface_m(0.0, 0.0) == terrain.waters[0].level_m
     radius = np.sqrt(wet.sum() * 16 / np.pi)
     # The shore wanders by up to 45 % of the radius over about eight independent stretches.
     assert radius == pytest.approx(40, rel=0.45 / np.sqrt(8))
     # The rendered sheet is a disc: all the water is inside it, and no other ground in it is lower.
-    disc = np.hypot(x, y) < terrain.water.disc_radius_m
+    disc = np.hypot(x, y) < terrain.waters[0].basin.disc_radius_m
     assert not (wet & ~disc).any()
-    assert (ground[disc & (shore > 0)] > terrain.water.level_m).all()
+    assert (ground[disc & (shore > 0)] > terrain.waters[0].level_m).all()
 
 
 def test_smoothed_ground_stays_within_the_ground(terrain):
@@ -81,3 +94,50 @@ def test_a_place_without_relief_is_level():
         tiny(lambda c: c["scene"]["terrain"].update(relief_m=0, water_radius_m=0))["scene"]["terrain"], 1
     )
     assert not terrain.heights_m.any()
+
+
+@pytest.fixture(scope="module", name="wild")
+def _wild():
+    return build_terrain(WILD, 3)
+
+
+def test_the_pan_is_a_second_water_apart_from_the_first_and_off_the_crag(wild):
+    hole, pan = wild.waters
+    assert pan.basin.radius_m == 15 and np.hypot(*pan.basin.centre_m) > 5 * (15 + 40)
+    x, y = _grid()
+    wet = wild.surface_m(x, y) > wild.height_m(x, y)
+    assert set(np.unique(wild.surface_m(x, y)[wet])) == {hole.level_m, pan.level_m}
+    for water in wild.waters:
+        near = np.hypot(x - water.basin.centre_m[0], y - water.basin.centre_m[1])
+        disc = near < water.basin.disc_radius_m
+        assert (wild.height_m(x, y)[disc & ~wet] > water.level_m).all()
+        assert (wet & disc).any()
+    assert wild.crag.share(*pan.basin.centre_m) == 0
+
+
+def test_gullies_run_downhill_to_the_waters_and_the_border():
+    flat, cut = (build_terrain(FULL | {"gully_depth_m": depth, "water_radius_m": 0}, 3) for depth in (0, 1.6))
+    carved_m = flat.heights_m - cut.heights_m
+    assert carved_m.min() >= -1e-9
+    # Up to 1.6 m below where water stands; a hollow it has to leave adds what is cut through its rim.
+    assert 1.2 < carved_m.max() < 1.6 + 2.5
+    assert 0.005 < (carved_m > 0.2).mean() < 0.1
+
+
+def test_hollows_are_shallow_and_few():
+    flat, hollow = (
+        build_terrain(FULL | {"hollow_depth_m": depth, "water_radius_m": 0}, 3) for depth in (0, 1)
+    )
+    deeper_m = flat.heights_m - hollow.heights_m
+    assert deeper_m.min() > -1e-9 and 0.3 < deeper_m.max() <= 1.0
+    assert 0.001 < (deeper_m > 0.1).mean() < 0.1
+
+
+def test_the_crag_has_its_share_and_is_the_steep_part(wild):
+    x, y = _grid()
+    share = wild.crag.share(x, y)
+    # Half in, half out at the threshold, which is a quantile of the grid.
+    assert (share > 0.5).mean() == pytest.approx(0.1, abs=0.005)
+    steep = slope_deg(wild, x, y)
+    assert np.median(steep[share > 0.9]) > 3 * np.median(steep[share == 0])
+    assert share[np.hypot(x, y) < 100].max() == 0

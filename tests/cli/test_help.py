@@ -8,7 +8,7 @@ COMMON = {"--help", "--quiet", "--progress", "--threads"}
 RENDERING = {"--out", "--clips", "--shard", "--blender", "--set", "--dry-run"}
 OPTIONS = {
     "generate": RENDERING | {"--keep-passes"},
-    "render": RENDERING,
+    "render": RENDERING | {"--preview"},
     "convert": {"--out", "--manifest", "--config", "--variants", "--set"},
     "inspect": {"--json"},
     "validate": {"--set", "--json"},

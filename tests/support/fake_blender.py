@@ -34,11 +34,14 @@ def _main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--config", type=Path, required=True)
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--clip", action="append", required=True)
+    parser.add_argument("--clip", action="append", default=[])
+    parser.add_argument("--preview", action="store_true")
     parser.add_argument("--events-fd", type=int, required=True)
     options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
     frames = {clip["id"]: clip["frames"] for clip in json.loads(options.config.read_text())["clips"]}
     with open(options.events_fd, "w", encoding="utf-8", buffering=1) as events:
+        if options.preview:
+            _preview(options.out, events)
         for clip in options.clip:
             _render(options.out / clip, clip, frames[clip], events)
 
@@ -54,6 +57,14 @@ def _render(folder: Path, clip: str, frames: int, events) -> None:
         os.replace(folder / "part.exr", folder / f"{frame:06d}.exr")
         print(json.dumps({"event": "frame", "clip": clip, "index": frame}), file=events)
         _hold(clip, frame)
+
+
+def _preview(folder: Path, events) -> None:
+    print(json.dumps({"event": "clip", "clip": "preview", "first_frame": 0, "frames": 2}), file=events)
+    for frame, name in enumerate(("overview.png", "map.png")):
+        (folder / name).write_bytes(b"a picture")
+        print(json.dumps({"event": "frame", "clip": "preview", "index": frame}), file=events)
+        _hold("preview", frame)
 
 
 def _hold(clip: str, frame: int) -> None:

@@ -28,19 +28,31 @@ int frames_of(const std::vector<ClipConfig>& clips) {
   return frames;
 }
 
-/// Starts Blender on these clips. The resolved config lies beside the passes, which it explains.
-RenderJob::Task render_task(const Config& config, const GenerateOptions& options, const Layout& layout,
-                            const std::vector<ClipConfig>& clips) {
-  make_folder(layout.passes());
-  const Path resolved = layout.passes() / "config.json";
+/// What Blender shall render into a folder. The resolved config lies there too, beside what it explains.
+RenderJob::Task render_task(const Config& config, const GenerateOptions& options, const Path& folder) {
+  make_folder(folder);
+  const Path resolved = folder / "config.json";
   write_file_atomically(resolved, to_text(config.resolved));
   return {.blender = options.blender,
           .home = options.home,
           .config = resolved,
-          .passes = layout.passes(),
-          .log = layout.passes() / "blender.log",
-          .clips = ids_of(clips),
+          .passes = folder,
+          .log = folder / "blender.log",
+          .clips = {},
           .threads = options.threads};
+}
+
+RenderJob::Task passes_task(const Config& config, const GenerateOptions& options, const Layout& layout,
+                            const std::vector<ClipConfig>& clips) {
+  RenderJob::Task task = render_task(config, options, layout.passes());
+  task.clips = ids_of(clips);
+  return task;
+}
+
+RenderJob::Task preview_task(const Config& config, const GenerateOptions& options, const Layout& layout) {
+  RenderJob::Task task = render_task(config, options, layout.preview());
+  task.preview = true;
+  return task;
 }
 
 /// Makes clips one after another from what a render job delivers.
@@ -77,7 +89,7 @@ class Generator {
   void make_pending() {
     write_progress(layout_, index_);  // from here on the folder belongs to this config
     progress_.frames_total = frames_of(pending_);
-    RenderJob job(render_task(config_, options_, layout_, pending_));
+    RenderJob job(passes_task(config_, options_, layout_, pending_));
     for (const ClipConfig& clip : pending_) {
       make(clip, job);
       write_progress(layout_, index_);
@@ -163,7 +175,7 @@ RunOutcome render(const Config& config, const GenerateOptions& options, const Ru
   RunOutcome outcome;
   if (clips.empty()) return outcome;
   Progress progress{.clip = "", .frames_done = 0, .frames_total = frames_of(clips)};
-  RenderJob job(render_task(config, options, layout, clips));
+  RenderJob job(passes_task(config, options, layout, clips));
   for (const ClipConfig& clip : clips) {
     progress.clip = clip.id;
     hooks.report(progress);
@@ -178,6 +190,22 @@ RunOutcome render(const Config& config, const GenerateOptions& options, const Ru
   job.wait_for_end(hooks.cancelled);
   outcome.complete = true;
   return outcome;
+}
+
+int preview(const Config& config, const GenerateOptions& options, const RunHooks& hooks) {
+  const FolderLock lock(options.out);
+  RenderJob job(preview_task(config, options, Layout{options.out}));
+  const std::string clip = RenderJob::kPreview;
+  job.wait_for_frame(clip, -1, hooks.cancelled);
+  Progress progress{.clip = clip, .frames_done = 0, .frames_total = job.frames_of(clip)};
+  hooks.report(progress);
+  while (progress.frames_done < progress.frames_total) {
+    job.wait_for_frame(clip, progress.frames_done, hooks.cancelled);
+    ++progress.frames_done;
+    hooks.report(progress);
+  }
+  job.wait_for_end(hooks.cancelled);
+  return progress.frames_total;
 }
 
 }  // namespace thermal

@@ -48,4 +48,8 @@ RunOutcome generate(const Config& config, const GenerateOptions& options, const 
 /// Renders passes and manifests only, into passes/<clip>.
 RunOutcome render(const Config& config, const GenerateOptions& options, const RunHooks& hooks);
 
+/// Renders a map of what the config makes, and colour stills of it, into preview/; anew each time. Returns how
+/// many pictures.
+int preview(const Config& config, const GenerateOptions& options, const RunHooks& hooks);
+
 }  // namespace thermal

@@ -17,6 +17,7 @@ struct Layout {
   [[nodiscard]] Path unfinished_clip(const std::string& id) const { return root / "clips" / (id + ".part"); }
   [[nodiscard]] Path passes() const { return root / "passes"; }
   [[nodiscard]] Path passes(const std::string& id) const { return passes() / id; }
+  [[nodiscard]] Path preview() const { return root / "preview"; }
 };
 
 /// "000012.png"

@@ -96,19 +96,42 @@ std::vector<Cover> plant_covers(const Json& plants, const Path& home) {
   return covers;
 }
 
+constexpr double kMostBare = 0.9;         // of a place that is all water, rock and road
+constexpr double kWetMarginM = 2.5;       // as the ground is laid in covers.py
+constexpr double kRockOfCrag = 0.6;       // measured: what outcrops cover of the crag
+constexpr double kRoadSideLengths = 2.2;  // loop and fork together, in sides of the place
+
+double disc_m2(double radius_m) { return std::numbers::pi * radius_m * radius_m; }
+
+/// What lies on the dry soil whatever the plants, as shares of the place.
+std::map<std::string, double> bare_shares(const Json& terrain) {
+  const double size_m = terrain["size_m"];
+  std::map<std::string, double> shares;
+  for (const char* key : {"water_radius_m", "pan_radius_m"}) {
+    const double radius_m = terrain[key];
+    if (radius_m == 0) continue;
+    shares["water"] += disc_m2(radius_m) / (size_m * size_m);
+    shares["wet_soil"] += (disc_m2(radius_m + kWetMarginM) - disc_m2(radius_m)) / (size_m * size_m);
+  }
+  if (!terrain.contains("heightmap")) shares["rock"] = kRockOfCrag * terrain["craggy_fraction"].get<double>();
+  shares["road"] = kRoadSideLengths * terrain["road"]["width_m"].get<double>() / size_m;
+  double sum = 0;
+  for (const auto& [name, share] : shares) sum += share;
+  const double room = std::min(1.0, kMostBare / sum);
+  for (auto& [name, share] : shares) share *= room;
+  return shares;
+}
+
 void add_ground(const Json& scene, const MaterialLibrary& materials, const Path& home,
                 SceneOutline& outline) {
-  const Json& terrain = scene["terrain"];
-  const double size_m = terrain["size_m"];
-  const double radius_m = terrain["water_radius_m"];
-  const double water = std::min(0.9, std::numbers::pi * radius_m * radius_m / (size_m * size_m));
-  std::map<std::string, double> shares = {{"water", water}};
-  double open = 1 - water;
+  std::map<std::string, double> shares = bare_shares(scene["terrain"]);
+  double open = 1;
+  for (const auto& [name, share] : shares) open -= share;
   for (const Cover& cover : plant_covers(scene["plants"], home)) {
     shares[cover.material] += open * cover.share;
     open *= 1 - cover.share;
   }
-  const double grass = terrain["grass_fraction"];
+  const double grass = scene["terrain"]["grass_fraction"];
   shares["soil"] += open * (1 - grass);
   shares["grass"] += open * grass;
   for (const auto& [name, share] : shares) {

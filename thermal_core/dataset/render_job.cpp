@@ -34,6 +34,7 @@ std::vector<std::string> render_command(const RenderJob::Task& task) {
                  {"--python", script, "--", "--config", task.config.string(), "--out", task.passes.string(),
                   "--events-fd", std::to_string(ChildProcess::kEventDescriptor)});
   for (const std::string& clip : task.clips) command.insert(command.end(), {"--clip", clip});
+  if (task.preview) command.emplace_back("--preview");
   return command;
 }
 
@@ -65,6 +66,7 @@ void RenderJob::take_event(const std::string& line) {
   const auto kind = event["event"].get<std::string>();
   if (kind == "clip") {
     ready_[event["clip"]] = 1 + event["first_frame"].get<int>();
+    frames_[event["clip"]] = event.value("frames", 0);
     doing_ = fmt::format("rendering clip {}", event["clip"].get<std::string>());
   } else if (kind == "frame") {
     const int index = event["index"];
@@ -114,6 +116,11 @@ void RenderJob::wait_until(const std::function<bool()>& done, const std::functio
 
 void RenderJob::wait_for_frame(const std::string& clip, int frame, const std::function<bool()>& cancelled) {
   wait_until([&] { return ready_[clip] > frame + 1; }, cancelled);
+}
+
+int RenderJob::frames_of(const std::string& clip) {
+  const std::lock_guard lock(mutex_);
+  return frames_[clip];
 }
 
 void RenderJob::wait_for_end(const std::function<bool()>& cancelled) {

@@ -23,8 +23,10 @@ class RenderJob {
     Path passes;  ///< gets a folder for each clip
     Path log;     ///< what Blender prints
     std::vector<std::string> clips;
-    int threads = 0;  ///< 0: one a core
+    int threads = 0;       ///< 0: one a core
+    bool preview = false;  ///< pictures for people instead: the frames of one clip, kPreview
   };
+  static constexpr const char* kPreview = "preview";
 
   /// Starts Blender. It dies with the thread that calls this.
   explicit RenderJob(const Task& task);
@@ -36,6 +38,9 @@ class RenderJob {
   /// why it never will be: ConfigError; TryAgainError if Blender was killed or the disk is full; else IoError.
   /// Cancelled when `cancelled` says so.
   void wait_for_frame(const std::string& clip, int frame, const std::function<bool()>& cancelled);
+
+  /// How many frames a clip has, as Blender told with its manifest; 0 before.
+  [[nodiscard]] int frames_of(const std::string& clip);
 
   /// Waits until Blender has ended; the same faults.
   void wait_for_end(const std::function<bool()>& cancelled);
@@ -57,6 +62,7 @@ class RenderJob {
   std::mutex mutex_;
   std::condition_variable changed_;
   Ready ready_;
+  std::map<std::string, int> frames_;
   bool ended_ = false;
   Blame blame_ = Blame::blender;
   std::string failure_;  ///< why Blender ended early; empty if it did not

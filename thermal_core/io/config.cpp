@@ -124,6 +124,14 @@ void apply_setting(Json& document, const std::string& assignment) {
   *at = value;
 }
 
+void root_files(Json& document, const Path& folder) {
+  for (const char* map : {"heightmap", "density_map"}) {
+    const Json::json_pointer place("/scene/terrain/" + std::string(map) + "/file");
+    if (!document.contains(place) || !document[place].is_string()) continue;  // the schema will tell
+    document[place] = (folder / document[place].get<std::string>()).string();
+  }
+}
+
 Config resolve_config(Json document, const std::string& name, const Path& home) {
   const Json schema = read_json(home / "configs" / "schema" / "config.schema.json");
   apply_preset(document, schema, name, home);

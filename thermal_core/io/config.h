@@ -51,6 +51,9 @@ struct Config {
 /// JSON or else a plain string; "season=…" sets the season of every clip. ConfigError if the form is off.
 void apply_setting(Json& document, const std::string& assignment);
 
+/// Names in full the files that a document names relative to `folder`: the user's maps of the terrain.
+void root_files(Json& document, const Path& folder);
+
 /// Checks a document against configs/schema/config.schema.json and fills in its defaults.
 /// ConfigError with a line a fault, each starting with `name`.
 [[nodiscard]] Config resolve_config(Json document, const std::string& name, const Path& home);

@@ -111,7 +111,8 @@ TEST_CASE("A material with a fault in it is named with its file and key") {
   CHECK(fault(R"("parts": {"ear": {"source": "a test", "cooling_time_s": 0}})") ==
         "ODD.json: parts.ear.cooling_time_s = 0 s; expected more than 0 and at most 1000000 s");
   CHECK(fault(R"("emisivity": 0.9)") ==
-        "ODD.json: emisivity is not a known key; expected one of emissivity, winter_k, summer_k, in_table_1, "
+        "ODD.json: emisivity is not a known key; expected one of emissivity, winter_k, summer_k, colour, "
+        "in_table_1, "
         "spectrum, "
         R"(angular, variation, parts, source; did you mean "emissivity"?)");
 }

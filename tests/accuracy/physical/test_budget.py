@@ -116,7 +116,17 @@ def test_the_plain_table_shows_each_material_in_each_night(veldt):
         rows = {row.split()[0]: row.split()[1:] for row in night.splitlines()[2:]}
         # Sky reflection of level surfaces on Table 1's nights, computed in 60 digits.
         assert (rows["soil"][0], rows["human"][0]) == (soil, human)
-        assert set(rows) == {"acacia", "elephant", "grass", "human", "shrub", "soil", "water", "zebra"}
+        assert set(rows) == {
+            "acacia",
+            "elephant",
+            "grass",
+            "human",
+            "shrub",
+            "soil",
+            "water",
+            "wet_soil",
+            "zebra",
+        }
 
 
 def test_faults_are_the_config_s(veldt):

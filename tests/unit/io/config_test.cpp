@@ -115,3 +115,20 @@ TEST_CASE("An unknown clip is a fault with the nearest id") {
   CHECK(message_of<ConfigError>([&] { (void)config.clip("winter_zigzg", "--clips"); }) ==
         "--clips = \"winter_zigzg\"; expected one of winter_zigzag, b; did you mean \"winter_zigzag\"?");
 }
+
+TEST_CASE("Maps are named relative to the config that names them") {
+  Json document = least();
+  document["scene"]["terrain"]["heightmap"] = {{"file", "maps/hill.png"}, {"height_m", {0, 30}}};
+  document["scene"]["terrain"]["density_map"] = {{"file", "/abroad/areas.png"}};
+  root_files(document, "/home/ranger");
+  const Json terrain = resolved(document).resolved["scene"]["terrain"];
+  CHECK(terrain["heightmap"]["file"] == "/home/ranger/maps/hill.png");
+  CHECK(terrain["density_map"]["file"] == "/abroad/areas.png");
+}
+
+TEST_CASE("A map that is no file name is left to the schema") {
+  Json document = least();
+  document["scene"]["terrain"]["density_map"] = {{"file", 3}};
+  root_files(document, "/home/ranger");
+  CHECK(fault_in(document) == "night.json: scene.terrain.density_map.file = 3; expected a string");
+}

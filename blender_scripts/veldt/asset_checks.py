@@ -1,0 +1,114 @@
+"""What the files of species, plants and materials must have; faults name the file and the key."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from .faults import ConfigError, did_you_mean, listing
+
+# By kind: keys every file has, and what they are. Materials are checked against their schema by `veldt`.
+_TEXT, _NUMBER, _PAIR, _TABLE, _COUNT = (
+    "text",
+    "a number",
+    "[least, most]",
+    "an object",
+    "a whole number from 1",
+)
+_KEYS = {
+    "species": {
+        "category": _TEXT,
+        "material": _TEXT,
+        "source": _TABLE,
+        "speed_m_s": _NUMBER,
+        "variants": _TABLE,
+    },
+    "plants": {
+        "material": _TEXT,
+        "source": _TABLE,
+        "scale_range": _PAIR,
+        "cover_m2": _NUMBER,
+        "foot_m": _NUMBER,
+        "spacing_m": _NUMBER,
+        "clearance_m": _NUMBER,
+        "patch_m": _NUMBER,
+        "slope_deg": _PAIR,
+    },
+    "materials": {"emissivity": _NUMBER, "winter_k": _NUMBER, "summer_k": _NUMBER, "source": _TEXT},
+}
+_DRAWN = {"gait": _TABLE, "bones": _TABLE}
+_STANDING = {"form": _TEXT, "variants": _COUNT, "height_m": _NUMBER, "crown_diameter_m": _NUMBER}
+_FOLIAGE = ("crown_thickness_m", "trunk_radius_m", "clumps", "leaves", "leaf_m")
+_FORM_KEYS = {
+    "umbrella": (*_FOLIAGE, "limbs"),
+    "many_stemmed": (*_FOLIAGE, "limbs"),
+    "bush": _FOLIAGE,
+    "bottle": ("trunk_radius_m", "trunk_height_m", "limbs"),
+    "tussock": ("trunk_radius_m", "leaves", "leaf_m"),
+    "mound": (),
+    "rock": ("limbs",),
+    "log": ("trunk_radius_m", "limbs"),
+}
+
+
+def _is_number(value) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+_IS: dict[str, Callable] = {
+    _TEXT: lambda value: isinstance(value, str) and value != "",
+    _NUMBER: lambda value: _is_number(value) and value >= 0,
+    _PAIR: lambda value: isinstance(value, list) and len(value) == 2 and all(map(_is_number, value)),
+    _TABLE: lambda value: isinstance(value, dict) and len(value) > 0,
+    _COUNT: lambda value: isinstance(value, int) and value >= 1,
+}
+
+
+def check(where: str, kind: str, data: dict) -> None:
+    """ConfigError if the content of the file `where`, of a kind of assets, lacks something."""
+    _check_keys(f"{where}: ", data, _KEYS.get(kind, {}))
+    if kind == "species":
+        _check_species(where, data)
+    elif kind == "plants" and "model" not in data:
+        _check_form(where, data)
+
+
+def _check_keys(where: str, data: dict, keys: dict[str, str]) -> None:
+    for key, rule in keys.items():
+        if key not in data:
+            raise ConfigError(f"{where}{key} is missing; expected {rule}")
+        if not _IS[rule](data[key]):
+            raise ConfigError(f"{where}{key} = {data[key]}; expected {rule}")
+
+
+def _check_species(where: str, data: dict) -> None:
+    for name, variant in data["variants"].items():
+        _check_object(f"{where}: variants.{name}", variant, {"share": _NUMBER, "size_range": _PAIR})
+    if "model" in data:
+        for key in ("bones", "legs", "wheels", "moves"):
+            if key in data:
+                raise ConfigError(
+                    f"{where}: {key} is given; expected none, since a model from a file is rigid"
+                )
+        return
+    _check_keys(f"{where}: ", data, _DRAWN)
+    _check_object(f"{where}: gait", data["gait"], {"leg_m": _NUMBER})
+    for name, bone in data["bones"].items():
+        if not isinstance(bone, dict) or not isinstance(bone.get("shapes"), list) or "joint_m" not in bone:
+            raise ConfigError(f"{where}: bones.{name}; expected joint_m and a list of shapes")
+        for k, shape in enumerate(bone["shapes"]):
+            _check_object(f"{where}: bones.{name}.shapes[{k}]", shape, {"part": _TEXT})
+
+
+def _check_object(where: str, data, keys: dict[str, str]) -> None:
+    if not isinstance(data, dict):
+        raise ConfigError(f"{where} = {data}; expected an object with {listing(keys)}")
+    _check_keys(f"{where}.", data, keys)
+
+
+def _check_form(where: str, data: dict) -> None:
+    _check_keys(f"{where}: ", data, _STANDING)
+    form = data["form"]
+    if form not in _FORM_KEYS:
+        near = did_you_mean(form, _FORM_KEYS)
+        raise ConfigError(f'{where}: form = "{form}"; expected one of {listing(_FORM_KEYS)}{near}')
+    _check_keys(f"{where}: ", data, dict.fromkeys(_FORM_KEYS[form], _NUMBER))

@@ -1,0 +1,95 @@
+"""Bodies as discs on the ground, over time: who comes how near to whom."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+HORIZON_S = 1800.0  # as long as a flight of the published system
+_STEP_S = 0.5
+TIMES_S = np.arange(0.0, HORIZON_S + _STEP_S, _STEP_S)
+
+
+@dataclass(frozen=True)
+class Discs:
+    """Discs that together cover a body seen from above: ahead_m (k,) of its middle along its heading, one radius."""
+
+    ahead_m: np.ndarray
+    radius_m: float
+
+
+@dataclass(frozen=True)
+class Crowd:
+    """Discs of a group's members at TIMES_S, or at all times alike: centre_m (t or 1, k, 2), radius_m (k,).
+
+    fastest_m_s is how fast a disc moves at most.
+    """
+
+    centre_m: np.ndarray
+    radius_m: np.ndarray
+    fastest_m_s: float
+
+
+def cover(half_length_m: float, half_width_m: float) -> Discs:
+    """The fewest discs in a row that cover a rectangle without being much wider than it."""
+    count = max(1, int(np.ceil(half_length_m / half_width_m - 0.2)))
+    step_m = 2.0 * half_length_m / count
+    ahead_m = step_m * (np.arange(count) - 0.5 * (count - 1))
+    return Discs(ahead_m, float(np.hypot(0.5 * step_m, half_width_m)))
+
+
+def centres(discs: Discs, point_m: np.ndarray, heading: np.ndarray) -> np.ndarray:
+    """Centres (t, k, 2) of a body's discs where it is at points (t, 2) with headings (t, 2)."""
+    return point_m[:, None, :] + discs.ahead_m[:, None] * heading[:, None, :]
+
+
+def gather(bodies: Sequence[tuple[Discs, np.ndarray, np.ndarray]]) -> Crowd:
+    """The crowd of bodies, each with points (t, 2) and headings (t, 2) at TIMES_S; t may be 1 if none of them moves."""
+    centre_m = np.concatenate([centres(*body) for body in bodies], axis=1)
+    steps_m = np.linalg.norm(np.diff(centre_m, axis=0), axis=-1)
+    return Crowd(
+        centre_m,
+        np.concatenate([np.full(len(discs.ahead_m), discs.radius_m) for discs, _, _ in bodies]),
+        float(steps_m.max(initial=0.0)) / _STEP_S,
+    )
+
+
+def nearest_m(one: Crowd, other: Crowd, enough_m: float = np.inf, until_s: float = HORIZON_S) -> float:
+    """The least distance between discs of two crowds, negative where they overlap, up to enough_m.
+
+    At any of TIMES_S that is no later than until_s.
+    """
+    least_m, most_m = (bound[: np.searchsorted(TIMES_S, until_s) + 1] for bound in _bounds_m(one, other))
+    _, gaps_m = _gaps_m(one, other, np.flatnonzero(least_m <= min(enough_m, most_m.min())))
+    return float(min(gaps_m.min(initial=np.inf), enough_m))
+
+
+def clear_until_s(one: Crowd, other: Crowd, gap_m: float) -> float:
+    """The first of TIMES_S about which two crowds may come nearer than gap_m; HORIZON_S if they never do."""
+    apart_m = gap_m + 0.5 * _STEP_S * (one.fastest_m_s + other.fastest_m_s)
+    moments, gaps_m = _gaps_m(one, other, np.flatnonzero(_bounds_m(one, other)[0] < apart_m))
+    near = moments[gaps_m < apart_m]
+    return float(TIMES_S[near[0]]) if len(near) else HORIZON_S
+
+
+def _gaps_m(one: Crowd, other: Crowd, moments: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The moments (n,), places in TIMES_S, and the distance (n,) of the nearest two discs at each."""
+    a, b = (crowd.centre_m[moments % len(crowd.centre_m)] for crowd in (one, other))
+    gaps_m = np.linalg.norm(a[:, :, None] - b[:, None, :], axis=-1) - one.radius_m[:, None] - other.radius_m
+    return moments, gaps_m.min(axis=(1, 2), initial=np.inf)
+
+
+def _bounds_m(one: Crowd, other: Crowd) -> tuple[np.ndarray, np.ndarray]:
+    """Distances (t,) that the nearest discs of two crowds are apart at least, and at most."""
+    (middle, reach), (others_middle, others_reach) = (_ring(crowd) for crowd in (one, other))
+    between_m = np.linalg.norm(middle - others_middle, axis=1)
+    return between_m - reach - others_reach, between_m + reach + others_reach
+
+
+def _ring(crowd: Crowd) -> tuple[np.ndarray, np.ndarray]:
+    """A disc, middle (t, 2) and radius (t,), around all of a crowd's."""
+    middle = crowd.centre_m.mean(axis=1)
+    reach = (np.linalg.norm(crowd.centre_m - middle[:, None], axis=-1) + crowd.radius_m).max(axis=1)
+    return middle, reach

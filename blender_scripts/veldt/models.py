@@ -1,0 +1,118 @@
+"""Models from a user's own file, .glb, .obj or .blend: all that can be found out about them without Blender.
+
+Plans know a model as a box as large as it is, standing on the ground; `veldt_bl.models` reads the shape itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from .faults import ConfigError, did_you_mean, listing
+from .model_files import SUFFIXES, Unreadable, survey
+from .shapes import Mesh, facets
+
+# By how much a model is turned, deg, so that the axis it faces becomes +x.
+FORWARD = {"x": 0.0, "-x": 180.0, "y": -90.0, "-y": 90.0}
+_KEYS = {"file", "scale", "forward", "parts", "size_m"}
+_CORNERS = np.array([[i, j, k] for i in (-0.5, 0.5) for j in (-0.5, 0.5) for k in (0.0, 1.0)])
+_SIDES = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+
+
+def part_names(data: Mapping) -> tuple[str, ...]:
+    """Parts of a species or plant with a model, in the order its map first mentions them."""
+    return tuple(dict.fromkeys(data["model"]["parts"].values()))
+
+
+def box_mesh(size_m) -> Mesh:
+    """A box of that length, width and height on the ground, its middle at the origin."""
+    return facets(_CORNERS * np.asarray(size_m, float), np.concatenate([_SIDES[:, :3], _SIDES[:, [0, 2, 3]]]))
+
+
+def in_body_axes(points_m: np.ndarray, model: Mapping) -> np.ndarray:
+    """Points (n, 3) of a file as Blender imports it, z up: facing +x, at the model's scale, where they were."""
+    angle = np.radians(FORWARD[model["forward"]])
+    cos, sin = np.round([np.cos(angle), np.sin(angle)])  # quarter turns: exact
+    return model["scale"] * points_m @ np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
+
+
+def checked(where: str, folder: Path, entry, parts: Mapping) -> dict:
+    """A `model` entry of the asset file `where` in `folder`, with defaults, the whole `path` of its file and size_m.
+
+    `parts` are those of its material. ConfigError names the key, or the file and what is wrong with it.
+    """
+    if not isinstance(entry, dict) or "file" not in entry or "parts" not in entry:
+        raise ConfigError(f"{where}: model = {entry}; expected file, forward and parts")
+    for key in entry.keys() - _KEYS:
+        raise ConfigError(
+            f"{where}: model.{key} is unknown; expected {listing(_KEYS)}{did_you_mean(key, _KEYS)}"
+        )
+    model = {"scale": 1.0, **entry}
+    _check_values(where, model)
+    _check_parts(where, model["parts"], parts)
+    path = (folder / model["file"]).absolute()
+    found = _survey(where, model["file"], path)
+    for name in found.materials:
+        check_mapped(f'{where}: model.file = "{model["file"]}"', name, model["parts"])
+    if "size_m" not in model:
+        if found.box_m is None:
+            raise ConfigError(
+                f"{where}: model.size_m is missing; expected [length, width, height], since only Blender can tell"
+                f' how large "{model["file"]}" is'
+            )
+        model["size_m"] = np.ptp(in_body_axes(found.box_m, model), axis=0).tolist()
+    return model | {"path": str(path)}
+
+
+def check_mapped(where: str, name: str, parts: Mapping) -> None:
+    """ConfigError if a material or object of a model's file is not in the map of parts."""
+    if name not in parts:
+        raise ConfigError(
+            f'{where}: "{name}" has no part; expected it in model.parts, which has {listing(parts)}'
+            f"{did_you_mean(name, parts)}"
+        )
+
+
+def _check_values(where: str, model: dict) -> None:
+    if not isinstance(model["file"], str) or Path(model["file"]).suffix.lower() not in SUFFIXES:
+        raise ConfigError(
+            f'{where}: model.file = "{model["file"]}"; expected a file ending in {", ".join(SUFFIXES)}'
+        )
+    if not _is_length(model["scale"]):
+        raise ConfigError(f'{where}: model.scale = {model["scale"]}; expected a number above 0')
+    forward = model.get("forward")
+    if forward not in list(FORWARD):
+        found = "is missing" if forward is None else f'= "{forward}"'
+        raise ConfigError(f"{where}: model.forward {found}; expected the axis it faces: {listing(FORWARD)}")
+    size_m = model.get("size_m", [1, 1, 1])
+    if not (isinstance(size_m, list) and len(size_m) == 3 and all(map(_is_length, size_m))):
+        raise ConfigError(
+            f"{where}: model.size_m = {size_m} m; expected [length, width, height], all above 0"
+        )
+
+
+def _is_length(value) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and 0 < value < 1e6
+
+
+def _check_parts(where: str, parts, known: Mapping) -> None:
+    if not isinstance(parts, dict) or not parts:
+        raise ConfigError(f"{where}: model.parts = {parts}; expected a part for each material of the model")
+    for name, part in parts.items():
+        if part not in ["", *known]:
+            raise ConfigError(
+                f'{where}: model.parts["{name}"] = "{part}"; expected a part of its material: {listing(known)},'
+                f' or "" for the material\'s own temperature{did_you_mean(str(part), known)}'
+            )
+
+
+def _survey(where: str, name: str, path: Path):
+    try:
+        return survey(path)
+    except OSError as error:
+        reason = error.strerror
+    except Unreadable as error:
+        reason = str(error)
+    raise ConfigError(f'{where}: model.file = "{name}"; expected a readable {path.suffix} file ({reason})')

@@ -1,0 +1,71 @@
+"""A planned map sheet as Blender objects that glow in their colours and cast no shadow."""
+
+from __future__ import annotations
+
+import bpy
+
+from veldt.colours import linear
+from veldt.ids import GROUND
+from veldt.labels import Label
+from veldt.legend import FlatLayer
+from veldt.map_layers import INK, MapSheet
+
+from . import compat
+from .meshes import new_mesh, new_object
+
+_STEP_M = 1.0  # between layers
+
+
+def add_sheet(sheet: MapSheet, height_m: float) -> float:
+    """Adds all layers above a height, the words on top; returns the height of these."""
+    for k, layer in enumerate(sheet.layers):
+        _add_layer(layer, height_m + k * _STEP_M)
+    top_m = height_m + len(sheet.layers) * _STEP_M
+    ink = _glow("ink", INK, 1.0)
+    for label in sheet.labels:
+        if label.text:
+            _add_label(label, top_m, ink)
+    return top_m
+
+
+def _add_layer(layer: FlatLayer, height_m: float) -> None:
+    if len(layer.mesh.triangles) > 0:
+        mesh = new_mesh(
+            layer.name, layer.mesh, [_glow(layer.name, layer.colour, layer.opacity)], smooth=False
+        )
+        _float(new_object(layer.name, mesh, GROUND), height_m)
+
+
+def _add_label(label: Label, height_m: float, ink: bpy.types.Material) -> None:
+    words = bpy.data.curves.new(f"label {label.text}", "FONT")
+    words.body, words.size = label.text, label.size_m
+    words.align_x, words.align_y = "LEFT", "CENTER"
+    words.materials.append(ink)
+    shown = new_object(f"label {label.text}", words, GROUND)
+    shown.location.x, shown.location.y = label.x_m, label.y_m
+    _float(shown, height_m)
+
+
+def _float(shown: bpy.types.Object, height_m: float) -> None:
+    shown.location.z = height_m
+    shown.visible_shadow = shown.visible_diffuse = False
+
+
+def _glow(name: str, colour: str, opacity: float) -> bpy.types.Material:
+    """Just this colour, whatever the light."""
+    material = bpy.data.materials.new(f"map {name}")
+    tree = compat.use_nodes(material)
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    glow = tree.nodes.new("ShaderNodeEmission")
+    glow.inputs["Color"].default_value = (*linear(colour), 1.0)
+    if opacity == 1.0:
+        tree.links.new(glow.outputs["Emission"], output.inputs["Surface"])
+        return material
+    mix, clear = tree.nodes.new("ShaderNodeMixShader"), tree.nodes.new("ShaderNodeBsdfTransparent")
+    mix.inputs[
+        0
+    ].default_value = opacity  # the next two have one name, so that only their places tell them apart
+    tree.links.new(clear.outputs["BSDF"], mix.inputs[1])
+    tree.links.new(glow.outputs["Emission"], mix.inputs[2])
+    tree.links.new(mix.outputs["Shader"], output.inputs["Surface"])
+    return material

@@ -1,0 +1,159 @@
+"""Renders what a person looks at before rendering a dataset: a map of the place, and colour stills."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from veldt.camera import look
+from veldt.colours import SKY, linear, surface_colour
+from veldt.map_layers import MapSheet, plan_map
+from veldt.png_files import is_whole
+from veldt.stills import INTRINSICS, Still, plan_stills
+from veldt.world import World
+
+from . import compat
+from .camera import add_camera, place
+from .map_objects import add_sheet
+from .meshes import new_object
+from .scene import Stage
+
+_MAP_WIDTH_PX = 1920
+_MAP_SAMPLES, _STILL_SAMPLES = 8, 16
+_SUN_DEG = 45.0, 0.0, 45.0  # shines from the north-west, as on maps
+_SUN_W_M2, _SKY_STRENGTH = 2.3, 0.7
+_SUN_DISC_RAD = 0.0093
+_CLEARANCE_M = 50.0  # of the sheet above all that grows
+_EVERYWHERE_M = 1e6
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture to make: its file's name, and what sets the scene up for it."""
+
+    file: str
+    set_up: Callable[[], None]
+
+
+def plan_pictures(stage: Stage) -> list[Picture]:
+    """The stills, then the map, all at the first clip's first moment."""
+    world = stage.world
+    time_s = _moment_s(world)
+    sheet, stills = plan_map(world, time_s), plan_stills(world, time_s)
+    return [
+        *(Picture(f"{still.name}.png", lambda still=still: _set_up_still(still)) for still in stills),
+        # Last, because what is on the map stays in the scene.
+        Picture("map.png", lambda: _set_up_map(stage, sheet)),
+    ]
+
+
+def render_pictures(
+    stage: Stage, pictures: list[Picture], folder: Path, on_picture: Callable[[int], None]
+) -> None:
+    """Writes NAME.png for each picture; on_picture(k) when the k-th is whole. OSError if one cannot be written."""
+    folder.mkdir(parents=True, exist_ok=True)
+    _remove_pictures(folder)
+    _set_up_colours(stage.world)
+    _set_up_renderer()
+    _add_light()
+    _show(stage, _moment_s(stage.world))
+    for k, picture in enumerate(pictures):
+        picture.set_up()
+        _render(folder / picture.file)
+        on_picture(k)
+
+
+def _moment_s(world: World) -> float:
+    return float(world.config["clips"][0]["start_s"])
+
+
+def _show(stage: Stage, time_s: float) -> None:
+    """All actors at a time, and all plants."""
+    stage.troupe.rehearse(np.array([time_s]))
+    stage.pose(0)
+    stage.flora.view.scale = (_EVERYWHERE_M,) * 3
+
+
+def _remove_pictures(folder: Path) -> None:
+    """Removes those of an earlier preview, perhaps of another config."""
+    for pattern in ("map.png", "overview.png", "close_*.png", "part_*.png"):
+        for picture in folder.glob(pattern):
+            picture.unlink()
+
+
+def _render(picture: Path) -> None:
+    part = picture.with_name(f"part_{picture.name}")
+    bpy.context.scene.render.filepath = str(part)
+    try:
+        bpy.ops.render.render(write_still=True)
+    except RuntimeError as error:  # its words end in a line break
+        raise OSError(f"{picture}: {str(error).strip()}") from error
+    if not is_whole(part):
+        raise OSError(f"{picture}: Blender could not write all of it; is the disk full?")
+    os.replace(part, picture)
+
+
+def _set_up_renderer() -> None:
+    scene = bpy.context.scene
+    render, cycles = scene.render, scene.cycles
+    render.engine = "CYCLES"
+    cycles.device = "CPU"
+    cycles.use_denoising = False
+    cycles.seed = 0
+    cycles.transparent_max_bounces = 8
+    render.use_compositing = render.use_sequencer = False
+    render.resolution_percentage = 100
+    compat.write_png(render.image_settings)
+    scene.view_settings.view_transform = "Standard"
+
+
+def _set_up_colours(world: World) -> None:
+    """Gives every surface its matte colour."""
+    pairs = {index: pair for pair, index in world.material_indices.items()}
+    for material in bpy.data.materials:
+        if material.pass_index in pairs:
+            tree = compat.use_nodes(material)
+            matte = tree.nodes.new("ShaderNodeBsdfDiffuse")
+            matte.inputs["Color"].default_value = (*linear(surface_colour(*pairs[material.pass_index])), 1.0)
+            output = tree.nodes.new("ShaderNodeOutputMaterial")
+            tree.links.new(matte.outputs["BSDF"], output.inputs["Surface"])
+
+
+def _add_light() -> None:
+    """A sun and a sky."""
+    sun = bpy.data.lights.new("sun", "SUN")
+    sun.energy, sun.angle = _SUN_W_M2, _SUN_DISC_RAD
+    shining = new_object("sun", sun, 0)
+    shining.rotation_euler = np.radians(_SUN_DEG)
+    sky = bpy.data.worlds.new("sky")
+    tree = compat.use_nodes(sky)
+    glow, output = tree.nodes.new("ShaderNodeBackground"), tree.nodes.new("ShaderNodeOutputWorld")
+    glow.inputs["Color"].default_value = (*linear(SKY), 1.0)
+    glow.inputs["Strength"].default_value = _SKY_STRENGTH
+    tree.links.new(glow.outputs["Background"], output.inputs["Surface"])
+    bpy.context.scene.world = sky
+
+
+def _set_up_still(still: Still) -> None:
+    scene = bpy.context.scene
+    scene.render.resolution_x, scene.render.resolution_y = INTRINSICS.width_px, INTRINSICS.height_px
+    scene.cycles.samples, scene.cycles.max_bounces = _STILL_SAMPLES, 1
+    place(add_camera(INTRINSICS), still.camera_to_world)
+
+
+def _set_up_map(stage: Stage, sheet: MapSheet) -> None:
+    scene = bpy.context.scene
+    scene.render.resolution_x = _MAP_WIDTH_PX
+    scene.render.resolution_y = round(_MAP_WIDTH_PX * sheet.height_m / sheet.width_m)
+    scene.cycles.samples, scene.cycles.max_bounces = _MAP_SAMPLES, 0
+    ground_m = float(stage.world.terrain.heights_m.max())
+    top_m = add_sheet(sheet, ground_m + stage.flora.reach_m + _CLEARANCE_M)
+    camera = add_camera(INTRINSICS)
+    camera.data.type, camera.data.ortho_scale = "ORTHO", sheet.width_m
+    above_m = np.array([[*sheet.centre_m, top_m + _CLEARANCE_M]])
+    place(camera, look(above_m, np.array([[0.0, 1.0]]), np.array([0.5 * np.pi]))[0])

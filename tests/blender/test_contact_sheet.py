@@ -1,0 +1,65 @@
+"""configs/contact_sheet.json shows every species, finely enough, from where `./run contact-sheet` expects it."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+from veldt import assets
+from veldt.camera import project
+from veldt.config import ROOT, load
+from veldt.world import World, plan_world
+
+CONFIG = ROOT / "configs" / "contact_sheet.json"
+LARGE = re.search(r"^large_species=\((.*)\)$", (ROOT / "run").read_text(), re.MULTILINE)[1].split()
+WHOLE_PX, MIDDLE_PX, MIDDLE_FROM_ABOVE_PX = (640, 512), (320, 256), (160, 128)
+
+
+@pytest.fixture(scope="module", name="sheet")
+def _sheet() -> World:
+    return plan_world(load(CONFIG))
+
+
+def test_every_species_is_on_it():
+    shown = {group["species"] for group in json.loads(CONFIG.read_text())["scene"]["groups"]}
+    assert shown == set(assets.names("species"))
+
+
+def test_everybody_has_a_picture_from_the_side_and_one_from_above(sheet):
+    clips = [clip["id"] for clip in sheet.config["clips"]]
+    assert sorted(clips) == sorted(
+        f"{view}_{actor.group}" for actor in sheet.actors for view in ("side", "top")
+    )
+
+
+def test_pixels_on_the_ground_are_8_cm_or_finer_from_61_m(sheet):
+    for clip in sheet.config["clips"]:
+        if clip["id"].startswith("top_"):
+            flight = sheet.flight(clip)
+            assert flight.agl_m == pytest.approx([61.0], abs=0.1)  # it holds its height over smoothed ground
+            assert flight.look_angle_deg == pytest.approx([90.0])
+    assert 61.0 / sheet.intrinsics.f_px < 0.08
+
+
+def test_everybody_is_whole_in_both_pictures_and_alone(sheet):
+    """Corners of boxes, which hold bodies in all they do; of most pictures only the middle is shown."""
+    for clip in sheet.config["clips"]:
+        view, name = clip["id"].split("_", 1)
+        size_px = (
+            MIDDLE_FROM_ABOVE_PX if view == "top" else WHOLE_PX if name.split("_")[0] in LARGE else MIDDLE_PX
+        )
+        half_px = 0.5 * np.array(size_px)
+        pose = sheet.flight(clip).camera_to_world[0]
+        for actor in sheet.actors:
+            corners = _corners_m(actor)
+            point, depth_m = project(sheet.intrinsics, pose, corners)
+            inside = (np.abs(point - sheet.intrinsics.centre_px) <= half_px).all(axis=1) & (depth_m > 0)
+            assert inside.all() if actor.group == name else not inside.any(), (clip["id"], actor.group)
+
+
+def _corners_m(actor) -> np.ndarray:
+    point, heading = actor.path(np.array([actor.start_m]))
+    along, aside = heading[0], np.array([-heading[0][1], heading[0][0]])
+    ends = np.array(np.meshgrid(*actor.bounds_m.T)).reshape(3, -1).T
+    return np.column_stack([point[0] + ends[:, :1] * along + ends[:, 1:2] * aside, ends[:, 2]])

@@ -1,0 +1,112 @@
+"""Groups and paths that cannot be meant are told where, what and what was expected."""
+
+import pytest
+
+from scenes import tiny
+from veldt.faults import ConfigError
+from veldt.world import plan_world
+
+
+def _group(k: int, **entries):
+    """A change of the k-th group; None takes a key away."""
+
+    def change(config):
+        group = config["scene"]["groups"][k]
+        for key, value in entries.items():
+            group.pop(key, None)
+            if value is not None:
+                group[key] = value
+
+    return change
+
+
+def _path(**entries):
+    """Another path beside the place's loop."""
+    return lambda config: config["scene"]["paths"].update(entries)
+
+
+FAULTS = {
+    "neither path nor place": (
+        _group(0, path=None),
+        "scene.groups[0]: path is missing; expected a path to walk on, or a place to stay at",
+    ),
+    "path and place": (
+        _group(0, place=[10, 10]),
+        "scene.groups[0]: path and place are both given; expected a path to walk on, or a place to stay at",
+    ),
+    "a walker at a place": (
+        _group(1, path=None, place=[10, 10], behaviour="walk"),
+        'scene.groups[1].behaviour = "walk"; expected at a place: drink, stand',
+    ),
+    "a lying human": (
+        _group(0, behaviour="lie"),
+        'scene.groups[0].behaviour = "lie"; expected what a human can do: drink, graze, stand, walk',
+    ),
+    "an unknown variant": (
+        _group(0, variants=["plain", "rifles"]),
+        'scene.groups[0].variants[1] = "rifles"; expected a variant of human: pack, plain, rifle;'
+        ' did you mean "rifle"?',
+    ),
+    "an unknown group to meet": (
+        _group(0, meets="heard"),
+        'scene.groups[0].meets = "heard"; expected another group: herd, zebras; did you mean "herd"?',
+    ),
+    "meeting oneself": (
+        _group(0, meets="people"),
+        'scene.groups[0].meets = "people"; expected another group: herd, zebras',
+    ),
+    "a start and somebody to meet": (
+        _group(1, start_m=3, meets="people"),
+        "scene.groups[1].start_m is given; expected none, since meets asks for one to be found",
+    ),
+    "an unknown place": (
+        _group(2, path=None, start_m=None, place="shores"),
+        'scene.groups[2].place = "shores"; expected [x, y] or one of pan, pan_shore, road, shore, water;'
+        ' did you mean "shore"?',
+    ),
+    "standing in the water": (
+        _group(2, path=None, start_m=None, place="water"),
+        'scene.groups[2].place = "water"; expected one on dry land, or behaviour = "float"',
+    ),
+    "no room": (
+        _group(2, path=None, start_m=None, place=[40, 40], count=60, spread_m=4),
+        "scene.groups[2].count = 60; expected at most ",
+    ),
+    "too many for a path": (
+        _group(1, count=60),
+        'scene.groups[1].count = 60; expected at most 21: no more fit on path "loop", which is 166 m long',
+    ),
+    "a path that is not given": (
+        _path(other={}),
+        "scene.paths.other: neither is given; expected points_m, or centre_m and radius_m",
+    ),
+    "a path given twice": (
+        _path(other={"points_m": [[0, 0], [9, 0], [0, 9]], "centre_m": [0, 0], "radius_m": 20}),
+        "scene.paths.other: both are given; expected points_m, or centre_m and radius_m",
+    ),
+    "a centre alone": (
+        _path(other={"centre_m": [0, 0]}),
+        "scene.paths.other.radius_m is missing; expected how far from centre_m the loop shall be",
+    ),
+    "no room for a drawn path": (
+        _path(other={"centre_m": [500, 500], "radius_m": 20}),
+        "scene.paths.other = 20 m about [500, 500] m; expected room for a loop there, within the place and off"
+        " water",
+    ),
+    "a path with the road's name": (
+        _path(road={"centre_m": [0, 0], "radius_m": 20}),
+        'scene.paths.road; expected another name: "road" is the road of scene.terrain',
+    ),
+    "a path that crosses itself": (
+        _path(eight={"points_m": [[30, 10], [10, 30], [30, 30], [10, 10]]}),
+        "scene.paths.eight: the loop crosses itself at x = 2",
+    ),
+}
+
+
+@pytest.mark.parametrize("change, message", FAULTS.values(), ids=FAULTS)
+def test_groups_and_paths_that_cannot_be_meant(change, message):
+    with pytest.raises(ConfigError) as raised:
+        plan_world(tiny(change))
+    text = str(raised.value)
+    assert text.startswith(message) if message[-1] in " 2" else text == message

@@ -1,0 +1,128 @@
+"""The user's own heights and densities, from images."""
+
+import json
+import struct
+import zlib
+
+import numpy as np
+import pytest
+
+from scenes import tiny
+from veldt.config import load
+from veldt.density import plan_density
+from veldt.faults import ConfigError
+from veldt.grey_images import read_grey, sample
+from veldt.terrain import build_terrain
+
+oiio = pytest.importorskip("OpenImageIO")
+
+
+def _write(path, values, form):
+    """An image of values [row, column], 0 to 1, as `form` of OpenImageIO's; it picks a PNG filter for each row."""
+    spec = oiio.ImageSpec(values.shape[1], values.shape[0], 1, form)
+    image = oiio.ImageOutput.create(str(path))
+    assert (
+        image.open(str(path), spec)
+        and image.write_image(values.astype(np.float32)[..., None])
+        and image.close()
+    )
+    return path
+
+
+def _smooth(rows=70, columns=50):
+    """Values that make PNG writers use all kinds of prediction."""
+    y, x = np.mgrid[:rows, :columns]
+    return 0.5 + 0.3 * np.sin(x / 9) * np.cos(y / 7) + 0.15 * np.random.default_rng(4).random((rows, columns))
+
+
+@pytest.mark.parametrize("form, step", [("uint16", 1 / 65535), ("uint8", 1 / 255)])
+def test_png_files_are_read_to_the_last_bit(tmp_path, form, step):
+    values = _smooth()
+    read = read_grey(_write(tmp_path / "a.png", values, form), "here")
+    assert read.shape == values.shape
+    assert np.abs(read - values).max() <= 0.5 * step + 1e-6
+    assert np.abs(read / step - np.round(read / step)).max() < 1e-6
+
+
+def _png(filters, lines, width, bits=8, colour=0):
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    raw = b"".join(bytes([kind]) + bytes(line) for kind, line in zip(filters, lines))
+    head = struct.pack(">IIBBBBB", width, len(lines), bits, colour, 0, 0, 0)
+    return (
+        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b"")
+    )
+
+
+def test_each_prediction_is_undone(tmp_path):
+    # Rows by hand: as is; from the left; from above; from the mean of both; by Paeth's rule.
+    lines = [[10, 20, 30], [5, 1, 1], [1, 1, 1], [2, 2, 2], [1, 1, 1]]
+    path = tmp_path / "a.png"
+    path.write_bytes(_png([0, 1, 2, 3, 4], lines, 3))
+    expected = [[10, 20, 30], [5, 6, 7], [6, 7, 8], [5, 8, 10], [6, 9, 11]]
+    assert np.array_equal(np.round(read_grey(path, "here") * 255), expected)
+
+
+def test_exr_files_are_read_as_they_are(tmp_path):
+    values = 300.0 * _smooth()
+    assert read_grey(_write(tmp_path / "a.exr", values, "float"), "here") == pytest.approx(values, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "content, reason",
+    [
+        (None, "expected a readable file (No such file or directory)"),
+        (b"", "expected an image, and the file is empty"),
+        (_png([0, 0], [[1, 2], [3, 4]], 2)[:40], "expected a grey PNG or an EXR file (it is cut short)"),
+        (_png([0, 9], [[1, 2], [3, 4]], 2), "expected a grey PNG or an EXR file (row 1 has no filter 9)"),
+        (
+            _png([0, 0], [[1] * 6, [3] * 6], 2, colour=2),
+            "expected a grey PNG or an EXR file (its pixels are not grey, of 8 or 16 bits, row by row)",
+        ),
+    ],
+)
+def test_images_that_cannot_be_used_are_named(tmp_path, content, reason):
+    path = tmp_path / "a.png"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(ConfigError) as raised:
+        read_grey(path, "scene.terrain.heightmap.file")
+    assert str(raised.value) == f"scene.terrain.heightmap.file = {path}; {reason}"
+
+
+def test_pixels_lie_from_corner_to_corner_and_north_is_up():
+    values = np.array([[0.0, 1.0], [2.0, 3.0]])
+    assert sample(values, 10.0, [-5, 5, -5, 5, 0], [5, 5, -5, -5, 0]) == pytest.approx([0, 1, 2, 3, 1.5])
+    assert sample(values, 10.0, 99.0, 99.0) == 1.0
+
+
+def test_a_heightmap_is_the_land(tmp_path):
+    y, x = np.mgrid[1:-1:61j, -1:1:61j]
+    path = _write(tmp_path / "hill.png", np.exp(-3 * (x**2 + y**2)), "uint16")
+    given = {"file": str(path), "height_m": [100, 140]}
+    settings = tiny()["scene"]["terrain"] | {"water_radius_m": 0, "heightmap": given}
+    terrain = build_terrain(settings, 3)
+    # 2 m pixels of a hill that bends by 40 x 6 / 60^2 = 0.07 / m at most: 0.07 x 2^2 / 8 between them.
+    for at_m in ((0, 0), (31, -14), (-59, 59)):
+        expected_m = 100 + 40 * np.exp(-3 * ((at_m[0] / 60) ** 2 + (at_m[1] / 60) ** 2))
+        assert terrain.height_m(*at_m) == pytest.approx(expected_m, abs=0.04)
+    assert build_terrain(settings | {"water_radius_m": 10}, 3).waters[0].level_m < 140
+
+
+def test_a_density_map_tells_the_areas(tmp_path):
+    path = _write(tmp_path / "areas.png", np.repeat([[0.0, 0.0, 0.5, 0.5, 1.0, 1.0]], 6, axis=0), "uint8")
+    settings = tiny()["scene"]["terrain"] | {"density_map": {"file": str(path)}}
+    areas = plan_density(build_terrain(settings, 3), settings, 3)
+    x_m = np.array([-58.0, -40.0, -8.0, 8.0, 40.0, 58.0])
+    shares = areas.shares(x_m, np.zeros(6))
+    assert shares.argmax(axis=1).tolist() == [0, 0, 1, 1, 2, 2]
+    assert shares.sum(axis=1) == pytest.approx(np.ones(6))
+
+
+def test_files_are_relative_to_the_config(tmp_path):
+    config = {"scene": {"terrain": {"heightmap": {"file": "maps/hill.png", "height_m": [0, 9]}}}}
+    (tmp_path / "a.json").write_text(json.dumps(config), encoding="utf-8")
+    assert load(tmp_path / "a.json")["scene"]["terrain"]["heightmap"]["file"] == str(
+        tmp_path / "maps/hill.png"
+    )

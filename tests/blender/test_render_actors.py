@@ -1,0 +1,88 @@
+"""Bodies in a real Blender stand, vertex by vertex, as they were planned to."""
+
+import json
+import subprocess
+
+import numpy as np
+import pytest
+
+from rendering import BLENDER, needs_blender
+from scenes import tiny
+from veldt.actors import poses
+from veldt.config import ROOT
+from veldt.world import plan_world
+
+pytestmark = needs_blender
+
+FRAMES = (0, 70)  # the second beyond the frames that are posed at once
+
+# Where all vertices are in some frames of a clip, by frame and object index, bones in the order of their objects.
+READ = """
+import json, sys
+from pathlib import Path
+scripts, config, frames, out = sys.argv[-4:]
+sys.path.insert(0, scripts)
+import bpy, numpy as np
+from veldt.config import load
+from veldt.world import plan_world
+from veldt_bl.scene import build_stage
+config = load(Path(config))
+stage = build_stage(plan_world(config))
+stage.animate(config["clips"][0])
+told = {}
+for frame in json.loads(frames):
+    stage.pose(frame)
+    bpy.context.view_layer.update()
+    for puppet in stage.troupe.puppets:
+        for bone, shown in puppet.bones:
+            assert shown.pass_index == puppet.actor.index
+            points = [shown.matrix_world @ vertex.co for vertex in shown.data.vertices]
+            told[f"{frame}/{puppet.actor.index}/{bone}"] = np.array(points)
+np.savez(out, **told)
+"""
+
+
+def _herd(config: dict) -> None:
+    """On hills, walking, grazing and driving; few frames are looked at, none is rendered."""
+    config["scene"]["plants"] = {}
+    walk = {"path": "loop", "count": 1}
+    config["scene"]["groups"] = [
+        walk | {"name": "people", "species": "human", "start_m": 0},
+        walk | {"name": "herd", "species": "elephant", "start_m": 20, "count": 2},
+        walk | {"name": "grazer", "species": "zebra", "start_m": 60, "behaviour": "graze"},
+        walk | {"name": "car", "species": "pickup", "start_m": 90},
+    ]
+    config["clips"] = [config["clips"][0] | {"frames": 80, "frame_rate_hz": 9}]
+
+
+@pytest.fixture(scope="module", name="shown")
+def _shown(tmp_path_factory) -> dict[str, np.ndarray]:
+    folder = tmp_path_factory.mktemp("shown")
+    (folder / "read.py").write_text(READ)
+    (folder / "config.json").write_text(json.dumps(tiny(_herd)))
+    command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "-t", "1", "--python"]
+    command += [folder / "read.py", "--", ROOT / "blender_scripts", folder / "config.json"]
+    command += [json.dumps(FRAMES), folder / "shown.npz"]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return dict(np.load(folder / "shown.npz"))
+
+
+@pytest.mark.parametrize("frame", FRAMES)
+def test_vertices_are_where_the_pose_puts_them(shown, frame):
+    config = tiny(_herd)
+    world = plan_world(config)
+    time_s = world.flight(config["clips"][0]).time_s[[frame]]
+    for actor in world.actors:
+        posed = poses(actor, time_s).points_m(actor.body, 0)
+        built = [shown.get(f"{frame}/{actor.index}/{k}") for k in range(len(actor.body.bones))]
+        built = np.concatenate([points for points in built if points is not None])
+        assert built.shape == posed.shape
+        # float32 at up to 60 m: eps 4e-6 m, for a vertex, a matrix and their product.
+        assert np.abs(built - posed).max() < 2e-5
+
+
+def test_all_but_grazers_move_between_the_frames(shown):
+    for actor in plan_world(tiny(_herd)).actors:
+        first, last = (shown[f"{frame}/{actor.index}/0"] for frame in FRAMES)
+        assert actor.group == "grazer" or np.linalg.norm(last - first, axis=1).min() > 1.0

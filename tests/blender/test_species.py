@@ -1,0 +1,133 @@
+"""Species: sizes as known, measured on the standing body, the parts that temperatures are told of, and sources."""
+
+import re
+
+import numpy as np
+import pytest
+
+from creatures import Hills, circle
+from veldt import assets
+from veldt.bodies import build_body, variant_names
+from veldt.pose import Motion, Walker, pose
+
+KINDS = [(species, variant) for species in assets.names("species") for variant in variant_names(species)]
+FLAT = Hills(0.0)
+SHOULDERS_M = {
+    "elephant/bull": 3.2,
+    "elephant/cow": 2.6,
+    "elephant/calf": 1.4,
+    "rhinoceros": 1.8,
+    "hippopotamus": 1.5,
+    "zebra": 1.3,
+    "lion": 1.1,
+    "impala": 0.9,
+}
+LENGTHS_M = {"rhinoceros": 3.8, "hippopotamus": 3.5, "zebra": 2.4, "lion": 1.8}  # nose to rump
+TALLEST_M = {"giraffe": 5.0, "human": 1.75}
+PARTS = {
+    "human": {"face", "hands", "torso", "legs", "pack"},
+    "elephant": {"ears", "trunk", "tusks", "torso", "legs"},
+    "pickup": {"hood", "cabin", "bed", "tyres"},
+    "lorry": {"hood", "cabin", "bed", "tyres"},
+}
+
+
+def _of(table: dict) -> list:
+    """The (species, variant, figure) of all kinds that a table tells of."""
+    return [
+        (*kind, table.get(kind[0], table.get("/".join(kind))))
+        for kind in KINDS
+        if kind[0] in table or "/".join(kind) in table
+    ]
+
+
+def _scales(species: str, variant: str) -> np.ndarray:
+    return np.array(assets.load("species", species)["variants"][variant]["size_range"])
+
+
+def _standing(species: str, variant: str, parts=None) -> np.ndarray:
+    """Vertices (n, 3) of parts, by default all, of a body of middling size that stands on level ground facing +x."""
+    body, scale = build_body(species, variant), _scales(species, variant).mean()
+    far_m = 1e7
+    walker = Walker(body, scale, 1.0, 0.0, circle(far_m), FLAT)
+    mesh = pose(walker, Motion(*np.zeros((4, 1)))).mesh(body, 0)
+    slots = [body.parts.index(part) for part in parts or body.parts if part in body.parts]
+    x, y, z = mesh.points_m[np.unique(mesh.triangles[np.isin(mesh.slot, slots)])].T
+    return np.stack([y, far_m - x, z], axis=1)
+
+
+def _shoulder_m(species: str, variant: str) -> float:
+    """Height of the torso's back over the fore legs."""
+    torso = _standing(species, variant, ["torso"])
+    fore_m = _scales(species, variant).mean() * max(leg.toe_m[0] for leg in build_body(species, variant).legs)
+    near = np.abs(torso[:, 0] - fore_m) < 0.15 * np.ptp(torso[:, 0])
+    return float(torso[near, 2].max())
+
+
+@pytest.mark.parametrize("species, variant, shoulder_m", _of(SHOULDERS_M))
+def test_shoulders_are_as_high_as_known(species, variant, shoulder_m):
+    assert _shoulder_m(species, variant) == pytest.approx(shoulder_m, rel=0.1)
+
+
+def test_calves_are_of_all_heights_between_those_of_the_young():
+    scales = _scales("elephant", "calf")
+    heights_m = _shoulder_m("elephant", "calf") * scales / scales.mean()
+    assert heights_m == pytest.approx([1.2, 1.6], rel=0.1)
+
+
+@pytest.mark.parametrize("species, variant, length_m", _of(LENGTHS_M))
+def test_heads_and_bodies_are_as_long_as_known(species, variant, length_m):
+    whole = _standing(species, variant, ["torso", "head", "mane"])
+    assert np.ptp(whole[:, 0]) == pytest.approx(length_m, rel=0.1)
+
+
+@pytest.mark.parametrize("species, variant, height_m", _of(TALLEST_M))
+def test_tall_ones_are_as_tall_as_known(species, variant, height_m):
+    assert _standing(species, variant)[:, 2].max() == pytest.approx(height_m, rel=0.1)
+
+
+def test_a_crocodile_is_4_m_long_and_low():
+    assert np.ptp(_standing("crocodile", "adult")[:, 0]) == pytest.approx(4.0, rel=0.1)
+    back = _standing("crocodile", "adult", ["torso"])
+    assert back[:, 2].max() == pytest.approx(0.4, rel=0.1)
+    assert np.ptp(back[:, 1]) == pytest.approx(0.7, rel=0.1)
+
+
+@pytest.mark.parametrize("species, variant", KINDS)
+def test_bodies_stand_on_the_ground(species, variant):
+    # Hooves are rounded: they may be off the ground, or in it, by a fiftieth of the body's height at most.
+    points = _standing(species, variant)
+    assert abs(points[:, 2].min()) < 0.02 * points[:, 2].max()
+
+
+@pytest.mark.parametrize("species, variant", KINDS)
+def test_bodies_are_light(species, variant):
+    assert 500 < sum(len(bone.mesh.triangles) for bone in build_body(species, variant).bones) <= 4000
+
+
+@pytest.mark.parametrize("species", assets.names("species"))
+def test_all_parts_are_there_and_have_temperatures(species):
+    needed = PARTS.get(species, {"head", "torso", "legs", "tail"})
+    worn = set()
+    for variant in variant_names(species):
+        body = build_body(species, variant)
+        worn |= {body.parts[slot] for bone in body.bones for slot in np.unique(bone.mesh.slot)}
+    assert needed <= worn
+    assert worn == set(build_body(species, variant).parts)
+    assets.load("materials", assets.load("species", species)["material"])
+
+
+@pytest.mark.parametrize("species", assets.names("species"))
+def test_figures_have_sources_or_are_called_estimates(species):
+    source = assets.load("species", species)["source"]
+    assert "speed_m_s" in source
+    for text in source.values():
+        assert re.search(r"estimate|\b(1[89]|20)\d\d\b", text)  # a year stands for a book or paper
+
+
+@pytest.mark.parametrize(
+    "species, posture", [("lion", "lie"), ("hippopotamus", "float"), ("crocodile", "float")]
+)
+def test_those_that_lie_or_float_know_how(species, posture):
+    for variant in variant_names(species):
+        assert not build_body(species, variant).postures[posture].on_feet

@@ -1,0 +1,141 @@
+"""`render --preview`: what it says and leaves behind, with a stand-in for Blender. A real one: tests/integration."""
+
+import json
+import os
+import signal
+
+import pytest
+
+import fake_blender
+from configs import tiny
+from processes import running_with, wait_until
+from program import files_below
+
+MADE = ["config.json", "map.png", "overview.png"]
+
+
+@pytest.fixture(name="blender")
+def _blender(veldt):
+    """A stand-in for Blender, and the tiny config beside it."""
+    veldt.write("config.json", tiny())
+    return fake_blender.install(veldt.folder)
+
+
+def _run(blender, *options, out="out") -> list[str]:
+    return ["render", "config.json", "--out", str(out), "--preview", "--blender", str(blender), *options]
+
+
+def test_it_makes_pictures_and_no_passes(veldt, blender):
+    done = veldt(*_run(blender, "--progress", "none"))
+    assert (done.code, done.err) == (0, "")
+    assert done.out == "out/preview: 2 pictures; map.png is the place from above\n"
+    assert files_below(veldt.folder / "out") == [
+        ".lock",
+        *sorted(f"preview/{name}" for name in [*MADE, "blender.log"]),
+    ]
+    assert veldt.read("out/preview/config.json")["seed"] == 7
+
+
+def test_quiet_says_nothing(veldt, blender):
+    done = veldt(*_run(blender, "--quiet"))
+    assert (done.code, done.out, done.err) == (0, "", "")
+
+
+def test_progress_counts_pictures(veldt, blender):
+    done = veldt(*_run(blender, "--progress", "json"))
+    lines = [json.loads(line) for line in done.err.splitlines()]
+    assert [(line["clip"], line["frames_done"], line["frames_total"]) for line in lines] == [
+        ("preview", 0, 2),
+        ("preview", 1, 2),
+        ("preview", 2, 2),
+    ]
+
+
+def test_it_is_made_anew_of_another_config(veldt, blender):
+    assert veldt(*_run(blender, "--quiet")).code == 0
+    veldt.write("config.json", tiny(lambda config: config.update(seed=8)))
+    assert veldt(*_run(blender, "--quiet")).code == 0
+    assert veldt.read("out/preview/config.json")["seed"] == 8
+
+
+def test_it_may_lie_beside_a_dataset_of_another_config(veldt, blender):
+    usual = [option for option in _run(blender, "--quiet") if option != "--preview"]
+    assert veldt(*usual).code == 0
+    done = veldt(*_run(blender, "--quiet", "--set", "seed=8"))
+    assert (done.code, done.err) == (0, "")
+
+
+def test_a_dry_run_writes_nothing(veldt, blender):
+    done = veldt(*_run(blender, "--dry-run"), env={"PATH": ""})
+    assert (done.code, done.err) == (0, "")
+    assert not (veldt.folder / "out").exists()
+
+
+def test_asked_to_stop_it_stops_the_renderer(veldt, blender):
+    out = veldt.folder / "out"
+    run = veldt.start(
+        *_run(blender, "--progress", "none", out=out), env=fake_blender.hold_after("preview", 0)
+    )
+    assert wait_until((out / "preview" / "overview.png").exists, 60)
+    os.kill(run.pid, signal.SIGINT)
+    run.communicate(timeout=3)
+    assert run.returncode == 128 + signal.SIGINT
+    assert wait_until(lambda: not running_with(out), 2)
+
+
+# --- what can go wrong ------------------------------------------------------------------------------------------------
+
+
+def test_no_blender_on_path(veldt):
+    veldt.write("config.json", tiny())
+    done = veldt("render", "config.json", "--out", "out", "--preview", env={"PATH": ""})
+    assert (done.code, done.out) == (1, "")
+    assert done.err == (
+        "veldt: no blender on PATH; install it (apt-get install blender) or name one with --blender PATH\n"
+    )
+    assert not (veldt.folder / "out").exists()
+
+
+def test_a_config_that_cannot_be_meant_is_refused_before_anything_is_made(veldt, blender):
+    veldt.write("config.json", tiny(lambda config: config["scene"]["groups"][0].update(path="lop")))
+    done = veldt(*_run(blender))
+    assert (done.code, done.out) == (2, "")
+    assert done.err == (
+        'veldt: config.json: scene.groups[0].path = "lop"; expected a path of scene.paths: loop;'
+        ' did you mean "loop"?\n'
+    )
+    assert not (veldt.folder / "out").exists()
+
+
+BLENDERS = {
+    "ends without a word": ("exit 0", 1, "Blender ended early while building the scene"),
+    "is killed after a picture": (
+        """echo '{"event": "clip", "clip": "preview", "first_frame": 0, "frames": 2}' >&3
+        echo '{"event": "frame", "clip": "preview", "index": 0}' >&3; kill -9 $$""",
+        75,
+        "Blender was killed by signal 9 (Killed) while rendering clip preview after frame 0;"
+        " if nobody stopped it, the machine may have run out of memory",
+    ),
+    "cannot write": (
+        """echo '{"event": "error", "kind": "internal", "message": "map.png: no", "where": "preview.py:12"}' >&3
+        exit 1""",
+        1,
+        "map.png: no (preview.py:12)",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BLENDERS)
+def test_a_failing_blender_is_relayed_in_words(veldt, blender, name):
+    script, code, message = BLENDERS[name]
+    blender.write_text(f"#!/bin/sh\n{script}\n")
+    done = veldt(*_run(blender, "--progress", "none"))
+    assert (done.code, done.out, done.err) == (code, "", f"veldt: {message}\n")
+
+
+def test_only_render_makes_previews(veldt, blender):
+    done = veldt("generate", "config.json", "--out", "out", "--preview", "--blender", blender)
+    assert (done.code, done.out) == (2, "")
+    assert (
+        done.err == "veldt: The following argument was not expected: --preview; see veldt generate --help\n"
+    )
