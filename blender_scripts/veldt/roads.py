@@ -46,27 +46,35 @@ class Road:
 
     def distance_m(self, x_m, y_m) -> np.ndarray:
         """Distance (n,) to the road's border, negative on it; infinite more than reach_m from its middle."""
-        near, off_m, _ = self._nearest(x_m, y_m)
         distance = np.full(np.shape(x_m), np.inf)
-        distance.reshape(-1)[near] = off_m - 0.5 * self.width_m
+        flat = distance.reshape(-1)
+        for line in range(len(self.lines)):
+            near, off_m, _ = self._nearest(line, x_m, y_m)
+            flat[near] = np.minimum(flat[near], off_m - 0.5 * self.width_m)
         return distance
 
     def cut(self, height_m: np.ndarray, x_m, y_m) -> np.ndarray:
-        """Heights (n,) of the land once the road is cut into it."""
-        near, off_m, bed_m = self._nearest(x_m, y_m)
-        t = np.clip((off_m - 0.5 * self.width_m) / SHOULDER_M, 0.0, 1.0)
-        share = 1.0 - t * t * (3.0 - 2.0 * t)
+        """Heights (n,) of the land once the road is cut into it; where it forks, both ways pass into each other."""
         height = np.array(height_m, float)
         flat = height.reshape(-1)
-        flat[near] += share * (bed_m - _CUT_M - _tracks_m(off_m) - flat[near])
+        most, total, weighted = (np.zeros(len(flat)) for _ in range(3))
+        for line in range(len(self.lines)):
+            near, off_m, bed_m = self._nearest(line, x_m, y_m)
+            t = np.clip((off_m - 0.5 * self.width_m) / SHOULDER_M, 0.0, 1.0)
+            share = 1.0 - t * t * (3.0 - 2.0 * t)
+            most[near] = np.maximum(most[near], share)
+            total[near] += share
+            weighted[near] += share * (bed_m - _CUT_M - _tracks_m(off_m))
+        cut = total > 0
+        flat[cut] += most[cut] * (weighted[cut] / total[cut] - flat[cut])
         return height
 
-    def _nearest(self, x_m, y_m) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Which places, counted row by row, are within reach_m of the middle (k,), how far, and how high the bed is."""
+    def _nearest(self, line: int, x_m, y_m) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Which places, counted row by row, are within reach_m of a line (k,), how far, and how high its bed is there."""
         x_m, y_m = (np.asarray(v, float).ravel() for v in np.broadcast_arrays(x_m, y_m))
         near = np.flatnonzero(self._is_about(x_m, y_m))
         places = np.column_stack([x_m[near], y_m[near]])
-        start, along, low, high = self._segments
+        start, along, low, high = self._segments[line]
         i, j = pairs_within(places, start + 0.5 * along, self.reach_m + _STEP_M)
         length2 = (along[j] ** 2).sum(axis=1)
         share = np.clip(((places[i] - start[j]) * along[j]).sum(axis=1) / length2, 0.0, 1.0)
@@ -77,13 +85,12 @@ class Road:
         return near[i[best]], off[best], bed_m
 
     @cached_property
-    def _segments(self) -> tuple[np.ndarray, ...]:
-        """Of all lines: where segments start (k, 2), their vectors (k, 2), and the bed's heights at both ends (k,)."""
-        parts = [
+    def _segments(self) -> list[tuple[np.ndarray, ...]]:
+        """Of each line: where segments start (k, 2), their vectors (k, 2), and the bed's heights at both ends (k,)."""
+        return [
             (points[:-1], np.diff(points, axis=0), bed[:-1], bed[1:])
             for points, bed in zip(self.points_m, self.bed_m)
         ]
-        return tuple(np.concatenate(part) for part in zip(*parts))
 
     @cached_property
     def _raster(self) -> np.ndarray:

@@ -114,3 +114,16 @@ def test_a_whole_place_has_a_road_whatever_its_seed(seed):
     settings = resolve({"scene": {"terrain": {"cell_m": 8}}})["scene"]["terrain"]
     road = plan_road(settings["road"], build_terrain(settings, seed), seed)
     assert road.loop.length_m > 2000 and road.spur is not None
+
+
+def test_both_ways_of_the_fork_pass_into_each_other(places):
+    terrain = places[1]
+    joint = terrain.road.spur.points_m(1.0)[0]
+    x_m, y_m = np.meshgrid(*(centre + np.arange(-25.0, 25.0, 0.1) for centre in joint))
+    height = terrain.height_m(x_m, y_m)
+    on_road = terrain.road_m(x_m, y_m) < 0
+    # A track's side falls by 0.05 m x exp(-1/2) / 0.2 m = 0.15 at most; the land is less steep than that here.
+    for axis in (0, 1):
+        step = np.abs(np.diff(height, axis=axis))
+        both = np.logical_and.reduce([np.roll(on_road, -k, axis=axis) for k in (0, 1)])
+        assert step[both[:-1] if axis == 0 else both[:, :-1]].max() < 0.1 * (0.15 + 0.15)

@@ -109,6 +109,13 @@ def test_plants_keep_off_everybody(savanna, walks):
         assert apart_m.min() > _rectangle(actor)[0][1], actor.name
 
 
+def test_nothing_is_planted_in_water_or_on_the_road(savanna):
+    for planting in savanna.plantings.values():
+        x_m, y_m, _ = planting.points_m.T
+        assert savanna.terrain.shore_m(x_m, y_m).min() > 0
+        assert savanna.terrain.road_m(x_m, y_m).min() > 0
+
+
 def test_the_savanna_has_all_it_should(savanna):
     species = {actor.species for actor in savanna.actors}
     assert species == {
