@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .actors import Actor, track
+from .groups.actors import Actor, track
 from .camera import look
-from .terrain import Terrain
+from .land.terrain import Terrain
 
 _SMOOTHING_S = np.linspace(-2.0, 2.0, 9)  # a pilot follows where a target is going, not each of its turns
 

@@ -10,8 +10,8 @@ import json
 import numpy as np
 
 from . import assets, ids
-from .actors import Track, track
-from .covers import SOIL
+from .groups.actors import Track, track
+from .land.covers import SOIL
 from .flight import Flight
 from .world import WATER, World
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .actors import Actor, track
+from .groups.actors import Actor, track
 from .camera import project
 from .flight import Flight
 from .world import World

@@ -5,21 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from . import assets, checks, ids
-from .actors import Actor
+from .groups.actors import Actor
 from .camera import Intrinsics, intrinsics_of, overscan_of, widened
-from .cast import plan_cast
-from .covers import SOIL, Layer, plan_covers
-from .density import plan_density
+from .groups.cast import plan_cast
+from .land.covers import SOIL, Layer, plan_covers
+from .plants.density import plan_density
 from .faults import check_known
 from .flight import Flight, fly
-from .group_checks import check_groups
-from .placement import Planting, Site, place_plants
-from .plant_shapes import plant_parts
-from .road_plan import plan_road
-from .routes import plan_loops
-from .skeleton import part_names
-from .terrain import Terrain, build_terrain
-from .venues import Land
+from .groups.group_checks import check_groups
+from .plants.placement import Planting, Site, place_plants
+from .plants.plant_shapes import plant_parts
+from .land.road_plan import plan_road
+from .groups.routes import plan_loops
+from .anatomy.skeleton import part_names
+from .land.terrain import Terrain, build_terrain
+from .groups.venues import Land
 
 WATER = "water"
 

@@ -9,7 +9,7 @@ import mathutils
 import numpy as np
 
 from veldt import assets
-from veldt.actors import Actor, poses
+from veldt.groups.actors import Actor, poses
 
 from . import models
 from .meshes import new_mesh, new_object

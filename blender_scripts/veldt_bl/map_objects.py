@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import bpy
 
-from veldt.colours import linear
+from veldt.preview.colours import linear
 from veldt.ids import GROUND
-from veldt.labels import Label
-from veldt.legend import FlatLayer
-from veldt.map_layers import INK, MapSheet
+from veldt.preview.labels import Label
+from veldt.preview.legend import FlatLayer
+from veldt.preview.map_layers import INK, MapSheet
 
 from . import compat
 from .meshes import new_mesh, new_object

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from veldt.shapes import Mesh
+from veldt.geometry.shapes import Mesh
 
 from . import compat
 

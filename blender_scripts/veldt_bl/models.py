@@ -11,7 +11,7 @@ import numpy as np
 
 from veldt.faults import ConfigError
 from veldt.models import check_mapped, in_body_axes, part_names
-from veldt.shapes import Mesh, facets, joined
+from veldt.geometry.shapes import Mesh, facets, joined
 
 from . import compat
 

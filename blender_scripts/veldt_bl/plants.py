@@ -9,9 +9,9 @@ import numpy as np
 
 from veldt import assets
 from veldt.flight import Flight
-from veldt.placement import Planting
-from veldt.plant_shapes import build_variants, plant_parts
-from veldt.views import circles_seen
+from veldt.plants.placement import Planting
+from veldt.plants.plant_shapes import build_variants, plant_parts
+from veldt.plants.views import circles_seen
 from veldt.world import World
 
 from . import compat, models

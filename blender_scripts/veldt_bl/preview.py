@@ -11,10 +11,10 @@ import bpy
 import numpy as np
 
 from veldt.camera import look
-from veldt.colours import SKY, linear, surface_colour
-from veldt.map_layers import MapSheet, plan_map
+from veldt.preview.colours import SKY, linear, surface_colour
+from veldt.preview.map_layers import MapSheet, plan_map
 from veldt.png_files import is_whole
-from veldt.stills import INTRINSICS, Still, plan_stills
+from veldt.preview.stills import INTRINSICS, Still, plan_stills
 from veldt.world import World
 
 from . import compat

@@ -8,10 +8,10 @@ import bpy
 import numpy as np
 
 from veldt import ids
-from veldt.covers import SOIL
-from veldt.ground import build_ground
-from veldt.shapes import Mesh, facets
-from veldt.waters import Water
+from veldt.land.covers import SOIL
+from veldt.land.ground import build_ground
+from veldt.geometry.shapes import Mesh, facets
+from veldt.land.waters import Water
 from veldt.world import WATER, World
 
 from . import actors, camera, plants

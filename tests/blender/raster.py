@@ -3,9 +3,9 @@
 import numpy as np
 
 from veldt import assets
-from veldt.actors import poses
+from veldt.groups.actors import poses
 from veldt.camera import project
-from veldt.plant_shapes import build_variants
+from veldt.plants.plant_shapes import build_variants
 
 
 def world_triangles(actor, time_s: float) -> np.ndarray:

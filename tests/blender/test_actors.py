@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.actors import poses, track
-from veldt.rotations import facing
-from veldt.schedules import StopAndGo
+from veldt.groups.actors import poses, track
+from veldt.geometry.rotations import facing
+from veldt.groups.schedules import StopAndGo
 from veldt.world import plan_world
 
 

@@ -5,8 +5,8 @@ import pytest
 
 from creatures import CART, PONY
 from veldt import assets
-from veldt.bodies import body_of, build_body, draw_variant, variant_names
-from veldt.shapes import NOTHING, ellipsoid, joined, sheet, tube
+from veldt.anatomy.bodies import body_of, build_body, draw_variant, variant_names
+from veldt.geometry.shapes import NOTHING, ellipsoid, joined, sheet, tube
 
 KINDS = [(species, variant) for species in assets.names("species") for variant in variant_names(species)]
 MARE = body_of(PONY, "mare")

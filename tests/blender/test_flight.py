@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.actors import track
+from veldt.groups.actors import track
 from veldt.camera import project
 from veldt.flight import zigzag
 from veldt.world import plan_world

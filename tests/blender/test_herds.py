@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veldt.herds import Room, plan_places
+from veldt.groups.herds import Room, plan_places
 
 ELEPHANT = Room(2.6, 1.1)
 LONG_M = 1000.0

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from scenes import flat, tiny
-from veldt.actors import track
+from veldt.groups.actors import track
 from veldt.config import ROOT
 from veldt.manifest import build_manifest, to_json
 from veldt.world import plan_world

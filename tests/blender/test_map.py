@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 
 from veldt import assets
-from veldt.actors import track
+from veldt.groups.actors import track
 from veldt.camera import project
-from veldt.colours import UNKNOWN, linear, mixed, signal_colours, surface_colour
+from veldt.preview.colours import UNKNOWN, linear, mixed, signal_colours, surface_colour
 from veldt.config import ROOT
-from veldt.flat_shapes import band, box, disc, filled
-from veldt.labels import Anchor, Label, place_labels
-from veldt.legend import round_length_m
-from veldt.map_layers import plan_map
+from veldt.preview.flat_shapes import band, box, disc, filled
+from veldt.preview.labels import Anchor, Label, place_labels
+from veldt.preview.legend import round_length_m
+from veldt.preview.map_layers import plan_map
 from veldt.png_files import is_whole
-from veldt.stills import INTRINSICS, plan_stills
+from veldt.preview.stills import INTRINSICS, plan_stills
 
 
 def _area_m2(mesh) -> float:

@@ -9,10 +9,10 @@ import pytest
 
 from scenes import tiny
 from veldt.config import load
-from veldt.density import plan_density
+from veldt.plants.density import plan_density
 from veldt.faults import ConfigError
-from veldt.grey_images import read_grey, sample
-from veldt.terrain import build_terrain
+from veldt.land.grey_images import read_grey, sample
+from veldt.land.terrain import build_terrain
 
 oiio = pytest.importorskip("OpenImageIO")
 

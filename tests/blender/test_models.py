@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from veldt import assets, models
-from veldt.bodies import body_of
+from veldt.anatomy.bodies import body_of
 from veldt.config import ROOT
 from veldt.faults import ConfigError
 from veldt.model_files import survey
-from veldt.pose import Motion, Walker, pose
+from veldt.anatomy.pose import Motion, Walker, pose
 
 CUBE_OBJ = """v 0 0 0
 v 2 0 0

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from veldt.neighbours import pairs_within
+from veldt.geometry.neighbours import pairs_within
 from veldt.noise import stream
 
 

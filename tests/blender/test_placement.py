@@ -8,10 +8,10 @@ import pytest
 from scenes import tiny
 from veldt import assets
 from veldt.config import resolve
-from veldt.neighbours import pairs_within
-from veldt.placement import AREAS, Corridor, Site, by_area, place_plants, slope_deg
-from veldt.splines import Loop
-from veldt.terrain import build_terrain
+from veldt.geometry.neighbours import pairs_within
+from veldt.plants.placement import AREAS, Corridor, Site, by_area, place_plants, slope_deg
+from veldt.geometry.splines import Loop
+from veldt.land.terrain import build_terrain
 
 SIZE_M = 1609.0
 SEED = 9

@@ -9,7 +9,7 @@ from raster import covered_m2
 from veldt import assets
 from veldt.config import ROOT
 from veldt.faults import ConfigError
-from veldt.plant_shapes import build_variants
+from veldt.plants.plant_shapes import build_variants
 
 SEED = 7
 NAMES = assets.names("plants")

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from veldt.neighbours import pairs_within
-from veldt.poisson import poisson_points
+from veldt.geometry.neighbours import pairs_within
+from veldt.geometry.poisson import poisson_points
 
 SIZE_M, SPACING_M = 400.0, 2.0
 

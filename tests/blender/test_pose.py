@@ -5,9 +5,9 @@ import pytest
 
 from creatures import CART, PONY, Hills, circle
 from veldt import assets
-from veldt.bodies import body_of, build_body, variant_names
-from veldt.gait import stride_m
-from veldt.pose import Motion, Walker, feet, pose
+from veldt.anatomy.bodies import body_of, build_body, variant_names
+from veldt.anatomy.gait import stride_m
+from veldt.anatomy.pose import Motion, Walker, feet, pose
 
 MARE, WAGON = body_of(PONY, "mare"), body_of(CART, "plain")
 KINDS = [

@@ -8,7 +8,7 @@ import pytest
 
 from rendering import BLENDER, needs_blender
 from scenes import tiny
-from veldt.actors import poses
+from veldt.groups.actors import poses
 from veldt.config import ROOT
 from veldt.world import plan_world
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from veldt.routes import plan_loop
-from veldt.splines import self_crossing
+from veldt.groups.routes import plan_loop
+from veldt.geometry.splines import self_crossing
 
 
 def _anywhere(x_m, _):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from veldt import config as configs
-from veldt.actors import poses, track
+from veldt.groups.actors import poses, track
 from veldt.world import plan_world
 
 TEN_MINUTES_S = np.arange(0.0, 600.0, 1.0)

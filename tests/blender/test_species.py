@@ -7,8 +7,8 @@ import pytest
 
 from creatures import Hills, circle
 from veldt import assets
-from veldt.bodies import build_body, variant_names
-from veldt.pose import Motion, Walker, pose
+from veldt.anatomy.bodies import build_body, variant_names
+from veldt.anatomy.pose import Motion, Walker, pose
 
 KINDS = [(species, variant) for species in assets.names("species") for variant in variant_names(species)]
 FLAT = Hills(0.0)

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.crowds import cover, gather
-from veldt.herds import Room
-from veldt.placement import Corridor
-from veldt.spots import about, afloat, at_shore, find_spots, in_water, on_land
-from veldt.terrain import build_terrain
+from veldt.groups.crowds import cover, gather
+from veldt.groups.herds import Room
+from veldt.plants.placement import Corridor
+from veldt.groups.spots import about, afloat, at_shore, find_spots, in_water, on_land
+from veldt.land.terrain import build_terrain
 
 ZEBRA, HIPPO = Room(1.25, 0.33), Room(1.9, 0.75)
 

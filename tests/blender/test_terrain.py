@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.placement import slope_deg
-from veldt.terrain import build_terrain
+from veldt.plants.placement import slope_deg
+from veldt.land.terrain import build_terrain
 
 FULL = {
     "size_m": 800,

@@ -5,7 +5,7 @@ import pytest
 
 from veldt.camera import Intrinsics, look, project
 from veldt.noise import stream
-from veldt.views import circles_seen
+from veldt.plants.views import circles_seen
 
 LENS = Intrinsics(640, 512, 765.0)
 

@@ -8,9 +8,9 @@ import pytest
 from configs import tiny
 from pictures import read_planes
 from program import Veldt
-from veldt.colours import surface_colour
+from veldt.preview.colours import surface_colour
 from veldt.config import resolve
-from veldt.map_layers import MapSheet, plan_map
+from veldt.preview.map_layers import MapSheet, plan_map
 from veldt.world import World, plan_world
 
 PICTURES = ["close_herd.png", "close_people.png", "close_zebras.png", "map.png", "overview.png"]

@@ -1,0 +1,1 @@
+"""Bodies: their bones, and how they stand and walk."""

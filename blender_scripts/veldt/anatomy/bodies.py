@@ -1,0 +1,203 @@
+"""Bodies of actors: bones, and what makes them move, as species files say.
+
+Actor axes: x forward, y left, z up, origin on the ground below the body's middle.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from .. import assets
+from .gait import Leg
+from ..noise import stream
+from ..geometry.shapes import Mesh, joined
+from .skeleton import SIDES, Bone, build_bones, is_in, part_names
+
+_SHARES = {"pitch": 1.0, "roll": 0.4}  # of the ground's slope that a body takes on if its file does not say
+_FOOTING = 0.7  # of the half length and width of a body without legs: where it stands
+
+
+@dataclass(frozen=True)
+class Move:
+    """A bone that swings about an axis (0, 1, 2) of its own: with each stride, or with time if it has a period_s."""
+
+    bone: int
+    axis: int
+    angle_rad: float
+    per_stride: float
+    period_s: float | None
+    phase: float
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """A bone that rolls."""
+
+    bone: int
+    radius_m: float
+
+
+@dataclass(frozen=True)
+class Posture:
+    """Angles (bones, 3) the bones are turned by; how deep the body sinks; how high water reaches up a floating one."""
+
+    turn_rad: np.ndarray
+    sink_m: float
+    waterline_m: float | None
+
+    @property
+    def on_feet(self) -> bool:
+        """Whether feet are set on the ground; other legs hang as drawn and turned."""
+        return self.sink_m == 0.0 and self.waterline_m is None
+
+
+@dataclass(frozen=True)
+class Body:
+    """A variant of a species at its drawn size; material slots of all meshes count through `parts`.
+
+    stance: share of a stride a foot is on the ground; pitch, roll: shares of the ground's slope the body takes on.
+    """
+
+    parts: tuple[str, ...]
+    bones: tuple[Bone, ...]
+    legs: tuple[Leg, ...]
+    wheels: tuple[Wheel, ...]
+    moves: tuple[Move, ...]
+    postures: dict[str, Posture]
+    stance: float
+    leg_m: float
+    pitch: float
+    roll: float
+
+    @property
+    def contacts_m(self) -> np.ndarray:
+        """Places (n, 2) in actor axes at which the ground bears the body."""
+        wheels = [self.bones[wheel.bone].joint_m for wheel in self.wheels]
+        places = [leg.toe_m for leg in self.legs] + wheels
+        if not places:  # a model from a file, which has neither: about where its feet may be
+            return _FOOTING * self.rest().points_m[:, :2]
+        return np.array([place[:2] for place in places])
+
+    def rest(self) -> Mesh:
+        """The whole body as drawn, in actor axes."""
+        return joined([bone.mesh.moved(bone.joint_m) for bone in self.bones])
+
+
+def variant_names(species: str) -> tuple[str, ...]:
+    """Names of a species' variants."""
+    return tuple(assets.load("species", species)["variants"])
+
+
+def draw_variant(species: str, seed: int, name: str, k: int) -> str:
+    """The variant of a group's k-th member, each as often as its share says."""
+    variants = assets.load("species", species)["variants"]
+    shares = np.cumsum([entry["share"] for entry in variants.values()])
+    return list(variants)[
+        int(np.searchsorted(shares / shares[-1], stream(seed, f"variant/{name}", k).random()))
+    ]
+
+
+@lru_cache(maxsize=None)
+def build_body(species: str, variant: str) -> Body:
+    """The body of a variant of `assets/species/<species>.json`."""
+    return body_of(assets.load("species", species), variant)
+
+
+def body_of(data: dict, variant: str) -> Body:
+    """The body of a variant as a species file's content says."""
+    bones = _on_its_feet(build_bones(data, variant), data)
+    place = {bone.name: k for k, bone in enumerate(bones)}
+    gait = data.get("gait", {})
+    return Body(
+        parts=part_names(data),
+        bones=bones,
+        legs=tuple(leg for entry in data.get("legs", []) for leg in _leg_pair(entry, bones, place)),
+        wheels=tuple(
+            Wheel(place[f'{entry["bone"]}.{side}'], entry["radius_m"])
+            for entry in data.get("wheels", [])
+            for side in SIDES
+        ),
+        moves=tuple(
+            move for entry in data.get("moves", []) if is_in(entry, variant) for move in _moves(entry, place)
+        ),
+        postures=_postures(data, variant, place),
+        stance=gait.get("stance", 0.6),
+        leg_m=gait.get("leg_m") or 0.5 * data["model"]["size_m"][2],
+        pitch=gait.get("pitch", _SHARES["pitch"]),
+        roll=gait.get("roll", _SHARES["roll"]),
+    )
+
+
+def _on_its_feet(bones: tuple[Bone, ...], data: dict) -> tuple[Bone, ...]:
+    """The bones so high that the lowest toe is on the ground, whatever a variant stretches."""
+    place = {bone.name: bone for bone in bones}
+    toes_m = [place[f'{entry["bones"][-1]}.left'].placed(entry["toe_m"])[2] for entry in data.get("legs", [])]
+    return tuple(replace(bone, joint_m=bone.joint_m - [0.0, 0.0, min(toes_m, default=0.0)]) for bone in bones)
+
+
+def _leg_pair(entry: dict, bones: tuple[Bone, ...], place: dict[str, int]) -> list[Leg]:
+    """The left leg as drawn, and the right one, its mirror image with its own phase."""
+    return [
+        Leg(
+            bones=tuple(place[f"{bone}.{side}"] for bone in entry["bones"]),
+            toe_m=bones[place[f'{entry["bones"][-1]}.{side}']].placed(
+                np.array(entry["toe_m"]) * [1, sign, 1]
+            ),
+            phase=phase,
+            glide=entry.get("glide", 0.0),
+            lift_m=entry["lift_m"],
+            heel_rad=np.radians(entry["heel_deg"]),
+        )
+        for (side, sign), phase in zip(SIDES.items(), entry["phases"])
+    ]
+
+
+def _moves(entry: dict, place: dict[str, int]) -> list[Move]:
+    """A move of a bone, or of both of a pair: these are mirrored, or half a stride apart where `takes_turns`."""
+    moves = []
+    for bone, sign in _bones_named(entry["bone"], place):
+        axis = "xyz".index(entry["axis"])
+        turns = entry.get("takes_turns", False)
+        moves.append(
+            Move(
+                bone=bone,
+                axis=axis,
+                angle_rad=np.radians(entry["deg"]) * (sign if axis != 1 and not turns else 1.0),
+                per_stride=entry.get("per_stride", 0.0),
+                period_s=entry.get("period_s"),
+                phase=entry.get("phase", 0.0) + (0.5 if turns and sign < 0 else 0.0),
+            )
+        )
+    return moves
+
+
+def _postures(data: dict, variant: str, place: dict[str, int]) -> dict[str, Posture]:
+    """All postures of the file; `walk` is what the variant's own angles make of the drawing."""
+    entries = {"walk": {}, "graze": {}} | data.get("postures", {})
+    always = data["variants"][variant].get("turn_deg", {})
+    return {
+        name: Posture(
+            _angles_rad((always if name != "graze" else {}) | entry.get("turn_deg", {}), place),
+            entry.get("sink_m", 0.0),
+            entry.get("waterline_m"),
+        )
+        for name, entry in entries.items()
+    }
+
+
+def _angles_rad(turn_deg: dict, place: dict[str, int]) -> np.ndarray:
+    """Angles (bones, 3) by the bones' names; those of a pair are mirrored."""
+    angles = np.zeros((len(place), 3))
+    for name, turn in turn_deg.items():
+        for bone, sign in _bones_named(name, place):
+            angles[bone] = np.radians(turn) * [sign, 1.0, sign]
+    return angles
+
+
+def _bones_named(name: str, place: dict[str, int]) -> list[tuple[int, float]]:
+    """A bone in the middle, or a pair with the sign of each side's mirrored angles; nothing a variant lacks."""
+    pair = [(place[f"{name}.{side}"], sign) for side, sign in SIDES.items() if f"{name}.{side}" in place]
+    return pair or ([(place[name], 1.0)] if name in place else [])

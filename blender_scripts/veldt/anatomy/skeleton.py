@@ -1,0 +1,112 @@
+"""Bones: rigid segments that turn in joints, built from what a species file lists.
+
+A file draws all bones in one pose, standing, in the axes of the whole body; each bone's mesh is kept about its joint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import models
+from ..geometry.panel_shapes import panel, wheel
+from ..geometry.shapes import Mesh, ellipsoid, joined, sheet, tube
+
+SIDES = {"left": 1.0, "right": -1.0}
+
+
+@dataclass(frozen=True)
+class Bone:
+    """A segment: joint_m (3,) in body axes, its mesh about the joint, the place of its parent or -1.
+
+    stretch: how much larger than drawn its variant has it, about the joint, which was drawn at drawn_m.
+    """
+
+    name: str
+    parent: int
+    joint_m: np.ndarray
+    mesh: Mesh
+    stretch: float
+    drawn_m: np.ndarray
+
+    def placed(self, drawn_m) -> np.ndarray:
+        """Where in body axes a point (3,) of this bone is."""
+        return self.joint_m + self.stretch * (np.asarray(drawn_m, float) - self.drawn_m)
+
+
+def part_names(data: dict) -> tuple[str, ...]:
+    """Names of a species' parts in the order its file first mentions them, those of all variants alike."""
+    if "model" in data:
+        return models.part_names(data)
+    return tuple(dict.fromkeys(shape["part"] for bone in data["bones"].values() for shape in bone["shapes"]))
+
+
+def is_in(entry: Mapping, variant: str) -> bool:
+    """Whether a variant has this bone, shape or move."""
+    return variant in entry.get("only", [variant])
+
+
+def build_bones(data: dict, variant: str) -> tuple[Bone, ...]:
+    """A variant's bones, every parent before its children; those drawn once for both sides are there twice.
+
+    A model from a file is one bone, its mesh here the box it fills.
+    """
+    if "model" in data:
+        return (Bone("model", -1, np.zeros(3), models.box_mesh(data["model"]["size_m"]), 1.0, np.zeros(3)),)
+    parts, stretch = part_names(data), data["variants"][variant].get("stretch", {})
+    bones: list[Bone] = []
+    place: dict[str, int] = {}
+    for name, entry in data["bones"].items():
+        if not is_in(entry, variant):
+            continue
+        drawn = joined([m for s in entry["shapes"] if is_in(s, variant) for m in _solids(s, parts)])
+        for side in SIDES if entry.get("mirror", False) else ("",):
+            mesh, joint = _on_side(drawn, entry["joint_m"], side)
+            parent, grown, at = _parent(entry, side, place), stretch.get(name, 1.0), joint
+            if parent >= 0:
+                grown, at = grown * bones[parent].stretch, bones[parent].placed(joint)
+            place[_sided(name, side)] = len(bones)
+            bones.append(Bone(_sided(name, side), parent, at, mesh.moved(-joint).scaled(grown), grown, joint))
+    return tuple(bones)
+
+
+def _sided(name: str, side: str) -> str:
+    return f"{name}.{side}" if side else name
+
+
+def _parent(entry: dict, side: str, place: dict[str, int]) -> int:
+    """The parent on the same side, or else the one in the middle; -1 for the root."""
+    if "parent" not in entry:
+        return -1
+    sided = _sided(entry["parent"], side)
+    return place[sided if sided in place else entry["parent"]]
+
+
+def _on_side(mesh: Mesh, joint_m, side: str) -> tuple[Mesh, np.ndarray]:
+    """A bone's mesh and joint, mirrored for the right side."""
+    joint = np.asarray(joint_m, float)
+    return (mesh.mirrored(), joint * [1.0, -1.0, 1.0]) if side == "right" else (mesh, joint)
+
+
+def _solids(shape: dict, parts: tuple[str, ...]) -> list[Mesh]:
+    """A shape's mesh in its part's slot, and its mirror image if it has one."""
+    mesh = _solid(shape).with_slot(parts.index(shape["part"]))
+    return [mesh, mesh.mirrored()] if shape.get("mirror", False) else [mesh]
+
+
+def _solid(shape: dict) -> Mesh:
+    if "tube_m" in shape:
+        fineness = {key: shape[key] for key in ("sides", "roundness", "steps", "caps") if key in shape}
+        return tube(np.array(shape["tube_m"]), **fineness)
+    if "panel_m" in shape:
+        return panel(
+            np.array(shape["panel_m"]), shape["bevel_m"], shape.get("corner_m", 0.0), shape.get("y_m", 0.0)
+        )
+    if "wheel_m" in shape:
+        return wheel(shape["centre_m"], *shape["wheel_m"], shape["bevel_m"])
+    turn = shape.get("yaw_deg", 0.0), shape.get("tilt_deg", 0.0)
+    if "outline_m" in shape:
+        return sheet(np.array(shape["outline_m"]), shape["thickness_m"], shape["centre_m"], *turn)
+    return ellipsoid(shape["centre_m"], shape["radii_m"], *turn)

@@ -1,0 +1,118 @@
+"""Where everyone is and how they stand, as pure functions of time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from .behaviours import Draft
+from ..anatomy.gait import stride_m
+from ..anatomy.pose import Motion, Poses, Walker, pose
+from ..geometry.rotations import facing
+from ..geometry.splines import Loop, Spot
+from ..land.terrain import Terrain
+
+_PLACES = 64  # along an actor's path, at which its body's box is taken
+_MOMENTS = 24  # of a stride, at each of the path's steepest places
+_STEP_M = 1.0
+_UNLIKE_S = 1.7  # between moments at which a body is looked at: no period of what moves with time
+# Pace and lowered head of who walks, stands, or feeds: a neck reaches farthest when half way down.
+_WALKING, _STANDING, _FEEDING = (1.0, 0.0), (0.0, 0.0), ((0.0, 0.0), (0.0, 0.5), (0.0, 1.0))
+_MARGIN = 0.015  # of the box's size, for what happens between
+
+
+@dataclass(frozen=True)
+class Actor(Draft):
+    """One animal, person or vehicle in the scene: start_m along its route at time 0, lateral_m to the left of it."""
+
+    group: str
+    index: int
+    route: Loop | Spot
+    start_m: float
+    lateral_m: float
+    terrain: Terrain = field(repr=False, compare=False)
+
+    @property
+    def walker(self) -> Walker:
+        """Its body on its path."""
+        stride = stride_m(self.walking_m_s, self.scale * self.body.leg_m)
+        return Walker(self.body, self.scale, stride, self.phase, self.path, self.terrain)
+
+    def path(self, walked_m) -> tuple[np.ndarray, np.ndarray]:
+        """Points (n, 2) and headings (n, 2) where it is after distances (n,)."""
+        point, heading = self.route.at(walked_m)
+        return point + self.lateral_m * np.stack([-heading[..., 1], heading[..., 0]], axis=-1), heading
+
+    @cached_property
+    def bounds_m(self) -> np.ndarray:
+        """Box (2, 3) in actor axes at its own size that holds its body all along its path."""
+        walked_m, pace, head_down = _telling_moments(self)
+        time_s = _UNLIKE_S * np.arange(len(walked_m))
+        body = pose(self.walker, Motion(walked_m, time_s, pace, head_down, self.posture))
+        point, heading = self.path(walked_m)
+        origin = np.column_stack([point, self.terrain.height_m(*point.T)])
+        boxes = [
+            _box((body.points_m(self.body, k) - origin[k]) @ facing(heading[k])) for k in range(len(origin))
+        ]
+        low, high = np.min(boxes, axis=0)[0], np.max(boxes, axis=0)[1]
+        return np.stack([low - _MARGIN * (high - low), high + _MARGIN * (high - low)])
+
+
+@dataclass(frozen=True)
+class Track:
+    """An actor at n moments: position_m (n, 3) on the ground, heading (n, 2) unit vectors."""
+
+    position_m: np.ndarray
+    heading: np.ndarray
+
+    @property
+    def heading_rad(self) -> np.ndarray:
+        """Counter-clockwise from +x, within [-pi, pi]."""
+        return np.arctan2(self.heading[:, 1], self.heading[:, 0])
+
+
+def track(actor: Actor, terrain: Terrain, time_s: np.ndarray) -> Track:
+    """Where the actor is at each time (n,), on the ground."""
+    xy, heading = actor.path(actor.start_m + actor.schedule.at(time_s).walked_m)
+    return Track(np.column_stack([xy, terrain.height_m(xy[:, 0], xy[:, 1])]), heading)
+
+
+def poses(actor: Actor, time_s: np.ndarray) -> Poses:
+    """The actor's body in the world at each time (n,)."""
+    doing = actor.schedule.at(time_s)
+    motion = Motion(actor.start_m + doing.walked_m, time_s, doing.pace, doing.head_down, actor.posture)
+    return pose(actor.walker, motion)
+
+
+def _telling_moments(actor: Actor) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Distances walked, paces and lowered heads, (n,) each, that show a body in all it does along its path.
+
+    For walkers, places all around the path and the strides about its steepest places; at each, all its schedule does.
+    """
+    moves, lowers = actor.schedule.mean_m_s > 0, actor.schedule.lowers_head
+    states = ([_WALKING] if moves else []) + ([*_FEEDING] if lowers else []) + ([] if moves else [_STANDING])
+    walked_m = _telling_places(actor) if moves else np.full(_PLACES, actor.start_m)
+    return (
+        np.tile(walked_m, len(states)),
+        np.repeat([pace for pace, _ in states], len(walked_m)),
+        np.repeat([head for _, head in states], len(walked_m)),
+    )
+
+
+def _telling_places(actor: Actor) -> np.ndarray:
+    """Distances (n,) along an actor's path: all around it, and the strides about its steepest places."""
+    along_m = np.arange(0.0, actor.route.length_m, _STEP_M)
+    point, heading = actor.path(along_m)
+    slopes = []
+    for across in (heading, np.stack([-heading[:, 1], heading[:, 0]], axis=1)):
+        ends = [actor.terrain.height_m(*(point + reach * across).T) for reach in (-_STEP_M, _STEP_M)]
+        slopes.append(ends[1] - ends[0])
+    steepest = [along_m[pick(slope)] for slope in slopes for pick in (np.argmin, np.argmax)]
+    around = np.add.outer(steepest, actor.walker.stride_m * np.linspace(-0.5, 0.5, _MOMENTS)).ravel()
+    return np.concatenate([np.linspace(0.0, actor.route.length_m, _PLACES), around])
+
+
+def _box(points_m: np.ndarray) -> np.ndarray:
+    return np.stack([points_m.min(axis=0), points_m.max(axis=0)])

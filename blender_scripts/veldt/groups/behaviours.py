@@ -1,0 +1,93 @@
+"""What members of a group are and do, before it is known where: their bodies, sizes and schedules."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import assets
+from ..anatomy.bodies import Body, build_body, draw_variant
+from .herds import Room
+from ..noise import stream
+from .schedules import Drinking, Schedule, Steady, StopAndGo
+
+# The posture of the body that each behaviour needs, beside standing and walking.
+POSTURES = {
+    "walk": "walk",
+    "stand": "walk",
+    "graze": "graze",
+    "drink": "graze",
+    "lie": "lie",
+    "float": "float",
+}
+WALKING = ("walk", "graze")
+
+
+@dataclass(frozen=True)
+class Draft:
+    """A member without a place: scale relative to its drawn body; phase, 0 to 1, of all that moves with time."""
+
+    name: str
+    species: str
+    variant: str
+    scale: float
+    phase: float
+    walking_m_s: float
+    schedule: Schedule
+    posture: str
+
+    @property
+    def body(self) -> Body:
+        """Its body at the drawn size."""
+        return build_body(self.species, self.variant)
+
+    @property
+    def room(self) -> Room:
+        """The ground it takes, standing as drawn."""
+        half_m = self.scale * np.abs(self.body.rest().points_m).max(axis=0)
+        return Room(float(half_m[0]), float(half_m[1]), self.schedule.reach_m)
+
+
+def behaviour_of(group: dict) -> str:
+    """What a group of the config does: if it does not say, those on paths walk and the others stand."""
+    return group.get("behaviour", "walk" if "path" in group else "stand")
+
+
+def member_names(group: dict) -> list[str]:
+    """NAME_1, NAME_2, …"""
+    return [f'{group["name"]}_{k + 1}' for k in range(group["count"])]
+
+
+def draft_members(group: dict, seed: int) -> list[Draft]:
+    """The members of a group of the config."""
+    return [_draft(group, k, name, seed) for k, name in enumerate(member_names(group))]
+
+
+def _draft(group: dict, k: int, name: str, seed: int) -> Draft:
+    data = assets.load("species", group["species"])
+    given = group.get("variants")
+    variant = given[k % len(given)] if given else draw_variant(group["species"], seed, group["name"], k)
+    rng = stream(seed, f'actor/{group["name"]}', k)
+    scale, phase = rng.uniform(*data["variants"][variant]["size_range"]), rng.uniform()
+    speed_m_s = group.get("speed_m_s", data["speed_m_s"])
+    posture = POSTURES[behaviour_of(group)]
+    return Draft(
+        name=name,
+        species=group["species"],
+        variant=variant,
+        scale=scale,
+        phase=phase,
+        walking_m_s=speed_m_s,
+        schedule=_schedule(group, k, speed_m_s, phase, seed),
+        posture=posture if posture in ("lie", "float") else "walk",
+    )
+
+
+def _schedule(group: dict, k: int, speed_m_s: float, phase: float, seed: int) -> Schedule:
+    behaviour = behaviour_of(group)
+    if behaviour == "graze":
+        return StopAndGo(seed, group["name"], k, speed_m_s)
+    if behaviour == "drink":
+        return Drinking(phase)
+    return Steady(speed_m_s if behaviour == "walk" else 0.0)

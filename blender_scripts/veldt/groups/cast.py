@@ -1,0 +1,196 @@
+"""Who is in the scene, where, and what they do: the groups of a config as actors on paths and at places."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import ids
+from .actors import Actor
+from .behaviours import Draft, draft_members, member_names
+from .crowds import TIMES_S, Crowd, cover, gather
+from ..faults import ConfigError
+from .herds import plan_places
+from .meetings import choose_start
+from ..plants.placement import Corridor
+from ..geometry.splines import Loop
+from .spots import find_spots
+from .venues import Land, venue
+
+_CORRIDOR_STEP_M = 0.8
+_TIGHTEST = (
+    0.3  # a curve leaves at least this share of a distance along the path at its inside; loops are wider
+)
+
+
+@dataclass(frozen=True)
+class Cast:
+    """All actors, in the order of the config's groups, and the ground that must be left free for them."""
+
+    actors: list[Actor]
+    corridors: list[Corridor]
+
+
+@dataclass(frozen=True)
+class _Group:
+    """A group of the config, found at `where`, whose members are not in the scene yet."""
+
+    where: str
+    entry: dict
+    drafts: list[Draft]
+
+    @property
+    def name(self) -> str:
+        return self.entry["name"]
+
+    @property
+    def is_walking(self) -> bool:
+        return "path" in self.entry
+
+
+def plan_cast(groups: Sequence[dict], land: Land, seed: int) -> Cast:
+    """All members of all groups, each with its object index.
+
+    Groups at places keep off the paths, and off each other. Those on paths then get the place they begin at, if the
+    config does not give it: first those that meet nobody, so that the others can meet them.
+    """
+    index = ids.plan_indices([name for entry in groups for name in member_names(entry)])
+    drawn = [
+        _Group(f"scene.groups[{k}]", entry, draft_members(entry, seed)) for k, entry in enumerate(groups)
+    ]
+    corridors = [_path_corridor(group, land) for group in drawn if group.is_walking]
+    crowds: dict[str, Crowd] = {}
+    placed: dict[str, Actor] = {}
+    for group in sorted(drawn, key=_turn):
+        if group.is_walking:
+            actors = _on_path(group, land, crowds, index, seed)
+        else:
+            actors = _at_place(group, land, corridors, crowds, index, seed)
+        crowds[group.name] = _crowd(actors)
+        placed |= {actor.name: actor for actor in actors}
+    still = [
+        _spot_corridor(placed[name])
+        for group in drawn
+        if not group.is_walking
+        for name in member_names(group.entry)
+    ]
+    return Cast([placed[name] for name in index], corridors + still)
+
+
+def _turn(group: _Group) -> int:
+    """Groups are placed by how little choice there is for them."""
+    if not group.is_walking:
+        return 1
+    return 0 if "start_m" in group.entry else 3 if "meets" in group.entry else 2
+
+
+def _on_path(
+    group: _Group, land: Land, crowds: Mapping[str, Crowd], index: Mapping[str, int], seed: int
+) -> list[Actor]:
+    """The members along their path, each in its place in the group."""
+    entry, loop = group.entry, land.loops[group.entry["path"]]
+    rooms = [draft.room for draft in group.drafts]
+    spread_m = entry.get("spread_m", 0.0)
+    places = plan_places(
+        rooms, entry["spacing_m"], spread_m, loop.length_m, seed, group.name, _shrink(loop, spread_m)
+    )
+    if len(places) < len(rooms):
+        raise ConfigError(
+            f"{group.where}.count = {len(rooms)}; expected at most {len(places)}: no more fit on path"
+            f' "{entry["path"]}", which is {loop.length_m:.0f} m long'
+        )
+
+    def begun_at(start_m: float) -> list[Actor]:
+        return [
+            _actor(group, draft, land, index, loop, start_m + place.along_m, place.lateral_m)
+            for draft, place in zip(group.drafts, places)
+        ]
+
+    if "start_m" in entry:
+        return begun_at(entry["start_m"])
+    met = entry.get("meets")
+    start_m = choose_start(
+        loop.length_m,
+        lambda start_m: _crowd(begun_at(start_m)),
+        list(crowds.values()),
+        [crowds[met]] if met else [],
+        entry["meets_within_m"],
+        seed,
+        group.name,
+    )
+    if start_m is None:
+        raise ConfigError(
+            f'{group.where}.meets = "{met}"; expected a group that path "{entry["path"]}" can bring {group.name} within'
+            f' {entry["meets_within_m"]:g} m of in ten minutes'
+        )
+    return begun_at(start_m)
+
+
+def _at_place(
+    group: _Group,
+    land: Land,
+    corridors: Sequence[Corridor],
+    crowds: Mapping[str, Crowd],
+    index: Mapping[str, int],
+    seed: int,
+) -> list[Actor]:
+    """The members at spots of their place."""
+    rooms = [draft.room for draft in group.drafts]
+    draw, allowed = venue(group.where, group.entry, group.drafts, land, corridors, seed)
+    found = find_spots(rooms, draw, allowed, list(crowds.values()), seed, group.name)
+    if len(found) < len(rooms):
+        raise ConfigError(
+            f"{group.where}.count = {len(rooms)}; expected at most {len(found)}: no room is left for more"
+            f' at place = {group.entry["place"]}, off paths and other groups'
+        )
+    return [_actor(group, draft, land, index, spot, 0.0, 0.0) for draft, spot in zip(group.drafts, found)]
+
+
+def _actor(
+    group: _Group, draft: Draft, land: Land, index: Mapping[str, int], route, start_m: float, lateral_m: float
+) -> Actor:
+    return Actor(
+        **vars(draft),
+        group=group.name,
+        index=index[draft.name],
+        route=route,
+        start_m=start_m,
+        lateral_m=lateral_m,
+        terrain=land.terrain,
+    )
+
+
+def _crowd(actors: Sequence[Actor]) -> Crowd:
+    """The discs of a group's members over time."""
+    moves = any(actor.schedule.mean_m_s > 0 for actor in actors)
+    time_s = TIMES_S if moves else TIMES_S[:1]
+    bodies = []
+    for actor in actors:
+        room = actor.room
+        place = actor.path(actor.start_m + actor.schedule.at(time_s).walked_m)
+        bodies.append((cover(room.half_length_m, room.half_width_m), *place))
+    return gather(bodies)
+
+
+def _path_corridor(group: _Group, land: Land) -> Corridor:
+    loop = land.loops[group.entry["path"]]
+    widest_m = max(draft.room.half_width_m for draft in group.drafts)
+    return Corridor(loop.points_m(_CORRIDOR_STEP_M), group.entry.get("spread_m", 0.0) + widest_m)
+
+
+def _spot_corridor(actor: Actor) -> Corridor:
+    room = actor.room
+    return Corridor(actor.path(np.zeros(1))[0], float(np.hypot(room.half_length_m, room.half_width_m)))
+
+
+def _shrink(loop: Loop, spread_m: float) -> float:
+    """The share of a distance along a loop that is left spread_m inside its tightest curve."""
+    heading = loop.at(np.arange(0.0, loop.length_m, 1.0))[1]
+    turn = np.abs(np.arctan2(*_sin_cos(heading, np.roll(heading, -1, axis=0))))[:-1]
+    return float(np.clip(1.0 - spread_m * turn.max(initial=0.0), _TIGHTEST, 1.0))
+
+
+def _sin_cos(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1)

@@ -1,0 +1,66 @@
+"""Finds groups that make no sense: unknown names, and wishes that contradict each other."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from .. import assets
+from .behaviours import POSTURES, WALKING, behaviour_of
+from ..anatomy.bodies import variant_names
+from ..faults import ConfigError, check_known, listing
+
+
+def check_groups(groups: list[dict], paths: Collection[str]) -> None:
+    """Every group is of a species, on a path or at a place, and does what its body can; `paths` are those there are."""
+    names = [group["name"] for group in groups]
+    for k, group in enumerate(groups):
+        where = f"scene.groups[{k}]"
+        check_known(group["species"], assets.names("species"), f"{where}.species", "a species")
+        for j, variant in enumerate(group.get("variants", [])):
+            species = group["species"]
+            check_known(variant, variant_names(species), f"{where}.variants[{j}]", f"a variant of {species}")
+        _check_where(where, group, paths)
+        _check_behaviour(where, group)
+        if "meets" in group:
+            _check_meeting(where, k, groups, names)
+
+
+def _check_where(where: str, group: dict, paths: Collection[str]) -> None:
+    if ("path" in group) == ("place" in group):
+        found = "path and place are both given" if "path" in group else "path is missing"
+        raise ConfigError(f"{where}: {found}; expected a path to walk on, or a place to stay at")
+    if "path" in group:
+        check_known(group["path"], paths, f"{where}.path", "a path of scene.paths")
+
+
+def _check_behaviour(where: str, group: dict) -> None:
+    behaviour, species = behaviour_of(group), group["species"]
+    able = [name for name, posture in POSTURES.items() if posture == "walk" or posture in _postures(species)]
+    if behaviour not in able:
+        raise ConfigError(
+            f'{where}.behaviour = "{behaviour}"; expected what a {species} can do: {listing(able)}'
+        )
+    if "place" in group and behaviour in WALKING:
+        staying = [name for name in able if name not in WALKING]
+        raise ConfigError(f'{where}.behaviour = "{behaviour}"; expected at a place: {listing(staying)}')
+    if "path" in group and behaviour == "float":
+        raise ConfigError(f'{where}.behaviour = "float"; expected place = "water" or "pan", not a path')
+
+
+def _postures(species: str) -> Collection[str]:
+    return assets.load("species", species).get("postures", {})
+
+
+def _check_meeting(where: str, k: int, groups: list[dict], names: list[str]) -> None:
+    group, met = groups[k], groups[k]["meets"]
+    check_known(met, [name for name in names if name != group["name"]], f"{where}.meets", "another group")
+    if "path" not in group:
+        raise ConfigError(
+            f"{where}.meets is given; expected a path: who stays at a place meets whom comes by"
+        )
+    if "start_m" in group:
+        raise ConfigError(f"{where}.start_m is given; expected none, since meets asks for one to be found")
+    if "meets" in groups[names.index(met)] and names.index(met) > k:
+        raise ConfigError(
+            f'{where}.meets = "{met}"; expected a group listed before it, or one that meets nobody'
+        )

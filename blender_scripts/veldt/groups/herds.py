@@ -1,0 +1,86 @@
+"""How the members of a group stand to each other, so that none ever walks into another."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ..noise import stream
+
+_GAP_M = 0.4  # between two bodies side by side
+_UNEVEN = 0.25  # of the spacing, by which members are before or behind their even places
+_DRAWS = 12  # of a place beside the path, before a member falls back
+_BACK_M = 0.5
+
+
+@dataclass(frozen=True)
+class Room:
+    """What a body takes: half its length and width, and how far its own schedule takes it from its place."""
+
+    half_length_m: float
+    half_width_m: float
+    reach_m: float = 0.0
+
+
+@dataclass(frozen=True)
+class Place:
+    """A member's place: along_m before the group's first, as a rule behind it (negative), lateral_m to the left."""
+
+    along_m: float
+    lateral_m: float
+
+
+def plan_places(
+    rooms: Sequence[Room],
+    spacing_m: float,
+    spread_m: float,
+    path_m: float,
+    seed: int,
+    name: str,
+    shrink: float = 1.0,
+) -> list[Place]:
+    """Places of a group's members, about spacing_m after each other and up to spread_m beside a path path_m long.
+
+    A member for whom there is no room drops back until there is. Where the path is a loop, the last must not run into
+    the first: members for whom it is too short get no place. `shrink` is the share of a distance along the path that
+    is left at the inside of its tightest curve.
+    """
+    places: list[Place] = []
+    for k, room in enumerate(rooms):
+        rng = stream(seed, f"place/{name}", k)
+        uneven_m = _UNEVEN * spacing_m * rng.uniform(-1.0, 1.0) if k else 0.0
+        along_m = uneven_m - k * spacing_m
+        fitting: list[float] = []
+        while not fitting:
+            longest_m = _length_m([*zip(rooms, places), (room, Place(along_m, 0.0))])
+            if shrink * longest_m > path_m:
+                return places
+            laterals = spread_m * rng.uniform(-1.0, 1.0, _DRAWS)
+            fitting = [y for y in laterals if _fits(room, along_m, y, rooms, places, shrink)]
+            along_m -= 0.0 if fitting else _BACK_M
+        places.append(Place(float(along_m), float(fitting[0])))
+    return places
+
+
+def _length_m(placed: Sequence[tuple[Room, Place]]) -> float:
+    """Of the path that a group takes up, from its first nose to its last tail."""
+    first = max(place.along_m + room.half_length_m + room.reach_m for room, place in placed)
+    last = min(place.along_m - room.half_length_m - room.reach_m for room, place in placed)
+    return first - last + _GAP_M
+
+
+def _fits(
+    room: Room,
+    along_m: float,
+    lateral_m: float,
+    rooms: Sequence[Room],
+    places: Sequence[Place],
+    shrink: float,
+) -> bool:
+    """Whether a member here is clear of all that have their places."""
+    return all(
+        shrink * (abs(along_m - p.along_m) - room.reach_m - r.reach_m)
+        >= room.half_length_m + r.half_length_m + _GAP_M
+        or abs(lateral_m - p.lateral_m) >= room.half_width_m + r.half_width_m + _GAP_M
+        for r, p in zip(rooms, places)
+    )

@@ -1,0 +1,123 @@
+"""When actors walk and when they stand, and what their heads do meanwhile: functions of time alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..anatomy.gait import smooth
+from ..noise import lattice_uniform
+
+_BOUT_S = 24.0  # estimate: a grazer's time from one patch of grass to the next
+_WALKING = 0.12  # of a bout; estimate
+_JITTER = 0.3  # of a bout's way, by which a grazer is ahead of the herd's mean or behind it at a bout's end
+_PEAK = (
+    1.5  # largest slope of `smooth`: how much faster than in the mean a grazer walks in the middle of its way
+)
+_RAISING_S = 1.5
+_SIP_S = 32.0  # estimate: a drinker's time from one look around to the next
+_DRINKING = 0.7  # of that time
+
+
+@dataclass(frozen=True)
+class Doing:
+    """What an actor does at n moments: walked_m (n,) since time 0, pace (n,) and head_down (n,), both from 0 to 1."""
+
+    walked_m: np.ndarray
+    pace: np.ndarray
+    head_down: np.ndarray
+
+
+@dataclass(frozen=True)
+class Steady:
+    """On and on at one speed; 0 is to stand."""
+
+    speed_m_s: float
+
+    reach_m = 0.0
+    lowers_head = False
+
+    @property
+    def mean_m_s(self) -> float:
+        """Speed over a long time."""
+        return self.speed_m_s
+
+    def at(self, time_s: np.ndarray) -> Doing:
+        """What is done at times (n,)."""
+        walked_m = self.speed_m_s * np.asarray(time_s, float)
+        return Doing(walked_m, np.full(len(walked_m), float(self.speed_m_s > 0)), np.zeros(len(walked_m)))
+
+
+@dataclass(frozen=True)
+class StopAndGo:
+    """A grazer's: most of each bout it stands and feeds, then it walks on, at most speed_m_s fast, and feeds again.
+
+    All of a herd have one mean speed, so that it stays together; who is ahead, and when, hangs on seed, name, number.
+    """
+
+    seed: int
+    name: str
+    number: int
+    speed_m_s: float
+
+    lowers_head = True
+
+    @property
+    def mean_m_s(self) -> float:
+        """Speed over a long time."""
+        return _WALKING * self.speed_m_s
+
+    @property
+    def reach_m(self) -> float:
+        """How far at most it is ahead of a walker of its mean speed, or behind."""
+        return (1.0 + _JITTER) * self.mean_m_s * _BOUT_S
+
+    def at(self, time_s: np.ndarray) -> Doing:
+        """What is done at times (n,)."""
+        phase = self._draw("phase", np.zeros(1))
+        bouts = np.asarray(time_s, float) / _BOUT_S + phase
+        number = np.floor(bouts)
+        begin, end = self._way_bouts(number), self._way_bouts(number + 1)
+        lasts = _PEAK * _WALKING * (end - begin)
+        starts = 0.3 + 0.4 * self._draw("start", number) - 0.5 * lasts
+        done = (bouts - number - starts) / lasts
+        raising = _RAISING_S / _BOUT_S / lasts  # in shares of the walk
+        walked = begin + (end - begin) * smooth(done) - phase
+        return Doing(
+            walked_m=walked * self.mean_m_s * _BOUT_S,
+            pace=_plateau(done, 0.0, 0.3),
+            head_down=1.0 - _plateau(done, -raising, raising),
+        )
+
+    def _way_bouts(self, number: np.ndarray) -> np.ndarray:
+        """Way at the end of bouts, in ways of a mean bout."""
+        return number + _JITTER * (2.0 * self._draw("way", number) - 1.0)
+
+    def _draw(self, what: str, number: np.ndarray) -> np.ndarray:
+        return lattice_uniform(self.seed, f"{self.name}/{what}", number, np.full(len(number), self.number))
+
+
+@dataclass(frozen=True)
+class Drinking:
+    """Stands where it is; its head goes down to the water and comes up again, `phase` (0 to 1) of a turn late."""
+
+    phase: float
+
+    reach_m = 0.0
+    mean_m_s = 0.0
+    lowers_head = True
+
+    def at(self, time_s: np.ndarray) -> Doing:
+        """What is done at times (n,)."""
+        turn = np.mod(np.asarray(time_s, float) / _SIP_S + self.phase, 1.0) / _DRINKING
+        still = np.zeros(len(turn))
+        return Doing(still, still, _plateau(turn, 0.0, _RAISING_S / _SIP_S))
+
+
+Schedule = Steady | StopAndGo | Drinking
+
+
+def _plateau(share: np.ndarray, start: float | np.ndarray, rise: float | np.ndarray) -> np.ndarray:
+    """From 0 at `start` up to 1 over `rise`, and in mirror image down to 0 at 1 - start."""
+    return smooth((share - start) / rise) * smooth((1.0 - start - share) / rise)

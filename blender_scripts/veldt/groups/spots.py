@@ -1,0 +1,129 @@
+"""Places for those who stay where they are: by the water, in it, about a point, beside the road."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from .crowds import Crowd, centres, cover
+from .herds import Room
+from ..noise import stream
+from ..plants.placement import Corridor
+from ..geometry.splines import Line, Spot
+from ..land.terrain import Terrain
+from ..land.waters import Water
+
+_TRIES = 400  # of places, for each member
+_GAP_M = 0.5
+_TURN_RAD = np.radians(35.0)  # by which an animal at the water may stand askew
+_MARCH_M = 0.25
+_ARC = 0.35  # of a shore, from end to end, is where a group gathers at the water
+_MARGIN_M = 1.0
+_ROOM_FACTOR = 3.0  # widths a body has about it where a group's spread is not given
+
+
+Draw = Callable[[np.random.Generator, Room], Spot]
+Allowed = Callable[[np.ndarray], bool]  # centres (k, 2) of the discs that cover a body
+
+
+def find_spots(
+    rooms: Sequence[Room], draw: Draw, allowed: Allowed, standing: Sequence[Crowd], seed: int, name: str
+) -> list[Spot]:
+    """A spot for each body, none on another, on those of `standing`, who are there already, or where it is not allowed.
+
+    Fewer than asked for if no room is left.
+    """
+    spots: list[Spot] = []
+    taken_m = np.concatenate([np.zeros((0, 2)), *(crowd.centre_m[0] for crowd in standing)])
+    radii_m = np.concatenate([np.zeros(0), *(crowd.radius_m for crowd in standing)])
+    for k, room in enumerate(rooms):
+        rng = stream(seed, f"spot/{name}", k)
+        discs = cover(room.half_length_m, room.half_width_m)
+        for _ in range(_TRIES):
+            spot = draw(rng, room)
+            at_m = centres(discs, spot.point_m[None], spot.heading[None])[0]
+            gaps = np.linalg.norm(at_m[:, None] - taken_m, axis=-1) - discs.radius_m - radii_m
+            if (gaps >= _GAP_M).all() and allowed(at_m):
+                break
+        else:
+            return spots
+        spots.append(spot)
+        taken_m = np.concatenate([taken_m, at_m])
+        radii_m = np.concatenate([radii_m, np.full(len(at_m), discs.radius_m)])
+    return spots
+
+
+def about(centre_m, rooms: Sequence[Room], spread_m: float | None) -> Draw:
+    """Anywhere within spread_m of a point, facing anywhere; all but given, there is room for a loose group."""
+    if spread_m is None:
+        spread_m = _ROOM_FACTOR * float(np.sqrt(sum(room.half_length_m**2 for room in rooms)))
+
+    def draw(rng: np.random.Generator, _: Room) -> Spot:
+        off = spread_m * np.sqrt(rng.uniform()) * _direction(rng)
+        return Spot(np.asarray(centre_m, float) + off, _direction(rng))
+
+    return draw
+
+
+def at_shore(water: Water, seed: int, name: str) -> Draw:
+    """Along a stretch of the shore, mouth at the water."""
+    middle = 2.0 * np.pi * stream(seed, f"shore/{name}").uniform()
+
+    def draw(rng: np.random.Generator, room: Room) -> Spot:
+        angle = middle + 2.0 * np.pi * _ARC * rng.uniform(-0.5, 0.5)
+        outward = np.array([np.cos(angle), np.sin(angle)])
+        away_m = _shoreline_m(water, outward) + room.half_length_m
+        turn = angle + np.pi + _TURN_RAD * rng.uniform(-1.0, 1.0)
+        return Spot(water.basin.centre_m + away_m * outward, np.array([np.cos(turn), np.sin(turn)]))
+
+    return draw
+
+
+def in_water(water: Water) -> Draw:
+    """Anywhere in the water, facing anywhere."""
+    return about(water.basin.centre_m, [], water.basin.radius_m)
+
+
+def along(line: Line, aside_m: float) -> Draw:
+    """Anywhere along a line, aside_m to its left, facing as it goes."""
+
+    def draw(rng: np.random.Generator, _: Room) -> Spot:
+        point, heading = line.at(line.length_m * rng.uniform(0.1, 0.9))
+        return Spot(point + aside_m * np.array([-heading[1], heading[0]]), heading)
+
+    return draw
+
+
+def on_land(terrain: Terrain, corridors: Sequence[Corridor]) -> Allowed:
+    """Dry, within the place, and off where others walk."""
+
+    def allowed(at_m: np.ndarray) -> bool:
+        return bool(
+            (terrain.shore_m(*at_m.T) > 0.0).all()
+            and (np.abs(at_m) < 0.5 * terrain.size_m - _MARGIN_M).all()
+            and all(corridor.is_clear(at_m, _MARGIN_M) for corridor in corridors)
+        )
+
+    return allowed
+
+
+def afloat(terrain: Terrain, depth_m: float) -> Allowed:
+    """In the water, and out of one's depth."""
+
+    def allowed(at_m: np.ndarray) -> bool:
+        return bool((terrain.surface_m(*at_m.T) - terrain.height_m(*at_m.T) >= depth_m).all())
+
+    return allowed
+
+
+def _direction(rng: np.random.Generator) -> np.ndarray:
+    angle = 2.0 * np.pi * rng.uniform()
+    return np.array([np.cos(angle), np.sin(angle)])
+
+
+def _shoreline_m(water: Water, outward: np.ndarray) -> float:
+    """How far from the water's middle the shore is in a direction; the farthest, if it is crossed more than once."""
+    away_m = np.arange(0.0, water.basin.disc_radius_m + _MARCH_M, _MARCH_M)
+    wet = water.basin.shore_m(*(water.basin.centre_m + away_m[:, None] * outward).T) < 0
+    return float(away_m[wet][-1]) if wet.any() else 0.0

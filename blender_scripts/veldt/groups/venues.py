@@ -1,0 +1,71 @@
+"""What a group's `place` means: where its members may be drawn, and where not."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from . import spots
+from .behaviours import Draft, behaviour_of
+from ..faults import ConfigError, did_you_mean, listing
+from ..plants.placement import Corridor
+from ..geometry.splines import Loop
+from ..land.terrain import Terrain
+from ..land.waters import Water
+
+_WATERS = {"water": 0, "shore": 0, "pan": 1, "pan_shore": 1}
+_SIDE_GAP_M = 1.0
+PLACES = ("water", "shore", "pan", "pan_shore", "road")
+
+
+@dataclass(frozen=True)
+class Land:
+    """Where actors are: the ground, and the loops they walk by name."""
+
+    terrain: Terrain
+    loops: Mapping[str, Loop]
+
+
+def venue(
+    where: str, group: dict, drafts: Sequence[Draft], land: Land, corridors: Sequence[Corridor], seed: int
+) -> tuple[spots.Draw, spots.Allowed]:
+    """How to draw spots at a group's place, and which of them will do; `where` is the group's in the config."""
+    place, rooms = group["place"], [draft.room for draft in drafts]
+    floats = behaviour_of(group) == "float"
+    if not isinstance(place, str):
+        return spots.about(place, rooms, group.get("spread_m")), spots.on_land(land.terrain, corridors)
+    if place not in PLACES:
+        raise ConfigError(
+            f'{where}.place = "{place}"; expected [x, y] or one of {listing(PLACES)}{did_you_mean(place, PLACES)}'
+        )
+    if floats != (place in ("water", "pan")):
+        rule = (
+            '"water" or "pan", where one can float' if floats else 'one on dry land, or behaviour = "float"'
+        )
+        raise ConfigError(f'{where}.place = "{place}"; expected {rule}')
+    if place == "road":
+        return _by_the_road(where, rooms, land, corridors)
+    water = _water(where, place, land.terrain)
+    if floats:
+        depths_m = [draft.scale * draft.body.postures["float"].waterline_m for draft in drafts]
+        return spots.in_water(water), spots.afloat(land.terrain, max(depths_m))
+    return spots.at_shore(water, seed, group["name"]), spots.on_land(land.terrain, corridors)
+
+
+def _water(where: str, place: str, terrain: Terrain) -> Water:
+    number = _WATERS[place]
+    if number >= len(terrain.waters):
+        key = ("water_radius_m", "pan_radius_m")[number]
+        raise ConfigError(f'{where}.place = "{place}"; expected scene.terrain.{key} to be more than 0 m')
+    return terrain.waters[number]
+
+
+def _by_the_road(where: str, rooms, land: Land, corridors: Sequence[Corridor]):
+    road = land.terrain.road
+    if road is None:
+        raise ConfigError(
+            f'{where}.place = "road"; expected a place with a road: scene.terrain.road has none'
+        )
+    widest_m = max(room.half_width_m for room in rooms)
+    aside_m = 0.5 * road.width_m + widest_m + _SIDE_GAP_M
+    return spots.along(road.lines[-1], aside_m), spots.on_land(land.terrain, corridors)

@@ -1,0 +1,79 @@
+"""What the ground is covered by: dry soil, and on it grass, wet margins, rock and the road."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..noise import fractal_noise
+from .terrain import Terrain, grid_axis
+
+SOIL = "soil"
+
+_GRASS_OCTAVES = 5
+_BARE_MARGIN_M = 5.0  # round the water, where nothing grows
+_WET_MARGIN_M = 2.5  # and as far as that the soil is wet; both estimates
+_WET_RAGGED_M = 1.5
+_OUTCROP_M = 14.0  # size of outcrops
+_OUTCROPS = 0.85  # higher leaves less rock on the crag
+
+_FAR_M = -100.0  # instead of infinitely far from the road: between two points a border must have a place
+
+Value = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A material, where `value` (x_m, y_m) is positive; it is continuous, and zero on the borders."""
+
+    material: str
+    value: Value
+
+
+def plan_covers(terrain: Terrain, settings: dict, seed: int) -> list[Layer]:
+    """What lies on the dry soil of a terrain; where two would lie, the one listed first does."""
+    layers = []
+    if terrain.road is not None:
+        layers.append(Layer("road", lambda x_m, y_m: np.maximum(-terrain.road_m(x_m, y_m), _FAR_M)))
+    if terrain.waters:
+        layers.append(Layer("wet_soil", lambda x_m, y_m: _wetness(terrain, seed, x_m, y_m)))
+    if terrain.crag is not None:
+        layers.append(Layer("rock", lambda x_m, y_m: _rockiness(terrain, seed, x_m, y_m)))
+    grass = _plan_grass(terrain, settings, seed)
+    return layers if grass is None else [*layers, Layer("grass", grass)]
+
+
+def _wetness(terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:
+    ragged_m = _WET_RAGGED_M * fractal_noise(seed, "wet", x_m, y_m, 4.0 * _WET_RAGGED_M, octaves=2)
+    return _WET_MARGIN_M + ragged_m - terrain.shore_m(x_m, y_m)
+
+
+def _rockiness(terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:
+    outcrops = fractal_noise(seed, "outcrops", x_m, y_m, 2.0 * _OUTCROP_M, octaves=4)
+    return terrain.crag.share(x_m, y_m) + outcrops - _OUTCROPS
+
+
+def _plan_grass(terrain: Terrain, settings: dict, seed: int) -> Value | None:
+    """Patches that cover grass_fraction of the grid's dry ground, as far as the bare margin of the water lets them."""
+    axis_m = grid_axis(terrain.size_m, terrain.heights_m.shape[0] - 1)
+    x_m, y_m = np.meshgrid(axis_m, axis_m)
+    patch_m = settings["grass_patch_m"]
+    shore_m = terrain.shore_m(x_m, y_m)
+    can_grow = shore_m > _BARE_MARGIN_M
+    if settings["grass_fraction"] <= 0 or not can_grow.any():
+        return None
+    share = settings["grass_fraction"] * np.count_nonzero(shore_m > 0) / np.count_nonzero(can_grow)
+    values = _patches(seed, patch_m, x_m[can_grow], y_m[can_grow])
+    threshold = float(np.quantile(values, 1.0 - share)) if share < 1.0 else -np.inf
+
+    def value(x_m, y_m) -> np.ndarray:
+        margin = (terrain.shore_m(x_m, y_m) - _BARE_MARGIN_M) / patch_m
+        return np.minimum(np.minimum(_patches(seed, patch_m, x_m, y_m) - threshold, margin), 1e3)
+
+    return value
+
+
+def _patches(seed: int, patch_m: float, x_m, y_m) -> np.ndarray:
+    return fractal_noise(seed, "cover", x_m, y_m, 2.0 * patch_m, _GRASS_OCTAVES, gain=0.5)

@@ -1,0 +1,167 @@
+"""A dirt road: a loop with a fork, cut into the ground, level across but for its two wheel tracks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..geometry.neighbours import pairs_within
+from ..geometry.splines import Line, Loop
+
+SHOULDER_M = 2.5  # beside the road, over which it goes over into the land
+TRACK_M = 0.75  # of each wheel track from the middle: the gauge of a lorry is about 1.5 m; estimate
+_CUT_M = 0.12  # below the land; estimate
+_TRACK_DEPTH_M = 0.05  # estimate
+_TRACK_SIGMA_M = 0.2
+_STEP_M = 2.0  # a chord of it lies 2 cm off the tightest curve, of 30 m
+_SMOOTHING_M = 12.0  # along the road: wheels do not follow every bump
+_JOINING_M = 25.0  # along the spur, over which it comes from the loop's height to its own
+_RASTER_M = 8.0
+
+Heights = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
+@dataclass(frozen=True)
+class Road:
+    """A road width_m wide along a loop and, where it forks, a spur; bed_m, the heights of points_m of each of them.
+
+    Up to reach_m from its middle line it tells how far it is.
+    """
+
+    loop: Loop
+    spur: Line | None
+    width_m: float
+    size_m: float
+    reach_m: float
+    points_m: tuple[np.ndarray, ...]
+    bed_m: tuple[np.ndarray, ...]
+
+    @property
+    def lines(self) -> tuple[Loop | Line, ...]:
+        """The loop, and the spur if there is one."""
+        return (self.loop,) if self.spur is None else (self.loop, self.spur)
+
+    def distance_m(self, x_m, y_m) -> np.ndarray:
+        """Distance (n,) to the road's border, negative on it; infinite more than reach_m from its middle."""
+        distance = np.full(np.shape(x_m), np.inf)
+        flat = distance.reshape(-1)
+        for line in range(len(self.lines)):
+            near, off_m, _ = self._nearest(line, x_m, y_m)
+            flat[near] = np.minimum(flat[near], off_m - 0.5 * self.width_m)
+        return distance
+
+    def cut(self, height_m: np.ndarray, x_m, y_m) -> np.ndarray:
+        """Heights (n,) of the land once the road is cut into it; where it forks, both ways pass into each other."""
+        height = np.array(height_m, float)
+        flat = height.reshape(-1)
+        most, total, weighted = (np.zeros(len(flat)) for _ in range(3))
+        for line in range(len(self.lines)):
+            near, off_m, bed_m = self._nearest(line, x_m, y_m)
+            t = np.clip((off_m - 0.5 * self.width_m) / SHOULDER_M, 0.0, 1.0)
+            share = 1.0 - t * t * (3.0 - 2.0 * t)
+            most[near] = np.maximum(most[near], share)
+            total[near] += share
+            weighted[near] += share * (bed_m - _CUT_M - _tracks_m(off_m))
+        cut = total > 0
+        flat[cut] += most[cut] * (weighted[cut] / total[cut] - flat[cut])
+        return height
+
+    def _nearest(self, line: int, x_m, y_m) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Which places, counted row by row, are within reach_m of a line (k,), how far, and how high its bed is."""
+        x_m, y_m = (np.asarray(v, float).ravel() for v in np.broadcast_arrays(x_m, y_m))
+        near = np.flatnonzero(self._is_about(x_m, y_m))
+        places = np.column_stack([x_m[near], y_m[near]])
+        start, along, low, high = self._segments[line]
+        i, j = pairs_within(places, start + 0.5 * along, self.reach_m + _STEP_M)
+        length2 = (along[j] ** 2).sum(axis=1)
+        share = np.clip(((places[i] - start[j]) * along[j]).sum(axis=1) / length2, 0.0, 1.0)
+        off = np.linalg.norm(places[i] - start[j] - share[:, None] * along[j], axis=1)
+        best = _least_of_each(i, off)
+        best = best[off[best] < self.reach_m]
+        bed_m = low[j[best]] + share[best] * (high[j[best]] - low[j[best]])
+        return near[i[best]], off[best], bed_m
+
+    @cached_property
+    def _segments(self) -> list[tuple[np.ndarray, ...]]:
+        """Of each line: where segments start (k, 2), their vectors (k, 2), and the bed's heights at both ends (k,)."""
+        return [
+            (points[:-1], np.diff(points, axis=0), bed[:-1], bed[1:])
+            for points, bed in zip(self.points_m, self.bed_m)
+        ]
+
+    @cached_property
+    def _raster(self) -> np.ndarray:
+        """Squares of _RASTER_M [row, column] that a point within reach_m of the road may be in."""
+        cells = int(np.ceil(self.size_m / _RASTER_M))
+        marked = np.zeros((cells, cells), bool)
+        points = np.concatenate(self.points_m)
+        reach_m = self.reach_m + _STEP_M
+        steps = np.linspace(-reach_m, reach_m, int(2 * reach_m / _RASTER_M) + 2)
+        for dx in steps:
+            for dy in steps:
+                column, row = self._square(points[:, 0] + dx, points[:, 1] + dy)
+                marked[row, column] = True
+        return marked
+
+    def _square(self, x_m, y_m) -> tuple[np.ndarray, np.ndarray]:
+        """Column and row of the square that places are in; those outside the place are in its border's."""
+        last = int(np.ceil(self.size_m / _RASTER_M)) - 1
+        column, row = (
+            np.clip(((v + 0.5 * self.size_m) / _RASTER_M).astype(np.int64), 0, last) for v in (x_m, y_m)
+        )
+        return column, row
+
+    def _is_about(self, x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
+        column, row = self._square(x_m, y_m)
+        return self._raster[row, column]
+
+
+def lay_road(
+    loop: Loop, spur: Line | None, width_m: float, size_m: float, cell_m: float, land_m: Heights
+) -> Road:
+    """A road along lines over land of these heights (x_m, y_m), which it follows smoothly.
+
+    It reaches so far beyond its shoulders that it meets a corner of each triangle, of cells of cell_m, that it crosses.
+    """
+    reach_m = 0.5 * width_m + SHOULDER_M + 1.5 * cell_m
+    points = loop.points_m(_STEP_M)
+    bed = _smoothed(land_m(*points.T), loop.length_m / (len(points) - 1), closed=True)
+    if spur is None:
+        return Road(loop, None, width_m, size_m, reach_m, (points,), (bed,))
+    spur_points = spur.points_m(_STEP_M)
+    spur_bed = _smoothed(land_m(*spur_points.T), spur.length_m / (len(spur_points) - 1), closed=False)
+    joint = np.linalg.norm(points - spur_points[0], axis=1).argmin()
+    t = np.clip(np.linspace(0.0, spur.length_m, len(spur_bed)) / _JOINING_M, 0.0, 1.0)
+    spur_bed += (1.0 - t * t * (3.0 - 2.0 * t)) * (bed[joint] - spur_bed)
+    return Road(loop, spur, width_m, size_m, reach_m, (points, spur_points), (bed, spur_bed))
+
+
+def _least_of_each(number: np.ndarray, value: np.ndarray) -> np.ndarray:
+    """Places (k,) of the least value, the first if there are several, of each number there is, ascending."""
+    order = np.argsort(number, kind="stable")
+    _, first, count = np.unique(number[order], return_index=True, return_counts=True)
+    if len(first) == 0:
+        return order
+    ordered = value[order]
+    least = np.flatnonzero(ordered == np.repeat(np.minimum.reduceat(ordered, first), count))
+    group = np.repeat(np.arange(len(first)), count)[least]
+    return order[least[np.unique(group, return_index=True)[1]]]
+
+
+def _tracks_m(off_m: np.ndarray) -> np.ndarray:
+    """How deep wheels have worn the road at distances from its middle."""
+    return _TRACK_DEPTH_M * np.exp(-0.5 * ((off_m - TRACK_M) / _TRACK_SIGMA_M) ** 2)
+
+
+def _smoothed(height_m: np.ndarray, step_m: float, closed: bool) -> np.ndarray:
+    """Heights along a line, smoothed by a Gaussian; a closed line's last height is its first one."""
+    sigma = _SMOOTHING_M / step_m
+    reach = min(int(3 * sigma) + 1, len(height_m) - 1)
+    taps = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
+    inner = height_m[:-1] if closed else height_m
+    padded = np.pad(inner, reach, mode="wrap" if closed else "edge")
+    smooth = np.convolve(padded, taps / taps.sum(), mode="valid")
+    return np.append(smooth, smooth[0]) if closed else smooth

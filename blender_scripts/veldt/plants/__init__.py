@@ -1,0 +1,1 @@
+"""What grows and stands about: where, and how it looks."""

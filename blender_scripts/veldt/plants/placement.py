@@ -1,0 +1,167 @@
+"""Where plants and what else stands about are: as dense as the area asks for, off water, road and the actors' paths."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import assets
+from ..geometry.neighbours import pairs_within
+from ..noise import fractal_noise, lattice_uniform
+from ..geometry.poisson import poisson_points
+from ..land.terrain import Terrain
+
+AREAS = 3  # open, mid, dense
+_PATCHINESS = 0.6  # how much richer and poorer than the mean the patches of a species are
+_MOST_TAKEN = 0.5  # of a place by the feet of other species
+_SHORE_M = 1.5
+_SLOPE_STEP_M = 1.0
+_M2_PER_HA = 1e4
+
+
+@dataclass(frozen=True)
+class Planting:
+    """Plants of one species: points_m (n, 3), yaw_rad (n,), scale (n,) of the drawn size, variant (n,)."""
+
+    points_m: np.ndarray
+    yaw_rad: np.ndarray
+    scale: np.ndarray
+    variant: np.ndarray
+
+
+@dataclass(frozen=True)
+class Corridor:
+    """A walked line, points_m (n, 2) at most a metre apart, and how far from it the bodies of walkers come."""
+
+    points_m: np.ndarray
+    half_width_m: float
+
+    def is_clear(self, points_m: np.ndarray, by_m: float) -> bool:
+        """Whether all points (n, 2) are by_m or more away from walkers."""
+        return len(pairs_within(points_m, self.points_m, by_m + self.half_width_m)[0]) == 0
+
+
+def _even_shares(x_m: np.ndarray, _) -> np.ndarray:
+    """A place that is a third of each area all over."""
+    return np.full((len(x_m), AREAS), 1.0 / AREAS)
+
+
+def _no_road(x_m: np.ndarray, _) -> np.ndarray:
+    return np.full(len(x_m), np.inf)
+
+
+@dataclass(frozen=True)
+class Site:
+    """What plants meet: the ground, its areas and what must stay free.
+
+    shares(x_m, y_m) gives (n, 3), how much of a place is open, mid and dense, in sum 1; road_m(x_m, y_m) the distance
+    (n,) to the road's border, negative on it.
+    """
+
+    terrain: Terrain
+    shares: Callable[[np.ndarray, np.ndarray], np.ndarray] = _even_shares
+    road_m: Callable[[np.ndarray, np.ndarray], np.ndarray] = _no_road
+    corridors: Sequence[Corridor] = ()
+
+
+@dataclass(frozen=True)
+class _Species:
+    """A species and how many of it a square metre of each area (3,) shall have."""
+
+    name: str
+    data: dict
+    per_m2: np.ndarray
+
+
+def by_area(per_ha: float | Sequence[float]) -> list[float]:
+    """How many a hectare the open, the mid and the dense areas get; one number is for all three."""
+    return list(per_ha) if isinstance(per_ha, Sequence) else [per_ha] * AREAS
+
+
+def place_plants(plants: Mapping[str, dict], site: Site, seed: int) -> dict[str, Planting]:
+    """Plants of all species of `scene.plants`, by name in alphabetic order.
+
+    The widest feet are placed first and the others keep off them, and are made denser by what they lose so. What is
+    not free of water, road and walkers is taken away last: a new path moves no plant.
+    """
+    kinds = [
+        _Species(name, assets.load("plants", name), np.array(by_area(wanted["per_ha"]), float) / _M2_PER_HA)
+        for name, wanted in plants.items()
+    ]
+    standing: list[tuple[_Species, np.ndarray]] = []
+    plantings: dict[str, Planting] = {}
+    for kind in sorted(kinds, key=lambda kind: (-kind.data["foot_m"], kind.name)):
+        cells, points_m = _spaced(kind, standing, site, seed)
+        standing.append((kind, points_m))
+        free = _is_free(points_m, kind.data, site)
+        plantings[kind.name] = _planting(kind, cells[free], points_m[free], site.terrain, seed)
+    return {name: plantings[name] for name in sorted(plants)}
+
+
+def slope_deg(terrain: Terrain, x_m, y_m, step: float = _SLOPE_STEP_M) -> np.ndarray:
+    """How steep the ground is at a place, between `step` metres before and behind it."""
+    dx = terrain.height_m(x_m + step, y_m) - terrain.height_m(x_m - step, y_m)
+    dy = terrain.height_m(x_m, y_m + step) - terrain.height_m(x_m, y_m - step)
+    return np.degrees(np.arctan(np.sqrt(dx * dx + dy * dy) / (2.0 * step)))
+
+
+def _spaced(kind: _Species, standing: Sequence[tuple[_Species, np.ndarray]], site: Site, seed: int):
+    """Lattice cells (n, 2) and points (n, 2) of plants that keep off each other and off what stands already."""
+
+    def wanted(x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
+        shares = site.shares(x_m, y_m)
+        free = np.ones(len(x_m))
+        for other, _ in standing:
+            taken = shares @ other.per_m2 * np.pi * _apart_m(kind, other) ** 2
+            free *= 1.0 - np.minimum(taken, _MOST_TAKEN)
+        return shares @ kind.per_m2 * _liking(kind, site.terrain, seed, x_m, y_m) / free
+
+    most_per_m2 = kind.per_m2.max() * (1.0 + _PATCHINESS) * 1.2  # 1.2: about what others take in a dense area
+    cells, points_m = poisson_points(
+        seed, kind.name, site.terrain.size_m, kind.data["spacing_m"], most_per_m2, wanted
+    )
+    stays = np.ones(len(points_m), bool)
+    for other, others_m in standing:
+        taken, _ = pairs_within(points_m, others_m, _apart_m(kind, other))
+        stays[taken] = False
+    return cells[stays], points_m[stays]
+
+
+def _apart_m(one: _Species, other: _Species) -> float:
+    """How far apart plants of two species stand: their feet do not touch."""
+    return one.data["foot_m"] + other.data["foot_m"]
+
+
+def _liking(kind: _Species, terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:
+    """How much denser than its area's mean a species is at a place: it grows in patches, and less on slopes."""
+    patches = fractal_noise(seed, f"{kind.name}/patches", x_m, y_m, kind.data["patch_m"], octaves=2)
+    rich = 1.0 + np.clip(2.0 * patches, -_PATCHINESS, _PATCHINESS)
+    gentle, steep = kind.data["slope_deg"]
+    return rich * np.clip((steep - slope_deg(terrain, x_m, y_m)) / (steep - gentle), 0.0, 1.0)
+
+
+def _is_free(points_m: np.ndarray, data: dict, site: Site) -> np.ndarray:
+    """Which points (n, 2) are on dry ground, off the road and clear of every walker."""
+    x_m, y_m = points_m.T
+    free = site.terrain.shore_m(x_m, y_m) > _SHORE_M + data["foot_m"]
+    free &= site.road_m(x_m, y_m) > data["foot_m"]
+    for corridor in site.corridors:
+        taken, _ = pairs_within(points_m, corridor.points_m, data["clearance_m"] + corridor.half_width_m)
+        free[taken] = False
+    return free
+
+
+def _planting(
+    kind: _Species, cells: np.ndarray, points_m: np.ndarray, terrain: Terrain, seed: int
+) -> Planting:
+    """The plants at these points; how each looks is a function of its cell."""
+    low, high = kind.data["scale_range"]
+    variant = kind.data["variants"] * lattice_uniform(seed, f"{kind.name}/variant", *cells.T)
+    return Planting(
+        points_m=np.column_stack([points_m, terrain.height_m(*points_m.T)]),
+        yaw_rad=2.0 * np.pi * lattice_uniform(seed, f"{kind.name}/yaw", *cells.T),
+        scale=low + (high - low) * lattice_uniform(seed, f"{kind.name}/scale", *cells.T),
+        variant=variant.astype(np.int64),
+    )

@@ -1,0 +1,47 @@
+"""Meshes of what stands about, by the form its file in `assets/plants` names."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .. import models
+
+from . import still_shapes, tree_shapes
+from ..faults import ConfigError, did_you_mean, listing
+from ..noise import stream
+from ..geometry.shapes import Mesh
+
+FORMS = {
+    "umbrella": tree_shapes.umbrella,
+    "many_stemmed": tree_shapes.many_stemmed,
+    "bush": tree_shapes.bush,
+    "bottle": tree_shapes.bottle,
+    "tussock": tree_shapes.tussock,
+    "mound": still_shapes.mound,
+    "rock": still_shapes.rock,
+    "log": still_shapes.log,
+}
+
+
+def plant_parts(data: dict) -> tuple[str, ...]:
+    """Parts of a plant's meshes by slot: just the whole of it, unless a model from a file has more."""
+    return models.part_names(data) if "model" in data else ("",)
+
+
+def build_variants(name: str, data: dict, seed: int) -> list[Mesh]:
+    """Meshes of a plant's variants at its drawn size, standing at the origin, z up."""
+    if data["form"] not in FORMS:
+        raise ConfigError(
+            f'assets/plants/{name}.json: form = "{data["form"]}"; expected one of {listing(FORMS)}'
+            f'{did_you_mean(data["form"], FORMS)}'
+        )
+    form = FORMS[data["form"]]
+    return [_fitted(form(data, stream(seed, f"plant/{name}", k)), data) for k in range(data["variants"])]
+
+
+def _fitted(mesh: Mesh, data: dict) -> Mesh:
+    """The mesh stretched so that it is just height_m high and crown_diameter_m across at its widest, z = 0 kept."""
+    points = mesh.points_m
+    across_m = np.ptp(points[:, :2], axis=0).max()
+    stretch = np.array([*[data["crown_diameter_m"] / across_m] * 2, data["height_m"] / points[:, 2].max()])
+    return Mesh(points * stretch, mesh.triangles, mesh.slot)

@@ -1,0 +1,1 @@
+"""What a map and stills of a place show."""
