@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Iterator
 
-from .faults import ConfigError, did_you_mean, listing
+from .faults import ConfigError, check_known, did_you_mean, listing
 
 # By kind: keys every file has, and what they are. Materials are checked against their schema by `veldt`.
 _TEXT, _NUMBER, _PAIR, _TABLE, _COUNT = (
@@ -35,6 +35,7 @@ _KEYS = {
     },
     "materials": {"emissivity": _NUMBER, "winter_k": _NUMBER, "summer_k": _NUMBER, "source": _TEXT},
 }
+_PLAIN_PARTS = ("head", "torso")  # may have no entry in the material: they have its own temperature
 _DRAWN = {"gait": _TABLE, "bones": _TABLE}
 _STANDING = {"form": _TEXT, "variants": _COUNT, "height_m": _NUMBER, "crown_diameter_m": _NUMBER}
 _FOLIAGE = ("crown_thickness_m", "trunk_radius_m", "clumps", "leaves", "leaf_m")
@@ -72,6 +73,15 @@ def check(where: str, kind: str, data: dict) -> None:
         _check_form(where, data)
 
 
+def check_parts(where: str, data: dict, parts: Collection[str]) -> None:
+    """ConfigError if a drawn species has a part that its material, with these parts, knows no temperature of."""
+    for name, bone in data.get("bones", {}).items():
+        for k, shape in enumerate(bone["shapes"]):
+            check_known(
+                shape["part"], {*parts, *_PLAIN_PARTS}, f"{where}: bones.{name}.shapes[{k}].part", "a part"
+            )
+
+
 def _check_keys(where: str, data: dict, keys: dict[str, str]) -> None:
     for key, rule in keys.items():
         if key not in data:
@@ -97,6 +107,24 @@ def _check_species(where: str, data: dict) -> None:
             raise ConfigError(f"{where}: bones.{name}; expected joint_m and a list of shapes")
         for k, shape in enumerate(bone["shapes"]):
             _check_object(f"{where}: bones.{name}.shapes[{k}]", shape, {"part": _TEXT})
+    for place, name in _bones_named(data):
+        check_known(
+            name.removesuffix(".left").removesuffix(".right"), data["bones"], f"{where}: {place}", "a bone"
+        )
+
+
+def _bones_named(data: dict) -> Iterator[tuple[str, str]]:
+    """Every place of a species file that names a bone, and the name."""
+    for name, bone in data["bones"].items():
+        yield from ((f"bones.{name}.parent", bone[key]) for key in ("parent",) if key in bone)
+    for k, leg in enumerate(data.get("legs", [])):
+        yield from ((f"legs[{k}].bones[{j}]", name) for j, name in enumerate(leg["bones"]))
+    for kind in ("wheels", "moves"):
+        yield from ((f"{kind}[{k}].bone", entry["bone"]) for k, entry in enumerate(data.get(kind, [])))
+    for kind in ("variants", "postures"):
+        for name, entry in data.get(kind, {}).items():
+            for key in ("turn_deg", "stretch"):
+                yield from ((f"{kind}.{name}.{key}", bone) for bone in entry.get(key, {}))
 
 
 def _check_object(where: str, data, keys: dict[str, str]) -> None:

@@ -28,8 +28,10 @@ def load(kind: str, name: str) -> dict:
     asset_checks.check(where, kind, data)
     if kind in ("species", "plants"):
         check_known(data["material"], names("materials"), f"{where}: material", "a material")
-    if "model" in data:
+    if kind == "species" or "model" in data:
         parts = load("materials", data["material"]).get("parts", {})
+        asset_checks.check_parts(where, data, parts)
+    if "model" in data:
         data["model"] = models.checked(where, _folder(kind), data["model"], parts)
         if kind == "plants":
             data["variants"] = 1

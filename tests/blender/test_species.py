@@ -1,14 +1,17 @@
 """Species: sizes as known, measured on the standing body, the parts that temperatures are told of, and sources."""
 
+import json
 import re
 
 import numpy as np
 import pytest
 
 from creatures import Hills, circle
-from veldt import assets
+from veldt import asset_checks, assets
 from veldt.anatomy.bodies import build_body, variant_names
 from veldt.anatomy.pose import Motion, Walker, pose
+from veldt.config import ROOT
+from veldt.faults import ConfigError
 
 KINDS = [(species, variant) for species in assets.names("species") for variant in variant_names(species)]
 FLAT = Hills(0.0)
@@ -131,3 +134,30 @@ def test_figures_have_sources_or_are_called_estimates(species):
 def test_those_that_lie_or_float_know_how(species, posture):
     for variant in variant_names(species):
         assert not build_body(species, variant).postures[posture].on_feet
+
+
+@pytest.mark.parametrize(
+    "place, change",
+    [
+        ("variants.male.turn_deg", lambda data: data["variants"]["male"].update(turn_deg={"nek": [0, 9, 0]})),
+        ("postures.lie.turn_deg", lambda data: data["postures"]["lie"]["turn_deg"].update(nek=[0, 9, 0])),
+        ("moves[0].bone", lambda data: data["moves"][0].update(bone="nek")),
+        ("legs[1].bones[0]", lambda data: data["legs"][1]["bones"].__setitem__(0, "nek")),
+    ],
+)
+def test_a_bone_that_is_named_but_not_drawn_is_a_fault(place, change):
+    data = json.loads((ROOT / "assets" / "species" / "lion.json").read_text(encoding="utf-8"))
+    change(data)
+    with pytest.raises(ConfigError) as raised:
+        asset_checks.check("lion.json", "species", data)
+    known = ", ".join(sorted(data["bones"]))
+    assert str(raised.value).startswith(f'lion.json: {place} = "nek"; expected a bone: {known}')
+
+
+def test_a_part_without_a_temperature_is_a_fault():
+    data = json.loads((ROOT / "assets" / "species" / "lion.json").read_text(encoding="utf-8"))
+    data["bones"]["tail"]["shapes"][0]["part"] = "tial"
+    with pytest.raises(ConfigError) as raised:
+        asset_checks.check_parts("lion.json", data, ["legs", "mane", "tail"])
+    known = 'head, legs, mane, tail, torso; did you mean "tail"?'
+    assert str(raised.value) == f'lion.json: bones.tail.shapes[0].part = "tial"; expected a part: {known}'
