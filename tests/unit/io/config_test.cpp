@@ -120,15 +120,15 @@ TEST_CASE("Maps are named relative to the config that names them") {
   Json document = least();
   document["scene"]["terrain"]["heightmap"] = {{"file", "maps/hill.png"}, {"height_m", {0, 30}}};
   document["scene"]["terrain"]["density_map"] = {{"file", "/abroad/areas.png"}};
-  root_files(document, "/home/ranger");
+  root_files(document, "/ranger");
   const Json terrain = resolved(document).resolved["scene"]["terrain"];
-  CHECK(terrain["heightmap"]["file"] == "/home/ranger/maps/hill.png");
+  CHECK(terrain["heightmap"]["file"] == "/ranger/maps/hill.png");
   CHECK(terrain["density_map"]["file"] == "/abroad/areas.png");
 }
 
 TEST_CASE("A map that is no file name is left to the schema") {
   Json document = least();
   document["scene"]["terrain"]["density_map"] = {{"file", 3}};
-  root_files(document, "/home/ranger");
+  root_files(document, "/ranger");
   CHECK(fault_in(document) == "night.json: scene.terrain.density_map.file = 3; expected a string");
 }
