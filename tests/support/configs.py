@@ -28,7 +28,15 @@ _TINY = {
         "plants": {"acacia": {"per_ha": 30}, "shrub": {"per_ha": 100}},
         "paths": {"loop": {"points_m": [[28, 0], [0, 28], [-28, 0], [0, -28]]}},
         "groups": [
-            {"name": "people", "species": "human", "path": "loop", "count": 3, "spacing_m": 3, "spread_m": 1},
+            {
+                "name": "people",
+                "species": "human",
+                "path": "loop",
+                "count": 3,
+                "start_m": 0,
+                "spacing_m": 3,
+                "spread_m": 1,
+            },
             {
                 "name": "herd",
                 "species": "elephant",
