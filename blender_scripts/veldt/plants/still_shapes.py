@@ -49,10 +49,10 @@ def log(data: dict, rng: np.random.Generator) -> Mesh:
     path = np.stack([x, rng.uniform(-0.03, 0.03, 5) * length, np.full(5, 0.35 * radius)], axis=1)
     parts = [limb(path, radius * np.array([1.15, 1.0, 0.9, 0.75, 0.6]), 7, closed=True)]
     for k in range(data["limbs"]):
-        # The first stub stands up, the others lie to either side.
-        stub = np.array([0.8, [0.3, 1.6, -1.6][k % 3], 2.6 if k == 0 else 0.6]) * radius
-        stub = path[1 + k % 3] + np.array([np.zeros(3), stub * rng.uniform(0.9, 1.5, 3)])
-        parts.append(limb(stub, radius * np.array([0.45, 0.2]), 4, closed=True))
+        # The first snag stands up, the others lie to either side.
+        snag = np.array([0.8, [0.3, 1.6, -1.6][k % 3], 2.6 if k == 0 else 0.6]) * radius
+        snag = path[1 + k % 3] + np.array([np.zeros(3), snag * rng.uniform(0.9, 1.5, 3)])
+        parts.append(limb(snag, radius * np.array([0.45, 0.2]), 4, closed=True))
     return joined(parts)
 
 
