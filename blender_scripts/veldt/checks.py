@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from . import assets
-from .groups.behaviours import member_names
 from .faults import ConfigError, check_known, did_you_mean
 from .flight import Flight
-from .plants.placement import by_area
-from .groups.routes import ROAD
 from .geometry.splines import Loop, self_crossing
+from .groups.behaviours import member_names
+from .groups.routes import ROAD
+from .plants.placement import by_area
 
 _MOST_CELLS = 4000  # a side: 32 million triangles, some 10 GB in Blender
 _MOST_PLANTS = 2_000_000  # of a species

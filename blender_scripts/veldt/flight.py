@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .groups.actors import Actor, track
 from .camera import look
+from .groups.actors import Actor, track
 from .land.terrain import Terrain
 
 _SMOOTHING_S = np.linspace(-2.0, 2.0, 9)  # a pilot follows where a target is going, not each of its turns
@@ -70,7 +70,7 @@ def _fly_behind(plan: dict, terrain: Terrain, actors: Sequence[Actor], time_s: n
     Above ground, the distance is the one for level ground, so that the camera does not rock with every bump: where the
     ground is not level, the true look angle differs from the planned one.
     """
-    target, heading = _smoothed_target(terrain, actors, time_s)
+    target, heading = _smoothed_target(actors, time_s)
     rise_m = plan["altitude_m"] - (target[:, 2] if plan["altitude_reference"] == "datum" else 0.0)
     back_m = np.abs(rise_m) / np.tan(np.radians(plan["look_angle_deg"])) + np.zeros(len(time_s))
     outward = _turned(heading, np.radians(plan["azimuth_deg"]))
@@ -80,9 +80,9 @@ def _fly_behind(plan: dict, terrain: Terrain, actors: Sequence[Actor], time_s: n
     return position, -outward, depression
 
 
-def _smoothed_target(terrain: Terrain, actors: Sequence[Actor], time_s: np.ndarray):
+def _smoothed_target(actors: Sequence[Actor], time_s: np.ndarray):
     """Middle of the actors' bodies (n, 3) and their common heading (n, 2), averaged over a few seconds."""
-    tracks = [track(actor, terrain, time_s + shift) for actor in actors for shift in _SMOOTHING_S]
+    tracks = [track(actor, time_s + shift) for actor in actors for shift in _SMOOTHING_S]
     middle = np.mean([t.position_m for t in tracks], axis=0)
     middle[:, 2] += np.mean([actor.bounds_m[:, 2].mean() for actor in actors])
     heading = np.sum([t.heading for t in tracks], axis=0)

@@ -10,9 +10,9 @@ import json
 import numpy as np
 
 from . import assets, ids
+from .flight import Flight
 from .groups.actors import Track, track
 from .land.covers import SOIL
-from .flight import Flight
 from .world import WATER, World
 
 LAYER = "Scene"
@@ -95,7 +95,7 @@ def _actors(world: World) -> list[dict]:
 
 
 def _frames(world: World, flight: Flight) -> list[dict]:
-    walks = [(actor.index, track(actor, world.terrain, flight.time_s)) for actor in world.actors]
+    walks = [(actor.index, track(actor, flight.time_s)) for actor in world.actors]
     return [
         {
             "file": frame_file(k),

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from .faults import ConfigError, did_you_mean, listing
-from .model_files import SUFFIXES, Unreadable, survey
 from .geometry.shapes import Mesh, facets
+from .model_files import SUFFIXES, Unreadable, survey
 
 # By how much a model is turned, deg, so that the axis it faces becomes +x.
 FORWARD = {"x": 0.0, "-x": 180.0, "y": -90.0, "-y": 90.0}

@@ -5,21 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from . import assets, checks, ids
-from .groups.actors import Actor
+from .anatomy.skeleton import part_names
 from .camera import Intrinsics, intrinsics_of, overscan_of, widened
-from .groups.cast import plan_cast
-from .land.covers import SOIL, Layer, plan_covers
-from .plants.density import plan_density
 from .faults import check_known
 from .flight import Flight, fly
+from .groups.actors import Actor
+from .groups.cast import plan_cast
 from .groups.group_checks import check_groups
+from .groups.routes import plan_loops
+from .groups.venues import Land
+from .land.covers import SOIL, Layer, plan_covers
+from .land.road_plan import plan_road
+from .land.terrain import Terrain, build_terrain
+from .plants.density import plan_density
 from .plants.placement import Planting, Site, place_plants
 from .plants.plant_shapes import plant_parts
-from .land.road_plan import plan_road
-from .groups.routes import plan_loops
-from .anatomy.skeleton import part_names
-from .land.terrain import Terrain, build_terrain
-from .groups.venues import Land
 
 WATER = "water"
 

@@ -32,7 +32,7 @@ def test_a_member_is_the_same_whatever_other_groups_there_are(world):
 def test_members_are_on_the_ground_and_keep_their_places(world):
     time_s = np.linspace(0, 300, 401)
     for actor in world.actors:
-        walk = track(actor, world.terrain, time_s)
+        walk = track(actor, time_s)
         x, y, z = walk.position_m.T
         assert np.array_equal(z, world.terrain.height_m(x, y))
         on_loop, _ = actor.route.at(actor.start_m + actor.walking_m_s * time_s)
@@ -43,7 +43,7 @@ def test_members_are_on_the_ground_and_keep_their_places(world):
 
 def test_heading_is_the_direction_of_travel(world):
     time_s = np.arange(0, 60, 0.01)
-    walk = track(world.actors[2], world.terrain, time_s)
+    walk = track(world.actors[2], time_s)
     step = np.diff(walk.position_m[:, :2], axis=0)
     along = np.arctan2(step[:, 1], step[:, 0])
     turn = np.angle(np.exp(1j * (walk.heading_rad[:-1] - along)))
@@ -69,7 +69,7 @@ def test_boxes_hold_bodies_at_all_times(change):
     world = plan_world(tiny(change))
     for actor in world.actors:
         time_s = 0.37 + np.arange(0, 200, 3.1)
-        body, walk = poses(actor, time_s), track(actor, world.terrain, time_s)
+        body, walk = poses(actor, time_s), track(actor, time_s)
         low, high = actor.bounds_m
         for k in range(len(time_s)):
             local = (body.points_m(actor.body, k) - walk.position_m[k]) @ facing(walk.heading[k])

@@ -82,7 +82,7 @@ def test_look_angle_is_kept():
 def test_following_keeps_the_target_in_the_middle(target, look_angle_deg):
     world, flight = _fly(pattern="follow", target=target, look_angle_deg=look_angle_deg, altitude_m=30)
     members = [actor for actor in world.actors if target in (actor.name, actor.group)]
-    walks = [track(actor, world.terrain, flight.time_s) for actor in members]
+    walks = [track(actor, flight.time_s) for actor in members]
     middle = np.mean([w.position_m for w in walks], axis=0)
     middle[:, 2] += np.mean([actor.bounds_m[:, 2].mean() for actor in members])
     pixels, depth = project(world.intrinsics, flight.camera_to_world, middle[:, None])
@@ -102,7 +102,7 @@ def test_following_above_the_datum_keeps_the_look_angle():
 
 def test_following_from_an_azimuth():
     world, flight = _fly(pattern="follow", target="herd_1", look_angle_deg=45, altitude_m=30, azimuth_deg=180)
-    heading = track(world.actors[2], world.terrain, flight.time_s).heading
+    heading = track(world.actors[2], flight.time_s).heading
     bearing = (
         flight.camera_to_world[:, :2, 2] / np.linalg.norm(flight.camera_to_world[:, :2, 2], axis=1)[:, None]
     )

@@ -193,7 +193,7 @@ def test_stills_look_at_whom_they_are_named_after(world):
     """Within a pixel of the picture's middle: the middle of the body, by the box of its whole walk."""
     for still in plan_stills(world, 2.0)[1:]:
         actor = next(a for a in world.actors if still.name == f"close_{a.group}")
-        middle = track(actor, world.terrain, np.array([2.0])).position_m[0] + [
+        middle = track(actor, np.array([2.0])).position_m[0] + [
             0,
             0,
             actor.bounds_m[:, 2].mean(),

@@ -39,9 +39,7 @@ def test_boxes_hold_their_actors(full, world):
     for number, clip in enumerate(CLIPS):
         flight = world.flight(world.config["clips"][number])
         for actor in world.actors:
-            corners, _ = project(
-                world.intrinsics, flight.camera_to_world, box_corners_m(world, flight, actor)
-            )
+            corners, _ = project(world.intrinsics, flight.camera_to_world, box_corners_m(flight, actor))
             for frame in range(3):
                 row, column = np.nonzero(full.planes(clip, frame)["Scene.IndexOB.X"] == actor.index)
                 pixels = np.stack([column, row], axis=1) + 0.5

@@ -5,11 +5,10 @@ import pytest
 
 from scenes import tiny
 from veldt.config import resolve
-from veldt.plants.placement import slope_deg
 from veldt.land.road_plan import plan_road
 from veldt.land.roads import TRACK_M
 from veldt.geometry.splines import self_crossing
-from veldt.land.terrain import build_terrain
+from veldt.land.terrain import build_terrain, slope_deg
 
 ROAD = {"width_m": 3.8, "fork": True}
 

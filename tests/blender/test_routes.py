@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veldt.groups.routes import plan_loop
+from veldt.land.ways import plan_loop
 from veldt.geometry.splines import self_crossing
 
 

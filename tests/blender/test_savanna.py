@@ -28,7 +28,7 @@ def _planned():
 
 @pytest.fixture(scope="module", name="walks")
 def _walks(savanna):
-    return {actor.name: track(actor, savanna.terrain, TEN_MINUTES_S) for actor in savanna.actors}
+    return {actor.name: track(actor, TEN_MINUTES_S) for actor in savanna.actors}
 
 
 def _rectangle(actor):

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.plants.placement import slope_deg
-from veldt.land.terrain import build_terrain
+from veldt.land.terrain import build_terrain, slope_deg
 
 FULL = {
     "size_m": 800,

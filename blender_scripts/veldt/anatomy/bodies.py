@@ -6,14 +6,14 @@ Actor axes: x forward, y left, z up, origin on the ground below the body's middl
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from .. import assets
-from .gait import Leg
-from ..noise import stream
 from ..geometry.shapes import Mesh, joined
+from ..noise import stream
+from .gait import Leg
 from .skeleton import SIDES, Bone, build_bones, is_in, part_names
 
 _SHARES = {"pitch": 1.0, "roll": 0.4}  # of the ground's slope that a body takes on if its file does not say
@@ -80,6 +80,11 @@ class Body:
         if not places:  # a model from a file, which has neither: about where its feet may be
             return _FOOTING * self.rest().points_m[:, :2]
         return np.array([place[:2] for place in places])
+
+    @cached_property
+    def reach_m(self) -> np.ndarray:
+        """How far (3,) the body as drawn reaches from its origin, forward or back, to either side, and up."""
+        return np.abs(self.rest().points_m).max(axis=0)
 
     def rest(self) -> Mesh:
         """The whole body as drawn, in actor axes."""

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry.rotations import about, facing, unit
+from ..geometry.easing import smooth
+from ..geometry.rotations import about, facing, left_of, unit
 from ..land.terrain import Terrain
 
 _GRAVITY_M_S2 = 9.81
@@ -83,12 +84,6 @@ def footing(
     )
 
 
-def smooth(share) -> np.ndarray:
-    """0 below 0, 1 above 1, and a slope of 0 at both."""
-    share = np.clip(share, 0.0, 1.0)
-    return share * share * (3.0 - 2.0 * share)
-
-
 def _print(leg: Leg, scale: float, path: Path, middle_m) -> tuple[np.ndarray, np.ndarray]:
     """Footprints (n, 2) of stances whose middles are at these distances, and their headings (n, 2)."""
     point, heading = path(middle_m)
@@ -98,7 +93,7 @@ def _print(leg: Leg, scale: float, path: Path, middle_m) -> tuple[np.ndarray, np
 def _on_slope(ground: Terrain, x_m, y_m, heading: np.ndarray) -> np.ndarray:
     """Rotations (n, 3, 3) of feet that lie flat on the ground."""
     rises = []
-    for along in (heading, np.stack([-heading[:, 1], heading[:, 0]], axis=1)):
+    for along in (heading, left_of(heading)):
         ahead = ground.height_m(x_m + _SOLE_M * along[:, 0], y_m + _SOLE_M * along[:, 1])
         behind = ground.height_m(x_m - _SOLE_M * along[:, 0], y_m - _SOLE_M * along[:, 1])
         rises.append((ahead - behind) / (2.0 * _SOLE_M))

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .bodies import Body
-from .gait import Footing, Path, footing
 from ..geometry.rotations import about, applied, facing, frame, turned, unit
 from ..geometry.shapes import Mesh, joined
 from ..land.terrain import Terrain
+from .bodies import Body
+from .gait import Footing, Path, footing
 
 _LONGEST = 0.995  # of a leg's two bones: a knee is never quite straight
 _NORM = 8  # of the legs' needs to be nearer to the ground: about the largest of them, without its kinks

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .rotations import left_of
 from .shapes import Mesh, facets
 
 _EDGE_RAD = np.radians([0.0, 45.0, 90.0])  # of the round edge from a panel's side to its rim
@@ -59,7 +60,7 @@ def _inward(points: np.ndarray) -> np.ndarray:
     """Vectors (n, 2) by which corners move when all edges move inward by 1."""
     along = np.roll(points, -1, axis=0) - points
     along /= np.linalg.norm(along, axis=1, keepdims=True)
-    after = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    after = left_of(along)
     before = np.roll(after, 1, axis=0)
     return (before + after) / np.maximum(1.0 + (before * after).sum(axis=1, keepdims=True), _SHARPEST)
 

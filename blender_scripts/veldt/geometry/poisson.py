@@ -11,8 +11,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from .neighbours import pairs_within
 from ..noise import lattice_uniform
+from .neighbours import pairs_within
 
 _FULLEST = 0.6  # share of the plane in discs of the spacing; as it nears 1, no number of candidates is enough
 

@@ -22,6 +22,11 @@ def turned(angles_rad: np.ndarray) -> np.ndarray:
     return about("z", angles_rad[..., 2]) @ about("y", angles_rad[..., 1]) @ about("x", angles_rad[..., 0])
 
 
+def left_of(heading: np.ndarray) -> np.ndarray:
+    """Level vectors (..., 2) at right angles to headings (..., 2), to their left and as long."""
+    return np.stack([-heading[..., 1], heading[..., 0]], axis=-1)
+
+
 def facing(heading: np.ndarray) -> np.ndarray:
     """Level rotations (..., 3, 3) that turn x to unit headings (..., 2)."""
     turn = np.zeros(heading.shape[:-1] + (3, 3))

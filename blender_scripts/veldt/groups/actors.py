@@ -7,12 +7,12 @@ from functools import cached_property
 
 import numpy as np
 
-from .behaviours import Draft
 from ..anatomy.gait import stride_m
 from ..anatomy.pose import Motion, Poses, Walker, pose
-from ..geometry.rotations import facing
+from ..geometry.rotations import facing, left_of
 from ..geometry.splines import Loop, Spot
 from ..land.terrain import Terrain
+from .behaviours import Draft
 
 _PLACES = 64  # along an actor's path, at which its body's box is taken
 _MOMENTS = 24  # of a stride, at each of the path's steepest places
@@ -43,7 +43,7 @@ class Actor(Draft):
     def path(self, walked_m) -> tuple[np.ndarray, np.ndarray]:
         """Points (n, 2) and headings (n, 2) where it is after distances (n,)."""
         point, heading = self.route.at(walked_m)
-        return point + self.lateral_m * np.stack([-heading[..., 1], heading[..., 0]], axis=-1), heading
+        return point + self.lateral_m * left_of(heading), heading
 
     @cached_property
     def bounds_m(self) -> np.ndarray:
@@ -73,10 +73,10 @@ class Track:
         return np.arctan2(self.heading[:, 1], self.heading[:, 0])
 
 
-def track(actor: Actor, terrain: Terrain, time_s: np.ndarray) -> Track:
+def track(actor: Actor, time_s: np.ndarray) -> Track:
     """Where the actor is at each time (n,), on the ground."""
     xy, heading = actor.path(actor.start_m + actor.schedule.at(time_s).walked_m)
-    return Track(np.column_stack([xy, terrain.height_m(xy[:, 0], xy[:, 1])]), heading)
+    return Track(np.column_stack([xy, actor.terrain.height_m(xy[:, 0], xy[:, 1])]), heading)
 
 
 def poses(actor: Actor, time_s: np.ndarray) -> Poses:
@@ -106,7 +106,7 @@ def _telling_places(actor: Actor) -> np.ndarray:
     along_m = np.arange(0.0, actor.route.length_m, _STEP_M)
     point, heading = actor.path(along_m)
     slopes = []
-    for across in (heading, np.stack([-heading[:, 1], heading[:, 0]], axis=1)):
+    for across in (heading, left_of(heading)):
         ends = [actor.terrain.height_m(*(point + reach * across).T) for reach in (-_STEP_M, _STEP_M)]
         slopes.append(ends[1] - ends[0])
     steepest = [along_m[pick(slope)] for slope in slopes for pick in (np.argmin, np.argmax)]

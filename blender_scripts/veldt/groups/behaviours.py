@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from .. import assets
 from ..anatomy.bodies import Body, build_body, draw_variant
-from .herds import Room
 from ..noise import stream
+from .herds import Room
 from .schedules import Drinking, Schedule, Steady, StopAndGo
 
 # The posture of the body that each behaviour needs, beside standing and walking.
@@ -45,7 +43,7 @@ class Draft:
     @property
     def room(self) -> Room:
         """The ground it takes, standing as drawn."""
-        half_m = self.scale * np.abs(self.body.rest().points_m).max(axis=0)
+        half_m = self.scale * self.body.reach_m
         return Room(float(half_m[0]), float(half_m[1]), self.schedule.reach_m)
 
 

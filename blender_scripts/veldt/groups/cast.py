@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import ids
+from ..faults import ConfigError
+from ..geometry.splines import Loop
+from ..plants.placement import Corridor
 from .actors import Actor
 from .behaviours import Draft, draft_members, member_names
 from .crowds import TIMES_S, Crowd, cover, gather
-from ..faults import ConfigError
 from .herds import plan_places
 from .meetings import choose_start
-from ..plants.placement import Corridor
-from ..geometry.splines import Loop
 from .spots import find_spots
 from .venues import Land, venue
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -30,6 +31,13 @@ class Crowd:
     centre_m: np.ndarray
     radius_m: np.ndarray
     fastest_m_s: float
+
+    @cached_property
+    def ring_m(self) -> tuple[np.ndarray, np.ndarray]:
+        """A disc, middle (t, 2) and radius (t,), around all of the crowd's."""
+        middle = self.centre_m.mean(axis=1)
+        reach = (np.linalg.norm(self.centre_m - middle[:, None], axis=-1) + self.radius_m).max(axis=1)
+        return middle, reach
 
 
 def cover(half_length_m: float, half_width_m: float) -> Discs:
@@ -62,34 +70,27 @@ def nearest_m(one: Crowd, other: Crowd, enough_m: float = np.inf, until_s: float
     At any of TIMES_S that is no later than until_s.
     """
     least_m, most_m = (bound[: np.searchsorted(TIMES_S, until_s) + 1] for bound in _bounds_m(one, other))
-    _, gaps_m = _gaps_m(one, other, np.flatnonzero(least_m <= min(enough_m, most_m.min())))
+    gaps_m = _gaps_m(one, other, np.flatnonzero(least_m <= min(enough_m, most_m.min())))
     return float(min(gaps_m.min(initial=np.inf), enough_m))
 
 
 def clear_until_s(one: Crowd, other: Crowd, gap_m: float) -> float:
     """The first of TIMES_S about which two crowds may come nearer than gap_m; HORIZON_S if they never do."""
     apart_m = gap_m + 0.5 * _STEP_S * (one.fastest_m_s + other.fastest_m_s)
-    moments, gaps_m = _gaps_m(one, other, np.flatnonzero(_bounds_m(one, other)[0] < apart_m))
-    near = moments[gaps_m < apart_m]
+    moments = np.flatnonzero(_bounds_m(one, other)[0] < apart_m)
+    near = moments[_gaps_m(one, other, moments) < apart_m]
     return float(TIMES_S[near[0]]) if len(near) else HORIZON_S
 
 
-def _gaps_m(one: Crowd, other: Crowd, moments: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The moments (n,), places in TIMES_S, and the distance (n,) of the nearest two discs at each."""
+def _gaps_m(one: Crowd, other: Crowd, moments: np.ndarray) -> np.ndarray:
+    """Distances (n,) of the nearest two discs at moments (n,), places in TIMES_S."""
     a, b = (crowd.centre_m[moments % len(crowd.centre_m)] for crowd in (one, other))
     gaps_m = np.linalg.norm(a[:, :, None] - b[:, None, :], axis=-1) - one.radius_m[:, None] - other.radius_m
-    return moments, gaps_m.min(axis=(1, 2), initial=np.inf)
+    return gaps_m.min(axis=(1, 2), initial=np.inf)
 
 
 def _bounds_m(one: Crowd, other: Crowd) -> tuple[np.ndarray, np.ndarray]:
     """Distances (t,) that the nearest discs of two crowds are apart at least, and at most."""
-    (middle, reach), (others_middle, others_reach) = (_ring(crowd) for crowd in (one, other))
+    (middle, reach), (others_middle, others_reach) = one.ring_m, other.ring_m
     between_m = np.linalg.norm(middle - others_middle, axis=1)
     return between_m - reach - others_reach, between_m + reach + others_reach
-
-
-def _ring(crowd: Crowd) -> tuple[np.ndarray, np.ndarray]:
-    """A disc, middle (t, 2) and radius (t,), around all of a crowd's."""
-    middle = crowd.centre_m.mean(axis=1)
-    reach = (np.linalg.norm(crowd.centre_m - middle[:, None], axis=-1) + crowd.radius_m).max(axis=1)
-    return middle, reach

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from .. import assets
-from .behaviours import POSTURES, WALKING, behaviour_of
 from ..anatomy.bodies import variant_names
 from ..faults import ConfigError, check_known, listing
+from .behaviours import POSTURES, WALKING, behaviour_of
 
 
 def check_groups(groups: list[dict], paths: Collection[str]) -> None:

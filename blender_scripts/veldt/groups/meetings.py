@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from .crowds import HORIZON_S, Crowd, clear_until_s, nearest_m
 from ..noise import stream
+from .crowds import HORIZON_S, Crowd, clear_until_s, nearest_m
 
 _STARTS = 96  # tried, evenly along the path, in an order drawn from the seed
 _GAP_M = 0.5

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..anatomy.gait import smooth
+from ..geometry.easing import smooth
 from ..noise import lattice_uniform
 
 _BOUT_S = 24.0  # estimate: a grazer's time from one patch of grass to the next

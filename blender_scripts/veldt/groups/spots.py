@@ -6,13 +6,14 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from .crowds import Crowd, centres, cover
-from .herds import Room
-from ..noise import stream
-from ..plants.placement import Corridor
+from ..geometry.rotations import left_of
 from ..geometry.splines import Line, Spot
 from ..land.terrain import Terrain
 from ..land.waters import Water
+from ..noise import stream
+from ..plants.placement import Corridor
+from .crowds import Crowd, centres, cover
+from .herds import Room
 
 _TRIES = 400  # of places, for each member
 _GAP_M = 0.5
@@ -90,7 +91,7 @@ def along(line: Line, aside_m: float) -> Draw:
 
     def draw(rng: np.random.Generator, _: Room) -> Spot:
         point, heading = line.at(line.length_m * rng.uniform(0.1, 0.9))
-        return Spot(point + aside_m * np.array([-heading[1], heading[0]]), heading)
+        return Spot(point + aside_m * left_of(heading), heading)
 
     return draw
 

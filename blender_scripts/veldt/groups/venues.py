@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from . import spots
-from .behaviours import Draft, behaviour_of
 from ..faults import ConfigError, did_you_mean, listing
-from ..plants.placement import Corridor
 from ..geometry.splines import Loop
 from ..land.terrain import Terrain
 from ..land.waters import Water
+from ..plants.placement import Corridor
+from . import spots
+from .behaviours import Draft, behaviour_of
 
 _WATERS = {"water": 0, "shore": 0, "pan": 1, "pan_shore": 1}
 _SIDE_GAP_M = 1.0

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..noise import lattice_uniform
 from ..geometry.splines import Line
+from ..noise import lattice_uniform
 
 _LEAST_CELL_M = 16.0
 _MOST_LINES = 160  # nodes a side

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.triangles import edges_of, split_edges
 from .covers import Layer
 from .roads import SHOULDER_M
 from .terrain import Terrain, grid_axis
-from ..geometry.triangles import edges_of, split_edges
 
 _BORDER_EDGE_M = 0.8  # triangles at a border are halved until their edges are about this short
 _COARSE = 1.5  # times that is still short: the diagonal of a square of 0.8 m is

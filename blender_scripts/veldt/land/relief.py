@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.easing import smooth
 from ..noise import fractal_noise, lattice_uniform
 
 _HILL_OCTAVES = 5
@@ -51,10 +52,7 @@ class Crag:
 
     def share(self, x_m, y_m) -> np.ndarray:
         """How much of a place is crag: 0 on the plain, 1 well inside."""
-        t = np.clip(
-            0.5 + (_cragginess(self.seed, self.clear_m, x_m, y_m) - self.threshold) / _CRAG_BORDER, 0, 1
-        )
-        return t * t * (3.0 - 2.0 * t)
+        return smooth(0.5 + (_cragginess(self.seed, self.clear_m, x_m, y_m) - self.threshold) / _CRAG_BORDER)
 
     def height_m(self, x_m, y_m) -> np.ndarray:
         """How much it stands above the hills: ridges that fall off in ledges."""
@@ -92,5 +90,5 @@ def _cragginess(seed: int, clear_m: float, x_m, y_m) -> np.ndarray:
 def _ledges(height: np.ndarray) -> np.ndarray:
     """Heights 0..1 drawn towards a few levels: level treads and steep risers."""
     step = np.floor(height * _STAIRS)
-    t = np.clip(2.5 * (height * _STAIRS - step) - 0.75, 0.0, 1.0)
-    return (0.3 * height * _STAIRS + 0.7 * (step + t * t * (3.0 - 2.0 * t))) / _STAIRS
+    riser = smooth(2.5 * (height * _STAIRS - step) - 0.75)
+    return (0.3 * height * _STAIRS + 0.7 * (step + riser)) / _STAIRS

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..noise import stream
-from ..plants.placement import slope_deg
-from .roads import Road, lay_road
-from ..groups.routes import CORNERS, SLOPE_STEP_M, Passable, plan_loop
 from ..geometry.splines import Line, Loop
-from .terrain import Terrain
+from ..noise import stream
+from .roads import Road, lay_road
+from .terrain import Terrain, slope_deg
+from .ways import CORNERS, SLOPE_STEP_M, Passable, plan_loop
 
 _RADII = 0.3, 0.26, 0.34, 0.22  # of the place's side; the first on which the ground lets a loop be
 _WANDER = 0.22

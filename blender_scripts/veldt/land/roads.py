@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..geometry.easing import smooth
 from ..geometry.neighbours import pairs_within
 from ..geometry.splines import Line, Loop
 
@@ -60,8 +61,7 @@ class Road:
         most, total, weighted = (np.zeros(len(flat)) for _ in range(3))
         for line in range(len(self.lines)):
             near, off_m, bed_m = self._nearest(line, x_m, y_m)
-            t = np.clip((off_m - 0.5 * self.width_m) / SHOULDER_M, 0.0, 1.0)
-            share = 1.0 - t * t * (3.0 - 2.0 * t)
+            share = 1.0 - smooth((off_m - 0.5 * self.width_m) / SHOULDER_M)
             most[near] = np.maximum(most[near], share)
             total[near] += share
             weighted[near] += share * (bed_m - _CUT_M - _tracks_m(off_m))
@@ -134,8 +134,8 @@ def lay_road(
     spur_points = spur.points_m(_STEP_M)
     spur_bed = _smoothed(land_m(*spur_points.T), spur.length_m / (len(spur_points) - 1), closed=False)
     joint = np.linalg.norm(points - spur_points[0], axis=1).argmin()
-    t = np.clip(np.linspace(0.0, spur.length_m, len(spur_bed)) / _JOINING_M, 0.0, 1.0)
-    spur_bed += (1.0 - t * t * (3.0 - 2.0 * t)) * (bed[joint] - spur_bed)
+    joined = smooth(np.linspace(0.0, spur.length_m, len(spur_bed)) / _JOINING_M)
+    spur_bed += (1.0 - joined) * (bed[joint] - spur_bed)
     return Road(loop, spur, width_m, size_m, reach_m, (points, spur_points), (bed, spur_bed))
 
 

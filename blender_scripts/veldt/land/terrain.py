@@ -19,6 +19,7 @@ from .waters import REACH, Basin, Water, lay_water, nearest_shore_m, surface_m
 _SMOOTHING_M = 40.0  # of the ground a drone's height is kept above
 _PAN_APART = 5.0  # radii of both waters that the pan is from the middle, at least
 _PAN_GRID_M = 25.0
+_SLOPE_STEP_M = 1.0
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,13 @@ def build_terrain(settings: dict, seed: int) -> Terrain:
 def grid_axis(size_m: float, cells: int) -> np.ndarray:
     """Coordinates of the grid lines, shape (cells + 1,)."""
     return (np.arange(cells + 1) / cells - 0.5) * size_m
+
+
+def slope_deg(terrain: Terrain, x_m, y_m, step: float = _SLOPE_STEP_M) -> np.ndarray:
+    """How steep the ground is at a place, between `step` metres before and behind it."""
+    dx = terrain.height_m(x_m + step, y_m) - terrain.height_m(x_m - step, y_m)
+    dy = terrain.height_m(x_m, y_m + step) - terrain.height_m(x_m, y_m - step)
+    return np.degrees(np.arctan(np.sqrt(dx * dx + dy * dy) / (2.0 * step)))
 
 
 def _cell(along_m: np.ndarray, size_m: float, cells: int) -> tuple[np.ndarray, np.ndarray]:

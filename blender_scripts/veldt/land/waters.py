@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.easing import smooth
 from ..noise import fractal_noise
 
 REACH = 2.5  # radii of the water over which the land round it gives way to its basin
@@ -56,8 +57,7 @@ def lay_water(basin: Basin, land_m: np.ndarray, x_m, y_m) -> tuple[Water, np.nda
     out = shore_m / radius_m
     depth_m = min(4.0, 0.1 * radius_m)
     bowl_m = water.level_m + depth_m * np.clip(out, -1.0, 1.0) * (1.0 + 0.5 * np.clip(out, 0.0, 1.0))
-    t = np.clip(out / (REACH - 1), 0.0, 1.0)
-    return water, bowl_m + t * t * (3.0 - 2.0 * t) * (land_m - bowl_m)
+    return water, bowl_m + smooth(out / (REACH - 1)) * (land_m - bowl_m)
 
 
 def surface_m(ground_m, waters: tuple[Water, ...], x_m, y_m) -> np.ndarray:

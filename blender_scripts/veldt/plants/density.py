@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.easing import smooth
 from ..land.grey_images import read_grey, sample
-from ..noise import fractal_noise
 from ..land.terrain import Terrain
+from ..noise import fractal_noise
 
 _OCTAVES = 3
 _LOWLAND = 0.6  # how much lusher the lowest ground is than the highest, against the noise's about +-1
@@ -66,5 +67,4 @@ def _lushness(seed: int, terrain: Terrain, wavelength_m: float, x_m, y_m) -> np.
 
 def _rise(above: np.ndarray) -> np.ndarray:
     """From 0 to 1 across a border, smoothly; `above` is in widths of the border."""
-    t = np.clip(0.5 + above, 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
+    return smooth(0.5 + above)

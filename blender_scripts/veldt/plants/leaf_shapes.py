@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .branch_shapes import directions
 from ..geometry.shapes import Mesh, facets
+from .branch_shapes import directions
 
 _SPRAY_CORNERS = 3
 

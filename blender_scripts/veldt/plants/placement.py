@@ -9,15 +9,14 @@ import numpy as np
 
 from .. import assets
 from ..geometry.neighbours import pairs_within
-from ..noise import fractal_noise, lattice_uniform
 from ..geometry.poisson import poisson_points
-from ..land.terrain import Terrain
+from ..land.terrain import Terrain, slope_deg
+from ..noise import fractal_noise, lattice_uniform
 
 AREAS = 3  # open, mid, dense
 _PATCHINESS = 0.6  # how much richer and poorer than the mean the patches of a species are
 _MOST_TAKEN = 0.5  # of a place by the feet of other species
 _SHORE_M = 1.5
-_SLOPE_STEP_M = 1.0
 _M2_PER_HA = 1e4
 
 
@@ -98,13 +97,6 @@ def place_plants(plants: Mapping[str, dict], site: Site, seed: int) -> dict[str,
         free = _is_free(points_m, kind.data, site)
         plantings[kind.name] = _planting(kind, cells[free], points_m[free], site.terrain, seed)
     return {name: plantings[name] for name in sorted(plants)}
-
-
-def slope_deg(terrain: Terrain, x_m, y_m, step: float = _SLOPE_STEP_M) -> np.ndarray:
-    """How steep the ground is at a place, between `step` metres before and behind it."""
-    dx = terrain.height_m(x_m + step, y_m) - terrain.height_m(x_m - step, y_m)
-    dy = terrain.height_m(x_m, y_m + step) - terrain.height_m(x_m, y_m - step)
-    return np.degrees(np.arctan(np.sqrt(dx * dx + dy * dy) / (2.0 * step)))
 
 
 def _spaced(kind: _Species, standing: Sequence[tuple[_Species, np.ndarray]], site: Site, seed: int):

@@ -6,10 +6,10 @@ import numpy as np
 
 from .. import models
 
-from . import still_shapes, tree_shapes
 from ..faults import ConfigError, did_you_mean, listing
-from ..noise import stream
 from ..geometry.shapes import Mesh
+from ..noise import stream
+from . import still_shapes, tree_shapes
 
 FORMS = {
     "umbrella": tree_shapes.umbrella,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .branch_shapes import directions, limb, loft_triangles
 from ..geometry.shapes import Mesh, facets, joined
+from .branch_shapes import directions, limb, loft_triangles
 
 
 def mound(data: dict, rng: np.random.Generator) -> Mesh:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..geometry.shapes import Mesh, facets, joined
 from .branch_shapes import GOLDEN_ANGLE_RAD, curve, directions, limb, loft_triangles, twigs
 from .leaf_shapes import blades, clumped_sprays
-from ..geometry.shapes import Mesh, facets, joined
 
 _ROOT_M = -0.3  # trunks reach so far into the ground, which may slope
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..geometry.rotations import left_of
 from ..geometry.shapes import Mesh, facets
 
 _DISC_CORNERS = 24
@@ -18,7 +19,7 @@ def band(points_m: np.ndarray, width_m: float) -> Mesh:
     after = np.concatenate([along, along[:1] if closed else along[-1:]])
     direction = before + after
     direction /= np.maximum(np.linalg.norm(direction, axis=1, keepdims=True), 1e-12)
-    side = 0.5 * width_m * np.stack([-direction[:, 1], direction[:, 0]], axis=1)
+    side = 0.5 * width_m * left_of(direction)
     count = len(points_m)
     k = np.arange(count - 1)
     right, left = k, k + count

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import assets
+from ..geometry.shapes import Mesh, joined
+from ..world import World
 from .colours import mixed, surface_colour
 from .flat_shapes import box, polygon
 from .labels import Label
-from ..geometry.shapes import Mesh, joined
-from ..world import World
 
 AREA_TINTS = {"open": "#ffe9a0", "dense": "#0b4a20"}  # mid areas are left as they are
 AREA_OPACITY = 0.22

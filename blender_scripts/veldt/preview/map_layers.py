@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.shapes import Mesh, joined
 from ..groups.actors import Actor, track
-from .colours import signal_colours
+from ..groups.routes import plan_loops
 from ..plants.density import plan_density
+from ..world import World
+from .colours import signal_colours
 from .flat_shapes import band, box, disc, filled
 from .labels import Anchor, Label, place_labels
 from .legend import AREA_OPACITY, AREA_TINTS, LEGEND_WIDTH, MARGIN, FlatLayer, plan_legend
-from ..groups.routes import plan_loops
-from ..geometry.shapes import Mesh, joined
-from ..world import World
 
 INK, PAPER, PATH_PAPER, UNUSED = "#101010", "#ffffff", "#fff3c4", "#5a5a5a"
 _TINT_CELLS = 800
@@ -41,7 +41,7 @@ def plan_map(world: World, time_s: float) -> MapSheet:
     side = world.terrain.size_m
     groups = _groups(world.actors)
     colours = signal_colours([actor.species for actor in world.actors])
-    places = {name: _places(world, members, time_s) for name, members in groups.items()}
+    places = {name: _places(members, time_s) for name, members in groups.items()}
     courses = _courses(world, groups)
     dots = [_dots(places[name], colours[members[0].species], side) for name, members in groups.items()]
     labels, paper = _words(places, courses, side)
@@ -69,10 +69,10 @@ def _groups(actors: list[Actor]) -> dict[str, list[Actor]]:
     return groups
 
 
-def _places(world: World, members: list[Actor], time_s: float) -> np.ndarray:
+def _places(members: list[Actor], time_s: float) -> np.ndarray:
     """Where the members of a group are (n, 2)."""
     now = np.array([time_s])
-    return np.array([track(actor, world.terrain, now).position_m[0, :2] for actor in members])
+    return np.array([track(actor, now).position_m[0, :2] for actor in members])
 
 
 def _courses(world: World, groups: dict[str, list[Actor]]) -> dict[str, tuple[np.ndarray, str | None]]:

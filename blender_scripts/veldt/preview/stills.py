@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import assets
-from ..groups.actors import Actor, track
 from ..camera import Intrinsics, look
+from ..groups.actors import Actor, track
 from ..world import World
 
 INTRINSICS = Intrinsics(960, 540, 480 / np.tan(np.radians(25.0)))  # 50 deg wide
@@ -56,20 +56,20 @@ def _busiest(world: World, time_s: float) -> np.ndarray:
     """The place (x, y) of the actor with most others near it."""
     if not world.actors:
         return np.zeros(2)
-    places_m = np.array([_place(world, actor, time_s)[0][:2] for actor in world.actors])
+    places_m = np.array([_place(actor, time_s)[0][:2] for actor in world.actors])
     apart_m = np.linalg.norm(places_m[:, None] - places_m, axis=-1)
     return places_m[(apart_m < 0.5 * _OVERVIEW_M).sum(axis=1).argmax()]
 
 
-def _place(world: World, actor: Actor, time_s: float) -> tuple[np.ndarray, np.ndarray]:
+def _place(actor: Actor, time_s: float) -> tuple[np.ndarray, np.ndarray]:
     """Position (3,) and heading (2,)."""
-    walk = track(actor, world.terrain, np.array([time_s]))
+    walk = track(actor, np.array([time_s]))
     return walk.position_m[0], walk.heading[0]
 
 
 def _close(world: World, actor: Actor, time_s: float) -> np.ndarray:
     """At eye height beside an actor, where least is in the way."""
-    foot_m, heading = _place(world, actor, time_s)
+    foot_m, heading = _place(actor, time_s)
     size_m = np.diff(actor.bounds_m, axis=0)[0]
     target_m = foot_m + [0.0, 0.0, actor.bounds_m[:, 2].mean()]
     target_m[2] = max(
@@ -79,7 +79,7 @@ def _close(world: World, actor: Actor, time_s: float) -> np.ndarray:
     distance_m = np.clip(fits_m, _NEAREST_M, _FARTHEST_M)
     eyes = [_eye(world, target_m, heading, azimuth, distance_m) for azimuth in _AZIMUTHS_DEG]
     others = [other for other in world.actors if other is not actor]
-    others_m = np.array([_place(world, other, time_s)[0][:2] for other in others]).reshape(-1, 2)
+    others_m = np.array([_place(other, time_s)[0][:2] for other in others]).reshape(-1, 2)
     return _pose(min(eyes, key=lambda eye: _hindrances(world, eye, target_m, others_m)), target_m)
 
 
