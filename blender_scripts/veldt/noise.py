@@ -7,6 +7,7 @@ machine, so a scene is the same everywhere, bit for bit.
 from __future__ import annotations
 
 import zlib
+from collections.abc import Callable
 
 import numpy as np
 
@@ -40,10 +41,11 @@ def gradient_noise(seed: int, name: str, x: np.ndarray, y: np.ndarray) -> np.nda
 
     Gradients fill the square [-1, 1]^2 instead of the unit circle, which spares the cosines.
     """
-    x, y = np.asarray(x, float), np.asarray(y, float)
+    x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
     ix, iy = np.floor(x), np.floor(y)
     u, v = x - ix, y - iy
-    corners = [[_slope(seed, name, ix + i, iy + j, u - i, v - j) for i in (0, 1)] for j in (0, 1)]
+    gradients = _gradients(seed, name, ix, iy)
+    corners = [[_slope(gradients(i, j), u - i, v - j) for i in (0, 1)] for j in (0, 1)]
     a, b = _fade(u), _fade(v)
     low = corners[0][0] + a * (corners[0][1] - corners[0][0])
     high = corners[1][0] + a * (corners[1][1] - corners[1][0])
@@ -77,11 +79,32 @@ def _mix(bits: np.ndarray) -> np.ndarray:
     return bits ^ (bits >> np.uint64(31))
 
 
-def _slope(seed: int, name: str, ix, iy, dx, dy) -> np.ndarray:
-    """The plane through a lattice point's zero with the gradient drawn there."""
+def _gradients(seed: int, name: str, ix: np.ndarray, iy: np.ndarray) -> Callable:
+    """A function of (i, j): the gradients drawn at lattice points (ix + i, iy + j), i and j 0 or 1.
+
+    Where many places share lattice points, each point is drawn once and looked up: that gives the same bits sooner.
+    """
+    if ix.size == 0:
+        return lambda i, j: _gradient(seed, name, ix, iy)
+    x0, y0 = ix.min(), iy.min()
+    wide, high = int(ix.max() - x0) + 2, int(iy.max() - y0) + 2
+    if wide * high > ix.size:
+        return lambda i, j: _gradient(seed, name, ix + i, iy + j)
+    table = _gradient(seed, name, x0 + np.arange(wide), y0 + np.arange(high)[:, None])
+    place = (iy - y0).astype(np.int64) * wide + (ix - x0).astype(np.int64)
+    return lambda i, j: tuple(part.ravel()[place + (j * wide + i)] for part in table)
+
+
+def _gradient(seed: int, name: str, ix, iy) -> tuple[np.ndarray, np.ndarray]:
     bits = lattice_hash(seed, name, ix, iy)
     gx = (bits >> np.uint64(32)) * 2.0**-31 - 1.0
     gy = (bits & np.uint64(0xFFFFFFFF)) * 2.0**-31 - 1.0
+    return gx, gy
+
+
+def _slope(gradient: tuple[np.ndarray, np.ndarray], dx, dy) -> np.ndarray:
+    """The plane through a lattice point's zero with the gradient drawn there."""
+    gx, gy = gradient
     return gx * dx + gy * dy
 
 
