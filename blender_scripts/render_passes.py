@@ -23,6 +23,7 @@ from veldt.config import load
 from veldt.events import Events
 from veldt.faults import ConfigError
 from veldt.manifest import build_manifest, frame_file, to_json
+from veldt.plan import with_flights_cut
 from veldt.world import clip_of, plan_world
 from veldt_bl.preview import plan_pictures, render_pictures
 from veldt_bl.render import first_missing, render_frames, set_up_renderer
@@ -62,9 +63,10 @@ def _parse(arguments: list[str]) -> argparse.Namespace:
 
 def _render(options: argparse.Namespace, events: Events) -> None:
     started_s = time.monotonic()
-    config = load(options.config)
+    world = with_flights_cut(plan_world(load(options.config)))
+    config = world.config
     clips = [clip_of(config, name) for name in options.clip] if options.clip else config["clips"]
-    stage = build_stage(plan_world(config))
+    stage = build_stage(world)
     events.tell("scene_built", seconds=round(time.monotonic() - started_s, 3))
     if options.preview:
         _render_preview(stage, options.out, events)

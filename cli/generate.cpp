@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "cli/command.h"
+#include "cli/plan_table.h"
 #include "cli/progress_bar.h"
 #include "cli/run_summary.h"
 #include "cli/stop_signal.h"
@@ -44,16 +45,6 @@ thermal::Shard parse_shard(const std::string& text) {
   throw thermal::ConfigError(thermal::fault("--shard", text, "", "I/N with I from 0 to N - 1"));
 }
 
-void print_plan(const std::vector<thermal::ClipPlan>& plan, const std::vector<thermal::ClipConfig>& chosen) {
-  fmt::print("{:<32} {:>8} {:>12} {:>16}\n", "clip", "frames", "with actors", "height [m AGL]");
-  for (const thermal::ClipPlan& clip : plan) {
-    const auto is_it = [&clip](const thermal::ClipConfig& one) { return one.id == clip.id; };
-    if (std::none_of(chosen.begin(), chosen.end(), is_it)) continue;
-    fmt::print("{:<32} {:>8} {:>12} {:>8.1f} {:>7.1f}\n", clip.id, clip.frames, clip.frames_with_actors,
-               clip.min_agl_m, clip.max_agl_m);
-  }
-}
-
 int make_preview(const thermal::Config& config, const thermal::GenerateOptions& request,
                  const CommonOptions& common) {
   int pictures = 0;
@@ -69,7 +60,7 @@ int make_preview(const thermal::Config& config, const thermal::GenerateOptions& 
 
 int run(const Options& options, const CommonOptions& common, Run work) {
   const thermal::Path home = thermal::find_home();
-  const thermal::Config config = load_config(options.config, options.settings, home);
+  const thermal::Config given = load_config(options.config, options.settings, home);
   const thermal::GenerateOptions request = {.home = home,
                                             .out = options.out,
                                             .blender = options.dry_run ? "" : find_blender(options.blender),
@@ -77,10 +68,13 @@ int run(const Options& options, const CommonOptions& common, Run work) {
                                             .shard = parse_shard(options.shard),
                                             .threads = common.threads,
                                             .keep_passes = options.keep_passes};
+  if (given.resolved["flights"].empty())  // then --clips can be told to be wrong at once
+    (void)thermal::choose_clips(given, request.clips, request.shard);
+  const thermal::DatasetPlan plan = thermal::plan_dataset(given.resolved, options.config, home);
+  const thermal::Config config = thermal::with_flights_cut(given, plan.cut_clips);
   const std::vector<thermal::ClipConfig> chosen = thermal::choose_clips(config, request.clips, request.shard);
-  const std::vector<thermal::ClipPlan> plan = thermal::plan_dataset(config.resolved, options.config, home);
   if (options.dry_run) {
-    print_plan(plan, chosen);
+    print_plan(config, plan, chosen);
     return kDone;
   }
   watch_for_stop();

@@ -42,7 +42,7 @@ int validate_dataset(const Options& options) {
 int validate_config(const Options& options) {
   const thermal::Path home = thermal::find_home();
   const thermal::Config config = load_config(options.what, options.settings, home);
-  const auto plan = thermal::plan_dataset(config.resolved, options.what, home);
+  const auto plan = thermal::plan_dataset(config.resolved, options.what, home).clips;
   int frames = 0;
   int with_actors = 0;
   for (const thermal::ClipPlan& clip : plan) {

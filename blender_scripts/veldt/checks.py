@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from . import assets
-from .faults import ConfigError, check_known, did_you_mean
-from .flight import Flight
+from .faults import ConfigError, check_known
+from .flight.flight_checks import check_entry
 from .geometry.splines import Loop, self_crossing
 from .groups.behaviours import member_names
 from .groups.routes import ROAD
@@ -22,14 +22,16 @@ _LOOP_STEP_M = 1.0
 
 def check_names(config: dict) -> None:
     """Everything named exists, and names that must differ do."""
-    groups, clips = config["scene"]["groups"], config["clips"]
+    groups = config["scene"]["groups"]
     _check_unique([group["name"] for group in groups], "scene.groups[{}].name", "a name no other group has")
-    _check_unique([clip["id"] for clip in clips], "clips[{}].id", "an id no other clip has")
+    _check_unique([clip["id"] for clip in config["clips"]], "clips[{}].id", "an id no other clip has")
+    _check_unique(
+        [flight["id"] for flight in config["flights"]], "flights[{}].id", "an id no other flight has"
+    )
     targets = _targets(groups)
-    for k, clip in enumerate(clips):
-        if "flight" not in clip:
-            raise ConfigError(f"clips[{k}].flight is missing; expected how to fly: zigzag or follow")
-        _check_plan(f"clips[{k}].flight", clip["flight"], targets)
+    for kind in ("clips", "flights"):
+        for k, entry in enumerate(config[kind]):
+            check_entry(f"{kind}[{k}]", entry, targets)
 
 
 def check_size(scene: dict) -> None:
@@ -97,16 +99,6 @@ def check_loops(scene: dict, loops: Mapping[str, Loop]) -> None:
         _check_loop(f"scene.paths.{name}", loop, spread_m, 0.5 * scene["terrain"]["size_m"])
 
 
-def check_flight(where: str, flight: Flight) -> None:
-    """The camera stays above ground and water."""
-    lowest = int(np.argmin(flight.agl_m))
-    if flight.agl_m[lowest] <= 0:
-        raise ConfigError(
-            f"{where}.flight: the camera is {-flight.agl_m[lowest]:.1f} m under the terrain"
-            f" at time_s = {flight.time_s[lowest]:.1f}; expected it above ground all along"
-        )
-
-
 def _targets(groups: list[dict]) -> dict[str, None]:
     """Names a flight can follow: groups, and members of groups, all different."""
     members = dict.fromkeys(name for group in groups for name in member_names(group))
@@ -124,32 +116,6 @@ def _check_unique(names: list[str], where: str, rule: str) -> None:
         if name in seen:
             raise ConfigError(f'{where.format(k)} = "{name}"; expected {rule}')
         seen.add(name)
-
-
-def _check_plan(where: str, plan: dict, targets: dict[str, None]) -> None:
-    if plan["altitude_reference"] == "ground" and plan["altitude_m"] <= 0:
-        raise ConfigError(
-            f'{where}.altitude_m = {plan["altitude_m"]:g} m; expected more than 0 m above ground'
-        )
-    if plan["pattern"] == "zigzag":
-        _check_area(where, plan)
-    elif "target" not in plan:
-        raise ConfigError(
-            f'{where}.target is missing; expected an actor or a group, since pattern is "follow"'
-        )
-    elif plan["target"] not in targets:
-        near = did_you_mean(plan["target"], targets)
-        raise ConfigError(f'{where}.target = "{plan["target"]}"; expected an actor or a group{near}')
-
-
-def _check_area(where: str, plan: dict) -> None:
-    if "area_m" not in plan:
-        raise ConfigError(
-            f'{where}.area_m is missing; expected [x_min, y_min, x_max, y_max], since pattern is "zigzag"'
-        )
-    x0, y0, x1, y1 = plan["area_m"]
-    if not (x0 < x1 and y0 < y1):
-        raise ConfigError(f'{where}.area_m = {plan["area_m"]} m; expected x_min < x_max and y_min < y_max')
 
 
 def _check_loop(where: str, loop: Loop, spread_m: float, half_m: float) -> None:

@@ -31,8 +31,9 @@ def load(path: Path) -> dict:
 
 def _with_whole_paths(config: dict, folder: Path) -> dict:
     """The config, with files that it names relative to its own folder named in full."""
-    for name in MAPS:
-        given = config["scene"]["terrain"].get(name)
+    terrain = config["scene"]["terrain"]
+    plans = [entry["flight"] for entry in (*config["clips"], *config["flights"]) if "flight" in entry]
+    for given in (*(terrain.get(name) for name in MAPS), *(plan.get("waypoints") for plan in plans)):
         if given is not None:
             given["file"] = str(folder / given["file"])
     return config
@@ -48,7 +49,8 @@ def resolve(config: dict) -> dict:
         preset = json.loads((SENSORS / f"{name}.json").read_text(encoding="utf-8"))
     except OSError as error:
         raise ConfigError(f'sensor.preset = "{name}"; expected a file of {SENSORS}') from error
-    return with_defaults(schema, merged({key: preset.get(key, {}) for key in ("camera", "sensor")}, config))
+    given = merged({key: preset.get(key, {}) for key in ("camera", "sensor")}, config)
+    return with_defaults(schema, given, schema["$defs"])
 
 
 def merged(below: dict, above: dict) -> dict:
@@ -65,20 +67,31 @@ def _are_dicts(*values) -> bool:
     return all(isinstance(value, dict) for value in values)
 
 
-def with_defaults(schema: dict, value):
-    """A copy of `value` in which each missing key that has a default in `schema` is present, at every depth."""
+def with_defaults(schema: dict, value, definitions: dict):
+    """A copy of `value` in which each missing key that has a default in `schema` is present, at every depth.
+
+    definitions: what schemas refer to as "#/$defs/NAME".
+    """
+    if "$ref" in schema:
+        schema = definitions[schema["$ref"].rsplit("/", 1)[-1]]
     if isinstance(value, list):
-        return [with_defaults(schema.get("items", {}), item) for item in value]
+        return [with_defaults(schema.get("items", {}), item, definitions) for item in value]
     if not isinstance(value, dict):
         return value
     properties = schema.get("properties", {})
     others = schema.get("additionalProperties")
     others = others if isinstance(others, dict) else {}
-    missing = {
-        key: copy.deepcopy(rule["default"])
-        for key, rule in properties.items()
-        if "default" in rule and key not in value
-    }
-    return {
-        key: with_defaults(properties.get(key, others), item) for key, item in {**value, **missing}.items()
-    }
+    whole = {**_defaults(properties), **_preset_values(properties, value), **value}
+    return {key: with_defaults(properties.get(key, others), item, definitions) for key, item in whole.items()}
+
+
+def _defaults(properties: dict) -> dict:
+    return {key: copy.deepcopy(rule["default"]) for key, rule in properties.items() if "default" in rule}
+
+
+def _preset_values(properties: dict, value: dict) -> dict:
+    """What keys of `value` stand for that are presets of several others."""
+    presets = (
+        rule["presets"].get(value.get(key), {}) for key, rule in properties.items() if "presets" in rule
+    )
+    return {key: chosen for preset in presets for key, chosen in preset.items()}

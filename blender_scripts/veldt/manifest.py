@@ -10,7 +10,7 @@ import json
 import numpy as np
 
 from . import assets, ids
-from .flight import Flight
+from .flight.poses import Flight
 from .groups.actors import Track, track
 from .land.covers import SOIL
 from .world import WATER, World

@@ -1,51 +1,125 @@
-"""What a config will show, told without rendering it."""
+"""What a config will show, told without rendering it; and its long flights cut into clips."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
 import numpy as np
 
-from .camera import project
-from .flight import Flight
+from .camera import Intrinsics, project
+from .cuts import clips_of, cut
+from .faults import ConfigError
+from .flight.poses import Flight
 from .geometry.rotations import left_of
-from .groups.actors import Actor, track
+from .groups.actors import Actor, Track, track
 from .world import World
 
 
+@dataclass(frozen=True)
+class Outlook:
+    """A clip, and frame by frame whether the box of an actor reaches into its picture, and its height."""
+
+    clip: dict
+    seen: np.ndarray
+    agl_m: np.ndarray
+
+
 def plan_dataset(world: World) -> dict:
-    """Frames and heights of each clip, and how many actors and plants the scene holds."""
+    """Frames and heights of each clip, the clips that flights are cut into, how many actors and plants there are."""
+    outlooks = list(_outlooks(world))
+    _check_ids([outlook.clip["id"] for outlook in outlooks])
     return {
-        "clips": [_plan_clip(world, clip) for clip in world.config["clips"]],
+        "clips": [_described(outlook) for outlook in outlooks],
+        "cut_clips": [outlook.clip for outlook in outlooks[len(world.config["clips"]) :]],
         "objects": len(world.actors),
         "plants": sum(len(planting.scale) for planting in world.plantings.values()),
     }
 
 
-def _plan_clip(world: World, clip: dict) -> dict:
-    flight = world.flight(clip)
-    seen = np.zeros(len(flight.time_s), bool)
-    for actor in world.actors:
-        seen |= is_in_frame(world, flight, actor)
+def with_flights_cut(world: World) -> World:
+    """The same world, whose config has clips instead of flights."""
+    if not world.config["flights"]:
+        return world
+    clips = [outlook.clip for outlook in _outlooks(world)]
+    return replace(world, config={**world.config, "clips": clips, "flights": []})
+
+
+def _outlooks(world: World) -> Iterator[Outlook]:
+    for clip in world.config["clips"]:
+        flight = world.flight(clip)
+        yield Outlook(clip, _sightings(world, flight), flight.agl_m)
+    for k, entry in enumerate(world.config["flights"]):
+        flight = world.flight(entry)
+        seen = _sightings(world, flight)
+        stretches = cut(entry, seen, world.config["seed"])
+        if not stretches:
+            raise ConfigError(
+                f'flights[{k}].keep = "{entry["keep"]}": no actor comes into the picture; expected one,'
+                ' or "all"'
+            )
+        for clip, (first, frames) in zip(clips_of(entry, stretches), stretches):
+            part = slice(first, first + frames)
+            yield Outlook(clip, seen[part], flight.agl_m[part])
+
+
+def _check_ids(ids: list[str]) -> None:
+    """Own clips, which come first, are named unlike those cut from flights."""
+    last = {name: k for k, name in enumerate(ids)}
+    for k, name in enumerate(ids):
+        if last[name] != k:
+            raise ConfigError(f'clips[{k}].id = "{name}"; expected an id that no clip of a flight has')
+
+
+def _described(outlook: Outlook) -> dict:
+    clip = outlook.clip
     return {
         "id": clip["id"],
+        "flight": clip.get("of_flight", ""),
         "frames": clip["frames"],
         "duration_s": round(clip["frames"] / clip["frame_rate_hz"], 3),
-        "frames_with_actors": int(seen.sum()),
-        "min_agl_m": round(float(flight.agl_m.min()), 3),
-        "max_agl_m": round(float(flight.agl_m.max()), 3),
+        "frames_with_actors": int(outlook.seen.sum()),
+        "min_agl_m": round(float(outlook.agl_m.min()), 3),
+        "max_agl_m": round(float(outlook.agl_m.max()), 3),
     }
 
 
-def is_in_frame(world: World, flight: Flight, actor: Actor) -> np.ndarray:
-    """In which frames (n,) the actor's box overlaps the picture; what may hide it is not considered."""
-    corners_px, depth_m = project(world.intrinsics, flight.camera_to_world, box_corners_m(flight, actor))
-    low, high = corners_px.min(axis=1), corners_px.max(axis=1)
-    size_px = np.array([world.intrinsics.width_px, world.intrinsics.height_px])
-    return ((low < size_px) & (high > 0)).all(axis=1) & (depth_m > 0).all(axis=1)
+def _sightings(world: World, flight: Flight) -> np.ndarray:
+    """In which frames (n,) the box of an actor overlaps the picture; what may hide it is not considered."""
+    seen = np.zeros(len(flight.time_s), bool)
+    for actor in world.actors:
+        seen |= is_in_frame(world.intrinsics, flight, actor)
+    return seen
 
 
-def box_corners_m(flight: Flight, actor: Actor) -> np.ndarray:
-    """World positions (n, 8, 3) of the corners of the actor's box in every frame."""
+def is_in_frame(intrinsics: Intrinsics, flight: Flight, actor: Actor) -> np.ndarray:
+    """In which frames (n,) the actor's box overlaps the picture."""
     walk = track(actor, flight.time_s)
+    inside = _may_be_in_frame(intrinsics, flight, actor, walk)
+    near = np.flatnonzero(inside)
+    corners_m = box_corners_m(actor, Track(walk.position_m[near], walk.heading[near]))
+    corners_px, depth_m = project(intrinsics, flight.camera_to_world[near], corners_m)
+    low, high = corners_px.min(axis=1), corners_px.max(axis=1)
+    size_px = np.array([intrinsics.width_px, intrinsics.height_px])
+    inside[near] = ((low < size_px) & (high > 0)).all(axis=1) & (depth_m > 0).all(axis=1)
+    return inside
+
+
+def _may_be_in_frame(intrinsics: Intrinsics, flight: Flight, actor: Actor, walk: Track) -> np.ndarray:
+    """In which frames (n,) a ball about the actor's foot that holds its box is not wholly past an edge of the picture.
+
+    Cheap, and never false where the box is in the picture.
+    """
+    radius_m = np.linalg.norm(np.abs(actor.bounds_m).max(axis=0))
+    pose = flight.camera_to_world
+    local = ((walk.position_m - pose[:, :3, 3])[:, None, :] @ pose[:, :3, :3])[:, 0]
+    tangents = np.array(intrinsics.centre_px) / intrinsics.f_px
+    outside_m = (np.abs(local[:, :2]) - tangents * local[:, 2:]) / np.sqrt(1.0 + tangents * tangents)
+    return (outside_m < radius_m).all(axis=1) & (local[:, 2] > -radius_m)
+
+
+def box_corners_m(actor: Actor, walk: Track) -> np.ndarray:
+    """World positions (n, 8, 3) of the corners of the actor's box along a track."""
     low, high = actor.bounds_m
     pick = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
     corners = np.where(pick == 0, low, high)

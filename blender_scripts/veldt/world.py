@@ -8,7 +8,8 @@ from . import assets, checks, ids
 from .anatomy.skeleton import part_names
 from .camera import Intrinsics, intrinsics_of, overscan_of, widened
 from .faults import check_known
-from .flight import Flight, fly
+from .flight.pilots import Pilot
+from .flight.poses import Flight
 from .groups.actors import Actor
 from .groups.cast import plan_cast
 from .groups.group_checks import check_groups
@@ -37,18 +38,16 @@ class World:
     plant_indices: dict[str, int]
     actors: list[Actor]
     material_indices: dict[tuple[str, str], int]
+    pilot: Pilot
 
     @property
     def passes_intrinsics(self) -> Intrinsics:
         """The pinhole camera whose picture the passes are, as fine as the camera's."""
         return widened(self.intrinsics, self.overscan_px)
 
-    def flight(self, clip: dict) -> Flight:
-        """The flight of one of the config's clips."""
-        target = clip["flight"].get("target")
-        return fly(
-            clip, self.terrain, [actor for actor in self.actors if target in (actor.name, actor.group)]
-        )
+    def flight(self, entry: dict) -> Flight:
+        """The frames of one of the config's clips or flights; ConfigError if it cannot be flown."""
+        return self.pilot.flight(entry)
 
 
 def plan_world(config: dict) -> World:
@@ -67,9 +66,10 @@ def plan_world(config: dict) -> World:
     cast = plan_cast(scene["groups"], Land(terrain, loops), seed)
     areas = plan_density(terrain, scene["terrain"], seed)
     covers = plan_covers(terrain, scene["terrain"], seed)
-    world = World(
+    intrinsics = intrinsics_of(config["camera"])
+    return World(
         config=config,
-        intrinsics=intrinsics_of(config["camera"]),
+        intrinsics=intrinsics,
         overscan_px=overscan_of(config),
         terrain=terrain,
         covers=covers,
@@ -79,10 +79,8 @@ def plan_world(config: dict) -> World:
         plant_indices=ids.plan_plant_indices(sorted(scene["plants"])),
         actors=cast.actors,
         material_indices=ids.plan_material_indices(_materials(terrain, covers, scene["plants"], cast.actors)),
+        pilot=Pilot(config, terrain, cast.actors, intrinsics),
     )
-    for k, clip in enumerate(config["clips"]):
-        checks.check_flight(f"clips[{k}]", world.flight(clip))
-    return world
 
 
 def clip_of(config: dict, clip_id: str) -> dict:

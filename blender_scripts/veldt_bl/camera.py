@@ -7,7 +7,7 @@ import mathutils
 import numpy as np
 
 from veldt.camera import Intrinsics
-from veldt.flight import Flight
+from veldt.flight.poses import Flight
 
 _SENSOR_MM = 36.0  # any value will do: only its ratio to the focal length counts
 _CLIP_M = (0.1, 20000.0)

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from veldt import assets
-from veldt.flight import Flight
+from veldt.flight.poses import Flight
 from veldt.plants.placement import Planting
 from veldt.plants.plant_shapes import build_variants, plant_parts
 from veldt.plants.views import circles_seen

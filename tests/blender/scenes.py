@@ -16,7 +16,6 @@ def tiny(change=None) -> dict:
         "pattern": "zigzag",
         "area_m": [-30, -30, 30, 30],
         "altitude_m": 40,
-        "lane_spacing_m": 60,
     }
     if change is not None:
         change(config)

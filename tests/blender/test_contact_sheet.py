@@ -38,7 +38,7 @@ def test_pixels_on_the_ground_are_8_cm_or_finer_from_61_m(sheet):
         if clip["id"].startswith("top_"):
             flight = sheet.flight(clip)
             assert flight.agl_m == pytest.approx([61.0], abs=0.1)  # it holds its height over smoothed ground
-            assert flight.look_angle_deg == pytest.approx([90.0])
+            assert flight.look_angle_deg == pytest.approx([90.0], abs=0.05)  # but for the gimbal's lag
     assert 61.0 / sheet.intrinsics.f_px < 0.08
 
 

@@ -160,19 +160,6 @@ def _names(kind):
     return ", ".join(sorted(path.stem for path in (ROOT / "assets" / kind).glob("*.json")))
 
 
-def test_a_datum_flight_under_the_terrain_is_found():
-    def change(config):
-        flat = {"relief_m": 0, "water_radius_m": 0}
-        config["scene"]["terrain"].update(flat)
-        config["clips"][0]["flight"].update(altitude_reference="datum", altitude_m=-4.2)
-
-    with pytest.raises(ConfigError) as fault:
-        plan_world(tiny(change))
-    assert str(fault.value) == (
-        "clips[0].flight: the camera is 4.2 m under the terrain at time_s = 0.0; expected it above ground all along"
-    )
-
-
 def _run(tmp_path: Path, config: dict, *options: str) -> subprocess.CompletedProcess:
     path = tmp_path / "config.json"
     path.write_text(json.dumps(config))

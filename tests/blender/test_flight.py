@@ -1,74 +1,88 @@
-"""Flights: lanes, turns, heights and aim."""
+"""Flights as they are flown: heights, aim, what wind and a gimbal's lag do to them."""
 
 import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.groups.actors import track
 from veldt.camera import project
-from veldt.flight import zigzag
+from veldt.config import ROOT, load, resolve
+from veldt.geometry.rotations import by_vector
+from veldt.groups.actors import track
 from veldt.world import plan_world
 
-PLAN = {"area_m": [-60, -40, 60, 40], "heading_deg": 0, "lane_spacing_m": 20, "speed_m_s": 10}
-LANE_S, TURN_S = 12.0, np.pi * 10 / 10  # 120 m lanes; half circles of 10 m radius
+RATE_HZ = 8.0
 
 
-def _fly(**changes):
+def _fly(frames=480, start_s=0.0, terrain=None, **changes):
+    """A tiny world and its only clip's flight; changes are those of a flight plan."""
+
     def change(config):
-        flight = config["clips"][0]["flight"] | changes
-        config["clips"] = [config["clips"][0] | {"frames": 120, "frame_rate_hz": 4, "flight": flight}]
+        flight = config["clips"][0]["flight"] | {"gimbal": {"lag_s": 0}} | changes
+        clip = {"frames": frames, "start_s": start_s, "frame_rate_hz": RATE_HZ, "flight": flight}
+        config["clips"] = [config["clips"][0] | clip]
+        config["scene"]["terrain"].update(terrain or {})
 
     world = plan_world(tiny(change))
     return world, world.flight(world.config["clips"][0])
 
 
-def test_lanes_fill_the_area_and_lead_back_and_forth():
-    starts = (LANE_S + TURN_S) * np.arange(8)
-    point, direction = zigzag(PLAN, starts)
-    assert point[:, 1] == pytest.approx([-30, -10, 10, 30, 10, -10, -30, -10])
-    assert point[:, 0] == pytest.approx([-60, 60] * 4)
-    assert direction[:, 0] == pytest.approx([1, -1] * 4)
+HILLS = {"relief_m": 30, "hill_wavelength_m": 60}
 
 
-def test_speed_is_constant_and_direction_is_that_of_flight():
-    time_s = np.arange(0, 150, 0.01)
-    point, direction = zigzag(PLAN, time_s)
-    step = np.diff(point, axis=0)
-    # On a turn a chord of 0.1 m is shorter than its arc by (0.1 / 10)^2 / 24 = 4e-6.
-    assert np.linalg.norm(step, axis=1) == pytest.approx(0.1, rel=1e-5)
-    assert (step * direction[:-1]).sum(axis=1) / 0.1 == pytest.approx(1, abs=1e-4)
+def _position(flight) -> np.ndarray:
+    return flight.camera_to_world[:, :3, 3]
 
 
-def test_turns_are_half_circles_outside_the_area():
-    point, _ = zigzag(PLAN, LANE_S + np.linspace(0, TURN_S, 30))
-    assert np.hypot(point[:, 0] - 60, point[:, 1] + 20) == pytest.approx(10)
-    assert point[:, 0].min() >= 60 - 1e-9
+def _middle(world, target, time_s) -> np.ndarray:
+    """The middle of the bodies (n, 3) of a target."""
+    members = [actor for actor in world.actors if target in (actor.name, actor.group)]
+    middle = np.mean([track(actor, time_s).position_m for actor in members], axis=0)
+    middle[:, 2] += np.mean([actor.bounds_m[:, 2].mean() for actor in members])
+    return middle
 
 
-@pytest.mark.parametrize(
-    "heading_deg, half", [(0, (60, 30)), (90, (50, 40)), (180, (60, 30)), (-90, (50, 40))]
-)
-def test_heading_turns_the_lanes_and_keeps_the_area(heading_deg, half):
-    point, _ = zigzag(PLAN | {"heading_deg": heading_deg}, np.arange(0, 400, 0.1))
-    lanes = np.abs(point).max(axis=0)
-    turn = 10  # turns stand out by their radius along the lanes
-    along = 1 if heading_deg % 180 else 0
-    expected = list(half)
-    expected[along] += turn
-    assert lanes == pytest.approx(expected, abs=0.2)
+def test_height_is_kept_above_ground():
+    world, flight = _fly(altitude_m=40, speed_m_s=3, climb_rate_m_s=4)
+    assert flight.agl_m == pytest.approx(
+        _position(flight)[:, 2] - world.terrain.surface_m(*_position(flight)[:, :2].T)
+    )
+    assert np.abs(flight.agl_m - 40).max() < 1.0
 
 
-def test_height_is_kept_above_the_smoothed_ground():
-    world, flight = _fly(altitude_m=40)
-    x, y, z = flight.camera_to_world[:, :3, 3].T
-    assert z - world.terrain.smooth_surface_m(x, y) == pytest.approx(40)
-    assert flight.agl_m == pytest.approx(z - world.terrain.surface_m(x, y))
-    assert np.ptp(flight.agl_m) > 0
+STEEP = {"altitude_m": 40, "speed_m_s": 12, "climb_rate_m_s": 1, "terrain": HILLS, "heading_deg": 30}
+
+
+@pytest.mark.parametrize("aircraft", ["multirotor", "fixed_wing"])
+def test_climbing_and_sinking_is_limited(aircraft):
+    _, flight = _fly(**STEEP, aircraft=aircraft)
+    climb_m_s = np.abs(np.diff(_position(flight)[:, 2]) * RATE_HZ)
+    assert 0.9 < climb_m_s.max() <= 1 + 1e-9
+
+
+def test_a_multirotor_slows_down_to_keep_its_height_and_a_wing_cannot():
+    _, rotors = _fly(**STEEP)
+    _, wing = _fly(**STEEP, aircraft="fixed_wing")
+    assert np.abs(rotors.agl_m - 40).max() < 3
+    assert np.abs(wing.agl_m - 40).max() > 3
+    speed_m_s = np.linalg.norm(np.diff(_position(wing)[:, :2], axis=0), axis=1) * RATE_HZ
+    assert speed_m_s == pytest.approx(12, rel=0.01)  # chords of turns are shorter than their arcs
+
+
+def test_over_the_savanna_height_is_held_within_three_metres():
+    """Over all its hills, gullies and crags, at 12 m/s on average ground and 5 m/s of climb."""
+    config = load(ROOT / "configs" / "savanna.json")
+    config["scene"] |= {"plants": {}, "groups": []}
+    flight = {"pattern": "zigzag", "area_m": [-600, -600, 600, 600], "heading_deg": 20, "overlap": 0.0}
+    clip = {"id": "all_over", "season": "winter", "frames": 16200, "frame_rate_hz": 9, "flight": flight}
+    world = plan_world(resolve(config | {"clips": [clip]}))
+    flown = world.flight(world.config["clips"][0])
+    assert np.abs(flown.agl_m - 61).max() < 3
+    assert np.abs(np.diff(_position(flown)[:, 2]) * 9).max() <= 5
 
 
 def test_height_above_the_datum_is_level():
     _, flight = _fly(altitude_m=55, altitude_reference="datum")
-    assert flight.camera_to_world[:, 2, 3] == pytest.approx(55)
+    assert _position(flight)[:, 2] == pytest.approx(55)
 
 
 def test_look_angle_is_kept():
@@ -77,34 +91,127 @@ def test_look_angle_is_kept():
     assert -flight.camera_to_world[:, 2, 2] == pytest.approx(np.sin(np.radians(35)))
 
 
+def test_a_locked_gimbal_looks_one_way():
+    _, flight = _fly(look_angle_deg=45, gimbal={"heading": "lock", "heading_deg": 30, "lag_s": 0})
+    bearing = np.degrees(np.arctan2(*flight.camera_to_world[:, 1::-1, 2].T))
+    assert bearing == pytest.approx(30)
+
+
 @pytest.mark.parametrize("target", ["herd", "herd_2", "people"])
-@pytest.mark.parametrize("look_angle_deg", [30, 90])
-def test_following_keeps_the_target_in_the_middle(target, look_angle_deg):
-    world, flight = _fly(pattern="follow", target=target, look_angle_deg=look_angle_deg, altitude_m=30)
-    members = [actor for actor in world.actors if target in (actor.name, actor.group)]
-    walks = [track(actor, flight.time_s) for actor in members]
-    middle = np.mean([w.position_m for w in walks], axis=0)
-    middle[:, 2] += np.mean([actor.bounds_m[:, 2].mean() for actor in members])
-    pixels, depth = project(world.intrinsics, flight.camera_to_world, middle[:, None])
-    # Smoothing over +-2 s cuts corners: at 1.4 m/s on a loop of 15 m radius or more by (2.8 m)^2 / (6 * 15 m) = 9 cm
-    # across, and the ground's roughness adds some cm: 0.3 m at 30 m and 130 px is 1.3 px.
-    assert np.abs(pixels[:, 0] - world.intrinsics.centre_px).max() < 1.3
-    assert depth.min() > 20
-
-
-def test_following_above_the_datum_keeps_the_look_angle():
-    _, flight = _fly(
-        pattern="follow", target="herd", look_angle_deg=50, altitude_m=35, altitude_reference="datum"
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"look_angle_deg": 45},
+        {"look_angle_deg": 20},
+        {"look_angle_deg": 90},
+        {"look_angle_deg": 45, "turbulence": "severe", "gimbal": {"lag_s": 0.15}},
+    ],
+)
+def test_following_keeps_the_target_in_the_central_half_for_a_minute_over_hills(target, changes):
+    world, flight = _fly(pattern="follow", target=target, altitude_m=30, terrain=HILLS, **changes)
+    pixels, depth = project(
+        world.intrinsics, flight.camera_to_world, _middle(world, target, flight.time_s)[:, None]
     )
-    assert flight.camera_to_world[:, 2, 3] == pytest.approx(35)
-    assert flight.look_angle_deg == pytest.approx(50)
+    size = np.array([world.intrinsics.width_px, world.intrinsics.height_px])
+    assert np.ptp(world.terrain.heights_m) > 20
+    assert (np.abs(pixels[:, 0] - size / 2) < size / 4).all()
+    assert depth.min() > 10
+
+
+def test_who_follows_keeps_to_its_speed():
+    """On a loop of 28 m radius the place 60 m in front of the leader sweeps round faster than it may fly."""
+    _, flight = _fly(
+        pattern="follow", target="people", look_angle_deg=20, altitude_m=30, azimuth_deg=0, speed_m_s=3
+    )
+    speed_m_s = np.linalg.norm(np.diff(_position(flight)[:, :2], axis=0), axis=1) * RATE_HZ
+    assert 2.9 < speed_m_s.max() <= 3 + 1e-9
 
 
 def test_following_from_an_azimuth():
     world, flight = _fly(pattern="follow", target="herd_1", look_angle_deg=45, altitude_m=30, azimuth_deg=180)
     heading = track(world.actors[2], flight.time_s).heading
-    bearing = (
-        flight.camera_to_world[:, :2, 2] / np.linalg.norm(flight.camera_to_world[:, :2, 2], axis=1)[:, None]
-    )
+    bearing = flight.camera_to_world[:, :2, 2]
+    bearing /= np.linalg.norm(bearing, axis=1)[:, None]
     # From behind, the camera looks where the target goes, but for the smoothing of a changing heading.
-    assert (heading * bearing).sum(axis=1).min() > np.cos(np.radians(10))
+    assert (heading * bearing).sum(axis=1).min() > np.cos(np.radians(12))
+
+
+@pytest.mark.parametrize("turn, sense", [("left", 1), ("right", -1)])
+def test_an_orbit_keeps_its_distance_and_its_middle_in_the_middle(turn, sense):
+    middle = np.array([10.0, -5.0])
+    world, flight = _fly(
+        pattern="orbit", centre_m=middle.tolist(), radius_m=40, turn=turn, speed_m_s=8, azimuth_deg=90
+    )
+    off = _position(flight)[:, :2] - middle
+    # Poses are linear between moments .02 s apart: (v dt)^2 / (8 r) = 0.08 mm short of the circle.
+    assert np.hypot(*off.T) == pytest.approx(40, abs=1e-4)
+    angle = np.unwrap(np.arctan2(off[:, 1], off[:, 0]))
+    assert angle == pytest.approx(np.pi / 2 + sense * 8 / 40 * flight.time_s, abs=1e-4)
+    ground = np.array([*middle, world.terrain.surface_m(*middle)])
+    pixels, _ = project(world.intrinsics, flight.camera_to_world, ground[None, None])
+    assert pixels[:, 0] == pytest.approx(np.tile(world.intrinsics.centre_px, (len(pixels), 1)), abs=0.01)
+
+
+def test_an_orbit_goes_round_who_moves():
+    world, flight = _fly(pattern="orbit", target="herd", radius_m=30, speed_m_s=6)
+    off = _position(flight)[:, :2] - _middle(world, "herd", flight.time_s)[:, :2]
+    assert np.hypot(*off.T) == pytest.approx(30, abs=1)
+
+
+WINDY = {"turbulence": "moderate", "gimbal": {"lag_s": 0.1}}
+
+
+def test_wind_moves_the_camera_and_its_horizon_a_little():
+    _, calm = _fly(look_angle_deg=45)
+    _, windy = _fly(look_angle_deg=45, **WINDY)
+    off_m = np.linalg.norm(_position(windy) - _position(calm), axis=1)
+    assert 0.05 < np.sqrt((off_m**2).mean()) < 3
+    roll_deg = np.degrees(np.arcsin(windy.camera_to_world[:, 2, 0]))
+    assert calm.camera_to_world[:, 2, 0] == pytest.approx(0)
+    assert 0.01 < roll_deg.std() < 2
+
+
+def test_poses_are_rotations_in_any_wind():
+    _, flight = _fly(look_angle_deg=45, turbulence="severe", gimbal={"lag_s": 0.5})
+    rotation = flight.camera_to_world[:, :3, :3]
+    assert rotation @ rotation.transpose(0, 2, 1) == pytest.approx(np.tile(np.eye(3), (480, 1, 1)))
+    assert np.linalg.det(rotation) == pytest.approx(1)
+
+
+@pytest.mark.parametrize(
+    "plan",
+    [
+        {"altitude_m": 40, "speed_m_s": 8},
+        {"pattern": "follow", "target": "herd", "look_angle_deg": 45},
+        {"pattern": "orbit", "target": "herd", "radius_m": 30},
+        {"pattern": "transect", "points_m": [[-40, 0], [40, 10]]},
+        {"pattern": "waypoints", "points_m": [[-40, 0], [40, 10], [0, 40], [-40, 0]], "speed_m_s": 2},
+    ],
+)
+def test_a_part_is_the_same_as_in_the_whole(plan):
+    """Bit for bit: clips can be cut anywhere, and made anywhere."""
+    changes = plan | WINDY | {"climb_rate_m_s": 1}
+    _, whole = _fly(frames=320, terrain=HILLS, **changes)
+    _, part = _fly(frames=24, start_s=100 / RATE_HZ, terrain=HILLS, **changes)
+    assert np.array_equal(part.time_s, whole.time_s[100:124])
+    assert np.array_equal(part.camera_to_world, whole.camera_to_world[100:124])
+
+
+def test_clips_of_one_flight_meet_its_wind_and_others_their_own():
+    def change(config):
+        plan = config["clips"][0]["flight"] | WINDY
+        clip = config["clips"][0] | {"frames": 8, "flight": plan}
+        config["clips"] = [clip | {"id": name, "of_flight": "one"} for name in ("a", "b")]
+        config["clips"].append(clip | {"id": "c"})
+
+    world = plan_world(tiny(change))
+    first, second, other = (world.flight(clip).camera_to_world for clip in world.config["clips"])
+    assert np.array_equal(first, second)
+    assert not np.array_equal(first, other)
+
+
+def test_rotations_by_vectors():
+    quarter = by_vector(np.array([[0, 0, np.pi / 2], [0, 0, 0], [1e-9, 0, 0]]))
+    assert quarter[0] @ [1, 0, 0] == pytest.approx([0, 1, 0])
+    assert np.array_equal(quarter[1], np.eye(3))
+    assert quarter[2] @ [0, 1, 0] == pytest.approx([0, 1, 1e-9], abs=1e-18)

@@ -61,8 +61,13 @@ def test_a_dry_run_needs_no_blender_and_writes_nothing(veldt):
     done = veldt("generate", "config.json", "--out", "out", "--dry-run", env={"PATH": ""})
     assert (done.code, done.err) == (0, "")
     table = [line.split() for line in done.out.splitlines()]
-    assert table[0] == ["clip", "frames", "with", "actors", "height", "[m", "AGL]"]
-    assert [row[:3] for row in table[1:]] == [["down", "8", "8"], ["side", "8", "8"]]
+    assert table[0] == ["clip", "or", "flight", "clips", "frames", "with", "actors", "height", "[m", "AGL]"]
+    assert [row[:4] for row in table[1:-1]] == [
+        ["down", "1", "8", "8"],
+        ["side", "1", "8", "8"],
+        ["all", "2", "16", "16"],
+    ]
+    assert re.fullmatch(r"about \d+ s on 2 cores, 0 MB of disk", done.out.splitlines()[-1])
     assert files_below(veldt.folder) == ["config.json"]
 
 
@@ -153,7 +158,7 @@ def test_a_folder_in_use(veldt, blender):
 
 
 def _other(config: dict) -> None:
-    config.update(seed=8, camera={"width_px": 96, "height_px": 64})
+    config.update(seed=8, camera={"width_px": 96, "height_px": 64, "pixel_pitch_um": 90})
     config["clips"][1].update(frames=4, start_s=1.5)
     config["scene"]["groups"].pop()
 
@@ -162,7 +167,7 @@ OTHER = [
     "seed is 8 here and 7 there",
     "scene.groups has 2 entries here and 3 there",
     "camera.height_px is 64 here and 80 there",
-    "camera.pixel_pitch_um is 17 here and 100 there",
+    "camera.pixel_pitch_um is 90 here and 100 there",
     "clips[1].frames is 4 here and 8 there",
     "clips[1].start_s is 1.5 here and 0 there",
 ]

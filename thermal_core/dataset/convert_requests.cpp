@@ -1,5 +1,6 @@
 #include "dataset/convert_requests.h"
 
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -23,19 +24,38 @@ Json default_document(const std::vector<ClipPasses>& sources) {
           {"clips", std::move(clips)}};
 }
 
+/// The clip a manifest tells of, where that is cut from one of the config's flights: FLIGHT_0012 is, of FLIGHT.
+std::optional<Json> clip_of_flight(const Config& config, const Manifest& manifest) {
+  const std::string flight_id = manifest.clip.substr(0, manifest.clip.rfind('_'));
+  for (const Json& flight : config.resolved["flights"]) {
+    if (flight["id"] != flight_id) continue;
+    return Json{{"id", manifest.clip},
+                {"of_flight", flight_id},
+                {"season", flight["season"]},
+                {"start_s", manifest.frames.front().time_s},
+                {"frames", manifest.frames.size()},
+                {"frame_rate_hz", manifest.frame_rate_hz},
+                {"flight", flight["flight"]}};
+  }
+  return std::nullopt;
+}
+
 /// Keeps of a config what is about these clips, so that the dataset is complete once they are made.
 Config only_clips_of(Config config, const std::vector<ClipPasses>& sources) {
-  std::vector<ClipConfig> clips;
   Json documents = Json::array();
   for (const auto& [manifest, folder] : sources) {
-    clips.push_back(config.clip(manifest.clip, folder.string() + ": clip"));
+    if (const auto cut = clip_of_flight(config, manifest)) {
+      documents.push_back(*cut);
+      continue;
+    }
+    (void)config.clip(manifest.clip, folder.string() + ": clip");
     for (const Json& document : config.resolved["clips"]) {
       if (document["id"] == manifest.clip) documents.push_back(document);
     }
   }
-  config.clips = std::move(clips);
-  config.resolved["clips"] = std::move(documents);
-  return config;
+  config.clips.clear();
+  config.resolved["clips"] = Json::array();
+  return with_flights_cut(std::move(config), documents);
 }
 
 /// A folder is a dataset or holds datasets: clips of one must not lie among the others.

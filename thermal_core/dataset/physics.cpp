@@ -35,6 +35,13 @@ std::vector<SceneOutline::Look> looks_from(double height_m, double look_angle_ra
   return looks;
 }
 
+/// The angle below the horizon at which a flight looks; an orbit looks at its middle.
+double look_angle_deg(const Json& flight) {
+  if (flight["pattern"] != "orbit") return flight["look_angle_deg"];
+  const double rise_m = std::abs(flight["altitude_m"].get<double>());
+  return std::atan2(rise_m, flight["radius_m"].get<double>()) * 180 / std::numbers::pi;
+}
+
 /// Collects looks by season.
 class Nights {
  public:
@@ -159,11 +166,13 @@ SceneOutline outline_of(const Config& config, const MaterialLibrary& materials, 
   const double pitch_m = 1e-6 * camera["pixel_pitch_um"].get<double>();
   const double half_pixel_m = 0.5 * pitch_m / camera["focal_length_m"].get<double>();
   Nights nights(config);
-  for (std::size_t i = 0; i < config.clips.size(); ++i) {
-    const Json flight = document["clips"][i].value("flight", Json::object());
-    if (flight.empty()) continue;
-    nights.add(config.clips[i].season, flight["altitude_m"], flight["look_angle_deg"],
-               half_pixel_m * config.width_px, half_pixel_m * config.height_px);
+  for (const char* flown : {"clips", "flights"}) {
+    for (const Json& one : document[flown]) {
+      if (!one.contains("flight")) continue;
+      nights.add(season_of(one["season"].get<std::string>()), one["flight"]["altitude_m"],
+                 look_angle_deg(one["flight"]), half_pixel_m * config.width_px,
+                 half_pixel_m * config.height_px);
+    }
   }
   outline.nights = nights.list();
   return outline;

@@ -60,7 +60,7 @@ Path find_python() {
   return system.empty() ? find_program("python3") : system;
 }
 
-std::vector<ClipPlan> plan_dataset(const Json& resolved_config, const std::string& name, const Path& home) {
+DatasetPlan plan_dataset(const Json& resolved_config, const std::string& name, const Path& home) {
   const Path python = find_python();
   if (python.empty()) throw IoError("no python3 on PATH; install it (apt-get install python3-numpy)");
   const TemporaryFile config(to_text(resolved_config));
@@ -73,16 +73,17 @@ std::vector<ClipPlan> plan_dataset(const Json& resolved_config, const std::strin
     throw IoError(
         fmt::format("{} {}: {}", script.string(), output.status.in_words(), last_line(output.error)));
   }
-  const Json plan = parse_json(output.out, script.string());
-  std::vector<ClipPlan> clips;
-  for (const Json& clip : plan.at("clips")) {
-    clips.push_back({.id = clip.at("id"),
-                     .frames = clip.at("frames"),
-                     .frames_with_actors = clip.at("frames_with_actors"),
-                     .min_agl_m = clip.at("min_agl_m"),
-                     .max_agl_m = clip.at("max_agl_m")});
+  const Json answer = parse_json(output.out, script.string());
+  DatasetPlan plan{.clips = {}, .cut_clips = answer.at("cut_clips")};
+  for (const Json& clip : answer.at("clips")) {
+    plan.clips.push_back({.id = clip.at("id"),
+                          .flight = clip.at("flight"),
+                          .frames = clip.at("frames"),
+                          .frames_with_actors = clip.at("frames_with_actors"),
+                          .min_agl_m = clip.at("min_agl_m"),
+                          .max_agl_m = clip.at("max_agl_m")});
   }
-  return clips;
+  return plan;
 }
 
 }  // namespace thermal

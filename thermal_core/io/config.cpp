@@ -35,18 +35,31 @@ std::optional<double> read_optional(const Json& json, const char* key) {
 
 ClipConfig read_clip(const Json& json) {
   return {.id = json["id"],
-          .season = json["season"] == "summer" ? Season::summer : Season::winter,
+          .season = season_of(json["season"].get<std::string>()),
           .frames = json["frames"],
           .frame_rate_hz = json["frame_rate_hz"]};
 }
 
-void check_ids(const std::vector<ClipConfig>& clips, std::vector<std::string>& faults) {
+void check_ids(const char* list, const std::vector<std::string>& ids, std::vector<std::string>& faults) {
   std::set<std::string> seen;
-  for (std::size_t i = 0; i < clips.size(); ++i) {
-    if (seen.insert(clips[i].id).second) continue;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (seen.insert(ids[i]).second) continue;
     faults.push_back(
-        fault(fmt::format("clips[{}].id", i), fmt::format("\"{}\"", clips[i].id), "", "each id once"));
+        fault(fmt::format("{}[{}].id", list, i), fmt::format("\"{}\"", ids[i]), "", "each id once"));
   }
+}
+
+/// There is something to make, and clips and flights can be told apart.
+void check_flown(const Json& flights, const std::vector<ClipConfig>& clips,
+                 std::vector<std::string>& faults) {
+  if (clips.empty() && flights.empty())
+    faults.emplace_back("clips and flights are empty; expected at least one of either");
+  std::vector<std::string> ids;
+  for (const ClipConfig& clip : clips) ids.push_back(clip.id);
+  check_ids("clips", ids, faults);
+  ids.clear();
+  for (const Json& flight : flights) ids.push_back(flight["id"]);
+  check_ids("flights", ids, faults);
 }
 
 void throw_faults(const std::vector<std::string>& faults, const std::string& name) {
@@ -104,6 +117,13 @@ Weather weather_of(const Config& config, Season season) {
   return weather;
 }
 
+void set_season(Json& document, const Json& season) {
+  for (const char* flown : {"clips", "flights"}) {
+    if (!document.contains(flown)) continue;
+    for (Json& one : document[flown]) one["season"] = season;
+  }
+}
+
 void apply_setting(Json& document, const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
@@ -111,10 +131,7 @@ void apply_setting(Json& document, const std::string& assignment) {
   }
   const std::string key = assignment.substr(0, equals);
   const Json value = parse_value(assignment.substr(equals + 1));
-  if (key == "season") {
-    for (Json& clip : document["clips"]) clip["season"] = value;
-    return;
-  }
+  if (key == "season") return set_season(document, value);
   Json* at = &document;
   for (std::size_t begin = 0; begin <= key.size();) {
     const std::size_t dot = std::min(key.find('.', begin), key.size());
@@ -125,11 +142,26 @@ void apply_setting(Json& document, const std::string& assignment) {
 }
 
 void root_files(Json& document, const Path& folder) {
-  for (const char* map : {"heightmap", "density_map"}) {
-    const Json::json_pointer place("/scene/terrain/" + std::string(map) + "/file");
-    if (!document.contains(place) || !document[place].is_string()) continue;  // the schema will tell
-    document[place] = (folder / document[place].get<std::string>()).string();
+  const auto root = [&folder](Json& within, const char* place) {
+    const Json::json_pointer file(place);
+    if (!within.contains(file) || !within[file].is_string()) return;  // the schema will tell
+    within[file] = (folder / within[file].get<std::string>()).string();
+  };
+  root(document, "/scene/terrain/heightmap/file");
+  root(document, "/scene/terrain/density_map/file");
+  for (const char* flown : {"clips", "flights"}) {
+    if (!document.contains(flown)) continue;
+    for (Json& one : document[flown]) root(one, "/flight/waypoints/file");
   }
+}
+
+Config with_flights_cut(Config config, const Json& clips) {
+  for (const Json& clip : clips) {
+    config.clips.push_back(read_clip(clip));
+    config.resolved["clips"].push_back(clip);
+  }
+  config.resolved["flights"] = Json::array();
+  return config;
 }
 
 Config resolve_config(Json document, const std::string& name, const Path& home) {
@@ -152,7 +184,7 @@ Config resolve_config(Json document, const std::string& name, const Path& home) 
   config.cloud_fraction = read_optional(document["weather"], "cloud_fraction");
   config.vehicle_stopped_s = document["weather"]["vehicle_stopped_s"];
   for (const Json& clip : document["clips"]) config.clips.push_back(read_clip(clip));
-  check_ids(config.clips, faults);
+  check_flown(document["flights"], config.clips, faults);
   fill_overscan(document, faults);
   throw_faults(faults, name);
   config.overscan_px = document["render"]["overscan_px"];

@@ -47,12 +47,18 @@ struct Config {
 /// The weather of a clip: its season's, with what the config says instead.
 [[nodiscard]] Weather weather_of(const Config& config, Season season);
 
+/// Sets the season of every clip and flight of a document.
+void set_season(Json& document, const Json& season);
+
 /// Changes one value of a document before it is checked. `assignment` is "key.other[2].last=value", the value
-/// JSON or else a plain string; "season=…" sets the season of every clip. ConfigError if the form is off.
+/// JSON or else a plain string; "season=…" sets the season of every clip and flight. ConfigError if the form is off.
 void apply_setting(Json& document, const std::string& assignment);
 
 /// Names in full the files that a document names relative to `folder`: the user's maps of the terrain.
 void root_files(Json& document, const Path& folder);
+
+/// The same config, whose flights are cut into these clips, as a config has them, after its own.
+[[nodiscard]] Config with_flights_cut(Config config, const Json& clips);
 
 /// Checks a document against configs/schema/config.schema.json and fills in its defaults.
 /// ConfigError with a line a fault, each starting with `name`.

@@ -51,7 +51,10 @@ std::string key_of(std::string_view where) {
 /// One document against one schema.
 class Checker {
  public:
-  void check(Json& value, const Json& schema, const std::string& where) {
+  explicit Checker(const Json& root) : root_(root) {}
+
+  void check(Json& value, const Json& given, const std::string& where) {
+    const Json& schema = meant_by(given);
     if (!has_type(value, schema)) return;
     if (!check_enum(value, schema)) return;
     if (value.is_number()) check_range(value, schema);
@@ -67,6 +70,13 @@ class Checker {
   [[nodiscard]] std::vector<std::string> faults() && { return std::move(faults_); }
 
  private:
+  /// What a "$ref" refers to, a place in the same schema.
+  [[nodiscard]] const Json& meant_by(const Json& schema) const {
+    const auto reference = schema.find("$ref");
+    if (reference == schema.end()) return schema;
+    return root_.at(Json::json_pointer(reference->get<std::string>().substr(1)));
+  }
+
   void add(const Json& value, const std::string& rule) {
     const std::string unit = value.is_number() ? unit_of_key(key_of(where_)) : "";
     const std::string where = where_.empty() ? "document" : where_;
@@ -162,10 +172,21 @@ class Checker {
       const auto name = key.get<std::string>();
       if (!value.contains(name)) faults_.push_back(prefix + name + " is missing; expected it to be given");
     }
+    for (const auto& [key, property] : properties.items()) fill_preset(value, key, property);
     for (const auto& [key, property] : properties.items()) {
       if (value.contains(key) || !property.contains("default")) continue;
       value[key] = property["default"];
       check_at(value[key], property, prefix + key);  // fills what is inside
+    }
+  }
+
+  /// Some keys stand for several others: "presets" lists, by its values, what those are where they are not given.
+  static void fill_preset(Json& value, const std::string& key, const Json& property) {
+    const auto presets = property.find("presets");
+    if (presets == property.end() || !value.contains(key) || !value[key].is_string()) return;
+    const Json& preset = member_or(*presets, value[key].get<std::string>().c_str(), kNone);
+    for (const auto& [name, chosen] : preset.items()) {
+      if (!value.contains(name)) value[name] = chosen;
     }
   }
 
@@ -192,6 +213,7 @@ class Checker {
     }
   }
 
+  const Json& root_;
   std::string where_;
   std::vector<std::string> faults_;
   std::map<std::string, std::regex> patterns_;
@@ -200,7 +222,7 @@ class Checker {
 }  // namespace
 
 std::vector<std::string> check_and_fill(Json& document, const Json& schema) {
-  Checker checker;
+  Checker checker(schema);
   checker.check(document, schema, "");
   return std::move(checker).faults();
 }

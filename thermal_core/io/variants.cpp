@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "io/config.h"
 #include "io/json_schema.h"
 
 namespace thermal {
@@ -57,7 +58,7 @@ std::vector<Variant> read_variants(Json document, const std::string& name, const
 Json changed_by(const Variant& variant, Json document) {
   Json changes = variant.changes;
   if (const auto season = changes.find("season"); season != changes.end()) {
-    for (Json& clip : document["clips"]) clip["season"] = *season;
+    set_season(document, *season);
     changes.erase("season");
   }
   merge(document, changes);

@@ -7,6 +7,11 @@ namespace thermal {
 /// The two nights of the published Table 1: air at 273 K in winter, at 293 K in summer.
 enum class Season { winter, summer };
 
+/// "summer" is summer; whatever else there is, winter.
+[[nodiscard]] constexpr Season season_of(std::string_view name) noexcept {
+  return name == "summer" ? Season::summer : Season::winter;
+}
+
 [[nodiscard]] constexpr std::string_view season_name(Season season) noexcept {
   return season == Season::winter ? "winter" : "summer";
 }

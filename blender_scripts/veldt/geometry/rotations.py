@@ -50,3 +50,14 @@ def unit(vectors: np.ndarray) -> np.ndarray:
 def applied(rotation: np.ndarray, vectors: np.ndarray) -> np.ndarray:
     """Vectors (..., 3), each turned by its rotation (..., 3, 3)."""
     return (rotation @ np.asarray(vectors, float)[..., None])[..., 0]
+
+
+def by_vector(vectors_rad: np.ndarray) -> np.ndarray:
+    """Rotations (..., 3, 3) about vectors (..., 3) by their lengths, right-handed (Rodrigues)."""
+    angle = np.linalg.norm(vectors_rad, axis=-1)[..., None, None]
+    x, y, z = np.moveaxis(vectors_rad, -1, 0)
+    zero = np.zeros_like(x)
+    cross = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=-1).reshape(vectors_rad.shape + (3,))
+    # sin(a)/a and (1 - cos(a))/a^2, which are smooth at 0.
+    half = np.sinc(angle / (2.0 * np.pi))
+    return np.eye(3) + np.sinc(angle / np.pi) * cross + 0.5 * half * half * (cross @ cross)

@@ -16,7 +16,7 @@ from .relief import Crag, hills_m, hollows_m, plan_crag
 from .roads import Road
 from .waters import REACH, Basin, Water, lay_water, nearest_shore_m, surface_m
 
-_SMOOTHING_M = 40.0  # of the ground a drone's height is kept above
+_SMOOTHING_M = 40.0  # that says what land is high, and what low
 _PAN_APART = 5.0  # radii of both waters that the pan is from the middle, at least
 _PAN_GRID_M = 25.0
 _SLOPE_STEP_M = 1.0
@@ -51,7 +51,7 @@ class Terrain:
         return surface_m(self.height_m(x_m, y_m), self.waters, x_m, y_m)
 
     def smooth_surface_m(self, x_m, y_m) -> np.ndarray:
-        """Surface smoothed by a Gaussian of 40 m: what a drone that holds its height above ground follows."""
+        """Surface smoothed by a Gaussian of 40 m: what of it is low land, and what high."""
         return self._triangle_height(self.smooth_m, x_m, y_m)
 
     def shore_m(self, x_m, y_m) -> np.ndarray:

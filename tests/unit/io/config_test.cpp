@@ -16,6 +16,14 @@ Json least() {
                     "");
 }
 
+/// The same with a flight to be cut.
+Json with_flight() {
+  Json document = least();
+  document["flights"] = parse_json(
+      R"([{"id": "long", "season": "winter", "duration_s": 60, "flight": {"pattern": "zigzag"}}])", "");
+  return document;
+}
+
 Config resolved(const Json& document) { return resolve_config(document, "night.json", VELDT_SOURCE_DIR); }
 
 std::string fault_in(const Json& document) {
@@ -131,4 +139,60 @@ TEST_CASE("A map that is no file name is left to the schema") {
   document["scene"]["terrain"]["density_map"] = {{"file", 3}};
   root_files(document, "/ranger");
   CHECK(fault_in(document) == "night.json: scene.terrain.density_map.file = 3; expected a string");
+}
+
+TEST_CASE("A mission's file is named relative to the config, of clips and of flights") {
+  Json document = with_flight();
+  document["clips"][0]["flight"] = {{"pattern", "waypoints"}, {"waypoints", {{"file", "lake.plan"}}}};
+  document["flights"][0]["flight"] = {{"pattern", "waypoints"}, {"waypoints", {{"file", "/abroad/log.csv"}}}};
+  root_files(document, "/ranger");
+  const Json found = resolved(document).resolved;
+  CHECK(found["clips"][0]["flight"]["waypoints"]["file"] == "/ranger/lake.plan");
+  CHECK(found["flights"][0]["flight"]["waypoints"]["file"] == "/abroad/log.csv");
+}
+
+TEST_CASE("A view stands for a height and an angle, which can be overruled") {
+  Json document = least();
+  document["clips"][0]["flight"] = {{"pattern", "zigzag"}, {"view", "122m_oblique"}};
+  document["clips"][1]["flight"] = {{"pattern", "zigzag"}, {"view", "122m_oblique"}, {"look_angle_deg", 60}};
+  const Json clips = resolved(document).resolved["clips"];
+  CHECK(clips[0]["flight"]["altitude_m"] == 122);
+  CHECK(clips[0]["flight"]["look_angle_deg"] == 45);
+  CHECK(clips[1]["flight"]["altitude_m"] == 122);
+  CHECK(clips[1]["flight"]["look_angle_deg"] == 60);
+}
+
+TEST_CASE("A config of flights needs no clips, and one of neither is a fault") {
+  Json document = with_flight();
+  document.erase("clips");
+  CHECK(resolved(document).clips.empty());
+  document.erase("flights");
+  CHECK(fault_in(document) == "night.json: clips and flights are empty; expected at least one of either");
+}
+
+TEST_CASE("A flight's id comes once") {
+  Json document = with_flight();
+  document["flights"].push_back(document["flights"][0]);
+  CHECK(fault_in(document) == "night.json: flights[1].id = \"long\"; expected each id once");
+}
+
+TEST_CASE("The season is that of every flight as well") {
+  Json document = with_flight();
+  apply_setting(document, "season=summer");
+  CHECK(document["flights"][0]["season"] == "summer");
+}
+
+TEST_CASE("The clips of flights come after a config's own") {
+  const Config config = resolved(with_flight());
+  Json clip = config.resolved["clips"][0];
+  clip["id"] = "long_0000";
+  clip["of_flight"] = "long";
+  clip["frames"] = 7;
+  const Config cut = with_flights_cut(config, Json::array({clip}));
+  REQUIRE(cut.clips.size() == 3);
+  CHECK(cut.clips[2].id == "long_0000");
+  CHECK(cut.clips[2].frames == 7);
+  CHECK(cut.resolved["clips"][2] == clip);
+  CHECK(cut.resolved["flights"].empty());
+  CHECK(resolved(cut.resolved).resolved == cut.resolved);
 }

@@ -32,8 +32,13 @@ const Json kSchema = parse_json(R"({
       "preset": {"type": "string", "default": "airsim_w"},
       "noise": {"type": "object", "default": {}, "properties": {"stddev_dn": {"type": "number", "default": 2}}}}},
     "spacing_m": {"type": ["number", "array"], "exclusiveMinimum": 0, "maxItems": 2, "items": {"type": "number", "minimum": 0}},
+    "view": {"type": "string", "presets": {"low": {"frames": 3, "season": "winter"}}},
+    "first": {"$ref": "#/$defs/leg"},
+    "later": {"type": "array", "items": {"$ref": "#/$defs/leg"}},
     "free": {"type": "object"}
-  }
+  },
+  "$defs": {"leg": {"type": "object", "required": ["to"], "properties": {"to": {"type": "string"},
+                                                                          "turn_deg": {"type": "number", "default": 4}}}}
 })",
                                 "schema");
 
@@ -171,4 +176,23 @@ TEST_CASE("The unit is the longest suffix that is one") {
   CHECK(unit_of_key("per_ha") == "per hectare");
   CHECK(unit_of_key("seed").empty());
   CHECK(unit_of_key("").empty());
+}
+
+TEST_CASE("What a schema refers to is checked and filled where it is meant") {
+  CHECK(faults_in(R"("first": {"turn_deg": "x"}, "later": [{"to": "a"}, {}])") ==
+        Faults{"first.turn_deg = \"x\"; expected a number", "first.to is missing; expected it to be given",
+               "later[1].to is missing; expected it to be given"});
+  Json document = parse_json(R"({"name": "n", "later": [{"to": "a"}]})", "");
+  CHECK(check_and_fill(document, kSchema).empty());
+  CHECK(document["later"][0]["turn_deg"] == 4);
+}
+
+TEST_CASE("A preset fills in what is not given, and no more") {
+  Json document = parse_json(R"({"name": "n", "view": "low", "frames": 8})", "");
+  CHECK(check_and_fill(document, kSchema).empty());
+  CHECK(document["frames"] == 8);
+  CHECK(document["season"] == "winter");
+  Json unknown = parse_json(R"({"name": "n", "view": "high"})", "");
+  CHECK(check_and_fill(unknown, kSchema).empty());
+  CHECK_FALSE(unknown.contains("frames"));
 }

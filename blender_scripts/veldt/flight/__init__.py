@@ -1,0 +1,1 @@
+"""How the camera is carried about and where it looks."""

@@ -1,0 +1,36 @@
+"""What an aircraft can do."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+_GRAVITY_M_S2 = 9.80665  # standard gravity
+_MOST_ACCELERATION_M_S2 = 3.0  # estimate: how briskly surveys speed up and brake, whatever the bank allows
+
+MULTIROTOR = "multirotor"
+FIXED_WING = "fixed_wing"
+
+
+@dataclass(frozen=True)
+class Aircraft:
+    """A multirotor, which stops at corners, or a fixed wing, which cannot; bank_rad: how far it leans, above 0."""
+
+    kind: str
+    speed_m_s: float
+    bank_rad: float
+
+    @property
+    def turn_radius_m(self) -> float:
+        """Radius of a level turn at full bank and speed: v^2 / (g tan(bank))."""
+        return self.speed_m_s**2 / (_GRAVITY_M_S2 * math.tan(self.bank_rad))
+
+    @property
+    def acceleration_m_s2(self) -> float:
+        """With which a multirotor starts and brakes: what leaning by bank_rad gives, 3 m/s^2 at most."""
+        return min(_GRAVITY_M_S2 * math.tan(self.bank_rad), _MOST_ACCELERATION_M_S2)
+
+
+def aircraft_of(plan: dict) -> Aircraft:
+    """The aircraft of a flight plan."""
+    return Aircraft(plan["aircraft"], plan["speed_m_s"], math.radians(plan["bank_deg"]))

@@ -1,0 +1,61 @@
+"""The flights of a config's clips; those cut from one flight share its trajectory."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..camera import Intrinsics
+from ..groups.actors import Actor
+from ..land.terrain import Terrain
+from .autopilot import Surroundings, plan_trajectory
+from .flight_checks import check_height
+from .poses import Flight, Trajectory, flight_of
+
+
+def frames_of(entry: dict) -> int:
+    """How many frames a clip or a flight of a config has."""
+    if "frames" in entry:
+        return entry["frames"]
+    return int(np.floor(entry["duration_s"] * entry["frame_rate_hz"] + 1e-9))
+
+
+class Pilot:
+    """Flies a config's clips and flights, each when it is first asked for."""
+
+    def __init__(self, config: dict, terrain: Terrain, actors: Sequence[Actor], intrinsics: Intrinsics):
+        self._terrain, self._actors = terrain, actors
+        self._intrinsics, self._seed = intrinsics, config["seed"]
+        self._until_s: dict[str, float] = {}
+        self._where: dict[str, str] = {}
+        self._trajectories: dict[str, Trajectory] = {}
+        for kind in ("clips", "flights"):
+            for k, entry in enumerate(config[kind]):
+                name = _name(entry)
+                self._where.setdefault(name, f"{kind}[{k}]")
+                self._until_s[name] = max(self._until_s.get(name, 0.0), _times(entry)[-1])
+
+    def flight(self, entry: dict) -> Flight:
+        """The frames of one of the clips or flights, or of a clip cut from one; ConfigError if it cannot be flown."""
+        name = _name(entry)
+        if name not in self._trajectories:
+            self._trajectories[name] = self._plan(entry["flight"], name)
+        flight = flight_of(self._trajectories[name], _times(entry), self._terrain)
+        check_height(self._where[name], flight)
+        return flight
+
+    def _plan(self, plan: dict, name: str) -> Trajectory:
+        target = plan.get("target")
+        actors = [actor for actor in self._actors if target in (actor.name, actor.group)]
+        around = Surroundings(self._terrain, actors, self._intrinsics, self._seed)
+        return plan_trajectory(self._where[name], plan, name, self._until_s[name], around)
+
+
+def _name(entry: dict) -> str:
+    """What clips of one flight have in common."""
+    return entry.get("of_flight", entry["id"])
+
+
+def _times(entry: dict) -> np.ndarray:
+    return entry["start_s"] + np.arange(frames_of(entry)) / entry["frame_rate_hz"]

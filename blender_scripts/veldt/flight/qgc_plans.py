@@ -1,0 +1,74 @@
+"""Reads the missions of QGroundControl (.plan files) as waypoints."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ..faults import ConfigError
+from .places import SurfaceAt
+from .qgc_commands import ENDS, IGNORED, SPEED, Home, changed_speed, check_command, waypoint_of
+from .qgc_items import commands_of, part
+from .texts import checked_number, read_text, shown
+from .waypoints import Waypoint
+
+
+def read_plan(file: str, home_m, ground_m: SurfaceAt, where: str) -> list[Waypoint]:
+    """The waypoints of a .plan, at least one; its planned home lies at home_m [x, y] of the scene, +y to the north.
+
+    Heights relative to home are above the scene's ground there, and so are those above sea level, less home's;
+    ground_m(x (n,), y (n,)) gives its height (n,) above the datum. What QGroundControl set above terrain by its own map
+    is flown above the scene's. A take-off begins over home, at its height. Loitering is holding still: for a day where
+    there is no limit, or as long as turns would take. A return to launch goes back to home and a landing to its place,
+    both at the last height, and there the flight ends. Splines are flown straight. cruiseSpeed and hoverSpeed, by which
+    QGroundControl guesses how long flights take, set no speed.
+    ConfigError if the file is no plan, or has a command that cannot be flown; `where` is its place in the config.
+    """
+    mission, name = _mission(file, where), f"{Path(file).name}: "
+    home = _home(mission, f"{name}mission", home_m, ground_m)
+    waypoints: list[Waypoint] = []
+    speed_m_s = None
+    for command in commands_of(mission, name):
+        check_command(command)
+        if command.number == SPEED:
+            speed_m_s = changed_speed(command, speed_m_s)
+            waypoints[-1:] = [replace(last, speed_m_s=speed_m_s) for last in waypoints[-1:]]
+        elif command.number not in IGNORED:
+            waypoint = waypoint_of(command, home, waypoints, speed_m_s)
+            waypoints.append(waypoint if waypoints else replace(waypoint, speed_m_s=speed_m_s))
+        if command.number in ENDS:
+            break
+    if not waypoints:
+        raise ConfigError(f"{name}mission.items = no waypoints; expected at least 1")
+    return waypoints
+
+
+def _mission(file: str, where: str) -> dict:
+    text, name = read_text(file, where), f"{Path(file).name}: "
+    try:
+        plan = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise ConfigError(f"{where} = {file}; expected JSON ({error})") from error
+    if not isinstance(plan, dict):
+        raise ConfigError(f"{where} = {file}; expected a plan of QGroundControl, an object")
+    kind = part(plan, "fileType", str, name)
+    if kind != "Plan":
+        raise ConfigError(f'{name}fileType = {shown(kind)}; expected "Plan"')
+    return part(plan, "mission", dict, name)
+
+
+def _home(mission: dict, where: str, home_m, ground_m: SurfaceAt) -> Home:
+    place = f"{where}.plannedHomePosition"
+    given = part(mission, "plannedHomePosition", list, f"{where}.")
+    if len(given) != 3:
+        raise ConfigError(f"{place} = {len(given)} values; expected 3: latitude, longitude, altitude")
+    # The plane at a pole has no east.
+    latitude_deg = checked_number(given[0], f"{place}[0]", "a latitude", -89, 89, "deg")
+    longitude_deg = checked_number(given[1], f"{place}[1]", "a longitude", -180, 180, "deg")
+    x_m, y_m = map(float, home_m)
+    height_m = float(ground_m(np.array([x_m]), np.array([y_m]))[0])
+    hover_speed = mission.get("hoverSpeed")
+    return Home(where, (latitude_deg, longitude_deg), given[2], hover_speed, (x_m, y_m), height_m)

@@ -1,0 +1,39 @@
+"""Steps of courses that lead along lanes and back to where they began."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from .aircraft import Aircraft
+from .dubins import shortest
+from .lanes import Lane
+from .laws import Steady, StopToStop
+from .pieces import NOTHING_M, Straight, distance_m
+from .timetables import Leg, Step, spin
+
+
+def winged_round(lanes: Sequence[Lane], aircraft: Aircraft) -> list[Step]:
+    """At constant speed; from each lane's end the shortest way to the next one's start, at last to the first one's."""
+    pieces = []
+    for lane, after in zip(lanes, _next(lanes)):
+        pieces.append(Straight(lane.start, lane.end))
+        pieces += shortest(lane.end, lane.course_rad, after.start, after.course_rad, aircraft.turn_radius_m)
+    return [Leg(piece, Steady(piece.length_m, aircraft.speed_m_s)) for piece in pieces]
+
+
+def hovering_round(lanes: Sequence[Lane], aircraft: Aircraft, nose_rad: float | None) -> list[Step]:
+    """From stop to stop; turning on the spot towards where it flies next, or with the nose always at nose_rad."""
+    corners = [corner for lane in lanes for corner in (lane.start, lane.end)]
+    ways = [Straight(a, b) for a, b in zip(corners, _next(corners)) if distance_m(a, b) > NOTHING_M]
+    steps: list[Step] = []
+    for way, after in zip(ways, _next(ways)):
+        law = StopToStop(way.length_m, aircraft.speed_m_s, aircraft.acceleration_m_s2)
+        steps.append(Leg(way, law, nose_rad))
+        if nose_rad is None:
+            steps += spin(way.end, way.courses_rad[1], after.courses_rad[0])
+    return steps
+
+
+def _next(things: Sequence) -> list:
+    """What follows each of them in a ring."""
+    return [*things[1:], things[0]]
