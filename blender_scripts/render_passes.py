@@ -13,7 +13,7 @@ import argparse
 import os
 import sys
 import time
-import traceback
+from collections.abc import Callable
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -25,8 +25,9 @@ from veldt.faults import ConfigError
 from veldt.manifest import build_manifest, frame_file, to_json
 from veldt.plan import with_flights_cut
 from veldt.world import clip_of, plan_world
+from veldt_bl.entry import own_arguments, run
 from veldt_bl.preview import plan_pictures, render_pictures
-from veldt_bl.render import first_missing, render_frames, set_up_renderer
+from veldt_bl.render import first_missing, render_frames, render_frames_and_actors, set_up_renderer
 from veldt_bl.scene import Stage, build_stage
 
 
@@ -34,15 +35,7 @@ def main(arguments: list[str]) -> int:
     """Runs the command and returns its exit code."""
     options = _parse(arguments)
     events = Events(options.events_fd)
-    try:
-        _render(options, events)
-    except ConfigError as error:
-        return _fail(events, "config", error, 2)
-    except Exception as error:  # pylint: disable=broad-exception-caught
-        traceback.print_exc()
-        return _fail(events, "internal", error, 1)
-    events.tell("done")
-    return 0
+    return run(lambda: _render(options, events), events)
 
 
 def _parse(arguments: list[str]) -> argparse.Namespace:
@@ -100,13 +93,20 @@ def _render_clip(stage: Stage, clip: dict, folder: Path, events: Events) -> None
     events.tell("clip", clip=name, first_frame=first, frames=frames)
     if first < frames:
         stage.animate(clip)
-        render_frames(
+        _render_frames(
+            stage,
             folder,
             range(first, frames),
-            stage.pose,
             lambda k: events.tell("frame", clip=name, index=k, file=frame_file(k)),
         )
     events.tell("clip_done", clip=name)
+
+
+def _render_frames(stage: Stage, folder: Path, frames: range, on_frame: Callable[[int], None]) -> None:
+    if stage.world.config["render"].get("actor_layer", False):
+        render_frames_and_actors(folder, frames, stage, on_frame)
+    else:
+        render_frames(folder, frames, stage.pose, on_frame)
 
 
 def _write_manifest(path: Path, text: str, has_frames: bool) -> None:
@@ -118,17 +118,5 @@ def _write_manifest(path: Path, text: str, has_frames: bool) -> None:
     os.replace(part, path)
 
 
-def _fail(events: Events, kind: str, error: Exception, code: int) -> int:
-    """Tells of an error, and of the place in these scripts that it came out of."""
-    here = str(Path(__file__).resolve().parent)
-    ours = [step for step in traceback.extract_tb(error.__traceback__) if step.filename.startswith(here)]
-    message = str(error) or type(error).__name__
-    events.tell(
-        "error", kind=kind, message=message, where=f"{Path(ours[-1].filename).name}:{ours[-1].lineno}"
-    )
-    print(message, file=sys.stderr)
-    return code
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []))
+    sys.exit(main(own_arguments()))

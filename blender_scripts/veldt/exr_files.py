@@ -27,7 +27,7 @@ def _has_all_chunks(file: BinaryIO, size_bytes: int) -> bool:
     if file.read(4) != _MAGIC:
         return False
     file.read(4)  # version and flags
-    header = _read_header(file)
+    header = read_header(file)
     _, y_min, _, y_max = struct.unpack("<4i", header["dataWindow"])
     lines = _LINES_PER_CHUNK[header["compression"][0]]
     chunks = -(-(y_max - y_min + 1) // lines)
@@ -40,8 +40,8 @@ def _has_all_chunks(file: BinaryIO, size_bytes: int) -> bool:
     return last + 8 + packed_bytes == size_bytes
 
 
-def _read_header(file: BinaryIO) -> dict[str, bytes]:
-    """Attributes by name; each is stored as name, type, size and value."""
+def read_header(file: BinaryIO) -> dict[str, bytes]:
+    """Attributes by name, from behind the first 8 bytes on; each is stored as name, type, size and value."""
     header = {}
     while name := _read_word(file):
         _read_word(file)

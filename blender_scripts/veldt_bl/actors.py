@@ -9,12 +9,17 @@ import mathutils
 import numpy as np
 
 from veldt import assets
-from veldt.groups.actors import Actor, poses
+from veldt.flight.poses import Flight
+from veldt.groups.actors import Actor, poses, track
+from veldt.plants.views import spheres_seen
+from veldt.world import World
 
 from . import models
-from .meshes import new_mesh, new_object
+from .meshes import add_twin, new_mesh, new_object
 
 _AT_ONCE = 64  # frames posed together: one by one numpy is slow, all of a long clip take gigabytes
+_SLACK = 1.2  # of the reach of bodies beyond their boxes, which are taken at some moments only
+_PARK = mathutils.Matrix.Translation((0.0, 0.0, -1e5))  # m; several times farther away than a camera sees
 
 
 @dataclass(frozen=True)
@@ -28,30 +33,41 @@ class Puppet:
 class Troupe:
     """All puppets, and their poses in the frames of a clip.
 
-    Objects are set outright and not keyed: keys of a long clip would fill the memory, and take longer than rendering.
+    Who cannot be in the picture waits far below, which costs neither posing nor, in Cycles, taking over.
     """
 
     def __init__(self, puppets: list[Puppet]):
         self.puppets = puppets
         self._time_s = np.zeros(1)
+        self.needed = np.ones((len(puppets), 1), bool)
+        self._parked = [False] * len(puppets)
         self._first = -1
-        self._matrices: list[np.ndarray] = []
+        self._matrices: dict[int, np.ndarray] = {}
 
-    def rehearse(self, time_s: np.ndarray) -> None:
-        """Frames 0, 1, … shall show the times (n,) from now on."""
-        self._time_s, self._first = time_s, -1
+    def rehearse(self, time_s: np.ndarray, needed: np.ndarray | None = None) -> None:
+        """Frames 0, 1, … shall show the times (n,) from now on; needed (actors, n): who is when, by default all."""
+        everybody = np.ones((len(self.puppets), len(time_s)), bool)
+        self._time_s, self.needed, self._first = time_s, everybody if needed is None else needed, -1
 
     def pose(self, frame: int) -> None:
-        """Puts all actors where they are in a frame; frames past the clip show its last."""
-        frame = int(np.clip(frame, 0, len(self._time_s) - 1))
+        """Puts the actors needed in a frame where they are then, and the others out of sight."""
         first = frame - frame % _AT_ONCE
         if first != self._first:
-            time_s = self._time_s[first : first + _AT_ONCE]
-            self._matrices = [_matrices(puppet, time_s) for puppet in self.puppets]
-            self._first = first
-        for puppet, matrices in zip(self.puppets, self._matrices):
-            for (_, shown), matrix in zip(puppet.bones, matrices[frame - first].tolist()):
-                shown.matrix_basis = mathutils.Matrix(matrix)
+            self._matrices, self._first = {}, first
+        for k, puppet in enumerate(self.puppets):
+            if self.needed[k, frame]:
+                self._place(k, frame)
+            elif not self._parked[k]:
+                for _, shown in puppet.bones:
+                    shown.matrix_basis = _PARK
+            self._parked[k] = not self.needed[k, frame]
+
+    def _place(self, k: int, frame: int) -> None:
+        if k not in self._matrices:
+            self._matrices[k] = _matrices(self.puppets[k], self._time_s[self._first : self._first + _AT_ONCE])
+        matrices = self._matrices[k][frame - self._first].tolist()
+        for (_, shown), matrix in zip(self.puppets[k].bones, matrices):
+            shown.matrix_basis = mathutils.Matrix(matrix)
 
 
 def add_actors(actors: list[Actor], materials: dict[tuple[str, str], bpy.types.Material]) -> Troupe:
@@ -61,7 +77,25 @@ def add_actors(actors: list[Actor], materials: dict[tuple[str, str], bpy.types.M
         kind = actor.species, actor.variant
         if kind not in meshes:
             meshes[kind] = _meshes(actor, materials)
+            for mesh in filter(None, meshes[kind]):
+                # Cycles takes a mesh of one user over again whenever that moves, and with it all others, the ground's
+                # too. A second user, which no camera ray meets, keeps it from that.
+                add_twin(mesh, actor.index)
     return Troupe([_puppet(actor, meshes[actor.species, actor.variant]) for actor in actors])
+
+
+def needed(world: World, flight: Flight) -> np.ndarray:
+    """Which actors may be in the picture in which frames of a flight: bool (actors, n)."""
+    seen = [
+        spheres_seen(
+            world.passes_intrinsics,
+            flight.camera_to_world,
+            track(actor, flight.time_s).position_m,
+            _SLACK * float(np.linalg.norm(np.abs(actor.bounds_m).max(axis=0))),
+        )
+        for actor in world.actors
+    ]
+    return np.array(seen, bool).reshape(len(world.actors), len(flight.time_s))
 
 
 def _meshes(

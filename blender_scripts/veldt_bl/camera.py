@@ -7,7 +7,6 @@ import mathutils
 import numpy as np
 
 from veldt.camera import Intrinsics
-from veldt.flight.poses import Flight
 
 _SENSOR_MM = 36.0  # any value will do: only its ratio to the focal length counts
 _CLIP_M = (0.1, 20000.0)
@@ -34,11 +33,3 @@ def place(camera: bpy.types.Object, camera_to_world: np.ndarray) -> None:
     matrix = mathutils.Matrix((camera_to_world @ _FROM_OPENCV).tolist())
     camera.location = matrix.to_translation()
     camera.rotation_quaternion = matrix.to_quaternion()
-
-
-def animate(camera: bpy.types.Object, flight: Flight) -> None:
-    """Keys the camera's pose on frames 0, 1, …"""
-    for frame, pose in enumerate(flight.camera_to_world):
-        place(camera, pose)
-        camera.keyframe_insert("location", frame=frame)
-        camera.keyframe_insert("rotation_quaternion", frame=frame)

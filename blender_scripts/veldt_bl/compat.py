@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import signal
+
 import bpy
 import numpy as np
 
@@ -44,14 +46,25 @@ def write_png(settings: bpy.types.ImageFormatSettings) -> None:
     settings.color_mode, settings.color_depth = "RGB", "8"
 
 
-def write_multilayer_exr(settings: bpy.types.ImageFormatSettings) -> None:
-    """Output as multilayer EXR, whole floats, lossless ZIP."""
+def write_multilayer_exr(settings: bpy.types.ImageFormatSettings, packed: bool) -> None:
+    """Output as multilayer EXR, whole floats; lossless where packed.
+
+    RLE takes 0.03 s for a picture of 640 x 512 pixels where ZIP takes 0.15 s for two thirds of the bytes.
+    """
     if VERSION >= (5, 0, 0):
         settings.media_type = "MULTI_LAYER_IMAGE"
         settings.use_exr_interleave = True  # one part with all channels, as earlier versions write
     settings.file_format = "OPEN_EXR_MULTILAYER"
     settings.color_depth = "32"
-    settings.exr_codec = "ZIP"
+    settings.exr_codec = "RLE" if packed else "NONE"
+
+
+def stop_rendering(scene: bpy.types.Scene) -> None:
+    """Ends the animation that is being rendered before its next frame; for handlers."""
+    if not bpy.app.binary_path:  # Blender as a Python module leaves signals to Python
+        scene.frame_current = scene.frame_end
+    else:
+        signal.raise_signal(signal.SIGINT)  # as Ctrl-C does
 
 
 def import_gltf(path: str) -> None:

@@ -5,25 +5,29 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import bpy
+import mathutils
 import numpy as np
 
 from veldt import assets
-from veldt.flight.poses import Flight
 from veldt.plants.placement import Planting
 from veldt.plants.plant_shapes import build_variants, plant_parts
-from veldt.plants.views import circles_seen
+from veldt.plants.views import circles_seen, held_circles
 from veldt.world import World
 
 from . import compat, models
 from .meshes import add_twin, new_mesh, new_object, new_points
 
-_EVERYWHERE_M = 1e6
+EVERYWHERE_M = 1e6
 
 
 @dataclass(frozen=True)
 class Flora:
-    """All plants of a scene: the view that tells which of them are in it, and how far any reaches from its root."""
+    """All plants of a scene: where they are, the view that tells which of them are in it, and their greatest reach.
 
+    That is the distance of any plant's farthest point from its root.
+    """
+
+    places: list[bpy.types.Object]
     view: bpy.types.Object
     reach_m: float
 
@@ -32,29 +36,36 @@ def add_flora(world: World, materials: dict[tuple[str, str], bpy.types.Material]
     """Puts all plants of a world into the scene."""
     view = bpy.data.objects.new("view", None)
     bpy.context.scene.collection.objects.link(view)
-    reach_m = 0.0
+    places, reach_m = [], 0.0
     for name, planting in world.plantings.items():
         if len(planting.scale) > 0:
             data = assets.load("plants", name)
             variants = _variants(name, data, world.config["seed"], materials)
-            _add_species(name, planting, variants, world.plant_indices[name], view)
+            places.append(_add_species(name, planting, variants, world.plant_indices[name], view))
             reach_m = max(reach_m, planting.scale.max() * max(_reach_m(mesh) for mesh in variants))
-    return Flora(view, float(reach_m))
+    return Flora(places, view, float(reach_m))
 
 
-def animate(flora: Flora, world: World, flight: Flight) -> None:
-    """Keys on frames 0, 1, … which plants are in the scene: those that may be in the picture, and some more.
+def circles_needed(flora: Flora, world: World, camera_to_world: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Centres (n, 2) and radii (n,) of circles in which all plants stand that poses (n, 4, 4) may see.
 
-    Blender goes through all instances there are before each frame, which for a whole savanna takes longer than the
-    picture. So an empty is keyed to the middle and the size of what the camera sees; the node trees look at it.
+    Cycles takes all meshes over again, the ground's too, whenever there is an instance more or less; so one circle
+    serves many frames.
     """
     low_m, high_m = world.terrain.heights_m.min(), world.terrain.heights_m.max() + flora.reach_m
-    circles = circles_seen(world.passes_intrinsics, flight.camera_to_world, low_m, high_m)
-    for frame, ((x_m, y_m), radius_m) in enumerate(zip(*circles)):
-        flora.view.location = x_m, y_m, 0.0
-        flora.view.scale = [min(radius_m + flora.reach_m, _EVERYWHERE_M)] * 3
-        flora.view.keyframe_insert("location", frame=frame)
-        flora.view.keyframe_insert("scale", frame=frame)
+    centres_m, radii_m = circles_seen(world.passes_intrinsics, camera_to_world, low_m, high_m)
+    return held_circles(centres_m, np.minimum(radii_m + flora.reach_m, EVERYWHERE_M))
+
+
+def show_within(flora: Flora, centre_m: np.ndarray, radius_m: float) -> None:
+    """Has only those plants in the scene that stand in a circle.
+
+    Blender goes through all instances there are before each frame, which for a whole savanna takes longer than the
+    picture. So an empty tells the middle and the size of what the camera sees; the node trees look at it.
+    """
+    place, scale = mathutils.Vector((*centre_m, 0.0)), mathutils.Vector((radius_m,) * 3)
+    if (flora.view.location, flora.view.scale) != (place, scale):  # else plants would be picked again
+        flora.view.location, flora.view.scale = place, scale
 
 
 def _variants(
@@ -76,7 +87,7 @@ def _reach_m(mesh: bpy.types.Mesh) -> float:
 
 def _add_species(
     name: str, planting: Planting, variants: list[bpy.types.Mesh], index: int, view: bpy.types.Object
-) -> None:
+) -> bpy.types.Object:
     """Puts one species into the scene; instances carry the object index of the variant they copy."""
     # Not linked to the scene: only copies of it are seen.
     variants_of = bpy.data.collections.new(f"{name} variants")
@@ -89,6 +100,9 @@ def _add_species(
             add_twin(mesh, index)
     points = new_object(f"{name} places", _points(name, planting), index)
     points.modifiers.new("plants", "NODES").node_group = _instancer(name, variants_of, view)
+    # The points themselves have no faces; Cycles would take them over, and all meshes with them, when they move.
+    points.show_instancer_for_render = False
+    return points
 
 
 def _points(name: str, planting: Planting) -> bpy.types.Mesh:

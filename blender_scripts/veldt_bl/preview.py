@@ -21,6 +21,7 @@ from . import compat
 from .camera import add_camera, place
 from .map_objects import add_sheet
 from .meshes import new_object
+from .plants import EVERYWHERE_M, show_within
 from .scene import Stage
 
 _MAP_WIDTH_PX = 1920
@@ -29,7 +30,6 @@ _SUN_DEG = 45.0, 0.0, 45.0  # shines from the north-west, as on maps
 _SUN_W_M2, _SKY_STRENGTH = 2.3, 0.7
 _SUN_DISC_RAD = 0.0093
 _CLEARANCE_M = 50.0  # of the sheet above all that grows
-_EVERYWHERE_M = 1e6
 
 
 @dataclass(frozen=True)
@@ -75,8 +75,8 @@ def _moment_s(world: World) -> float:
 def _show(stage: Stage, time_s: float) -> None:
     """All actors at a time, and all plants."""
     stage.troupe.rehearse(np.array([time_s]))
-    stage.pose(0)
-    stage.flora.view.scale = (_EVERYWHERE_M,) * 3
+    stage.troupe.pose(0)
+    show_within(stage.flora, np.zeros(2), EVERYWHERE_M)
 
 
 def _remove_pictures(folder: Path) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,9 +10,11 @@ import bpy
 
 from veldt.camera import Intrinsics
 from veldt.exr_files import is_whole
-from veldt.manifest import LAYER, frame_file
+from veldt.exr_layers import add_layer
+from veldt.manifest import ACTOR_LAYER, LAYER, frame_file
 
 from . import compat
+from .scene import Stage
 
 _PART = "part_"
 
@@ -41,7 +42,6 @@ def set_up_renderer(intrinsics: Intrinsics, supersample: int) -> None:
     render.resolution_y = supersample * intrinsics.height_px
     render.resolution_percentage = 100
     render.pixel_aspect_x = render.pixel_aspect_y = 1.0
-    compat.write_multilayer_exr(render.image_settings)
     layer = bpy.context.view_layer
     layer.name = LAYER
     layer.use_pass_combined = False
@@ -50,10 +50,10 @@ def set_up_renderer(intrinsics: Intrinsics, supersample: int) -> None:
 
 
 def first_missing(folder: Path, frames: int) -> int:
-    """Number of the first frame not there yet, `frames` if all are; leftovers of killed renders are removed."""
+    """Number of the first frame not there or damaged, `frames` if none is; leftovers of killed renders are removed."""
     for leftover in folder.glob(f"{_PART}*"):
         leftover.unlink()
-    return next((k for k in range(frames) if not (folder / frame_file(k)).exists()), frames)
+    return next((k for k in range(frames) if not is_whole(folder / frame_file(k))), frames)
 
 
 def render_frames(
@@ -63,18 +63,78 @@ def render_frames(
 
     OSError if a frame cannot be written whole, or if Blender stops before the last one.
     """
+    compat.write_multilayer_exr(bpy.context.scene.render.image_settings, packed=True)
+
+    def finish(number: int) -> None:
+        _finish_frame(folder / frame_file(number), _part(folder, number))
+        on_frame(number)
+
+    _animate(folder, frames, pose, finish)
+
+
+def render_frames_and_actors(
+    folder: Path, frames: range, stage: Stage, on_frame: Callable[[int], None]
+) -> None:
+    """Renders frames as `render_frames` does, each with one more layer: the actors alone.
+
+    Where there may be actors, each frame is rendered twice, the second time without the place.
+    """
+    compat.write_multilayer_exr(bpy.context.scene.render.image_settings, packed=False)
+
+    def pose(number: int) -> None:
+        stage.pose(number // 2)
+        stage.show_place(number % 2 == 0)
+
+    def finish(number: int) -> None:
+        if number % 2 == 1 or not stage.has_actors(number // 2):
+            _join_layers(folder, number // 2)
+            on_frame(number // 2)
+
+    for run in _runs(frames, stage.has_actors):
+        step = 1 if stage.has_actors(run[0]) else 2
+        _animate(folder, range(2 * run[0], 2 * run[-1] + 2, step), pose, finish)
+        stage.show_place(True)
+
+
+def _runs(frames: range, is_one_kind: Callable[[int], bool]) -> list[range]:
+    """Frames in parts as long as can be that are all of one kind."""
+    starts = [k for k in frames if k == frames[0] or is_one_kind(k) != is_one_kind(k - 1)]
+    return [range(start, stop) for start, stop in zip(starts, [*starts[1:], frames.stop])]
+
+
+def _join_layers(folder: Path, frame: int) -> None:
+    """Makes a whole frame of Blender's frames 2 * frame, and 2 * frame + 1 if there is one."""
+    both, alone = _part(folder, 2 * frame), _part(folder, 2 * frame + 1)
+    other = alone if alone.exists() else None
+    for part in filter(None, (both, other)):
+        _check_whole(folder / frame_file(frame), part)
+    joined = folder / f"{_PART}joined.exr"
+    add_layer(both, f"{ACTOR_LAYER}.IndexOB.X", other, f"{LAYER}.IndexOB.X", joined)
+    both.unlink()
+    alone.unlink(missing_ok=True)
+    _finish_frame(folder / frame_file(frame), joined)
+
+
+def _part(folder: Path, number: int) -> Path:
+    return folder / f"{_PART}{frame_file(number)}"
+
+
+def _animate(folder: Path, frames: range, pose: Callable[[int], None], finish: Callable[[int], None]) -> None:
+    """Has Blender render frames to part files; pose(k) before frame k is rendered, finish(k) when it is written."""
     scene = bpy.context.scene
     scene.render.filepath = str(folder / f"{_PART}######")
-    scene.frame_start, scene.frame_end = frames[0], frames[-1]
+    scene.frame_start, scene.frame_end, scene.frame_step = frames[0], frames[-1], frames.step
     done: list[int] = []
     failures: list[Exception] = []
 
-    def finish(number: int) -> None:
-        _finish_frame(folder, number)
-        on_frame(number)
+    def pose_one(number: int) -> None:  # Blender also passes by its own first frame
+        pose(min(max(number, frames[0]), frames[-1]))
+
+    def finish_one(number: int) -> None:
+        finish(number)
         done.append(number)
 
-    before, after = _handler(pose, failures), _handler(finish, failures)
+    before, after = _handler(pose_one, failures), _handler(finish_one, failures)
     bpy.app.handlers.frame_change_pre.append(before)
     bpy.app.handlers.render_write.append(after)
     try:
@@ -91,7 +151,7 @@ def render_frames(
 def _handler(act: Callable[[int], None], failures: list[Exception]) -> Callable:
     """Calls act(frame) for Blender until one of its handlers failed.
 
-    Blender only prints what a handler raises, so a failure is kept, and rendering interrupted as by Ctrl-C.
+    Blender only prints what a handler raises, so a failure is kept, and rendering stopped.
     """
 
     def handle(scene: bpy.types.Scene, *_) -> None:
@@ -101,14 +161,17 @@ def _handler(act: Callable[[int], None], failures: list[Exception]) -> Callable:
             act(scene.frame_current)
         except Exception as error:  # pylint: disable=broad-exception-caught
             failures.append(error)
-            signal.raise_signal(signal.SIGINT)
+            compat.stop_rendering(scene)
 
     return handle
 
 
-def _finish_frame(folder: Path, number: int) -> None:
+def _finish_frame(frame: Path, part: Path) -> None:
     """Gives a written frame its final name, if it is whole."""
-    part = folder / f"{_PART}{frame_file(number)}"
+    _check_whole(frame, part)
+    os.replace(part, frame)
+
+
+def _check_whole(frame: Path, part: Path) -> None:
     if not is_whole(part):
-        raise OSError(f"{folder / frame_file(number)}: Blender could not write all of it; is the disk full?")
-    os.replace(part, folder / frame_file(number))
+        raise OSError(f"{frame}: Blender could not write all of it; is the disk full?")

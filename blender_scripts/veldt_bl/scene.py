@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import bpy
 import numpy as np
 
@@ -18,32 +16,51 @@ from . import actors, camera, plants
 from .meshes import add_twin, new_material, new_mesh, new_object
 
 _SHEET_CORNERS = 64
+_OUT_OF_SIGHT_M = -1e5  # several times farther away than a camera sees
 
 
-@dataclass(frozen=True)
 class Stage:
     """A world built in Blender's current scene."""
 
-    world: World
-    camera: bpy.types.Object
-    troupe: actors.Troupe
-    flora: plants.Flora
+    def __init__(
+        self,
+        world: World,
+        place: list[bpy.types.Object],
+        flora: plants.Flora,
+        troupe: actors.Troupe,
+        eye: bpy.types.Object,
+    ):
+        self.world, self.place, self.flora, self.troupe, self.camera = world, place, flora, troupe, eye
+        self._camera_to_world = np.eye(4)[None]
+        self._circles = np.zeros((1, 2)), np.zeros(1)
 
     def animate(self, clip: dict) -> None:
-        """Replaces all motion by that of a clip, whose first frame is frame 0."""
+        """Has `pose` show the frames of a clip from now on, the first of which is frame 0."""
         flight = self.world.flight(clip)
-        for moving in (self.camera, self.flora.view):
-            moving.animation_data_clear()
-        for action in list(bpy.data.actions):
-            bpy.data.actions.remove(action)
-        camera.animate(self.camera, flight)
-        plants.animate(self.flora, self.world, flight)
-        self.troupe.rehearse(flight.time_s)
-        self.pose(0)
+        self._camera_to_world = flight.camera_to_world
+        self._circles = plants.circles_needed(self.flora, self.world, flight.camera_to_world)
+        self.troupe.rehearse(flight.time_s, actors.needed(self.world, flight))
 
     def pose(self, frame: int) -> None:
-        """Puts the actors where they are in a frame of the clip; all else moves by itself when frames change."""
+        """Puts the camera, and all it may see, where they are in a frame of the clip.
+
+        All is set outright and not keyed: keys of a long clip would fill the memory, and take longer than rendering.
+        """
+        camera.place(self.camera, self._camera_to_world[frame])
+        centres_m, radii_m = self._circles
+        plants.show_within(self.flora, centres_m[frame], radii_m[frame])
         self.troupe.pose(frame)
+
+    def has_actors(self, frame: int) -> bool:
+        """Whether there may be actors in the picture."""
+        return bool(self.troupe.needed[:, frame].any())
+
+    def show_place(self, is_there: bool) -> None:
+        """Puts all but the actors where it belongs, or out of sight, which takes less than hiding it."""
+        height_m = 0.0 if is_there else _OUT_OF_SIGHT_M
+        for thing in self.place:
+            if thing.location.z != height_m:
+                thing.location.z = height_m
 
 
 def build_stage(world: World) -> Stage:
@@ -53,12 +70,11 @@ def build_stage(world: World) -> Stage:
         (material, part): new_material(f"{material} {part}".strip(), index)
         for (material, part), index in world.material_indices.items()
     }
-    _add_ground(world, materials)
-    for water in world.terrain.waters:
-        _add_water(water, materials[WATER, ""])
+    place = [_add_ground(world, materials)]
+    place += [_add_water(water, materials[WATER, ""]) for water in world.terrain.waters]
     flora = plants.add_flora(world, materials)
     troupe = actors.add_actors(world.actors, materials)
-    return Stage(world, camera.add_camera(world.passes_intrinsics), troupe, flora)
+    return Stage(world, place + flora.places, flora, troupe, camera.add_camera(world.passes_intrinsics))
 
 
 def _empty_scene() -> None:
@@ -67,20 +83,23 @@ def _empty_scene() -> None:
     bpy.context.scene.world = None
 
 
-def _add_ground(world: World, materials: dict) -> None:
+def _add_ground(world: World, materials: dict) -> bpy.types.Object:
     ground = build_ground(world.terrain, world.covers, SOIL)
     slots = [materials[material, ""] for material in ground.materials]
     mesh = new_mesh("ground", Mesh(ground.points_m, ground.triangles, ground.cover), slots)
-    new_object("ground", mesh, ids.GROUND)
+    ground = new_object("ground", mesh, ids.GROUND)
     # Cycles merges a mesh that only one object uses into the tree it rebuilds each frame, which for the ground takes
     # longer than the picture. A second user, deep down where no camera ray may meet it, keeps the ground's own tree.
     add_twin(mesh, ids.GROUND)
+    return ground
 
 
-def _add_water(water: Water, material: bpy.types.Material) -> None:
+def _add_water(water: Water, material: bpy.types.Material) -> bpy.types.Object:
     """A flat disc; its rim lies under the banks, so the shoreline is where the ground rises through it."""
     angle = 2.0 * np.pi * np.arange(_SHEET_CORNERS) / _SHEET_CORNERS
     rim = water.basin.centre_m + water.basin.disc_radius_m * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     points = np.column_stack([rim, np.full(_SHEET_CORNERS, water.level_m)])
     fan = np.array([[0, k, k + 1] for k in range(1, _SHEET_CORNERS - 1)])
-    new_object("water", new_mesh("water", facets(points, fan), [material]), ids.WATER)
+    mesh = new_mesh("water", facets(points, fan), [material])
+    add_twin(mesh, ids.WATER)  # as the ground's, for when the place is put out of sight
+    return new_object("water", mesh, ids.WATER)

@@ -69,3 +69,11 @@ def test_the_camera_is_the_pictures_own_whatever_the_passes_reach():
     assert (manifest["camera"]["width_px"], manifest["camera"]["height_px"]) == (96, 80)
     assert (manifest["camera"]["cx_px"], manifest["camera"]["cy_px"]) == (48, 40)
     jsonschema.validate(manifest, SCHEMA)
+
+
+def test_only_passes_with_a_layer_of_actors_tell_of_it(world):
+    assert "actor_layer" not in build_manifest(world, world.config["clips"][0])
+    layered = plan_world(tiny(lambda config: config.update(render={"actor_layer": True})))
+    manifest = build_manifest(layered, layered.config["clips"][0])
+    assert manifest["actor_layer"] == "Actors"
+    jsonschema.validate(manifest, SCHEMA)

@@ -1,6 +1,7 @@
 """A real Blender renders a small scene: files, events, indices, determinism, resume and faults."""
 
 import shutil
+from pathlib import Path
 
 import numpy as np
 
@@ -98,6 +99,14 @@ def test_clips_and_threads_change_no_pixel(full, tmp_path):
         ).read_bytes()
 
 
+def test_what_blender_keeps_from_frame_to_frame_changes_no_pixel(full, tmp_path):
+    script = Path(__file__).parent / "render_forgetfully.py"
+    run = render(tmp_path, tiny(), script=script)
+    assert run.code == 0, run.log
+    for clip in CLIPS:
+        _assert_same_pixels(full, run, clip)
+
+
 def test_a_killed_clip_goes_on_where_it_stopped(full, tmp_path):
     out = tmp_path / "out"
     shutil.copytree(full.out / "down", out / "down")
@@ -111,6 +120,17 @@ def test_a_killed_clip_goes_on_where_it_stopped(full, tmp_path):
     assert [event["index"] for event in run.events if event["event"] == "frame"] == [1, 2]
     assert (out / "down" / "000000.exr").stat().st_mtime_ns == kept
     assert sorted(path.name for path in (out / "down").iterdir())[-1] == "manifest.json"
+    _assert_same_pixels(full, run, "down")
+
+
+def test_a_damaged_frame_is_rendered_again(full, tmp_path):
+    out = tmp_path / "out"
+    shutil.copytree(full.out / "down", out / "down")
+    frame = out / "down" / "000001.exr"
+    frame.write_bytes(frame.read_bytes()[:-100])
+    run = render(tmp_path, tiny(), "--clip", "down", out=out)
+    assert run.code == 0, run.log
+    assert [event["index"] for event in run.events if event["event"] == "frame"] == [1, 2]
     _assert_same_pixels(full, run, "down")
 
 

@@ -28,10 +28,10 @@ from veldt.world import plan_world
 from veldt_bl.scene import build_stage
 config = load(Path(config))
 stage = build_stage(plan_world(config))
-stage.animate(config["clips"][0])
+stage.troupe.rehearse(stage.world.flight(config["clips"][0]).time_s)
 told = {}
 for frame in json.loads(frames):
-    stage.pose(frame)
+    stage.troupe.pose(frame)
     bpy.context.view_layer.update()
     for puppet in stage.troupe.puppets:
         for bone, shown in puppet.bones:

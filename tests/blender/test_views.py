@@ -5,7 +5,7 @@ import pytest
 
 from veldt.camera import Intrinsics, look, project
 from veldt.noise import stream
-from veldt.plants.views import circles_seen
+from veldt.plants.views import circles_seen, held_circles, spheres_seen
 
 LENS = Intrinsics(640, 512, 765.0)
 
@@ -32,3 +32,33 @@ def test_all_that_is_seen_between_two_heights_is_in_the_circle(height_m, depress
 def test_a_view_of_the_horizon_has_no_end(depression_deg):
     (centre_m,), (radius_m,) = circles_seen(LENS, _pose(61, depression_deg), -5.0, 20.0)
     assert radius_m == np.inf and np.isfinite(centre_m).all()
+
+
+@pytest.mark.parametrize("height_m, depression_deg", [(61, 90), (122, 45), (15, 30), (30, 5)])
+@pytest.mark.parametrize("radius_m", [0.5, 8.0])
+def test_a_sphere_of_which_anything_is_seen_is_needed(height_m, depression_deg, radius_m):
+    pose = np.repeat(_pose(height_m, depression_deg), 20_000, axis=0)
+    draw = stream(3, "spheres")
+    centres_m = draw.uniform([-200, -200, -5], [300, 300, 60], (20_000, 3))
+    aside = draw.normal(size=(20_000, 3))
+    points_m = centres_m + radius_m * aside / np.linalg.norm(aside, axis=1, keepdims=True)
+    place_px, depth_m = project(LENS, pose[0], points_m)
+    seen = (depth_m > 0) & ((place_px > 0) & (place_px < [640, 512])).all(axis=1)
+    needed = spheres_seen(LENS, pose, centres_m, radius_m)
+    assert seen.sum() > 10 and needed[seen].all()
+    assert needed.mean() < 0.5
+
+
+def test_held_circles_hold_and_stay():
+    along_m = np.arange(200.0)
+    centres_m, radii_m = np.stack([along_m, 0.1 * along_m], axis=1), 60.0 + 5.0 * np.sin(along_m)
+    held_m, held_radii_m = held_circles(centres_m, radii_m)
+    assert (np.linalg.norm(held_m - centres_m, axis=1) + radii_m <= held_radii_m + 1e-9).all()
+    assert (held_radii_m < 1.5 * radii_m).all()
+    assert 10 < len(np.unique(held_m, axis=0)) < 30
+
+
+def test_held_circles_of_endless_views_are_endless():
+    centres_m, radii_m = np.zeros((4, 2)), np.array([50.0, 1e6, 1e6, 50.0])
+    held_m, held_radii_m = held_circles(centres_m, radii_m)
+    assert held_radii_m.tolist() == radii_m.tolist() and np.isfinite(held_m).all()

@@ -67,6 +67,7 @@ Manifest read_document(const Json& json) {
   manifest.seed = json["seed"];
   manifest.frame_rate_hz = json["frame_rate_hz"];
   manifest.layer = json["layer"];
+  manifest.actor_layer = json["actor_layer"];
   manifest.supersample = json["supersample"];
   manifest.overscan_px = json["overscan_px"];
   manifest.camera = read_camera(json["camera"]);

@@ -66,7 +66,8 @@ struct Manifest {
   std::string scene;
   std::uint32_t seed = 1;
   double frame_rate_hz = 9;
-  std::string layer;  ///< EXR layer; empty: the only one
+  std::string layer;        ///< EXR layer; empty: the only one
+  std::string actor_layer;  ///< EXR layer with the index of actors alone; empty: there is none
   CameraIntrinsics camera;
   int supersample = 1;  ///< the passes have this many pixels for each of the camera's, each way
   int overscan_px = 0;  ///< and so many of the camera's pixels more on every side

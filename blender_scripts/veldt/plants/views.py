@@ -6,6 +6,7 @@ import numpy as np
 
 from ..camera import Intrinsics
 
+_GROWTH = 1.25  # a larger one asks for more plants in each frame, a smaller one for new ones more often
 _LEAST_FALL = 0.05  # of a ray's length; flatter rays are taken to see everything
 
 
@@ -28,6 +29,42 @@ def circles_seen(
     radii_m = np.linalg.norm(corners_m - centres_m[:, None], axis=-1).max(axis=1)
     endless = fall.min(axis=1) < _LEAST_FALL
     return np.where(endless[:, None], position_m[:, 0, :2], centres_m), np.where(endless, np.inf, radii_m)
+
+
+def held_circles(centres_m: np.ndarray, radii_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Circles (n, 2) and (n,) that hold those given, of which one serves as many frames in a row as it can.
+
+    One serves while it need not be more than _GROWTH times as large as the smallest of those it holds.
+    """
+    centres_held_m, radii_held_m = np.empty_like(centres_m), np.empty_like(radii_m)
+    first = 0
+    for k in range(len(radii_m)):
+        circle = _around(centres_m[first : k + 1], radii_m[first : k + 1])
+        if circle[1] > _GROWTH * radii_m[first : k + 1].min():
+            first, circle = k, (centres_m[k], radii_m[k])
+        centres_held_m[first : k + 1], radii_held_m[first : k + 1] = circle
+    return centres_held_m, radii_held_m
+
+
+def _around(centres_m: np.ndarray, radii_m: np.ndarray) -> tuple[np.ndarray, float]:
+    """A circle around all of some circles."""
+    middle_m = 0.5 * (centres_m.min(axis=0) + centres_m.max(axis=0))
+    return middle_m, float((np.linalg.norm(centres_m - middle_m, axis=1) + radii_m).max())
+
+
+def spheres_seen(
+    intrinsics: Intrinsics, camera_to_world: np.ndarray, centres_m: np.ndarray, radius_m: float
+) -> np.ndarray:
+    """In which of poses (n, 4, 4) a sphere, then at centres (n, 3), may reach into the picture: bool (n,).
+
+    False only where it lies wholly outside one side of the picture or behind the camera.
+    """
+    local = np.einsum("nij,ni->nj", camera_to_world[:, :3, :3], centres_m - camera_to_world[:, :3, 3])
+    x, y = np.array(intrinsics.centre_px) / intrinsics.f_px
+    seen = local[:, 2] > -radius_m
+    for across, half in ((local[:, 0], x), (local[:, 1], y)):
+        seen &= np.abs(across) - half * local[:, 2] < radius_m * np.hypot(1.0, half)
+    return seen
 
 
 def _corner_rays(intrinsics: Intrinsics, camera_to_world: np.ndarray) -> np.ndarray:

@@ -1,0 +1,94 @@
+"""Where the time of a frame goes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from .render import render_frames
+
+
+def profile_frames(
+    folder: Path, frames: range, pose: Callable[[int], None], clock_s: Callable[[], float]
+) -> dict:
+    """Mean seconds of a frame: `frame_s` all in all, `split_s` by what is done in them. The first is not counted.
+
+    Renders into the folder; then a single pixel of each frame, for which all is done but tracing and writing; then
+    saves the last picture once more.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    whole = _spans_s(folder, frames, pose, clock_s)
+    write_s = _write_s(folder / "again.exr", clock_s)
+    pixel = _spans_s(folder, frames, pose, clock_s, only_a_pixel=True)
+    sync_s = min(pixel["render"], whole["render"] - write_s)
+    split_s = {
+        "pose": whole["pose"],
+        "scene": whole["scene"],
+        "sync_and_trees": sync_s,
+        "trace": whole["render"] - write_s - sync_s,
+        "write": write_s,
+    }
+    return {
+        "frames": len(frames) - 1,
+        "split_s": {name: round(span_s, 5) for name, span_s in split_s.items()},
+        "frame_s": round(sum(whole.values()), 5),
+    }
+
+
+def _spans_s(
+    folder: Path,
+    frames: range,
+    pose: Callable[[int], None],
+    clock_s: Callable[[], float],
+    only_a_pixel: bool = False,
+) -> dict[str, float]:
+    """Mean seconds of all frames but the first: in `pose`, until the scene is up to date, until the file is there."""
+    rows: list[tuple[float, ...]] = []
+    at_s = {}
+
+    def pose_timed(frame: int) -> None:
+        at_s["begun"] = clock_s()
+        pose(frame)
+        at_s["posed"] = clock_s()
+
+    def update(*_) -> None:
+        at_s["updated"] = clock_s()
+
+    def finish(_) -> None:
+        rows.append((at_s["begun"], at_s["posed"], at_s["updated"], clock_s()))
+
+    bpy.app.handlers.frame_change_post.append(update)
+    _crop(only_a_pixel)
+    try:
+        render_frames(folder, frames, pose_timed, finish)
+    finally:
+        _crop(False)
+        bpy.app.handlers.frame_change_post.remove(update)
+    begun, posed, updated, written = np.array(rows).T
+    between = begun[1:] - written[:-1]
+    return {
+        "pose": float(np.mean((posed - begun)[1:])),
+        "scene": float(np.mean((updated - posed)[1:] + between)),
+        "render": float(np.mean((written - updated)[1:])),
+    }
+
+
+def _crop(only_a_pixel: bool) -> None:
+    """Renders the picture's middle pixel alone, or all of it."""
+    render = bpy.context.scene.render
+    render.use_border = render.use_crop_to_border = only_a_pixel
+    for side, size_px in (("x", render.resolution_x), ("y", render.resolution_y)):
+        setattr(render, f"border_min_{side}", 0.5)
+        setattr(render, f"border_max_{side}", 0.5 + 1.0 / size_px)
+
+
+def _write_s(file: Path, clock_s: Callable[[], float]) -> float:
+    """Seconds that writing the last picture takes, which is not there afterwards."""
+    started_s = clock_s()
+    bpy.data.images["Render Result"].save_render(str(file))
+    written_s = clock_s() - started_s
+    file.unlink()
+    return written_s
