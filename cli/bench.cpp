@@ -1,9 +1,11 @@
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "base/version.h"
 #include "bench/radiance_suite.h"
+#include "bench/render_suite.h"
 #include "bench/sensor_suite.h"
 #include "cli/command.h"
 #include "io/material_files.h"
@@ -64,6 +66,32 @@ void print_table(const std::vector<thermal::StageRow>& rows) {
   }
 }
 
+thermal::Json to_json(const thermal::RenderRow& row) {
+  thermal::Json figures = thermal::Json::object();
+  for (const thermal::Figure& figure : row.figures) figures[figure.name] = figure.value;
+  return {{"group", row.group}, {"name", row.name}, {"figures", figures}};
+}
+
+/// Whole numbers as they are, others to three digits.
+std::string short_number(double value) {
+  return value == std::floor(value) ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
+
+void print_table(const std::vector<thermal::RenderRow>& rows) {
+  std::string group;
+  for (const thermal::RenderRow& row : rows) {
+    if (row.group != group) {
+      fmt::print("\n{:<32}", row.group);
+      for (const thermal::Figure& figure : row.figures) fmt::print("{:>15}", figure.name);
+      fmt::print("\n");
+      group = row.group;
+    }
+    fmt::print("  {:<30}", row.name);
+    for (const thermal::Figure& figure : row.figures) fmt::print("{:>15}", short_number(figure.value));
+    fmt::print("\n");
+  }
+}
+
 template <typename Row>
 int show(const std::string& suite, const std::vector<Row>& rows, bool json) {
   if (!json) {
@@ -77,9 +105,24 @@ int show(const std::string& suite, const std::vector<Row>& rows, bool json) {
   return kDone;
 }
 
-int run(const std::string& suite, bool json) {
-  if (suite == "sensor") return show(suite, thermal::run_sensor_suite(), json);
-  return show(suite, thermal::run_radiance_suite(thermal::read_materials(thermal::find_home())), json);
+struct Options {
+  std::string suite = "radiance";
+  std::string blender;
+  bool json = false;
+};
+
+std::vector<thermal::RenderRow> measure_rendering(const Options& options, bool quiet) {
+  const auto tell = [quiet](const std::string& what) {
+    if (!quiet) fmt::print(stderr, "measuring {}\n", what);
+  };
+  return thermal::run_render_suite({find_blender(options.blender), thermal::find_home(), tell});
+}
+
+int run(const Options& options, bool quiet) {
+  if (options.suite == "sensor") return show(options.suite, thermal::run_sensor_suite(), options.json);
+  if (options.suite == "render") return show(options.suite, measure_rendering(options, quiet), options.json);
+  const thermal::MaterialLibrary materials = thermal::read_materials(thermal::find_home());
+  return show(options.suite, thermal::run_radiance_suite(materials), options.json);
 }
 
 }  // namespace
@@ -87,17 +130,18 @@ int run(const std::string& suite, bool json) {
 void add_bench(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "bench", "Speed and error of every kernel, measured on this machine");
-  struct Options {
-    std::string suite = "radiance";
-    bool json = false;
-  };
   auto options = std::make_shared<Options>();
   command->add_option("--suite", options->suite, "What to measure")
-      ->check(CLI::IsMember({"radiance", "sensor"}))
+      ->check(CLI::IsMember({"radiance", "sensor", "render"}))
       ->capture_default_str();
+  command
+      ->add_option("--blender", options->blender,
+                   "Blender that --suite render measures, instead of the one on PATH")
+      ->type_name("PATH");
   command->add_flag("--json", options->json, "Print JSON");
-  command->callback(
-      [options, &session] { session.run = [options] { return run(options->suite, options->json); }; });
+  command->callback([options, &session] {
+    session.run = [options, &session] { return run(*options, session.common.quiet); };
+  });
 }
 
 }  // namespace veldt

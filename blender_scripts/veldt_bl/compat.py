@@ -8,6 +8,8 @@ import bpy
 import numpy as np
 
 VERSION = bpy.app.version
+# The channel of the object index in files.
+OBJECT_INDEX = "Object Index.X" if VERSION >= (5, 0, 0) else "IndexOB.X"
 
 
 def fill_triangles(mesh: bpy.types.Mesh, triangles: np.ndarray) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -16,13 +17,14 @@ def profile_frames(
 ) -> dict:
     """Mean seconds of a frame: `frame_s` all in all, `split_s` by what is done in them. The first is not counted.
 
-    Renders into the folder; then a single pixel of each frame, for which all is done but tracing and writing; then
-    saves the last picture once more.
+    Renders into the folder; saves the last picture once more; then renders a single pixel of each frame, for which all
+    is done but tracing and writing, and of which nothing is kept.
     """
     folder.mkdir(parents=True, exist_ok=True)
     whole = _spans_s(folder, frames, pose, clock_s)
     write_s = _write_s(folder / "again.exr", clock_s)
-    pixel = _spans_s(folder, frames, pose, clock_s, only_a_pixel=True)
+    with tempfile.TemporaryDirectory() as passing:
+        pixel = _spans_s(Path(passing), frames, pose, clock_s, only_a_pixel=True)
     sync_s = min(pixel["render"], whole["render"] - write_s)
     split_s = {
         "pose": whole["pose"],

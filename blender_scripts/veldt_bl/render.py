@@ -109,7 +109,7 @@ def _join_layers(folder: Path, frame: int) -> None:
     for part in filter(None, (both, other)):
         _check_whole(folder / frame_file(frame), part)
     joined = folder / f"{_PART}joined.exr"
-    add_layer(both, f"{ACTOR_LAYER}.IndexOB.X", other, f"{LAYER}.IndexOB.X", joined)
+    add_layer(both, f"{ACTOR_LAYER}.IndexOB.X", other, f"{LAYER}.{compat.OBJECT_INDEX}", joined)
     both.unlink()
     alone.unlink(missing_ok=True)
     _finish_frame(folder / frame_file(frame), joined)

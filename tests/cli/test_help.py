@@ -22,7 +22,7 @@ OPTIONS = {
         "--method",
         "--json",
     },
-    "bench": {"--suite", "--json"},
+    "bench": {"--suite", "--blender", "--json"},
     "doctor": {"--json"},
 }
 COMMANDS = ", ".join(OPTIONS)

@@ -8,6 +8,11 @@ import numpy as np
 import OpenImageIO
 
 
+def channel_name(name: str) -> str:
+    """A channel's name as Blender before 5.0 would have spelled it."""
+    return name.replace("Object Index", "IndexOB").replace("Material Index", "IndexMA")
+
+
 def read_planes(file: Path) -> dict[str, np.ndarray]:
     """All channels of a picture by name, each (height, width), in the type they are stored in."""
     opened = OpenImageIO.ImageInput.open(str(file))
@@ -15,7 +20,7 @@ def read_planes(file: Path) -> dict[str, np.ndarray]:
     names = opened.spec().channelnames
     pixels = opened.read_image(opened.spec().format)
     opened.close()
-    return {name: pixels[..., k] for k, name in enumerate(names)}
+    return {channel_name(name): pixels[..., k] for k, name in enumerate(names)}
 
 
 def read_grey(file: Path) -> np.ndarray:

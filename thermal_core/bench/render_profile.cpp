@@ -1,0 +1,88 @@
+#include "bench/render_profile.h"
+
+#include <chrono>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "io/child_process.h"
+#include "io/json_file.h"
+
+namespace thermal {
+namespace {
+
+std::vector<std::string> command_of(const ProfileTask& task, const char* script) {
+  std::vector<std::string> command = {task.blender.string(), "--background", "--factory-startup",
+                                      "--python-exit-code", "1"};
+  if (task.threads > 0) command.insert(command.end(), {"--threads", std::to_string(task.threads)});
+  command.insert(command.end(), {"--python", (task.home / "blender_scripts" / script).string(), "--",
+                                 "--config", task.config.string(), "--out", task.out.string(), "--events-fd",
+                                 std::to_string(ChildProcess::kEventDescriptor)});
+  return command;
+}
+
+/// Runs Blender to its end. IoError with its own reason if it fails.
+void run_blender(const std::vector<std::string>& command, const ProfileTask& task,
+                 const std::function<void(const std::string& kind, const Json& event)>& take) {
+  constexpr int kPollMs = 1000;
+  Path log = task.out;
+  log += ".log";
+  ChildProcess process(command, log);
+  std::string reason = "it gave no reason";
+  while (!process.ended()) {
+    const Json event = Json::parse(process.next_line(kPollMs).value_or(""), nullptr, false);
+    if (!event.is_object()) continue;
+    const auto kind = event.value("event", std::string());
+    if (kind == "error") reason = event.value("message", reason);
+    take(kind, event);
+  }
+  const ExitStatus status = process.wait();
+  if (status.signal != 0 || status.code != 0)
+    throw IoError(fmt::format("Blender {} while measuring frames: {}", status.in_words(), reason));
+}
+
+Profile to_profile(const Json& event) {
+  Profile profile{.pixels = event.at("pixels"),
+                  .objects = event.at("objects"),
+                  .frame_s = event.at("frame_s"),
+                  .split_s = {}};
+  for (const std::string& step : frame_steps()) profile.split_s[step] = event.at("split_s").at(step);
+  return profile;
+}
+
+}  // namespace
+
+const std::vector<std::string>& frame_steps() {
+  static const std::vector<std::string> kSteps = {"pose", "scene", "sync_and_trees", "trace", "write"};
+  return kSteps;
+}
+
+Profile profile_frames(const ProfileTask& task) {
+  std::vector<std::string> command = command_of(task, "profile_render.py");
+  command.insert(command.end(), {"--frames", std::to_string(task.frames)});
+  Json profile;
+  run_blender(command, task, [&profile](const std::string& kind, const Json& event) {
+    if (kind == "profile") profile = event;
+  });
+  try {
+    return to_profile(profile);
+  } catch (const Json::exception& error) {
+    throw IoError(fmt::format("profile_render.py told of frames in other words: {}", error.what()));
+  }
+}
+
+double rendered_per_s(const ProfileTask& task, const std::string& clip) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<std::string> command = command_of(task, "render_passes.py");
+  command.insert(command.end(), {"--clip", clip});
+  std::vector<Clock::time_point> whole_at;
+  run_blender(command, task, [&whole_at](const std::string& kind, const Json&) {
+    if (kind == "frame") whole_at.push_back(Clock::now());
+  });
+  if (whole_at.size() < 2) throw IoError("render_passes.py told of fewer than two frames");
+  const std::chrono::duration<double> taken = whole_at.back() - whole_at.front();
+  return static_cast<double>(whole_at.size() - 1) / taken.count();
+}
+
+}  // namespace thermal

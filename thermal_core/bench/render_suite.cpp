@@ -1,0 +1,141 @@
+#include "bench/render_suite.h"
+
+#include <array>
+#include <cstdlib>
+#include <future>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "bench/measure.h"
+#include "bench/render_profile.h"
+#include "io/exr_passes.h"
+#include "io/json_file.h"
+
+namespace thermal {
+namespace {
+
+/// A folder that is gone afterwards.
+class PassingFolder {
+ public:
+  PassingFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "veldt-bench-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw IoError("cannot make a folder for frames: " + name);
+    path_ = name;
+  }
+  ~PassingFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  PassingFolder(const PassingFolder&) = delete;
+  PassingFolder& operator=(const PassingFolder&) = delete;
+  [[nodiscard]] const Path& path() const noexcept { return path_; }
+
+ private:
+  Path path_;
+};
+
+/// A config of the project with other settings of `render`, as a file in `folder`.
+Path config_with(const Path& home, const std::string& name, const Json& render, const Path& folder) {
+  Json config = read_json(home / "configs" / (name + ".json"));
+  config["render"] = render;
+  Path file = folder / fmt::format("{}.json", name);
+  write_file_atomically(file, to_text(config));
+  return file;
+}
+
+RenderRow scene_row(const std::string& scene, int supersample, const Profile& profile) {
+  RenderRow row{"frame, s", fmt::format("{} {}x{}", scene, supersample, supersample), {}};
+  row.figures = {{"pixels", profile.pixels}, {"objects", profile.objects}, {"frame", profile.frame_s}};
+  for (const std::string& step : frame_steps()) row.figures.push_back({step, profile.split_s.at(step)});
+  return row;
+}
+
+Passes read_all(const Path& file) {
+  return read_passes(file, "Scene", 0, 0, {.depth = true, .normals = true});
+}
+
+/// Time beside size. What Blender takes to write one is among the steps of a frame.
+std::vector<RenderRow> file_rows(const Path& file) {
+  constexpr double kMega = 1e6;
+  const std::string content = read_file(file);
+  const double file_mb = static_cast<double>(content.size()) / kMega;
+  Path copy = file;
+  copy += ".copy";
+  const auto bytes = std::as_bytes(std::span(content));
+  const auto row = [&](const std::string& name, double seconds) {
+    return RenderRow{"file of passes", name, {{"ms", 1e3 * seconds}, {"mb", file_mb}}};
+  };
+  return {row("the converter reads it", shortest_run_s([&] { (void)read_all(file); })),
+          row("its bytes copied", memcpy_s(content.size())),
+          row("its bytes written", shortest_run_s([&] { write_file(copy, bytes); }))};
+}
+
+/// Pixels of which any plane differs in a bit.
+int differing_pixels(const Passes& one, const Passes& other) {
+  int count = 0;
+  const auto differs = [](const auto& a, const auto& b, std::size_t at) {
+    return !a.empty() && (a.size() != b.size() || a.pixels()[at] != b.pixels()[at]);
+  };
+  for (std::size_t at = 0; at < one.object_index.size(); ++at) {
+    bool any = differs(one.object_index, other.object_index, at);
+    any |= differs(one.material_index, other.material_index, at) || differs(one.depth_m, other.depth_m, at);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      any |= differs(one.normal.at(axis), other.normal.at(axis), at);
+    count += any ? 1 : 0;
+  }
+  return count;
+}
+
+RenderRow process_row(const char* name, double frames_per_s, int differing_px) {
+  return {"demo with actor layers",
+          name,
+          {{"frames_per_s", frames_per_s}, {"differing_px", static_cast<double>(differing_px)}}};
+}
+
+/// Frames/s of one process with two threads and of two with one, actor layers included; then a frame as a file.
+std::vector<RenderRow> process_rows(const RenderSuiteTask& task, const Path& folder) {
+  constexpr int kFrames = 12;
+  Json config = read_json(task.home / "configs" / "demo.json");
+  config["render"] = {{"actor_layer", true}};
+  config["clips"][0]["frames"] = kFrames;
+  const std::string clip = config["clips"][0]["id"];
+  const Path file = folder / "layers.json";
+  write_file_atomically(file, to_text(config));
+  const auto rate = [&](const char* out, int threads) {
+    return rendered_per_s({task.blender, task.home, file, folder / out, threads}, clip);
+  };
+  const auto frame = [&](const char* out) { return folder / out / clip / "000001.exr"; };
+  task.tell("demo with actor layers, one process of two threads");
+  const double wide = rate("wide", 2);
+  task.tell("demo with actor layers, two processes of one thread");
+  auto second = std::async(std::launch::async, [&] { return rate("second", 1); });
+  const double first = rate("first", 1);
+  const double pair = first + second.get();
+  const int differing = differing_pixels(read_all(frame("wide")), read_all(frame("first")));
+  std::vector<RenderRow> rows = {process_row("one process of two threads", wide, 0),
+                                 process_row("two processes of one thread", pair, differing)};
+  for (const RenderRow& row : file_rows(frame("wide"))) rows.push_back(row);
+  return rows;
+}
+
+}  // namespace
+
+std::vector<RenderRow> run_render_suite(const RenderSuiteTask& task) {
+  const PassingFolder folder;
+  std::vector<RenderRow> rows;
+  for (const char* scene : {"demo", "savanna"}) {
+    for (const int supersample : {1, 2}) {
+      task.tell(fmt::format("{}, {}x{} rays a pixel", scene, supersample, supersample));
+      const Path config = config_with(task.home, scene, {{"supersample", supersample}}, folder.path());
+      const Path out = folder.path() / fmt::format("{}_{}", scene, supersample);
+      const Profile profile = profile_frames({task.blender, task.home, config, out});
+      rows.push_back(scene_row(scene, supersample, profile));
+    }
+  }
+  for (const RenderRow& row : process_rows(task, folder.path())) rows.push_back(row);
+  return rows;
+}
+
+}  // namespace thermal
