@@ -28,6 +28,7 @@ struct Options {
   std::string shard = "0/1";
   std::vector<std::string> clips;
   std::vector<std::string> settings;
+  int jobs = 1;
   bool keep_passes = false;
   bool preview = false;
   bool dry_run = false;
@@ -66,6 +67,7 @@ int run(const Options& options, const CommonOptions& common, Run work) {
                                             .blender = options.dry_run ? "" : find_blender(options.blender),
                                             .clips = options.clips,
                                             .shard = parse_shard(options.shard),
+                                            .jobs = options.jobs,
                                             .threads = common.threads,
                                             .keep_passes = options.keep_passes};
   if (given.resolved["flights"].empty())  // then --clips can be told to be wrong at once
@@ -97,6 +99,12 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
       ->allow_extra_args(false)  // else a CONFIG that follows would be taken for a clip
       ->type_name("ID,…");
   command->add_option("--shard", options->shard, "Only every N-th clip, from the I-th")->type_name("I/N");
+  command
+      ->add_option(
+          "--jobs", options->jobs,
+          "Blenders at a time, a clip each; they share the --threads, and each holds the place in memory")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
   command->add_option("--blender", options->blender, "Blender to use instead of the one on PATH")
       ->type_name("PATH");
   if (name == "generate") {

@@ -86,9 +86,22 @@ void ProgressBar::show_json(const thermal::Progress& progress, double frames_per
   fmt::print(stderr, "{}\n", line.dump());
 }
 
+void ProgressBar::show_restart(const std::string& clip, const std::string& why) {
+  if (style_ == Style::none) return;
+  if (style_ == Style::json) {
+    fmt::print(stderr, "{}\n", thermal::Json({{"event", "restart"}, {"clip", clip}, {"reason", why}}).dump());
+    return;
+  }
+  if (line_open_) fmt::print(stderr, "\n");
+  line_open_ = false;
+  fmt::print(stderr, "clip {}: {}; started again\n", clip, why);
+}
+
 thermal::RunHooks hooks_for(ProgressBar& bar) {
-  return {.progress = [&bar](const thermal::Progress& progress) { bar.show(progress); },
-          .cancelled = [] { return stop_signal() != 0; }};
+  return {
+      .progress = [&bar](const thermal::Progress& progress) { bar.show(progress); },
+      .cancelled = [] { return stop_signal() != 0; },
+      .restarted = [&bar](const std::string& clip, const std::string& why) { bar.show_restart(clip, why); }};
 }
 
 }  // namespace veldt

@@ -18,6 +18,8 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(const thermal::Progress& progress);
+  /// Blender died over a clip and was started again.
+  void show_restart(const std::string& clip, const std::string& why);
 
  private:
   enum class Style { none, bar, plain, json };
@@ -35,7 +37,7 @@ class ProgressBar {
   bool line_open_ = false;
 };
 
-/// Callbacks for a run: progress to `bar`, stop on a signal.
+/// Callbacks for a run: progress and restarts to `bar`, stop on a signal.
 [[nodiscard]] thermal::RunHooks hooks_for(ProgressBar& bar);
 
 /// "1:05", "2:03:00".

@@ -14,12 +14,12 @@ std::string counted(std::size_t count, const std::string& what) {
 }
 
 /// The line that tells of a dataset.
-std::string summary_of(const thermal::RunOutcome& run) {
+std::string summary_of(const thermal::RunOutcome& run, const std::string& done = "made") {
   const std::size_t there = run.already_there.size();
   const std::string were = there == 1 ? "was" : "were";
   if (run.made.empty() && run.failed.empty())
     return fmt::format("nothing to do, {} {} there already", counted(there, "clip"), were);
-  std::string line = fmt::format("{} made, {}", counted(run.made.size(), "clip"),
+  std::string line = fmt::format("{} {}, {}", counted(run.made.size(), "clip"), done,
                                  counted(static_cast<std::size_t>(run.frames_made), "frame"));
   if (there > 0) line += fmt::format("; {} {} there already", there, were);
   return run.complete ? line : line + "; the dataset is not complete yet";
@@ -31,23 +31,34 @@ bool has_clips(const thermal::ConvertOutcome& outcome) {
 
 bool has_faults(const thermal::ConvertOutcome& outcome) { return !outcome.run.failed.empty(); }
 
+/// Names clips that could not be made; `what` was done to them.
+void print_failed(const thermal::RunOutcome& run, const std::string& whose, const std::string& what) {
+  for (const auto& [clip, why] : run.failed)
+    fmt::print(stderr, "veldt: {}clip {} {}: {}\n", whose, clip, what, why);
+}
+
+int exit_code_of(const std::vector<thermal::ConvertOutcome>& outcomes) {
+  if (std::none_of(outcomes.begin(), outcomes.end(), has_faults)) return kDone;
+  return std::any_of(outcomes.begin(), outcomes.end(), has_clips) ? kSomeRejected : kFailed;
+}
+
 }  // namespace
 
-int summarise(const thermal::RunOutcome& outcome, const thermal::Path& out, const CommonOptions& options) {
-  return summarise({{.variant = "", .out = out, .run = outcome}}, options);
+int summarise(const thermal::RunOutcome& outcome, const thermal::Path& out, const CommonOptions& options,
+              const std::string& done) {
+  print_failed(outcome, "", "failed");
+  if (!options.quiet) fmt::print("{}: {}\n", out.string(), summary_of(outcome, done));
+  if (outcome.try_again) return kTryAgain;
+  return exit_code_of({{.variant = "", .out = out, .run = outcome}});
 }
 
 int summarise(const std::vector<thermal::ConvertOutcome>& outcomes, const CommonOptions& options) {
-  for (const auto& [variant, out, run] : outcomes) {
-    const std::string whose = variant.empty() ? "" : variant + ": ";
-    for (const auto& [clip, why] : run.failed)
-      fmt::print(stderr, "veldt: {}clip {} rejected: {}\n", whose, clip, why);
-  }
+  for (const auto& [variant, out, run] : outcomes)
+    print_failed(run, variant.empty() ? "" : variant + ": ", "rejected");
   for (const auto& [variant, out, run] : outcomes) {
     if (!options.quiet) fmt::print("{}: {}\n", out.string(), summary_of(run));
   }
-  if (std::none_of(outcomes.begin(), outcomes.end(), has_faults)) return kDone;
-  return std::any_of(outcomes.begin(), outcomes.end(), has_clips) ? kSomeRejected : kFailed;
+  return exit_code_of(outcomes);
 }
 
 }  // namespace veldt

@@ -3,6 +3,7 @@
 tests/integration does the same with a real one.
 """
 
+import json
 import os
 import signal
 
@@ -10,6 +11,7 @@ import pytest
 
 import fake_blender
 from configs import CLIPS, FRAMES, tiny
+from datasets import content_of
 from processes import running_with, wait_until
 from program import Veldt, files_below
 
@@ -17,15 +19,15 @@ from program import Veldt, files_below
 def _run(veldt, *options, command="generate") -> list[str]:
     """The arguments of a run; its folder is named in full to tell its processes from those of other tests."""
     blender, out = veldt.folder / "fake_blender", veldt.folder / "out"
+    silent = [] if "--progress" in options else ["--progress", "none"]
     return [
         command,
         "config.json",
         "--out",
         str(out),
-        "--progress",
-        "none",
         "--blender",
         str(blender),
+        *silent,
         *options,
     ]
 
@@ -207,3 +209,170 @@ def test_a_config_changed_between_kill_and_resume_is_refused(veldt):
         f"veldt: {veldt.folder}/out holds a dataset made from another config: seed is 8 here and 7 there;"
         " expected the same config, or another folder\n"
     )
+
+
+# --- several at a time ------------------------------------------------------------------------------------------------
+
+
+def _is_like(veldt, usual) -> None:
+    """Every file of the two datasets is the same."""
+    assert content_of(veldt.folder / "out") == content_of(usual.folder / "out")
+
+
+@pytest.mark.parametrize("jobs", ["2", "5"])
+def test_jobs_make_the_same_dataset(veldt, usual, jobs):
+    _generate(veldt, "--jobs", jobs)
+    _is_like(veldt, usual)
+
+
+def test_jobs_render_at_the_same_time_and_share_the_threads(veldt, usual):
+    run = veldt.start(*_run(veldt, "--jobs", "2", "--threads", "5"), env=fake_blender.hold_after("down", 3))
+    assert wait_until((veldt.folder / "out" / "clips" / "side").exists, 60)
+    assert wait_until(lambda: _reached(veldt, "down", 3), 60)
+    (command,) = [line for line in running_with(veldt.folder / "out" / "passes").values() if "down" in line]
+    assert " --threads 2 " in command and " --clip side" not in command
+    run.kill()
+    run.communicate()
+    _generate(veldt, "--jobs", "2")
+    _is_like(veldt, usual)
+
+
+def test_progress_of_jobs_is_of_all_together(veldt):
+    done = veldt(*_run(veldt, "--jobs", "2", "--progress", "json"))
+    lines = [json.loads(line) for line in done.err.splitlines()]
+    assert [line["frames_done"] for line in lines] == sorted(line["frames_done"] for line in lines)
+    assert {line["frames_total"] for line in lines} == {2 * FRAMES}
+    assert lines[-1]["frames_done"] == 2 * FRAMES
+    assert {line["clip"] for line in lines} == set(CLIPS)
+
+
+def test_jobs_render_the_same_passes(veldt, usual):
+    _generate(veldt, "--jobs", "2", command="render")
+    folders = [f"out/passes/{clip}" for clip in CLIPS]
+    assert veldt("convert", *folders, "--out", "converted", "--config", "config.json", "--quiet").code == 0
+    assert veldt.pixels("converted") == usual.pixels("out")
+
+
+@pytest.mark.parametrize("first", ["0/2", "1/2"])
+def test_shards_at_the_same_time_in_one_folder(veldt, usual, first):
+    """One is held in its clip while the other begins and ends."""
+    clip, second = ("down", "1/2") if first == "0/2" else ("side", "0/2")
+    run = veldt.start(*_run(veldt, "--shard", first), env=fake_blender.hold_after(clip, 3))
+    assert wait_until(lambda: _reached(veldt, clip, 3), 60)
+    done = veldt(*_run(veldt, "--shard", second))
+    assert (done.code, done.err) == (0, "")
+    assert done.out == f"{veldt.folder}/out: 1 clip made, 8 frames; the dataset is not complete yet\n"
+    assert (veldt.folder / "out" / "passes" / clip / "000003.exr").exists()
+    again = veldt(*_run(veldt, "--shard", first))
+    assert (again.code, again.out) == (75, "")
+    assert " is in use by another run of veldt; try again when that one has ended" in again.err
+    run.kill()
+    run.communicate()
+    _generate(veldt, "--shard", first)
+    _is_like(veldt, usual)
+
+
+def test_the_last_of_two_shards_tells_of_both(veldt, usual):
+    runs = [veldt.start(*_run(veldt, "--shard", shard, "--quiet")) for shard in ("0/2", "1/2")]
+    assert [run.communicate() for run in runs] == [("", ""), ("", "")]
+    assert [run.returncode for run in runs] == [0, 0]
+    _is_like(veldt, usual)
+
+
+def test_a_conversion_waits_for_no_shard(veldt):
+    """What needs the folder for itself is turned away, too."""
+    run = veldt.start(*_run(veldt, "--shard", "0/2"), env=fake_blender.hold_after("down", 3))
+    assert wait_until(lambda: _reached(veldt, "down", 3), 60)
+    done = veldt(*_run(veldt, "--preview", command="render"))
+    assert (done.code, done.out) == (75, "")
+    run.kill()
+    run.communicate()
+
+
+# --- a Blender that dies ----------------------------------------------------------------------------------------------
+
+KILLED = "Blender was killed by signal 9 (Killed) while "
+IN_WORDS = "; if nobody stopped it, the machine may have run out of memory"
+DEATHS = {
+    "as it builds the scene": ("scene", -1, "building the scene"),
+    "before the first frame": ("down", -1, "rendering clip down"),
+    "in the first clip": ("down", 3, "rendering clip down after frame 3"),
+    "in the second clip": ("side", 5, "rendering clip side after frame 5"),
+}
+
+
+@pytest.mark.parametrize("moment", DEATHS)
+def test_a_blender_that_dies_is_started_again(veldt, usual, moment):
+    clip, frame, doing = DEATHS[moment]
+    done = veldt(*_run(veldt, "--progress", "plain"), env=fake_blender.die_after(veldt.folder, clip, frame))
+    assert (done.code, done.out) == (0, f"{veldt.folder}/out: 2 clips made, 16 frames\n")
+    told = "down" if clip == "scene" else clip
+    assert f"clip {told}: {KILLED}{doing}{IN_WORDS}; started again\n" in done.err
+    _is_like(veldt, usual)
+
+
+def test_machines_are_told_of_a_restart(veldt):
+    done = veldt(*_run(veldt, "--progress", "json"), env=fake_blender.die_after(veldt.folder, "side", 5))
+    lines = [json.loads(line) for line in done.err.splitlines()]
+    assert [line for line in lines if "event" in line] == [
+        {
+            "event": "restart",
+            "clip": "side",
+            "reason": f"{KILLED}rendering clip side after frame 5{IN_WORDS}",
+        }
+    ]
+    assert [line["frames_done"] for line in lines if "event" not in line][-1] == 2 * FRAMES
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+@pytest.mark.parametrize("clip, other", [CLIPS, CLIPS[::-1]])
+def test_a_clip_it_dies_over_twice_fails_alone(veldt, usual, clip, other, jobs):
+    dying = fake_blender.die_after(veldt.folder, clip, 3, times=2)
+    done = veldt(*_run(veldt, "--jobs", jobs), env=dying)
+    why = f"{KILLED}rendering clip {clip} after frame 4{IN_WORDS}"
+    assert (done.code, done.err) == (3, f"veldt: clip {clip} failed: {why}\n")
+    assert done.out == f"{veldt.folder}/out: 1 clip made, 8 frames; the dataset is not complete yet\n"
+    told = {entry["id"]: entry for entry in veldt.read("out/dataset.json")["clips"]}
+    assert told[clip] == {"id": clip, "status": "failed", "reason": why}
+    assert told[other]["status"] == "done"
+    assert (veldt.folder / "out" / "passes" / clip / "000004.exr").exists()  # for the next run to go on from
+    done = veldt(*_run(veldt), env=dying)
+    assert (done.code, done.err) == (0, "")
+    assert done.out == f"{veldt.folder}/out: 1 clip made, 8 frames; 1 was there already\n"
+    _is_like(veldt, usual)
+
+
+def test_other_shards_keep_the_word_of_a_failed_clip(veldt):
+    veldt(*_run(veldt, "--shard", "0/2"), env=fake_blender.die_after(veldt.folder, "down", 3, times=2))
+    _generate(veldt, "--shard", "1/2")
+    told = [(entry["id"], entry["status"]) for entry in veldt.read("out/dataset.json")["clips"]]
+    assert told == [("down", "failed"), ("side", "done")]
+
+
+def test_a_blender_that_is_always_killed_is_to_be_tried_again(veldt, usual):
+    dying = fake_blender.die_after(veldt.folder, "down", 3, times=2)
+    done = veldt(*_run(veldt, "--clips", "down"), env=dying)
+    assert (done.code, done.out) == (
+        75,
+        f"{veldt.folder}/out: 0 clips made, 0 frames; the dataset is not complete yet\n",
+    )
+    why = f"{KILLED}rendering clip down after frame 4{IN_WORDS}"
+    assert done.err == f"veldt: clip down failed: {why}\n"
+    _generate(veldt)
+    _is_like(veldt, usual)
+
+
+def test_a_blender_that_cannot_even_build_the_scene_ends_the_run(veldt):
+    dying = fake_blender.die_after(veldt.folder, "scene", -1, times=9)
+    done = veldt(*_run(veldt), env=dying)
+    assert (done.code, done.out, done.err) == (75, "", f"veldt: {KILLED}building the scene{IN_WORDS}\n")
+    assert (veldt.folder / "deaths.txt").stat().st_size == 2
+
+
+def test_render_loses_a_clip_alone_too(veldt, usual):
+    done = veldt(*_run(veldt, command="render"), env=fake_blender.die_after(veldt.folder, "down", 3, times=2))
+    assert done.code == 3 and done.err.startswith("veldt: clip down failed: Blender was killed by signal 9")
+    _generate(veldt, command="render")
+    folders = [f"out/passes/{clip}" for clip in CLIPS]
+    assert veldt("convert", *folders, "--out", "converted", "--config", "config.json", "--quiet").code == 0
+    assert veldt.pixels("converted") == usual.pixels("out")

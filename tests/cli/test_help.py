@@ -5,11 +5,12 @@ import re
 import pytest
 
 COMMON = {"--help", "--quiet", "--progress", "--threads"}
-RENDERING = {"--out", "--clips", "--shard", "--blender", "--set", "--dry-run"}
+RENDERING = {"--out", "--clips", "--shard", "--jobs", "--blender", "--set", "--dry-run"}
 OPTIONS = {
     "generate": RENDERING | {"--keep-passes"},
     "render": RENDERING | {"--preview"},
     "convert": {"--out", "--manifest", "--config", "--variants", "--set"},
+    "merge": {"--out", "--link"},
     "inspect": {"--json"},
     "validate": {"--set", "--json"},
     "budget": {"--set", "--json"},

@@ -250,7 +250,7 @@ def test_nothing_converted_is_a_failure(veldt, clips):
 def test_a_variant_in_use_is_turned_away(veldt, clips):
     (veldt.folder / "out" / "summer").mkdir(parents=True)
     with open(veldt.folder / "out" / "summer" / ".lock", "w", encoding="utf-8") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)  # as another run of veldt holds it
+        fcntl.lockf(lock, fcntl.LOCK_EX)  # as another run of veldt holds it
         done = veldt("convert", *clips, "--variants", "list.json", "--out", "out")
     assert (done.code, done.out) == (75, "")
     assert done.err == (

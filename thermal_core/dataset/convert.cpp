@@ -25,7 +25,10 @@ class Dataset {
         behind_(!index_.complete() || !index_.recorded) {
     std::vector<const Manifest*> manifests;
     for (const ClipPasses& source : sources) manifests.push_back(&source.manifest);
-    index_.budget = weigh_terms(outline_of(request_.config, materials, manifests), request_.config.terms);
+    const Config& config = request_.config;
+    const Budget budget = weigh_terms(outline_of(config, materials, manifests), config.terms);
+    kept_ = budget.kept;
+    index_.physics = to_json(budget);
     for (const ClipPasses& source : sources) {
       if (!lacks(source)) outcome_.already_there.push_back(source.manifest.clip);
     }
@@ -48,7 +51,7 @@ class Dataset {
             .seed = config.seed,
             .sensor = config.sensor,
             .distortion = config.distortion,
-            .physics = physics_of(config, clip, index_.budget.kept),
+            .physics = physics_of(config, clip, kept_),
             .layout = layout_};
   }
 
@@ -61,13 +64,13 @@ class Dataset {
 
   void reject(const std::string& clip, const std::string& why) {
     index_.failed[clip] = why;
+    outcome_.failed[clip] = why;
     std::filesystem::remove_all(layout_.unfinished_clip(clip));
     write_progress(layout_, index_);
   }
 
   ConvertOutcome end() {
     if (behind_) write_dataset(layout_, index_);
-    outcome_.failed = index_.failed;
     outcome_.complete = index_.complete();
     return {.variant = request_.variant, .out = request_.out, .run = outcome_};
   }
@@ -81,6 +84,7 @@ class Dataset {
   Layout layout_;
   FolderLock lock_;
   DatasetIndex index_;
+  Terms kept_;
   bool behind_;  ///< clips are missing, or the files do not tell of all
   RunOutcome outcome_;
 };

@@ -9,7 +9,6 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "dataset/annotations.h"
-#include "dataset/physics.h"
 #include "io/sha256.h"
 
 namespace thermal {
@@ -43,6 +42,23 @@ Json clip_entry(const DatasetIndex& index, const std::string& id) {
   return {{"id", id}, {"status", "pending"}};
 }
 
+std::map<std::string, std::string> failed_there(const Json& there) {
+  std::map<std::string, std::string> failed;
+  for (const Json& clip : there.at("clips")) {
+    if (clip.at("status") == "failed") failed[clip.at("id")] = clip.at("reason");
+  }
+  return failed;
+}
+
+/// Clips that are whole and not told of.
+void find_finished(const Layout& layout, DatasetIndex& index) {
+  for (const std::string& id : index.clips) {
+    const Path record = layout.clip(id) / "clip.json";
+    if (!index.finished.contains(id) && std::filesystem::exists(record))
+      index.add(id, read_clip_record(record));
+  }
+}
+
 /// dataset.json; `annotations_sha256` is empty while annotations.json may lack clips.
 Json document_of(const DatasetIndex& index, const std::string& annotations_sha256) {
   Json clips = Json::array();
@@ -65,7 +81,7 @@ Json document_of(const DatasetIndex& index, const std::string& annotations_sha25
                    {"pixels_sha256", pixels.hex()}};
   if (!annotations_sha256.empty()) document["annotations_sha256"] = annotations_sha256;
   document["kelvin_per_count"] = index.config.at("sensor").at("kelvin_per_count");
-  document["physics"] = to_json(index.budget);
+  document["physics"] = index.physics;
   document["clips"] = std::move(clips);
   document["config"] = index.config;
   return document;
@@ -94,20 +110,27 @@ void DatasetIndex::add(const std::string& id, const ClipRecord& record) {
                   {"annotations", record.annotations},
                   {"pixels_sha256", record.pixels_sha256},
                   {"record_sha256", sha256_of(to_text(to_json(record)))}};
+  failed.erase(id);
 }
 
 DatasetIndex open_dataset(const Layout& layout, const Config& config) {
-  DatasetIndex index{.config = config.resolved, .budget = {}, .clips = {}, .finished = {}, .failed = {}};
+  DatasetIndex index{.config = config.resolved, .physics = {}, .clips = {}, .finished = {}, .failed = {}};
   const bool begun = std::filesystem::exists(layout.dataset_json());
   const Json there = begun ? read_json(layout.dataset_json()) : Json();
   if (begun) check_same_config(layout, config.resolved, there);
-  for (const ClipConfig& clip : config.clips) {
-    index.clips.push_back(clip.id);
-    const Path record = layout.clip(clip.id) / "clip.json";
-    if (std::filesystem::exists(record)) index.add(clip.id, read_clip_record(record));
-  }
+  for (const ClipConfig& clip : config.clips) index.clips.push_back(clip.id);
+  if (begun) index.failed = failed_there(there);
+  find_finished(layout, index);
   index.recorded = begun && is_recorded(layout, index, there);
   return index;
+}
+
+void catch_up(const Layout& layout, const std::set<std::string>& own, DatasetIndex& index) {
+  find_finished(layout, index);
+  std::erase_if(index.failed, [&own](const auto& failed) { return !own.contains(failed.first); });
+  for (const auto& [id, why] : failed_there(read_json(layout.dataset_json()))) {
+    if (!own.contains(id) && !index.finished.contains(id)) index.failed[id] = why;
+  }
 }
 
 void write_progress(const Layout& layout, const DatasetIndex& index) {

@@ -3,11 +3,11 @@
 namespace thermal {
 namespace {
 
-constexpr double kStartS = 45;           ///< planning, Blender, building the scene
+constexpr double kStartS = 50;           ///< planning, Blender, building the scene
 constexpr double kSecondsPerClip = 0.5;  ///< until the first frame
-constexpr double kSecondsPerFrame = 0.08;
-constexpr double kSecondsPerRay = 0.75e-6;  ///< of a pass pixel: traced, written, read and converted
-constexpr double kBytesPerPixel = 2.2;      ///< both pictures and the preview
+constexpr double kSecondsPerFrame = 0.05;
+constexpr double kSecondsPerRay = 0.7e-6;  ///< of a pass pixel: traced, written, read and converted
+constexpr double kBytesPerPixel = 2.2;     ///< both pictures and the preview
 
 double square(double value) { return value * value; }
 

@@ -1,61 +1,28 @@
 #include "dataset/generate.h"
 
-#include <algorithm>
-
-#include <fmt/format.h>
+#include <mutex>
+#include <set>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "dataset/clip_choice.h"
 #include "dataset/clip_maker.h"
 #include "dataset/dataset_index.h"
+#include "dataset/passes_room.h"
 #include "dataset/physics.h"
-#include "dataset/render_job.h"
+#include "dataset/render_crew.h"
+#include "dataset/room_watch.h"
+#include "dataset/run_board.h"
 #include "io/manifest_file.h"
 #include "io/material_files.h"
 
 namespace thermal {
 namespace {
 
-std::vector<std::string> ids_of(const std::vector<ClipConfig>& clips) {
-  std::vector<std::string> ids;
-  for (const ClipConfig& clip : clips) ids.push_back(clip.id);
-  return ids;
-}
+using Stop = std::function<bool()>;
 
-int frames_of(const std::vector<ClipConfig>& clips) {
-  int frames = 0;
-  for (const ClipConfig& clip : clips) frames += clip.frames;
-  return frames;
-}
-
-/// What Blender shall render into a folder. The resolved config lies there too, beside what it explains.
-RenderJob::Task render_task(const Config& config, const GenerateOptions& options, const Path& folder) {
-  make_folder(folder);
-  const Path resolved = folder / "config.json";
-  write_file_atomically(resolved, to_text(config.resolved));
-  return {.blender = options.blender,
-          .home = options.home,
-          .config = resolved,
-          .passes = folder,
-          .log = folder / "blender.log",
-          .clips = {},
-          .threads = options.threads};
-}
-
-RenderJob::Task passes_task(const Config& config, const GenerateOptions& options, const Layout& layout,
-                            const std::vector<ClipConfig>& clips) {
-  RenderJob::Task task = render_task(config, options, layout.passes());
-  task.clips = ids_of(clips);
-  return task;
-}
-
-RenderJob::Task preview_task(const Config& config, const GenerateOptions& options, const Layout& layout) {
-  RenderJob::Task task = render_task(config, options, layout.preview());
-  task.preview = true;
-  return task;
-}
-
-/// Makes clips one after another from what a render job delivers.
+/// Makes clips from what render jobs deliver.
 class Generator {
  public:
   Generator(const Config& config, const GenerateOptions& options, const RunHooks& hooks)
@@ -63,44 +30,75 @@ class Generator {
         options_(options),
         hooks_(hooks),
         layout_{options.out},
+        chosen_(choose_clips(config, options.clips, options.shard)),
+        lock_(options.out, places_of(config, chosen_)),
         materials_(read_materials(options.home)),
-        index_(open_dataset(layout_, config)) {
-    index_.budget = weigh_terms(outline_of(config, materials_, options.home), config.terms);
-  }
+        budget_(weigh_terms(outline_of(config, materials_, options.home), config.terms)) {}
 
   RunOutcome run() {
-    for (const ClipConfig& clip : choose_clips(config_, options_.clips, options_.shard)) {
-      index_.finished.contains(clip.id) ? outcome_.already_there.push_back(clip.id)
-                                        : pending_.push_back(clip);
-    }
+    lock_.in_turn([this] {
+      begin();
+      if (pending_.empty()) end();
+    });
+    if (pending_.empty()) return outcome_of({});
+    RunBoard board(hooks_, options_.out, frames_of(pending_));
     try {
-      if (!pending_.empty()) make_pending();
+      make_pending(board);
     } catch (...) {
-      write_dataset_after_fault(layout_, index_);
+      end_after_fault();
       throw;
     }
-    if (!pending_.empty() || !index_.recorded) write_dataset(layout_, index_);
-    if (!options_.keep_passes) std::filesystem::remove_all(layout_.passes());
-    outcome_.complete = index_.complete();
-    return outcome_;
+    lock_.in_turn([this] {
+      catch_up(layout_, own_, index_);
+      index_.recorded = false;
+      end();
+    });
+    return outcome_of(board.outcome());
   }
 
  private:
-  void make_pending() {
-    write_progress(layout_, index_);  // from here on the folder belongs to this config
-    progress_.frames_total = frames_of(pending_);
-    RenderJob job(passes_task(config_, options_, layout_, pending_));
-    for (const ClipConfig& clip : pending_) {
-      make(clip, job);
-      write_progress(layout_, index_);
+  void begin() {
+    index_ = open_dataset(layout_, config_);
+    index_.physics = to_json(budget_);
+    for (const ClipConfig& clip : chosen_) {
+      own_.insert(clip.id);
+      const bool there = index_.finished.contains(clip.id);
+      there ? already_there_.push_back(clip.id) : pending_.push_back(clip);
+      index_.failed.erase(clip.id);
     }
-    job.wait_for_end(hooks_.cancelled);
+    if (pending_.empty()) return;
+    write_progress(layout_, index_);  // from here on the folder belongs to this config
+    begin_passes(layout_, config_, ids_of(pending_));
   }
 
-  void make(const ClipConfig& clip, RenderJob& job) {
-    progress_.clip = clip.id;
-    hooks_.report(progress_);
-    job.wait_for_frame(clip.id, -1, hooks_.cancelled);
+  void make_pending(RunBoard& board) {
+    const ClipWork work = [this, &board](const std::string& id, RenderJob& job, const Stop& stop_wanted) {
+      try_make(config_.clip(id, "clips"), job, stop_wanted, board);
+    };
+    run_crew(passes_tasks(options_, layout_, ids_of(pending_), board), work,
+             [&board] { return board.stop_wanted(); });
+  }
+
+  void try_make(const ClipConfig& clip, RenderJob& job, const Stop& stop_wanted, RunBoard& board) {
+    try {
+      const ClipRecord record = make(clip, job, stop_wanted, board);
+      if (!options_.keep_passes) std::filesystem::remove_all(layout_.passes(clip.id));
+      tell([&] { index_.add(clip.id, record); });
+      board.made(clip);
+    } catch (const ClipLost& fault) {
+      lose(clip, fault.what(), fault.killed(), board);
+    } catch (const DataError& fault) {
+      reject(clip, fault.what(), board);
+    } catch (const IoError& fault) {
+      job.rethrow_fault();
+      reject(clip, fault.what(), board);
+    }
+  }
+
+  ClipRecord make(const ClipConfig& clip, RenderJob& job, const Stop& stop_wanted, RunBoard& board) {
+    board.begin(clip);
+    RoomWatch room(config_, clip, layout_, true, board);
+    job.wait_for_frame(clip.id, -1, stop_wanted);
     const Path folder = layout_.passes(clip.id);
     const ClipPasses passes = {.manifest = read_manifest(folder / "manifest.json", options_.home),
                                .folder = folder};
@@ -109,103 +107,96 @@ class Generator {
                            .seed = config_.seed,
                            .sensor = config_.sensor,
                            .distortion = config_.distortion,
-                           .physics = physics_of(config_, clip, index_.budget.kept),
+                           .physics = physics_of(config_, clip, budget_.kept),
                            .layout = layout_};
-    const ClipHooks clip_hooks = {
-        .wait_for_frame = [&](int frame) { job.wait_for_frame(clip.id, frame, hooks_.cancelled); },
-        .frame_done =
-            [&] {
-              ++progress_.frames_done;
-              hooks_.report(progress_);
-            },
-        .cancelled = hooks_.cancelled};
-    index_.add(clip.id, make_clip(passes, task, materials_, clip_hooks));
-    outcome_.made.push_back(clip.id);
-    outcome_.frames_made += clip.frames;
-    if (!options_.keep_passes) std::filesystem::remove_all(folder);
+    const ClipHooks clip_hooks = {.wait_for_frame =
+                                      [&](int frame) {
+                                        job.wait_for_frame(clip.id, frame, stop_wanted);
+                                        room.passes_ready(job.frames_ready(clip.id));
+                                      },
+                                  .frame_done =
+                                      [&] {
+                                        room.pictures_written();
+                                        board.frame_done(clip.id);
+                                      },
+                                  .cancelled = stop_wanted};
+    try {
+      return make_clip(passes, task, materials_, clip_hooks);
+    } catch (...) {
+      std::error_code ignored;  // half a clip is of no use, and may be in need of room
+      std::filesystem::remove_all(layout_.unfinished_clip(clip.id), ignored);
+      throw;
+    }
+  }
+
+  /// Passes that are there and of no use are made anew by the next run; until then they can be looked at.
+  void reject(const ClipConfig& clip, const std::string& why, RunBoard& board) {
+    write_file_atomically(layout_.unusable(clip.id), why + "\n");
+    lose(clip, why, false, board);
+  }
+
+  void lose(const ClipConfig& clip, const std::string& why, bool killed, RunBoard& board) {
+    tell([&] { index_.failed[clip.id] = why; });
+    board.lost(clip, why, killed);
+  }
+
+  /// Changes what the dataset says of itself, together with what other runs have made.
+  void tell(const std::function<void()>& change) {
+    const std::lock_guard lock(mutex_);
+    lock_.in_turn([&] {
+      catch_up(layout_, own_, index_);
+      change();
+      write_progress(layout_, index_);
+    });
+  }
+
+  void end() {
+    if (!index_.recorded) write_dataset(layout_, index_);
+    if (!options_.keep_passes) end_passes(layout_, finished_of(chosen_));
+  }
+
+  void end_after_fault() noexcept {
+    try {
+      lock_.in_turn([this] {
+        catch_up(layout_, own_, index_);
+        write_dataset(layout_, index_);
+      });
+    } catch (const std::exception&) {  // must not hide the first; the next run finds it not recorded
+    }
+  }
+
+  [[nodiscard]] RunOutcome outcome_of(RunOutcome outcome) const {
+    outcome.already_there = already_there_;
+    outcome.complete = index_.complete();
+    return outcome;
+  }
+
+  [[nodiscard]] std::vector<std::string> finished_of(const std::vector<ClipConfig>& clips) const {
+    std::vector<std::string> ids = ids_of(clips);
+    std::erase_if(ids, [this](const std::string& id) { return !index_.finished.contains(id); });
+    return ids;
   }
 
   const Config& config_;
   const GenerateOptions& options_;
   const RunHooks& hooks_;
   Layout layout_;
+  std::vector<ClipConfig> chosen_;
+  FolderLock lock_;  ///< of the chosen clips
   MaterialLibrary materials_;
+  Budget budget_;
+  std::mutex mutex_;
   DatasetIndex index_;
+  std::set<std::string> own_;
   std::vector<ClipConfig> pending_;
-  Progress progress_;
-  RunOutcome outcome_;
+  std::vector<std::string> already_there_;
 };
-
-/// A folder for passes belongs to one config, like a dataset's.
-void check_same_passes(const Config& config, const Layout& layout) {
-  const Path there = layout.passes() / "config.json";
-  if (!std::filesystem::exists(there)) return;
-  const std::vector<std::string> found = differences(config.resolved, read_json(there));
-  if (found.empty()) return;
-  throw ConfigError(
-      fmt::format("{} holds passes of another config: {}; expected the same config, or another folder",
-                  layout.passes().string(), fmt::join(found, ", ")));
-}
 
 }  // namespace
 
-std::vector<ClipConfig> choose_clips(const Config& config, const std::vector<std::string>& ids,
-                                     const Shard& shard) {
-  for (const std::string& id : ids) (void)config.clip(id, "--clips");
-  std::vector<ClipConfig> chosen;
-  for (std::size_t i = 0; i < config.clips.size(); ++i) {
-    const ClipConfig& clip = config.clips[i];
-    const bool named = ids.empty() || std::find(ids.begin(), ids.end(), clip.id) != ids.end();
-    if (named && static_cast<int>(i) % shard.count == shard.index) chosen.push_back(clip);
-  }
-  return chosen;
-}
-
 RunOutcome generate(const Config& config, const GenerateOptions& options, const RunHooks& hooks) {
   const ThreadLimit limit(options.threads);
-  const FolderLock lock(options.out);
   return Generator(config, options, hooks).run();
-}
-
-RunOutcome render(const Config& config, const GenerateOptions& options, const RunHooks& hooks) {
-  const FolderLock lock(options.out);
-  const Layout layout{options.out};
-  check_same_passes(config, layout);
-  const std::vector<ClipConfig> clips = choose_clips(config, options.clips, options.shard);
-  RunOutcome outcome;
-  if (clips.empty()) return outcome;
-  Progress progress{.clip = "", .frames_done = 0, .frames_total = frames_of(clips)};
-  RenderJob job(passes_task(config, options, layout, clips));
-  for (const ClipConfig& clip : clips) {
-    progress.clip = clip.id;
-    hooks.report(progress);
-    for (int frame = 0; frame < clip.frames; ++frame) {
-      job.wait_for_frame(clip.id, frame, hooks.cancelled);
-      ++progress.frames_done;
-      hooks.report(progress);
-    }
-    outcome.made.push_back(clip.id);
-    outcome.frames_made += clip.frames;
-  }
-  job.wait_for_end(hooks.cancelled);
-  outcome.complete = true;
-  return outcome;
-}
-
-int preview(const Config& config, const GenerateOptions& options, const RunHooks& hooks) {
-  const FolderLock lock(options.out);
-  RenderJob job(preview_task(config, options, Layout{options.out}));
-  const std::string clip = RenderJob::kPreview;
-  job.wait_for_frame(clip, -1, hooks.cancelled);
-  Progress progress{.clip = clip, .frames_done = 0, .frames_total = job.frames_of(clip)};
-  hooks.report(progress);
-  while (progress.frames_done < progress.frames_total) {
-    job.wait_for_frame(clip, progress.frames_done, hooks.cancelled);
-    ++progress.frames_done;
-    hooks.report(progress);
-  }
-  job.wait_for_end(hooks.cancelled);
-  return progress.frames_total;
 }
 
 }  // namespace thermal

@@ -17,10 +17,16 @@ struct Layout {
   [[nodiscard]] Path unfinished_clip(const std::string& id) const { return root / "clips" / (id + ".part"); }
   [[nodiscard]] Path passes() const { return root / "passes"; }
   [[nodiscard]] Path passes(const std::string& id) const { return passes() / id; }
+  [[nodiscard]] Path passes_config() const { return passes() / "config.json"; }
+  /// Says that a clip's passes could not be converted: the next run renders them anew.
+  [[nodiscard]] Path unusable(const std::string& id) const { return passes(id) / "unusable.txt"; }
   [[nodiscard]] Path preview() const { return root / "preview"; }
 };
 
 /// "000012.png"
 [[nodiscard]] std::string frame_name(int frame);
+
+/// "000012.exr"
+[[nodiscard]] std::string passes_name(int frame);
 
 }  // namespace thermal

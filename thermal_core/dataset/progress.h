@@ -12,10 +12,12 @@ struct Progress {
   int frames_total = 0;
 };
 
-/// How a long run talks to whoever started it. Both may be empty; neither is called from two threads at once.
+/// How a long run talks to whoever started it. All may be empty; no two are called at once.
 struct RunHooks {
   std::function<void(const Progress&)> progress;
   std::function<bool()> cancelled;
+  /// Blender died over a clip, and why, and was started again.
+  std::function<void(const std::string& clip, const std::string& why)> restarted = {};
 
   void report(const Progress& state) const {
     if (progress) progress(state);

@@ -1,16 +1,17 @@
 #include "io/files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -56,6 +57,35 @@ void write_all(const Path& file, const std::byte* data, std::size_t bytes, bool 
   if (sync && ::fsync(out.number()) != 0) fail("write", file, errno);
 }
 
+/// What the bytes of a lock file stand for; they are locked, not written. Locks of open files, not of processes:
+/// those would be lost when any other descriptor of the file is closed.
+constexpr off_t kTurnByte = 0;    // whoever holds it changes what all runs write
+constexpr off_t kSharedByte = 1;  // runs that share the folder all hold it, so that none has it all
+constexpr off_t kFirstPlace = 2;
+constexpr off_t kToTheEnd = 0;  // as a length
+
+struct flock bytes_of_lock(short kind, off_t first, off_t count) {
+  struct flock bytes = {};
+  bytes.l_type = kind;
+  bytes.l_whence = SEEK_SET;
+  bytes.l_start = first;
+  bytes.l_len = count;
+  return bytes;
+}
+
+Descriptor open_lock(const Path& folder) {
+  make_folder(folder);
+  return {folder / ".lock", O_RDWR | O_CREAT, "lock"};
+}
+
+void take(const Descriptor& lock, short kind, off_t first, off_t count, const Path& folder) {
+  struct flock wanted = bytes_of_lock(kind, first, count);
+  if (::fcntl(lock.number(), F_OFD_SETLK, &wanted) == 0) return;
+  if (errno != EAGAIN && errno != EACCES) fail("lock", folder / ".lock", errno);
+  throw TryAgainError(fmt::format("{} is in use by another run of veldt; try again when that one has ended",
+                                  folder.string()));
+}
+
 }  // namespace
 
 std::string read_file(const Path& file) {
@@ -99,16 +129,44 @@ void sync_folder(const Path& folder) {
   if (::fsync(descriptor.number()) != 0 && errno != EINVAL) fail("sync", named, errno);
 }
 
+std::int64_t room_left_bytes(const Path& folder) {
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(folder, error);
+  if (error) fail("tell the room left in", folder, error.value());
+  constexpr auto kMost = static_cast<std::uintmax_t>(std::numeric_limits<std::int64_t>::max());
+  return static_cast<std::int64_t>(std::min(space.available, kMost));
+}
+
 FolderLock::FolderLock(const Path& folder) {
-  make_folder(folder);
-  Descriptor lock(folder / ".lock", O_RDWR | O_CREAT, "lock");
-  if (::flock(lock.number(), LOCK_EX | LOCK_NB) != 0) {
-    throw TryAgainError(fmt::format("{} is in use by another run of veldt; try again when that one has ended",
-                                    folder.string()));
-  }
+  Descriptor lock = open_lock(folder);
+  take(lock, F_WRLCK, 0, kToTheEnd, folder);
+  descriptor_ = lock.release();
+}
+
+FolderLock::FolderLock(const Path& folder, const std::vector<std::size_t>& places) {
+  Descriptor lock = open_lock(folder);
+  take(lock, F_RDLCK, kSharedByte, 1, folder);
+  for (const std::size_t place : places)
+    take(lock, F_WRLCK, kFirstPlace + static_cast<off_t>(place), 1, folder);
   descriptor_ = lock.release();
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }
+
+void FolderLock::in_turn(const std::function<void()>& change) const {
+  struct flock turn = bytes_of_lock(F_WRLCK, kTurnByte, 1);
+  while (::fcntl(descriptor_, F_OFD_SETLKW, &turn) != 0) {
+    if (errno != EINTR) throw IoError(fmt::format("cannot wait for a lock: {}", std::strerror(errno)));
+  }
+  struct EndOfTurn {
+    int descriptor;
+    ~EndOfTurn() {
+      struct flock end = bytes_of_lock(F_UNLCK, kTurnByte, 1);
+      (void)::fcntl(descriptor, F_OFD_SETLK, &end);
+    }
+  };
+  const EndOfTurn end{descriptor_};
+  change();
+}
 
 }  // namespace thermal

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace thermal {
 
@@ -29,14 +32,24 @@ void make_folder(const Path& folder);
 /// Flushes a folder's entries to disk, so that a rename in it survives a power cut.
 void sync_folder(const Path& folder);
 
-/// Holds a lock on a folder for as long as it lives; the system lets go of it when the process dies.
+/// Bytes that this user may still write where this folder is. IoError naming it and the system's reason.
+[[nodiscard]] std::int64_t room_left_bytes(const Path& folder);
+
+/// A folder's lock, or a part of it, for as long as it lives; the system lets go of it when the process dies. The
+/// folder is one run's alone, or several runs share it, each with places of its own.
 class FolderLock {
  public:
-  /// Creates `folder` if need be. TryAgainError if another process holds it.
+  /// All of it. Creates `folder` if need be. TryAgainError if another run holds any of it.
   explicit FolderLock(const Path& folder);
+  /// These places of it, which may be none. TryAgainError if another run holds all of it or one of them.
+  FolderLock(const Path& folder, const std::vector<std::size_t>& places);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
+
+  /// Waits until it is this run's turn to change what all that share the folder write, and then does it. Not for
+  /// two threads at once.
+  void in_turn(const std::function<void()>& change) const;
 
  private:
   int descriptor_ = -1;

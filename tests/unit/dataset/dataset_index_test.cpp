@@ -104,3 +104,33 @@ TEST_CASE("After a fault what is whole is told, and one more fault is not") {
   CHECK_THROWS_AS(write_dataset(place.layout, index), IoError);
   write_dataset_after_fault(place.layout, index);
 }
+
+TEST_CASE("What other runs have made and failed at meanwhile is taken in, and of one's own clips nothing") {
+  const Place place;
+  DatasetIndex index = place.open();
+  write_progress(place.layout, index);
+  DatasetIndex others = place.open();
+  others.add("b", place.finish("b"));
+  others.failed["a"] = "no light";
+  write_progress(place.layout, others);
+  catch_up(place.layout, {"a"}, index);
+  CHECK(index.finished.contains("b"));
+  CHECK(index.failed.empty());
+  catch_up(place.layout, {}, index);
+  CHECK(index.failed == std::map<std::string, std::string>{{"a", "no light"}});
+  others.failed.clear();
+  write_progress(place.layout, others);
+  catch_up(place.layout, {}, index);
+  CHECK(index.failed.empty());
+}
+
+TEST_CASE("A clip that failed is told of until it is whole") {
+  const Place place;
+  DatasetIndex index = place.open();
+  index.failed["a"] = "no light";
+  write_progress(place.layout, index);
+  CHECK(place.told()["clips"][0] == Json{{"id", "a"}, {"status", "failed"}, {"reason", "no light"}});
+  CHECK(place.open().failed.contains("a"));
+  (void)place.finish("a");
+  CHECK(place.open().failed.empty());
+}

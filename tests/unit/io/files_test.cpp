@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <iterator>
+#include <thread>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -122,4 +123,53 @@ TEST_CASE("A folder is free again when its lock ends") {
   const TemporaryFolder folder;
   { const FolderLock first(folder / "data"); }
   CHECK_NOTHROW(FolderLock(folder / "data"));
+}
+
+TEST_CASE("Runs share a folder as long as their places differ") {
+  const TemporaryFolder folder;
+  const std::string in_use =
+      folder.path().string() + " is in use by another run of veldt; try again when that one has ended";
+  const FolderLock first(folder.path(), {0, 2});
+  const FolderLock second(folder.path(), {1, 3});
+  const FolderLock without_places(folder.path(), {});
+  CHECK(message_of<TryAgainError>([&] { const FolderLock third(folder.path(), {4, 3}); }) == in_use);
+  CHECK_NOTHROW(FolderLock(folder.path(), {4}));
+  CHECK(message_of<TryAgainError>([&] { const FolderLock all(folder.path()); }) == in_use);
+}
+
+TEST_CASE("A folder that is one run's alone has no places for others, nor for a run without places") {
+  const TemporaryFolder folder;
+  const FolderLock all(folder.path());
+  CHECK_THROWS_AS(FolderLock(folder.path(), {7}), TryAgainError);
+  CHECK_THROWS_AS(FolderLock(folder.path(), {}), TryAgainError);
+}
+
+TEST_CASE("A run without places keeps others from having the folder alone") {
+  const TemporaryFolder folder;
+  const FolderLock without_places(folder.path(), {});
+  CHECK_THROWS_AS(FolderLock(folder.path()), TryAgainError);
+}
+
+TEST_CASE("Runs that share a folder take turns, and a fault ends one") {
+  const TemporaryFolder folder;
+  const FolderLock first(folder.path(), {0});
+  const FolderLock second(folder.path(), {1});
+  int value = 0;
+  const auto count_to = [&value](const FolderLock& lock) {
+    for (int k = 0; k < 500; ++k) lock.in_turn([&value] { ++value; });
+  };
+  std::thread other([&] { count_to(second); });
+  count_to(first);
+  other.join();
+  CHECK(value == 1000);
+  CHECK_THROWS_AS(first.in_turn([] { throw DataError("no"); }), DataError);
+  second.in_turn([&value] { value = 0; });
+  CHECK(value == 0);
+}
+
+TEST_CASE("A file system has some room, and a place that is not there none to tell") {
+  CHECK(room_left_bytes("/") >= 0);
+  CHECK(room_left_bytes("/proc") == 0);
+  CHECK(message_of<IoError>([] { (void)room_left_bytes("/nowhere"); }) ==
+        "cannot tell the room left in /nowhere: No such file or directory");
 }

@@ -1,0 +1,60 @@
+#include "dataset/merge.h"
+
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "cli/command.h"
+#include "cli/progress_bar.h"
+#include "cli/run_summary.h"
+#include "cli/stop_signal.h"
+
+namespace veldt {
+namespace {
+
+struct Options {
+  std::vector<std::string> sources;
+  std::string out;
+  std::string link = "hard";
+};
+
+void print_missing(const thermal::MergeOutcome& outcome, const Options& options) {
+  if (outcome.missing.empty()) return;
+  fmt::print(stderr, "veldt: {} lacks clips {}; none of {} has them whole\n", options.out,
+             thermal::list_names(outcome.missing), thermal::list_names(options.sources));
+}
+
+int run(const Options& options, const CommonOptions& common) {
+  watch_for_stop();
+  thermal::MergeOutcome outcome;
+  {
+    ProgressBar bar(common);
+    outcome = thermal::merge({.sources = {options.sources.begin(), options.sources.end()},
+                              .out = options.out,
+                              .hard_links = options.link == "hard"},
+                             hooks_for(bar));
+  }
+  print_missing(outcome, options);
+  const int code = summarise(outcome.run, options.out, common, "merged");
+  return code == kDone && !outcome.missing.empty() ? kSomeRejected : code;
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, Session& session) {
+  CLI::App* command = add_command(app, session, "merge", "Join datasets made as shards of one config");
+  auto options = std::make_shared<Options>();
+  command->add_option("dirs", options->sources, "Datasets, each with some of the config's clips; only read")
+      ->required()
+      ->type_name("DIR…");
+  command->add_option("--out", options->out, "Folder of the joined dataset")->required();
+  command->add_option("--link", options->link, "Hard links where the file system can, or copies of the files")
+      ->check(CLI::IsMember({"hard", "copy"}))
+      ->capture_default_str();
+  command->callback(
+      [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
+}
+
+}  // namespace veldt

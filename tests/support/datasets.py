@@ -1,0 +1,26 @@
+"""What two datasets have in common that were made of one config."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from program import files_below
+
+_PREVIEW = "preview.mp4"  # the encoder's choices may hang on time: the same pictures, other bytes
+
+
+def content_of(folder: Path) -> dict:
+    """Every file of a dataset by its name: its bytes, without the previews and the sums of theirs."""
+    return {name: _content(folder / name) for name in files_below(folder) if not name.endswith(_PREVIEW)}
+
+
+def _content(file: Path):
+    if file.name == "clip.json":
+        record = json.loads(file.read_text(encoding="utf-8"))
+        record["files"].pop(_PREVIEW)
+        return record
+    if file.name == "dataset.json":
+        lines = file.read_text(encoding="utf-8").splitlines()
+        return [line for line in lines if '"record_sha256"' not in line]
+    return file.read_bytes()

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "dataset/generate.h"
+
+namespace thermal {
+
+[[nodiscard]] std::vector<std::string> ids_of(const std::vector<ClipConfig>& clips);
+
+[[nodiscard]] int frames_of(const std::vector<ClipConfig>& clips);
+
+/// Where these clips are in the config: what a run holds of its folder.
+[[nodiscard]] std::vector<std::size_t> places_of(const Config& config, const std::vector<ClipConfig>& clips);
+
+}  // namespace thermal

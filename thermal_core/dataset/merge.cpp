@@ -1,0 +1,233 @@
+#include "dataset/merge.h"
+
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/version.h"
+#include "dataset/clip_record.h"
+#include "dataset/dataset_index.h"
+#include "io/sha256.h"
+
+namespace thermal {
+namespace {
+
+/// A dataset to merge.
+struct Source {
+  Path root;
+  Json told;  ///< its dataset.json
+};
+
+/// A clip that is whole in some folder.
+struct FoundClip {
+  Path folder;
+  ClipRecord record;
+  std::string record_sha256;  ///< as dataset.json tells; empty where it does not
+};
+
+Source open_source(const Path& root) {
+  const Path file = Layout{root}.dataset_json();
+  const Json told = std::filesystem::exists(file) ? read_json(file) : Json::object();
+  if (told.value("format", "") != "veldt-dataset")
+    throw ConfigError(fault("DIR", root.string(), "", "a dataset; there is no dataset.json of one in it"));
+  const auto version = told.value("veldt_version", std::string());
+  if (version != kVersion)
+    throw ConfigError(
+        fault(root.string() + ": veldt_version", version, "", std::string(kVersion) + ", as this program's"));
+  return {.root = root, .told = told};
+}
+
+/// All of one config: `told.physics` follows from it.
+std::vector<Source> open_sources(const MergeOptions& options) {
+  std::vector<Source> sources;
+  for (const Path& root : options.sources) {
+    if (std::error_code error; std::filesystem::equivalent(root, options.out, error) && !error)
+      throw ConfigError(fault("--out", options.out.string(), "",
+                              "a folder that is none of DIR; leave it out there to add the others to it"));
+    sources.push_back(open_source(root));
+    const std::vector<std::string> found =
+        differences(sources.front().told.at("config"), sources.back().told.at("config"));
+    if (found.empty()) continue;
+    constexpr std::size_t kMost = 8;
+    throw ConfigError(fmt::format("{} and {} are of different configs: {}; expected shards of one config",
+                                  sources.front().root.string(), root.string(), list_names(found, kMost)));
+  }
+  return sources;
+}
+
+/// What the index of a merged dataset needs of a config.
+Config config_of(const Source& source) {
+  Config config;
+  config.resolved = source.told.at("config");
+  for (const Json& clip : source.told.at("clips"))
+    config.clips.push_back({.id = clip.at("id"), .frames = clip.value("frames", 0)});
+  return config;
+}
+
+/// Empty where a run was killed after it had renamed the clip and before it told of it.
+std::string told_record_sha256(const Source& source, const std::string& id) {
+  for (const Json& clip : source.told.value("clips", Json::array())) {
+    if (clip.at("id") == id) return clip.value("record_sha256", std::string());
+  }
+  return {};
+}
+
+std::optional<FoundClip> find_clip(const Source& source, const std::string& id) {
+  const Path folder = Layout{source.root}.clip(id);
+  if (!std::filesystem::exists(folder / "clip.json")) return std::nullopt;
+  return FoundClip{.folder = folder,
+                   .record = read_clip_record(folder / "clip.json"),
+                   .record_sha256 = told_record_sha256(source, id)};
+}
+
+/// Pictures and labels; how the files hold them may differ between machines' libraries.
+bool same_content(const ClipRecord& one, const ClipRecord& other) {
+  const auto sum = [](const ClipRecord& record, const char* name) {
+    const auto file = record.files.find(name);
+    return file == record.files.end() ? std::string() : file->second;
+  };
+  return one.pixels_sha256 == other.pixels_sha256 && sum(one, "labels.json") == sum(other, "labels.json");
+}
+
+/// The clip as each folder has it that has it. DataError if they are not the same.
+std::vector<FoundClip> find_in_all(const std::vector<Source>& sources, const std::string& id) {
+  std::vector<FoundClip> all;
+  for (const Source& source : sources) {
+    std::optional<FoundClip> found = find_clip(source, id);
+    if (!found) continue;
+    if (!all.empty() && !same_content(all.front().record, found->record))
+      throw DataError(fmt::format("{} and {} differ; expected the same pixels and labels",
+                                  all.front().folder.string(), found->folder.string()));
+    all.push_back(*std::move(found));
+  }
+  return all;
+}
+
+void check_file(const Path& file, const std::string& sum) {
+  if (!std::filesystem::exists(file)) throw DataError(file.string() + ": missing");
+  if (sha256_of(read_file(file)) != sum) throw DataError(file.string() + ": changed since it was written");
+}
+
+void link_or_copy(const Path& file, const Path& as, bool hard_links) {
+  std::error_code error;
+  make_folder(as.parent_path());
+  if (hard_links) std::filesystem::create_hard_link(file, as, error);
+  if (hard_links && !error) return;
+  const std::string bytes = read_file(file);
+  write_file(as, std::as_bytes(std::span(bytes)));
+}
+
+class Merger {
+ public:
+  Merger(const MergeOptions& options, const RunHooks& hooks)
+      : options_(options),
+        hooks_(hooks),
+        sources_(open_sources(options)),
+        layout_{options.out},
+        lock_(options.out),
+        index_(open_dataset(layout_, config_of(sources_.front()))) {
+    index_.physics = sources_.front().told.at("physics");
+  }
+
+  MergeOutcome run() {
+    plan();
+    if (!plan_.empty()) write_progress(layout_, index_);
+    try {
+      for (const auto& [id, found] : plan_) try_add(id, found);
+    } catch (...) {
+      write_dataset_after_fault(layout_, index_);
+      throw;
+    }
+    if (!plan_.empty() || !index_.recorded) write_dataset(layout_, index_);
+    outcome_.run.complete = index_.complete();
+    return outcome_;
+  }
+
+ private:
+  /// Finds every clip, and all that is wrong with the request, before anything is written.
+  void plan() {
+    std::vector<Source> with_out = {{.root = options_.out, .told = Json::object()}};
+    with_out.insert(with_out.end(), sources_.begin(), sources_.end());
+    for (const std::string& id : index_.clips) {
+      const std::vector<FoundClip> found = find_in_all(with_out, id);
+      if (found.empty()) {
+        outcome_.missing.push_back(id);
+      } else if (index_.finished.contains(id)) {
+        outcome_.run.already_there.push_back(id);
+      } else {
+        progress_.frames_total += found.front().record.frames;
+        plan_.emplace_back(id, found);
+      }
+    }
+  }
+
+  /// From the first folder in which the clip's files are as they were written.
+  void try_add(const std::string& id, const std::vector<FoundClip>& found) {
+    progress_.clip = id;
+    hooks_.report(progress_);
+    const int before = progress_.frames_done;
+    std::string why;
+    for (const FoundClip& clip : found) {
+      progress_.frames_done = before;
+      try {
+        add(clip);
+        return;
+      } catch (const DataError& fault) {
+        if (why.empty()) why = fault.what();
+      }
+    }
+    std::filesystem::remove_all(layout_.unfinished_clip(id));
+    outcome_.run.failed[id] = why;
+    progress_.frames_done = before + found.front().record.frames;
+    hooks_.report(progress_);
+  }
+
+  void add(const FoundClip& clip) {
+    const std::string& id = clip.record.clip;
+    const Path part = layout_.unfinished_clip(id);
+    std::filesystem::remove_all(part);
+    for (const auto& [name, sum] : clip.record.files) add_file(clip.folder / name, part / name, sum);
+    const Path record = clip.folder / "clip.json";
+    if (!clip.record_sha256.empty()) check_file(record, clip.record_sha256);
+    link_or_copy(record, part / "clip.json", options_.hard_links);
+    std::filesystem::remove_all(layout_.clip(id));
+    std::filesystem::rename(part, layout_.clip(id));
+    sync_folder(layout_.clip(id).parent_path());
+    index_.add(id, clip.record);
+    outcome_.run.made.push_back(id);
+    outcome_.run.frames_made += clip.record.frames;
+    write_progress(layout_, index_);
+  }
+
+  void add_file(const Path& file, const Path& as, const std::string& sum) {
+    if (hooks_.stop_wanted()) throw Cancelled();
+    check_file(file, sum);
+    link_or_copy(file, as, options_.hard_links);
+    if (as.parent_path().filename() != "ir8") return;
+    ++progress_.frames_done;
+    hooks_.report(progress_);
+  }
+
+  const MergeOptions& options_;
+  const RunHooks& hooks_;
+  std::vector<Source> sources_;
+  Layout layout_;
+  FolderLock lock_;
+  DatasetIndex index_;
+  std::vector<std::pair<std::string, std::vector<FoundClip>>> plan_;
+  MergeOutcome outcome_;
+  Progress progress_;
+};
+
+}  // namespace
+
+MergeOutcome merge(const MergeOptions& options, const RunHooks& hooks) {
+  return Merger(options, hooks).run();
+}
+
+}  // namespace thermal

@@ -1,0 +1,54 @@
+#include "dataset/passes_room.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "dataset/render_crew.h"
+
+namespace thermal {
+namespace {
+
+bool has_clips(const Path& passes) {
+  return std::ranges::any_of(std::filesystem::directory_iterator(passes),
+                             [](const auto& entry) { return entry.is_directory(); });
+}
+
+}  // namespace
+
+void begin_passes(const Layout& layout, const Config& config, const std::vector<std::string>& clips) {
+  for (const std::string& clip : clips) {
+    if (std::filesystem::exists(layout.unusable(clip))) std::filesystem::remove_all(layout.passes(clip));
+    make_folder(layout.passes(clip));
+  }
+  write_file_atomically(layout.passes_config(), to_text(config.resolved));
+}
+
+void end_passes(const Layout& layout, const std::vector<std::string>& clips) {
+  if (!std::filesystem::is_directory(layout.passes())) return;
+  for (const std::string& clip : clips) std::filesystem::remove_all(layout.passes(clip));
+  if (!has_clips(layout.passes())) std::filesystem::remove_all(layout.passes());
+}
+
+std::vector<RenderJob::Task> passes_tasks(const GenerateOptions& options, const Layout& layout,
+                                          const std::vector<std::string>& clips, RunBoard& board) {
+  const auto hands = deal_clips(clips, options.jobs);
+  const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<RenderJob::Task> tasks;
+  for (const std::vector<std::string>& hand : hands) {
+    // Runs that share the folder never share a clip: its name tells their logs apart.
+    tasks.push_back({.blender = options.blender,
+                     .home = options.home,
+                     .config = layout.passes_config(),
+                     .passes = layout.passes(),
+                     .log = layout.passes() / (hand.front() + ".log"),
+                     .clips = hand,
+                     .threads = threads_each(options.threads, cores, static_cast<int>(hands.size())),
+                     .preview = false,
+                     .restarted = [&board](const std::string& clip, const std::string& why) {
+                       board.restarted(clip, why);
+                     }});
+  }
+  return tasks;
+}
+
+}  // namespace thermal

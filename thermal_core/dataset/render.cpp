@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "dataset/clip_choice.h"
+#include "dataset/generate.h"
+#include "dataset/passes_room.h"
+#include "dataset/render_crew.h"
+#include "dataset/room_watch.h"
+#include "dataset/run_board.h"
+
+namespace thermal {
+namespace {
+
+/// A folder for passes belongs to one config, like a dataset's.
+void check_same_passes(const Config& config, const Layout& layout) {
+  if (!std::filesystem::exists(layout.passes_config())) return;
+  const std::vector<std::string> found = differences(config.resolved, read_json(layout.passes_config()));
+  if (found.empty()) return;
+  throw ConfigError(
+      fmt::format("{} holds passes of another config: {}; expected the same config, or another folder",
+                  layout.passes().string(), fmt::join(found, ", ")));
+}
+
+void render_clip(const ClipConfig& clip, RenderJob& job, const std::function<bool()>& stop_wanted,
+                 RoomWatch& room, RunBoard& board) {
+  for (int frame = 0; frame < clip.frames; ++frame) {
+    job.wait_for_frame(clip.id, frame, stop_wanted);
+    room.passes_ready(job.frames_ready(clip.id));
+    board.frame_done(clip.id);
+  }
+}
+
+RenderJob::Task preview_task(const Config& config, const GenerateOptions& options, const Path& folder) {
+  make_folder(folder);
+  write_file_atomically(folder / "config.json", to_text(config.resolved));
+  return {.blender = options.blender,
+          .home = options.home,
+          .config = folder / "config.json",
+          .passes = folder,
+          .log = folder / "blender.log",
+          .clips = {},
+          .threads = options.threads,
+          .preview = true,
+          .restarted = {}};
+}
+
+}  // namespace
+
+RunOutcome render(const Config& config, const GenerateOptions& options, const RunHooks& hooks) {
+  const Layout layout{options.out};
+  const std::vector<ClipConfig> clips = choose_clips(config, options.clips, options.shard);
+  const FolderLock lock(options.out, places_of(config, clips));
+  if (clips.empty()) return {};
+  lock.in_turn([&] {
+    check_same_passes(config, layout);
+    begin_passes(layout, config, ids_of(clips));
+  });
+  RunBoard board(hooks, options.out, frames_of(clips));
+  const ClipWork work = [&](const std::string& id, RenderJob& job, const std::function<bool()>& stop_wanted) {
+    const ClipConfig& clip = config.clip(id, "clips");
+    board.begin(clip);
+    try {
+      RoomWatch room(config, clip, layout, false, board);
+      render_clip(clip, job, stop_wanted, room, board);
+      board.made(clip);
+    } catch (const ClipLost& fault) {
+      board.lost(clip, fault.what(), fault.killed());
+    }
+  };
+  run_crew(passes_tasks(options, layout, ids_of(clips), board), work,
+           [&board] { return board.stop_wanted(); });
+  RunOutcome outcome = board.outcome();
+  outcome.complete = outcome.failed.empty();
+  return outcome;
+}
+
+int preview(const Config& config, const GenerateOptions& options, const RunHooks& hooks) {
+  const FolderLock lock(options.out);
+  RenderJob job(preview_task(config, options, Layout{options.out}.preview()));
+  const std::string clip = RenderJob::kPreview;
+  job.wait_for_frame(clip, -1, hooks.cancelled);
+  Progress progress{.clip = clip, .frames_done = 0, .frames_total = job.frames_of(clip)};
+  hooks.report(progress);
+  while (progress.frames_done < progress.frames_total) {
+    job.wait_for_frame(clip, progress.frames_done, hooks.cancelled);
+    ++progress.frames_done;
+    hooks.report(progress);
+  }
+  job.wait_for_end(hooks.cancelled);
+  return progress.frames_total;
+}
+
+}  // namespace thermal
