@@ -215,3 +215,34 @@ def test_rotations_by_vectors():
     assert quarter[0] @ [1, 0, 0] == pytest.approx([0, 1, 0])
     assert np.array_equal(quarter[1], np.eye(3))
     assert quarter[2] @ [0, 1, 0] == pytest.approx([0, 1, 1e-9], abs=1e-18)
+
+
+FLIGHTS = ROOT / "tests" / "data" / "flights"
+
+
+def test_a_mission_of_qgroundcontrol_flies():
+    """Take-off, a faster survey and the way home, over ground that the mission knows nothing of."""
+    plan = {"pattern": "waypoints", "waypoints": {"file": str(FLIGHTS / "survey.plan"), "home_m": [0, -100]}}
+    terrain = {"size_m": 800, "relief_m": 20, "hill_wavelength_m": 200}
+    world, flight = _fly(frames=640, terrain=terrain, look_angle_deg=70, **plan)
+    way = _position(flight)
+    speed_m_s = np.linalg.norm(np.diff(way[:, :2], axis=0), axis=1) * RATE_HZ
+    home_m = world.terrain.surface_m(0, -100)
+    assert way[0] == pytest.approx([0, -100, home_m + 40], abs=0.5)
+    assert speed_m_s.max() > 5 and speed_m_s.min() < 0.1
+    assert flight.agl_m.min() > 20
+    assert way[-1, :2] == pytest.approx([0, -100], abs=40)
+
+
+def test_a_log_is_flown_as_it_was():
+    plan = {"pattern": "waypoints", "waypoints": {"file": str(FLIGHTS / "log.csv"), "home_m": [5, 6]}}
+    world, flight = _fly(frames=32, **plan)
+    assert _position(flight)[0] == pytest.approx([5, 6, world.terrain.surface_m(5, 6) + 40], abs=1e-6)
+    assert flight.look_angle_deg[0] == pytest.approx(90)
+    # After half a second: yaw 356 deg clockwise from north, pitch -85 deg, roll 0.4 deg.
+    forward, right = flight.camera_to_world[4, :3, 2], flight.camera_to_world[4, :3, 0]
+    bearing_deg = np.degrees(np.arctan2(forward[1], forward[0]))
+    assert flight.look_angle_deg[4] == pytest.approx(85, abs=0.01)
+    assert bearing_deg == pytest.approx(90 - 356 + 360, abs=0.01)
+    # A roll about the axis sinks the right side by its sine times the cosine of the depression.
+    assert -right[2] == pytest.approx(np.sin(np.radians(0.4)) * np.cos(np.radians(85)), rel=0.01)

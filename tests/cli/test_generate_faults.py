@@ -346,21 +346,21 @@ def _on_a_small_disk(veldt, size: str) -> list[str]:
 def test_too_little_room_for_a_clip_is_told_before_it_is_begun(veldt, blender):
     under = _on_a_small_disk(veldt, "64k")
     done = _generate(veldt, blender, "--progress", "none", under=under)
-    # 8 frames of 96 x 80 pixels, 20 bytes of passes and 4 of pictures each
-    wanted = "expected at least 2 x 1.5 MB, what clip down still needs"
+    # 8 frames of 96 x 80 pixels, 40 bytes of passes and 4 of pictures each
+    wanted = "expected at least 2 x 2.7 MB, what clip down still needs"
     assert done.code == 75 and re.fullmatch(rf"veldt: out = \d+ kB left; {wanted}\n", done.err), done
     assert not list((veldt.folder / "kept" / "clips").glob("*"))
 
 
 def test_room_that_runs_out_ends_the_run_and_what_was_finished_stays(veldt, blender):
     """There would be room, if somebody else did not take it as the second clip is rendered."""
-    under = _on_a_small_disk(veldt, "4m")
+    under = _on_a_small_disk(veldt, "7m")
     good = blender.read_text()
     shutil.copytree(ROOT / "tests" / "support", veldt.folder / "support")
     stand_in = veldt.folder / "support" / "fake_blender.py"
     taking = (
         'while frame == 2 and clip == "side" and not Path("out/clips/down").exists(): time.sleep(0.02)\n'
-        '        clip == "side" and frame == 2 and Path("out/other").write_bytes(bytes(4000000))\n'
+        '        clip == "side" and frame == 2 and Path("out/other").write_bytes(bytes(7145728))\n'
     )
     held = "        _hold(clip, frame)\n"
     assert held in stand_in.read_text()

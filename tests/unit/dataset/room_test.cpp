@@ -23,11 +23,11 @@ std::string fault_of(std::int64_t left_bytes, std::int64_t needed_bytes) {
 
 }  // namespace
 
-TEST_CASE("Before there is a frame a clip needs the worst: 20 bytes a pixel of passes, 4 of pictures") {
+TEST_CASE("Before there is a frame a clip needs the worst: 40 bytes a pixel of passes, 4 of pictures") {
   const ClipConfig clip = {.id = "down", .frames = 10};
-  CHECK(room_for(small_pictures(1), clip, true).needed_bytes() == 10 * (20 * 110 * 60 + 4 * 100 * 50));
-  CHECK(room_for(small_pictures(3), clip, true).needed_bytes() == 10 * (20 * 330 * 180 + 4 * 100 * 50));
-  CHECK(room_for(small_pictures(1), clip, false).needed_bytes() == 10 * 20 * 110 * 60);
+  CHECK(room_for(small_pictures(1), clip, true).needed_bytes() == 10 * (40 * 110 * 60 + 4 * 100 * 50));
+  CHECK(room_for(small_pictures(3), clip, true).needed_bytes() == 10 * (40 * 330 * 180 + 4 * 100 * 50));
+  CHECK(room_for(small_pictures(1), clip, false).needed_bytes() == 10 * 40 * 110 * 60);
 }
 
 TEST_CASE("What is there tells of what is to come") {
