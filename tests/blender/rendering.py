@@ -60,12 +60,13 @@ def render(
     threads: int = 2,
     out: Path | None = None,
     largest_file_bytes: int | None = None,
-    script: Path = ROOT / "blender_scripts" / "render_passes.py",
+    script: Path | None = None,
 ) -> Run:
-    """Renders a config, by default into `folder`/out; `options` go to render_passes.py, or what stands for it."""
+    """Renders a config, by default into `folder`/out; `options` go to render_passes.py, or to `script` instead."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "config.json").write_text(json.dumps(config))
     out = out or folder / "out"
+    script = script or ROOT / "blender_scripts" / "render_passes.py"
     reader, writer = os.pipe()
     command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "-t", str(threads)]
     command += ["--python", str(script), "--", "--config", str(folder / "config.json"), "--out", str(out)]
