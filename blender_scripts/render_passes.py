@@ -103,7 +103,7 @@ def _render_clip(stage: Stage, clip: dict, folder: Path, events: Events) -> None
 
 
 def _render_frames(stage: Stage, folder: Path, frames: range, on_frame: Callable[[int], None]) -> None:
-    if stage.world.config["render"].get("actor_layer", False):
+    if stage.world.config["render"]["actor_layer"]:
         render_frames_and_actors(folder, frames, stage, on_frame)
     else:
         render_frames(folder, frames, stage.pose, on_frame)

@@ -35,7 +35,7 @@ def build_manifest(world: World, clip: dict) -> dict:
         "seed": world.config["seed"],
         "frame_rate_hz": clip["frame_rate_hz"],
         "layer": LAYER,
-        **({"actor_layer": ACTOR_LAYER} if world.config["render"].get("actor_layer", False) else {}),
+        **({"actor_layer": ACTOR_LAYER} if world.config["render"]["actor_layer"] else {}),
         "supersample": world.config["render"]["supersample"],
         "overscan_px": world.overscan_px,
         "camera": _camera(world),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-_GRAVITY_M_S2 = 9.80665  # standard gravity
+GRAVITY_M_S2 = 9.80665  # standard gravity
 _MOST_ACCELERATION_M_S2 = 3.0  # estimate: how briskly surveys speed up and brake, whatever the bank allows
 
 MULTIROTOR = "multirotor"
@@ -23,12 +23,12 @@ class Aircraft:
     @property
     def turn_radius_m(self) -> float:
         """Radius of a level turn at full bank and speed: v^2 / (g tan(bank))."""
-        return self.speed_m_s**2 / (_GRAVITY_M_S2 * math.tan(self.bank_rad))
+        return self.speed_m_s**2 / (GRAVITY_M_S2 * math.tan(self.bank_rad))
 
     @property
     def acceleration_m_s2(self) -> float:
         """With which a multirotor starts and brakes: what leaning by bank_rad gives, 3 m/s^2 at most."""
-        return min(_GRAVITY_M_S2 * math.tan(self.bank_rad), _MOST_ACCELERATION_M_S2)
+        return min(GRAVITY_M_S2 * math.tan(self.bank_rad), _MOST_ACCELERATION_M_S2)
 
 
 def aircraft_of(plan: dict) -> Aircraft:

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from ..camera import look
-from ..geometry.rotations import by_vector
+from ..geometry.rotations import by_vector, heading_of
 from ..land.terrain import Terrain
 from .logs import Log
 
@@ -69,22 +69,18 @@ class LoggedTrajectory:
     def at(self, time_s: np.ndarray) -> Poses:
         """The poses at times (n,), from 0 to the log's duration; its roll is a turn about the axis."""
         position_m, bearing_rad, depression_rad, roll_rad = self.log.at(time_s, self.terrain.surface_m)
-        forward = look(position_m, _unit(bearing_rad), depression_rad)[:, :3, 2]
+        forward = look(position_m, heading_of(bearing_rad), depression_rad)[:, :3, 2]
         return Poses(position_m, bearing_rad, depression_rad, roll_rad[:, None] * forward)
 
 
 def flight_of(trajectory: Trajectory, time_s: np.ndarray, terrain: Terrain) -> Flight:
     """The frames of a trajectory at times (n,)."""
     poses = trajectory.at(time_s)
-    camera_to_world = look(poses.position_m, _unit(poses.bearing_rad), poses.depression_rad)
+    camera_to_world = look(poses.position_m, heading_of(poses.bearing_rad), poses.depression_rad)
     camera_to_world[:, :3, :3] = by_vector(poses.lean_rad) @ camera_to_world[:, :3, :3]
     x_m, y_m, z_m = poses.position_m.T
     down = np.clip(-camera_to_world[:, 2, 2], -1.0, 1.0)
     return Flight(time_s, camera_to_world, z_m - terrain.surface_m(x_m, y_m), np.degrees(np.arcsin(down)))
-
-
-def _unit(angle_rad: np.ndarray) -> np.ndarray:
-    return np.stack([np.cos(angle_rad), np.sin(angle_rad)], axis=-1)
 
 
 def _between(values: np.ndarray, before: np.ndarray, share: np.ndarray) -> np.ndarray:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.rotations import heading_of
 from ..groups.actors import Actor, track
 
 _STEP_S = 0.1  # of targets and of who follows them; nothing of interest happens faster
@@ -35,7 +36,7 @@ def follow(plan: dict, actors: Sequence[Actor], time_s: np.ndarray) -> Pursuit:
     rise_m = plan["altitude_m"] - (target_m[:, 2] if plan["altitude_reference"] == "datum" else 0.0)
     back_m = np.abs(rise_m) / np.tan(np.radians(plan["look_angle_deg"])) + np.zeros(len(coarse_s))
     outward_rad = _continuous_angle(heading) + np.radians(plan["azimuth_deg"])
-    wanted_m = target_m[:, :2] + back_m[:, None] * _unit(outward_rad)
+    wanted_m = target_m[:, :2] + back_m[:, None] * heading_of(outward_rad)
     point_m = _averaged(_chased(wanted_m, plan["speed_m_s"] * _STEP_S), _EASING_S)
     return Pursuit(
         _at(time_s, coarse_s, point_m),
@@ -54,7 +55,7 @@ def orbit(plan: dict, actors: Sequence[Actor], height_at, time_s: np.ndarray) ->
         target_m = np.tile([x_m, y_m, float(height_at(x_m, y_m))], (len(time_s), 1))
     sense = 1.0 if plan["turn"] == "left" else -1.0
     outward_rad = np.radians(plan["azimuth_deg"]) + sense * plan["speed_m_s"] / plan["radius_m"] * time_s
-    point_m = target_m[:, :2] + plan["radius_m"] * _unit(outward_rad)
+    point_m = target_m[:, :2] + plan["radius_m"] * heading_of(outward_rad)
     return Pursuit(point_m, target_m, outward_rad + np.pi)
 
 
@@ -115,7 +116,3 @@ def _at(time_s: np.ndarray, coarse_s: np.ndarray, values: np.ndarray) -> np.ndar
     if values.ndim == 1:
         return np.interp(time_s, coarse_s, values)
     return np.stack([np.interp(time_s, coarse_s, column) for column in values.T], axis=-1)
-
-
-def _unit(angle_rad: np.ndarray) -> np.ndarray:
-    return np.stack([np.cos(angle_rad), np.sin(angle_rad)], axis=-1)

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .aircraft import FIXED_WING, MULTIROTOR
+from .aircraft import FIXED_WING, GRAVITY_M_S2, MULTIROTOR
 from .filters import lag_error, product, states
 
-_GRAVITY_M_S2 = 9.80665  # standard gravity
 _NOTHING = 1e-18  # a smaller share of a sum is lost in rounding
 
 
@@ -64,7 +63,7 @@ def tilt_rad(acceleration_m_s2: np.ndarray) -> np.ndarray:
 
     z x a / g: the angle's tangent instead of the angle, a tenth too much at 30 degrees.
     """
-    x, y = acceleration_m_s2.T / _GRAVITY_M_S2
+    x, y = acceleration_m_s2.T / GRAVITY_M_S2
     return np.stack([-y, x, np.zeros_like(x)], axis=-1)
 
 

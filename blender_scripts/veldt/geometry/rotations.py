@@ -22,6 +22,11 @@ def turned(angles_rad: np.ndarray) -> np.ndarray:
     return about("z", angles_rad[..., 2]) @ about("y", angles_rad[..., 1]) @ about("x", angles_rad[..., 0])
 
 
+def heading_of(angle_rad: np.ndarray) -> np.ndarray:
+    """Level unit vectors (..., 2) at angles (...), counter-clockwise from x."""
+    return np.stack([np.cos(angle_rad), np.sin(angle_rad)], axis=-1)
+
+
 def left_of(heading: np.ndarray) -> np.ndarray:
     """Level vectors (..., 2) at right angles to headings (..., 2), to their left and as long."""
     return np.stack([-heading[..., 1], heading[..., 0]], axis=-1)
