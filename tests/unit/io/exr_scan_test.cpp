@@ -1,0 +1,133 @@
+#include "io/exr_scan.h"
+
+#include <cstring>
+
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/exr.h"
+#include "support/message_of.h"
+#include "support/temporary_folder.h"
+
+using namespace thermal;
+
+namespace {
+
+template <typename T>
+std::string bytes_of(T value) {
+  std::string bytes(sizeof(T), '\0');
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  return bytes;
+}
+
+const std::string kZero(1, '\0');
+
+std::string attribute(const std::string& name, const std::string& type, const std::string& value) {
+  return name + kZero + type + kZero + bytes_of(static_cast<std::int32_t>(value.size())) + value;
+}
+
+std::string window(std::int32_t left, std::int32_t top, std::int32_t right, std::int32_t bottom) {
+  return attribute("dataWindow", "box2i",
+                   bytes_of(left) + bytes_of(top) + bytes_of(right) + bytes_of(bottom));
+}
+
+std::string tiles(std::uint32_t width, std::uint32_t height) {
+  return attribute("tiles", "tiledesc", bytes_of(width) + bytes_of(height) + kZero);
+}
+
+std::string one_channel(std::int32_t type) {
+  return attribute("channels", "chlist",
+                   std::string("Z") + kZero + bytes_of(type) + std::string(12, '\0') + kZero);
+}
+
+const std::string kMagic = bytes_of(20000630);
+const std::string kRle = attribute("compression", "compression", std::string(1, '\1'));
+const std::string kWindow = window(0, 0, 7, 5);  // 8 x 6 px: 6 chunks of RLE, 48 bytes of table
+
+std::string file_of(std::int32_t version, const std::string& headers, std::size_t after = 48) {
+  return kMagic + bytes_of(version) + headers + kZero + std::string(after, '\0');
+}
+
+std::string fault_in(const std::string& bytes, const ExrLimits& limits = {}) {
+  const TemporaryFolder folder;
+  const Path file = folder.file("f.exr", bytes);
+  return message_of<DataError>([&] { check_exr_headers(file, limits); });
+}
+
+const std::string kNone = "(no fault was thrown)";
+
+}  // namespace
+
+TEST_CASE("Headers that hold together pass") {
+  CHECK(fault_in(file_of(2, kRle + kWindow + one_channel(2))) == kNone);
+  CHECK(fault_in(file_of(2 | 0x200, kRle + kWindow + tiles(4, 4), 4 * 8)) == kNone);  // 2 x 2 tiles
+  CHECK(fault_in(file_of(2 | 0x1000, kRle + kWindow + kZero + kRle + kWindow + kZero, 2 * 48)) == kNone);
+}
+
+TEST_CASE("What is no EXR file of flat pixels is told") {
+  CHECK(fault_in("") == "not an EXR file (its first bytes are others)");
+  CHECK(fault_in("\x89PNG\r\n\x1a\n") == "not an EXR file (its first bytes are others)");
+  CHECK(fault_in(file_of(3, kRle + kWindow)) == "version = 3; expected 2");
+  CHECK(fault_in(file_of(2 | 0x800, kRle + kWindow)) == "holds deep data; expected flat pixels");
+  CHECK(fault_in(file_of(2 | 0x1000, "")) == "has no part; expected one at least");
+  CHECK(fault_in(file_of(2, kRle)) == "part 0: no dataWindow; expected one");
+  CHECK(fault_in(file_of(2, kWindow)) == "part 0: no compression; expected one");
+  CHECK(fault_in(file_of(2, kWindow + attribute("compression", "compression", "\x63"))) ==
+        "compression = 99; expected 0 (none) to 9 (DWAB)");
+}
+
+TEST_CASE("A file that ends within its headers is told") {
+  const std::string whole = file_of(2, kRle + kWindow + one_channel(2), 0);
+  for (std::size_t size = 8; size < whole.size(); ++size) {
+    CHECK_THAT(fault_in(whole.substr(0, size)), ContainsSubstring("at most the"));
+  }
+  CHECK(fault_in(whole) == "table of chunks = 48 bytes; expected at most the 0 that are left of the file");
+}
+
+TEST_CASE("A length that reaches past the file costs nothing") {
+  const std::string claim =
+      std::string("comment") + kZero + "string" + kZero + bytes_of(std::int32_t{2'000'000'000});
+  CHECK(fault_in(file_of(2, kRle + kWindow + claim, 0)) ==
+        "part 0: comment = 2000000000 bytes; expected at most the 1 that are left of the file");
+  const std::string negative = std::string("comment") + kZero + "string" + kZero + bytes_of(std::int32_t{-5});
+  CHECK(fault_in(file_of(2, negative, 0)) ==
+        "part 0: comment = -5 bytes; expected at most the 1 that are left of the file");
+  CHECK(fault_in(file_of(2, std::string(40, 'n'))) ==
+        "name of an attribute = over 31 characters; expected fewer");
+}
+
+TEST_CASE("A window that is too large, empty or inside out is told") {
+  constexpr std::int32_t kFar = 2'147'483'647;
+  CHECK(fault_in(file_of(2, kRle + window(0, 0, kFar, 0))) ==
+        "part 0: dataWindow = 2147483648 x 1 px; expected sides of 1 and more, 256000000 pixels at most");
+  CHECK(fault_in(file_of(2, kRle + window(-kFar - 1, 0, kFar, 0))) ==
+        "part 0: dataWindow = 4294967296 x 1 px; expected sides of 1 and more, 256000000 pixels at most");
+  CHECK(fault_in(file_of(2, kRle + window(0, 0, 7, -1))) ==
+        "part 0: dataWindow = 8 x 0 px; expected sides of 1 and more, 256000000 pixels at most");
+  CHECK(fault_in(file_of(2, kRle + kWindow), {.pixels = 47}) ==
+        "part 0: dataWindow = 8 x 6 px; expected sides of 1 and more, 47 pixels at most");
+  CHECK(fault_in(file_of(2 | 0x200, kRle + kWindow + tiles(0, 4))) ==
+        "part 0: tiles = 0 x 4 px; expected sides of 1 and more, 256000000 pixels at most");
+}
+
+TEST_CASE("More pixels than a file of its length can hold are told") {
+  // 4e8 bytes of pixels need 4e8 / 65536 = 6104 bytes of file; the table of 4 chunks takes but 32 of them.
+  const std::string dwab = attribute("compression", "compression", "\x09");
+  CHECK(fault_in(file_of(2, dwab + window(0, 0, 99'999, 999) + one_channel(2), 6'000)) ==
+        "part 0: pixels = 400000000 bytes; expected what the 6000 bytes that are left of the file can hold");
+  CHECK(fault_in(file_of(2, dwab + window(0, 0, 99'999, 999) + one_channel(2), 6'200)) == kNone);
+}
+
+TEST_CASE("Channels and parts are counted, and chunks believed only as far as the file is long") {
+  CHECK(fault_in(file_of(2, kRle + kWindow + one_channel(2)), {.channels = 0}) ==
+        "channels = 1; expected at most 0");
+  CHECK(fault_in(file_of(2 | 0x1000, kRle + kWindow + kZero + kRle + kWindow + kZero, 96), {.parts = 1}) ==
+        "parts = 2; expected at most 1");
+  CHECK(fault_in(file_of(2, kRle + kWindow + one_channel(3))) ==
+        "part 0: channels: type = 3; expected 0 (uint), 1 (half) or 2 (float)");
+  CHECK(fault_in(file_of(2, kRle + kWindow + attribute("channels", "chlist", "Zoo"))) ==
+        "part 0: channels ends within a channel; expected a whole list");
+  CHECK(fault_in(file_of(2, kRle + kWindow + attribute("chunkCount", "int", bytes_of(1'000'000'000)))) ==
+        "table of chunks = 8000000000 bytes; expected at most the 48 that are left of the file");
+  CHECK(fault_in(file_of(2, kRle + kWindow + attribute("chunkCount", "int", bytes_of(-1)))) ==
+        "part 0: chunkCount = -1; expected 0 or more");
+}
