@@ -19,10 +19,13 @@ std::string position(std::string_view text, std::size_t byte, const std::string&
   return fmt::format("{}:{}:{}", name, line, before.size() - line_begin + 1);
 }
 
-/// The library's words without its own numbering and position: what follows "syntax error".
+/// The library's words without its own numbering and position: what follows "syntax error", or else the number.
+/// Python writes NaN and Infinity as they are; the library stops at their first letter.
 std::string reason(const std::string& what) {
   const std::size_t begin = what.find("syntax error");
-  return begin == std::string::npos ? what : what.substr(begin);
+  const std::string words = what.substr(begin == std::string::npos ? what.find(']') + 2 : begin);
+  if (!words.ends_with("N'") && !words.ends_with("I'")) return words;
+  return words + "; expected a finite number: JSON has no NaN and no Infinity, though Python writes them";
 }
 
 /// Watches a parse for keys that come twice in one object, which JSON readers otherwise drop in silence.
@@ -41,6 +44,59 @@ class DuplicateKeys {
   std::vector<std::set<std::string>> open_;
   std::string first_;
 };
+
+/// Hands the elements of arrays at the top of a document on, as a parse comes to their ends.
+class Elements {
+ public:
+  explicit Elements(const TakeElement& take) : take_(take) {}
+
+  /// Whether the parse should keep what it has just read.
+  bool see(int depth, Json::parse_event_t event, const Json& value) {
+    using Event = Json::parse_event_t;
+    if (event == Event::key && depth == 1) key_ = value.get<std::string>();
+    if (event == Event::array_start && depth == 0) inside_ = 1;
+    if (event == Event::array_start && depth == 1 && inside_ == 0) begin(2);
+    if (event == Event::array_end && depth + 1 == inside_) inside_ = 0;
+    const bool ends = event == Event::object_end || event == Event::array_end || event == Event::value;
+    if (!ends || inside_ == 0 || depth != inside_) return true;
+    take_(key_, place_++, value);
+    return false;
+  }
+
+ private:
+  void begin(int depth) {
+    inside_ = depth;
+    place_ = 0;
+  }
+
+  const TakeElement& take_;
+  std::string key_;
+  std::size_t place_ = 0;
+  int inside_ = 0;  ///< depth of the elements of the array that is open; 0: none is
+};
+
+/// Parses while `keep` watches; faults name the place.
+template <typename Keep>
+Json parse_watched(std::string_view text, const std::string& name, const Keep& keep) {
+  DuplicateKeys duplicates;
+  const auto watch = [&](int depth, Json::parse_event_t event, const Json& value) {
+    duplicates.see(event, value);
+    return keep(depth, event, value);
+  };
+  try {
+    Json json = Json::parse(text, watch);
+    if (duplicates.first().empty()) return json;
+  } catch (const Json::parse_error& error) {
+    // The library counts the offending byte from 1.
+    throw ConfigError(fmt::format("{}: not JSON: {}",
+                                  position(text, error.byte == 0 ? 0 : error.byte - 1, name),
+                                  reason(error.what())));
+  } catch (const Json::out_of_range& error) {  // "[json.exception.out_of_range.406] number overflow …"
+    throw ConfigError(fmt::format("{}: not JSON: {}", name, reason(error.what())));
+  }
+  throw ConfigError(
+      fmt::format("{}: key \"{}\" comes twice in one object; expected once", name, duplicates.first()));
+}
 
 void collect_differences(const Json& here, const Json& there, const std::string& where,
                          std::vector<std::string>& found) {
@@ -75,22 +131,14 @@ void collect_differences(const Json& here, const Json& there, const std::string&
 }  // namespace
 
 Json parse_json(std::string_view text, const std::string& name) {
-  DuplicateKeys duplicates;
-  const auto watch = [&duplicates](int /*depth*/, Json::parse_event_t event, Json& value) {
-    duplicates.see(event, value);
-    return true;
-  };
-  try {
-    Json json = Json::parse(text, watch);
-    if (duplicates.first().empty()) return json;
-  } catch (const Json::parse_error& error) {
-    // The library counts the offending byte from 1.
-    throw ConfigError(fmt::format("{}: not JSON: {}",
-                                  position(text, error.byte == 0 ? 0 : error.byte - 1, name),
-                                  reason(error.what())));
-  }
-  throw ConfigError(
-      fmt::format("{}: key \"{}\" comes twice in one object; expected once", name, duplicates.first()));
+  return parse_watched(text, name, [](int, Json::parse_event_t, const Json&) { return true; });
+}
+
+Json parse_json_elements(std::string_view text, const std::string& name, const TakeElement& take) {
+  Elements elements(take);
+  return parse_watched(text, name, [&elements](int depth, Json::parse_event_t event, const Json& value) {
+    return elements.see(depth, event, value);
+  });
 }
 
 Json read_json(const Path& file) { return parse_json(read_file(file), file.string()); }

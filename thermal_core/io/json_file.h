@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +20,16 @@ using Json = nlohmann::ordered_json;
 
 /// The same for a file; IoError if it cannot be read.
 [[nodiscard]] Json read_json(const Path& file);
+
+/// What is done with an element of a long array: the array's key in the document, empty where the document itself
+/// is the array, and the element's place.
+using TakeElement = std::function<void(const std::string& array, std::size_t place, const Json& element)>;
+
+/// A document whose bulk is in arrays at its top: each element of each goes to `take` and is forgotten, so that
+/// memory is that of the text and not of its tree, which takes ten times as much. Returns the rest, arrays empty.
+/// Faults as of parse_json(); those of `take` pass through.
+[[nodiscard]] Json parse_json_elements(std::string_view text, const std::string& name,
+                                       const TakeElement& take);
 
 /// Indented by two, newline at the end.
 [[nodiscard]] std::string to_text(const Json& json);

@@ -29,6 +29,10 @@ TEST_CASE("What is not JSON is shown to the line and column") {
   CHECK_THAT(fault_in("{\"a\": 1"),
              StartsWith("night.json:1:8: not JSON: syntax error while parsing object"));
   CHECK_THAT(fault_in(""), StartsWith("night.json:1:1: not JSON: syntax error while parsing value"));
+  CHECK_THAT(fault_in("[NaN]"),
+             EndsWith("; expected a finite number: JSON has no NaN and no Infinity, though "
+                      "Python writes them"));
+  CHECK(fault_in("[1e999]") == "night.json: not JSON: number overflow parsing '1e999'");
   CHECK_THAT(fault_in("{}\n{}"), StartsWith("night.json:2:1: not JSON: syntax error"));
 }
 
@@ -44,6 +48,30 @@ TEST_CASE("A JSON file's faults name it") {
   CHECK_THAT(message_of<ConfigError>([&] { (void)read_json(broken); }),
              StartsWith(broken.string() + ":1:6: not JSON: "));
   CHECK_THROWS_AS(read_json(folder / "missing.json"), IoError);
+}
+
+TEST_CASE("Elements of long arrays are handed on one by one and not kept") {
+  std::vector<std::string> taken;
+  const TakeElement take = [&taken](const std::string& array, std::size_t place, const Json& element) {
+    taken.push_back(array + std::to_string(place) + element.dump());
+  };
+  const std::string text =
+      R"({"info": {"n": [1, 2]}, "a": [{"b": [1, {"c": 2}]}, 5, [6]], "z": [], "d": ["x"]})";
+  CHECK(parse_json_elements(text, "", take).dump() == R"({"info":{"n":[1,2]},"a":[],"z":[],"d":[]})");
+  CHECK(taken == std::vector<std::string>{R"(a0{"b":[1,{"c":2}]})", "a15", "a2[6]", R"(d0"x")"});
+  taken.clear();
+  CHECK(parse_json_elements(R"([{"a": [1, 2]}, [[3]]])", "", take).dump() == "[]");
+  CHECK(taken == std::vector<std::string>{R"(0{"a":[1,2]})", "1[[3]]"});
+}
+
+TEST_CASE("Faults of a document whose elements are handed on are told as ever") {
+  const TakeElement drop = [](const std::string&, std::size_t, const Json&) {};
+  CHECK_THAT(
+      message_of<ConfigError>([&] { (void)parse_json_elements("{\"a\": [1,\n NaN]}", "x.json", drop); }),
+      StartsWith("x.json:2:2: not JSON: "));
+  CHECK(message_of<ConfigError>([&] {
+          (void)parse_json_elements(R"([{"k": 1, "k": 2}])", "x.json", drop);
+        }) == "x.json: key \"k\" comes twice in one object; expected once");
 }
 
 TEST_CASE("Equal documents have no differences") {

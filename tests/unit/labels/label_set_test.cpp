@@ -1,0 +1,54 @@
+#include "labels/label_set.h"
+
+#include "support/catch.h"
+
+using namespace thermal;
+
+namespace {
+
+Label label(std::size_t image, std::optional<std::int64_t> track_id, double width_px, double height_px) {
+  Label made;
+  made.image = image;
+  made.track_id = track_id;
+  made.box = {0, 0, width_px, height_px};
+  return made;
+}
+
+LabelImage picture(std::size_t video) {
+  LabelImage made;
+  made.video = video;
+  return made;
+}
+
+}  // namespace
+
+TEST_CASE("A track's size is the mean of its boxes over its video") {
+  LabelSet set;
+  set.videos = {{.name = "a"}, {.name = "b"}};
+  set.images = {picture(0), picture(0), picture(1)};
+  set.labels = {label(0, 1, 10, 10), label(1, 1, 10, 30),    // mean 200: medium
+                label(0, 2, 10, 10), label(1, 2, 10, 29.9),  // just below
+                label(0, 3, 50, 40), label(2, 3, 50, 40.1),  // 2000 in one video, more in the other
+                label(2, {}, 1, 1),  label(2, {}, 100, 100)};
+  assign_size_classes(set);
+  using enum SizeClass;
+  const std::vector<SizeClass> expected = {medium, medium, small, small, medium, large, small, large};
+  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(set.labels[i].size == expected[i]);
+}
+
+TEST_CASE("A flat name is the video's and the picture's") {
+  LabelSet set;
+  set.videos = {{.name = "winter"}};
+  set.images = {{.id = 1, .file = "clips/winter/ir8/000012.png"}, {.id = 2, .file = "plain"}};
+  CHECK(flat_name(set, set.images[0]) == "winter_000012");
+  CHECK(flat_name(set, set.images[1]) == "winter_plain");
+  set.videos[0].name = "2026/winter";
+  CHECK(flat_name(set, set.images[0]) == "2026_winter_000012");
+}
+
+TEST_CASE("People are human, vehicles vehicles, all else animals") {
+  CHECK(kind_of("human") == Kind::human);
+  CHECK(kind_of("person") == Kind::human);
+  CHECK(kind_of("vehicle") == Kind::vehicle);
+  CHECK(kind_of("elephant") == Kind::animal);
+}

@@ -1,0 +1,86 @@
+#include "dataset/label_source.h"
+
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "dataset/layout.h"
+#include "io/birdsai_files.h"
+#include "io/coco_file.h"
+#include "io/json_file.h"
+
+namespace thermal {
+namespace {
+
+/// A dataset's own record, read as data that someone may have damaged.
+Json read_record(const Path& file) {
+  try {
+    Json record = read_json(file);
+    if (record.value("format", "") == "veldt-dataset") return record;
+  } catch (const ConfigError& error) {
+    throw DataError(error.what());
+  } catch (const Json::exception&) {  // not even an object
+  }
+  throw DataError(file.string() + " is not of a Veldt dataset");
+}
+
+std::vector<std::string> clips_not_made(const Json& record) {
+  std::vector<std::string> clips;
+  for (const Json& clip : record.at("clips")) {
+    if (clip.at("status") != "done") clips.push_back(clip.at("id"));
+  }
+  return clips;
+}
+
+/// annotations.json has all clips that are whole only once a run has ended.
+void check_made(const Path& root, const Json& record, bool unfinished_too) {
+  if (!record.contains("annotations_sha256")) {
+    throw DataError(
+        fmt::format("{}: annotations.json may lack clips (a run has not ended, or was killed); expected "
+                    "the end of a run: start the same command again",
+                    root.string()));
+  }
+  const std::vector<std::string> missing = clips_not_made(record);
+  if (missing.empty() || unfinished_too) return;
+  throw DataError(
+      fmt::format("{} is unfinished: {} of {} clips are not made: {}; expected all of them, or "
+                  "--unfinished to go without",
+                  root.string(), missing.size(), record.at("clips").size(), list_names(missing, 8)));
+}
+
+LabelSet read_dataset(const Path& root, bool unfinished_too) {
+  const Layout layout{root};
+  const Json record = read_record(layout.dataset_json());
+  try {
+    check_made(root, record, unfinished_too);
+    LabelSet set = read_coco(layout.annotations_json());
+    set.name = record.at("config").at("name");
+    return set;
+  } catch (const Json::exception& error) {
+    throw DataError(fmt::format("{}: {}", layout.dataset_json().string(), error.what()));
+  }
+}
+
+LabelSet read_any(const Path& source, bool unfinished_too) {
+  if (std::filesystem::exists(Layout{source}.dataset_json())) return read_dataset(source, unfinished_too);
+  if (std::filesystem::is_directory(source / "annotations")) return read_birdsai(source);
+  if (std::filesystem::is_regular_file(source)) return read_coco(source);
+  throw IoError(
+      fmt::format("{}{}", source.string(),
+                  std::filesystem::exists(source)
+                      ? " holds no labels; expected a Veldt dataset (dataset.json), a BIRDSAI folder "
+                        "(annotations/*.csv) or a COCO file (.json)"
+                      : " does not exist"));
+}
+
+}  // namespace
+
+LabelSet read_labels(const Path& source, bool unfinished_too) {
+  LabelSet set = read_any(source, unfinished_too);
+  assign_size_classes(set);
+  return set;
+}
+
+}  // namespace thermal

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "io/json_file.h"
+#include "labels/label_set.h"
+
+namespace thermal {
+
+/// One object of a list in somebody's JSON file, read key by key. What is there but wrong, or asked for and missing,
+/// is a DataError "FILE: LIST[PLACE].KEY = VALUE; expected RULE". A key that is null is not there.
+class JsonEntry {
+ public:
+  /// `list` is empty where the file is the list. All must outlive the entry. DataError if it is no object.
+  JsonEntry(const Json& json, const std::string& file, const std::string& list, std::size_t place);
+
+  [[nodiscard]] bool has(const char* key) const { return json_.contains(key) && !json_[key].is_null(); }
+  [[nodiscard]] std::int64_t integer(const char* key) const;
+  /// A size or a number of frames: 0 to 1e9.
+  [[nodiscard]] int count(const char* key) const;
+  /// Not empty.
+  [[nodiscard]] std::string text(const char* key) const;
+  /// JSON has no NaN and no infinity, so it is finite.
+  [[nodiscard]] double number(const char* key) const;
+  [[nodiscard]] std::optional<double> optional_number(const char* key) const;
+  /// COCO writes 0 and 1, others false and true; what is not there is false.
+  [[nodiscard]] bool flag(const char* key) const;
+  /// [x, y, width, height] in px, sides not negative.
+  [[nodiscard]] LabelBox box(const char* key) const;
+
+  [[nodiscard]] DataError fault_of(const char* key, const std::string& rule) const;
+
+ private:
+  [[nodiscard]] std::string where() const;
+  [[nodiscard]] const Json& at(const char* key) const;
+
+  const Json& json_;
+  const std::string& file_;
+  const std::string& list_;
+  std::size_t place_;
+};
+
+}  // namespace thermal

@@ -1,0 +1,59 @@
+#include "labels/label_set.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace thermal {
+namespace {
+
+struct BoxSum {
+  double area_px = 0;
+  int boxes = 0;
+};
+
+}  // namespace
+
+std::string size_class_name(SizeClass size) noexcept {
+  if (size == SizeClass::small) return "small";
+  return size == SizeClass::large ? "large" : "medium";
+}
+
+SizeClass size_class_of(double mean_box_area_px) noexcept {
+  constexpr double kSmallBelow = 200;
+  constexpr double kLargeAbove = 2000;
+  if (mean_box_area_px < kSmallBelow) return SizeClass::small;
+  return mean_box_area_px > kLargeAbove ? SizeClass::large : SizeClass::medium;
+}
+
+void assign_size_classes(LabelSet& set) {
+  using Track = std::pair<std::size_t, std::int64_t>;  // video, track
+  std::map<Track, BoxSum> sums;
+  const auto track_of = [&set](const Label& label) {
+    return Track{set.images[label.image].video, label.track_id.value_or(0)};
+  };
+  for (const Label& label : set.labels) {
+    if (!label.track_id) continue;
+    BoxSum& sum = sums[track_of(label)];
+    sum.area_px += label.box.area_px();
+    ++sum.boxes;
+  }
+  for (Label& label : set.labels) {
+    const BoxSum sum = label.track_id ? sums.at(track_of(label)) : BoxSum{label.box.area_px(), 1};
+    label.size = size_class_of(sum.area_px / sum.boxes);
+  }
+}
+
+std::string flat_name(const LabelSet& set, const LabelImage& image) {
+  const std::string file = image.file.substr(image.file.find_last_of('/') + 1);  // npos + 1 is 0
+  std::string name = set.videos[image.video].name + "_" + file.substr(0, file.find_last_of('.'));
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
+Kind kind_of(const std::string& category) noexcept {
+  if (category == "human" || category == "person" || category == "poacher") return Kind::human;
+  return category == "vehicle" ? Kind::vehicle : Kind::animal;
+}
+
+}  // namespace thermal

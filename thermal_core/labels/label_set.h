@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace thermal {
+
+/// A box in pixels: the top left corner of the top left pixel is (0, 0); sides may be fractional.
+struct LabelBox {
+  double x_px = 0;
+  double y_px = 0;
+  double width_px = 0;
+  double height_px = 0;
+
+  [[nodiscard]] double area_px() const noexcept { return width_px * height_px; }
+  [[nodiscard]] bool operator==(const LabelBox&) const = default;
+};
+
+/// How large a target is in its video (Bondi et al. 2018); see assign_size_classes().
+enum class SizeClass { small, medium, large };
+
+[[nodiscard]] std::string size_class_name(SizeClass size) noexcept;
+
+/// By the mean area of a track's boxes over its video: small below 200 px, large above 2000 px, else medium.
+/// Source: Bondi et al., COMPASS 2018, section 5.
+[[nodiscard]] SizeClass size_class_of(double mean_box_area_px) noexcept;
+
+struct LabelCategory {
+  int id = 0;
+  std::string name;
+};
+
+/// A video: a clip of a dataset, a sequence of BIRDSAI. Pictures that belong to none are a video of their own.
+struct LabelVideo {
+  std::string name;
+  double frame_rate_hz = 0;  ///< 0: not told
+};
+
+struct LabelImage {
+  std::int64_t id = 0;
+  std::string file;  ///< relative to LabelSet::root, "/" between folders
+  int width_px = 0;  ///< 0: not told
+  int height_px = 0;
+  std::size_t video = 0;  ///< place in LabelSet::videos
+  int frame_index = 0;    ///< in its video, from 0
+};
+
+/// One target in one picture. What is optional is not told by every source.
+struct Label {
+  std::int64_t id = 0;
+  std::size_t image = 0;     ///< place in LabelSet::images
+  std::size_t category = 0;  ///< place in LabelSet::categories
+  LabelBox box;
+  double area_px = 0;  ///< of the mask, or else of the box
+  bool crowd = false;
+  bool ignore = false;     ///< found or not, it does not count
+  bool noisy = false;      ///< the picture is frozen or disturbed
+  bool truncated = false;  ///< it reaches out of the picture
+  SizeClass size = SizeClass::medium;
+  std::optional<std::int64_t> track_id;  ///< unique within its video
+  std::optional<bool> occluded;
+  std::optional<double> visibility;  ///< share of its pixels that nothing hides, 0..1
+  std::optional<double> truncated_fraction;
+  std::optional<double> range_m;
+  std::optional<double> temperature_k;   ///< apparent
+  std::optional<double> contrast_k;      ///< apparent, against the surroundings
+  std::optional<double> contrast_noise;  ///< the same in standard deviations of a pixel's noise
+};
+
+/// Labels of pictures, wherever they come from: a dataset of ours, BIRDSAI, any COCO file.
+/// Images are in the order of their videos and frames; labels in the order of their images.
+struct LabelSet {
+  std::string name;
+  std::string root;  ///< folder that image files are relative to
+  std::vector<LabelCategory> categories;
+  std::vector<LabelVideo> videos;
+  std::vector<LabelImage> images;
+  std::vector<Label> labels;
+};
+
+/// Size classes of all tracks, by size_class_of(). A label without a track is a track of its own.
+void assign_size_classes(LabelSet& set);
+
+/// A picture's name with its video's and without folders or ending, unique in the set: "winter_000012". Exports
+/// for tools that want all pictures in one folder name files so.
+[[nodiscard]] std::string flat_name(const LabelSet& set, const LabelImage& image);
+
+/// Whether a category is people; all others but vehicles are animals.
+enum class Kind { animal, human, vehicle };
+[[nodiscard]] Kind kind_of(const std::string& category) noexcept;
+
+}  // namespace thermal
