@@ -111,7 +111,7 @@ FAULTS = {
     "missing": ("none.exr", "cannot read none.exr: there is no such file"),
     "no EXR": (
         "text.exr",
-        'cannot read text.exr: Cannot read image file "text.exr". File is not an image file.',
+        "cannot read text.exr: not an EXR file (its first bytes are others)",
     ),
     "folder without frames": ("empty", "empty holds no .exr file"),
 }

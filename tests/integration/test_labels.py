@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from configs import CLIPS, FRAMES, tiny
-from labels import check_labels
+from labels import box_of, check_labels, decode_rle
 from pictures import read_planes
 from program import Veldt
 
 WIDTH, HEIGHT = 320, 256
+ALONE = "Actors.IndexOB.X"
 
 
 def _apart(config: dict) -> None:
@@ -19,6 +20,7 @@ def _apart(config: dict) -> None:
     for k, group in enumerate(config["scene"]["groups"]):
         group.update(start_m=50 * k, spacing_m=6 + 2 * k)
     config["camera"] = {"width_px": WIDTH, "height_px": HEIGHT, "pixel_pitch_um": 30}
+    config["render"] = {"actor_layer": True}
     azimuths_deg = {"people": 20, "herd": 70, "zebras": 160}
     config["clips"] = [
         {
@@ -39,6 +41,26 @@ def _apart(config: dict) -> None:
     ]
 
 
+OVERSCAN = 100
+
+
+def _in_a_thicket(config: dict) -> None:
+    """Looked at from low down through trees, and beyond the borders of the picture."""
+    config["scene"]["plants"] = {"acacia": {"per_ha": 400}}
+    config["camera"] = {"width_px": WIDTH, "height_px": HEIGHT, "pixel_pitch_um": 30}
+    for clip, view in zip(config["clips"], ({"altitude_m": 20, "speed_m_s": 3}, {"look_angle_deg": 15})):
+        clip["flight"].update(view)
+        clip["frames"], clip["frame_rate_hz"] = 16, 4
+    config["render"] = {"actor_layer": True, "overscan_px": OVERSCAN}
+
+
+def _picture(plane: np.ndarray, manifest: dict) -> np.ndarray:
+    """Of a plane of passes what is in the picture."""
+    cut_px = manifest["overscan_px"]
+    height, width = plane.shape
+    return plane[cut_px : height - cut_px, cut_px : width - cut_px]
+
+
 class Dataset:
     """A dataset that was generated with its passes kept."""
 
@@ -51,12 +73,18 @@ class Dataset:
         assert (done.code, done.out, done.err) == (0, "", "")
         self.labels = veldt.read("annotations.json")
         self.manifests = {c["id"]: veldt.read(f'passes/{c["id"]}/manifest.json') for c in config["clips"]}
-        self.planes = {
-            f"clips/{clip}/ir8/{k:06d}.png": read_planes(folder / "passes" / clip / f"{k:06d}.exr")[
-                "Scene.IndexOB.X"
-            ]
+        self.passes = {
+            f"clips/{clip}/ir8/{k:06d}.png": read_planes(folder / "passes" / clip / f"{k:06d}.exr")
             for clip, manifest in self.manifests.items()
             for k in range(len(manifest["frames"]))
+        }
+        self.planes = self.pictures("Scene.IndexOB.X")
+
+    def pictures(self, channel: str) -> dict[str, np.ndarray]:
+        """A plane of each picture, without overscan, by file name."""
+        return {
+            name: _picture(planes[channel], self.manifests[name.split("/")[1]])
+            for name, planes in self.passes.items()
         }
 
     def sightings(self):
@@ -79,10 +107,15 @@ def _apart_dataset(tmp_path_factory, blender) -> Dataset:
     return Dataset(tmp_path_factory.mktemp("apart"), blender, tiny(_apart))
 
 
+@pytest.fixture(scope="module", name="thicket")
+def _thicket(tmp_path_factory, blender) -> Dataset:
+    return Dataset(tmp_path_factory.mktemp("thicket"), blender, tiny(_in_a_thicket))
+
+
 def test_every_label_holds_exactly_its_actors_pixels(full, apart):
     assert len(full.planes) == len(CLIPS) * FRAMES
     assert check_labels(full.labels, full.planes, full.manifests) > 40
-    assert check_labels(apart.labels, apart.planes, apart.manifests) > 40
+    assert check_labels(apart.labels, apart.planes, apart.manifests, apart.pictures(ALONE)) > 40
 
 
 def corners_px(manifest: dict, frame: dict, actor: dict) -> np.ndarray:
@@ -149,3 +182,67 @@ def test_labels_reach_as_far_as_their_actors_do(apart):
         ).all()
         assert (np.array([x, y]) <= np.min([f.max(axis=0) for f in faces], axis=0) + slack_px).all()
     assert species == set(ALWAYS_TOUCHED)
+
+
+def test_in_the_open_actors_are_wholly_visible(apart):
+    """But for what of their feet is in the ground."""
+    visibility = np.array([label["visibility"] for label in apart.labels["annotations"]])
+    assert visibility.min() > 0.9 and np.median(visibility) == 1
+
+
+def test_behind_trees_actors_are_as_visible_as_their_pixels_say(thicket):
+    count = check_labels(thicket.labels, thicket.planes, thicket.manifests, thicket.pictures(ALONE))
+    visibility = np.array([label["visibility"] for label in thicket.labels["annotations"]])
+    assert count > 10 and np.count_nonzero(visibility < 0.5) > 2
+    assert any(label["visibility"] < 1 and _is_split(label) for label in thicket.labels["annotations"])
+
+
+def _is_split(label: dict) -> bool:
+    """Whether columns without a pixel lie between others."""
+    columns = decode_rle(label["segmentation"]).any(axis=0)
+    first, last = np.flatnonzero(columns)[[0, -1]]
+    return not columns[first : last + 1].all()
+
+
+def test_the_whole_box_is_that_of_the_actor_behind_trees(thicket):
+    """Within the picture exactly; beyond its borders, where overscan shows the truth, to half of the actor's side."""
+    images = {image["id"]: image["file_name"] for image in thicket.labels["images"]}
+    cut = 0
+    for label, actor, manifest, _ in thicket.sightings():
+        plane = thicket.passes[images[label["image_id"]]][ALONE]
+        x, y, width, height = box_of(_picture(plane, manifest) == actor["index"])
+        left, top, wide, high = label["amodal_bbox"]
+        inside = np.array([x, y, x + width, y + height])
+        told = np.array([left, top, left + wide, top + high])
+        border = np.array([0, 0, manifest["camera"]["width_px"], manifest["camera"]["height_px"]])
+        touched = inside == border
+        assert told[~touched] == pytest.approx(inside[~touched], abs=0.011)  # corners are rounded to 0.01 px
+        assert label["truncated"] == touched.any()
+        shown = np.minimum(told[2:], border[2:]) - np.maximum(told[:2], 0)
+        assert label["truncated_fraction"] == pytest.approx(1 - shown.prod() / (wide * high), abs=2e-3)
+        x, y, width, height = box_of(plane == actor["index"])
+        whole = np.array([x, y, x + width, y + height]) - OVERSCAN
+        seen_to_its_end = (whole > -OVERSCAN) & (whole < border + OVERSCAN)
+        checked = touched & seen_to_its_end
+        assert (np.abs(told - whole) <= 0.5 * np.array([width, height, width, height]) + 0.5)[checked].all()
+        cut += np.count_nonzero(checked)
+    assert cut > 3
+
+
+def test_range_is_the_distance_to_the_middle_of_the_box(thicket, apart):
+    for label, actor, _, frame in itertools.chain(thicket.sightings(), apart.sightings()):
+        (place,) = (a for a in frame["actors"] if a["index"] == actor["index"])
+        forward, left, up = np.mean(actor["bounds_m"], axis=0)
+        cos, sin = np.cos(place["heading_rad"]), np.sin(place["heading_rad"])
+        middle_m = place["position_m"] + np.array(
+            [cos * forward - sin * left, sin * forward + cos * left, up]
+        )
+        camera_m = np.array(frame["camera_to_world"]).reshape(4, 4)[:3, 3]
+        assert label["range_m"] == pytest.approx(np.linalg.norm(middle_m - camera_m), abs=1e-4)
+
+
+def test_animals_stand_out_of_a_winters_ground(apart):
+    """Ground at 265 to 272 K, animals and people from 280 K; a target of few pixels loses some of it to blur."""
+    seasons = {label["contrast_k"] > 0 for label in apart.labels["annotations"]}
+    assert seasons == {True}
+    assert all(label["contrast_noise"] > 0 for label in apart.labels["annotations"])

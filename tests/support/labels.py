@@ -37,10 +37,16 @@ def box_of(mask: np.ndarray) -> list[float]:
     return [float(x), float(y), float(columns.max() - x + 1), float(rows.max() - y + 1)]
 
 
-def check_labels(document: dict, planes: Mapping[str, np.ndarray], manifests: Mapping[str, dict]) -> int:
+def check_labels(
+    document: dict,
+    planes: Mapping[str, np.ndarray],
+    manifests: Mapping[str, dict],
+    alone: Mapping[str, np.ndarray] | None = None,
+) -> int:
     """Every label holds exactly its actor's pixels, and every actor in a plane has one label; how many there are.
 
-    planes: object index (height, width) of each picture, by file name; manifests: by clip.
+    planes: object index (height, width) of each picture, by file name; alone: the same of actors alone, from which
+    visibility is checked; manifests: by clip.
     """
     images = {image["id"]: image for image in document["images"]}
     categories = {category["id"]: category["name"] for category in document["categories"]}
@@ -54,7 +60,13 @@ def check_labels(document: dict, planes: Mapping[str, np.ndarray], manifests: Ma
         assert (decode_rle(label["segmentation"]) == mask).all()
         assert (label["bbox"], label["area"]) == (box_of(mask), np.count_nonzero(mask))
         assert categories[label["category_id"]] == actor["category"]
-        edges = np.concatenate([mask[0], mask[-1], mask[:, 0], mask[:, -1]])
+        whole = mask
+        if alone is not None:
+            there = alone[name] == actor["index"]
+            whole = mask | there
+            assert label["visibility"] == round(np.count_nonzero(mask) / np.count_nonzero(there), 4) <= 1
+            assert label["occluded"] == (label["visibility"] < 0.9)
+        edges = np.concatenate([whole[0], whole[-1], whole[:, 0], whole[:, -1]])
         assert label["truncated"] == edges.any()
         labelled.add((name, actor["index"]))
     seen = set()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from pictures import write_exr
 
 WIDTH, HEIGHT, FRAMES = 24, 16, 3
 GROUND, SHRUB, WALKER, ELEPHANT = 1, 4, 101, 102
-OBJECTS, DEPTH = "Scene.IndexOB.X", "Scene.Depth.Z"
+OBJECTS, DEPTH, ACTORS = "Scene.IndexOB.X", "Scene.Depth.Z", "Actors.IndexOB.X"
 
 
 def manifest(clip: str = "one", frames: int = FRAMES) -> dict:
@@ -62,6 +63,22 @@ def write_clip(folder: Path, clip: str = "one", frames: int = FRAMES) -> Path:
         write_exr(folder / f"{frame:06d}.exr", {OBJECTS: object_index(frame), DEPTH: depth})
     write_manifest(folder, manifest(clip, frames))
     return folder
+
+
+def actor_index(frame: int) -> np.ndarray:
+    """The actors of a frame alone: the walker as it is behind the shrub."""
+    plane = np.zeros((HEIGHT, WIDTH), np.float32)
+    plane[10:14, 0:5] = ELEPHANT
+    plane[5:9, 8 + frame : 10 + frame] = WALKER
+    return plane
+
+
+def add_actor_layer(folder: Path, frames: Iterable[int] = range(FRAMES)) -> None:
+    """Writes some frames of a clip anew, with the actors alone in a layer that its manifest then names."""
+    for frame in frames:
+        planes = {OBJECTS: object_index(frame), ACTORS: actor_index(frame)}
+        write_exr(folder / f"{frame:06d}.exr", planes)
+    write_manifest(folder, manifest(folder.name) | {"actor_layer": "Actors"})
 
 
 def write_manifest(folder: Path, document: dict) -> None:

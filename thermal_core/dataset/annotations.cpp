@@ -1,10 +1,14 @@
 #include "dataset/annotations.h"
 
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "dataset/layout.h"
 #include "labels/categories.h"
+#include "labels/label_set.h"
 
 namespace thermal {
 namespace {
@@ -19,13 +23,6 @@ Json category_list(const std::set<std::string>& used) {
   return list;
 }
 
-std::string size_class(double box_area_px) {
-  constexpr double kSmallBelow = 200;
-  constexpr double kLargeAbove = 2000;
-  if (box_area_px < kSmallBelow) return "small";
-  return box_area_px > kLargeAbove ? "large" : "medium";
-}
-
 std::map<int, std::string> size_classes(const Json& annotations) {
   std::map<int, std::pair<double, int>> sums;  // by track: area, boxes
   for (const Json& annotation : annotations) {
@@ -34,8 +31,26 @@ std::map<int, std::string> size_classes(const Json& annotations) {
     ++boxes;
   }
   std::map<int, std::string> classes;
-  for (const auto& [track, sum] : sums) classes[track] = size_class(sum.first / sum.second);
+  for (const auto& [track, sum] : sums)
+    classes[track] = size_class_name(size_class_of(sum.first / sum.second));
   return classes;
+}
+
+/// Rounded, and never "-0.0".
+double rounded(double value, double steps_a_unit = 1e4) {
+  return std::round(value * steps_a_unit) / steps_a_unit + 0.0;
+}
+
+void put(Json& annotation, const char* key, const std::optional<double>& value) {
+  if (value) annotation[key] = rounded(*value);
+}
+
+Json box_entry(const LabelBox& box) {
+  constexpr double kStepsAPixel = 100;
+  const double left = rounded(box.x_px, kStepsAPixel);
+  const double top = rounded(box.y_px, kStepsAPixel);
+  return {left, top, rounded(box.x_px + box.width_px - left, kStepsAPixel),
+          rounded(box.y_px + box.height_px - top, kStepsAPixel)};
 }
 
 /// What a user projects points of the scene with.
@@ -46,8 +61,10 @@ Json camera_entry(const CameraIntrinsics& camera, const LensDistortion& lens) {
 
 }  // namespace
 
-ClipAnnotations::ClipAnnotations(const Manifest& manifest, const LensDistortion& lens)
-    : manifest_(manifest), lens_(lens), objects_(kLargestIndex + 1, nullptr) {
+ClipAnnotations::ClipAnnotations(const Manifest& manifest, const LensDistortion& lens,
+                                 const LabelParameters& parameters)
+    : manifest_(manifest), lens_(lens), parameters_(parameters), objects_(kLargestIndex + 1, nullptr) {
+  parameters_.validate();
   for (const ManifestObject& object : manifest.objects) {
     if (object.object_class != ObjectClass::actor) continue;
     objects_[object.index] = &object;
@@ -68,24 +85,39 @@ void ClipAnnotations::add_frame(int frame, const std::vector<Instance>& instance
                      {"frame_index", frame},
                      {"time_s", manifest_.frames[at].time_s},
                      {"ffc", frozen}});
-  for (const Instance& instance : instances) {
-    const ManifestObject& actor = *objects_[instance.index];
-    const PixelBox& box = instance.box;
-    annotations_.push_back(
-        {{"id", annotations_.size() + 1},
-         {"image_id", image_id},
-         {"category_id", category_ids_.at(actor.category)},
-         {"bbox",
-          {static_cast<double>(box.x_px), static_cast<double>(box.y_px), static_cast<double>(box.width_px),
-           static_cast<double>(box.height_px)}},
-         {"area", instance.area_px},
-         {"segmentation",
-          {{"size", {camera.height_px, camera.width_px}}, {"counts", encode_coco_rle(instance.mask)}}},
-         {"iscrowd", 0},
-         {"track_id", actor.track_id},
-         {"truncated", instance.truncated},
-         {"noisy", frozen}});
-  }
+  for (const Instance& instance : instances)
+    annotations_.push_back(annotation_of(instance, image_id, frozen));
+}
+
+Json ClipAnnotations::annotation_of(const Instance& instance, int image_id, bool frozen) const {
+  const ManifestObject& actor = *objects_[instance.index];
+  const PixelBox& box = instance.box;
+  Json annotation = {{"id", annotations_.size() + 1},
+                     {"image_id", image_id},
+                     {"category_id", category_ids_.at(actor.category)},
+                     {"bbox",
+                      {static_cast<double>(box.x_px), static_cast<double>(box.y_px),
+                       static_cast<double>(box.width_px), static_cast<double>(box.height_px)}},
+                     {"area", instance.area_px},
+                     {"segmentation",
+                      {{"size", {manifest_.camera.height_px, manifest_.camera.width_px}},
+                       {"counts", encode_coco_rle(instance.mask)}}},
+                     {"iscrowd", 0},
+                     {"track_id", actor.track_id}};
+  if (instance.whole_box) annotation["amodal_bbox"] = box_entry(*instance.whole_box);
+  put(annotation, "visibility", instance.visibility);
+  if (instance.visibility)
+    annotation["occluded"] = *instance.visibility < parameters_.occluded_below_visibility;
+  annotation["truncated"] = instance.truncated;
+  put(annotation, "truncated_fraction", instance.truncated_fraction);
+  put(annotation, "covered_px", instance.covered_px);
+  put(annotation, "range_m", instance.range_m);
+  put(annotation, "temperature_k", instance.temperature_k);
+  put(annotation, "contrast_k", instance.contrast_k);
+  put(annotation, "contrast_noise", instance.contrast_noise);
+  annotation["noisy"] = frozen;
+  annotation["ignore"] = is_ignored(instance, parameters_);
+  return annotation;
 }
 
 Json ClipAnnotations::document() const {
@@ -104,7 +136,7 @@ Json ClipAnnotations::document() const {
                                    {"frames", images_.size()},
                                    {"camera", camera_entry(manifest_.camera, lens_)}}})},
           {"images", images_},
-          {"annotations", annotations}};
+          {"annotations", std::move(annotations)}};
 }
 
 Json join_annotations(const std::string& dataset, const std::vector<std::string>& clips,

@@ -43,7 +43,9 @@ PassNeeds needs_of(const Outputs& outputs) {
   PassNeeds all;
   for (const ClipOutput& output : outputs) {
     const PassNeeds needs = output.needs();
-    all = {.depth = all.depth || needs.depth, .normals = all.normals || needs.normals};
+    all = {.depth = all.depth || needs.depth,
+           .normals = all.normals || needs.normals,
+           .actors = all.actors || needs.actors};
   }
   return all;
 }
@@ -96,7 +98,8 @@ class ClipMaker {
   FrameWork* read(FrameWork* work) const {
     const Manifest& manifest = passes_.manifest;
     const Path file = passes_.folder / manifest.frames[static_cast<std::size_t>(work->number)].file;
-    const Passes passes = read_passes(file, manifest.layer, camera_.width_px, camera_.height_px, needs_);
+    const Passes passes =
+        read_passes(file, manifest.layer, camera_.width_px, camera_.height_px, needs_, manifest.actor_layer);
     try {
       for (std::size_t i = 0; i < outputs_.size(); ++i)
         outputs_[i].convert(passes, work->number, work->frames[i]);

@@ -9,6 +9,7 @@
 #include "dataset/layout.h"
 #include "imaging/scene_radiance.h"
 #include "io/config.h"
+#include "labels/label_parameters.h"
 #include "scene/lens_distortion.h"
 #include "scene/manifest.h"
 #include "scene/material.h"
@@ -28,6 +29,7 @@ struct ClipTask {
   std::uint32_t seed = 1;
   SensorParameters sensor;
   LensDistortion distortion;
+  LabelParameters labels;
   std::optional<PhysicsSettings> physics;  ///< empty: the published model
   Layout layout;                           ///< where it goes
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dataset/tone_record.h"
+#include "imaging/target_contrast.h"
 #include "io/png.h"
 #include "scene/camera_geometry.h"
 
@@ -47,13 +48,17 @@ ClipOutput::ClipOutput(const ClipTask& task, const Manifest& manifest, const Mat
       camera_(task.sensor, sensor_clip(task, manifest), converter_.brightest_w_m2_sr()),
       video_(folder_ / "preview.mp4", manifest.frame_rate_hz, manifest.camera.width_px,
              manifest.camera.height_px),
-      annotations_(manifest, task.distortion) {}
+      annotations_(manifest, task.distortion, task.labels) {}
 
 void ClipOutput::convert(const Passes& passes, int number, Frame& frame) const {
   converter_.convert(passes, told_of(number), frame.scene);
 }
 
-void ClipOutput::expose(Frame& frame) { camera_.expose(frame.scene.radiance_w_m2_sr, frame.pictures); }
+void ClipOutput::expose(Frame& frame) {
+  camera_.expose(frame.scene.radiance_w_m2_sr, frame.pictures, [&](const Plane<float>& radiance_w_m2_sr) {
+    tell_contrast(camera_, radiance_w_m2_sr, frame.scene.instances);
+  });
+}
 
 void ClipOutput::write(int number, Frame& frame) const {
   const std::string name = frame_name(number);

@@ -51,6 +51,7 @@ class Dataset {
             .seed = config.seed,
             .sensor = config.sensor,
             .distortion = config.distortion,
+            .labels = config.labels,
             .physics = physics_of(config, clip, kept_),
             .layout = layout_};
   }

@@ -107,6 +107,7 @@ class Generator {
                            .seed = config_.seed,
                            .sensor = config_.sensor,
                            .distortion = config_.distortion,
+                           .labels = config_.labels,
                            .physics = physics_of(config_, clip, budget_.kept),
                            .layout = layout_};
     const ClipHooks clip_hooks = {.wait_for_frame =

@@ -1,5 +1,7 @@
 #include "imaging/frame_converter.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -15,7 +17,7 @@ SceneRadiance make_scene(const Manifest& manifest, const MaterialLibrary& materi
   return {manifest, materials, *physics};
 }
 
-std::optional<ResampleMap> make_map(const Manifest& manifest, const LensDistortion& lens) {
+std::shared_ptr<const ResampleMap> make_map(const Manifest& manifest, const LensDistortion& lens) {
   const int needed_px = overscan_px(manifest.camera, lens);
   if (manifest.overscan_px < needed_px) {
     throw ConfigError(fault(
@@ -24,8 +26,8 @@ std::optional<ResampleMap> make_map(const Manifest& manifest, const LensDistorti
                     "whose camera is smaller than its passes",
                     needed_px)));
   }
-  if (lens.is_none() && manifest.overscan_px == 0) return std::nullopt;
-  return ResampleMap(manifest.camera, manifest.overscan_px, lens);
+  if (lens.is_none() && manifest.overscan_px == 0) return nullptr;
+  return std::make_shared<const ResampleMap>(manifest.camera, manifest.overscan_px, lens);
 }
 
 }  // namespace
@@ -38,10 +40,14 @@ FrameConverter::FrameConverter(const Manifest& manifest, const MaterialLibrary& 
       scene_radiance_(make_scene(manifest, materials, season, parameters, physics)),
       brightest_w_m2_sr_(parameters.agc.mode == AgcMode::table_max
                              ? brightest_of_table_1(materials, season, radiance_of(parameters))
-                             : scene_radiance_.brightest_w_m2_sr()) {
-  for (const ManifestObject& object : manifest.objects) {
-    if (object.object_class == ObjectClass::actor) actor_indices_.push_back(object.index);
-  }
+                             : scene_radiance_.brightest_w_m2_sr()),
+      labeller_(manifest, lens, map_, scene_radiance_.needs().depth),
+      has_actor_layer_(!manifest.actor_layer.empty()) {}
+
+PassNeeds FrameConverter::needs() const noexcept {
+  PassNeeds needs = scene_radiance_.needs();
+  needs.actors = has_actor_layer_;
+  return needs;
 }
 
 SceneFrame FrameConverter::convert(const Passes& passes, const ManifestFrame& frame) const {
@@ -55,28 +61,22 @@ void FrameConverter::convert(const Passes& passes, const ManifestFrame& frame, S
   const SurfaceMap& surfaces = scene_radiance_.surfaces();
   surfaces.check_objects(uses);
   if (!passes.material_index.empty()) surfaces.check_materials(survey_indices(passes.material_index));
-  if (supersample_ > 1 || map_) return convert_reshaped(passes, frame, out);
-  scene_radiance_.radiance(passes, frame, out.radiance_w_m2_sr);
-  out.instances = extract_instances(passes.object_index, uses, actor_indices_);
+  out.instances = labeller_.label(passes, uses, frame);
+  if (supersample_ == 1 && !map_) {
+    scene_radiance_.radiance(passes, frame, out.radiance_w_m2_sr);
+  } else {
+    reshape(scene_radiance_.radiance(passes, frame), out.radiance_w_m2_sr);
+  }
 }
 
-void FrameConverter::convert_reshaped(const Passes& passes, const ManifestFrame& frame,
-                                      SceneFrame& out) const {
-  Plane<float> radiance = scene_radiance_.radiance(passes, frame);
-  Plane<std::uint16_t> coarse;
-  const Plane<std::uint16_t>* indices = &passes.object_index;
-  if (supersample_ > 1) {
-    radiance = block_means(radiance, supersample_);
-    coarse = block_actors(passes.object_index, supersample_, actor_indices_);
-    indices = &coarse;
-  }
+/// From the passes' pixels to the camera's.
+void FrameConverter::reshape(Plane<float> fine, Plane<float>& out) const {
+  Plane<float> radiance = supersample_ > 1 ? block_means(fine, supersample_) : std::move(fine);
   if (map_) {
-    map_->resample_linear(radiance, out.radiance_w_m2_sr);
-    coarse = map_->resample_nearest(*indices);
+    map_->resample_linear(radiance, out);
   } else {
-    out.radiance_w_m2_sr = std::move(radiance);
+    out = std::move(radiance);
   }
-  out.instances = extract_instances(coarse, survey_indices(coarse), actor_indices_);
 }
 
 }  // namespace thermal

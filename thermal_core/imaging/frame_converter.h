@@ -1,9 +1,10 @@
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "imaging/actor_labeller.h"
 #include "imaging/resample.h"
 #include "imaging/scene_radiance.h"
 #include "labels/instances.h"
@@ -29,10 +30,11 @@ class FrameConverter {
                  const LensDistortion& lens = {});
 
   /// Planes that convert() wants beside the object index.
-  [[nodiscard]] PassNeeds needs() const noexcept { return scene_radiance_.needs(); }
+  [[nodiscard]] PassNeeds needs() const noexcept;
 
   /// Passes of one frame, `supersample` times finer than the camera and with overscan where the manifest says so:
   /// physics first, then means of radiance, then the lens. Labels go through the lens with the radiance.
+  /// Actors are labelled as ActorLabeller does.
   /// DataError if the passes hold an index the manifest lacks. Safe to call from several threads.
   [[nodiscard]] SceneFrame convert(const Passes& passes, const ManifestFrame& frame = {}) const;
 
@@ -43,13 +45,14 @@ class FrameConverter {
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
 
  private:
-  void convert_reshaped(const Passes& passes, const ManifestFrame& frame, SceneFrame& out) const;
+  void reshape(Plane<float> fine, Plane<float>& out) const;
 
   int supersample_;
-  std::optional<ResampleMap> map_;  ///< empty: the passes show the camera's picture as it is
+  std::shared_ptr<const ResampleMap> map_;  ///< null: the passes show the camera's picture as it is
   SceneRadiance scene_radiance_;
   float brightest_w_m2_sr_;
-  std::vector<std::uint16_t> actor_indices_;
+  ActorLabeller labeller_;
+  bool has_actor_layer_;
 };
 
 }  // namespace thermal

@@ -110,15 +110,26 @@ Plane<std::uint16_t> ResampleMap::resample_nearest(const Plane<std::uint16_t>& i
     crop(in, out);
     return out;
   }
-  const Steps steps = steps_of(in);
   for_rows(width_px_, height_px_, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::int32_t across = x_share_[i] < 0.5F ? 0 : steps.right;
-      const std::int32_t down = y_share_[i] < 0.5F ? 0 : steps.down;
-      out.pixels()[i] = in.pixels()[static_cast<std::size_t>(corner_[i] + across + down)];
-    }
+    for (std::size_t i = begin; i < end; ++i) out.pixels()[i] = in.pixels()[nearest(i, in)];
   });
   return out;
+}
+
+std::size_t ResampleMap::nearest(std::size_t pixel, const Plane<std::uint16_t>& in) const noexcept {
+  const Steps steps = steps_of(in);
+  const std::int32_t across = x_share_[pixel] < 0.5F ? 0 : steps.right;
+  const std::int32_t down = y_share_[pixel] < 0.5F ? 0 : steps.down;
+  return static_cast<std::size_t>(corner_[pixel] + across + down);
+}
+
+Plane<std::uint16_t> ResampleMap::times_shown() const {
+  Plane<std::uint16_t> times(width_px_ + 2 * overscan_px_, height_px_ + 2 * overscan_px_);
+  for (std::size_t i = 0; i < corner_.size(); ++i) ++times.pixels()[nearest(i, times)];
+  for (int y = 0; corner_.empty() && y < height_px_; ++y) {
+    for (int x = 0; x < width_px_; ++x) times.at(x + overscan_px_, y + overscan_px_) = 1;
+  }
+  return times;
 }
 
 }  // namespace thermal

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -25,7 +26,11 @@ class ResampleMap {
   /// Indices as the lens shows them: that of the nearest pixel.
   [[nodiscard]] Plane<std::uint16_t> resample_nearest(const Plane<std::uint16_t>& in) const;
 
+  /// How many of the camera's pixels resample_nearest() has show each pixel of the pinhole's picture.
+  [[nodiscard]] Plane<std::uint16_t> times_shown() const;
+
  private:
+  [[nodiscard]] std::size_t nearest(std::size_t pixel, const Plane<std::uint16_t>& in) const noexcept;
   void place_row(const CameraIntrinsics& camera, const LensDistortion& lens, int y);
   template <typename T>
   void crop(const Plane<T>& in, Plane<T>& out) const;

@@ -1,12 +1,29 @@
 #include "imaging/supersample.h"
 
-#include <algorithm>
 #include <cassert>
-#include <vector>
-
-#include "scene/manifest.h"
 
 namespace thermal {
+namespace {
+
+/// The blocks that a box of fine pixels reaches into.
+PixelBox blocks_of(const PixelBox& fine, int factor) {
+  const int left = fine.x_px / factor;
+  const int top = fine.y_px / factor;
+  const int right = (fine.x_px + fine.width_px - 1) / factor;
+  const int bottom = (fine.y_px + fine.height_px - 1) / factor;
+  return {left, top, right - left + 1, bottom - top + 1};
+}
+
+int pixels_in_block(const Plane<std::uint16_t>& fine, int factor, int x, int y, std::uint16_t index) {
+  int pixels = 0;
+  for (int row = y * factor; row < (y + 1) * factor; ++row) {
+    for (int column = x * factor; column < (x + 1) * factor; ++column)
+      pixels += fine.at(column, row) == index;
+  }
+  return pixels;
+}
+
+}  // namespace
 
 Plane<float> block_means(const Plane<float>& fine, int factor) {
   assert(factor >= 1 && fine.width_px() % factor == 0 && fine.height_px() % factor == 0);
@@ -22,27 +39,15 @@ Plane<float> block_means(const Plane<float>& fine, int factor) {
 }
 
 Plane<std::uint16_t> block_actors(const Plane<std::uint16_t>& fine, int factor,
-                                  std::span<const std::uint16_t> actor_indices) {
-  std::vector<bool> is_actor(kLargestIndex + 1);
-  for (const std::uint16_t index : actor_indices) is_actor[index] = true;
+                                  std::span<const IndexUse> uses, const IndexSet& actors) {
   Plane<std::uint16_t> coarse(fine.width_px() / factor, fine.height_px() / factor);
-  std::vector<std::uint16_t> block;
-  for (int y = 0; y < coarse.height_px(); ++y) {
-    for (int x = 0; x < coarse.width_px(); ++x) {
-      block.clear();
-      for (int i = 0; i < factor * factor; ++i) {
-        const std::uint16_t index = fine.at(x * factor + i % factor, y * factor + i / factor);
-        if (is_actor[index]) block.push_back(index);
-      }
-      if (2 * static_cast<int>(block.size()) < factor * factor) continue;
-      std::sort(block.begin(), block.end());
-      for (auto run = block.begin(); run != block.end();) {
-        const auto end = std::upper_bound(run, block.end(), *run);
-        if (2 * (end - run) >= factor * factor) {
-          coarse.at(x, y) = *run;
-          break;
-        }
-        run = end;
+  for (const IndexUse& use : uses) {
+    if (!actors.contains(use.index)) continue;
+    const PixelBox blocks = blocks_of(use.box, factor);
+    for (int y = blocks.y_px; y < blocks.y_px + blocks.height_px; ++y) {
+      for (int x = blocks.x_px; x < blocks.x_px + blocks.width_px; ++x) {
+        const bool covered = 2 * pixels_in_block(fine, factor, x, y, use.index) >= factor * factor;
+        if (covered && coarse.at(x, y) == 0) coarse.at(x, y) = use.index;
       }
     }
   }

@@ -33,6 +33,12 @@ std::optional<double> read_optional(const Json& json, const char* key) {
   return json.contains(key) ? std::optional<double>(json[key].get<double>()) : std::nullopt;
 }
 
+LabelParameters read_label_parameters(const Json& json) {
+  return {.occluded_below_visibility = json["occluded_below_visibility"],
+          .ignore_below_visibility = json["ignore_below_visibility"],
+          .ignore_below_area_px = json["ignore_below_area_px"]};
+}
+
 ClipConfig read_clip(const Json& json) {
   return {.id = json["id"],
           .season = season_of(json["season"].get<std::string>()),
@@ -176,6 +182,7 @@ Config resolve_config(Json document, const std::string& name, const Path& home) 
   config.height_px = document["camera"]["height_px"];
   config.distortion = read_distortion(document["camera"]["distortion"]);
   config.sensor = read_sensor(document, name, home);
+  config.labels = read_label_parameters(document["labels"]);
   config.physical = document["sensor"]["model"] == "physical";
   config.terms = read_terms(document["terms"], config.physical ? TermChoice::automatic : TermChoice::off);
   config.netd_k = config.sensor.netd_k();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/json_file.h"
+#include "labels/label_parameters.h"
 #include "scene/lens_distortion.h"
 #include "scene/season.h"
 #include "scene/terms.h"
@@ -30,6 +31,7 @@ struct Config {
   LensDistortion distortion;
   int overscan_px = 0;  ///< what the passes reach beyond the picture on every side
   SensorParameters sensor;
+  LabelParameters labels;
   bool physical = false;  ///< every term the scene needs; else the published model
   TermChoices terms;
   double netd_k = 0.04;

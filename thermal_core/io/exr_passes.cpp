@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/exr_scan.h"
 #include "scene/manifest.h"
 
 namespace thermal {
@@ -81,13 +82,21 @@ template <typename Read>
 auto with_file(const Path& file, const Read& read) {
   if (!std::filesystem::exists(file))
     throw IoError(fmt::format("cannot read {}: there is no such file", file.string()));
+  const auto unreadable = [&file](const std::exception& error) {
+    return IoError(fmt::format("cannot read {}: {}", file.string(), error.what()));
+  };
+  try {
+    check_exr_headers(file);
+  } catch (const DataError& error) {
+    throw unreadable(error);
+  }
   try {
     Imf::MultiPartInputFile opened(file.c_str(), 1);
     return read(opened);
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
-    throw IoError(fmt::format("cannot read {}: {}", file.string(), error.what()));
+    throw unreadable(error);
   }
 }
 
@@ -228,14 +237,54 @@ namespace {
 struct ChosenChannels {
   std::vector<const ExrChannel*> channels;
   bool materials = false;
+  bool actors = false;
 };
 
-ChosenChannels choose_channels(const ExrHeader& header, const std::string& layer, const PassNeeds& needs) {
-  const ExrChannel& objects = require_object_index(header, layer);
-  ChosenChannels chosen{.channels = {&objects}, .materials = false};
+/// Layers in which there is an object index, in the file's order.
+std::vector<std::string> index_layers(const ExrHeader& header) {
+  std::vector<std::string> layers;
+  for (const ExrChannel& channel : header.channels) {
+    const bool is_index =
+        std::find(kObjectIndex.begin(), kObjectIndex.end(), channel.pass) != kObjectIndex.end();
+    if (is_index && std::find(layers.begin(), layers.end(), channel.layer) == layers.end())
+      layers.push_back(channel.layer);
+  }
+  return layers;
+}
+
+/// The layer of everything: where none is named, the one beside that of actors.
+std::string main_layer(const ExrHeader& header, const std::string& layer, const std::string& actor_layer) {
+  if (!layer.empty() || actor_layer.empty()) return layer;
+  std::vector<std::string> layers = index_layers(header);
+  std::erase(layers, actor_layer);
+  return layers.size() == 1 ? layers.front() : layer;
+}
+
+/// Null for a frame without that layer. That a frame has another one instead is taken for a slip of the pen.
+const ExrChannel* find_actors(const ExrHeader& header, const ExrChannel& objects,
+                              const std::string& actor_layer) {
+  std::vector<std::string> layers = index_layers(header);
+  if (std::find(layers.begin(), layers.end(), actor_layer) != layers.end())
+    return header.find_object_index(actor_layer);
+  std::erase(layers, objects.layer);
+  if (layers.empty()) return nullptr;
+  throw DataError(fault("actor_layer", fmt::format("\"{}\"", actor_layer), "",
+                        "a layer with an object index: " + list_names(layers)) +
+                  did_you_mean(actor_layer, layers));
+}
+
+ChosenChannels choose_channels(const ExrHeader& header, const std::string& layer, const PassNeeds& needs,
+                               const std::string& actor_layer) {
+  const ExrChannel& objects = require_object_index(header, main_layer(header, layer, actor_layer));
+  ChosenChannels chosen{.channels = {&objects}, .materials = false, .actors = false};
   if (const ExrChannel* materials = header.find_material_index(objects.layer)) {
     chosen.channels.push_back(materials);
     chosen.materials = true;
+  }
+  const ExrChannel* actors = needs.actors ? find_actors(header, objects, actor_layer) : nullptr;
+  if (actors != nullptr) {
+    chosen.channels.push_back(actors);
+    chosen.actors = true;
   }
   if (needs.depth) chosen.channels.push_back(require(header.find_depth(objects.layer), "depth", header));
   if (!needs.normals) return chosen;
@@ -249,17 +298,19 @@ ChosenChannels choose_channels(const ExrHeader& header, const std::string& layer
 }  // namespace
 
 Passes read_passes(const Path& file, const std::string& layer, int width_px, int height_px,
-                   const PassNeeds& needs) {
+                   const PassNeeds& needs, const std::string& actor_layer) {
   return naming(file, [&] {
     return with_file(file, [&](Imf::MultiPartInputFile& opened) {
       const ExrHeader header = header_of(opened);
       check_size(header, width_px, height_px);
-      const ChosenChannels chosen = choose_channels(header, layer, needs);
+      const ChosenChannels chosen = choose_channels(header, layer, needs, actor_layer);
       std::vector<Plane<float>> planes = read_channels(opened, header, chosen.channels);
       Passes passes;
       auto plane = planes.begin();
-      passes.object_index = to_indices(*plane++, chosen.channels[0]->name);
-      if (chosen.materials) passes.material_index = to_indices(*plane++, chosen.channels[1]->name);
+      auto channel = chosen.channels.begin();
+      passes.object_index = to_indices(*plane++, (*channel++)->name);
+      if (chosen.materials) passes.material_index = to_indices(*plane++, (*channel++)->name);
+      if (chosen.actors) passes.actor_index = to_indices(*plane++, (*channel++)->name);
       if (needs.depth) passes.depth_m = std::move(*plane++);
       for (Plane<float>& normal : passes.normal) {
         if (needs.normals) normal = std::move(*plane++);

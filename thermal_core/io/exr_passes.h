@@ -43,9 +43,11 @@ struct ExrHeader {
                                             const ExrChannel& channel);
 
 /// The planes of one frame that are needed, and no others. The size, unless 0, must be this one: checked before any memory is taken.
+/// `actor_layer` is looked at if actors are needed: a file with no other object index than `layer`'s is one of a frame
+/// without actor layer, whose plane stays empty.
 /// DataError naming file, channel and pixel if there is no object index or a needed plane is missing, or an index is negative, fractional,
 /// NaN or above 32767; IoError if the file cannot be read.
 [[nodiscard]] Passes read_passes(const Path& file, const std::string& layer, int width_px, int height_px,
-                                 const PassNeeds& needs = {});
+                                 const PassNeeds& needs = {}, const std::string& actor_layer = "");
 
 }  // namespace thermal

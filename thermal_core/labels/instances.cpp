@@ -2,29 +2,63 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
+#include <cstring>
+#include <utility>
 
 namespace thermal {
 namespace {
 
 constexpr std::size_t kIndices = 32768;
 
-/// Extent of one index while a plane is scanned.
-struct Extent {
-  std::uint32_t pixels = 0;
-  int first_x = 0;
-  int first_y = 0;
-  int left = 0;
-  int right = 0;
-  int bottom = 0;
+/// Extents of the indices met so far. Where an index's extent is, is kept apart: planes hold few of the indices there
+/// could be, and this is written for every frame.
+class Survey {
+ public:
+  Survey() : places_(kIndices, kNone) {}
+
+  /// Counts a run of equal indices, columns [begin, end) of row y; rows come in order.
+  void add_run(std::uint16_t index, int begin, int end, int y) {
+    assert(index < kIndices);
+    if (places_[index] == kNone) {
+      places_[index] = static_cast<std::uint16_t>(uses_.size());
+      uses_.push_back({.index = index, .first_x_px = begin, .first_y_px = y, .box = {begin, y, 0, 0}});
+    }
+    IndexUse& use = uses_[places_[index]];
+    const int right = std::max(use.box.x_px + use.box.width_px, end);
+    use.pixels += static_cast<std::uint32_t>(end - begin);
+    use.box.x_px = std::min(use.box.x_px, begin);
+    use.box.width_px = right - use.box.x_px;
+    use.box.height_px = y - use.box.y_px + 1;
+  }
+
+  /// By rising index.
+  std::vector<IndexUse> finish() && {
+    std::sort(uses_.begin(), uses_.end(),
+              [](const IndexUse& a, const IndexUse& b) { return a.index < b.index; });
+    return std::move(uses_);
+  }
+
+ private:
+  static constexpr std::uint16_t kNone = 0xFFFF;
+  std::vector<std::uint16_t> places_;
+  std::vector<IndexUse> uses_;
 };
 
-/// Counts a run of equal indices, columns [begin, end) of row y.
-void add_run(Extent& extent, int begin, int end, int y) {
-  if (extent.pixels == 0) extent = {0, begin, y, begin, end, y};
-  extent.pixels += static_cast<std::uint32_t>(end - begin);
-  extent.left = std::min(extent.left, begin);
-  extent.right = std::max(extent.right, end);
-  extent.bottom = y;
+/// Where the run of equal pixels ends that begins at `begin`: four of them at a time.
+std::size_t run_end(std::span<const std::uint16_t> row, std::size_t begin) noexcept {
+  constexpr std::size_t kAtOnce = sizeof(std::uint64_t) / sizeof(std::uint16_t);
+  constexpr std::uint64_t kOnes = 0x0001000100010001;
+  const std::uint64_t four = kOnes * row[begin];
+  std::size_t end = begin + 1;
+  while (end + kAtOnce <= row.size()) {
+    std::uint64_t next = 0;
+    std::memcpy(&next, &row[end], sizeof next);
+    if (next != four) break;
+    end += kAtOnce;
+  }
+  while (end < row.size() && row[end] == row[begin]) ++end;
+  return end;
 }
 
 /// Column-major run lengths of the pixels with this index; all of them are inside `box`.
@@ -57,52 +91,51 @@ RunLengths mask_of(const Plane<std::uint16_t>& plane, std::uint16_t index, const
   return counts;
 }
 
-bool touches_border(const PixelBox& box, const Plane<std::uint16_t>& plane) {
-  return box.x_px == 0 || box.y_px == 0 || box.x_px + box.width_px == plane.width_px() ||
-         box.y_px + box.height_px == plane.height_px();
-}
-
 }  // namespace
 
+IndexSet::IndexSet(std::span<const std::uint16_t> indices) : contains_(kIndices) {
+  for (const std::uint16_t index : indices) contains_[index] = true;
+}
+
 std::vector<IndexUse> survey_indices(const Plane<std::uint16_t>& index_plane) {
-  std::vector<Extent> extents(kIndices);
+  Survey survey;
   for (int y = 0; y < index_plane.height_px(); ++y) {
     const auto row = index_plane.row(y);
     for (std::size_t begin = 0; begin < row.size();) {
-      const std::uint16_t index = row[begin];
-      assert(index < kIndices);
-      std::size_t end = begin + 1;
-      while (end < row.size() && row[end] == index) ++end;
-      add_run(extents[index], static_cast<int>(begin), static_cast<int>(end), y);
+      const std::size_t end = run_end(row, begin);
+      survey.add_run(row[begin], static_cast<int>(begin), static_cast<int>(end), y);
       begin = end;
     }
   }
-  std::vector<IndexUse> uses;
-  for (std::size_t index = 0; index < kIndices; ++index) {
-    const Extent& e = extents[index];
-    if (e.pixels == 0) continue;
-    uses.push_back({.index = static_cast<std::uint16_t>(index),
-                    .first_x_px = e.first_x,
-                    .first_y_px = e.first_y,
-                    .pixels = e.pixels,
-                    .box = {e.left, e.first_y, e.right - e.left, e.bottom - e.first_y + 1}});
-  }
-  return uses;
+  return std::move(survey).finish();
+}
+
+const IndexUse* find_use(std::span<const IndexUse> uses, std::uint16_t index) noexcept {
+  const auto found =
+      std::lower_bound(uses.begin(), uses.end(), index,
+                       [](const IndexUse& use, std::uint16_t wanted) { return use.index < wanted; });
+  return found != uses.end() && found->index == index ? &*found : nullptr;
 }
 
 std::vector<Instance> extract_instances(const Plane<std::uint16_t>& index_plane,
-                                        std::span<const IndexUse> uses,
-                                        std::span<const std::uint16_t> actor_indices) {
+                                        std::span<const IndexUse> uses, const IndexSet& actors) {
   std::vector<Instance> instances;
   for (const IndexUse& use : uses) {
-    if (std::find(actor_indices.begin(), actor_indices.end(), use.index) == actor_indices.end()) continue;
-    instances.push_back({.index = use.index,
-                         .box = use.box,
-                         .area_px = use.pixels,
-                         .truncated = touches_border(use.box, index_plane),
-                         .mask = mask_of(index_plane, use.index, use.box)});
+    if (!actors.contains(use.index)) continue;
+    Instance instance;
+    instance.index = use.index;
+    instance.box = use.box;
+    instance.area_px = use.pixels;
+    instance.truncated = touches_border(use.box, index_plane.width_px(), index_plane.height_px());
+    instance.mask = mask_of(index_plane, use.index, use.box);
+    instances.push_back(std::move(instance));
   }
   return instances;
+}
+
+bool touches_border(const PixelBox& box, int width_px, int height_px) noexcept {
+  return box.x_px == 0 || box.y_px == 0 || box.x_px + box.width_px == width_px ||
+         box.y_px + box.height_px == height_px;
 }
 
 }  // namespace thermal

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/image.h"
+#include "labels/label_set.h"
 #include "labels/rle.h"
 
 namespace thermal {
@@ -19,13 +21,31 @@ struct PixelBox {
   [[nodiscard]] bool operator==(const PixelBox&) const = default;
 };
 
-/// One actor in one frame: exactly the pixels that carry its index.
+/// One actor in one frame: exactly the pixels that carry its index, and what is known beside them.
 struct Instance {
   std::uint16_t index = 0;
   PixelBox box;               ///< the smallest that holds all its pixels
   std::uint32_t area_px = 0;  ///< number of its pixels
-  bool truncated = false;     ///< it touches the border of the frame
+  bool truncated = false;     ///< it touches the border of the frame, hidden parts too where those are known
   RunLengths mask;            ///< over the whole frame, column-major
+  std::optional<double> covered_px = {};          ///< supersampled frames: its area by the finer pixels
+  std::optional<double> visibility = {};          ///< share of it that neither plants nor ground hide
+  std::optional<LabelBox> whole_box = {};         ///< with what is hidden, and what lies beyond the border
+  std::optional<double> truncated_fraction = {};  ///< share of whole_box beyond the border
+  std::optional<double> range_m = {};
+  std::optional<double> temperature_k = {};   ///< apparent, of its mean radiance
+  std::optional<double> contrast_k = {};      ///< the same less that of its surroundings
+  std::optional<double> contrast_noise = {};  ///< their radiances' difference over a pixel's noise
+};
+
+/// A set of indices, at most 32767.
+class IndexSet {
+ public:
+  explicit IndexSet(std::span<const std::uint16_t> indices = {});
+  [[nodiscard]] bool contains(std::uint16_t index) const noexcept { return contains_[index]; }
+
+ private:
+  std::vector<bool> contains_;
 };
 
 /// Where an index first occurs, in row-major order, and how often.
@@ -41,10 +61,15 @@ struct IndexUse {
 /// Indices are at most 32767.
 [[nodiscard]] std::vector<IndexUse> survey_indices(const Plane<std::uint16_t>& index_plane);
 
+/// The use of an index among those of a survey; null if there is none.
+[[nodiscard]] const IndexUse* find_use(std::span<const IndexUse> uses, std::uint16_t index) noexcept;
+
 /// The actors among `uses`, in that order, with their masks. A pixel outside an actor's box is never read
 /// again, so the cost is one pass over the plane plus the actors' boxes.
 [[nodiscard]] std::vector<Instance> extract_instances(const Plane<std::uint16_t>& index_plane,
-                                                      std::span<const IndexUse> uses,
-                                                      std::span<const std::uint16_t> actor_indices);
+                                                      std::span<const IndexUse> uses, const IndexSet& actors);
+
+/// Whether a box reaches the border of a frame.
+[[nodiscard]] bool touches_border(const PixelBox& box, int width_px, int height_px) noexcept;
 
 }  // namespace thermal

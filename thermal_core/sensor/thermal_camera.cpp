@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "base/clones.h"
@@ -109,6 +110,23 @@ std::vector<float> uniform_pattern(std::uint32_t seed, const std::string& clip, 
   return pattern;
 }
 
+/// Mean square of what PatternNoise has drift grow by over a shutter interval, (sqrt(t) / 2 + t / 2)^2 from 0 to 1.
+constexpr double kDriftGrowth2 = 49.0 / 120;
+
+/// Variance of a pixel's noise in units of its white noise's; see ThermalCamera::noise_w_m2_sr().
+double noise_variance(const SensorParameters& parameters, double frame_rate_hz) {
+  const NoiseParameters& ratios = parameters.noise;
+  double variance = 1;
+  for (const double ratio : {ratios.fixed_pattern_ratio, ratios.row_ratio, ratios.column_ratio,
+                             ratios.temporal_row_ratio, ratios.temporal_column_ratio, ratios.banding_ratio}) {
+    variance += ratio * ratio;
+  }
+  if (ratios.flicker_knee_hz > 0)
+    variance += ratios.flicker_knee_hz * FlickerFilter::design(frame_rate_hz).variance();
+  if (parameters.shutter.interval_s > 0) variance += kDriftGrowth2 * ratios.drift_ratio * ratios.drift_ratio;
+  return variance;
+}
+
 }  // namespace
 
 std::function<double(double temperature_k)> radiance_of(const SensorParameters& parameters) {
@@ -138,7 +156,9 @@ ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, floa
       bad_pixels_(parameters.bad_pixels, clip_.seed, clip_.id, clip_.frame_rate_hz, clip_.width_px,
                   clip_.height_px),
       agc_(parameters.agc, agc_scene(parameters, clip_.frame_rate_hz, brightest_w_m2_sr)),
-      signal_(clip_.width_px, clip_.height_px) {
+      signal_(clip_.width_px, clip_.height_px),
+      noise_w_m2_sr_(static_cast<double>(white_w_m2_sr_) *
+                     std::sqrt(noise_variance(parameters, clip_.frame_rate_hz))) {
   assert(brightest_w_m2_sr > 0);
   if (flicker_w_m2_sr_ > 0) {
     flicker_.emplace(clip_.seed, clip_.id, FlickerFilter::design(clip_.frame_rate_hz), signal_.size());
@@ -151,10 +171,23 @@ SensorFrame ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr) {
   return frame;
 }
 
-void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out) {
+double ThermalCamera::temperature_k(double radiance_w_m2_sr) const {
+  const auto radiance = static_cast<float>(radiance_w_m2_sr);
+  float temperature_k = 0;
+  temperature_table_.temperatures(std::span(&radiance, 1), std::span(&temperature_k, 1));
+  return static_cast<double>(temperature_k);
+}
+
+double ThermalCamera::noise_w_m2_sr(int x_px, int y_px) const {
+  const double gain = clip_.noise_gain.empty() ? 1 : static_cast<double>(clip_.noise_gain.at(x_px, y_px));
+  return gain * std::hypot(noise_w_m2_sr_, first_frame_w_m2_sr_ / std::numbers::sqrt3);
+}
+
+void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const Look& look) {
   const double time_s = frame_ / clip_.frame_rate_hz;
   const ShutterState shutter = shutter_.at(time_s);
   take_in(radiance_w_m2_sr);
+  if (look) look(signal_);
   pattern_.begin_frame(frame_, time_s, shutter);
   expose_signal();
   bad_pixels_.apply(frame_, white_w_m2_sr_, signal_);
@@ -192,7 +225,8 @@ void ThermalCamera::take_in(const Plane<float>& radiance_w_m2_sr) {
   if (follow_ < 1) membrane_.assign(signal.begin(), signal.end());  // at rest
   const double ratio = parameters_.noise.amount * parameters_.noise.first_frame_ratio;
   if (ratio > 0) {
-    first_frame_ = uniform_pattern(clip_.seed, clip_.id, ratio * standard_deviation(signal_), signal_.size());
+    first_frame_w_m2_sr_ = ratio * standard_deviation(signal_);
+    first_frame_ = uniform_pattern(clip_.seed, clip_.id, first_frame_w_m2_sr_, signal_.size());
   }
 }
 

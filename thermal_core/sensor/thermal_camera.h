@@ -45,16 +45,32 @@ class ThermalCamera {
     int supersample = 1;      ///< samples across a pixel whose mean the radiance already is
   };
 
+  /// Looks at a radiance plane [W m^-2 sr^-1], which is gone when it returns.
+  using Look = std::function<void(const Plane<float>& radiance_w_m2_sr)>;
+
   /// @param brightest_w_m2_sr  radiance of level 255 in the AGC modes scene_max and table_max, > 0
   ThermalCamera(const SensorParameters& parameters, Clip clip, float brightest_w_m2_sr);
 
   /// Radiance plane [W m^-2 sr^-1] of the next frame to pictures; `out` is used again if it has the right size.
   /// NaN and negative radiance count as 0, more than the 16-bit picture can tell as that much: nothing that is not
   /// finite reaches the optics or what the camera remembers. Count 0 and level 0 stand for no light.
-  void expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out);
+  /// `look` is shown what the detector would see without lag and noise: the radiance behind the optics, of this
+  /// frame's moment even while the shutter is closed.
+  void expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const Look& look = {});
 
   /// The same, into a new frame.
   [[nodiscard]] SensorFrame expose(const Plane<float>& radiance_w_m2_sr);
+
+  /// Apparent temperature [K] of a radiance [W m^-2 sr^-1], as the 16-bit picture tells it before it is rounded.
+  [[nodiscard]] double temperature_k(double radiance_w_m2_sr) const;
+
+  /// Standard deviation [W m^-2 sr^-1] of a pixel's noise in the frames exposed so far: of white noise, times
+  /// sqrt(1 + k f + vh^2 + v^2 + h^2 + tv^2 + th^2 + band^2 + g drift^2), plus the paper's pattern in quadrature, times
+  /// the pixel's noise gain. Parts are independent, so variances add: k is the knee of the 1/f noise and f its variance
+  /// for a knee at 1 Hz; vh to drift are ratios of NoiseParameters; g is the mean square of the drift's growth over a
+  /// shutter interval, 0 without one; the paper's pattern is uniform, so it is its half width / sqrt(3). Noise that
+  /// whole frames share is not among it: it moves a target and what surrounds it alike. Nor are bad pixels.
+  [[nodiscard]] double noise_w_m2_sr(int x_px, int y_px) const;
 
  private:
   void take_in(const Plane<float>& radiance_w_m2_sr);
@@ -82,6 +98,8 @@ class ThermalCamera {
   Plane<float> signal_;             ///< radiance as the detector tells it
   std::vector<float> membrane_;     ///< lagging radiance; empty: no lag
   std::vector<float> first_frame_;  ///< the paper's fixed pattern; empty: none
+  double first_frame_w_m2_sr_ = 0;  ///< its half width
+  double noise_w_m2_sr_;            ///< of a pixel, without that pattern and the gain
   SensorFrame shown_;               ///< the last picture before the shutter closed
   std::uint32_t frame_ = 0;
 };

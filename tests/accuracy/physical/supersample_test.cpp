@@ -24,9 +24,13 @@ constexpr std::uint16_t kAnna = 5;
 constexpr std::uint16_t kBen = 6;
 constexpr std::array kActors = {kAnna, kBen};
 
+Plane<std::uint16_t> labels_of(const Plane<std::uint16_t>& fine, int factor) {
+  return block_actors(fine, factor, survey_indices(fine), IndexSet(kActors));
+}
+
 /// The label of one block.
 std::uint16_t label_of(int factor, const std::vector<std::uint16_t>& block) {
-  return block_actors(plane_of(factor, block), factor, kActors).at(0, 0);
+  return labels_of(plane_of(factor, block), factor).at(0, 0);
 }
 
 /// A clip whose passes are `supersample` times finer than its camera of 2 x 1 px.
@@ -99,7 +103,7 @@ TEST_CASE("Blocks are labelled where they are") {
                                                                 1, 1, kBen, 1,       //
                                                                 kAnna, kAnna, 0, 0,  //
                                                                 kAnna, 1, 0, 0});
-  CHECK(block_actors(fine, 2, kActors) == plane_of<std::uint16_t>(2, {0, kBen, kAnna, 0}));
+  CHECK(labels_of(fine, 2) == plane_of<std::uint16_t>(2, {0, kBen, kAnna, 0}));
 }
 
 TEST_CASE(

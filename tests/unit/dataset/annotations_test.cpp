@@ -1,5 +1,6 @@
 #include "dataset/annotations.h"
 
+#include "base/error.h"
 #include "support/catch.h"
 
 using namespace thermal;
@@ -15,14 +16,14 @@ ManifestObject actor(std::uint16_t index, const std::string& category, int track
   return object;
 }
 
-/// Two frames of 10 x 8 px with a person (index 3) and an animal Veldt does not know (index 4).
+/// Three frames of 10 x 8 px with a person (index 3) and an animal Veldt does not know (index 4).
 Manifest manifest() {
   Manifest result;
   result.clip = "night_1";
   result.frame_rate_hz = 5;
   result.camera = {.width_px = 10, .height_px = 8, .fx_px = 11.5, .fy_px = 12.5, .cx_px = 5, .cy_px = 4};
   result.objects = {actor(3, "human", 21), actor(4, "antelope", 22)};
-  result.frames.resize(2);
+  result.frames.resize(3);
   result.frames[1].time_s = 0.2;
   return result;
 }
@@ -31,6 +32,20 @@ Manifest manifest() {
 Instance instance(std::uint16_t index, int width_px, int height_px) {
   return {
       .index = index, .box = {1, 2, width_px, height_px}, .area_px = 5, .truncated = true, .mask = {19, 1}};
+}
+
+/// One of which everything is known.
+Instance known_instance() {
+  Instance known = instance(3, 4, 5);
+  known.covered_px = 5.22222222;
+  known.visibility = 0.123456;
+  known.whole_box = LabelBox{-3.14159, 2, 8.14159, 5.5};
+  known.truncated_fraction = 1.0 / 3;
+  known.range_m = 61.00004;
+  known.temperature_k = 300.12344;
+  known.contrast_k = -0.00001;
+  known.contrast_noise = -2.5;
+  return known;
 }
 
 Json document_of(const std::vector<std::vector<Instance>>& frames) {
@@ -55,7 +70,7 @@ TEST_CASE("An annotation has COCO's fields, and video's") {
   CHECK(document["annotations"][0].dump() ==
         R"({"id":1,"image_id":1,"category_id":1,"bbox":[1.0,2.0,4.0,5.0],"area":5,)"
         R"("segmentation":{"size":[8,10],"counts":"c01"},"iscrowd":0,"track_id":21,"truncated":true,)"
-        R"("noisy":false,"size_class":"small"})");
+        R"("noisy":false,"ignore":false,"size_class":"small"})");
   CHECK(
       document["images"][0].dump() ==
       R"({"id":1,"file_name":"ir8/000000.png","width":10,"height":8,"video_id":1,"frame_index":0,"time_s":0.0,"ffc":false})");
@@ -63,6 +78,39 @@ TEST_CASE("An annotation has COCO's fields, and video's") {
       document["videos"][0].dump() ==
       R"({"id":1,"name":"night_1","width":10,"height":8,"frame_rate_hz":5.0,"frames":1,)"
       R"("camera":{"fx_px":11.5,"fy_px":12.5,"cx_px":5.0,"cy_px":4.0,"k1":-0.5,"k2":0.25,"p1":0.125,"p2":0.0}})");
+}
+
+TEST_CASE("What more is known of a target follows, rounded") {
+  CHECK(document_of({{known_instance()}})["annotations"][0].dump() ==
+        R"({"id":1,"image_id":1,"category_id":1,"bbox":[1.0,2.0,4.0,5.0],"area":5,)"
+        R"("segmentation":{"size":[8,10],"counts":"c01"},"iscrowd":0,"track_id":21,)"
+        R"("amodal_bbox":[-3.14,2.0,8.14,5.5],"visibility":0.1235,"occluded":true,"truncated":true,)"
+        R"("truncated_fraction":0.3333,"covered_px":5.2222,"range_m":61.0,"temperature_k":300.1234,)"
+        R"("contrast_k":0.0,"contrast_noise":-2.5,"noisy":false,"ignore":false,"size_class":"small"})");
+}
+
+TEST_CASE("What counts as occluded, and what is ignored, is the config's to say") {
+  const auto told = [](const LabelParameters& parameters) {
+    const Manifest used = manifest();
+    ClipAnnotations annotations(used, {}, parameters);
+    annotations.add_frame(0, {known_instance()});
+    const Json label = annotations.document()["annotations"][0];
+    return std::pair<bool, bool>{label["occluded"], label["ignore"]};
+  };
+  CHECK(told({}) == std::pair(true, false));
+  CHECK(told({.occluded_below_visibility = 0.1}) == std::pair(false, false));
+  CHECK(told({.ignore_below_visibility = 0.5}) == std::pair(true, true));
+  CHECK(told({.ignore_below_area_px = 5}) == std::pair(true, false));
+  CHECK(told({.ignore_below_area_px = 5.5}) == std::pair(true, true));
+  CHECK_THROWS_AS(told({.ignore_below_visibility = 2}), ConfigError);
+}
+
+TEST_CASE("A track keeps its id when it is hidden, and when it comes back") {
+  const Json document = document_of({{instance(3, 4, 5), instance(4, 1, 1)}, {}, {instance(3, 4, 5)}});
+  REQUIRE(document["annotations"].size() == 3);
+  CHECK(document["annotations"][0]["track_id"] == 21);
+  CHECK(document["annotations"][2]["track_id"] == 21);
+  CHECK(document["annotations"][2]["image_id"] == 3);
 }
 
 TEST_CASE("Ids of images and annotations run from 1; a frame without actors is an image too") {
@@ -105,6 +153,14 @@ TEST_CASE("Joined documents have ids that run on and files below the dataset's f
   }
   CHECK(joined["images"][0]["file_name"] == "clips/a/ir8/000000.png");
   CHECK(joined["images"][3]["file_name"] == "clips/b/ir8/000001.png");
+}
+
+TEST_CASE("Joined labels keep all they had") {
+  const Json one = document_of({{known_instance()}});
+  Json expected = one["annotations"][0];
+  expected["id"] = 2;
+  expected["image_id"] = 2;
+  CHECK(join_annotations("nights", {"a", "b"}, {one, one})["annotations"][1].dump() == expected.dump());
 }
 
 TEST_CASE("A category keeps its name when clips that number it differently are joined") {

@@ -100,6 +100,18 @@ TEST_CASE("Only actors are labelled") {
   CHECK(frame.instances[0].area_px == 2);
 }
 
+TEST_CASE("Actors alone are wanted where the manifest names their layer") {
+  CHECK_FALSE(converter().needs().actors);
+  Manifest layered = manifest();
+  layered.actor_layer = "Actors";
+  layered.camera = {.width_px = 3, .height_px = 1, .fx_px = 1, .fy_px = 1, .cx_px = 1.5, .cy_px = 0.5};
+  const FrameConverter used(layered, materials(), Season::winter, SensorParameters());
+  CHECK(used.needs().actors);
+  Passes passes = passes_of({1, 7, 1});
+  passes.actor_index = passes_of({0, 7, 7}).object_index;
+  CHECK(used.convert(passes).instances.at(0).visibility == 0.5);
+}
+
 TEST_CASE("An index the manifest lacks is a fault that says where, how often, and what there is") {
   CHECK(message_of<DataError>([] {
           (void)converter().convert(passes_of({1, 0, 5, 5}));
@@ -221,6 +233,11 @@ TEST_CASE("Labels are distorted with the picture") {
   CHECK_THAT(static_cast<double>(frame.radiance_w_m2_sr.at(0, 0)),
              WithinRel(static_cast<double>(radiance_at(300)), 6e-8));
   CHECK(frame.radiance_w_m2_sr.at(1, 0) == radiance_at(100));
+  // Alone, the person also is in the picture's last pixel, which the passes have in their last column.
+  passes.actor_index = Plane<std::uint16_t>(8, 3);
+  passes.actor_index.at(0, 1) = passes.actor_index.at(7, 1) = 7;
+  passes.actor_index.at(1, 1) = 7;  // which no pixel of the picture shows
+  CHECK(wide_converter(used, lens).convert(passes).instances.at(0).visibility == 0.5);
 }
 
 TEST_CASE("Passes that reach less far than the lens needs are a fault that says how far") {

@@ -145,3 +145,34 @@ TEST_CASE("A picture of one pixel has no neighbours to look at") {
   CHECK(linear(map, Plane<float>(1, 1, 3)).at(0, 0) == 3);
   CHECK(map.resample_nearest(Plane<std::uint16_t>(1, 1, 3)).at(0, 0) == 3);
 }
+
+TEST_CASE("A pixel is shown as often as resample_nearest shows it") {
+  const Lens lens;
+  const Plane<std::uint16_t> times = lens.map.times_shown();
+  REQUIRE((times.width_px() == lens.width && times.height_px() == lens.height));
+  int all = 0;
+  for (int i = 0; i < 200; ++i) {  // some pixels, one by one
+    const int x = (37 * i) % lens.width;
+    const int y = (53 * i) % lens.height;
+    Plane<std::uint16_t> one(lens.width, lens.height);
+    one.at(x, y) = 1;
+    int shown = 0;
+    const Plane<std::uint16_t> picture = lens.map.resample_nearest(one);
+    for (const std::uint16_t index : picture.pixels()) shown += index;
+    CHECK(times.at(x, y) == shown);
+    all += shown;
+  }
+  CHECK(all > 100);
+  int sum = 0;
+  for (const std::uint16_t count : times.pixels()) sum += count;
+  CHECK(sum == 64 * 48);  // each pixel of the picture shows one
+}
+
+TEST_CASE("A crop shows what is in it once") {
+  const CameraIntrinsics camera = {
+      .width_px = 3, .height_px = 2, .fx_px = 5, .fy_px = 5, .cx_px = 1.5, .cy_px = 1};
+  const Plane<std::uint16_t> times = ResampleMap(camera, 2, {}).times_shown();
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 7; ++x) CHECK(times.at(x, y) == (x >= 2 && x < 5 && y >= 2 && y < 4 ? 1 : 0));
+  }
+}

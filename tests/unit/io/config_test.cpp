@@ -57,6 +57,16 @@ TEST_CASE("The least a config can say is enough, and all defaults are written ou
   CHECK(config.resolved["clips"][0]["flight"]["altitude_m"] == 61);
 }
 
+TEST_CASE("What labels are marked by is read, and by default is next to nothing") {
+  CHECK(resolved(least()).labels == LabelParameters());
+  Json document = least();
+  document["labels"] = {
+      {"occluded_below_visibility", 0.5}, {"ignore_below_visibility", 0.25}, {"ignore_below_area_px", 12}};
+  CHECK(resolved(document).labels == LabelParameters{.occluded_below_visibility = 0.5,
+                                                     .ignore_below_visibility = 0.25,
+                                                     .ignore_below_area_px = 12});
+}
+
 TEST_CASE("Resolving what is resolved changes nothing") {
   const Config config = resolved(least());
   CHECK(resolved(config.resolved).resolved == config.resolved);

@@ -78,6 +78,57 @@ TEST_CASE("Planes are read only where they are asked for") {
   CHECK(passes.normal[2].at(0, 0) == 0);
 }
 
+namespace {
+
+const std::vector<float> kActors = {0, 0, 2, 0, 300, 0};
+
+/// What read_passes makes of the actors of a file, asked for this layer of them; `layer` is that of everything.
+std::vector<int> actors_of(const ExrChannels& channels, const std::string& actor_layer,
+                           const std::string& layer = "Scene") {
+  const Exr exr(channels);
+  const Passes passes = read_passes(exr.file, layer, 3, 2, {.actors = true}, actor_layer);
+  CHECK(pixels_of(passes.object_index) == std::vector<int>{0, 1, 2, 3, 300, 32767});
+  return pixels_of(passes.actor_index);
+}
+
+}  // namespace
+
+TEST_CASE("Actors alone are read from their layer, if they are asked for") {
+  const ExrChannels both = {{"Scene.IndexOB.X", kObjects}, {"Actors.IndexOB.X", kActors}};
+  CHECK(actors_of(both, "Actors") == std::vector<int>{0, 0, 2, 0, 300, 0});
+  CHECK(actors_of(both, "Actors", "") ==
+        std::vector<int>{0, 0, 2, 0, 300, 0});  // the other one is everything
+  const Exr exr(both);
+  CHECK(read_passes(exr.file, "Scene", 3, 2).actor_index.empty());
+  CHECK(read_passes(exr.file, "Scene", 3, 2, {}, "Actors").actor_index.empty());
+}
+
+TEST_CASE("A frame may lack the layer of actors") {
+  CHECK(actors_of({{"Scene.IndexOB.X", kObjects}, {"Actors.Depth.Z", kAnything}}, "Actors").empty());
+}
+
+TEST_CASE("That it has one of another name is a slip of the pen") {
+  const Exr exr({{"Scene.IndexOB.X", kObjects}, {"Actors.IndexOB.X", kActors}});
+  const auto fault_of = [&](const std::string& actor_layer) {
+    return message_of<DataError>(
+        [&] { (void)read_passes(exr.file, "Scene", 3, 2, {.actors = true}, actor_layer); });
+  };
+  CHECK(fault_of("Actor") ==
+        exr.file.string() +
+            ": actor_layer = \"Actor\"; expected a layer with an object index: Actors; did "
+            "you mean \"Actors\"?");
+  CHECK(fault_of("People") ==
+        exr.file.string() + ": actor_layer = \"People\"; expected a layer with an object index: Actors");
+}
+
+TEST_CASE("Indices of actors alone are checked as all are") {
+  const Exr exr({{"Scene.IndexOB.X", kObjects}, {"Actors.IndexOB.X", kAnything}});
+  CHECK(message_of<DataError>([&] {
+          (void)read_passes(exr.file, "Scene", 3, 2, {.actors = true}, "Actors");
+        }) == exr.file.string() +
+                  ": Actors.IndexOB.X at pixel (0, 0) = 0.5; expected a whole number from 0 to 32767");
+}
+
 TEST_CASE("A plane the terms need must be there") {
   const Exr exr({{"Scene.IndexOB.X", kObjects}});
   CHECK(message_of<DataError>([&] { (void)read_passes(exr.file, "", 3, 2, {.depth = true}); }) ==

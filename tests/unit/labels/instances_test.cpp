@@ -6,6 +6,7 @@
 #include <set>
 
 #include "support/catch.h"
+#include "support/drawn.h"
 
 using namespace thermal;
 
@@ -13,18 +14,6 @@ namespace {
 
 using IndexPlane = Plane<std::uint16_t>;
 using Pixels = std::set<std::pair<int, int>>;  // (x, y)
-
-/// A plane drawn as text, one character a pixel: '.' is 0, a digit an index.
-IndexPlane drawn(const std::vector<std::string>& rows) {
-  IndexPlane plane(static_cast<int>(rows.front().size()), static_cast<int>(rows.size()));
-  for (int y = 0; y < plane.height_px(); ++y) {
-    for (int x = 0; x < plane.width_px(); ++x) {
-      const char letter = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
-      plane.at(x, y) = letter == '.' ? std::uint16_t{0} : static_cast<std::uint16_t>(letter - '0');
-    }
-  }
-  return plane;
-}
 
 /// Rectangles of a few indices, some reaching over the border, and single pixels strewn over them.
 IndexPlane random_plane(std::mt19937& random, int width_px, int height_px) {
@@ -91,7 +80,7 @@ bool reaches_border(const Pixels& pixels, const IndexPlane& plane) {
 }
 
 std::vector<Instance> instances_in(const IndexPlane& plane, const std::vector<std::uint16_t>& actors) {
-  return extract_instances(plane, survey_indices(plane), actors);
+  return extract_instances(plane, survey_indices(plane), IndexSet(actors));
 }
 
 /// Compares everything the fast way says of a plane with what counting pixel by pixel gives.
@@ -204,4 +193,14 @@ TEST_CASE("Also on planes one pixel wide or high") {
     check_against_counting(random_plane(random, length_px, 1));
     check_against_counting(random_plane(random, 1, length_px));
   }
+}
+
+TEST_CASE("The use of an index is found, or told to be none") {
+  const std::vector<IndexUse> uses = survey_indices(drawn({"3.5"}));
+  REQUIRE(find_use(uses, 5) != nullptr);
+  CHECK(find_use(uses, 5)->first_x_px == 2);
+  CHECK(find_use(uses, 0) == &uses.front());
+  CHECK(find_use(uses, 4) == nullptr);
+  CHECK(find_use(uses, 32767) == nullptr);
+  CHECK(find_use({}, 0) == nullptr);
 }

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "base/image.h"
+#include "labels/instances.h"
+#include "sensor/thermal_camera.h"
+
+namespace thermal {
+
+/// Tells of each actor what `camera` makes of its radiance behind the optics (ThermalCamera::Look): temperature_k, of the
+/// mean over its pixels; contrast_k, that less the apparent temperature of its surroundings' mean (target_means());
+/// contrast_noise, the difference of both radiances in standard deviations of the noise of a pixel in the middle of its box.
+/// The latter two are not known where the surroundings are not in the picture, the last not without noise.
+void tell_contrast(const ThermalCamera& camera, const Plane<float>& radiance_w_m2_sr,
+                   std::vector<Instance>& instances);
+
+}  // namespace thermal
