@@ -37,6 +37,7 @@ void add_generate(CLI::App& app, Session& session);
 void add_render(CLI::App& app, Session& session);
 void add_convert(CLI::App& app, Session& session);
 void add_merge(CLI::App& app, Session& session);
+void add_export(CLI::App& app, Session& session);
 void add_inspect(CLI::App& app, Session& session);
 void add_validate(CLI::App& app, Session& session);
 void add_budget(CLI::App& app, Session& session);

@@ -31,10 +31,11 @@ int run(const Options& options, const CommonOptions& common) {
   thermal::MergeOutcome outcome;
   {
     ProgressBar bar(common);
-    outcome = thermal::merge({.sources = {options.sources.begin(), options.sources.end()},
-                              .out = options.out,
-                              .hard_links = options.link == "hard"},
-                             hooks_for(bar));
+    outcome =
+        thermal::merge({.sources = {options.sources.begin(), options.sources.end()},
+                        .out = options.out,
+                        .linking = options.link == "hard" ? thermal::Linking::hard : thermal::Linking::copy},
+                       hooks_for(bar));
   }
   print_missing(outcome, options);
   const int code = summarise(outcome.run, options.out, common, "merged");

@@ -19,7 +19,8 @@ double seconds_left(const thermal::Progress& progress, double frames_per_s) {
 }
 
 std::string eta(const thermal::Progress& progress, double frames_per_s) {
-  return frames_per_s > 0 ? "ETA " + clock_time(seconds_left(progress, frames_per_s)) : "building the scene";
+  if (frames_per_s > 0) return "ETA " + clock_time(seconds_left(progress, frames_per_s));
+  return progress.frames_done > 0 ? "just begun" : "building the scene";
 }
 
 }  // namespace

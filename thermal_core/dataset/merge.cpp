@@ -113,15 +113,6 @@ void check_file(const Path& file, const std::string& sum) {
   if (sha256_of(read_file(file)) != sum) throw DataError(file.string() + ": changed since it was written");
 }
 
-void link_or_copy(const Path& file, const Path& as, bool hard_links) {
-  std::error_code error;
-  make_folder(as.parent_path());
-  if (hard_links) std::filesystem::create_hard_link(file, as, error);
-  if (hard_links && !error) return;
-  const std::string bytes = read_file(file);
-  write_file(as, std::as_bytes(std::span(bytes)));
-}
-
 class Merger {
  public:
   Merger(const MergeOptions& options, const RunHooks& hooks)
@@ -194,7 +185,7 @@ class Merger {
     for (const auto& [name, sum] : clip.record.files) add_file(clip.folder / name, part / name, sum);
     const Path record = clip.folder / "clip.json";
     if (!clip.record_sha256.empty()) check_file(record, clip.record_sha256);
-    link_or_copy(record, part / "clip.json", options_.hard_links);
+    link_file(record, part / "clip.json", options_.linking);
     std::filesystem::remove_all(layout_.clip(id));
     std::filesystem::rename(part, layout_.clip(id));
     sync_folder(layout_.clip(id).parent_path());
@@ -207,7 +198,7 @@ class Merger {
   void add_file(const Path& file, const Path& as, const std::string& sum) {
     if (hooks_.stop_wanted()) throw Cancelled();
     check_file(file, sum);
-    link_or_copy(file, as, options_.hard_links);
+    link_file(file, as, options_.linking);
     if (as.parent_path().filename() != "ir8") return;
     ++progress_.frames_done;
     hooks_.report(progress_);

@@ -4,13 +4,14 @@
 #include <vector>
 
 #include "dataset/generate.h"
+#include "io/link_files.h"
 
 namespace thermal {
 
 struct MergeOptions {
-  std::vector<Path> sources;  ///< datasets, each with some of one config's clips
-  Path out;                   ///< none of them; may hold some of the clips already
-  bool hard_links = true;     ///< where the file system can; else, and where it cannot, copies
+  std::vector<Path> sources;        ///< datasets, each with some of one config's clips
+  Path out;                         ///< none of them; may hold some of the clips already
+  Linking linking = Linking::hard;  ///< where the file system can; else copies
 };
 
 struct MergeOutcome {

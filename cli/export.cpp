@@ -1,0 +1,151 @@
+#include "dataset/exports/export.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/progress_bar.h"
+#include "cli/stop_signal.h"
+
+namespace veldt {
+namespace {
+
+struct Options {
+  thermal::ExportOptions what;
+  std::string source;
+  std::string format;
+  std::string out;
+  std::string link = "hard";
+  std::string images = "ir8";
+  std::string split;
+  std::string selection;
+};
+
+thermal::ExportFormat format_named(const std::string& name) {
+  using Format = thermal::ExportFormat;
+  for (const Format format : {Format::coco, Format::yolo, Format::mot})
+    if (name == thermal::format_name(format)) return format;
+  return Format::birdsai;
+}
+
+thermal::Linking linking_named(const std::string& name) {
+  if (name == "copy") return thermal::Linking::copy;
+  return name == "hard" ? thermal::Linking::hard : thermal::Linking::symlink;
+}
+
+thermal::ExportOptions request_of(const Options& options) {
+  thermal::ExportOptions request = options.what;
+  request.source = options.source;
+  request.format = format_named(options.format);
+  request.out = options.out;
+  request.linking = linking_named(options.link);
+  request.ir16 = options.images == "ir16";
+  if (!options.split.empty()) request.splits = thermal::parse_splits(options.split);
+  request.selection = options.selection;
+  return request;
+}
+
+int labels_in(const thermal::ExportedSplit& split) {
+  return std::accumulate(split.labels.begin(), split.labels.end(), 0);
+}
+
+/// Columns are as wide as what they are called, and numbers of six digits.
+std::size_t width_of(const std::string& heading) { return std::max<std::size_t>(heading.size(), 6) + 2; }
+
+void print_cells(const std::vector<std::string>& headings, const std::string& first,
+                 const std::vector<std::string>& cells) {
+  fmt::print("  {:<12}", first);
+  for (std::size_t i = 0; i < cells.size(); ++i) fmt::print("{:>{}}", cells[i], width_of(headings[i]));
+  fmt::print("\n");
+}
+
+void print_table(const thermal::ExportOutcome& outcome) {
+  std::vector<std::string> headings = {"clips", "pictures", "labels"};
+  headings.insert(headings.end(), outcome.categories.begin(), outcome.categories.end());
+  print_cells(headings, "split", headings);
+  for (const thermal::ExportedSplit& split : outcome.splits) {
+    std::vector<std::string> cells;
+    for (const int count : {split.clips, split.pictures, labels_in(split)})
+      cells.push_back(std::to_string(count));
+    for (const int count : split.labels) cells.push_back(std::to_string(count));
+    print_cells(headings, split.name, cells);
+  }
+}
+
+std::string counted(int count, const std::string& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+void summarise(const thermal::ExportOutcome& outcome, const Options& options) {
+  if (outcome.already_there) {
+    fmt::print("{}: nothing to do, this export was there already\n", options.out);
+    return;
+  }
+  int pictures = 0;
+  int labels = 0;
+  for (const thermal::ExportedSplit& split : outcome.splits) {
+    pictures += split.pictures;
+    labels += labels_in(split);
+  }
+  fmt::print("{}: {} and {} as {}\n", options.out, counted(pictures, "picture"), counted(labels, "label"),
+             options.format);
+  print_table(outcome);
+  for (const auto& [why, count] : outcome.left_out)
+    fmt::print("left out: {} {}\n", counted(count, "label"), why);
+  if (outcome.copied > 0)
+    fmt::print("{} copied: the file system could not link them\n", counted(outcome.copied, "picture"));
+}
+
+int run(const Options& options, const CommonOptions& common) {
+  const thermal::ExportOptions request = request_of(options);
+  watch_for_stop();
+  thermal::ExportOutcome outcome;
+  {
+    ProgressBar bar(common);
+    outcome = thermal::export_dataset(request, hooks_for(bar));
+  }
+  if (!common.quiet) summarise(outcome, options);
+  return kDone;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Session& session) {
+  CLI::App* command = add_command(
+      app, session, "export", "Write a dataset as other programs read it: COCO, YOLO, MOTChallenge, BIRDSAI");
+  auto options = std::make_shared<Options>();
+  command->add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file; only read")
+      ->required()
+      ->type_name("DATASET");
+  command->add_option("--format", options->format, "Layout and files to write")
+      ->required()
+      ->check(CLI::IsMember({"coco", "yolo", "mot", "birdsai"}));
+  command->add_option("--out", options->out, "Folder of the export, empty or new")->required();
+  command
+      ->add_option("--link", options->link, "How pictures get there; a copy where the file system can't link")
+      ->check(CLI::IsMember({"hard", "symlink", "copy"}))
+      ->capture_default_str();
+  command
+      ->add_option("--images", options->images,
+                   "Pictures of 8 bits after gain control, or of 16 bits in kelvin")
+      ->check(CLI::IsMember({"ir8", "ir16"}))
+      ->capture_default_str();
+  CLI::Option* split = command
+                           ->add_option("--split", options->split,
+                                        "Share out whole clips, stratified by category: train:0.8,val:0.2")
+                           ->type_name("NAME:SHARE,…");
+  command->add_option("--seed", options->what.seed, "Of the splits; otherwise the dataset's, or 1")
+      ->needs(split);
+  command->add_option("--selection", options->selection, "Only the frames that veldt balance chose")
+      ->type_name("FILE");
+  command->add_flag("--unfinished", options->what.unfinished_too,
+                    "Take a dataset of which clips are missing");
+  command->callback(
+      [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
+}
+
+}  // namespace veldt

@@ -1,0 +1,175 @@
+#include "base/error.h"
+#include "dataset/exports/birdsai.h"
+#include "dataset/exports/mot.h"
+#include "dataset/exports/yolo.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+#include "unit/dataset/exports/export_input.h"
+
+using namespace thermal;
+using Names = std::vector<std::string>;
+
+// --- YOLO ------------------------------------------------------------------------------------------------------------
+
+TEST_CASE("YOLO: a line a label, centre and size as fractions, classes from 0") {
+  const ExportPlan plan = plan_yolo(two_videos(), "/data/out");
+  CHECK(targets_of(plan) == Names{"images/train/east_000000.png", "images/train/east_000002.png",
+                                  "images/train/east_000003.png", "images/train/west_000000.png"});
+  CHECK(text_of(plan, "labels/train/east_000000.txt") ==
+        "0 0.12500000 0.10000000 0.25000000 0.20000000\n"
+        "1 0.40000000 0.75000000 0.40000000 0.50000000\n");
+  CHECK(text_of(plan, "labels/train/east_000003.txt").empty());
+  CHECK(plan.texts.size() == 5);
+}
+
+TEST_CASE("YOLO: data.yaml tells where pictures are and what classes mean") {
+  CHECK(text_of(plan_yolo(two_splits(), "/data/\"out\""), "data.yaml") ==
+        "# \"night\"\n"
+        "path: \"/data/\\\"out\\\"\"  # if you move the folder, change this\n"
+        "train: images/train\nval: images/val\n"
+        "names:\n  0: \"human\"\n  1: \"giraffe\"\n  2: \"vehicle\"\n");
+  ExportInput input = two_splits();
+  input.splits = {"most", "test"};
+  CHECK_THAT(text_of(plan_yolo(input, "/o"), "data.yaml"),
+             ContainsSubstring("train: images/most\n"
+                               "val: images/most  # there is no split val: these pictures are trained on\n"
+                               "test: images/test\nnames:"));
+}
+
+TEST_CASE("YOLO: boxes end at the border of the picture") {
+  ExportInput input = two_videos();
+  input.set.labels = {label(1, 0, 0, 1, {.x_px = -4, .y_px = 8, .width_px = 8, .height_px = 4}),
+                      label(2, 0, 0, 2, {.x_px = 20, .y_px = 2, .width_px = 5, .height_px = 5})};
+  CHECK(text_of(plan_yolo(input, "/o"), "labels/train/east_000000.txt") ==
+        "0 0.10000000 0.90000000 0.20000000 0.20000000\n");
+  CHECK(why_not_in_yolo(input.set, input.set.labels[0]).empty());
+  CHECK(why_not_in_yolo(input.set, input.set.labels[1]) == "outside their picture");
+}
+
+TEST_CASE("YOLO: what is ignored and crowds are left out, and the picture stays") {
+  ExportInput input = two_videos();
+  input.set.labels[0].ignore = true;
+  input.set.labels[1].crowd = true;
+  CHECK(text_of(plan_yolo(input, "/o"), "labels/train/east_000000.txt").empty());
+  CHECK(why_not_in_yolo(input.set, input.set.labels[0]) == "to be ignored, which YOLO has no mark for");
+  CHECK(why_not_in_yolo(input.set, input.set.labels[1]) == "of crowds, which YOLO has no mark for");
+  CHECK(why_not_in_yolo(input.set, input.set.labels[2]).empty());
+}
+
+// --- MOTChallenge ----------------------------------------------------------------------------------------------------
+
+TEST_CASE("MOT: frames and pixels from 1, frames without gaps, rows sorted") {
+  ExportInput input = two_videos();
+  input.set.labels[1].visibility = 0.25;
+  input.set.labels[2].ignore = true;
+  const ExportPlan plan = plan_mot(input);
+  CHECK(targets_of(plan) == Names{"train/east/img1/000001.png", "train/east/img1/000002.png",
+                                  "train/east/img1/000003.png", "train/west/img1/000001.png"});
+  CHECK(text_of(plan, "train/east/gt/gt.txt") ==
+        "1,3,5,6,8,5,1,8,0.25\n"
+        "1,7,1,1,5,2,1,1,1\n"
+        "2,7,3.5,2,1.25,3,0,1,1\n");
+  CHECK(text_of(plan, "train/west/gt/gt.txt") == "1,1,11,3,4,4,1,10,1\n");
+}
+
+TEST_CASE("MOT: what trackers want to know of a clip, and of all") {
+  const ExportPlan plan = plan_mot(two_splits());
+  CHECK(text_of(plan, "train/east/seqinfo.ini") ==
+        "[Sequence]\nname=east\nimDir=img1\nframeRate=12.5\nseqLength=3\nimWidth=20\nimHeight=10\nimExt=."
+        "png\n");
+  CHECK(text_of(plan, "val/west/seqinfo.ini") ==
+        "[Sequence]\nname=west\nimDir=img1\nseqLength=1\nimWidth=20\nimHeight=10\nimExt=.png\n");
+  CHECK(text_of(plan, "seqmaps/night-train.txt") == "name\neast\n");
+  CHECK(text_of(plan, "seqmaps/night-val.txt") == "name\nwest\n");
+  CHECK(text_of(plan, "classes.txt") == "1 human\n8 giraffe\n10 vehicle\n");
+}
+
+TEST_CASE("MOT: tracks of a clip are numbered from 1 where they are not") {
+  ExportInput input = two_videos();
+  input.set.labels[1].track_id = 0;
+  CHECK(text_of(plan_mot(input), "train/east/gt/gt.txt") ==
+        "1,1,5,6,8,5,1,8,1\n1,8,1,1,5,2,1,1,1\n2,8,3.5,2,1.25,3,1,1,1\n");
+  CHECK(text_of(plan_mot(input), "train/west/gt/gt.txt") == "1,1,11,3,4,4,1,10,1\n");
+}
+
+TEST_CASE("MOT: labels that are no tracks, and clips that are none") {
+  ExportInput input = two_videos();
+  input.set.images[1].height_px = 12;
+  CHECK(message_of<DataError>([&] { (void)plan_mot(input); }) ==
+        "clips/east/ir8/000000.png is 20 x 10 px and clips/east/ir8/000002.png is 20 x 12 px; expected "
+        "pictures of "
+        "one clip to be of one kind and size, which --format mot needs");
+  input.set.labels[1].track_id = 7;
+  CHECK(message_of<DataError>([&] { (void)plan_mot(input); }) ==
+        "annotations 1 and 2 of clips/east/ir8/000000.png have track_id 7 both; expected one of a track");
+  input.set.labels[1].track_id.reset();
+  CHECK(message_of<DataError>([&] { (void)plan_mot(input); }) ==
+        "annotation 2 of clips/east/ir8/000000.png has no track_id; expected one, which --format mot needs");
+}
+
+// --- BIRDSAI ---------------------------------------------------------------------------------------------------------
+
+TEST_CASE("BIRDSAI: a file a clip, frames and pixels from 0, boxes rounded outwards") {
+  ExportInput input = two_videos();
+  input.set.labels[1].occluded = true;
+  input.set.labels[2].noisy = true;
+  const ExportPlan plan = plan_birdsai(input);
+  CHECK(targets_of(plan) == Names{"images/east/east_0000000000.png", "images/east/east_0000000002.png",
+                                  "images/east/east_0000000003.png", "images/west/west_0000000000.png"});
+  CHECK(text_of(plan, "annotations/east.csv") ==
+        "0,3,4,5,8,5,0,3,1,0\n"
+        "0,7,0,0,5,2,1,0,0,0\n"
+        "2,7,2,1,2,3,1,0,0,1\n");
+  CHECK(text_of(plan, "annotations/west.csv").empty());  // there is but a vehicle
+  CHECK(why_not_in_birdsai(input.set, input.set.labels[3]) == "of vehicles, which BIRDSAI has no class for");
+}
+
+TEST_CASE("BIRDSAI: a sum that is off by roundings takes no further pixel") {
+  ExportInput input = two_videos();
+  input.set.labels = {label(1, 0, 0, 1, {.x_px = 1.1, .y_px = 0.1, .width_px = 2.9, .height_px = 0.2}),
+                      label(2, 0, 0, 2, {.x_px = -2.5, .y_px = 2.9999999999, .width_px = 1, .height_px = 2})};
+  CHECK(text_of(plan_birdsai(input), "annotations/east.csv") ==
+        "0,1,1,0,3,1,1,0,0,0\n0,2,-3,3,2,2,1,0,0,0\n");
+}
+
+TEST_CASE("BIRDSAI: each split is a folder of its own, as TrainReal and TestReal are") {
+  const ExportPlan plan = plan_birdsai(two_splits());
+  CHECK(targets_of(plan).back() == "val/images/west/west_0000000000.png");
+  CHECK(text_of(plan, "train/annotations/east.csv") != "(none)");
+}
+
+TEST_CASE("BIRDSAI: labels that are no tracks") {
+  ExportInput input = two_videos();
+  input.set.labels[0].track_id.reset();
+  CHECK(message_of<DataError>([&] { (void)plan_birdsai(input); }) ==
+        "annotation 1 of clips/east/ir8/000000.png has no track_id; expected one, which --format birdsai "
+        "needs");
+}
+
+// --- all -------------------------------------------------------------------------------------------------------------
+
+TEST_CASE("No file of an export lies outside its folder, or where another does") {
+  ExportInput input = two_videos();
+  const auto fault_of = [&input](const std::string& to) {
+    ExportPlan plan;
+    plan.texts = {{.to = "a/export.json", .content = ""}};
+    plan.pictures = {{.image = 0, .to = to}};
+    return message_of<DataError>([&] { check_targets(plan, input.set); });
+  };
+  for (const std::string to : {"../up.png", "a/../../up.png", "/etc/x.png", "", "..", "a/", "./a.png"})
+    CHECK(fault_of(to) == "\"clips/east/ir8/000000.png\": name of its file = \"" + to +
+                              "\"; expected one inside the folder of the export");
+  CHECK(fault_of("a/export.json") ==
+        "\"a/export.json\" and \"clips/east/ir8/000000.png\" would both become a/export.json; expected names "
+        "that "
+        "differ");
+  CHECK(fault_of("a/..b/c..png") == "(no fault was thrown)");
+}
+
+TEST_CASE("A video whose name is a path gets one folder, not several") {
+  ExportInput input = two_videos();
+  input.set.videos[1].name = "../far/west";
+  CHECK(targets_of(plan_mot(input)).back() == "train/.._far_west/img1/000001.png");
+  CHECK(targets_of(plan_birdsai(input)).back() == "images/.._far_west/.._far_west_0000000000.png");
+  CHECK(targets_of(plan_yolo(input, "/o")).back() == "images/train/.._far_west_000000.png");
+}

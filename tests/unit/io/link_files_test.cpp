@@ -1,0 +1,50 @@
+#include "io/link_files.h"
+
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+#include "support/temporary_folder.h"
+
+using namespace thermal;
+
+TEST_CASE("A file gets a second place as is asked") {
+  const TemporaryFolder folder;
+  const Path file = folder.file("a", "what it holds");
+  for (const Linking linking : {Linking::hard, Linking::symlink, Linking::copy}) {
+    const Path as = folder / "new" / std::to_string(static_cast<int>(linking));
+    CHECK(link_file(file, as, linking) == linking);
+    CHECK(read_file(as) == "what it holds");
+    CHECK(std::filesystem::is_symlink(as) == (linking == Linking::symlink));
+    CHECK(std::filesystem::equivalent(file, as) == (linking != Linking::copy));
+  }
+}
+
+TEST_CASE("What is linked is the file itself, not a symbolic link to it, which may go") {
+  const TemporaryFolder folder;
+  const Path file = folder.file("a", "x");
+  std::filesystem::create_symlink("a", folder / "link");
+  for (const Linking linking : {Linking::hard, Linking::symlink, Linking::copy}) {
+    const Path as = folder / "new" / std::to_string(static_cast<int>(linking));
+    link_file(folder / "link", as, linking);
+    std::filesystem::rename(folder / "link", folder / "gone");
+    CHECK(read_file(as) == "x");
+    std::filesystem::rename(folder / "gone", folder / "link");
+  }
+  CHECK(std::filesystem::read_symlink(folder / "new" / "1").is_absolute());
+}
+
+TEST_CASE("Where there can be no hard link there is a copy") {
+  const TemporaryFolder folder;
+  const Path file = folder.file("a", "new");
+  const Path as = folder.file("b", "old");  // a link would not replace it
+  CHECK(link_file(file, as, Linking::hard) == Linking::copy);
+  CHECK(read_file(as) == "new");
+}
+
+TEST_CASE("A file that there is not") {
+  const TemporaryFolder folder;
+  const std::string name = (folder / "none").string();
+  CHECK(message_of<IoError>([&] { link_file(name, folder / "b", Linking::hard); }) ==
+        "cannot read " + name + ": No such file or directory");
+  CHECK_FALSE(std::filesystem::exists(folder / "b"));
+}

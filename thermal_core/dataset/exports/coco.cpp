@@ -1,0 +1,143 @@
+#include "dataset/exports/coco.h"
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "io/json_file.h"
+
+namespace thermal {
+namespace {
+
+/// What becomes the files of the splits, list by list, while one big file is read.
+class Splitter {
+ public:
+  explicit Splitter(const ExportInput& input)
+      : input_(input), lists_(input.splits.size()), videos_(input.splits.size()) {
+    for (std::size_t i = 0; i < input.set.images.size(); ++i) images_.emplace(input.set.images[i].id, i);
+  }
+
+  std::vector<std::string> split(const std::string& text, const std::string& name) {
+    const Json rest = parse_json_elements(
+        text, name,
+        [this](const std::string& list, std::size_t, const Json& element) { take(list, element); });
+    std::vector<std::string> files;
+    for (std::size_t split = 0; split < input_.splits.size(); ++split) {
+      add_videos(split);
+      files.push_back(file_of(split, rest));
+    }
+    return files;
+  }
+
+ private:
+  void take(const std::string& list, const Json& element) {
+    if (list == "images") {
+      take_image(element);
+    } else if (list == "annotations") {
+      const auto image = images_.find(element.at("image_id"));
+      if (image != images_.end()) add(split_of(image->second), list, element);
+    } else if (list == "videos") {
+      all_videos_.push_back(element);
+    } else {
+      for (std::size_t split = 0; split < lists_.size(); ++split) add(split, list, element);
+    }
+  }
+
+  void take_image(const Json& element) {
+    const auto found = images_.find(element.at("id"));
+    if (found == images_.end()) return;
+    Json image = element;
+    image["file_name"] = input_.set.images[found->second].file;
+    const std::size_t split = split_of(found->second);
+    add(split, "images", image);
+    if (image.contains("video_id")) videos_[split].insert(image["video_id"].dump());
+  }
+
+  [[nodiscard]] std::size_t split_of(std::size_t image) const {
+    return input_.of_video[input_.set.images[image].video];
+  }
+
+  void add(std::size_t split, const std::string& list, const Json& element) {
+    std::string& text = lists_[split][list];
+    if (!text.empty()) text += ',';
+    text += element.dump();
+  }
+
+  void add_videos(std::size_t split) {
+    for (const Json& video : all_videos_)
+      if (videos_[split].contains(video.at("id").dump())) add(split, "videos", video);
+  }
+
+  /// Keys in the order of the file that was read; its lists are empty in `rest`.
+  std::string file_of(std::size_t split, const Json& rest) {
+    std::string text = "{";
+    for (const auto& [key, value] : rest.items()) {
+      if (text.size() > 1) text += ',';
+      text += Json(key).dump() + ":";
+      text += value.is_array() ? "[" + std::exchange(lists_[split][key], "") + "]" : value.dump();
+    }
+    return text + "}\n";
+  }
+
+  const ExportInput& input_;
+  std::unordered_map<std::int64_t, std::size_t> images_;   ///< place in the set, by id
+  std::vector<std::map<std::string, std::string>> lists_;  ///< by split and key
+  std::vector<std::set<std::string>> videos_;              ///< ids of those that have images, by split
+  std::vector<Json> all_videos_;
+};
+
+Json annotation_of(const LabelSet& set, const Label& label) {
+  const LabelBox& box = label.box;
+  Json json = {{"id", label.id},
+               {"image_id", set.images[label.image].id},
+               {"category_id", set.categories[label.category].id},
+               {"bbox", {box.x_px, box.y_px, box.width_px, box.height_px}},
+               {"area", label.area_px},
+               {"iscrowd", label.crowd ? 1 : 0}};
+  if (label.track_id) json["track_id"] = *label.track_id;
+  if (label.occluded) json["occluded"] = *label.occluded;
+  json["noisy"] = label.noisy;
+  json["ignore"] = label.ignore;
+  json["size_class"] = size_class_name(label.size);
+  return json;
+}
+
+Json image_of(const LabelImage& image) {
+  return {{"id", image.id},
+          {"file_name", image.file},
+          {"width", image.width_px},
+          {"height", image.height_px},
+          {"video_id", image.video + 1},
+          {"frame_index", image.frame_index}};
+}
+
+}  // namespace
+
+std::string coco_text(const LabelSet& set) {
+  Json document = {{"info", {{"description", set.name}, {"version", "1"}}}};
+  for (const char* list : {"categories", "videos", "images", "annotations"}) document[list] = Json::array();
+  for (const LabelCategory& category : set.categories)
+    document["categories"].push_back({{"id", category.id}, {"name", category.name}});
+  for (std::size_t i = 0; i < set.videos.size(); ++i)
+    document["videos"].push_back({{"id", i + 1}, {"name", set.videos[i].name}});
+  for (const LabelImage& image : set.images) document["images"].push_back(image_of(image));
+  for (const Label& label : set.labels) document["annotations"].push_back(annotation_of(set, label));
+  return document.dump() + "\n";
+}
+
+ExportPlan plan_coco(const ExportInput& input, const std::string& text, const std::string& name, bool as_is) {
+  ExportPlan plan;
+  for (std::size_t i = 0; i < input.set.images.size(); ++i)
+    plan.pictures.push_back(
+        {.image = i, .to = std::filesystem::path(input.set.images[i].file).lexically_normal().string()});
+  std::vector<std::string> files = as_is ? std::vector{text} : Splitter(input).split(text, name);
+  for (std::size_t split = 0; split < files.size(); ++split)
+    plan.texts.push_back(
+        {.to = input.split_asked ? "annotations/" + input.splits[split] + ".json" : "annotations.json",
+         .content = std::move(files[split])});
+  return plan;
+}
+
+}  // namespace thermal

@@ -1,0 +1,236 @@
+#include "dataset/exports/export.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <span>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/version.h"
+#include "dataset/exports/birdsai.h"
+#include "dataset/exports/coco.h"
+#include "dataset/exports/mot.h"
+#include "dataset/exports/source.h"
+#include "dataset/exports/yolo.h"
+#include "io/json_file.h"
+#include "io/sha256.h"
+
+namespace thermal {
+namespace {
+
+constexpr const char* kRecord = "export.json";
+
+std::string why_not(ExportFormat format, const LabelSet& set, const Label& label) {
+  if (format == ExportFormat::yolo) return why_not_in_yolo(set, label);
+  return format == ExportFormat::birdsai ? why_not_in_birdsai(set, label) : "";
+}
+
+std::string linking_name(Linking linking) {
+  constexpr std::array kNames = {"hard", "symlink", "copy"};
+  return kNames[static_cast<std::size_t>(linking)];
+}
+
+ExportPlan make_plan(const ExportOptions& options, const ExportSource& source) {
+  switch (options.format) {
+    case ExportFormat::coco:
+      return plan_coco(source.input, source.coco, source.coco_name, source.all);
+    case ExportFormat::yolo:
+      return plan_yolo(source.input, std::filesystem::absolute(options.out).lexically_normal().string());
+    case ExportFormat::mot:
+      return plan_mot(source.input);
+    case ExportFormat::birdsai:
+      return plan_birdsai(source.input);
+  }
+  return {};
+}
+
+ExportOutcome tally(const ExportInput& input, ExportFormat format) {
+  const LabelSet& set = input.set;
+  ExportOutcome outcome;
+  for (const LabelCategory& category : set.categories) outcome.categories.push_back(category.name);
+  for (const std::string& name : input.splits)
+    outcome.splits.push_back(
+        {.name = name, .clips = 0, .pictures = 0, .labels = std::vector<int>(set.categories.size(), 0)});
+  const auto split_of = [&](std::size_t image) -> ExportedSplit& {
+    return outcome.splits[input.of_video[set.images[image].video]];
+  };
+  for (std::size_t i = 0; i < set.images.size(); ++i) {
+    ++split_of(i).pictures;
+    if (i == 0 || set.images[i].video != set.images[i - 1].video) ++split_of(i).clips;
+  }
+  for (const Label& label : set.labels) {
+    const std::string why = why_not(format, set, label);
+    if (why.empty()) ++split_of(label.image).labels[label.category];
+    if (!why.empty()) ++outcome.left_out[why];
+  }
+  return outcome;
+}
+
+/// What tells one export from another: equal requests make equal folders.
+Json request_of(const ExportOptions& options, const ExportSource& source) {
+  Json splits = Json::object();
+  for (const SplitShare& split : options.splits) splits[split.name] = split.share;
+  Json request = {{"dataset", source.input.set.name},
+                  {"labels_sha256", source.labels_sha256},
+                  {"format", format_name(options.format)},
+                  {"images", options.ir16 ? "ir16" : "ir8"},
+                  {"link", linking_name(options.linking)}};
+  if (!options.splits.empty()) request["split"] = splits;
+  if (!options.splits.empty()) request["seed"] = source.seed;
+  if (!options.selection.empty()) request["selection_sha256"] = sha256_of(read_file(options.selection));
+  return request;
+}
+
+std::string record_of(const Json& request, const ExportOutcome& outcome) {
+  Json splits = Json::object();
+  for (const ExportedSplit& split : outcome.splits) {
+    Json labels = Json::object();
+    for (std::size_t i = 0; i < split.labels.size(); ++i) labels[outcome.categories[i]] = split.labels[i];
+    splits[split.name] = {{"clips", split.clips}, {"pictures", split.pictures}, {"labels", labels}};
+  }
+  return to_text({{"format", "veldt-export"},
+                  {"version", 1},
+                  {"veldt_version", kVersion},
+                  {"request", request},
+                  {"splits", splits},
+                  {"left_out", outcome.left_out}});
+}
+
+bool is_empty_or_new(const Path& folder) {
+  return !std::filesystem::exists(folder) ||
+         (std::filesystem::is_directory(folder) && std::filesystem::is_empty(folder));
+}
+
+/// Whether `out` holds this very export. ConfigError if it holds anything else.
+bool is_there(const Path& out, const Json& request) {
+  if (is_empty_or_new(out)) return false;
+  if (!std::filesystem::exists(out / kRecord))
+    throw ConfigError(fault("--out", out.string(), "", "an empty or new folder"));
+  const Json record = read_json(out / kRecord);
+  const std::vector<std::string> found = differences(request, record.value("request", Json::object()));
+  if (found.empty()) return true;
+  constexpr std::size_t kMost = 8;
+  throw ConfigError(
+      fmt::format("{} holds another export: {}; expected the same request, or an empty or new folder",
+                  out.string(), list_names(found, kMost)));
+}
+
+/// The folder an export is made in; removed unless it becomes the export.
+class Part {
+ public:
+  explicit Part(const Path& out) : out_(out), part_(part_of(out)), lock_(part_) { clear(); }
+  ~Part() {
+    std::error_code ignored;
+    if (!done_) std::filesystem::remove_all(part_, ignored);
+  }
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+
+  [[nodiscard]] const Path& path() const { return part_; }
+
+  void finish() {
+    sync_folder(part_);
+    std::error_code error;
+    std::filesystem::rename(part_, out_, error);
+    if (error)
+      throw IoError(
+          fmt::format("cannot rename {} to {}: {}", part_.string(), out_.string(), error.message()));
+    done_ = true;
+    std::filesystem::remove(out_ / kLock, error);
+    sync_folder(out_.parent_path());
+  }
+
+ private:
+  static constexpr const char* kLock = ".lock";
+
+  /// What a killed run left has a lock in it; what has none is somebody's.
+  static Path part_of(const Path& out) {
+    Path part = out;
+    part += ".part";
+    if (!is_empty_or_new(part) && !std::filesystem::exists(part / kLock))
+      throw ConfigError(
+          fmt::format("{} is in the way; expected to make the export there before it becomes {}",
+                      part.string(), out.string()));
+    return part;
+  }
+
+  void clear() const {
+    for (const auto& entry : std::filesystem::directory_iterator(part_))
+      if (entry.path().filename() != kLock) std::filesystem::remove_all(entry.path());
+  }
+
+  Path out_;
+  Path part_;
+  FolderLock lock_;
+  bool done_ = false;
+};
+
+/// Returns how many pictures were copied for want of links.
+int write_pictures(const ExportPlan& plan, const LabelSet& set, const Path& folder, Linking linking,
+                   const RunHooks& hooks) {
+  Progress progress{.clip = "", .frames_done = 0, .frames_total = static_cast<int>(plan.pictures.size())};
+  int copied = 0;
+  for (const PlannedPicture& picture : plan.pictures) {
+    if (hooks.stop_wanted()) throw Cancelled();
+    const LabelImage& image = set.images[picture.image];
+    if (link_file(Path(set.root) / image.file, folder / picture.to, linking) != linking) ++copied;
+    progress.clip = set.videos[image.video].name;
+    ++progress.frames_done;
+    hooks.report(progress);
+  }
+  return copied;
+}
+
+void write_texts(const ExportPlan& plan, const Path& folder, const RunHooks& hooks) {
+  for (const PlannedText& text : plan.texts) {
+    if (hooks.stop_wanted()) throw Cancelled();
+    make_folder((folder / text.to).parent_path());
+    write_file(folder / text.to, std::as_bytes(std::span(text.content)));
+  }
+}
+
+/// With a name at its end, so that OUT.part is beside OUT.
+Path named(const Path& folder) {
+  const Path path = folder.lexically_normal();
+  if (path == "." || path.filename() == "..") return std::filesystem::canonical(path);
+  return path.has_filename() ? path : path.parent_path();
+}
+
+void check_options(const ExportOptions& options) {
+  if (options.format == ExportFormat::mot && !options.selection.empty())
+    throw ConfigError(fault("--selection", options.selection.string(), "",
+                            "none with --format mot: trackers are trained and judged on whole clips"));
+}
+
+}  // namespace
+
+std::string format_name(ExportFormat format) noexcept {
+  constexpr std::array kNames = {"coco", "yolo", "mot", "birdsai"};
+  return kNames[static_cast<std::size_t>(format)];
+}
+
+ExportOutcome export_dataset(const ExportOptions& options, const RunHooks& hooks) {
+  check_options(options);
+  const Path out = named(options.out);
+  const ExportSource source = read_export_source(options);
+  const Json request = request_of(options, source);
+  ExportOutcome outcome = tally(source.input, options.format);
+  outcome.already_there = is_there(out, request);
+  if (outcome.already_there) return outcome;
+  ExportPlan plan = make_plan(options, source);
+  plan.texts.push_back({.to = kRecord, .content = record_of(request, outcome)});
+  check_targets(plan, source.input.set);
+  Part part(out);
+  outcome.already_there = is_there(out, request);  // made by another run, just now
+  if (outcome.already_there) return outcome;
+  outcome.copied = write_pictures(plan, source.input.set, part.path(), options.linking, hooks);
+  write_texts(plan, part.path(), hooks);
+  part.finish();
+  return outcome;
+}
+
+}  // namespace thermal

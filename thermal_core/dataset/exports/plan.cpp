@@ -1,0 +1,73 @@
+#include "dataset/exports/plan.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace thermal {
+namespace {
+
+bool stays_inside(const std::string& name) {
+  const std::filesystem::path path(name);
+  if (name.empty() || path.is_absolute() || name.find('\0') != std::string::npos) return false;
+  return std::ranges::none_of(path, [](const auto& part) { return part == ".." || part == "."; }) &&
+         path.has_filename();
+}
+
+void check_inside(const std::string& to, const std::string& file) {
+  if (!stays_inside(to))
+    throw DataError(fault(fmt::format("\"{}\": name of its file", file), fmt::format("\"{}\"", to), "",
+                          "one inside the folder of the export"));
+}
+
+}  // namespace
+
+std::vector<std::size_t> first_labels(const LabelSet& set) {
+  std::vector<std::size_t> first(set.images.size() + 1, 0);
+  for (const Label& label : set.labels) ++first[label.image + 1];
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+  return first;
+}
+
+std::string file_name_of(std::string name) {
+  std::ranges::replace(name, '/', '_');
+  return name;
+}
+
+std::string ending_of(const std::string& file) { return std::filesystem::path(file).extension().string(); }
+
+void check_tracks(const LabelSet& set, std::string_view format) {
+  std::map<std::pair<std::size_t, std::int64_t>, std::int64_t> seen;  // label by image, track
+  for (const Label& label : set.labels) {
+    const std::string& file = set.images[label.image].file;
+    if (!label.track_id)
+      throw DataError(
+          fmt::format("annotation {} of {} has no track_id; expected one, which --format {} needs", label.id,
+                      file, format));
+    const auto [there, fresh] = seen.emplace(std::pair(label.image, *label.track_id), label.id);
+    if (!fresh)
+      throw DataError(
+          fmt::format("annotations {} and {} of {} have track_id {} both; expected one of a track",
+                      there->second, label.id, file, *label.track_id));
+  }
+}
+
+void check_targets(const ExportPlan& plan, const LabelSet& set) {
+  std::map<std::string, std::string> targets;  // by where to: which file
+  const auto check = [&targets](const std::string& to, const std::string& file) {
+    check_inside(to, file);
+    const auto [there, fresh] = targets.emplace(to, file);
+    if (!fresh)
+      throw DataError(fmt::format("\"{}\" and \"{}\" would both become {}; expected names that differ",
+                                  there->second, file, to));
+  };
+  for (const PlannedText& text : plan.texts) check(text.to, text.to);
+  for (const PlannedPicture& picture : plan.pictures) check(picture.to, set.images[picture.image].file);
+}
+
+}  // namespace thermal

@@ -1,0 +1,136 @@
+#include "dataset/exports/source.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "dataset/exports/coco.h"
+#include "dataset/exports/selection.h"
+#include "dataset/exports/splits.h"
+#include "dataset/label_source.h"
+#include "dataset/layout.h"
+#include "io/json_file.h"
+#include "io/picture_size.h"
+#include "io/sha256.h"
+
+namespace thermal {
+namespace {
+
+bool is_ours(const Path& source) { return std::filesystem::exists(Layout{source}.dataset_json()); }
+
+/// The COCO file of a source; empty if there is none.
+Path coco_file_of(const Path& source) {
+  if (is_ours(source)) return Layout{source}.annotations_json();
+  return std::filesystem::is_regular_file(source) ? source : Path();
+}
+
+/// People keep COCO files in annotations/ beside the folders of pictures; file names are then relative to both.
+Path root_of(const LabelSet& set) {
+  Path root = Path(set.root);
+  if (set.images.empty() || root.filename() != "annotations") return root;
+  const bool beside = !std::filesystem::exists(root / set.images.front().file) &&
+                      std::filesystem::exists(root.parent_path() / set.images.front().file);
+  return beside ? root.parent_path() : root;
+}
+
+/// "clips/a/ir8/000000.png" -> "clips/a/ir16/000000.png"
+std::string ir16_of(const std::string& file) {
+  const Path path(file);
+  return (path.parent_path().parent_path() / "ir16" / path.filename()).string();
+}
+
+/// Labels of the pictures that are asked for, all of them or those selected.
+LabelSet read_set(const ExportOptions& options) {
+  LabelSet set = read_labels(options.source, options.unfinished_too);
+  if (!options.selection.empty()) {
+    const Selection selection = read_selection(options.selection);
+    set = take_selected(set, selection_for(selection, options.selection, options.source, set.name),
+                        options.selection);
+  }
+  if (set.images.empty())
+    throw DataError(fmt::format("{} has no pictures; expected at least one", options.source.string()));
+  set.root = root_of(set).string();
+  return set;
+}
+
+void use_ir16(LabelSet& set, const Path& source) {
+  if (!is_ours(source))
+    throw ConfigError(
+        fault("--images", "ir16", "", "ir8; only datasets of Veldt's have pictures of 16 bits"));
+  for (LabelImage& image : set.images) image.file = ir16_of(image.file);
+}
+
+/// A name that leads out of the folder could make anybody's file a part of what is given away.
+void check_names(const LabelSet& set) {
+  for (const LabelImage& image : set.images) {
+    const Path path(image.file);
+    if (!path.is_absolute() && std::ranges::find(path, Path("..")) == path.end()) continue;
+    throw DataError(fault(fmt::format("{}: file_name of image {}", set.name, image.id),
+                          fmt::format("\"{}\"", image.file), "", "a file below the folder of the labels"));
+  }
+}
+
+void check_pictures(const LabelSet& set) {
+  std::vector<std::string> missing;
+  for (const LabelImage& image : set.images) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(Path(set.root) / image.file, error)) missing.push_back(image.file);
+  }
+  if (missing.empty()) return;
+  constexpr std::size_t kMost = 3;
+  throw DataError(fmt::format("{}: no picture {}; expected all {} that labels tell of",
+                              set.root.empty() ? "." : set.root, list_names(missing, kMost),
+                              set.images.size()));
+}
+
+void find_sizes(LabelSet& set) {
+  for (LabelImage& image : set.images) {
+    if (image.width_px > 0 && image.height_px > 0) continue;
+    const PictureSize size = read_picture_size(Path(set.root) / image.file);
+    image.width_px = size.width_px;
+    image.height_px = size.height_px;
+  }
+}
+
+std::uint32_t own_seed(const Path& source) {
+  constexpr std::uint32_t kDefault = 1;
+  return is_ours(source) ? read_json(Layout{source}.dataset_json()).at("config").value("seed", kDefault)
+                         : kDefault;
+}
+
+void share_out(ExportInput& input, const ExportOptions& options, std::uint32_t seed) {
+  input.split_asked = !options.splits.empty();
+  for (const SplitShare& split : options.splits) input.splits.push_back(split.name);
+  if (input.split_asked) {
+    input.of_video = split_videos(input.set, options.splits, seed);
+    return;
+  }
+  const bool has_folder = options.format == ExportFormat::yolo || options.format == ExportFormat::mot;
+  input.splits = {has_folder ? "train" : "all"};
+  input.of_video.resize(input.set.videos.size(), 0);
+}
+
+}  // namespace
+
+ExportSource read_export_source(const ExportOptions& options) {
+  ExportSource source;
+  LabelSet& set = source.input.set;
+  set = read_set(options);
+  if (options.ir16) use_ir16(set, options.source);
+  check_names(set);
+  check_pictures(set);
+  if (options.format == ExportFormat::yolo || options.format == ExportFormat::mot) find_sizes(set);
+  const Path file = coco_file_of(options.source);
+  source.coco = file.empty() ? coco_text(set) : read_file(file);
+  source.coco_name = file.empty() ? set.name : file.string();
+  source.labels_sha256 = sha256_of(source.coco);
+  source.all = options.selection.empty() && options.splits.empty() && !options.ir16;
+  source.seed = options.seed.value_or(own_seed(options.source));
+  share_out(source.input, options, source.seed);
+  return source;
+}
+
+}  // namespace thermal

@@ -1,0 +1,35 @@
+#include "io/link_files.h"
+
+#include <span>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace thermal {
+namespace {
+
+/// Without symbolic links on the way: a hard link to one of them would be a link to what it says.
+Path real_path(const Path& file) {
+  std::error_code error;
+  Path real = std::filesystem::canonical(file, error);
+  if (error) throw IoError(fmt::format("cannot read {}: {}", file.string(), error.message()));
+  return real;
+}
+
+}  // namespace
+
+Linking link_file(const Path& file, const Path& as, Linking wanted) {
+  const Path real = real_path(file);
+  make_folder(as.parent_path());
+  std::error_code error;
+  if (wanted == Linking::hard) std::filesystem::create_hard_link(real, as, error);
+  if (wanted == Linking::symlink) std::filesystem::create_symlink(real, as, error);
+  if (wanted != Linking::copy && !error) return wanted;
+  const std::string bytes = read_file(real);
+  write_file(as, std::as_bytes(std::span(bytes)));
+  return Linking::copy;
+}
+
+}  // namespace thermal
