@@ -1,0 +1,137 @@
+#include "analysis/evaluate.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/command.h"
+#include "cli/evaluation_table.h"
+#include "dataset/label_source.h"
+#include "io/detections_files.h"
+
+namespace veldt {
+namespace {
+
+struct Options {
+  std::string truth;
+  std::string detections;
+  thermal::EvaluateOptions evaluate;
+  bool json = false;
+};
+
+/// What is not defined is null.
+thermal::Json to_json(const std::optional<double>& figure) {
+  return figure ? thermal::Json(*figure) : thermal::Json();
+}
+
+thermal::Json to_json(const thermal::SizeCounts& counts) {
+  thermal::Json row;
+  const std::vector<thermal::Counts> columns = columns_of(counts);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    row[i < kSizes.size() ? size_class_name(kSizes[i]) : "all"] = {
+        {"precision", to_json(columns[i].precision())},
+        {"recall", to_json(columns[i].recall())},
+        {"true_positives", columns[i].true_positives},
+        {"false_positives", columns[i].false_positives},
+        {"false_negatives", columns[i].false_negatives}};
+  }
+  return row;
+}
+
+thermal::Json to_json(const thermal::AveragePrecision& precision) {
+  return {{"ap50", to_json(precision.at_50)}, {"ap50_95", to_json(precision.at_50_to_95)}};
+}
+
+/// Precision and recall of a clip, in all and by category.
+thermal::Json clip_to_json(const thermal::LabelSet& truth, const thermal::Evaluation& evaluation,
+                           std::size_t video) {
+  thermal::Json categories = thermal::Json::array();
+  for (std::size_t i = 0; i < truth.categories.size(); ++i) {
+    categories.push_back(
+        {{"name", truth.categories[i].name}, {"sizes", to_json(evaluation.counts[video][i])}});
+  }
+  return {{"name", truth.videos[video].name},
+          {"sizes", to_json(evaluation.of_video(video))},
+          {"categories", std::move(categories)}};
+}
+
+thermal::Json to_json(const Options& options, const thermal::LabelSet& truth, std::size_t detections,
+                      const thermal::Evaluation& evaluation) {
+  thermal::Json document = {{"truth", options.truth},
+                            {"detections", options.detections},
+                            {"iou", options.evaluate.iou},
+                            {"score", options.evaluate.score},
+                            {"count_ignored", options.evaluate.count_ignored},
+                            {"pictures", truth.images.size()},
+                            {"targets", truth.labels.size()},
+                            {"ignored_targets", evaluation.ignored_targets},
+                            {"detections_read", detections},
+                            {"ignored_detections", evaluation.ignored_detections},
+                            {"average_precision", to_json(evaluation.mean_average_precision)},
+                            {"sizes", to_json(evaluation.overall())}};
+  thermal::Json categories = thermal::Json::array();
+  for (std::size_t i = 0; i < truth.categories.size(); ++i) {
+    categories.push_back({{"name", truth.categories[i].name},
+                          {"average_precision", to_json(evaluation.average_precision[i])},
+                          {"sizes", to_json(evaluation.of_category(i))}});
+  }
+  document["categories"] = std::move(categories);
+  thermal::Json clips = thermal::Json::array();
+  for (std::size_t video = 0; video < truth.videos.size(); ++video) {
+    clips.push_back(clip_to_json(truth, evaluation, video));
+  }
+  document["clips"] = std::move(clips);
+  return document;
+}
+
+int run(const Options& options) {
+  options.evaluate.validate();
+  const thermal::LabelSet truth = thermal::read_labels(options.truth);
+  if (truth.labels.empty())
+    throw thermal::DataError(
+        thermal::fault(options.truth, "0 labels", "", "at least one, or there is nothing to measure"));
+  const std::vector<thermal::Detection> detections = thermal::read_detections(options.detections, truth);
+  const thermal::Evaluation evaluation = thermal::evaluate(truth, detections, options.evaluate);
+  if (options.json) {
+    fmt::print("{}\n", to_json(options, truth, detections.size(), evaluation).dump(2));
+  } else {
+    print_tables(evaluation, truth, detections.size(), options.evaluate);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, Session& session) {
+  CLI::App* command = add_command(app, session, "evaluate",
+                                  "Precision, recall and average precision of a detector's results");
+  command->footer(
+      "Precision and recall are told by clip, category and size class. A target's class is that of its "
+      "track's\n"
+      "mean box (below 200 px small, above 2000 px large); a detection that finds no target has that of its "
+      "own "
+      "box.\n"
+      "Average precision agrees with pycocotools. Targets marked to be ignored, and crowds, count neither "
+      "as\n"
+      "found nor as missed, and detections that find them count neither way.");
+  auto options = std::make_shared<Options>();
+  command->add_option("--truth", options->truth, "Labels: a dataset, a BIRDSAI folder or a COCO file")
+      ->required();
+  command
+      ->add_option("--detections", options->detections,
+                   "What was detected: COCO results (.json), or a folder of YOLO results (VIDEO_PICTURE.txt)")
+      ->required();
+  command->add_option("--iou", options->evaluate.iou, "Least overlap of a detection with its target")
+      ->capture_default_str();
+  command->add_option("--score", options->evaluate.score, "Least score of detections that count")
+      ->capture_default_str();
+  command->add_flag("--count-ignored", options->evaluate.count_ignored,
+                    "Count targets marked to be ignored like others, as pycocotools does");
+  command->add_flag("--json", options->json, "Print JSON, with each clip's categories too");
+  command->callback([options, &session] { session.run = [options] { return run(*options); }; });
+}
+
+}  // namespace veldt

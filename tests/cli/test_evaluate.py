@@ -1,0 +1,251 @@
+"""`evaluate` tells how well a detector found what is in a dataset, by clip, category and size class."""
+
+import pytest
+
+import passes
+
+HUMAN, ELEPHANT = 1, 2
+
+# Two clips of two pictures. A human of 100 px, track 1, in all of them; an elephant of 400 px in the first of each.
+BOXES = {HUMAN: [10, 10, 10, 10], ELEPHANT: [100, 100, 20, 20]}
+TARGETS = [(1, HUMAN), (1, ELEPHANT), (2, HUMAN), (3, HUMAN), (3, ELEPHANT), (4, HUMAN)]
+
+
+def _truth(**changes):
+    return {
+        "videos": [{"id": 1, "name": "day"}, {"id": 2, "name": "night"}],
+        "images": [
+            {
+                "id": id,
+                "file_name": f"{id}.png",
+                "width": 640,
+                "height": 512,
+                "video_id": 1 + (id - 1) // 2,
+                "frame_index": (id - 1) % 2,
+            }
+            for id in (1, 2, 3, 4)
+        ],
+        "categories": [{"id": HUMAN, "name": "human"}, {"id": ELEPHANT, "name": "elephant"}],
+        "annotations": [
+            {
+                "id": i + 1,
+                "image_id": image,
+                "category_id": category,
+                "bbox": BOXES[category],
+                "track_id": category,
+            }
+            for i, (image, category) in enumerate(TARGETS)
+        ],
+    } | changes
+
+
+def _answers(targets=None, score=0.9):
+    """What a detector says that sees these targets as they are."""
+    return [
+        {"image_id": image, "category_id": category, "bbox": BOXES[category], "score": score}
+        for image, category in (TARGETS if targets is None else targets)
+    ]
+
+
+@pytest.fixture(name="evaluate")
+def _evaluate(veldt):
+    """Runs `evaluate` on detections of _truth(); what it prints."""
+    veldt.write("truth.json", _truth())
+
+    def run(detections, *options):
+        veldt.write("found.json", detections)
+        done = veldt("evaluate", "--truth", "truth.json", "--detections", "found.json", *options)
+        assert (done.code, done.err) == (0, "")
+        return done
+
+    return run
+
+
+def _row(found, wrong, missed):
+    """A cell of the report: (precision, recall, true positives, false positives, false negatives)."""
+    return {
+        "precision": found / (found + wrong) if found + wrong else None,
+        "recall": found / (found + missed) if found + missed else None,
+        "true_positives": found,
+        "false_positives": wrong,
+        "false_negatives": missed,
+    }
+
+
+def _sizes(small, medium):
+    both = [sum(pair) for pair in zip(small, medium)]
+    return {"small": _row(*small), "medium": _row(*medium), "large": _row(0, 0, 0), "all": _row(*both)}
+
+
+def test_the_whole_report(evaluate):
+    found = _answers(TARGETS[1:])  # the first human is missed
+    found.append({"image_id": 4, "category_id": ELEPHANT, "bbox": BOXES[ELEPHANT], "score": 0.6})
+    found.append({"image_id": 4, "category_id": ELEPHANT, "bbox": BOXES[ELEPHANT], "score": 0.4})
+    human = {"ap50": pytest.approx(76 / 101), "ap50_95": pytest.approx(76 / 101)}  # up to recall 3/4
+    assert evaluate(found, "--json").json() == {
+        "truth": "truth.json",
+        "detections": "found.json",
+        "iou": 0.5,
+        "score": 0.5,
+        "count_ignored": False,
+        "pictures": 4,
+        "targets": 6,
+        "ignored_targets": 0,
+        "detections_read": 7,
+        "ignored_detections": 0,
+        "average_precision": {key: pytest.approx((76 / 101 + 1) / 2) for key in human},
+        "sizes": _sizes((3, 0, 1), (2, 1, 0)),
+        "categories": [
+            {"name": "human", "average_precision": human, "sizes": _sizes((3, 0, 1), (0, 0, 0))},
+            {
+                "name": "elephant",
+                "average_precision": {"ap50": 1, "ap50_95": 1},
+                "sizes": _sizes((0, 0, 0), (2, 1, 0)),
+            },
+        ],
+        "clips": [
+            {
+                "name": "day",
+                "sizes": _sizes((1, 0, 1), (1, 0, 0)),
+                "categories": [
+                    {"name": "human", "sizes": _sizes((1, 0, 1), (0, 0, 0))},
+                    {"name": "elephant", "sizes": _sizes((0, 0, 0), (1, 0, 0))},
+                ],
+            },
+            {
+                "name": "night",
+                "sizes": _sizes((2, 0, 0), (1, 1, 0)),
+                "categories": [
+                    {"name": "human", "sizes": _sizes((2, 0, 0), (0, 0, 0))},
+                    {"name": "elephant", "sizes": _sizes((0, 0, 0), (1, 1, 0))},
+                ],
+            },
+        ],
+    }
+
+
+TABLES = """\
+4 pictures; 6 targets, 0 of them ignored
+6 detections, 6 of score 0.5 or more, 0 of these on ignored targets
+a target is found at IoU 0.5 or more
+
+precision and recall           small          medium           large             all
+day                    1.000   0.500   1.000   1.000       -       -   1.000   0.667
+night                  1.000   1.000   0.500   1.000       -       -   0.750   1.000
+
+human                  1.000   0.750       -       -       -       -   1.000   0.750
+elephant                   -       -   0.667   1.000       -       -   0.667   1.000
+all                    1.000   0.750   0.667   1.000       -       -   0.833   0.833
+
+TP/FP/FN                       small          medium           large             all
+day                            1/0/1           1/0/0           0/0/0           2/0/1
+night                          2/0/0           1/1/0           0/0/0           3/1/0
+
+human                          3/0/1           0/0/0           0/0/0           3/0/1
+elephant                       0/0/0           2/1/0           0/0/0           2/1/0
+all                            3/0/1           2/1/0           0/0/0           5/1/1
+
+average precision       AP50 AP50:95
+human                  0.752   0.752
+elephant               1.000   1.000
+mean                   0.876   0.876
+"""
+
+
+def test_the_tables(evaluate):
+    found = _answers(TARGETS[1:])
+    found.append({"image_id": 4, "category_id": ELEPHANT, "bbox": BOXES[ELEPHANT], "score": 0.6})
+    assert evaluate(found).out == TABLES
+
+
+def test_the_truth_given_back_is_perfect(evaluate):
+    told = evaluate(_answers(), "--json").json()
+    assert told["sizes"] == _sizes((4, 0, 0), (2, 0, 0))
+    assert told["average_precision"] == {"ap50": 1, "ap50_95": 1}
+
+
+def test_no_detections_are_allowed(evaluate):
+    told = evaluate([], "--json").json()
+    assert told["sizes"] == _sizes((0, 0, 4), (0, 0, 2))
+    assert told["sizes"]["all"]["precision"] is None
+    assert told["average_precision"] == {"ap50": 0, "ap50_95": 0}
+    rates = [line for line in evaluate([]).out.splitlines() if line.startswith("all ")][0]
+    assert rates.split() == ["all", "-", "0.000", "-", "0.000", "-", "-", "-", "0.000"]
+
+
+def test_iou_and_score_are_chosen(evaluate):
+    shifted = [d | {"bbox": [d["bbox"][0] + d["bbox"][2] / 4, *d["bbox"][1:]]} for d in _answers(score=0.3)]
+    assert evaluate(shifted, "--json").json()["sizes"] == _sizes((0, 0, 4), (0, 0, 2))
+    told = evaluate(shifted, "--score", "0.3", "--json").json()
+    assert (told["score"], told["sizes"]) == (0.3, _sizes((4, 0, 0), (2, 0, 0)))
+    told = evaluate(shifted, "--score", "0.3", "--iou", "0.61", "--json").json()  # 3/4 shared of 5/4
+    assert (told["iou"], told["sizes"]) == (0.61, _sizes((0, 4, 4), (0, 2, 2)))
+    assert told["average_precision"] == {"ap50": 1, "ap50_95": pytest.approx(0.3)}  # at 0.5, 0.55 and 0.6
+
+
+def test_ignored_targets_count_only_if_asked(veldt, evaluate):
+    truth = _truth()
+    for label in truth["annotations"]:
+        label["ignore"] = label["category_id"] == HUMAN
+    veldt.write("truth.json", truth)
+    told = evaluate(_answers(), "--json").json()
+    assert (told["ignored_targets"], told["ignored_detections"]) == (4, 4)
+    assert told["sizes"] == _sizes((0, 0, 0), (2, 0, 0))
+    assert told["categories"][0]["average_precision"] == {"ap50": None, "ap50_95": None}
+    assert told["average_precision"] == {"ap50": 1, "ap50_95": 1}
+    told = evaluate(_answers(TARGETS[:2]), "--count-ignored", "--json").json()
+    assert (told["count_ignored"], told["ignored_targets"], told["ignored_detections"]) == (True, 0, 0)
+    assert told["sizes"] == _sizes((1, 0, 3), (1, 0, 1))
+
+
+def test_yolo_results_measure_the_same(veldt, evaluate):
+    (veldt.folder / "found").mkdir()
+    for image, category in TARGETS[1:]:
+        x, y, width, height = BOXES[category]
+        numbers = ((x + width / 2) / 640, (y + height / 2) / 512, width / 640, height / 512, 0.9)
+        name = f"{'day' if image < 3 else 'night'}_{image}.txt"
+        with open(veldt.folder / "found" / name, "a", encoding="utf-8") as file:
+            file.write(" ".join(map(str, (category - 1, *numbers))) + "\n")
+    yolo = veldt("evaluate", "--truth", "truth.json", "--detections", "found", "--json")
+    assert (yolo.code, yolo.err) == (0, "")
+    assert yolo.json() | {"detections": "found.json"} == evaluate(_answers(TARGETS[1:]), "--json").json()
+
+
+def test_our_own_dataset_is_a_truth(veldt):
+    folders = [passes.write_clip(veldt.folder / clip, clip) for clip in ("one", "two")]
+    assert veldt("convert", *folders, "--out", "out", "--quiet").code == 0
+    labels = veldt.read("out/annotations.json")["annotations"]
+    veldt.write("found.json", [label | {"score": 1} for label in labels])
+    told = veldt(
+        "evaluate", "--truth", "out", "--detections", "found.json", "--count-ignored", "--json"
+    ).json()
+    assert [clip["name"] for clip in told["clips"]] == ["one", "two"]
+    assert told["sizes"]["all"] == _row(len(labels), 0, 0)
+    assert told["average_precision"] == {"ap50": 1, "ap50_95": 1}
+
+
+def test_birdsai_is_a_truth(veldt):
+    (veldt.folder / "birdsai" / "annotations").mkdir(parents=True)
+    veldt.write("birdsai/annotations/0001.csv", "0,7,10,10,10,10,1,0,0,0\n0,8,100,100,20,20,0,1,0,0\n")
+    veldt.write("found.json", _answers(TARGETS[:2]))
+    told = veldt("evaluate", "--truth", "birdsai", "--detections", "found.json", "--json").json()
+    assert [(clip["name"], clip["sizes"]) for clip in told["clips"]] == [
+        ("0001", _sizes((1, 0, 0), (1, 0, 0)))
+    ]
+
+
+def test_long_names_and_large_counts_stay_in_their_columns(veldt):
+    images = [{"id": i, "file_name": f"{i}.png", "width": 640, "height": 512} for i in range(250)]
+    categories = [{"id": 1, "name": "a name that is longer than the column"}]
+    labels = [
+        {"id": i, "image_id": i // 80, "category_id": 1, "bbox": [i % 80, 10 * (i % 2), 1, 9]}
+        for i in range(20000)
+    ]
+    veldt.write("truth.json", {"images": images, "categories": categories, "annotations": labels})
+    veldt.write("found.json", [label | {"score": 1} for label in labels[:10000]] * 2)
+    done = veldt("evaluate", "--truth", "truth.json", "--detections", "found.json")
+    assert done.code == 0
+    rates, rates_in_all, counts, counts_in_all, _ = done.out.split("\n\n")[1:]
+    assert "a name that is longer than the column 10000/10000/10000 " in counts_in_all
+    assert len({len(line) for part in (rates, rates_in_all) for line in part.splitlines()}) == 1
+    assert len({len(line) for part in (counts, counts_in_all) for line in part.splitlines()}) == 1
