@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "base/version.h"
+#include "bench/balance_suite.h"
+#include "bench/labels_suite.h"
 #include "bench/radiance_suite.h"
 #include "bench/render_suite.h"
 #include "bench/sensor_suite.h"
@@ -111,15 +113,21 @@ struct Options {
   bool json = false;
 };
 
-std::vector<thermal::RenderRow> measure_rendering(const Options& options, bool quiet) {
-  const auto tell = [quiet](const std::string& what) {
+std::function<void(const std::string&)> teller(bool quiet) {
+  return [quiet](const std::string& what) {
     if (!quiet) fmt::print(stderr, "measuring {}\n", what);
   };
-  return thermal::run_render_suite({find_blender(options.blender), thermal::find_home(), tell});
+}
+
+std::vector<thermal::RenderRow> measure_rendering(const Options& options, bool quiet) {
+  return thermal::run_render_suite({find_blender(options.blender), thermal::find_home(), teller(quiet)});
 }
 
 int run(const Options& options, bool quiet) {
   if (options.suite == "sensor") return show(options.suite, thermal::run_sensor_suite(), options.json);
+  if (options.suite == "labels") return show(options.suite, thermal::run_labels_suite(), options.json);
+  if (options.suite == "balance")
+    return show(options.suite, thermal::run_balance_suite(teller(quiet)), options.json);
   if (options.suite == "render") return show(options.suite, measure_rendering(options, quiet), options.json);
   const thermal::MaterialLibrary materials = thermal::read_materials(thermal::find_home());
   return show(options.suite, thermal::run_radiance_suite(materials), options.json);
@@ -132,7 +140,7 @@ void add_bench(CLI::App& app, Session& session) {
       add_command(app, session, "bench", "Speed and error of every kernel, measured on this machine");
   auto options = std::make_shared<Options>();
   command->add_option("--suite", options->suite, "What to measure")
-      ->check(CLI::IsMember({"radiance", "sensor", "render"}))
+      ->check(CLI::IsMember({"radiance", "sensor", "labels", "balance", "render"}))
       ->capture_default_str();
   command
       ->add_option("--blender", options->blender,

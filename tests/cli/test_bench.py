@@ -80,10 +80,36 @@ def test_the_sensors_flicker_filter_is_near_1_over_f_and_the_noise_has_its_spect
     assert abs(figures["measured_slope_error"] - figures["slope_error"]) < 0.02
 
 
+@pytest.fixture(scope="module", name="labels")
+def _labels(tmp_path_factory):
+    done = Veldt(tmp_path_factory.mktemp("bench"))("bench", "--suite", "labels", "--json")
+    assert (done.code, done.err) == (0, "")
+    return {row["name"]: row for row in done.json()["rows"]}
+
+
+def test_labelling_is_measured_stage_by_stage_and_exact(labels):
+    assert list(labels) == [
+        "survey of an index plane",
+        "boxes and masks",
+        "masks, actor layer, places",
+        "contrast",
+        "JSON, a clip of one frame",
+        "everything",
+    ]
+    figures = {name: value for row in labels.values() for name, value in row["figures"].items()}
+    assert (figures["labels"], figures["indices"]) == (50, 52)
+    assert (figures["wrong_px"], figures["worst_visibility"]) == (0, 0)
+    # Twice the table's 0.036 mK, and what a float makes of 285 K: 0.015 mK.
+    assert figures["worst_mk"] < 2 * (0.036 + 0.015)
+
+
 def test_an_unknown_suite_is_a_usage_fault(veldt):
     done = veldt("bench", "--suite", "optics")
     assert (done.code, done.out) == (2, "")
-    assert done.err == "veldt: --suite: optics not in {radiance,sensor,render}; see veldt bench --help\n"
+    assert (
+        done.err
+        == "veldt: --suite: optics not in {radiance,sensor,labels,balance,render}; see veldt bench --help\n"
+    )
 
 
 # Stands in for Blender: one frame of passes, and times that are easy to tell apart.

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+
+#include "analysis/balance.h"
+
+namespace thermal {
+
+/// When a search has to be done.
+class Deadline {
+ public:
+  explicit Deadline(double seconds)
+      : end_(Clock::now() +
+             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
+
+  /// Not negative.
+  [[nodiscard]] double left_s() const {
+    const std::chrono::duration<double> left = end_ - Clock::now();
+    return left.count() > 0 ? left.count() : 0;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point end_;
+};
+
+/// Searches for a solution to within a gap, from frames that meet the bounds of the classes; the best found by the
+/// deadline, and what is proven of the best there is.
+[[nodiscard]] BalanceResult search_balance(const BalanceProgram& program,
+                                           std::vector<std::vector<std::int64_t>> taken, double gap,
+                                           const Deadline& deadline);
+
+}  // namespace thermal

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace thermal {
+
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+/// minimise cost . x with lower <= x <= upper, some of x whole, and lower <= A x <= upper.
+struct IntegerProgram {
+  struct Column {
+    double lower = 0;
+    double upper = kUnbounded;
+    double cost = 0;
+    bool whole = false;
+  };
+  struct Term {
+    std::size_t column = 0;
+    double factor = 0;
+  };
+  struct Row {
+    double lower = -kUnbounded;
+    double upper = kUnbounded;
+    std::vector<Term> terms;  ///< each column at most once
+  };
+  std::vector<Column> columns;
+  std::vector<Row> rows;
+
+  /// Returns the column's place.
+  std::size_t add(const Column& column) {
+    columns.push_back(column);
+    return columns.size() - 1;
+  }
+};
+
+struct SolverLimits {
+  double gap = 0;         ///< (objective - bound) / |objective| that will do
+  double time_s = 60;     ///< wall clock
+  int nodes = 100000000;  ///< of the search tree
+};
+
+enum class SolverEnd {
+  solved,      ///< to within the gap
+  stopped,     ///< at a limit, with a solution
+  infeasible,  ///< proven
+  nothing,     ///< stopped at a limit without a solution
+};
+
+struct SolverResult {
+  SolverEnd end = SolverEnd::nothing;
+  std::vector<double> values;  ///< one a column; empty without a solution. Whole ones to within 1e-6
+  double objective = 0;
+  double bound = -kUnbounded;  ///< no solution is better
+};
+
+/// Solves with COIN-OR CBC: one thread and a fixed seed, so that the same program gives the same solution unless the
+/// time limit ends the search. Prints nothing.
+[[nodiscard]] SolverResult solve(const IntegerProgram& program, const SolverLimits& limits);
+
+}  // namespace thermal

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "analysis/balance.h"
+#include "dataset/selection_file.h"
+
+namespace thermal {
+
+/// Labels, and where they were read from.
+struct LabelSource {
+  std::string path;
+  LabelSet labels;
+};
+
+/// The videos of all sources, one source after another: videos of equal names in different sources stay apart.
+[[nodiscard]] std::vector<BalanceVideo> videos_of(const std::vector<LabelSource>& sources);
+
+/// So many of these frames of a video, any with the same chance, ascending. Each frame has a random number that is a
+/// function of (seed, video, frame), and those of the smallest are taken: what other videos and types are there does
+/// not matter, and of a larger count the same frames are a part.
+[[nodiscard]] std::vector<int> choose_frames(const std::vector<int>& frames, std::int64_t count,
+                                             std::uint32_t seed, const std::string& video);
+
+/// The frames of a solution for videos_of(sources).
+[[nodiscard]] Selection select_frames(const std::vector<LabelSource>& sources, const BalanceProgram& program,
+                                      const BalanceResult& result, std::uint32_t seed);
+
+}  // namespace thermal
