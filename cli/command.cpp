@@ -18,7 +18,7 @@ namespace {
 
 /// The one table of commands, in the order help shows them.
 constexpr std::array kCommands = {add_generate, add_render,   add_convert, add_merge,    add_export,
-                                  add_inspect,  add_validate, add_balance, add_evaluate, 
+                                  add_inspect,  add_validate, add_balance, add_evaluate, add_report,
                                   add_budget,   add_radiance, add_bench,   add_doctor};
 
 void print_fault(const std::string& what) {

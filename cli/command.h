@@ -41,6 +41,7 @@ void add_export(CLI::App& app, Session& session);
 void add_inspect(CLI::App& app, Session& session);
 void add_validate(CLI::App& app, Session& session);
 void add_evaluate(CLI::App& app, Session& session);
+void add_report(CLI::App& app, Session& session);
 void add_balance(CLI::App& app, Session& session);
 void add_budget(CLI::App& app, Session& session);
 void add_radiance(CLI::App& app, Session& session);

@@ -11,8 +11,12 @@ OPTIONS = {
     "render": RENDERING | {"--preview"},
     "convert": {"--out", "--manifest", "--config", "--variants", "--set"},
     "merge": {"--out", "--link"},
+    "export": {"--format", "--out", "--link", "--images", "--split", "--seed", "--selection", "--unfinished"},
     "inspect": {"--json"},
     "validate": {"--set", "--json"},
+    "balance": {"--per-class", "--out", "--seed", "--gap", "--time-limit-s", "--json"},
+    "evaluate": {"--truth", "--detections", "--iou", "--score", "--count-ignored", "--json"},
+    "report": {"--out", "--unfinished"},
     "budget": {"--set", "--json"},
     "radiance": {
         "--temperature-k",

@@ -1,7 +1,6 @@
 #include "bench/render_suite.h"
 
 #include <array>
-#include <cstdlib>
 #include <future>
 #include <span>
 
@@ -12,29 +11,10 @@
 #include "bench/render_profile.h"
 #include "io/exr_passes.h"
 #include "io/json_file.h"
+#include "io/passing_folder.h"
 
 namespace thermal {
 namespace {
-
-/// A folder that is gone afterwards.
-class PassingFolder {
- public:
-  PassingFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "veldt-bench-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw IoError("cannot make a folder for frames: " + name);
-    path_ = name;
-  }
-  ~PassingFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  PassingFolder(const PassingFolder&) = delete;
-  PassingFolder& operator=(const PassingFolder&) = delete;
-  [[nodiscard]] const Path& path() const noexcept { return path_; }
-
- private:
-  Path path_;
-};
 
 /// A config of the project with other settings of `render`, as a file in `folder`.
 Path config_with(const Path& home, const std::string& name, const Json& render, const Path& folder) {

@@ -4,33 +4,14 @@
 #include <sstream>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "base/error.h"
 #include "io/child_process.h"
+#include "io/passing_folder.h"
 #include "io/resources.h"
 
 namespace thermal {
 namespace {
-
-/// A file that lives as long as this does.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& content)
-      : path_(std::filesystem::temp_directory_path() / fmt::format("veldt-{}.json", ::getpid())) {
-    write_file_atomically(path_, content);
-  }
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  [[nodiscard]] const Path& path() const noexcept { return path_; }
-
- private:
-  Path path_;
-};
 
 [[noreturn]] void throw_faults(const std::string& text, const std::string& name) {
   std::string message;
@@ -40,15 +21,6 @@ class TemporaryFile {
     message += (message.empty() ? "" : "\n") + name + ": " + line;
   }
   throw ConfigError(message);
-}
-
-std::string last_line(const std::string& text) {
-  std::string last;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.empty()) last = line;
-  }
-  return last;
 }
 
 }  // namespace
@@ -63,15 +35,16 @@ Path find_python() {
 DatasetPlan plan_dataset(const Json& resolved_config, const std::string& name, const Path& home) {
   const Path python = find_python();
   if (python.empty()) throw IoError("no python3 on PATH; install it (apt-get install python3-numpy)");
-  const TemporaryFile config(to_text(resolved_config));
+  const PassingFolder folder;
+  const Path config = folder.path() / "config.json";
+  write_file_atomically(config, to_text(resolved_config));
   const Path script = home / "blender_scripts" / "plan_dataset.py";
   const Output output =
-      run_program({python.string(), "-B", script.string(), "--config", config.path().string(), "--json"});
+      run_program({python.string(), "-B", script.string(), "--config", config.string(), "--json"});
   constexpr int kConfigFault = 2;
   if (output.status.signal == 0 && output.status.code == kConfigFault) throw_faults(output.error, name);
   if (output.status.signal != 0 || output.status.code != 0) {
-    throw IoError(
-        fmt::format("{} {}: {}", script.string(), output.status.in_words(), last_line(output.error)));
+    throw IoError(fmt::format("{} {}: {}", script.string(), output.status.in_words(), output.last_words()));
   }
   const Json answer = parse_json(output.out, script.string());
   DatasetPlan plan{.clips = {}, .cut_clips = answer.at("cut_clips")};

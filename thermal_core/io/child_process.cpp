@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <sstream>
 #include <thread>
 
 #include <fcntl.h>
@@ -161,6 +162,15 @@ void ChildProcess::stop() {
   }
   ::kill(-process_, SIGKILL);
   (void)try_wait(0);
+}
+
+std::string Output::last_words() const {
+  std::string last;
+  std::istringstream lines(error);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty()) last = line;
+  }
+  return last;
 }
 
 Output run_program(const std::vector<std::string>& argv) {

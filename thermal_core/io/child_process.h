@@ -58,6 +58,9 @@ struct Output {
   ExitStatus status;
   std::string out;
   std::string error;
+
+  /// The last line of `error` that is not empty, where programs say what they ended with; empty if there is none.
+  [[nodiscard]] std::string last_words() const;
 };
 [[nodiscard]] Output run_program(const std::vector<std::string>& argv);
 

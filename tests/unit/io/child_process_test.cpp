@@ -137,3 +137,8 @@ TEST_CASE("run_program tells of programs that are killed or cannot be run") {
   CHECK(run_program(shell("kill -15 $$")).status.in_words() == "was killed by signal 15 (Terminated)");
   CHECK(run_program({"/nowhere/python3"}).status.code == 127);
 }
+
+TEST_CASE("A program's last words are its last line that says something") {
+  CHECK(run_program(shell("printf 'first\\nlast\\n\\n' >&2")).last_words() == "last");
+  CHECK(run_program(shell("echo out")).last_words().empty());
+}

@@ -1,0 +1,48 @@
+#include "dataset/reports/report.h"
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "io/resources.h"
+
+namespace veldt {
+namespace {
+
+struct Options {
+  std::string source;
+  std::string out;
+  bool unfinished = false;
+};
+
+int run(const Options& options, const CommonOptions& common) {
+  const thermal::ReportOutcome outcome = thermal::write_report({.source = options.source,
+                                                                .out = options.out,
+                                                                .home = thermal::find_home(),
+                                                                .unfinished_too = options.unfinished});
+  if (common.quiet) return kDone;
+  fmt::print("{}: {} {}, {} frames, {} labels, {} kB\n", outcome.out.string(), outcome.clips,
+             outcome.clips == 1 ? "clip" : "clips", outcome.images, outcome.labels,
+             (outcome.bytes + 999) / 1000);
+  return kDone;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Session& session) {
+  CLI::App* command =
+      add_command(app, session, "report",
+                  "One HTML page about a dataset: pictures, plots, counts, provenance; needs no network");
+  auto options = std::make_shared<Options>();
+  command->add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file (.json)")
+      ->required();
+  command->add_option("--out", options->out, "The page; report.html in the dataset if not given")
+      ->type_name("FILE");
+  command->add_flag("--unfinished", options->unfinished,
+                    "Report on what is there of a dataset that lacks clips");
+  command->callback(
+      [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
+}
+
+}  // namespace veldt

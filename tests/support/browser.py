@@ -1,0 +1,75 @@
+"""A real Chromium without a window, for pages that people look at."""
+
+from __future__ import annotations
+
+import base64
+import shutil
+from pathlib import Path
+
+import pytest
+
+DESKTOP = (1280, 800)
+PHONE = (390, 844)
+
+
+class Browser:
+    """Shows one page after another; `scheme` is light or dark."""
+
+    def __init__(self, profile: Path):
+        # Imported late: without it these tests are skipped, and others of the same file need not be.
+        from selenium import webdriver  # pylint: disable=import-outside-toplevel
+        from selenium.webdriver.chrome.service import Service  # pylint: disable=import-outside-toplevel
+
+        options = webdriver.ChromeOptions()
+        options.binary_location = shutil.which("chromium")
+        for flag in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "disable-gpu", "hide-scrollbars"):
+            options.add_argument(f"--{flag}")
+        options.add_argument(f"--user-data-dir={profile}")
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        self._driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
+
+    def open(self, page: Path, size: tuple[int, int] = DESKTOP, scheme: str = "light") -> None:
+        """Loads a file in a window of this size; a narrow one is a phone's, with touch."""
+        width, height = size
+        phone = width < 600
+        self._command(
+            "Emulation.setDeviceMetricsOverride",
+            {"width": width, "height": height, "deviceScaleFactor": 2 if phone else 1, "mobile": phone},
+        )
+        self._command("Emulation.setTouchEmulationEnabled", {"enabled": phone})
+        feature = {"name": "prefers-color-scheme", "value": scheme}
+        self._command("Emulation.setEmulatedMedia", {"features": [feature]})
+        self.complaints()  # those of the page before
+        self._driver.get(page.resolve().as_uri())
+
+    def run(self, script: str):
+        """What a JavaScript function body returns."""
+        return self._driver.execute_script(script)
+
+    def complaints(self) -> list[str]:
+        """Messages on the console since the last call: errors, warnings and all others."""
+        return [entry["message"] for entry in self._driver.get_log("browser")]
+
+    def picture(self, file: Path) -> None:
+        """Writes a PNG of the whole page, as far down as it goes."""
+        height = self.run("return document.documentElement.scrollHeight")
+        width = self.run("return window.innerWidth")
+        clip = {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}
+        shot = self._command("Page.captureScreenshot", {"captureBeyondViewport": True, "clip": clip})
+        file.write_bytes(base64.b64decode(shot["data"]))
+
+    def close(self) -> None:
+        """Ends the browser."""
+        self._driver.quit()
+
+    def _command(self, name: str, values: dict) -> dict:
+        return self._driver.execute_cdp_cmd(name, values)
+
+
+def open_browser(profile: Path) -> Browser:
+    """A browser; where none can be had, the test is skipped with the reason."""
+    for program in ("chromium", "chromedriver"):
+        if shutil.which(program) is None:
+            pytest.skip(f"no {program} on PATH; install chromium and chromium-driver")
+    pytest.importorskip("selenium", reason="no selenium; install python3-selenium")
+    return Browser(profile)

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/json_file.h"
+
+namespace thermal {
+
+/// Where a clip's camera was, as far as frames.jsonl tells.
+struct FlightTrack {
+  std::string clip;
+  std::vector<std::array<double, 16>> camera_to_world;  ///< row by row; of the frames that have one
+  std::vector<double> agl_m;                            ///< of the same frames; empty unless all have one
+};
+
+/// Places of x, y and z in camera_to_world.
+inline constexpr std::size_t kX = 3, kY = 7, kZ = 11;
+
+/// Reads a clip's frames.jsonl; a clip without poses gives a track without points. DataError naming file and line.
+[[nodiscard]] FlightTrack read_track(const Path& file, const std::string& clip);
+
+/// About `most` of `count` places, evenly spread, the first and the last among them.
+[[nodiscard]] std::vector<std::size_t> spread(std::size_t count, std::size_t most);
+
+/// What the camera sees from the track's middle frame (see seen_ground); empty where that is not known.
+[[nodiscard]] std::vector<std::array<double, 2>> seen_halfway(const FlightTrack& track, const Json& config);
+
+}  // namespace thermal
