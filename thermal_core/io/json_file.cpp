@@ -23,7 +23,7 @@ std::string position(std::string_view text, std::size_t byte, const std::string&
 /// Python writes NaN and Infinity as they are; the library stops at their first letter.
 std::string reason(const std::string& what) {
   const std::size_t begin = what.find("syntax error");
-  const std::string words = what.substr(begin == std::string::npos ? what.find(']') + 2 : begin);
+  std::string words = what.substr(begin == std::string::npos ? what.find(']') + 2 : begin);
   if (!words.ends_with("N'") && !words.ends_with("I'")) return words;
   return words + "; expected a finite number: JSON has no NaN and no Infinity, though Python writes them";
 }
