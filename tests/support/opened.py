@@ -8,6 +8,7 @@ import struct
 from collections import Counter
 from pathlib import Path
 
+_IN_CLOSE_NOWRITE = 0x10
 _IN_OPEN = 0x20
 _IN_Q_OVERFLOW = 0x4000
 _EVENT = struct.Struct("iIII")  # watch, mask, cookie, length of the name that follows
@@ -26,7 +27,9 @@ class Opened:
         self._descriptor = libc.inotify_init1(os.O_NONBLOCK | os.O_CLOEXEC)
         assert self._descriptor >= 0, os.strerror(ctypes.get_errno())
         for folder in self._folders:
-            watch = libc.inotify_add_watch(self._descriptor, str(folder).encode(), _IN_OPEN)
+            # The kernel makes one of equal events in a row: closing between two openings keeps them apart.
+            watched = _IN_OPEN | _IN_CLOSE_NOWRITE
+            watch = libc.inotify_add_watch(self._descriptor, str(folder).encode(), watched)
             assert watch >= 0, os.strerror(ctypes.get_errno())
             self._names[watch] = folder
         return self
@@ -39,7 +42,7 @@ class Opened:
         found: Counter[Path] = Counter()
         for watch, mask, name in self._events():
             assert not mask & _IN_Q_OVERFLOW, "more events than the kernel keeps"
-            if name.endswith(suffix):
+            if mask & _IN_OPEN and name.endswith(suffix):
                 found[self._names[watch] / name] += 1
         return dict(found)
 
