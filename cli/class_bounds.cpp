@@ -1,7 +1,6 @@
 #include "cli/class_bounds.h"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include "base/error.h"
@@ -20,11 +19,8 @@ ConfigError fault_of(const std::string& word, const std::string& rule) {
 }
 
 std::optional<std::int64_t> parse_count(std::string_view text) {
-  std::int64_t count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc() || end != text.data() + text.size() || count < 0 || count > kMostLabels)
-    return std::nullopt;
-  return count;
+  const auto count = thermal::number_in<std::int64_t>(text);
+  return count && *count >= 0 && *count <= kMostLabels ? count : std::nullopt;
 }
 
 /// "LO:HI"; `word` is what it is a part of.

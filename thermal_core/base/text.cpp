@@ -54,4 +54,14 @@ std::string list_names(std::span<const std::string> names, std::size_t most) {
   return fmt::format("{}, … ({} in all)", fmt::join(names.first(most), ", "), names.size());
 }
 
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
 }  // namespace thermal

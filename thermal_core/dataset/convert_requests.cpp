@@ -60,7 +60,7 @@ Config only_clips_of(Config config, const std::vector<ClipPasses>& sources) {
 
 /// A folder is a dataset or holds datasets: clips of one must not lie among the others.
 void check_out(const Path& out) {
-  if (!std::filesystem::exists(Layout{out}.dataset_json())) return;
+  if (!Layout{out}.is_begun()) return;
   throw ConfigError(
       fault("--out", out.string(), "", "a folder that is no dataset itself, for those of --variants"));
 }

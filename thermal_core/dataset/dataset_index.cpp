@@ -115,7 +115,7 @@ void DatasetIndex::add(const std::string& id, const ClipRecord& record) {
 
 DatasetIndex open_dataset(const Layout& layout, const Config& config) {
   DatasetIndex index{.config = config.resolved, .physics = {}, .clips = {}, .finished = {}, .failed = {}};
-  const bool begun = std::filesystem::exists(layout.dataset_json());
+  const bool begun = layout.is_begun();
   const Json there = begun ? read_json(layout.dataset_json()) : Json();
   if (begun) check_same_config(layout, config.resolved, there);
   for (const ClipConfig& clip : config.clips) index.clips.push_back(clip.id);

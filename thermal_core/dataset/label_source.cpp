@@ -64,7 +64,7 @@ LabelSet read_dataset(const Path& root, bool unfinished_too) {
 }
 
 LabelSet read_any(const Path& source, bool unfinished_too) {
-  if (std::filesystem::exists(Layout{source}.dataset_json())) return read_dataset(source, unfinished_too);
+  if (Layout{source}.is_begun()) return read_dataset(source, unfinished_too);
   if (std::filesystem::is_directory(source / "annotations")) return read_birdsai(source);
   if (std::filesystem::is_regular_file(source)) return read_coco(source);
   throw IoError(

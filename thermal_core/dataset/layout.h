@@ -11,6 +11,8 @@ struct Layout {
   Path root;
 
   [[nodiscard]] Path dataset_json() const { return root / "dataset.json"; }
+  /// A dataset was begun here.
+  [[nodiscard]] bool is_begun() const { return std::filesystem::exists(dataset_json()); }
   [[nodiscard]] Path annotations_json() const { return root / "annotations.json"; }
   [[nodiscard]] Path clip(const std::string& id) const { return root / "clips" / id; }
   /// Where a clip is made before it is whole and renamed.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
 #include <optional>
 #include <set>
@@ -13,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/picture_size.h"
 #include "labels/categories.h"
 
@@ -45,30 +45,23 @@ struct Place {
   }
 };
 
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    cells.push_back(line.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return cells;
+/// Without the blanks around it.
+std::string_view trimmed(std::string_view cell) {
+  cell.remove_prefix(std::min(cell.find_first_not_of(' '), cell.size()));
+  return cell.substr(0, cell.find_last_not_of(' ') + 1);
 }
 
 std::array<int, kColumns> numbers_of(std::string_view line, const Place& place) {
-  const std::vector<std::string_view> cells = split(line);
+  const std::vector<std::string_view> cells = split(line, ',');
   if (cells.size() != kColumns) {
     throw place.fault_of(fmt::format("{} columns", cells.size()),
                          "10: frame, object_id, x_min, y_min, w, h, class, species, occluded, noisy");
   }
   std::array<int, kColumns> numbers{};
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    std::string_view cell = cells[i];
-    cell.remove_prefix(std::min(cell.find_first_not_of(' '), cell.size()));
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), numbers[i]);
-    const bool rest_is_blank = std::all_of(end, cell.data() + cell.size(), [](char c) { return c == ' '; });
-    if (error != std::errc() || !rest_is_blank)
-      throw place.fault_of(fmt::format("column {} is \"{}\"", i + 1, cells[i]), "a whole number");
+    const std::optional<int> number = number_in<int>(trimmed(cells[i]));
+    if (!number) throw place.fault_of(fmt::format("column {} is \"{}\"", i + 1, cells[i]), "a whole number");
+    numbers[i] = *number;
   }
   return numbers;
 }
@@ -124,9 +117,7 @@ std::map<int, Path> pictures_of(const Path& folder, const std::string& video) {
   for (const auto& [stem, file] : files_of(folder / video, {".jpg", ".jpeg", ".png"})) {
     if (!stem.starts_with(video + "_")) continue;
     const std::string_view digits = std::string_view(stem).substr(video.size() + 1);
-    int frame = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), frame);
-    if (error == std::errc() && end == digits.data() + digits.size()) pictures.emplace(frame, file);
+    if (const std::optional<int> frame = number_in<int>(digits)) pictures.emplace(*frame, file);
   }
   return pictures;
 }
@@ -155,10 +146,7 @@ class BirdsaiReader {
     std::vector<Row> rows;
     std::set<std::pair<int, int>> seen;
     Place place{.file = file.string()};
-    for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
-      std::string_view line = std::string_view(text).substr(begin, end - begin);
-      begin = end + 1;
+    for (std::string_view line : split(text, '\n')) {
       ++place.line;
       if (line.ends_with('\r')) line.remove_suffix(1);
       if (line.empty()) continue;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -124,18 +124,14 @@ std::vector<std::string_view> words_of(std::string_view text) {
 }
 
 double number_of(std::string_view word, const std::string& where, const char* name) {
-  double number = 0;
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, number);
-  if (error == std::errc() && stop == end && std::isfinite(number)) return number;
+  const std::optional<double> number = number_in<double>(word);
+  if (number && std::isfinite(*number)) return *number;
   throw DataError(fault(fmt::format("{}: {}", where, name), word, "", "a finite number"));
 }
 
 std::size_t class_of(std::string_view word, const std::string& where, const LabelSet& truth) {
-  std::size_t place = 0;
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, place);
-  if (error == std::errc() && stop == end && place < truth.categories.size()) return place;
+  const std::optional<std::size_t> place = number_in<std::size_t>(word);
+  if (place && *place < truth.categories.size()) return *place;
   std::vector<std::string> known;
   for (std::size_t i = 0; i < truth.categories.size(); ++i)
     known.push_back(fmt::format("{} ({})", i, truth.categories[i].name));
@@ -167,10 +163,7 @@ void read_yolo_file(const Path& file, const LabelSet& truth, std::size_t image,
                     std::vector<Detection>& detections) {
   const std::string text = read_file(file);
   int line = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view words = std::string_view(text).substr(begin, end - begin);
-    begin = end + 1;
+  for (const std::string_view words : split(text, '\n')) {
     ++line;
     if (words.find_first_not_of(" \t\r") == std::string_view::npos) continue;
     detections.push_back(

@@ -53,3 +53,17 @@ TEST_CASE("A list of names is cut when it gets long") {
   CHECK(list_names(kSpecies, 5) == "elephant, human, lion, rhinoceros, zebra");
   CHECK(list_names(kSpecies, 2) == "elephant, human, … (5 in all)");
 }
+
+TEST_CASE("A text is split at every separator") {
+  using Parts = std::vector<std::string_view>;
+  CHECK(split("a,,b", ',') == Parts{"a", "", "b"});
+  CHECK(split("a\n", '\n') == Parts{"a", ""});
+  CHECK(split("", ',') == Parts{""});
+}
+
+TEST_CASE("A number is the whole of its text") {
+  CHECK(number_in<int>("-12") == std::optional(-12));
+  CHECK(number_in<double>("2.5e-1") == std::optional(0.25));
+  for (const char* text : {"", " 1", "1 ", "+1", "1x", "99999999999"}) CHECK_FALSE(number_in<int>(text));
+  CHECK_FALSE(number_in<std::size_t>("-1"));
+}

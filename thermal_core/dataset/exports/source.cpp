@@ -19,7 +19,7 @@
 namespace thermal {
 namespace {
 
-bool is_ours(const Path& source) { return std::filesystem::exists(Layout{source}.dataset_json()); }
+bool is_ours(const Path& source) { return Layout{source}.is_begun(); }
 
 /// The COCO file of a source; empty if there is none.
 Path coco_file_of(const Path& source) {
@@ -128,7 +128,7 @@ ExportSource read_export_source(const ExportOptions& options) {
   source.coco_name = file.empty() ? set.name : file.string();
   source.labels_sha256 = sha256_of(source.coco);
   source.all = options.selection.empty() && options.splits.empty() && !options.ir16;
-  source.seed = options.seed.value_or(own_seed(options.source));
+  source.seed = options.seed ? *options.seed : own_seed(options.source);
   share_out(source.input, options, source.seed);
   return source;
 }

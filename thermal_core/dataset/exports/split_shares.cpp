@@ -1,6 +1,5 @@
 #include "dataset/exports/split_shares.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace thermal {
 namespace {
@@ -40,13 +40,11 @@ std::vector<SplitShare> parse_splits(const std::string& text) {
   std::vector<SplitShare> splits;
   std::set<std::string> names;
   double sum = 0;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::optional<SplitShare> split = parse_split(text.substr(begin, end - begin));
-    if (!split || !names.insert(split->name).second) refuse_splits(text);
-    splits.push_back(*split);
-    sum += split->share;
-    begin = end + 1;
+  for (const std::string_view part : split(text, ',')) {
+    const std::optional<SplitShare> split_share = parse_split(std::string(part));
+    if (!split_share || !names.insert(split_share->name).second) refuse_splits(text);
+    splits.push_back(*split_share);
+    sum += split_share->share;
   }
   constexpr double kSlack = 0.001;
   if (std::abs(sum - 1) > kSlack) refuse_splits(text);

@@ -43,7 +43,7 @@ void add_dataset(const Layout& layout, const Path& home, Json& figures) {
 ReportOutcome write_report(const ReportRequest& request) {
   const LabelSet set = read_labels(request.source, request.unfinished_too);
   const Layout layout{request.source};
-  const bool ours = std::filesystem::exists(layout.dataset_json());
+  const bool ours = layout.is_begun();
   Json figures = {{"format", "veldt-report"},
                   {"version", 1},
                   {"name", set.name},
