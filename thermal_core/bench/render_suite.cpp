@@ -33,7 +33,7 @@ RenderRow scene_row(const std::string& scene, int supersample, const Profile& pr
 }
 
 Passes read_all(const Path& file) {
-  return read_passes(file, "Scene", 0, 0, {.depth = true, .normals = true});
+  return read_passes(file, {.layer = "Scene"}, {.depth = true, .normals = true});
 }
 
 /// Time beside size. What Blender takes to write one is among the steps of a frame.

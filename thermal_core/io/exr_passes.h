@@ -1,53 +1,42 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
+#include "io/exr_header.h"
+#include "io/exr_scan.h"
 #include "io/files.h"
+#include "io/pass_buffer.h"
+#include "scene/manifest.h"
 #include "scene/passes.h"
 
 namespace thermal {
 
-/// One channel of an EXR file, its name taken apart: "Scene.IndexOB.X" is component X of pass IndexOB in layer
-/// Scene.
-struct ExrChannel {
-  int part = 0;
-  std::string name;
-  std::string layer;
-  std::string pass;
-  std::string component;
-  std::string type;  ///< "half", "float" or "uint"
-};
+/// Depth of pixels that a file's data window leaves out: what Blender writes where there is nothing but sky.
+inline constexpr float kDepthOutsideM = 1e10F;
 
-/// What an EXR file's headers say.
-struct ExrHeader {
-  int width_px = 0;
+/// Where the planes of a clip's EXR files are.
+struct ExrLayout {
+  std::string layer = {};        ///< empty: the only one
+  std::string actor_layer = {};  ///< empty: none
+  PassChannels channels = {};    ///< those with unusual names
+  int width_px = 0;              ///< 0: any size
   int height_px = 0;
-  std::string compression;
-  std::vector<ExrChannel> channels;
-
-  /// Channel of an object index, material index or depth pass, by any spelling in use; nullptr if there is
-  /// none. `layer` empty means the only layer that has one; DataError, naming them, if several have.
-  [[nodiscard]] const ExrChannel* find_object_index(const std::string& layer) const;
-  [[nodiscard]] const ExrChannel* find_material_index(const std::string& layer) const;
-  [[nodiscard]] const ExrChannel* find_depth(const std::string& layer) const;
-  /// Component "X", "Y" or "Z" of the normal pass.
-  [[nodiscard]] const ExrChannel* find_normal(const std::string& layer, const std::string& component) const;
+  ExrLimits limits = {};
 };
 
-/// Reads no pixels. IoError naming the file and the library's reason.
-[[nodiscard]] ExrHeader read_exr_header(const Path& file);
+/// The planes of one frame that are needed, and no others, of the size of the file's display window. Size and
+/// limits are checked before any memory is taken. Pixels that the data window leaves out have index 0, normal
+/// 0 and kDepthOutsideM. The actors' layer is looked at if actors are needed: a file with no other object
+/// index than `layer`'s is one of a frame without actor layer, whose plane stays empty.
+/// DataError naming file, channel and pixel if there is no object index or a needed plane is missing, or an
+/// index is negative, fractional, NaN or above 32767 (2048 in half floats), or its compression is lossy;
+/// IoError if the file cannot be read.
+[[nodiscard]] Passes read_passes(const Path& file, const ExrLayout& layout, const PassNeeds& needs = {});
 
-/// Pixels of one channel, whatever its type. IoError naming the file, the channel and the library's reason.
-[[nodiscard]] Plane<float> read_exr_channel(const Path& file, const ExrHeader& header,
-                                            const ExrChannel& channel);
+/// The same into a buffer's passes.
+void read_passes(const Path& file, const ExrLayout& layout, const PassNeeds& needs, PassBuffer& out);
 
-/// The planes of one frame that are needed, and no others. The size, unless 0, must be this one: checked before any memory is taken.
-/// `actor_layer` is looked at if actors are needed: a file with no other object index than `layer`'s is one of a frame
-/// without actor layer, whose plane stays empty.
-/// DataError naming file, channel and pixel if there is no object index or a needed plane is missing, or an index is negative, fractional,
-/// NaN or above 32767; IoError if the file cannot be read.
-[[nodiscard]] Passes read_passes(const Path& file, const std::string& layer, int width_px, int height_px,
-                                 const PassNeeds& needs = {}, const std::string& actor_layer = "");
+/// Which planes beside the object index read_passes() would find. The same faults.
+[[nodiscard]] PassNeeds planes_in_exr(const Path& file, const ExrLayout& layout);
 
 }  // namespace thermal

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 #include <fstream>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "io/exr_attributes.h"
 
 namespace thermal {
 namespace {
@@ -34,21 +33,20 @@ struct Window {
   std::int32_t top = 0;
   std::int32_t right = 0;
   std::int32_t bottom = 0;
-};
 
-struct Channels {
-  int count = 0;
-  std::int64_t bytes_per_pixel = 0;
+  [[nodiscard]] std::int64_t width() const noexcept { return std::int64_t{right} - left + 1; }
+  [[nodiscard]] std::int64_t height() const noexcept { return std::int64_t{bottom} - top + 1; }
 };
 
 /// What a part's header says that memory hangs on.
 struct PartHeader {
   std::optional<Window> data_window;
+  std::optional<Window> display_window;
   std::optional<std::uint8_t> compression;
   std::uint32_t tile_width_px = 0;  ///< 0: scanlines
   std::uint32_t tile_height_px = 0;
   std::int32_t chunk_count = 0;  ///< 0: not told
-  Channels channels;
+  ExrChannelList channels;
 };
 
 /// Scanlines of a chunk, by number of the compression.
@@ -121,35 +119,6 @@ class Reader {
   std::int64_t left_ = 0;
 };
 
-template <typename T>
-T value_in(std::string_view bytes, std::size_t at, const std::string& what) {
-  T read{};
-  if (at + sizeof(T) > bytes.size())
-    throw DataError(fault(what, std::to_string(bytes.size()), "bytes", "more"));
-  std::memcpy(&read, bytes.data() + at, sizeof(T));
-  return read;
-}
-
-/// Entries of a channel list: a name, a zero byte, 16 bytes that begin with the type; a zero byte after the last.
-Channels read_channels(std::string_view bytes, const std::string& what) {
-  constexpr std::size_t kBytesAfterName = 16;
-  constexpr std::array<std::int64_t, 3> kBytesOfType = {4, 2, 4};  // uint, half, float
-  Channels channels;
-  std::size_t at = 0;
-  while (at < bytes.size() && bytes[at] != '\0') {
-    const std::size_t end = bytes.find('\0', at);
-    if (end == std::string_view::npos || end + 1 + kBytesAfterName >= bytes.size())
-      throw DataError(what + " ends within a channel; expected a whole list");
-    const auto type = value_in<std::uint32_t>(bytes, end + 1, what);
-    if (type >= kBytesOfType.size())
-      throw DataError(fault(what + ": type", std::to_string(type), "", "0 (uint), 1 (half) or 2 (float)"));
-    channels.bytes_per_pixel += kBytesOfType[type];
-    ++channels.count;
-    at = end + 1 + kBytesAfterName;
-  }
-  return channels;
-}
-
 class HeaderScan {
  public:
   HeaderScan(const Path& file, const ExrLimits& limits) : in_(file), limits_(limits) {}
@@ -205,21 +174,30 @@ class HeaderScan {
 
   void read_attribute(const std::string& name, const std::string& type, std::int32_t size,
                       const std::string& what, PartHeader& part) {
-    if (name == "dataWindow" && type == "box2i") {
+    check_attribute(name, type, size, what);
+    if (type == "preview") {
+      check_preview(in_.bytes(size, what), what);
+    } else if (type == "stringvector") {
+      check_texts(in_.bytes(size, what), what);
+    } else if (name == "dataWindow" && type == "box2i") {
       const std::string bytes = in_.bytes(size, what);
-      part.data_window = value_in<Window>(bytes, 0, what);
+      part.data_window = value_at<Window>(bytes, 0, what);
+    } else if (name == "displayWindow" && type == "box2i") {
+      const std::string bytes = in_.bytes(size, what);
+      part.display_window = value_at<Window>(bytes, 0, what);
     } else if (name == "compression" && type == "compression") {
       const std::string bytes = in_.bytes(size, what);
-      part.compression = value_in<std::uint8_t>(bytes, 0, what);
+      part.compression = value_at<std::uint8_t>(bytes, 0, what);
     } else if (name == "tiles" && type == "tiledesc") {
       const std::string bytes = in_.bytes(size, what);
-      part.tile_width_px = value_in<std::uint32_t>(bytes, 0, what);
-      part.tile_height_px = value_in<std::uint32_t>(bytes, 4, what);
-    } else if (name == "channels" && type == "chlist") {
-      part.channels = read_channels(in_.bytes(size, what), what);
+      part.tile_width_px = value_at<std::uint32_t>(bytes, 0, what);
+      part.tile_height_px = value_at<std::uint32_t>(bytes, 4, what);
+    } else if (type == "chlist") {
+      const ExrChannelList channels = read_channel_list(in_.bytes(size, what), what);
+      if (name == "channels") part.channels = channels;
     } else if (name == "chunkCount" && type == "int") {
       const std::string bytes = in_.bytes(size, what);
-      part.chunk_count = value_in<std::int32_t>(bytes, 0, what);
+      part.chunk_count = value_at<std::int32_t>(bytes, 0, what);
     } else {
       in_.skip(size, what);
     }
@@ -229,11 +207,12 @@ class HeaderScan {
   [[nodiscard]] std::int64_t chunks_of(const PartHeader& part, std::size_t number) const {
     const std::string where = fmt::format("part {}: ", number);
     if (!part.data_window) throw DataError(where + "no dataWindow; expected one");
+    if (!part.display_window) throw DataError(where + "no displayWindow; expected one");
     if (!part.compression) throw DataError(where + "no compression; expected one");
-    const Window& w = *part.data_window;
-    const std::int64_t width = std::int64_t{w.right} - w.left + 1;
-    const std::int64_t height = std::int64_t{w.bottom} - w.top + 1;
+    const std::int64_t width = part.data_window->width();
+    const std::int64_t height = part.data_window->height();
     check_size(width, height, where + "dataWindow");
+    check_size(part.display_window->width(), part.display_window->height(), where + "displayWindow");
     check_plausible(width * height * part.channels.bytes_per_pixel, where);
     if (part.chunk_count < 0)
       throw DataError(fault(where + "chunkCount", std::to_string(part.chunk_count), "", "0 or more"));
@@ -251,9 +230,14 @@ class HeaderScan {
   }
 
   void check_size(std::int64_t width, std::int64_t height, const std::string& what) const {
-    if (width >= 1 && height >= 1 && width <= limits_.pixels && height <= limits_.pixels / width) return;
-    throw DataError(fault(what, fmt::format("{} x {}", width, height), "px",
-                          fmt::format("sides of 1 and more, {} pixels at most", limits_.pixels)));
+    const std::string size = fmt::format("{} x {}", width, height);
+    if (width < 1 || height < 1) throw DataError(fault(what, size, "px", "sides of 1 and more"));
+    if (width <= limits_.pixels / height) return;
+    constexpr double kMillion = 1e6;
+    throw DataError(fault(
+        what, size,
+        fmt::format("px, {} megapixels", static_cast<double>(width) * static_cast<double>(height) / kMillion),
+        fmt::format("at most {} (see --max-megapixels)", static_cast<double>(limits_.pixels) / kMillion)));
   }
 
   /// No compression makes less of pixels than a part in 65536 and a few bytes a chunk.

@@ -40,13 +40,23 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
   [[nodiscard]] int number() const noexcept { return number_; }
   [[nodiscard]] int release() noexcept { return std::exchange(number_, -1); }
+  /// What the system could not write before it tells now.
+  void close(const Path& file) {
+    if (::close(release()) != 0 && errno != EINTR) fail("write", file, errno);
+  }
 
  private:
   int number_;
 };
 
-void write_all(const Path& file, const std::byte* data, std::size_t bytes, bool sync) {
-  const Descriptor out(file, O_WRONLY | O_CREAT | O_TRUNC, "write");
+/// What to open a file with that is written, and whether it is to survive a power cut.
+struct Writing {
+  int flags = 0;
+  bool sync = false;
+};
+
+void write_all(const Path& file, const std::byte* data, std::size_t bytes, const Writing& how) {
+  Descriptor out(file, O_WRONLY | O_CREAT | how.flags, "write");
   while (bytes > 0) {
     const ssize_t written = ::write(out.number(), data, bytes);
     if (written < 0 && errno == EINTR) continue;
@@ -54,7 +64,8 @@ void write_all(const Path& file, const std::byte* data, std::size_t bytes, bool 
     data += written;
     bytes -= static_cast<std::size_t>(written);
   }
-  if (sync && ::fsync(out.number()) != 0) fail("write", file, errno);
+  if (how.sync && ::fsync(out.number()) != 0) fail("write", file, errno);
+  out.close(file);
 }
 
 /// What the bytes of a lock file stand for; they are locked, not written. Locks of open files, not of processes:
@@ -75,7 +86,8 @@ struct flock bytes_of_lock(short kind, off_t first, off_t count) {
 
 Descriptor open_lock(const Path& folder) {
   make_folder(folder);
-  return {folder / ".lock", O_RDWR | O_CREAT, "lock"};
+  check_is_no_link(folder / ".lock");
+  return {folder / ".lock", O_RDWR | O_CREAT | O_NOFOLLOW, "lock"};
 }
 
 void take(const Descriptor& lock, short kind, off_t first, off_t count, const Path& folder) {
@@ -98,16 +110,44 @@ std::string read_file(const Path& file) {
   return content;
 }
 
+void check_is_file(const Path& file) {
+  using Type = std::filesystem::file_type;
+  std::error_code error;
+  const Type type = std::filesystem::status(file, error).type();
+  if (type == Type::regular) return;
+  if (type == Type::not_found)
+    throw IoError(fmt::format("cannot read {}: there is no such file", file.string()));
+  if (error) fail("read", file, error.value());
+  throw IoError(fmt::format("cannot read {}: it is {}; expected a file", file.string(),
+                            type == Type::directory ? "a folder" : "a pipe or a device"));
+}
+
+void check_is_no_link(const Path& place) {
+  std::error_code error;
+  const Path target = std::filesystem::read_symlink(place, error);
+  if (error) return;
+  throw IoError(fault(place.string(), fmt::format("a link to {}", target.string()), "",
+                      "no link, because nothing is written to other places"));
+}
+
 void write_file_atomically(const Path& file, std::string_view content) {
   Path temporary = file;
-  temporary += ".tmp";  // always the same, so that what a killed run left is written over
-  write_all(temporary, reinterpret_cast<const std::byte*>(content.data()), content.size(), true);
-  if (::rename(temporary.c_str(), file.c_str()) != 0) fail("rename to", file, errno);
+  temporary += ".tmp";  // always the same, so that what a killed run left is swept away
+  ::unlink(temporary.c_str());
+  try {
+    // Excluded is what is there all the same: a link that was put there meanwhile.
+    write_all(temporary, reinterpret_cast<const std::byte*>(content.data()), content.size(),
+              {.flags = O_EXCL, .sync = true});
+    if (::rename(temporary.c_str(), file.c_str()) != 0) fail("rename to", file, errno);
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
   sync_folder(file.parent_path());
 }
 
 void write_file(const Path& file, std::span<const std::byte> content) {
-  write_all(file, content.data(), content.size(), false);
+  write_all(file, content.data(), content.size(), {.flags = O_TRUNC, .sync = false});
 }
 
 void make_folder(const Path& folder) {

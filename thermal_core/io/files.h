@@ -16,7 +16,15 @@ using Path = std::filesystem::path;
 /// Whole content. IoError naming the file and the system's reason.
 [[nodiscard]] std::string read_file(const Path& file);
 
-/// Writes under a temporary name beside `file`, syncs, renames: the file is whole or as it was before.
+/// Refuses what is there under a name but is no file: a folder, or a pipe or device that would be waited for, or read,
+/// without end. "cannot read FILE: " and why in an IoError, also if there is nothing.
+void check_is_file(const Path& file);
+
+/// Refuses a symbolic link where something is to be written: it would land elsewhere. IoError naming link and target.
+void check_is_no_link(const Path& place);
+
+/// Writes under a temporary name beside `file`, syncs, renames: the file is whole or as it was before, and so is
+/// whatever a link of either name leads to.
 /// IoError naming the file and the system's reason; TryAgainError when the disk is full.
 void write_file_atomically(const Path& file, std::string_view content);
 

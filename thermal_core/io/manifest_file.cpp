@@ -18,6 +18,13 @@ CameraIntrinsics read_camera(const Json& json) {
           .cy_px = json["cy_px"]};
 }
 
+PassChannels read_channels(const Json& json) {
+  return {.object_index = json["object_index"],
+          .material_index = json["material_index"],
+          .depth = json["depth"],
+          .normal = json["normal"]};
+}
+
 ObjectClass read_class(const std::string& name) {
   if (name == "actor") return ObjectClass::actor;
   if (name == "plant") return ObjectClass::plant;
@@ -33,6 +40,8 @@ ManifestObject read_object(const Json& json) {
   object.category = json.value("category", "");
   object.species = json.value("species", "");
   object.track_id = json.value("track_id", 0);
+  if (json.contains("colour")) object.colour = json["colour"].get<Colour>();
+  if (json.contains("mattes")) object.mattes = json["mattes"].get<std::vector<std::string>>();
   if (json.contains("bounds_m"))
     object.bounds_m = json["bounds_m"].get<std::array<ManifestObject::Corner, 2>>();
   return object;
@@ -68,6 +77,10 @@ Manifest read_document(const Json& json) {
   manifest.frame_rate_hz = json["frame_rate_hz"];
   manifest.layer = json["layer"];
   manifest.actor_layer = json["actor_layer"];
+  manifest.channels = read_channels(json["channels"]);
+  manifest.cryptomatte = json["cryptomatte"];
+  manifest.sky_colour = json["sky_colour"].get<Colour>();
+  manifest.sequence = json["sequence"];
   manifest.supersample = json["supersample"];
   manifest.overscan_px = json["overscan_px"];
   manifest.camera = read_camera(json["camera"]);

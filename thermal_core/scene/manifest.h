@@ -23,6 +23,16 @@ struct CameraIntrinsics {
 
 enum class ObjectClass { ground, water, plant, actor };
 
+using Colour = std::array<std::uint8_t, 3>;
+
+/// Names of channels that carry no usual name; empty: found by the spellings in use.
+struct PassChannels {
+  std::string object_index;
+  std::string material_index;
+  std::string depth;
+  std::string normal;  ///< what comes before .X, .Y and .Z
+};
+
 /// What one object index stands for.
 struct ManifestObject {
   using Corner = std::array<double, 3>;
@@ -34,7 +44,9 @@ struct ManifestObject {
   std::string species;   ///< actors
   int track_id = 0;      ///< actors
   std::optional<std::array<Corner, 2>>
-      bounds_m;  ///< actors: box in actor axes, x forward, z up from the ground
+      bounds_m;                     ///< actors: box in actor axes, x forward, z up from the ground
+  std::optional<Colour> colour;     ///< in pictures whose colours tell objects apart
+  std::vector<std::string> mattes;  ///< names in a cryptomatte, * for any letters; empty: `name`
 };
 
 /// What one material index stands for.
@@ -68,6 +80,11 @@ struct Manifest {
   double frame_rate_hz = 9;
   std::string layer;        ///< EXR layer; empty: the only one
   std::string actor_layer;  ///< EXR layer with the index of actors alone; empty: there is none
+  PassChannels channels;    ///< of `layer`
+  std::string
+      cryptomatte;  ///< that tells objects apart instead of an index plane, such as "CryptoObject"; or empty
+  Colour sky_colour{};   ///< in pictures whose colours tell objects apart
+  std::string sequence;  ///< pattern of the frames' names where `frames` does not list them
   CameraIntrinsics camera;
   int supersample = 1;  ///< the passes have this many pixels for each of the camera's, each way
   int overscan_px = 0;  ///< and so many of the camera's pixels more on every side
@@ -76,7 +93,8 @@ struct Manifest {
   std::vector<ManifestFrame> frames;
 
   /// DataError if indices or track ids come twice, an actor has no category or track, or an actor in a frame
-  /// is not among the objects.
+  /// is not among the objects; if frames and a sequence are both there; if two objects have one colour, or one the
+  /// sky's.
   void validate() const;
 };
 

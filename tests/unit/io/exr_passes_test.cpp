@@ -28,7 +28,9 @@ struct Exr {
                Imf::Compression compression = Imf::ZIP_COMPRESSION) {
     write_exr(file, 3, 2, channels, type, compression);
   }
-  [[nodiscard]] Passes read(const std::string& layer = "") const { return read_passes(file, layer, 3, 2); }
+  [[nodiscard]] Passes read(const std::string& layer = "") const {
+    return read_passes(file, {.layer = layer, .actor_layer = "", .width_px = 3, .height_px = 2});
+  }
 
   TemporaryFolder folder;
   Path file = folder / "000000.exr";
@@ -72,7 +74,8 @@ TEST_CASE("Planes are read only where they are asked for") {
                  {"Scene.Normal.Y", {1, 0, 0, 0, 0, 0}},
                  {"Scene.Normal.Z", {0, 1, 1, 1, 1, 1}}});
   CHECK(exr.read().depth_m.empty());
-  const Passes passes = read_passes(exr.file, "", 3, 2, {.depth = true, .normals = true});
+  const Passes passes = read_passes(exr.file, {.layer = "", .actor_layer = "", .width_px = 3, .height_px = 2},
+                                    {.depth = true, .normals = true});
   CHECK(passes.depth_m.at(1, 1) == 5);
   CHECK(passes.normal[1].at(0, 0) == 1);
   CHECK(passes.normal[2].at(0, 0) == 0);
@@ -86,7 +89,9 @@ const std::vector<float> kActors = {0, 0, 2, 0, 300, 0};
 std::vector<int> actors_of(const ExrChannels& channels, const std::string& actor_layer,
                            const std::string& layer = "Scene") {
   const Exr exr(channels);
-  const Passes passes = read_passes(exr.file, layer, 3, 2, {.actors = true}, actor_layer);
+  const Passes passes =
+      read_passes(exr.file, {.layer = layer, .actor_layer = actor_layer, .width_px = 3, .height_px = 2},
+                  {.actors = true});
   CHECK(pixels_of(passes.object_index) == std::vector<int>{0, 1, 2, 3, 300, 32767});
   return pixels_of(passes.actor_index);
 }
@@ -99,8 +104,10 @@ TEST_CASE("Actors alone are read from their layer, if they are asked for") {
   CHECK(actors_of(both, "Actors", "") ==
         std::vector<int>{0, 0, 2, 0, 300, 0});  // the other one is everything
   const Exr exr(both);
-  CHECK(read_passes(exr.file, "Scene", 3, 2).actor_index.empty());
-  CHECK(read_passes(exr.file, "Scene", 3, 2, {}, "Actors").actor_index.empty());
+  CHECK(read_passes(exr.file, {.layer = "Scene", .actor_layer = "", .width_px = 3, .height_px = 2})
+            .actor_index.empty());
+  CHECK(read_passes(exr.file, {.layer = "Scene", .actor_layer = "Actors", .width_px = 3, .height_px = 2}, {})
+            .actor_index.empty());
 }
 
 TEST_CASE("A frame may lack the layer of actors") {
@@ -110,8 +117,11 @@ TEST_CASE("A frame may lack the layer of actors") {
 TEST_CASE("That it has one of another name is a slip of the pen") {
   const Exr exr({{"Scene.IndexOB.X", kObjects}, {"Actors.IndexOB.X", kActors}});
   const auto fault_of = [&](const std::string& actor_layer) {
-    return message_of<DataError>(
-        [&] { (void)read_passes(exr.file, "Scene", 3, 2, {.actors = true}, actor_layer); });
+    return message_of<DataError>([&] {
+      (void)read_passes(exr.file,
+                        {.layer = "Scene", .actor_layer = actor_layer, .width_px = 3, .height_px = 2},
+                        {.actors = true});
+    });
   };
   CHECK(fault_of("Actor") ==
         exr.file.string() +
@@ -124,14 +134,19 @@ TEST_CASE("That it has one of another name is a slip of the pen") {
 TEST_CASE("Indices of actors alone are checked as all are") {
   const Exr exr({{"Scene.IndexOB.X", kObjects}, {"Actors.IndexOB.X", kAnything}});
   CHECK(message_of<DataError>([&] {
-          (void)read_passes(exr.file, "Scene", 3, 2, {.actors = true}, "Actors");
+          (void)read_passes(exr.file,
+                            {.layer = "Scene", .actor_layer = "Actors", .width_px = 3, .height_px = 2},
+                            {.actors = true});
         }) == exr.file.string() +
                   ": Actors.IndexOB.X at pixel (0, 0) = 0.5; expected a whole number from 0 to 32767");
 }
 
 TEST_CASE("A plane the terms need must be there") {
   const Exr exr({{"Scene.IndexOB.X", kObjects}});
-  CHECK(message_of<DataError>([&] { (void)read_passes(exr.file, "", 3, 2, {.depth = true}); }) ==
+  CHECK(message_of<DataError>([&] {
+          (void)read_passes(exr.file, {.layer = "", .actor_layer = "", .width_px = 3, .height_px = 2},
+                            {.depth = true});
+        }) ==
         exr.file.string() + ": no depth channel, which the chosen terms need; the file has: Scene.IndexOB.X");
 }
 
@@ -193,8 +208,7 @@ TEST_CASE("Without an object index the channels there are get listed") {
         "no object index channel; expected one like Scene.IndexOB.X, the file has: "
         "Scene.Combined.R, Scene.Depth.Z");
   CHECK(fault_in({{"Scene.IndexOB.X", kObjects}}, "Actors") ==
-        "no object index channel in layer Actors; expected one like Scene.IndexOB.X, the file has: "
-        "Scene.IndexOB.X");
+        "layer = \"Actors\"; expected a layer with an object index: Scene");
 }
 
 TEST_CASE("What is no index is told with its channel and pixel") {
@@ -220,18 +234,23 @@ TEST_CASE("Minus zero is index 0") {
 
 TEST_CASE("A file of another size than the manifest says is a fault") {
   const Exr exr({{"Scene.IndexOB.X", kObjects}});
-  CHECK(message_of<DataError>([&] { (void)read_passes(exr.file, "", 640, 512); }) ==
-        exr.file.string() + ": size = 3 x 2 px; expected the manifest's 640 x 512 px");
-  CHECK(read_passes(exr.file, "", 0, 0).object_index.size() == 6);  // 0: any size
+  CHECK(message_of<DataError>([&] {
+          (void)read_passes(exr.file, {.layer = "", .actor_layer = "", .width_px = 640, .height_px = 512});
+        }) == exr.file.string() + ": size = 3 x 2 px; expected the manifest's 640 x 512 px");
+  CHECK(read_passes(exr.file, {.layer = "", .actor_layer = "", .width_px = 0, .height_px = 0})
+            .object_index.size() == 6);  // 0: any size
 }
 
 TEST_CASE("A file that is not there, or no EXR, cannot be read") {
   const TemporaryFolder folder;
   const Path missing = folder / "missing.exr";
-  CHECK(message_of<IoError>([&] { (void)read_passes(missing, "", 3, 2); }) ==
-        "cannot read " + missing.string() + ": there is no such file");
+  CHECK(message_of<IoError>([&] {
+          (void)read_passes(missing, {.layer = "", .actor_layer = "", .width_px = 3, .height_px = 2});
+        }) == "cannot read " + missing.string() + ": there is no such file");
   const Path text = folder.file("text.exr", "this is a text, and long enough to hold a header");
-  CHECK_THAT(message_of<IoError>([&] { (void)read_passes(text, "", 3, 2); }),
+  CHECK_THAT(message_of<IoError>([&] {
+               (void)read_passes(text, {.layer = "", .actor_layer = "", .width_px = 3, .height_px = 2});
+             }),
              StartsWith("cannot read " + text.string() + ": "));
 }
 
@@ -243,5 +262,75 @@ TEST_CASE("A file cut short anywhere is an error that names it, never a picture"
     CAPTURE(length, bytes);
     REQUIRE_THAT(message_of<IoError>([&] { (void)exr.read(); }),
                  StartsWith("cannot read " + exr.file.string()));
+  }
+}
+
+namespace {
+
+const ExrLayout kAnyLayout = {.layer = "", .actor_layer = "", .width_px = 0, .height_px = 0};
+
+/// Planes of a frame of 3 x 2 px with everything there is, which `add` is added to.
+ExrChannels all_planes(float add) {
+  ExrChannels channels = {{"Scene.IndexOB.X", kObjects}, {"Scene.IndexMA.X", kMaterials}};
+  for (const char* name : {"Scene.Depth.Z", "Scene.Normal.X", "Scene.Normal.Y", "Scene.Normal.Z"})
+    channels[name] = std::vector<float>(6, 0.5F + add);
+  for (float& index : channels["Scene.IndexMA.X"]) index += add;
+  return channels;
+}
+
+bool same(const Passes& a, const Passes& b) {
+  return a.object_index == b.object_index && a.material_index == b.material_index &&
+         a.actor_index == b.actor_index && a.depth_m == b.depth_m && a.normal == b.normal &&
+         a.ranks.size() == b.ranks.size();
+}
+
+}  // namespace
+
+TEST_CASE("A buffer holds the frame that was read last, of those that were asked for, in the same memory") {
+  const PassNeeds all = {.depth = true, .normals = true, .actors = false};
+  const Exr first(all_planes(0));
+  const Exr second(all_planes(1));
+  const Exr plain({{"Scene.IndexOB.X", kObjects}});
+  PassBuffer buffer;
+  read_passes(first.file, kAnyLayout, all, buffer);
+  CHECK(same(buffer.passes, read_passes(first.file, kAnyLayout, all)));
+  const float* depth = buffer.passes.depth_m.pixels().data();
+  const std::uint16_t* objects = buffer.passes.object_index.pixels().data();
+  buffer.passes.ranks.resize(1);
+  read_passes(second.file, kAnyLayout, all, buffer);
+  CHECK(same(buffer.passes, read_passes(second.file, kAnyLayout, all)));
+  CHECK(buffer.passes.depth_m.pixels().data() == depth);
+  CHECK(buffer.passes.object_index.pixels().data() == objects);
+  read_passes(plain.file, kAnyLayout, {}, buffer);
+  CHECK(same(buffer.passes, read_passes(plain.file, kAnyLayout)));
+  CHECK(buffer.passes.depth_m.empty());
+  CHECK(buffer.passes.material_index.empty());
+}
+
+TEST_CASE("A buffer keeps nothing of a frame that could not be read") {
+  const PassNeeds all = {.depth = true, .normals = true, .actors = false};
+  const Exr good({{"Scene.IndexOB.X", kObjects},
+                  {"Scene.Depth.Z", kAnything},
+                  {"Scene.Normal.X", kAnything},
+                  {"Scene.Normal.Y", kAnything},
+                  {"Scene.Normal.Z", kAnything}});
+  ExrChannels planes = all_planes(7);
+  planes["Scene.IndexMA.X"][5] = -1;
+  const Exr bad(planes);
+  PassBuffer buffer;
+  CHECK_THROWS_AS(read_passes(bad.file, kAnyLayout, all, buffer), DataError);
+  read_passes(good.file, kAnyLayout, all, buffer);
+  CHECK(same(buffer.passes, read_passes(good.file, kAnyLayout, all)));
+}
+
+TEST_CASE("A smaller or larger frame than the last is read whole into its buffer") {
+  const Exr small(all_planes(0));
+  TemporaryFolder folder;
+  const Path large = folder / "large.exr";
+  write_exr(large, 40, 30, {{"Scene.IndexOB.X", std::vector<float>(1200, 9)}});
+  PassBuffer buffer;
+  for (const Path& file : {small.file, large, small.file}) {
+    read_passes(file, kAnyLayout, {}, buffer);
+    CHECK(same(buffer.passes, read_passes(file, kAnyLayout)));
   }
 }

@@ -25,9 +25,16 @@ std::string attribute(const std::string& name, const std::string& type, const st
   return name + kZero + type + kZero + bytes_of(static_cast<std::int32_t>(value.size())) + value;
 }
 
+std::string box(const std::string& name, std::int32_t left, std::int32_t top, std::int32_t right,
+                std::int32_t bottom) {
+  return attribute(name, "box2i", bytes_of(left) + bytes_of(top) + bytes_of(right) + bytes_of(bottom));
+}
+
+const std::string kDisplay = box("displayWindow", 0, 0, 7, 5);
+
+/// A data window, after a display window that has nothing wrong.
 std::string window(std::int32_t left, std::int32_t top, std::int32_t right, std::int32_t bottom) {
-  return attribute("dataWindow", "box2i",
-                   bytes_of(left) + bytes_of(top) + bytes_of(right) + bytes_of(bottom));
+  return kDisplay + box("dataWindow", left, top, right, bottom);
 }
 
 std::string tiles(std::uint32_t width, std::uint32_t height) {
@@ -70,6 +77,8 @@ TEST_CASE("What is no EXR file of flat pixels is told") {
   CHECK(fault_in(file_of(2 | 0x800, kRle + kWindow)) == "holds deep data; expected flat pixels");
   CHECK(fault_in(file_of(2 | 0x1000, "")) == "has no part; expected one at least");
   CHECK(fault_in(file_of(2, kRle)) == "part 0: no dataWindow; expected one");
+  CHECK(fault_in(file_of(2, kRle + box("dataWindow", 0, 0, 7, 5))) ==
+        "part 0: no displayWindow; expected one");
   CHECK(fault_in(file_of(2, kWindow)) == "part 0: no compression; expected one");
   CHECK(fault_in(file_of(2, kWindow + attribute("compression", "compression", "\x63"))) ==
         "compression = 99; expected 0 (none) to 9 (DWAB)");
@@ -95,18 +104,34 @@ TEST_CASE("A length that reaches past the file costs nothing") {
         "name of an attribute = over 31 characters; expected fewer");
 }
 
-TEST_CASE("A window that is too large, empty or inside out is told") {
-  constexpr std::int32_t kFar = 2'147'483'647;
-  CHECK(fault_in(file_of(2, kRle + window(0, 0, kFar, 0))) ==
-        "part 0: dataWindow = 2147483648 x 1 px; expected sides of 1 and more, 256000000 pixels at most");
-  CHECK(fault_in(file_of(2, kRle + window(-kFar - 1, 0, kFar, 0))) ==
-        "part 0: dataWindow = 4294967296 x 1 px; expected sides of 1 and more, 256000000 pixels at most");
+TEST_CASE("A window that is empty or inside out is told") {
   CHECK(fault_in(file_of(2, kRle + window(0, 0, 7, -1))) ==
-        "part 0: dataWindow = 8 x 0 px; expected sides of 1 and more, 256000000 pixels at most");
-  CHECK(fault_in(file_of(2, kRle + kWindow), {.pixels = 47}) ==
-        "part 0: dataWindow = 8 x 6 px; expected sides of 1 and more, 47 pixels at most");
+        "part 0: dataWindow = 8 x 0 px; expected sides of 1 and more");
+  CHECK(fault_in(file_of(2, kRle + window(9, 0, 7, 5))) ==
+        "part 0: dataWindow = -1 x 6 px; expected sides of 1 and more");
+  CHECK(fault_in(file_of(2, kRle + box("dataWindow", 0, 0, 7, 5) + box("displayWindow", 0, 0, -1, 5))) ==
+        "part 0: displayWindow = 0 x 6 px; expected sides of 1 and more");
   CHECK(fault_in(file_of(2 | 0x200, kRle + kWindow + tiles(0, 4))) ==
-        "part 0: tiles = 0 x 4 px; expected sides of 1 and more, 256000000 pixels at most");
+        "part 0: tiles = 0 x 4 px; expected sides of 1 and more");
+}
+
+TEST_CASE("A window of more pixels than the limit is told, and how to raise it") {
+  constexpr std::int32_t kFar = 2'147'483'647;
+  const std::string rule = "; expected at most 256 (see --max-megapixels)";
+  CHECK(fault_in(file_of(2, kRle + window(0, 0, kFar, 0))) ==
+        "part 0: dataWindow = 2147483648 x 1 px, 2147.483648 megapixels" + rule);
+  CHECK(fault_in(file_of(2, kRle + window(-kFar - 1, 0, kFar, 0))) ==
+        "part 0: dataWindow = 4294967296 x 1 px, 4294.967296 megapixels" + rule);
+  CHECK(fault_in(file_of(2, kRle + window(0, 0, 15'999, 16'000))) ==
+        "part 0: dataWindow = 16000 x 16001 px, 256.016 megapixels" + rule);
+  CHECK(fault_in(
+            file_of(2, kRle + box("dataWindow", 0, 0, 7, 5) + box("displayWindow", 0, 0, 46'340, 46'340))) ==
+        "part 0: displayWindow = 46341 x 46341 px, 2147.488281 megapixels" + rule);
+  CHECK(fault_in(file_of(2, kRle + kWindow), {.pixels = 47}) ==
+        "part 0: dataWindow = 8 x 6 px, 4.8e-05 megapixels; expected at most 4.7e-05 (see --max-megapixels)");
+  CHECK(fault_in(file_of(2, kRle + kWindow + one_channel(2)), {.pixels = 48}) == kNone);
+  CHECK(fault_in(file_of(2 | 0x200, kRle + kWindow + tiles(65'536, 65'536))) ==
+        "part 0: tiles = 65536 x 65536 px, 4294.967296 megapixels" + rule);
 }
 
 TEST_CASE("More pixels than a file of its length can hold are told") {
@@ -130,4 +155,54 @@ TEST_CASE("Channels and parts are counted, and chunks believed only as far as th
         "table of chunks = 8000000000 bytes; expected at most the 48 that are left of the file");
   CHECK(fault_in(file_of(2, kRle + kWindow + attribute("chunkCount", "int", bytes_of(-1)))) ==
         "part 0: chunkCount = -1; expected 0 or more");
+}
+
+TEST_CASE("An attribute that a library takes for what its name says is of that type") {
+  CHECK(fault_in(file_of(2, kRle + kWindow + attribute("channels", "string", "Z"))) ==
+        "part 0: channels: type = string; expected chlist");
+  CHECK(fault_in(file_of(2, kRle + kWindow + attribute("lineOrder", "int", bytes_of(0)))) ==
+        "part 0: lineOrder: type = int; expected lineOrder");
+  CHECK(fault_in(file_of(2, kRle + kWindow + attribute("mine", "string", "Z"))) == kNone);
+}
+
+TEST_CASE("An attribute is as long as its type says, for that is what a library reads") {
+  CHECK(fault_in(file_of(2, kRle + kWindow + attribute("mine", "v3f", std::string(16, '\0')))) ==
+        "part 0: mine = 16 bytes; expected 12, as type v3f has");
+  CHECK(fault_in(file_of(2, kRle + kWindow + attribute("mine", "floatvector", std::string(6, '\0')))) ==
+        "part 0: mine = 6 bytes; expected a multiple of 4, as type floatvector has");
+  CHECK(fault_in(file_of(2, kRle + kWindow + attribute("mine", "floatvector", std::string(8, '\0')))) ==
+        kNone);
+  CHECK(fault_in(file_of(2, kRle + kWindow + attribute("mine", "unheard of", std::string(6, '\0')))) ==
+        kNone);
+}
+
+TEST_CASE("A channel list ends where its attribute does") {
+  const std::string list = std::string("Z") + kZero + bytes_of(2) + std::string(12, '\0') + kZero;
+  CHECK(fault_in(file_of(2, kRle + kWindow + attribute("channels", "chlist", list + "more"))) ==
+        "part 0: channels goes on behind its end; expected a zero byte at the end alone");
+}
+
+TEST_CASE("A preview has as many pixels as it says") {
+  const auto preview = [](std::uint32_t width, std::uint32_t height, std::size_t bytes) {
+    return kRle + kWindow +
+           attribute("preview", "preview", bytes_of(width) + bytes_of(height) + std::string(bytes, '\0'));
+  };
+  CHECK(fault_in(file_of(2, preview(2, 3, 24))) == kNone);
+  CHECK(fault_in(file_of(2, preview(0, 3, 0))) == kNone);
+  CHECK(fault_in(file_of(2, preview(2, 4, 24))) ==
+        "part 0: preview = 2 x 4 px; expected 6 pixels, as its size has");
+  CHECK(fault_in(file_of(2, preview(0xFFFFFFFF, 0xFFFFFFFF, 4))) ==
+        "part 0: preview = 4294967295 x 4294967295 px; expected 1 pixels, as its size has");
+}
+
+TEST_CASE("Texts of a list lie within it") {
+  const auto texts = [](const std::string& value) {
+    return kRle + kWindow + attribute("multiView", "stringvector", value);
+  };
+  CHECK(fault_in(file_of(2, texts(bytes_of(4) + "left" + bytes_of(5) + "right"))) == kNone);
+  CHECK(fault_in(file_of(2, texts(bytes_of(9) + "left"))) ==
+        "part 0: multiView: text = 9 bytes; expected at most 4");
+  CHECK(fault_in(file_of(2, texts(bytes_of(-1)))) ==
+        "part 0: multiView: text = -1 bytes; expected at most 0");
+  CHECK(fault_in(file_of(2, texts("abc"))) == "part 0: multiView = 3 bytes; expected more");
 }

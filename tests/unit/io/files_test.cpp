@@ -5,6 +5,7 @@
 #include <iterator>
 #include <thread>
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -172,4 +173,58 @@ TEST_CASE("A file system has some room, and a place that is not there none to te
   CHECK(room_left_bytes("/proc") == 0);
   CHECK(message_of<IoError>([] { (void)room_left_bytes("/nowhere"); }) ==
         "cannot tell the room left in /nowhere: No such file or directory");
+}
+
+TEST_CASE("Only a file is a file: what would be waited for, or read without end, is refused") {
+  const TemporaryFolder folder;
+  const auto fault_of = [](const Path& file) { return message_of<IoError>([&] { check_is_file(file); }); };
+  write_file(folder / "file", {});
+  std::filesystem::create_symlink("file", folder / "link");
+  CHECK_NOTHROW(check_is_file(folder / "file"));
+  CHECK_NOTHROW(check_is_file(folder / "link"));
+  const std::string name = "cannot read " + (folder / "x").string() + ": ";
+  CHECK(fault_of(folder / "x") == name + "there is no such file");
+  CHECK(fault_of(folder / "file/x") ==
+        "cannot read " + (folder / "file/x").string() + ": there is no such file");
+  std::filesystem::create_symlink("x", folder / "x");
+  CHECK(fault_of(folder / "x") == name + "Too many levels of symbolic links");
+  std::filesystem::remove(folder / "x");
+  make_folder(folder / "x");
+  CHECK(fault_of(folder / "x") == name + "it is a folder; expected a file");
+  std::filesystem::remove(folder / "x");
+  REQUIRE(::mkfifo((folder / "x").c_str(), 0600) == 0);
+  CHECK(fault_of(folder / "x") == name + "it is a pipe or a device; expected a file");
+  CHECK(fault_of("/dev/zero") == "cannot read /dev/zero: it is a pipe or a device; expected a file");
+}
+
+TEST_CASE("A file that is written takes a link's place, under both its names, and what links lead to stays") {
+  const TemporaryFolder folder;
+  write_file_atomically(folder / "kept", "kept");
+  for (const char* name : {"file", "file.tmp"}) {
+    std::filesystem::create_symlink("kept", folder / name);
+    write_file_atomically(folder / "file", "new");
+    CHECK(read_file(folder / "file") == "new");
+    CHECK(read_file(folder / "kept") == "kept");
+    CHECK_FALSE(std::filesystem::is_symlink(folder / "file"));
+  }
+  std::filesystem::create_symlink("nowhere", folder / "file.tmp");
+  write_file_atomically(folder / "file", "newer");
+  CHECK_FALSE(std::filesystem::exists(folder / "nowhere"));
+}
+
+TEST_CASE("Nothing half written is left of a file that cannot be written") {
+  const TemporaryFolder folder;
+  make_folder(folder / "file/in the way");
+  CHECK(message_of<IoError>([&] { write_file_atomically(folder / "file", "new"); }) ==
+        "cannot rename to " + (folder / "file").string() + ": Is a directory");
+  CHECK(entries_of(folder.path()) == 1);
+}
+
+TEST_CASE("A lock that is a link to elsewhere is refused") {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("elsewhere", folder / ".lock");
+  CHECK(message_of<IoError>([&] { const FolderLock lock(folder.path()); }) ==
+        (folder / ".lock").string() +
+            " = a link to elsewhere; expected no link, because nothing is written to other places");
+  CHECK_FALSE(std::filesystem::exists(folder / "elsewhere"));
 }

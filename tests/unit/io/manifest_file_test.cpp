@@ -81,6 +81,11 @@ TEST_CASE("What a manifest must not say is told, and where") {
     document["objects"][0]["index"] = 32768;
     CHECK(fault_in(document) == "objects[0].index = 32768; expected at least 1 and at most 32767");
   }
+  SECTION("a track past the largest number, which would become another's") {
+    document["objects"][1]["track_id"] = 2147483648;
+    CHECK(fault_in(document) ==
+          "objects[1].track_id = 2147483648; expected at least 1 and at most 2147483647");
+  }
   SECTION("another format") {
     document["format"] = "veldt-dataset";
     CHECK(fault_in(document) == "format = \"veldt-dataset\"; expected veldt-passes");

@@ -76,3 +76,33 @@ TEST_CASE("A pose is that of an actor") {
   manifest.frames[0].actors[1].index = 1;
   CHECK(fault_in(manifest) == "frames[0].actors[1].index = 1; expected the index of an actor in objects");
 }
+
+TEST_CASE("Frames are listed or have a pattern, not both") {
+  Manifest manifest = example();
+  manifest.sequence = "f_####.exr";
+  CHECK(fault_in(manifest) ==
+        "sequence = \"f_####.exr\"; expected none beside frames, which lists the files");
+  manifest.frames.clear();
+  CHECK_NOTHROW(manifest.validate());
+  manifest.sequence.clear();
+  CHECK_NOTHROW(manifest.validate());  // then the files are named when it is used
+}
+
+TEST_CASE("A colour is one object's") {
+  Manifest manifest = example();
+  manifest.objects[0].colour = thermal::Colour{1, 2, 3};
+  manifest.objects[2].colour = thermal::Colour{3, 2, 1};
+  CHECK_NOTHROW(manifest.validate());
+  SECTION("twice") {
+    manifest.objects[2].colour = thermal::Colour{1, 2, 3};
+    CHECK(fault_in(manifest) ==
+          "objects[2].colour = #010203 (1, 2, 3); expected another colour than objects[0].colour");
+  }
+  SECTION("the sky's") {
+    manifest.objects[2].colour = thermal::Colour{0, 0, 0};
+    CHECK(fault_in(manifest) ==
+          "objects[2].colour = #000000 (0, 0, 0); expected another colour than sky_colour");
+    manifest.sky_colour = {9, 9, 9};
+    CHECK_NOTHROW(manifest.validate());
+  }
+}

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+struct libdeflate_decompressor;
+
+namespace thermal {
+
+/// Turns chunks of EXR files that are compressed with ZIP or ZIPS into their bytes. Its memory is used again.
+class ExrInflater {
+ public:
+  ExrInflater();
+  ~ExrInflater();
+  ExrInflater(const ExrInflater&) = delete;
+  ExrInflater& operator=(const ExrInflater&) = delete;
+
+  /// Fills `bytes`; false if the chunk does not hold as many, or memory is short.
+  /// Source: Technical Introduction to OpenEXR, ZIP: differences of neighbouring bytes, first all even bytes, then all odd
+  /// ones, deflated.
+  [[nodiscard]] bool inflate(std::span<const std::byte> packed, std::span<std::byte> bytes) noexcept;
+
+ private:
+  [[nodiscard]] bool reserve(std::size_t size) noexcept;
+
+  struct Free {
+    void operator()(libdeflate_decompressor* decompressor) const noexcept;
+  };
+  std::unique_ptr<libdeflate_decompressor, Free> decompressor_;
+  std::vector<std::byte> halves_;  ///< even bytes, then odd ones
+};
+
+}  // namespace thermal

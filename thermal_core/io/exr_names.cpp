@@ -1,0 +1,187 @@
+#include "io/exr_names.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "io/exr_spellings.h"
+
+namespace thermal {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// With dots between those words that are not empty.
+std::string joined(const Words& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    if (!text.empty() && !word.empty()) text += '.';
+    text += word;
+  }
+  return text;
+}
+
+Words words_of(const std::string& name) {
+  Words words;
+  for (const std::string_view word : split(name, '.')) words.emplace_back(word);
+  return words;
+}
+
+/// What a word is as a component: its letter, or nothing. Nuke calls components of layers red, green, blue
+/// and alpha.
+std::string component_in(const std::string& word) {
+  static const std::map<std::string_view, std::string> kColours = {
+      {"red", "R"}, {"green", "G"}, {"blue", "B"}, {"alpha", "A"}};
+  if (word.size() == 1) return word;
+  const auto colour = kColours.find(word);
+  return colour == kColours.end() ? "" : colour->second;
+}
+
+/// Takes the component off, if there is more than it.
+std::string take_component(Words& words) {
+  if (words.size() < 2) return "";
+  std::string component = component_in(words.back());
+  if (!component.empty()) words.pop_back();
+  return component;
+}
+
+/// Takes off the name of a view; it is never all there is.
+std::string take_view(Words& words, const Words& views) {
+  const auto is_view = [&](const std::string& word) {
+    return std::find(views.begin(), views.end(), word) != views.end();
+  };
+  const auto word = std::find_if(words.begin(), words.end(), is_view);
+  if (word == words.end() || words.size() == 1) return "";
+  std::string view = *word;
+  words.erase(word);
+  return view;
+}
+
+/// A part's name without its view's: Blender writes "Scene.Depth-left", others "Scene.Depth.left".
+std::string without_view(const std::string& part, const std::string& view) {
+  constexpr std::string_view kBetween = "-._ ";
+  if (view.empty() || !part.ends_with(view)) return part;
+  std::string rest = part.substr(0, part.size() - view.size());
+  if (rest.empty()) return rest;
+  if (kBetween.find(rest.back()) == std::string_view::npos) return part;
+  rest.pop_back();
+  return rest;
+}
+
+/// The words of a channel's name, its part's before them unless it has a layer of its own.
+Words words_with_part(const std::string& channel, const ExrParts::Part& part) {
+  Words words = words_of(channel);
+  Words named = words;
+  (void)take_component(named);
+  if (named.size() > 1) return words;
+  Words whole = words_of(without_view(part.name, part.view));
+  const bool repeats = words.size() > 1 && whole.back() == words.front();  // part Depth, channel Depth.Z
+  if (repeats) whole.pop_back();
+  whole.insert(whole.end(), words.begin(), words.end());
+  std::erase(whole, "");
+  return whole.empty() ? Words{""} : whole;
+}
+
+struct Parsed {
+  Words layer;
+  std::string pass;
+  std::string component;
+  std::string view;
+
+  [[nodiscard]] std::string told(const std::string& end) const {
+    return joined({joined(layer), pass, view, end});
+  }
+};
+
+Parsed parse(const ExrChannel& channel, const ExrParts::Part& part, const Words& views) {
+  Words words = words_with_part(channel.name, part);
+  Parsed parsed;
+  parsed.component = take_component(words);
+  parsed.view = take_view(words, views);
+  if (parsed.view.empty()) parsed.view = part.view;
+  parsed.pass = words.back();
+  words.pop_back();
+  parsed.layer = std::move(words);
+  return parsed;
+}
+
+/// "Scene.Z" is parsed as component Z of a pass called Scene. It is none if that is a layer.
+void settle_lone_depths(std::vector<Parsed>& channels) {
+  std::set<std::string> stems;
+  for (const Parsed& channel : channels) {
+    stems.insert(joined({joined(channel.layer), channel.view}));
+    stems.insert(channel.told(upper_case(channel.component)));
+  }
+  for (Parsed& channel : channels) {
+    if (upper_case(channel.component) != "Z" || pass_kind_of(channel.pass)) continue;
+    const bool is_layer = stems.contains(channel.told("")) || stems.contains(channel.told("R"));
+    if (!is_layer || stems.contains(channel.told("X"))) continue;
+    channel.layer.push_back(channel.pass);
+    channel.pass = channel.component;
+    channel.component.clear();
+  }
+}
+
+std::string part_name(const ExrParts& file, const ExrChannel& channel) {
+  const std::string& name = file.parts.at(static_cast<std::size_t>(channel.part)).name;
+  return name.empty() ? fmt::format("part {}", channel.part) : name;
+}
+
+/// Channels of several parts that nothing tells apart yet are in layers of their parts' names.
+void tell_apart(std::vector<ExrChannel>& channels, const ExrParts& file) {
+  std::map<std::string, int> uses;
+  for (const ExrChannel& channel : channels) ++uses[channel.full_name()];
+  for (ExrChannel& channel : channels) {
+    if (uses[channel.full_name()] > 1) channel.layer = joined({part_name(file, channel), channel.layer});
+  }
+}
+
+/// Views of the parts, where there are several; names of the parts, where there are several.
+ExrParts telling(ExrParts file) {
+  std::set<std::string> views;
+  for (const ExrParts::Part& part : file.parts) views.insert(part.view);
+  for (ExrParts::Part& part : file.parts) {
+    if (views.size() == 1) part.view.clear();
+    if (file.parts.size() == 1) part.name.clear();
+  }
+  return file;
+}
+
+}  // namespace
+
+void name_channels(std::vector<ExrChannel>& channels, const ExrParts& file) {
+  const ExrParts told = telling(file);
+  std::vector<Parsed> parsed;
+  parsed.reserve(channels.size());
+  for (const ExrChannel& channel : channels)
+    parsed.push_back(parse(channel, told.parts.at(static_cast<std::size_t>(channel.part)), told.views));
+  settle_lone_depths(parsed);
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    channels[i].layer = joined({joined(parsed[i].layer), parsed[i].view});
+    channels[i].pass = parsed[i].pass;
+    channels[i].component = parsed[i].component;
+  }
+  tell_apart(channels, told);
+}
+
+bool has_bare_name(const ExrChannel& channel) {
+  Words words = words_of(channel.name);
+  (void)take_component(words);
+  return words.size() == 1;
+}
+
+std::string ExrChannel::full_name() const { return joined({layer, pass, component}); }
+
+std::vector<std::string> full_names(const std::vector<ExrChannel>& channels) {
+  std::vector<std::string> names;
+  names.reserve(channels.size());
+  for (const ExrChannel& channel : channels) names.push_back(channel.full_name());
+  return names;
+}
+
+}  // namespace thermal

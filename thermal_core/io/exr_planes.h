@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/exr_header.h"
+#include "io/exr_passes.h"
+#include "io/exr_spellings.h"
+
+namespace thermal {
+
+/// Finds the channels of a clip's planes in a file. Planes are looked for in the layer of the object index;
+/// where that has no name, or theirs has none of its own, in the only other that has no object index. All
+/// faults are DataErrors without the file's name.
+class ExrPlanes {
+ public:
+  /// DataError if there is no object index, or several and none chosen. Keeps references.
+  ExrPlanes(const ExrHeader& header, const ExrLayout& layout);
+
+  [[nodiscard]] const ExrChannel& objects() const noexcept { return *objects_; }
+  [[nodiscard]] const ExrChannel* materials() const;  ///< null if there is none
+  [[nodiscard]] const ExrChannel* depth() const;
+  [[nodiscard]] const ExrChannel* normal(std::string_view axis) const;  ///< "X", "Y" or "Z"
+  /// Null for a frame without that layer. That a frame has another one instead is taken for a slip of the
+  /// pen.
+  [[nodiscard]] const ExrChannel* actors() const;
+
+  [[nodiscard]] const ExrChannel& required_depth()
+      const;  ///< DataError that lists the channels if there is none
+  [[nodiscard]] const ExrChannel& required_normal(std::string_view axis) const;
+
+ private:
+  [[nodiscard]] bool is_object_index(const ExrChannel& channel) const;
+  /// Object indices of a layer, or of all.
+  [[nodiscard]] std::vector<const ExrChannel*> indices_in(const std::optional<std::string>& layer) const;
+  /// Layers in which there is an object index, in the file's order.
+  [[nodiscard]] std::vector<std::string> index_layers() const;
+  [[nodiscard]] const ExrChannel& find_objects() const;
+  [[nodiscard]] const ExrChannel* find_beside(PassKind kind, std::string_view axis = "") const;
+  [[nodiscard]] const ExrChannel& required(const ExrChannel* channel, const std::string& plane) const;
+
+  const ExrHeader& header_;
+  const ExrLayout& layout_;
+  const ExrChannel* named_objects_ = nullptr;  ///< by the layout
+  const ExrChannel* objects_ = nullptr;
+  std::string layer_;  ///< in which the other planes are
+};
+
+}  // namespace thermal
