@@ -5,16 +5,17 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "imaging/coverage_radiance.h"
 #include "imaging/supersample.h"
 #include "sensor/thermal_camera.h"
 
 namespace thermal {
 namespace {
 
-SceneRadiance make_scene(const Manifest& manifest, const MaterialLibrary& materials, Season season,
-                         const SensorParameters& parameters, const std::optional<PhysicsSettings>& physics) {
-  if (!physics) return {manifest, materials, season, radiance_of(parameters)};
-  return {manifest, materials, *physics};
+SceneRadiance make_scene(const Manifest& manifest, const MaterialLibrary& materials,
+                         const SceneSettings& settings) {
+  if (settings.physics) return {manifest, materials, *settings.physics};
+  return {manifest, materials, settings.season, radiance_of(settings.radiance, settings.response)};
 }
 
 std::shared_ptr<const ResampleMap> make_map(const Manifest& manifest, const LensDistortion& lens) {
@@ -32,17 +33,32 @@ std::shared_ptr<const ResampleMap> make_map(const Manifest& manifest, const Lens
 
 }  // namespace
 
+SceneSettings scene_settings(Season season, const SensorParameters& parameters,
+                             const std::optional<PhysicsSettings>& physics, const LensDistortion& lens) {
+  return {.season = season,
+          .response = parameters.response,
+          .radiance = parameters.radiance,
+          .table_is_brightest = parameters.agc.mode == AgcMode::table_max,
+          .physics = physics,
+          .lens = lens};
+}
+
+FrameConverter::FrameConverter(const Manifest& manifest, const MaterialLibrary& materials,
+                               const SceneSettings& settings)
+    : supersample_(manifest.supersample),
+      map_(make_map(manifest, settings.lens)),
+      scene_radiance_(make_scene(manifest, materials, settings)),
+      brightest_w_m2_sr_(settings.table_is_brightest
+                             ? brightest_of_table_1(materials, settings.season,
+                                                    radiance_of(settings.radiance, settings.response))
+                             : scene_radiance_.brightest_w_m2_sr()),
+      labeller_(manifest, settings.lens, map_, scene_radiance_.needs().depth),
+      has_actor_layer_(!manifest.actor_layer.empty()) {}
+
 FrameConverter::FrameConverter(const Manifest& manifest, const MaterialLibrary& materials, Season season,
                                const SensorParameters& parameters,
                                const std::optional<PhysicsSettings>& physics, const LensDistortion& lens)
-    : supersample_(manifest.supersample),
-      map_(make_map(manifest, lens)),
-      scene_radiance_(make_scene(manifest, materials, season, parameters, physics)),
-      brightest_w_m2_sr_(parameters.agc.mode == AgcMode::table_max
-                             ? brightest_of_table_1(materials, season, radiance_of(parameters))
-                             : scene_radiance_.brightest_w_m2_sr()),
-      labeller_(manifest, lens, map_, scene_radiance_.needs().depth),
-      has_actor_layer_(!manifest.actor_layer.empty()) {}
+    : FrameConverter(manifest, materials, scene_settings(season, parameters, physics, lens)) {}
 
 PassNeeds FrameConverter::needs() const noexcept {
   PassNeeds needs = scene_radiance_.needs();
@@ -60,12 +76,24 @@ void FrameConverter::convert(const Passes& passes, const ManifestFrame& frame, S
   const std::vector<IndexUse> uses = survey_indices(passes.object_index);
   const SurfaceMap& surfaces = scene_radiance_.surfaces();
   surfaces.check_objects(uses);
+  for (const CoverageRank& rank : passes.ranks) surfaces.check_objects(survey_indices(rank.object_index));
   if (!passes.material_index.empty()) surfaces.check_materials(survey_indices(passes.material_index));
   out.instances = labeller_.label(passes, uses, frame);
   if (supersample_ == 1 && !map_) {
-    scene_radiance_.radiance(passes, frame, out.radiance_w_m2_sr);
+    radiance(passes, frame, out.radiance_w_m2_sr);
+    return;
+  }
+  Plane<float> fine;
+  radiance(passes, frame, fine);
+  reshape(std::move(fine), out.radiance_w_m2_sr);
+}
+
+/// Of the passes' pixels.
+void FrameConverter::radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const {
+  if (passes.ranks.empty()) {
+    scene_radiance_.radiance(passes, frame, out);
   } else {
-    reshape(scene_radiance_.radiance(passes, frame), out.radiance_w_m2_sr);
+    coverage_radiance(scene_radiance_, passes, frame, out);
   }
 }
 

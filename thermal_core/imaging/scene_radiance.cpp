@@ -61,7 +61,8 @@ SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& ma
   held_->rays = std::make_unique<CameraRays>(passes_camera(manifest));
   for (const Surface& surface : map_.surfaces()) add_optics(surface, settings);
   compose(settings);
-  if (needs_.depth || needs_.normals) require_poses(manifest);
+  const Terms& terms = settings.terms;
+  if (terms.variation || terms.sky || terms.angular) require_poses(manifest);
   find_brightest();
 }
 

@@ -20,6 +20,8 @@ struct PhysicsSettings {
   Weather weather;
   SpectralResponse response = SpectralResponse::flat(8, 14);
   std::uint32_t seed = 1;  ///< of the temperature field
+
+  [[nodiscard]] bool operator==(const PhysicsSettings&) const = default;
 };
 
 /// Radiance that reaches the camera from everything a clip's manifest names.

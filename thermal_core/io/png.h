@@ -9,11 +9,19 @@
 
 namespace thermal {
 
-/// A grey PNG in memory; lossless.
+/// A grey PNG in memory, by libpng; lossless. Every row goes through PNG's filter "average", and of repetitions only
+/// runs are looked for: with noise in the picture smaller than libpng's own choices, and twice as fast (ACCURACY.md,
+/// "The converter"). The bytes depend on the picture and on the versions of libpng and zlib.
+/// The picture must have pixels. `out` is overwritten; its memory is used again.
+void encode_png(const Plane<std::uint8_t>& picture, std::vector<std::byte>& out);
+void encode_png(const Plane<std::uint16_t>& picture, std::vector<std::byte>& out);
+
+/// The same for one picture.
 [[nodiscard]] std::vector<std::byte> encode_png(const Plane<std::uint8_t>& picture);
 [[nodiscard]] std::vector<std::byte> encode_png(const Plane<std::uint16_t>& picture);
 
-/// A grey PNG of 8 or of 16 bits; DataError if the file is another kind or damaged, IoError if it can't be read.
+/// A grey PNG of 8 or of 16 bits, of at most 256 million pixels; DataError naming the file if it is another kind or
+/// damaged, IoError if it can't be read.
 [[nodiscard]] Plane<std::uint8_t> read_png8(const Path& file);
 [[nodiscard]] Plane<std::uint16_t> read_png16(const Path& file);
 

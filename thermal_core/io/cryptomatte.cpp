@@ -1,0 +1,217 @@
+#include "io/cryptomatte.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace thermal {
+namespace {
+
+constexpr std::string_view kHash = "MurmurHash3_32";
+constexpr std::string_view kConversion = "uint32_to_float32";
+
+/// Twice as many as Blender can be asked for; each takes memory for two planes.
+constexpr std::size_t kMostRanks = 32;
+
+/// What the metadata of one cryptomatte says, by field: name, hash, conversion, manifest, manif_file.
+using Fields = std::map<std::string, std::string>;
+
+/// By the key that holds them together, seven hexadecimal digits of the name's hash or others.
+std::map<std::string, Fields> fields_in(const ExrHeader& header) {
+  std::map<std::string, Fields> by_key;
+  for (const auto& [attribute, text] : header.texts) {
+    std::vector<std::string_view> words = split(attribute, '/');
+    if (words.front() == "exr") words.erase(words.begin());  // the other prefix that readers accept
+    if (words.size() != 3 || words[0] != "cryptomatte") continue;
+    by_key[std::string(words[1])].emplace(words[2], text);
+  }
+  return by_key;
+}
+
+std::string field(const Fields& fields, const std::string& name) {
+  const auto found = fields.find(name);
+  return found != fields.end() ? found->second : "";
+}
+
+void require(const Fields& fields, const std::string& name, std::string_view expected) {
+  const std::string value = field(fields, name);
+  if (value != expected)
+    throw DataError(fault(name, fmt::format("\"{}\"", value), "", fmt::format("\"{}\"", expected)));
+}
+
+std::uint32_t hash_in(const std::string& name, const nlohmann::json& value) {
+  const std::string digits = value.is_string() ? value.get<std::string>() : value.dump();
+  std::uint32_t hash = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, hash, 16);
+  if (digits.size() == 8 && error == std::errc() && stop == end) return hash_in_float(hash);
+  throw DataError(fault(fmt::format("manifest[\"{}\"]", name), fmt::format("\"{}\"", digits), "",
+                        "a hash of eight hexadecimal digits"));
+}
+
+/// Not by Json, which keeps the order of keys and so takes the square of their number.
+std::map<std::uint32_t, std::string> names_in(const std::string& manifest) {
+  std::map<std::uint32_t, std::string> names;
+  if (manifest.empty()) return names;
+  const auto json = nlohmann::json::parse(manifest, nullptr, false);
+  if (!json.is_object()) {
+    throw DataError(fault("manifest", fmt::format("{} characters", manifest.size()), "",
+                          "a JSON object of names and their hashes"));
+  }
+  for (const auto& [name, value] : json.items()) names.emplace(hash_in(name, value), name);
+  return names;
+}
+
+/// 0 to 3 for a component of a channel's name by any spelling in use.
+std::optional<std::size_t> component_of(std::string_view word) {
+  static constexpr std::array<std::array<std::string_view, 4>, 4> kSpellings = {
+      {{"r", "R", "red", "RED"},
+       {"g", "G", "green", "GREEN"},
+       {"b", "B", "blue", "BLUE"},
+       {"a", "A", "alpha", "ALPHA"}}};
+  for (std::size_t i = 0; i < kSpellings.size(); ++i) {
+    if (std::find(kSpellings[i].begin(), kSpellings[i].end(), word) != kSpellings[i].end()) return i;
+  }
+  return std::nullopt;
+}
+
+/// Place of "<name>NN.<component>" among a cryptomatte's channels.
+std::optional<std::size_t> place_of(std::string_view channel, std::string_view name) {
+  if (!channel.starts_with(name) || channel.size() < name.size() + 4) return std::nullopt;
+  channel.remove_prefix(name.size());
+  const auto layer = number_in<std::size_t>(channel.substr(0, 2));
+  const auto component = component_of(channel.substr(3));
+  if (!layer || channel[2] != '.' || !component) return std::nullopt;
+  return 4 * *layer + *component;
+}
+
+/// All that lie one behind another; the last layer may have one rank alone.
+std::vector<const ExrChannel*> channels_of(const ExrHeader& header, const std::string& name) {
+  std::map<std::size_t, const ExrChannel*> by_place;
+  for (const ExrChannel& channel : header.channels) {
+    if (const auto place = place_of(channel.full_name(), name)) by_place.emplace(*place, &channel);
+  }
+  if (by_place.empty())
+    throw DataError(fmt::format("no channels; expected {0}00.r, {0}00.g and so on", name));
+  const std::size_t ranks = by_place.rbegin()->first / 2 + 1;
+  if (ranks > kMostRanks)
+    throw DataError(fault("ranks", fmt::format("{}", ranks), "", fmt::format("at most {}", kMostRanks)));
+  const std::size_t count = ranks * 2;
+  std::vector<const ExrChannel*> channels;
+  for (std::size_t place = 0; place < count; ++place) {
+    const auto found = by_place.find(place);
+    if (found == by_place.end()) {
+      throw DataError(fmt::format("no channel {}{:02}.{}; expected hash and coverage of every rank up to {}",
+                                  name, place / 4, "rgba"[place % 4],
+                                  by_place.rbegin()->second->full_name()));
+    }
+    channels.push_back(found->second);
+  }
+  return channels;
+}
+
+/// A hash is told by all bits of a float: half has too few of them, and PXR24 keeps 24 of 32.
+void check_exact(const ExrChannel& hash) {
+  static constexpr std::array<std::string_view, 5> kLossy = {"PXR24", "B44", "B44A", "DWAA", "DWAB"};
+  if (hash.type != "float") {
+    throw DataError(
+        fault(hash.full_name() + ": type", hash.type, "", "float, whose bits are the hashes of names"));
+  }
+  if (std::find(kLossy.begin(), kLossy.end(), hash.compression) != kLossy.end()) {
+    throw DataError(fault(hash.full_name() + ": compression", hash.compression, "",
+                          "one that keeps the bits of hashes: none, RLE, ZIPS, ZIP or PIZ"));
+  }
+}
+
+void fill_names(Cryptomatte& cryptomatte, const std::string& manifest) {
+  try {
+    cryptomatte.names = names_in(manifest);
+  } catch (const DataError& error) {
+    cryptomatte.names_fault = error.what();
+  }
+}
+
+void fill(Cryptomatte& cryptomatte, const Fields& fields, const ExrHeader& header) {
+  require(fields, "hash", kHash);
+  require(fields, "conversion", kConversion);
+  cryptomatte.channels = channels_of(header, cryptomatte.name);
+  for (std::size_t k = 0; k < cryptomatte.channels.size(); k += 2) check_exact(*cryptomatte.channels[k]);
+}
+
+Cryptomatte cryptomatte_of(const std::string& key, const Fields& fields, const ExrHeader& header) {
+  Cryptomatte cryptomatte = {
+      .name = field(fields, "name"), .names = {}, .channels = {}, .names_fault = "", .fault = ""};
+  if (cryptomatte.name.empty()) {
+    cryptomatte.name = key;
+    cryptomatte.fault =
+        fmt::format("cryptomatte with the key {}: no name; expected that of its channels", key);
+    return cryptomatte;
+  }
+  try {
+    fill_names(cryptomatte, field(fields, "manifest"));
+    fill(cryptomatte, fields, header);
+  } catch (const DataError& error) {
+    cryptomatte.fault = fmt::format("cryptomatte {}: {}", cryptomatte.name, error.what());
+  }
+  return cryptomatte;
+}
+
+/// What follows the last dot.
+std::string short_name(const std::string& name) { return name.substr(name.rfind('.') + 1); }
+
+DataError no_such(std::span<const Cryptomatte> cryptomattes, const std::string& wanted) {
+  std::vector<std::string> names;
+  for (const Cryptomatte& each : cryptomattes) names.push_back(each.name);
+  const std::string rule = names.empty() ? "a file with cryptomattes, this one has none"
+                                         : "one that the file has: " + list_names(names);
+  for (const Cryptomatte& each : cryptomattes) names.push_back(short_name(each.name));
+  return DataError(fault("cryptomatte", fmt::format("\"{}\"", wanted), "", rule) +
+                   did_you_mean(wanted, names));
+}
+
+DataError several(std::span<const Cryptomatte* const> alike, const std::string& wanted) {
+  std::vector<std::string> names;
+  for (const Cryptomatte* each : alike) names.push_back(each->name);
+  return DataError(
+      fault("cryptomatte", fmt::format("\"{}\"", wanted), "", "the whole name of one: " + list_names(names)));
+}
+
+}  // namespace
+
+std::vector<Cryptomatte> cryptomattes_in(const ExrHeader& header) {
+  std::map<std::string, Cryptomatte> by_name;
+  for (const auto& [key, fields] : fields_in(header)) {
+    Cryptomatte cryptomatte = cryptomatte_of(key, fields, header);
+    std::string name = cryptomatte.name;
+    by_name.emplace(std::move(name), std::move(cryptomatte));
+  }
+  std::vector<Cryptomatte> cryptomattes;
+  for (auto& [name, cryptomatte] : by_name) cryptomattes.push_back(std::move(cryptomatte));
+  return cryptomattes;
+}
+
+const Cryptomatte& choose_cryptomatte(std::span<const Cryptomatte> cryptomattes, const std::string& wanted,
+                                      const std::string& layer) {
+  std::vector<const Cryptomatte*> alike;
+  const Cryptomatte* found = nullptr;
+  for (const Cryptomatte& each : cryptomattes) {
+    const bool in_layer = !layer.empty() && each.name == fmt::format("{}.{}", layer, wanted);
+    if (each.name == wanted || (in_layer && found == nullptr)) found = &each;
+    if (short_name(each.name) == wanted) alike.push_back(&each);
+  }
+  if (found == nullptr && alike.empty()) throw no_such(cryptomattes, wanted);
+  if (found == nullptr && alike.size() > 1) throw several(alike, wanted);
+  if (found == nullptr) found = alike.front();
+  if (!found->fault.empty()) throw DataError(found->fault);
+  return *found;
+}
+
+}  // namespace thermal
