@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "dataset/outline.h"
 #include "dataset/physics.h"
 #include "io/material_files.h"
 #include "io/resources.h"
@@ -14,6 +15,7 @@ namespace {
 
 void print_materials(const thermal::SceneOutline& outline) {
   for (const thermal::SceneOutline::Night& night : outline.nights) {
+    if (night.looks.empty()) continue;
     const auto nearest = std::min_element(night.looks.begin(), night.looks.end(),
                                           [](const auto& a, const auto& b) { return a.range_m < b.range_m; });
     fmt::print("\nair at {} K, humidity {}, range {:.0f} m [mK]\n{:<16}{:>10}{:>10}\n",

@@ -9,6 +9,7 @@
 #include "dataset/clip_choice.h"
 #include "dataset/clip_maker.h"
 #include "dataset/dataset_index.h"
+#include "dataset/outline.h"
 #include "dataset/passes_room.h"
 #include "dataset/physics.h"
 #include "dataset/render_crew.h"

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/error.h"
 #include "radiometry/band_radiance.h"
 
 namespace thermal {
@@ -150,6 +151,13 @@ class NightShifts {
   std::array<double, std::size(kTerms)> actor_shifts_{};
 };
 
+bool is_kept(const TermEffect& effect, double netd_k) {
+  if (effect.choice == TermChoice::on && !effect.impossible.empty())
+    throw ConfigError(fault("terms." + effect.name, "on", "", "off or auto, because " + effect.impossible));
+  if (effect.choice != TermChoice::automatic) return effect.choice == TermChoice::on;
+  return effect.impossible.empty() && effect.spread_k > netd_k / 3;
+}
+
 }  // namespace
 
 Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices) {
@@ -164,8 +172,9 @@ Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices) {
       effect.actor_shift_k = std::max(effect.actor_shift_k, one.actor_shift_k);
     }
     effect.choice = choices.*term.choice;
-    effect.kept = effect.choice == TermChoice::on ||
-                  (effect.choice == TermChoice::automatic && effect.spread_k > outline.netd_k / 3);
+    if (const auto lacking = outline.impossible.find(effect.name); lacking != outline.impossible.end())
+      effect.impossible = lacking->second;
+    effect.kept = is_kept(effect, outline.netd_k);
     budget.kept.*term.kept = effect.kept;
     if (!effect.kept) budget.dropped_k += effect.spread_k;
     budget.effects.push_back(effect);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,13 +28,15 @@ struct SceneOutline {
   /// One season's flights.
   struct Night {
     Weather weather;
-    std::vector<Look> looks;
+    std::vector<Look>
+        looks;  ///< empty: nobody knows where it looks; terms that depend on it then weigh nothing
   };
 
   std::vector<Cover> covers;
   std::vector<Night> nights;
   SpectralResponse response = SpectralResponse::flat(8, 14);
   double netd_k = 0.04;
+  std::map<std::string, std::string> impossible = {};  ///< by term: what there is not that it draws on
 };
 
 /// What one term does to apparent temperature.
@@ -43,6 +46,7 @@ struct TermEffect {
   double spread_k = 0;       ///< 5th to 95th percentile of its shift over the pictures; the worst night's
   double actor_shift_k = 0;  ///< its largest shift of an actor
   bool kept = false;
+  std::string impossible = {};  ///< what it lacks; empty: it can be had
 };
 
 struct Budget {
@@ -54,7 +58,8 @@ struct Budget {
 /// Decides which terms a scene needs: an automatic one is kept if what it changes differs across the pictures by
 /// more than a third of the NETD, which adds at most 5 % to the noise in quadrature. Percentiles are over what
 /// fills the pictures; for `parts` over the actors. Shifts of emission and reflection are against what comes
-/// before them in kTerms, surfaces level and under an open sky.
+/// before them in kTerms, surfaces level and under an open sky. An automatic term that is impossible is dropped;
+/// ConfigError if one is asked for.
 [[nodiscard]] Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices);
 
 /// Shift of a material's apparent temperature by sky reflection, and by the path on top of it [K]; level surface

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "accuracy/physical/assets.h"
+#include "base/error.h"
 #include "support/catch.h"
+#include "support/message_of.h"
 
 using namespace thermal;
 
@@ -144,6 +146,40 @@ TEST_CASE("On and off go before the rule") {
   CHECK(effect(budget, "falloff").spread_k == 0);  // one look alone: nothing differs
   const Budget none = weigh_terms(savanna_from(61), TermChoices());
   CHECK(none.kept == Terms());
+}
+
+TEST_CASE("A term that cannot be had is dropped, told, and counted among what is dropped") {
+  SceneOutline outline = savanna_from(61);
+  outline.impossible = {{"path", "clip one: there is no depth"}};
+  const Budget budget = weigh_terms(outline, kAllAuto);
+  CHECK_FALSE(budget.kept.path);
+  CHECK(effect(budget, "path").impossible == "clip one: there is no depth");
+  CHECK(effect(budget, "sky").impossible.empty());
+  CHECK(budget.kept.sky);
+  CHECK_THAT(budget.dropped_k - weigh_terms(savanna_from(61), kAllAuto).dropped_k,
+             WithinRel(effect(budget, "path").spread_k, 1e-12));  // a sum of six in another order
+}
+
+TEST_CASE("Asked for, it is a fault; switched off, it is none") {
+  SceneOutline outline = savanna_from(61);
+  outline.impossible = {{"path", "clip one: there is no depth"}};
+  TermChoices choices = kAllAuto;
+  choices.path = TermChoice::on;
+  CHECK(message_of<ConfigError>([&] { (void)weigh_terms(outline, choices); }) ==
+        "terms.path = on; expected off or auto, because clip one: there is no depth");
+  choices.path = TermChoice::off;
+  CHECK_NOTHROW(weigh_terms(outline, choices));
+}
+
+TEST_CASE("Where nobody knows where a camera looks, what depends on it weighs nothing") {
+  SceneOutline outline = savanna_from(61);
+  outline.nights[0].looks.clear();
+  const Budget budget = weigh_terms(outline, kAllAuto);
+  CHECK(effect(budget, "path").spread_k == 0);
+  CHECK(effect(budget, "sky").spread_k == 0);
+  CHECK(effect(budget, "falloff").spread_k == 0);
+  CHECK(budget.kept.variation);
+  CHECK(budget.kept.parts);
 }
 
 TEST_CASE("The sum of what was dropped is the sum of the dropped lines") {

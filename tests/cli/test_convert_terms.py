@@ -1,0 +1,119 @@
+"""Physical terms on passes that lack what those draw on: an automatic term is dropped and told, one asked for is a fault."""
+
+import numpy as np
+import pytest
+
+import passes
+from pictures import write_exr
+from program import files_below
+
+PHYSICAL = ["--set", "sensor.model=physical"]
+STRAIGHT_DOWN = [1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 50, 0, 0, 0, 1]
+LOOKING = {"variation", "sky", "angular", "path"}  # terms that draw on planes
+
+
+def _write_clip(folder, *, depth=True, normals=True, poses=True, height=True):
+    """Passes of a clip seen from 50 m above even ground, with some of what physical terms ask for."""
+    folder.mkdir()
+    document = passes.manifest(folder.name)
+    even = np.ones((passes.HEIGHT, passes.WIDTH))
+    for k, frame in enumerate(document["frames"]):
+        planes = {passes.OBJECTS: passes.object_index(k)}
+        if depth:
+            planes[passes.DEPTH] = 50 * even
+        if normals:
+            planes |= {f"Scene.Normal.{axis}": even * (axis == "Z") for axis in "XYZ"}
+        if poses:
+            frame["camera_to_world"] = STRAIGHT_DOWN
+        if height:
+            frame["agl_m"] = 50
+        write_exr(folder / f"{k:06d}.exr", planes)
+    passes.write_manifest(folder, document)
+
+
+def _terms(veldt, dataset="out") -> dict:
+    return {term["term"]: term for term in veldt.read(f"{dataset}/dataset.json")["physics"]["terms"]}
+
+
+def _kept(veldt, dataset="out") -> set:
+    return {name for name, term in _terms(veldt, dataset).items() if term["kept"]}
+
+
+LACKING = {
+    "depth": ({"depth": False}, {"variation", "path"}, "there is no depth"),
+    "normals": ({"normals": False}, {"sky", "angular"}, "there are no normals"),
+    "poses": ({"poses": False}, {"variation", "sky", "angular"}, "frames[0] has no camera_to_world"),
+}
+
+
+@pytest.mark.parametrize("what", LACKING)
+def test_automatic_terms_are_dropped_and_told(veldt, what):
+    without, dropped, lacking = LACKING[what]
+    _write_clip(veldt.folder / "one", **without)
+    done = veldt("convert", "one", "--out", "out", "--progress", "none", *PHYSICAL)
+    assert (done.code, done.err) == (0, "")
+    told = {name: term["impossible"] for name, term in _terms(veldt).items() if "impossible" in term}
+    assert told == {name: f"clip one: {lacking}" for name in dropped}
+    assert not _kept(veldt) & dropped
+    for name in sorted(dropped, key=list(_terms(veldt)).index):
+        assert f"out: without the term {name} (clip one: {lacking})\n" in done.out
+
+
+@pytest.mark.parametrize("what", LACKING)
+def test_a_term_asked_for_is_a_fault(veldt, what):
+    without, dropped, lacking = LACKING[what]
+    _write_clip(veldt.folder / "one", **without)
+    for name in dropped:
+        done = veldt("convert", "one", "--out", "out", *PHYSICAL, f"terms.{name}=on")
+        assert done.err == f"veldt: terms.{name} = on; expected off or auto, because clip one: {lacking}\n"
+        assert (done.code, done.out) == (2, "")
+        assert not (veldt.folder / "out").exists()
+
+
+def test_whole_passes_lack_nothing(veldt):
+    _write_clip(veldt.folder / "one")
+    done = veldt("convert", "one", "--out", "out", "--progress", "none", *PHYSICAL)
+    assert (done.code, done.out) == (0, "out: 1 clip made, 3 frames\n")
+    assert not any("impossible" in term for term in _terms(veldt).values())
+
+
+def test_the_published_model_asks_for_nothing(veldt):
+    _write_clip(veldt.folder / "one", depth=False, normals=False, poses=False, height=False)
+    done = veldt("convert", "one", "--out", "out", "--progress", "none")
+    assert (done.code, done.out) == (0, "out: 1 clip made, 3 frames\n")
+
+
+def test_of_several_clips_the_one_that_lacks_it_is_named(veldt):
+    _write_clip(veldt.folder / "one")
+    _write_clip(veldt.folder / "two", depth=False)
+    assert veldt("convert", "one", "two", "--out", "out", "--quiet", *PHYSICAL).code == 0
+    assert _terms(veldt)["path"]["impossible"] == "clip two: there is no depth"
+
+
+def test_a_height_that_nobody_told_is_read_off_the_depth(veldt):
+    """The same ground, 50 m below: told by the manifest, or by the depth plane. The path weighs the same, to what the
+    corners of the picture differ by (a grid of pixels' middles instead of the picture's corners)."""
+    _write_clip(veldt.folder / "one")
+    assert veldt("convert", "one", "--out", "told", "--quiet", *PHYSICAL).code == 0
+    (veldt.folder / "one").rename(veldt.folder / "other")
+    _write_clip(veldt.folder / "one", height=False)
+    assert veldt("convert", "one", "--out", "seen", "--quiet", *PHYSICAL).code == 0
+    told, seen = (_terms(veldt, name) for name in ("told", "seen"))
+    assert _kept(veldt, "told") == _kept(veldt, "seen")
+    assert told["path"]["spread_mk"] > 0
+    assert seen["path"]["spread_mk"] == pytest.approx(told["path"]["spread_mk"], rel=0.02)
+
+
+def test_terms_that_need_no_plane_stay(veldt):
+    _write_clip(veldt.folder / "one", depth=False, normals=False, poses=False)
+    assert veldt("convert", "one", "--out", "out", "--quiet", *PHYSICAL).code == 0
+    assert _kept(veldt) == {"parts", "falloff"} - LOOKING
+
+
+def test_a_first_frame_that_cannot_be_read_is_passed_over(veldt):
+    _write_clip(veldt.folder / "one", depth=False)
+    (veldt.folder / "one" / "000000.exr").write_bytes(b"no picture")
+    done = veldt("convert", "one", "--out", "out", "--quiet", *PHYSICAL)
+    assert done.code == 3
+    assert _terms(veldt)["path"]["impossible"] == "clip one: there is no depth"
+    assert "clips/one/ir16/000002.png" in files_below(veldt.folder / "out")

@@ -1,0 +1,61 @@
+#include "dataset/outline_parts.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace thermal {
+namespace {
+
+/// Rays over the picture: a grid of five by five.
+std::vector<SceneOutline::Look> looks_from(double height_m, double look_angle_rad, double half_width,
+                                           double half_height) {
+  std::vector<SceneOutline::Look> looks;
+  for (int row = -2; row <= 2; ++row) {
+    for (int column = -2; column <= 2; ++column) {
+      const double x = half_width * column / 2;
+      const double y = half_height * row / 2;
+      const double length = std::sqrt(x * x + y * y + 1);
+      // Downward part of the ray (x, y, 1) of a camera pitched down by the look angle.
+      const double down = (std::sin(look_angle_rad) + y * std::cos(look_angle_rad)) / length;
+      if (down <= 0.01) continue;  // at the sky
+      looks.push_back({.range_m = height_m / down, .ground_cosine = down, .axis_cosine = 1 / length});
+    }
+  }
+  return looks;
+}
+
+}  // namespace
+
+SceneOutline empty_outline(const Config& config) {
+  return {.covers = {}, .nights = {}, .response = config.sensor.response, .netd_k = config.netd_k};
+}
+
+void add_actors(const std::set<std::string>& names, const MaterialLibrary& materials, SceneOutline& outline) {
+  for (const std::string& name : names) {
+    outline.covers.push_back({.material = &materials.find(name, "species: material"),
+                              .share = kActorShare / static_cast<double>(names.size()),
+                              .actor = true});
+  }
+}
+
+void Nights::add(Season season, double height_m, double look_angle_deg, double half_width,
+                 double half_height) {
+  if (!seen_.insert({season, height_m, look_angle_deg}).second) return;  // many clips fly alike
+  const double angle = look_angle_deg * std::numbers::pi / 180;
+  add(season, looks_from(height_m, angle, half_width, half_height));
+}
+
+void Nights::add(Season season, const std::vector<SceneOutline::Look>& looks) {
+  auto& all = looks_[season];
+  all.insert(all.end(), looks.begin(), looks.end());
+}
+
+std::vector<SceneOutline::Night> Nights::list() const {
+  std::vector<SceneOutline::Night> nights;
+  for (const auto& [season, looks] : looks_) {
+    nights.push_back({.weather = weather_of(config_, season), .looks = looks});
+  }
+  return nights;
+}
+
+}  // namespace thermal
