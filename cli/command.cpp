@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "cli/stop_signal.h"
@@ -23,7 +24,8 @@ constexpr std::array kCommands = {add_generate, add_render,   add_convert, add_m
 
 void print_fault(const std::string& what) {
   std::istringstream lines(what);
-  for (std::string line; std::getline(lines, line);) fmt::print(stderr, "veldt: {}\n", line);
+  for (std::string line; std::getline(lines, line);)
+    fmt::print(stderr, "veldt: {}\n", thermal::printable(line));
 }
 
 /// What is wrong with a command line, in one line.

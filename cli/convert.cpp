@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "cli/command.h"
 #include "cli/progress_bar.h"
+#include "cli/read_limits.h"
 #include "cli/run_summary.h"
 #include "cli/stop_signal.h"
 #include "io/resources.h"
@@ -19,6 +20,8 @@ struct Options {
   std::string config;
   std::string variants;
   std::vector<std::string> settings;
+  double max_megapixels = 256;
+  bool strict = false;
 };
 
 std::optional<thermal::Json> read_document(const std::string& file) {
@@ -40,6 +43,8 @@ int run(const Options& options, const CommonOptions& common) {
                                      .variants = read_document(options.variants),
                                      .variants_name = options.variants,
                                      .out = options.out,
+                                     .limits = read_limits(options.max_megapixels),
+                                     .strict = options.strict,
                                      .threads = common.threads};
   watch_for_stop();
   std::vector<thermal::ConvertOutcome> outcomes;
@@ -55,7 +60,10 @@ int run(const Options& options, const CommonOptions& common) {
 void add_convert(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "convert", "Turn rendered passes into frames and labels");
   auto options = std::make_shared<Options>();
-  command->add_option("passes", options->passes, "Folders of EXR passes, a clip each, with a manifest.json")
+  command
+      ->add_option("passes", options->passes,
+                   "Passes, those of a folder being a clip: folders with a manifest.json, files, or quoted "
+                   "patterns such as \"r/f_####.exr\"")
       ->required();
   command->add_option("--out", options->out, "Folder of the dataset")->required();
   command->add_option("--manifest", options->manifest, "Manifest to use instead of the folder's")
@@ -68,6 +76,9 @@ void add_convert(CLI::App& app, Session& session) {
           "List of changes to the config: a dataset each, in a folder of its name, all from one reading")
       ->type_name("FILE");
   add_settings(command, options->settings);
+  add_max_megapixels(command, options->max_megapixels);
+  command->add_flag("--strict", options->strict,
+                    "End at the first bad frame, instead of naming it and going on without it");
   command->callback(
       [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/printable.h"
 #include "cli/stop_signal.h"
 
 namespace veldt {
@@ -98,11 +99,23 @@ void ProgressBar::show_restart(const std::string& clip, const std::string& why) 
   fmt::print(stderr, "clip {}: {}; started again\n", clip, why);
 }
 
+void ProgressBar::show_skipped(const std::string& clip, const thermal::SkippedFrame& frame) {
+  if (style_ != Style::json) return;
+  const thermal::Json line = {{"event", "skipped"},
+                              {"clip", clip},
+                              {"frame_index", frame.frame_index},
+                              {"file", thermal::printable(frame.file)},
+                              {"reason", frame.reason}};
+  fmt::print(stderr, "{}\n", line.dump());
+}
+
 thermal::RunHooks hooks_for(ProgressBar& bar) {
   return {
       .progress = [&bar](const thermal::Progress& progress) { bar.show(progress); },
       .cancelled = [] { return stop_signal() != 0; },
-      .restarted = [&bar](const std::string& clip, const std::string& why) { bar.show_restart(clip, why); }};
+      .restarted = [&bar](const std::string& clip, const std::string& why) { bar.show_restart(clip, why); },
+      .skipped = [&bar](const std::string& clip,
+                        const thermal::SkippedFrame& frame) { bar.show_skipped(clip, frame); }};
 }
 
 }  // namespace veldt

@@ -20,6 +20,8 @@ class ProgressBar {
   void show(const thermal::Progress& progress);
   /// Blender died over a clip and was started again.
   void show_restart(const std::string& clip, const std::string& why);
+  /// A frame was skipped: for machines alone, people are told at the end.
+  void show_skipped(const std::string& clip, const thermal::SkippedFrame& frame);
 
  private:
   enum class Style { none, bar, plain, json };

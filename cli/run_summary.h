@@ -11,7 +11,8 @@ namespace veldt {
 int summarise(const thermal::RunOutcome& outcome, const thermal::Path& out, const CommonOptions& options,
               const std::string& done = "made");
 
-/// The same for a run that made several datasets: a line each, and their variants' names with what was rejected.
+/// The same for a run that made several datasets: a line each, and their variants' names with what was rejected. Frames
+/// that were skipped are named once, whatever datasets go without them.
 int summarise(const std::vector<thermal::ConvertOutcome>& outcomes, const CommonOptions& options);
 
 }  // namespace veldt

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import passes
+from datasets import content_of
 from pictures import write_exr
 from program import ROOT, files_below
 
@@ -72,25 +73,55 @@ BAD_FRAMES = {
 }
 
 
+def _skipped(veldt, clip="one"):
+    """What the clip's record tells of frames it goes without."""
+    return veldt.read(f"out/clips/{clip}/clip.json").get("skipped")
+
+
 @pytest.mark.parametrize("name", BAD_FRAMES)
-def test_a_bad_frame_rejects_its_clip_and_no_other(veldt, name):
-    """Exit code 3, the good clip made; once mended the same command completes the dataset, as if nothing had been."""
+def test_a_bad_frame_is_named_and_skipped(veldt, name):
+    """Exit code 3, all clips made; once mended the same command completes the dataset, as if nothing had been."""
     spoil, message = BAD_FRAMES[name]
     for clip in ("one", "two"):
         passes.write_clip(veldt.folder / clip, clip)
     run = ("convert", "one", "two", "--out", "out", "--quiet")
     assert veldt(*run[:3], "--out", "usual", "--quiet").code == 0
     spoil(veldt.folder / "one")
-    done = veldt(*run)
-    assert (done.code, done.out) == (3, "")
-    assert done.err == f"veldt: clip one rejected: {FRAME}: {message}\n"
-    assert [file.name for file in (veldt.folder / "out" / "clips").iterdir()] == ["two"]
-    failed = veldt.read("out/dataset.json")["clips"][0]
-    assert failed == {"id": "one", "status": "failed", "reason": f"{FRAME}: {message}"}
+    told = f"veldt: clip one: frame 1 skipped: {FRAME}: {message}\n"
+    for _ in range(2):  # the second time there is nothing new
+        done = veldt(*run)
+        assert (done.code, done.out, done.err) == (3, "", told)
+    assert _skipped(veldt) == [{"frame_index": 1, "file": "000001.exr", "reason": message}]
+    assert _skipped(veldt, "two") is None
+    index = veldt.read("out/dataset.json")
+    assert [(clip["status"], clip["frames"], clip.get("skipped")) for clip in index["clips"]] == [
+        ("done", 2, 1),
+        ("done", 3, None),
+    ]
+    assert (index["status"], index["frames"]) == ("complete", 5)
+    assert veldt.pixels("out")["two"] == veldt.pixels("usual")["two"]
+    assert veldt("validate", "out").code == 0
     shutil.rmtree(veldt.folder / "one")
     passes.write_clip(veldt.folder / "one", "one")
     assert veldt(*run).code == 0
     assert veldt.pixels("out") == veldt.pixels("usual")
+    assert content_of(veldt.folder / "out") == content_of(veldt.folder / "usual")
+
+
+@pytest.mark.parametrize("name", BAD_FRAMES)
+def test_if_strict_the_first_bad_frame_ends_the_run(veldt, name):
+    spoil, message = BAD_FRAMES[name]
+    for clip in ("one", "two"):
+        passes.write_clip(veldt.folder / clip, clip)
+    spoil(veldt.folder / "one")
+    (veldt.folder / "one" / "000002.exr").unlink()  # a later one is not told
+    done = veldt("convert", "one", "two", "--out", "out", "--strict", "--quiet")
+    assert (done.code, done.out, done.err) == (1, "", f"veldt: {FRAME}: {message}\n")
+    assert not list((veldt.folder / "out" / "clips").iterdir())
+    assert veldt.read("out/dataset.json")["clips"] == [
+        {"id": "one", "status": "failed", "reason": f"{FRAME}: {message}"},
+        {"id": "two", "status": "pending"},
+    ]
 
 
 UNREADABLE = {
@@ -106,22 +137,13 @@ def test_a_frame_that_cannot_be_read(veldt, name):
     spoil, reason = UNREADABLE[name]
     spoil(passes.write_clip(veldt.folder / "one"))
     done = veldt("convert", "one", "--out", "out", "--quiet")
-    assert (done.code, done.out) == (1, "")
-    assert done.err.startswith(f"veldt: clip one rejected: cannot read {FRAME}: ")
+    assert (done.code, done.out) == (3, "")
+    assert done.err.startswith(f"veldt: clip one: frame 1 skipped: {FRAME}: ")
     assert done.err.endswith(f"{reason}\n") and done.err.count("\n") == 1
-    assert not list((veldt.folder / "out" / "clips").iterdir())
-
-
-def test_how_a_run_with_rejected_clips_is_summed_up(veldt):
-    for clip in ("one", "two"):
-        passes.write_clip(veldt.folder / clip, clip)
-    passes.change_index(veldt.folder / "two", 2, -7)
-    done = veldt("convert", "one", "two", "--out", "out", "--progress", "none")
-    assert (done.code, done.out) == (3, "out: 1 clip made, 3 frames; the dataset is not complete yet\n")
-    assert (
-        done.err
-        == f"veldt: clip two rejected: two/000002.exr: {passes.OBJECTS} at pixel (3, 2) = -7; {INDEX}\n"
-    )
+    strict = veldt("convert", "one", "--out", "strict", "--quiet", "--strict")
+    assert (strict.code, strict.out) == (1, "")
+    assert strict.err.startswith(f"veldt: cannot read {FRAME}: ") and strict.err.endswith(f"{reason}\n")
+    assert not list((veldt.folder / "strict" / "clips").iterdir())
 
 
 # --- manifests --------------------------------------------------------------------------------------------------------
@@ -160,7 +182,7 @@ BAD_MANIFESTS = {
     ),
     "no frames": (
         _manifest(lambda document: document.update(frames=[])),
-        "frames = a list of 0; expected at least 1 entries",
+        'frames and sequence are missing; expected one of them: a list of files, or a pattern of their names such as "f_####.exr"',
     ),
     "a frame in another folder": (
         _set_in("frames", "file", "../x.exr"),

@@ -9,7 +9,7 @@ PARTS = [
     "Python",
     "OpenEXR",
     "OpenImageIO",
-    "OpenCV",
+    "FFmpeg",
     "oneTBB",
     "OpenSSL",
 ]

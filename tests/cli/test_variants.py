@@ -39,6 +39,7 @@ VARIANTS = {
             "terms.angular=off",
         ],
     ),
+    "noiseless": ({"sensor": {"noise": {"amount": 0}}}, ["sensor.noise.amount=0"]),  # the scene of "plain"
 }
 NAMES = list(VARIANTS)
 
@@ -104,17 +105,23 @@ def test_a_variant_is_what_it_would_be_alone(veldt, clips, threads):
 
 
 def test_each_file_of_passes_is_opened_as_often_as_for_one_dataset(veldt, clips):
+    """As for one that asks what planes there are, which looks into the first frame of each clip before all else."""
     with Opened(*clips) as opened:
-        _convert(veldt, *clips, "--out", "alone")
+        _convert(veldt, *clips, "--out", "alone", "--set", "sensor.model=physical")
         once = opened.counts(".exr")
-        assert len(once) == 6 and set(once.values()) == {min(once.values())}
+        seen = {file: n for file, n in once.items() if file.name != "000000.exr"}
+        assert len(once) == 6 and set(seen.values()) == {min(once.values())}
+        assert max(once.values()) == 2 * min(once.values())
         _convert(veldt, *clips, "--variants", "list.json", "--out", "out")
         assert opened.counts(".exr") == once
         _convert(veldt, *clips, "--variants", "list.json", "--out", "out")
-        assert not opened.counts(".exr")  # nothing was left to do
+        assert set(opened.counts(".exr")) == set(once) - set(seen)  # nothing was left to do
         shutil.rmtree(veldt.folder / "out" / "summer" / "clips" / "two")
         _convert(veldt, *clips, "--variants", "list.json", "--out", "out")
-        assert opened.counts(".exr") == {file: n for file, n in once.items() if file.parent == clips[1]}
+        assert set(opened.counts(".exr")) == {
+            clips[0] / "000000.exr",
+            *(file for file in once if file.parent == clips[1]),
+        }
 
 
 def test_variants_change_the_config_after_its_settings(veldt, clips):
@@ -221,11 +228,12 @@ def test_killed_it_goes_on_to_the_same_datasets(veldt):
 
 def test_a_clip_that_cannot_be_converted_is_named_for_each_variant(veldt, clips):
     veldt.write("list.json", _list("plain", "summer"))
-    passes.change_index(clips[1], 1, -7)
+    for frame in range(passes.FRAMES):
+        passes.change_index(clips[1], frame, -7)
     done = veldt("convert", "one", "two", "--variants", "list.json", "--out", "out", "--progress", "none")
     why = (
-        f"clip two rejected: two/000001.exr: {passes.OBJECTS} at pixel (3, 2) = -7;"
-        " expected a whole number from 0 to 32767"
+        f"clip two rejected: two/000000.exr: {passes.OBJECTS} at pixel (3, 2) = -7;"
+        " expected a whole number from 0 to 32767; nor can its 2 other frames be converted"
     )
     assert done.code == 3
     assert done.err == f"veldt: plain: {why}\nveldt: summer: {why}\n"
@@ -236,15 +244,18 @@ def test_a_clip_that_cannot_be_converted_is_named_for_each_variant(veldt, clips)
     for name in ("plain", "summer"):
         assert [folder.name for folder in (veldt.folder / "out" / name / "clips").iterdir()] == ["one"]
         assert veldt.read(f"out/{name}/dataset.json")["clips"][1]["status"] == "failed"
-    passes.change_index(clips[1], 1, passes.GROUND)
+    for frame in range(passes.FRAMES):
+        passes.change_index(clips[1], frame, passes.GROUND)
     _convert(veldt, "one", "two", "--variants", "list.json", "--out", "out")
     assert veldt("validate", "out/summer").code == 0
 
 
 def test_nothing_converted_is_a_failure(veldt, clips):
-    passes.change_index(clips[0], 1, -7)
+    veldt.write("list.json", _list("plain", "summer"))
+    for frame in range(passes.FRAMES):
+        passes.change_index(clips[0], frame, -7)
     done = veldt("convert", "one", "--variants", "list.json", "--out", "out", "--quiet")
-    assert (done.code, done.err.count(": clip one rejected: one/000001.exr: ")) == (1, len(NAMES))
+    assert (done.code, done.err.count(": clip one rejected: one/000000.exr: ")) == (1, 2)
 
 
 def test_a_variant_in_use_is_turned_away(veldt, clips):

@@ -32,7 +32,9 @@ class Veldt:
     def __init__(self, folder: Path):
         self.folder = folder
 
-    def __call__(self, *arguments, env: dict | None = None, under: Sequence[str] = ()) -> Ended:
+    def __call__(
+        self, *arguments, env: dict | None = None, under: Sequence[str] = (), timeout_s: float = 120
+    ) -> Ended:
         """Runs to the end. `env` changes the environment; `under` is a command that runs the program."""
         done = subprocess.run(
             [*under, PROGRAM, *map(str, arguments)],
@@ -40,7 +42,7 @@ class Veldt:
             env=_environment(env),
             capture_output=True,
             text=True,
-            timeout=120,
+            timeout=timeout_s,
             check=False,
         )
         return Ended(done.returncode, done.stdout, done.stderr)

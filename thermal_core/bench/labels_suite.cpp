@@ -118,7 +118,9 @@ struct LabelScene {
   [[nodiscard]] std::string text_of(const std::vector<Instance>& instances) const {
     ClipAnnotations annotations(manifest);
     annotations.add_frame(0, instances);
-    return to_text(annotations.document());
+    std::string text;
+    annotations.write([&text](std::string_view piece) { text += piece; });
+    return text;
   }
 };
 

@@ -1,10 +1,11 @@
 #include "dataset/annotations.h"
 
 #include <cmath>
-#include <map>
+#include <cstddef>
 #include <optional>
-#include <set>
-#include <utility>
+#include <string_view>
+
+#include <fmt/format.h>
 
 #include "dataset/layout.h"
 #include "labels/categories.h"
@@ -12,29 +13,6 @@
 
 namespace thermal {
 namespace {
-
-Json category_list(const std::set<std::string>& used) {
-  Json list = Json::array();
-  std::map<int, std::string> by_id;
-  for (const auto& [name, id] : number_categories(used)) {
-    if (used.contains(name)) by_id.emplace(id, name);
-  }
-  for (const auto& [id, name] : by_id) list.push_back({{"id", id}, {"name", name}});
-  return list;
-}
-
-std::map<int, std::string> size_classes(const Json& annotations) {
-  std::map<int, std::pair<double, int>> sums;  // by track: area, boxes
-  for (const Json& annotation : annotations) {
-    auto& [area, boxes] = sums[annotation["track_id"].get<int>()];
-    area += annotation["bbox"][2].get<double>() * annotation["bbox"][3].get<double>();
-    ++boxes;
-  }
-  std::map<int, std::string> classes;
-  for (const auto& [track, sum] : sums)
-    classes[track] = size_class_name(size_class_of(sum.first / sum.second));
-  return classes;
-}
 
 /// Rounded, and never "-0.0".
 double rounded(double value, double steps_a_unit = 1e4) {
@@ -62,8 +40,12 @@ Json camera_entry(const CameraIntrinsics& camera, const LensDistortion& lens) {
 }  // namespace
 
 ClipAnnotations::ClipAnnotations(const Manifest& manifest, const LensDistortion& lens,
-                                 const LabelParameters& parameters)
-    : manifest_(manifest), lens_(lens), parameters_(parameters), objects_(kLargestIndex + 1, nullptr) {
+                                 const LabelParameters& parameters, const Path& spool)
+    : manifest_(manifest),
+      lens_(lens),
+      parameters_(parameters),
+      objects_(kLargestIndex + 1, nullptr),
+      annotations_(spool) {
   parameters_.validate();
   for (const ManifestObject& object : manifest.objects) {
     if (object.object_class != ObjectClass::actor) continue;
@@ -74,25 +56,23 @@ ClipAnnotations::ClipAnnotations(const Manifest& manifest, const LensDistortion&
 }
 
 void ClipAnnotations::add_frame(int frame, const std::vector<Instance>& instances, bool frozen) {
-  const auto at = static_cast<std::size_t>(frame);
-  const CameraIntrinsics& camera = manifest_.camera;
-  const int image_id = frame + 1;
-  images_.push_back({{"id", image_id},
-                     {"file_name", "ir8/" + frame_name(frame)},
-                     {"width", camera.width_px},
-                     {"height", camera.height_px},
-                     {"video_id", 1},
-                     {"frame_index", frame},
-                     {"time_s", manifest_.frames[at].time_s},
-                     {"ffc", frozen}});
-  for (const Instance& instance : instances)
-    annotations_.push_back(annotation_of(instance, image_id, frozen));
+  images_.push_back({.frame = frame, .frozen = frozen});
+  for (const Instance& instance : instances) {
+    const Json annotation = annotation_of(instance, frame + 1, frozen);
+    const int track = objects_[instance.index]->track_id;
+    annotations_.add(element_text(annotation, JsonLayout::indented));
+    annotations_.add(std::to_string(track));
+    Boxes& boxes = tracks_[track];
+    boxes.area_px += static_cast<double>(instance.box.width_px) * static_cast<double>(instance.box.height_px);
+    ++boxes.count;
+    ++count_;
+  }
 }
 
 Json ClipAnnotations::annotation_of(const Instance& instance, int image_id, bool frozen) const {
   const ManifestObject& actor = *objects_[instance.index];
   const PixelBox& box = instance.box;
-  Json annotation = {{"id", annotations_.size() + 1},
+  Json annotation = {{"id", count_ + 1},
                      {"image_id", image_id},
                      {"category_id", category_ids_.at(actor.category)},
                      {"bbox",
@@ -120,12 +100,7 @@ Json ClipAnnotations::annotation_of(const Instance& instance, int image_id, bool
   return annotation;
 }
 
-Json ClipAnnotations::document() const {
-  const std::map<int, std::string> classes = size_classes(annotations_);
-  Json annotations = annotations_;
-  for (Json& annotation : annotations) {
-    annotation["size_class"] = classes.at(annotation["track_id"].get<int>());
-  }
+Json ClipAnnotations::head() const {
   return {{"info", {{"description", manifest_.clip}, {"version", "1"}}},
           {"categories", category_list(categories_)},
           {"videos", Json::array({{{"id", 1},
@@ -134,50 +109,55 @@ Json ClipAnnotations::document() const {
                                    {"height", manifest_.camera.height_px},
                                    {"frame_rate_hz", manifest_.frame_rate_hz},
                                    {"frames", images_.size()},
-                                   {"camera", camera_entry(manifest_.camera, lens_)}}})},
-          {"images", images_},
-          {"annotations", std::move(annotations)}};
+                                   {"camera", camera_entry(manifest_.camera, lens_)}}})}};
 }
 
-Json join_annotations(const std::string& dataset, const std::vector<std::string>& clips,
-                      const std::vector<Json>& documents) {
-  std::set<std::string> categories;
-  for (const Json& document : documents) {
-    for (const Json& category : document.at("categories"))
-      categories.insert(category.at("name").get<std::string>());
+Json ClipAnnotations::image_entry(const Image& image) const {
+  return {{"id", image.frame + 1},
+          {"file_name", "ir8/" + frame_name(image.frame)},
+          {"width", manifest_.camera.width_px},
+          {"height", manifest_.camera.height_px},
+          {"video_id", 1},
+          {"frame_index", image.frame},
+          {"time_s", manifest_.frames[static_cast<std::size_t>(image.frame)].time_s},
+          {"ffc", image.frozen}};
+}
+
+void ClipAnnotations::write(const TakeText& take) {
+  JsonStream document(head(), JsonLayout::indented, take);
+  document.begin_array("images");
+  for (const Image& image : images_) document.add(element_text(image_entry(image), JsonLayout::indented));
+  document.begin_array("annotations");
+  write_annotations(document);
+  document.end();
+}
+
+/// With the size class that only the whole clip tells, in the place of the closing brace.
+void ClipAnnotations::write_annotations(JsonStream& document) {
+  constexpr std::string_view kEnd = "\n    }\n";
+  std::string text;
+  annotations_.read([&](std::string_view line) {
+    if (line.starts_with(' ') || line.starts_with('{')) {
+      text.append(line).push_back('\n');
+      return;
+    }
+    const Boxes& boxes = tracks_.at(std::stoi(std::string(line)));
+    text.resize(text.size() - kEnd.size());
+    text += fmt::format(",\n      \"size_class\": \"{}\"\n    }}",
+                        size_class_name(size_class_of(boxes.area_px / boxes.count)));
+    document.add(text);
+    text.clear();
+  });
+}
+
+Json category_list(const std::set<std::string>& used) {
+  Json list = Json::array();
+  std::map<int, std::string> by_id;
+  for (const auto& [name, id] : number_categories(used)) {
+    if (used.contains(name)) by_id.emplace(id, name);
   }
-  const std::map<std::string, int> ids = number_categories(categories);
-  Json videos = Json::array();
-  Json images = Json::array();
-  Json annotations = Json::array();
-  for (std::size_t i = 0; i < documents.size(); ++i) {
-    const std::size_t images_before = images.size();
-    std::map<int, int> new_category;
-    for (const Json& category : documents[i].at("categories")) {
-      new_category[category.at("id").get<int>()] = ids.at(category.at("name").get<std::string>());
-    }
-    for (Json video : documents[i].at("videos")) {
-      video["id"] = i + 1;
-      videos.push_back(std::move(video));
-    }
-    for (Json image : documents[i].at("images")) {
-      image["id"] = images_before + image.at("id").get<std::size_t>();
-      image["video_id"] = i + 1;
-      image["file_name"] = "clips/" + clips[i] + "/" + image.at("file_name").get<std::string>();
-      images.push_back(std::move(image));
-    }
-    for (Json annotation : documents[i].at("annotations")) {
-      annotation["id"] = annotations.size() + 1;
-      annotation["image_id"] = images_before + annotation.at("image_id").get<std::size_t>();
-      annotation["category_id"] = new_category.at(annotation.at("category_id").get<int>());
-      annotations.push_back(std::move(annotation));
-    }
-  }
-  return {{"info", {{"description", dataset}, {"version", "1"}}},
-          {"categories", category_list(categories)},
-          {"videos", std::move(videos)},
-          {"images", std::move(images)},
-          {"annotations", std::move(annotations)}};
+  for (const auto& [id, name] : by_id) list.push_back({{"id", id}, {"name", name}});
+  return list;
 }
 
 }  // namespace thermal

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/json_file.h"
+#include "io/json_stream.h"
+#include "io/spool.h"
 #include "labels/instances.h"
 #include "labels/label_parameters.h"
 #include "scene/lens_distortion.h"
@@ -14,24 +15,40 @@
 namespace thermal {
 
 /// Collects one clip's labels, frame after frame, as a COCO document of its own: ids from 1, file names
-/// relative to the clip's folder, one entry in videos.
+/// relative to the clip's folder, one entry in videos. What grows with the clip is put aside.
 class ClipAnnotations {
  public:
   /// `lens`: the distortion the labels went through; it is told with the camera, so that users can project.
+  /// `spool`: file that holds labels while the clip is made; empty: they stay in memory.
   explicit ClipAnnotations(const Manifest& manifest, const LensDistortion& lens = {},
-                           const LabelParameters& parameters = {});
+                           const LabelParameters& parameters = {}, const Path& spool = {});
 
   /// What is not known of an instance is left out. Places are rounded to 0.01 px, all else to four decimals.
   /// `frozen`: the shutter was closed, and the picture is one of before; what is labelled is where things are now.
   void add_frame(int frame, const std::vector<Instance>& instances, bool frozen = false);
 
-  [[nodiscard]] int count() const noexcept { return static_cast<int>(annotations_.size()); }
+  [[nodiscard]] int count() const noexcept { return count_; }
 
-  /// The document. Size classes are by the mean box area of a track over the clip (size_class_of()).
-  [[nodiscard]] Json document() const;
+  /// Writes the document, indented, at the end. Size classes are by the mean box area of a track over the clip
+  /// (size_class_of()).
+  void write(const TakeText& take);
 
  private:
+  /// A frame that was made.
+  struct Image {
+    int frame = 0;
+    bool frozen = false;
+  };
+  /// Boxes of one track.
+  struct Boxes {
+    double area_px = 0;
+    int count = 0;
+  };
+
   [[nodiscard]] Json annotation_of(const Instance& instance, int image_id, bool frozen) const;
+  [[nodiscard]] Json head() const;
+  [[nodiscard]] Json image_entry(const Image& image) const;
+  void write_annotations(JsonStream& document);
 
   const Manifest& manifest_;
   LensDistortion lens_;
@@ -39,13 +56,13 @@ class ClipAnnotations {
   std::vector<const ManifestObject*> objects_;  ///< by index; null where it is no actor
   std::set<std::string> categories_;
   std::map<std::string, int> category_ids_;
-  Json images_ = Json::array();
-  Json annotations_ = Json::array();
+  std::vector<Image> images_;
+  std::map<int, Boxes> tracks_;
+  Spool annotations_;  ///< of each its text, then its track's id in a line of its own
+  int count_ = 0;
 };
 
-/// Joins clips' documents into the dataset's: ids run on, file names become relative to the dataset's folder,
-/// a category keeps its id. `clips` are their ids, in the same order.
-[[nodiscard]] Json join_annotations(const std::string& dataset, const std::vector<std::string>& clips,
-                                    const std::vector<Json>& documents);
+/// The list of categories in use, by their ids.
+[[nodiscard]] Json category_list(const std::set<std::string>& used);
 
 }  // namespace thermal

@@ -1,53 +1,69 @@
 #include "dataset/clip_maker.h"
 
+#include <algorithm>
 #include <array>
+#include <exception>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "dataset/clip_output.h"
-#include "io/exr_passes.h"
-#include "scene/camera_geometry.h"
+#include "dataset/clip_scenes.h"
+#include "dataset/frame_faults.h"
+#include "io/output_folder.h"
 
 namespace thermal {
 namespace {
 
 constexpr std::size_t kFramesInFlight = 8;
 
-/// A frame on its way through the pipeline: what each output makes of it.
+/// Fewer of large pictures: with these, what frames on their way hold of them stays under half a gigabyte.
+std::size_t frames_in_flight(const CameraIntrinsics& camera) {
+  constexpr std::size_t kPixelsInFlight = 24'000'000;
+  const auto pixels = static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
+  return std::clamp<std::size_t>(kPixelsInFlight / pixels, 2, kFramesInFlight);
+}
+
+/// A frame on its way through the pipeline: what each scene and each output makes of it.
 struct FrameWork {
   int number = 0;
+  std::exception_ptr fault;             ///< of its file or what that holds
+  std::optional<SkippedFrame> skipped;  ///< for that fault
+  std::vector<SceneFrame> scenes;
   std::vector<ClipOutput::Frame> frames;
 };
 
-using Outputs = std::vector<ClipOutput>;
+/// What is made of a scene's frames for one task.
+struct Output {
+  std::size_t scene;
+  ClipOutput clip;
+};
 
-Outputs open_outputs(const std::vector<ClipTask>& tasks, const Manifest& manifest,
-                     const MaterialLibrary& materials) {
+using Outputs = std::vector<Output>;
+
+Output open_output(const ClipTask& task, const Manifest& manifest, ClipScenes& scenes) {
+  const std::size_t scene = scenes.add(task);
+  return {.scene = scene,
+          .clip = ClipOutput(task, manifest, scenes.brightest_w_m2_sr(scene),
+                             scenes.temperatures(task.sensor.response))};
+}
+
+Outputs open_outputs(const std::vector<ClipTask>& tasks, const Manifest& manifest, ClipScenes& scenes) {
   Outputs outputs;
   outputs.reserve(tasks.size());
   for (const ClipTask& task : tasks) {
     try {
-      outputs.emplace_back(task, manifest, materials);
+      outputs.push_back(open_output(task, manifest, scenes));
     } catch (const ConfigError& error) {
       throw ConfigError(task.variant.empty() ? error.what() : task.variant + ": " + error.what());
     }
   }
   return outputs;
-}
-
-PassNeeds needs_of(const Outputs& outputs) {
-  PassNeeds all;
-  for (const ClipOutput& output : outputs) {
-    const PassNeeds needs = output.needs();
-    all = {.depth = all.depth || needs.depth,
-           .normals = all.normals || needs.normals,
-           .actors = all.actors || needs.actors};
-  }
-  return all;
 }
 
 /// Makes one clip for all its tasks: the stages of the pipeline, and what they share.
@@ -57,9 +73,10 @@ class ClipMaker {
             const ClipHooks& hooks)
       : passes_(passes),
         hooks_(hooks),
-        camera_(passes_camera(passes.manifest)),
-        outputs_(open_outputs(tasks, passes.manifest, materials)),
-        needs_(needs_of(outputs_)) {
+        reader_(reader_for(passes)),
+        scenes_(passes.manifest, materials),
+        outputs_(open_outputs(tasks, passes.manifest, scenes_)),
+        needs_(scenes_.needs()) {
     for (FrameWork& work : in_flight_) work.frames.resize(outputs_.size());
   }
 
@@ -75,17 +92,19 @@ class ClipMaker {
         filter_mode::parallel, [this](FrameWork* work) { return write(work); });
     const auto leave = tbb::make_filter<FrameWork*, void>(filter_mode::serial_in_order,
                                                           [this](FrameWork* work) { collect(*work); });
-    tbb::parallel_pipeline(kFramesInFlight, enter & reading & exposing & writing & leave);
+    tbb::parallel_pipeline(frames_in_flight(passes_.manifest.camera),
+                           enter & reading & exposing & writing & leave);
+    if (frames_skipped_ == frame_count()) throw DataError(no_frame_left(first_fault_, frames_skipped_));
     std::vector<ClipRecord> records;
-    for (ClipOutput& output : outputs_) records.push_back(output.finish());
-    for (const ClipOutput& output : outputs_) output.move_into_place();
+    for (Output& output : outputs_) records.push_back(output.clip.finish());
+    for (const Output& output : outputs_) output.clip.move_into_place();
     return records;
   }
 
  private:
   FrameWork* next(tbb::flow_control& control) {
     if (hooks_.cancelled && hooks_.cancelled()) throw Cancelled();
-    if (next_frame_ == static_cast<int>(passes_.manifest.frames.size())) {
+    if (next_frame_ == frame_count()) {
       control.stop();
       return nullptr;
     }
@@ -95,56 +114,96 @@ class ClipMaker {
     return &work;
   }
 
-  FrameWork* read(FrameWork* work) const {
-    const Manifest& manifest = passes_.manifest;
-    const Path file = passes_.folder / manifest.frames[static_cast<std::size_t>(work->number)].file;
-    const Passes passes =
-        read_passes(file, manifest.layer, camera_.width_px, camera_.height_px, needs_, manifest.actor_layer);
+  [[nodiscard]] int frame_count() const { return static_cast<int>(passes_.manifest.frames.size()); }
+
+  FrameWork* read(FrameWork* work) {
+    work->fault = nullptr;
+    work->skipped.reset();
     try {
-      for (std::size_t i = 0; i < outputs_.size(); ++i)
-        outputs_[i].convert(passes, work->number, work->frames[i]);
-    } catch (const DataError& error) {
-      throw DataError(fmt::format("{}: {}", file.string(), error.what()));
+      convert(*work);
+    } catch (const DataError&) {
+      work->fault = std::current_exception();
+    } catch (const IoError&) {
+      work->fault = std::current_exception();
     }
     return work;
   }
 
-  /// Frames come one by one here: with several outputs, those are what there is to share between cores.
+  /// While a thread waits in here for others, it takes on no other frame (parallel_for()): the buffer is this one's.
+  void convert(FrameWork& work) {
+    const Path file = file_of(passes_, work.number);
+    PassBuffer& buffer = buffers_.local();
+    reader_.read(file, needs_, buffer);
+    try {
+      scenes_.convert(buffer.passes, work.number, work.scenes);
+    } catch (const DataError& error) {
+      throw DataError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+  }
+
+  /// Frames come one by one here: with several outputs, those are what there is to share between cores. A fault waits
+  /// for its turn, so that which one is told does not hang on which was found first.
   FrameWork* expose(FrameWork* work) {
+    if (work->fault) {
+      skip(*work);
+      return work;
+    }
     parallel_for(outputs_.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) outputs_[i].expose(work->frames[i]);
+      for (std::size_t i = begin; i < end; ++i)
+        outputs_[i].clip.expose(work->scenes[outputs_[i].scene], work->frames[i]);
     });
     return work;
   }
 
+  void skip(FrameWork& work) {
+    if (passes_.bad_frames == BadFrames::fail) std::rethrow_exception(work.fault);
+    work.skipped = skipped_frame(passes_, work.number, work.fault);
+    for (Output& output : outputs_) output.clip.skip(work.number, work.skipped->reason);
+    if (frames_skipped_++ == 0) first_fault_ = message_of(work.fault);
+  }
+
   FrameWork* write(FrameWork* work) const {
-    for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i].write(work->number, work->frames[i]);
+    if (work->skipped) return work;
+    for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i].clip.write(work->number, work->frames[i]);
     return work;
   }
 
   void collect(const FrameWork& work) {
-    parallel_for(outputs_.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) outputs_[i].collect(work.number, work.frames[i]);
-    });
+    if (work.skipped) {
+      if (hooks_.frame_skipped) hooks_.frame_skipped(*work.skipped);
+    } else {
+      parallel_for(outputs_.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) outputs_[i].clip.collect(work.number, work.frames[i]);
+      });
+    }
     if (hooks_.frame_done) hooks_.frame_done();
   }
 
   const ClipPasses& passes_;
   const ClipHooks& hooks_;
-  CameraIntrinsics camera_;  ///< of the passes
+  PassReader reader_;
+  ClipScenes scenes_;
   Outputs outputs_;
-  PassNeeds needs_;  ///< of all outputs
+  PassNeeds needs_;  ///< of all scenes
+  tbb::enumerable_thread_specific<PassBuffer> buffers_;
   /// Frame k is in place k modulo their number. That one is free again when k enters: frames leave in order.
   /// Pointers, because what TBB allocates to pass on larger things, it loses when a stage throws.
   std::array<FrameWork, kFramesInFlight> in_flight_;
   int next_frame_ = 0;
+  int frames_skipped_ = 0;
+  std::string first_fault_;  ///< of those
 };
 
 }  // namespace
 
 std::vector<ClipRecord> make_clips(const ClipPasses& passes, const std::vector<ClipTask>& tasks,
                                    const MaterialLibrary& materials, const ClipHooks& hooks) {
-  return ClipMaker(passes, tasks, materials, hooks).make();
+  try {
+    return ClipMaker(passes, tasks, materials, hooks).make();
+  } catch (...) {  // half a clip is of no use, and may be in need of room
+    for (const ClipTask& task : tasks) sweep_folder(task.layout.unfinished_clip(task.clip.id));
+    throw;
+  }
 }
 
 ClipRecord make_clip(const ClipPasses& passes, const ClipTask& task, const MaterialLibrary& materials,

@@ -1,20 +1,19 @@
 #include "dataset/clip_output.h"
 
-#include <cstddef>
 #include <span>
+#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "dataset/tone_record.h"
 #include "imaging/target_contrast.h"
-#include "io/png.h"
+#include "io/output_folder.h"
 #include "scene/camera_geometry.h"
 
 namespace thermal {
 namespace {
 
 Path fresh_folder(const Path& folder) {
-  std::filesystem::remove_all(folder);
+  make_fresh_folder(folder);
   make_folder(folder / "ir8");
   make_folder(folder / "ir16");
   return folder;
@@ -32,55 +31,60 @@ ThermalCamera::Clip sensor_clip(const ClipTask& task, const Manifest& manifest) 
 }
 
 template <typename T>
-ClipOutput::WrittenPicture write_picture(const Plane<T>& picture, const Path& file) {
-  const std::vector<std::byte> png = encode_png(picture);
+ClipOutput::WrittenPicture write_picture(const Plane<T>& picture, const Path& file,
+                                         std::vector<std::byte>& png) {
+  encode_png(picture, png);
   write_file(file, png);
   return {.pixels_sha256 = sha256_of(std::as_bytes(picture.pixels())), .file_sha256 = sha256_of(png)};
 }
 
 }  // namespace
 
-ClipOutput::ClipOutput(const ClipTask& task, const Manifest& manifest, const MaterialLibrary& materials)
+ClipOutput::ClipOutput(const ClipTask& task, const Manifest& manifest, float brightest_w_m2_sr,
+                       std::shared_ptr<const TemperatureTable> temperatures)
     : task_(task),
       manifest_(manifest),
       folder_(fresh_folder(task.layout.unfinished_clip(task.clip.id))),
-      converter_(manifest, materials, task.clip.season, task.sensor, task.physics, task.distortion),
-      camera_(task.sensor, sensor_clip(task, manifest), converter_.brightest_w_m2_sr()),
+      brightest_w_m2_sr_(brightest_w_m2_sr),
+      camera_(task.sensor, sensor_clip(task, manifest), brightest_w_m2_sr, std::move(temperatures)),
       video_(folder_ / "preview.mp4", manifest.frame_rate_hz, manifest.camera.width_px,
              manifest.camera.height_px),
-      annotations_(manifest, task.distortion, task.labels) {}
+      annotations_(manifest, task.distortion, task.labels, folder_ / "labels.spool"),
+      frames_jsonl_(folder_ / "frames.jsonl") {}
 
-void ClipOutput::convert(const Passes& passes, int number, Frame& frame) const {
-  converter_.convert(passes, told_of(number), frame.scene);
-}
-
-void ClipOutput::expose(Frame& frame) {
-  camera_.expose(frame.scene.radiance_w_m2_sr, frame.pictures, [&](const Plane<float>& radiance_w_m2_sr) {
-    tell_contrast(camera_, radiance_w_m2_sr, frame.scene.instances);
+void ClipOutput::expose(const SceneFrame& scene, Frame& frame) {
+  frame.instances = scene.instances;
+  camera_.expose(scene.radiance_w_m2_sr, frame.pictures, [&](const Plane<float>& radiance_w_m2_sr) {
+    tell_contrast(camera_, radiance_w_m2_sr, frame.instances);
   });
 }
 
 void ClipOutput::write(int number, Frame& frame) const {
   const std::string name = frame_name(number);
-  frame.ir8 = write_picture(frame.pictures.ir8, folder_ / "ir8" / name);
-  frame.ir16 = write_picture(frame.pictures.ir16, folder_ / "ir16" / name);
+  frame.ir8 = write_picture(frame.pictures.ir8, folder_ / "ir8" / name, frame.png);
+  frame.ir16 = write_picture(frame.pictures.ir16, folder_ / "ir16" / name, frame.png);
 }
 
 void ClipOutput::collect(int number, const Frame& frame) {
   video_.add(frame.pictures.ir8);
-  annotations_.add_frame(number, frame.scene.instances, frame.pictures.shutter_closed);
+  annotations_.add_frame(number, frame.instances, frame.pictures.shutter_closed);
   pixels_.add(frame.ir8.pixels_sha256);
   pixels_.add(frame.ir16.pixels_sha256);
   record_.files["ir8/" + frame_name(number)] = frame.ir8.file_sha256;
   record_.files["ir16/" + frame_name(number)] = frame.ir16.file_sha256;
-  frames_jsonl_ += frame_line(number, frame).dump() + "\n";
+  frames_jsonl_.add(frame_line(number, frame).dump() + "\n");
   ++record_.frames;
 }
 
+void ClipOutput::skip(int number, const std::string& reason) {
+  camera_.skip();
+  record_.skipped.push_back({.frame_index = number, .file = told_of(number).file, .reason = reason});
+}
+
 ClipRecord ClipOutput::finish() {
-  { const PreviewVideo closed = std::move(video_); }
-  add_text("labels.json", to_text(annotations_.document()));
-  add_text("frames.jsonl", frames_jsonl_);
+  video_.close();
+  write_labels();
+  record_.files["frames.jsonl"] = frames_jsonl_.close();
   record_.files["preview.mp4"] = sha256_of(read_file(folder_ / "preview.mp4"));
   record_.clip = task_.clip.id;
   record_.season = season_name(task_.clip.season);
@@ -94,9 +98,7 @@ ClipRecord ClipOutput::finish() {
 
 void ClipOutput::move_into_place() const {
   const Path finished = task_.layout.clip(task_.clip.id);
-  std::filesystem::remove_all(finished);
-  std::filesystem::rename(folder_, finished);
-  sync_folder(finished.parent_path());
+  replace_folder(folder_, finished);
 }
 
 const ManifestFrame& ClipOutput::told_of(int number) const {
@@ -110,15 +112,16 @@ Json ClipOutput::frame_line(int number, const Frame& frame) const {
   if (told.look_angle_deg) line["look_angle_deg"] = *told.look_angle_deg;
   if (told.camera_to_world) line["camera_to_world"] = *told.camera_to_world;
   line["ffc"] = frame.pictures.shutter_closed;
-  line["agc"] = tone_record(frame.pictures.curve, task_.sensor.agc, converter_.brightest_w_m2_sr());
+  line["agc"] = tone_record(frame.pictures.curve, task_.sensor.agc, brightest_w_m2_sr_);
   line["ir8_sha256"] = frame.ir8.pixels_sha256;
   line["ir16_sha256"] = frame.ir16.pixels_sha256;
   return line;
 }
 
-void ClipOutput::add_text(const std::string& name, const std::string& text) {
-  write_file(folder_ / name, std::as_bytes(std::span(text)));
-  record_.files[name] = sha256_of(text);
+void ClipOutput::write_labels() {
+  OutputFile labels(folder_ / "labels.json");
+  annotations_.write([&labels](std::string_view text) { labels.add(text); });
+  record_.files["labels.json"] = labels.close();
 }
 
 }  // namespace thermal

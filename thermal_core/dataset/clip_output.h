@@ -1,19 +1,23 @@
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "dataset/annotations.h"
 #include "dataset/clip_maker.h"
 #include "imaging/frame_converter.h"
+#include "io/output_file.h"
+#include "io/png.h"
 #include "io/preview_video.h"
 #include "io/sha256.h"
 #include "sensor/thermal_camera.h"
 
 namespace thermal {
 
-/// One task's clip while it is made: its scene and camera, and its files, in the task's unfinished folder.
-/// A frame goes through convert, expose, write and collect; different frames may be in the first and the third at
-/// the same time, expose and collect want them one by one and in order.
+/// One task's clip while it is made: its camera and its files, in the task's unfinished folder.
+/// A frame of its scene goes through expose, write and collect; different frames may be written at the same time,
+/// expose and collect want them one by one and in order.
 class ClipOutput {
  public:
   /// One picture as it was written: sums of its pixels and of its file.
@@ -23,23 +27,27 @@ class ClipOutput {
   };
   /// A frame on its way. Its memory is used again.
   struct Frame {
-    SceneFrame scene;
+    std::vector<Instance> instances;
     SensorFrame pictures;
     WrittenPicture ir8;
     WrittenPicture ir16;
+    std::vector<std::byte> png;
   };
 
   /// Empties the task's unfinished folder, or makes it. `task` and `manifest` must outlive this.
-  ClipOutput(const ClipTask& task, const Manifest& manifest, const MaterialLibrary& materials);
+  /// @param brightest_w_m2_sr  of the task's scene: FrameConverter::brightest_w_m2_sr()
+  /// @param temperatures  for its camera: see there
+  ClipOutput(const ClipTask& task, const Manifest& manifest, float brightest_w_m2_sr,
+             std::shared_ptr<const TemperatureTable> temperatures);
 
-  /// Planes that convert() wants.
-  [[nodiscard]] PassNeeds needs() const noexcept { return converter_.needs(); }
-
-  /// DataError without the name of a file.
-  void convert(const Passes& passes, int number, Frame& frame) const;
-  void expose(Frame& frame);
+  /// `scene` may be that of other outputs as well: what this camera tells of actors is written into the frame.
+  void expose(const SceneFrame& scene, Frame& frame);
   void write(int number, Frame& frame) const;
   void collect(int number, const Frame& frame);
+
+  /// Instead of expose(), for a frame that could not be read or converted: the clip goes on without it. Its number stays
+  /// free in file names, labels and frames.jsonl; clip.json tells of it.
+  void skip(int number, const std::string& reason);
 
   /// Writes what is about the clip as a whole.
   ClipRecord finish();
@@ -50,18 +58,18 @@ class ClipOutput {
  private:
   [[nodiscard]] const ManifestFrame& told_of(int number) const;
   [[nodiscard]] Json frame_line(int number, const Frame& frame) const;
-  void add_text(const std::string& name, const std::string& text);
+  void write_labels();
 
   const ClipTask& task_;
   const Manifest& manifest_;
   Path folder_;
-  FrameConverter converter_;
+  float brightest_w_m2_sr_;
   ThermalCamera camera_;
   PreviewVideo video_;
   ClipAnnotations annotations_;
   Sha256 pixels_;
   ClipRecord record_;
-  std::string frames_jsonl_;
+  OutputFile frames_jsonl_;
 };
 
 }  // namespace thermal

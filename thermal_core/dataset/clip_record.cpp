@@ -3,20 +3,39 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/printable.h"
 
 namespace thermal {
 
+namespace {
+
+Json to_json(const SkippedFrame& frame) {
+  return {{"frame_index", frame.frame_index}, {"file", printable(frame.file)}, {"reason", frame.reason}};
+}
+
+std::vector<SkippedFrame> read_skipped(const Json& record) {
+  std::vector<SkippedFrame> frames;
+  for (const Json& frame : record.value("skipped", Json::array()))
+    frames.push_back(
+        {.frame_index = frame.at("frame_index"), .file = frame.at("file"), .reason = frame.at("reason")});
+  return frames;
+}
+
+}  // namespace
+
 Json to_json(const ClipRecord& record) {
-  return {{"format", "veldt-clip"},
-          {"version", 1},
-          {"clip", record.clip},
-          {"season", record.season},
-          {"seed", record.seed},
-          {"frames", record.frames},
-          {"annotations", record.annotations},
-          {"frame_rate_hz", record.frame_rate_hz},
-          {"pixels_sha256", record.pixels_sha256},
-          {"files", record.files}};
+  Json json = {{"format", "veldt-clip"},
+               {"version", 1},
+               {"clip", record.clip},
+               {"season", record.season},
+               {"seed", record.seed},
+               {"frames", record.frames},
+               {"annotations", record.annotations},
+               {"frame_rate_hz", record.frame_rate_hz},
+               {"pixels_sha256", record.pixels_sha256},
+               {"files", record.files}};
+  for (const SkippedFrame& frame : record.skipped) json["skipped"].push_back(to_json(frame));
+  return json;
 }
 
 ClipRecord read_clip_record(const Path& file) {
@@ -29,7 +48,8 @@ ClipRecord read_clip_record(const Path& file) {
             .annotations = json.at("annotations"),
             .frame_rate_hz = json.at("frame_rate_hz"),
             .pixels_sha256 = json.at("pixels_sha256"),
-            .files = json.at("files").get<std::map<std::string, std::string>>()};
+            .files = json.at("files").get<std::map<std::string, std::string>>(),
+            .skipped = read_skipped(json)};
   } catch (const ConfigError& error) {
     throw DataError(error.what());
   } catch (const Json::exception& error) {

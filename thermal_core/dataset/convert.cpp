@@ -1,12 +1,17 @@
 #include "dataset/convert.h"
 
+#include <algorithm>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/printable.h"
 #include "dataset/convert_requests.h"
 #include "dataset/dataset_index.h"
+#include "dataset/frame_faults.h"
+#include "dataset/outline.h"
 #include "dataset/passes_folders.h"
 #include "dataset/physics.h"
 #include "io/material_files.h"
@@ -14,28 +19,61 @@
 namespace thermal {
 namespace {
 
+/// The folder of a dataset, in which nothing leads elsewhere.
+Layout own_layout(const ConvertRequest& request) {
+  if (!request.variant.empty()) check_is_no_link(request.out);
+  const Layout layout{request.out};
+  check_is_no_link(layout.clips());
+  return layout;
+}
+
+/// Which terms each dataset keeps. Passes are looked into once for all.
+std::vector<Budget> budgets_of(const std::vector<ConvertRequest>& requests, const MaterialLibrary& materials,
+                               const std::vector<ClipPasses>& sources) {
+  const bool looks =
+      std::ranges::any_of(requests, [](const auto& request) { return request.config.physical; });
+  const std::vector<PassesView> views =
+      looks ? view_passes(sources) : std::vector<PassesView>(sources.size());
+  std::vector<Budget> budgets;
+  for (const ConvertRequest& request : requests)
+    budgets.push_back(
+        weigh_terms(outline_of(request.config, materials, sources, views), request.config.terms));
+  return budgets;
+}
+
+/// What is told of automatic terms for which the passes lack something.
+std::vector<std::string> terms_left_out(const Budget& budget) {
+  std::vector<std::string> left_out;
+  for (const TermEffect& effect : budget.effects) {
+    if (effect.choice == TermChoice::automatic && !effect.impossible.empty())
+      left_out.push_back(effect.name + " (" + effect.impossible + ")");
+  }
+  return left_out;
+}
+
 /// A dataset that is being made.
 class Dataset {
  public:
-  Dataset(ConvertRequest request, const MaterialLibrary& materials, const std::vector<ClipPasses>& sources)
+  Dataset(ConvertRequest request, const Budget& budget, const MaterialLibrary& materials,
+          const std::vector<ClipPasses>& sources)
       : request_(std::move(request)),
-        layout_{request_.out},
+        layout_(own_layout(request_)),
         lock_(layout_.root),
         index_(open_dataset(layout_, request_.config)),
+        kept_(budget.kept),
+        left_out_(terms_left_out(budget)),
         behind_(!index_.complete() || !index_.recorded) {
-    std::vector<const Manifest*> manifests;
-    for (const ClipPasses& source : sources) manifests.push_back(&source.manifest);
-    const Config& config = request_.config;
-    const Budget budget = weigh_terms(outline_of(config, materials, manifests), config.terms);
-    kept_ = budget.kept;
     index_.physics = to_json(budget);
     for (const ClipPasses& source : sources) {
+      if (is_to_mend(source, materials)) mended_.insert(source.manifest.clip);
       if (!lacks(source)) outcome_.already_there.push_back(source.manifest.clip);
     }
+    behind_ = behind_ || !mended_.empty();
   }
 
   [[nodiscard]] bool lacks(const ClipPasses& source) const {
-    return !index_.finished.contains(source.manifest.clip);
+    const std::string& clip = source.manifest.clip;
+    return !index_.finished.contains(clip) || mended_.contains(clip);
   }
 
   /// From here on the folder belongs to its config.
@@ -64,16 +102,19 @@ class Dataset {
   }
 
   void reject(const std::string& clip, const std::string& why) {
-    index_.failed[clip] = why;
-    outcome_.failed[clip] = why;
-    std::filesystem::remove_all(layout_.unfinished_clip(clip));
+    index_.failed[clip] = printable(why);
+    outcome_.failed[clip] = printable(why);
     write_progress(layout_, index_);
   }
 
-  ConvertOutcome end() {
+  ConvertOutcome end(const std::vector<ClipPasses>& sources) {
     if (behind_) write_dataset(layout_, index_);
     outcome_.complete = index_.complete();
-    return {.variant = request_.variant, .out = request_.out, .run = outcome_};
+    return {.variant = request_.variant,
+            .out = request_.out,
+            .run = outcome_,
+            .skips = skips_of(sources),
+            .left_out = left_out_};
   }
 
   void end_after_fault() const noexcept {
@@ -81,12 +122,32 @@ class Dataset {
   }
 
  private:
+  /// Whether a clip that is there can be made with more of its frames. If strict, making it will tell what is bad.
+  [[nodiscard]] bool is_to_mend(const ClipPasses& source, const MaterialLibrary& materials) const {
+    const auto found = index_.skipped.find(source.manifest.clip);
+    if (found == index_.skipped.end() || found->second.empty()) return false;
+    return source.bad_frames == BadFrames::fail ||
+           can_be_mended(source, task_for(source), materials, found->second);
+  }
+
+  [[nodiscard]] std::vector<ClipSkips> skips_of(const std::vector<ClipPasses>& sources) const {
+    std::vector<ClipSkips> skips;
+    for (const ClipPasses& source : sources) {
+      const auto found = index_.skipped.find(source.manifest.clip);
+      if (found == index_.skipped.end() || found->second.empty()) continue;
+      skips.push_back({.clip = source.manifest.clip, .folder = source.folder, .frames = found->second});
+    }
+    return skips;
+  }
+
   ConvertRequest request_;
   Layout layout_;
   FolderLock lock_;
   DatasetIndex index_;
   Terms kept_;
-  bool behind_;  ///< clips are missing, or the files do not tell of all
+  std::vector<std::string> left_out_;
+  bool behind_;                   ///< clips are missing, or the files do not tell of all
+  std::set<std::string> mended_;  ///< clips that are there, and are made anew
   RunOutcome outcome_;
 };
 
@@ -96,8 +157,10 @@ class Converter {
   Converter(const std::vector<ConvertRequest>& requests, const std::vector<ClipPasses>& sources,
             const MaterialLibrary& materials, const RunHooks& hooks)
       : sources_(sources), materials_(materials), hooks_(hooks) {
-    for (const ConvertRequest& request : requests)
-      datasets_.push_back(std::make_unique<Dataset>(request, materials, sources));
+    // First, because a term that is asked for and cannot be had is a fault, and then no folder is touched.
+    const std::vector<Budget> budgets = budgets_of(requests, materials, sources);
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      datasets_.push_back(std::make_unique<Dataset>(requests[i], budgets[i], materials, sources));
   }
 
   std::vector<ConvertOutcome> run() {
@@ -108,7 +171,7 @@ class Converter {
       throw;
     }
     std::vector<ConvertOutcome> outcomes;
-    for (const auto& dataset : datasets_) outcomes.push_back(dataset->end());
+    for (const auto& dataset : datasets_) outcomes.push_back(dataset->end(sources_));
     return outcomes;
   }
 
@@ -136,18 +199,21 @@ class Converter {
     hooks_.report(progress_);
     const int before = progress_.frames_done;
     std::vector<ClipRecord> records;
-    std::string fault;
     try {
       records = make(source, wanted);
-    } catch (const DataError& error) {
-      fault = error.what();
-    } catch (const IoError& error) {
-      fault = error.what();
+    } catch (const DataError& fault) {
+      reject(source, wanted, fault.what());
+    } catch (const IoError& fault) {
+      reject(source, wanted, fault.what());
     }
     for (std::size_t i = 0; i < records.size(); ++i) wanted[i]->add(records[i]);
-    if (fault.empty()) return;
-    for (Dataset* dataset : wanted) dataset->reject(source.manifest.clip, fault);
-    progress_.frames_done = before + static_cast<int>(source.manifest.frames.size());
+    if (records.empty()) progress_.frames_done = before + static_cast<int>(source.manifest.frames.size());
+  }
+
+  /// For where a fault is caught: if strict, it goes on from here.
+  void reject(const ClipPasses& source, const std::vector<Dataset*>& wanted, const std::string& why) const {
+    for (Dataset* dataset : wanted) dataset->reject(source.manifest.clip, why);
+    if (source.bad_frames == BadFrames::fail) throw;
   }
 
   std::vector<ClipRecord> make(const ClipPasses& source, const std::vector<Dataset*>& wanted) {
@@ -159,7 +225,11 @@ class Converter {
                                    ++progress_.frames_done;
                                    hooks_.report(progress_);
                                  },
-                             .cancelled = hooks_.cancelled};
+                             .cancelled = hooks_.cancelled,
+                             .frame_skipped =
+                                 [this, &source](const SkippedFrame& frame) {
+                                   if (hooks_.skipped) hooks_.skipped(source.manifest.clip, frame);
+                                 }};
     return make_clips(source, tasks, materials_, hooks);
   }
 
@@ -175,8 +245,11 @@ class Converter {
 std::vector<ConvertOutcome> convert(const ConvertOptions& options, const RunHooks& hooks) {
   const ThreadLimit limit(options.threads);
   const MaterialLibrary materials = read_materials(options.home);
-  const std::vector<ClipPasses> sources =
-      find_passes(options.passes, options.manifest, materials, options.home);
+  std::vector<ClipPasses> sources = find_passes(options.passes, options.manifest, materials, options.home);
+  for (ClipPasses& source : sources) {
+    source.limits = options.limits;
+    source.bad_frames = options.strict ? BadFrames::fail : BadFrames::skip;
+  }
   return Converter(convert_requests(options, sources), sources, materials, hooks).run();
 }
 

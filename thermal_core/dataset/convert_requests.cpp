@@ -12,7 +12,8 @@ namespace {
 /// What stands for a config where none is given.
 Json default_document(const std::vector<ClipPasses>& sources) {
   Json clips = Json::array();
-  for (const auto& [manifest, folder] : sources) {
+  for (const ClipPasses& source : sources) {
+    const Manifest& manifest = source.manifest;
     clips.push_back({{"id", manifest.clip},
                      {"season", "winter"},
                      {"frames", manifest.frames.size()},
@@ -43,12 +44,13 @@ std::optional<Json> clip_of_flight(const Config& config, const Manifest& manifes
 /// Keeps of a config what is about these clips, so that the dataset is complete once they are made.
 Config only_clips_of(Config config, const std::vector<ClipPasses>& sources) {
   Json documents = Json::array();
-  for (const auto& [manifest, folder] : sources) {
+  for (const ClipPasses& source : sources) {
+    const Manifest& manifest = source.manifest;
     if (const auto cut = clip_of_flight(config, manifest)) {
       documents.push_back(*cut);
       continue;
     }
-    (void)config.clip(manifest.clip, folder.string() + ": clip");
+    (void)config.clip(manifest.clip, source.folder.string() + ": clip");
     for (const Json& document : config.resolved["clips"]) {
       if (document["id"] == manifest.clip) documents.push_back(document);
     }

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/version.h"
-#include "dataset/annotations.h"
+#include "dataset/joined_annotations.h"
 #include "io/sha256.h"
 
 namespace thermal {
@@ -87,17 +87,13 @@ Json document_of(const DatasetIndex& index, const std::string& annotations_sha25
   return document;
 }
 
-std::string write_annotations(const Layout& layout, const DatasetIndex& index) {
+/// In the config's order.
+std::vector<std::string> finished_clips(const DatasetIndex& index) {
   std::vector<std::string> clips;
-  std::vector<Json> documents;
   for (const std::string& id : index.clips) {
-    if (!index.finished.contains(id)) continue;
-    clips.push_back(id);
-    documents.push_back(read_json(layout.clip(id) / "labels.json"));
+    if (index.finished.contains(id)) clips.push_back(id);
   }
-  const std::string text = join_annotations(index.config.at("name"), clips, documents).dump() + "\n";
-  write_file_atomically(layout.annotations_json(), text);
-  return sha256_of(text);
+  return clips;
 }
 
 }  // namespace
@@ -110,6 +106,8 @@ void DatasetIndex::add(const std::string& id, const ClipRecord& record) {
                   {"annotations", record.annotations},
                   {"pixels_sha256", record.pixels_sha256},
                   {"record_sha256", sha256_of(to_text(to_json(record)))}};
+  if (!record.skipped.empty()) finished[id]["skipped"] = record.skipped.size();
+  skipped[id] = record.skipped;
   failed.erase(id);
 }
 
@@ -138,7 +136,8 @@ void write_progress(const Layout& layout, const DatasetIndex& index) {
 }
 
 void write_dataset(const Layout& layout, const DatasetIndex& index) {
-  const std::string annotations_sha256 = write_annotations(layout, index);
+  const std::string annotations_sha256 =
+      write_joined_annotations(layout, index.config.at("name"), finished_clips(index));
   write_file_atomically(layout.dataset_json(), to_text(document_of(index, annotations_sha256)));
 }
 

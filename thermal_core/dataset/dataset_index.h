@@ -17,8 +17,9 @@ struct DatasetIndex {
   Json physics;                          ///< what is told of the budget, which is one for all clips
   std::vector<std::string> clips;        ///< ids, in the config's order
   std::map<std::string, Json> finished;  ///< by id: what is told of it; the files' sums stay in clip.json
-  std::map<std::string, std::string> failed;  ///< by id: why, when it was last tried
-  bool recorded = false;                      ///< the files on disk tell of all the finished clips
+  std::map<std::string, std::string> failed;                      ///< by id: why, when it was last tried
+  std::map<std::string, std::vector<SkippedFrame>> skipped = {};  ///< by id: frames finished clips go without
+  bool recorded = false;  ///< the files on disk tell of all the finished clips
 
   [[nodiscard]] bool complete() const { return finished.size() == clips.size(); }
   void add(const std::string& id, const ClipRecord& record);

@@ -14,9 +14,10 @@ struct Layout {
   /// A dataset was begun here.
   [[nodiscard]] bool is_begun() const { return std::filesystem::exists(dataset_json()); }
   [[nodiscard]] Path annotations_json() const { return root / "annotations.json"; }
-  [[nodiscard]] Path clip(const std::string& id) const { return root / "clips" / id; }
+  [[nodiscard]] Path clips() const { return root / "clips"; }
+  [[nodiscard]] Path clip(const std::string& id) const { return clips() / id; }
   /// Where a clip is made before it is whole and renamed.
-  [[nodiscard]] Path unfinished_clip(const std::string& id) const { return root / "clips" / (id + ".part"); }
+  [[nodiscard]] Path unfinished_clip(const std::string& id) const { return clips() / (id + ".part"); }
   [[nodiscard]] Path passes() const { return root / "passes"; }
   [[nodiscard]] Path passes(const std::string& id) const { return passes() / id; }
   [[nodiscard]] Path passes_config() const { return passes() / "config.json"; }

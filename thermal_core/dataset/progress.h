@@ -3,6 +3,8 @@
 #include <functional>
 #include <string>
 
+#include "dataset/clip_record.h"
+
 namespace thermal {
 
 /// How far a run is.
@@ -18,6 +20,8 @@ struct RunHooks {
   std::function<bool()> cancelled;
   /// Blender died over a clip, and why, and was started again.
   std::function<void(const std::string& clip, const std::string& why)> restarted = {};
+  /// A clip goes on without a frame.
+  std::function<void(const std::string& clip, const SkippedFrame& frame)> skipped = {};
 
   void report(const Progress& state) const {
     if (progress) progress(state);

@@ -97,9 +97,13 @@ Json& step_into(Json& at, const std::string& part, const std::string& assignment
   return value[entry];
 }
 
+/// What is not JSON is a string, which the schema then tells about.
 Json parse_value(const std::string& text) {
-  Json value = Json::parse(text, nullptr, false);
-  return value.is_discarded() ? Json(text) : value;
+  try {
+    return parse_json(text, "--set");
+  } catch (const ConfigError&) {
+    return Json(text);
+  }
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ std::vector<std::string> category_names(const LabelSet& truth) {
 /// What is wrong with a box's place in its picture; empty if nothing is. Detectors may let boxes reach out, and cut
 /// those outside down to a line of the border: one that touches the picture is in it.
 std::string fault_of_place(const LabelBox& box, const LabelImage& image) {
-  const bool far = box.x_px + box.width_px < 0 || box.y_px + box.height_px < 0;
+  const auto reaches = [](double end_px) { return std::isfinite(end_px) && end_px >= 0; };
+  const bool far = !reaches(box.x_px + box.width_px) || !reaches(box.y_px + box.height_px);
   const bool beyond_right = image.width_px > 0 && box.x_px > image.width_px;
   const bool beyond_bottom = image.height_px > 0 && box.y_px > image.height_px;
   if (!far && !beyond_right && !beyond_bottom) return {};

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,9 @@ JsonEntry::JsonEntry(const Json& json, const std::string& file, const std::strin
 std::int64_t JsonEntry::integer(const char* key) const {
   const Json& value = at(key);
   if (!value.is_number_integer()) throw fault_of(key, "a whole number");
+  // What JSON has above the largest is unsigned, and would become negative.
+  if (value.is_number_unsigned() && value.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max())
+    throw fault_of(key, "a whole number up to 9223372036854775807");
   return value.get<std::int64_t>();
 }
 

@@ -18,6 +18,7 @@ class JsonEntry {
   JsonEntry(const Json& json, const std::string& file, const std::string& list, std::size_t place);
 
   [[nodiscard]] bool has(const char* key) const { return json_.contains(key) && !json_[key].is_null(); }
+  /// Up to 2^63 - 1.
   [[nodiscard]] std::int64_t integer(const char* key) const;
   /// A size or a number of frames: 0 to 1e9.
   [[nodiscard]] int count(const char* key) const;

@@ -1,6 +1,7 @@
 #include "io/json_file.h"
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 #include <vector>
 
@@ -75,11 +76,21 @@ class Elements {
   int inside_ = 0;  ///< depth of the elements of the array that is open; 0: none is
 };
 
+/// Trees are copied, compared and written by functions that call themselves, and the stack is small. Ours are 8 deep.
+void check_depth(int depth, Json::parse_event_t event, const std::string& name) {
+  constexpr int kDeepest = 64;
+  const bool begins = event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+  if (!begins || depth < kDeepest) return;
+  throw ConfigError(
+      fmt::format("{}: lists and objects more than {} deep in each other; expected fewer", name, kDeepest));
+}
+
 /// Parses while `keep` watches; faults name the place.
 template <typename Keep>
 Json parse_watched(std::string_view text, const std::string& name, const Keep& keep) {
   DuplicateKeys duplicates;
   const auto watch = [&](int depth, Json::parse_event_t event, const Json& value) {
+    check_depth(depth, event, name);
     duplicates.see(event, value);
     return keep(depth, event, value);
   };
@@ -139,6 +150,19 @@ Json parse_json_elements(std::string_view text, const std::string& name, const T
   return parse_watched(text, name, [&elements](int depth, Json::parse_event_t event, const Json& value) {
     return elements.see(depth, event, value);
   });
+}
+
+Json read_json_elements(const Path& file, const TakeElement& take) {
+  std::ifstream in(file, std::ios::binary);
+  Elements elements(take);
+  try {
+    return Json::parse(in, [&elements](int depth, Json::parse_event_t event, const Json& value) {
+      return elements.see(depth, event, value);
+    });
+  } catch (const Json::parse_error&) {  // where it is takes the whole text to tell
+    return parse_json_elements(read_file(file), file.string(),
+                               [](const std::string&, std::size_t, const Json&) {});
+  }
 }
 
 Json read_json(const Path& file) { return parse_json(read_file(file), file.string()); }

@@ -15,7 +15,8 @@ namespace thermal {
 /// JSON that keeps its keys in the order they came.
 using Json = nlohmann::ordered_json;
 
-/// ConfigError "NAME:LINE:COLUMN: not JSON: …" for text that is not JSON, or has a key twice in one object.
+/// ConfigError "NAME:LINE:COLUMN: not JSON: …" for text that is not JSON, has a key twice in one object, or lists and
+/// objects more than 64 deep in each other.
 [[nodiscard]] Json parse_json(std::string_view text, const std::string& name);
 
 /// The same for a file; IoError if it cannot be read.
@@ -30,6 +31,10 @@ using TakeElement = std::function<void(const std::string& array, std::size_t pla
 /// Faults as of parse_json(); those of `take` pass through.
 [[nodiscard]] Json parse_json_elements(std::string_view text, const std::string& name,
                                        const TakeElement& take);
+
+/// The same for a file of any length, which is read piece by piece: memory is that of one element. For files of ours:
+/// keys that come twice are not looked for.
+[[nodiscard]] Json read_json_elements(const Path& file, const TakeElement& take);
 
 /// Indented by two, newline at the end.
 [[nodiscard]] std::string to_text(const Json& json);

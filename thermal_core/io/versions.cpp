@@ -5,8 +5,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/version.h>
-#include <opencv2/core/utility.hpp>
 #include <openssl/crypto.h>
+
+extern "C" {
+#include <libavutil/avutil.h>
+}
 
 namespace thermal {
 
@@ -14,7 +17,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
   const int oiio = OIIO::openimageio_version();
   return {{"OpenEXR", OPENEXR_VERSION_STRING},
           {"OpenImageIO", fmt::format("{}.{}.{}", oiio / 10000, oiio / 100 % 100, oiio % 100)},
-          {"OpenCV", cv::getVersionString()},
+          {"FFmpeg", av_version_info()},
           {"oneTBB", TBB_runtime_version()},
           {"OpenSSL", OpenSSL_version(OPENSSL_VERSION_STRING)},
           {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,

@@ -10,6 +10,8 @@ struct Air {
 
   /// ConfigError unless 200 K to 340 K, and the others from 0 to 1.
   void validate() const;
+
+  [[nodiscard]] bool operator==(const Air&) const = default;
 };
 
 /// Partial pressure of water vapour [hPa]; Magnus form, 17.62 and 243.12 C (WMO-No. 8, 2018), over water.

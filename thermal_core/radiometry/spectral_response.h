@@ -11,6 +11,8 @@ class SpectralResponse {
   struct Sample {
     double wavelength_um;
     double response;
+
+    [[nodiscard]] bool operator==(const Sample&) const = default;
   };
 
   /// Response 1 from begin_um to end_um. Requires 0 < begin_um < end_um, both finite.
@@ -26,6 +28,8 @@ class SpectralResponse {
   [[nodiscard]] std::span<const Sample> samples() const noexcept { return samples_; }
   [[nodiscard]] double begin_um() const noexcept { return samples_.front().wavelength_um; }
   [[nodiscard]] double end_um() const noexcept { return samples_.back().wavelength_um; }
+
+  [[nodiscard]] bool operator==(const SpectralResponse&) const = default;
 
  private:
   std::vector<Sample> samples_;

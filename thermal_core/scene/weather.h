@@ -9,6 +9,8 @@ namespace thermal {
 struct Weather {
   Air air;
   double vehicle_stopped_s = 3600;  ///< since engines were switched off
+
+  [[nodiscard]] bool operator==(const Weather&) const = default;
 };
 
 /// The nights of Table 1: winter 273 K and 60 % humidity, summer 293 K and 70 %, both clear.

@@ -50,7 +50,8 @@ void BadPixels::blink(std::uint32_t frame, float height, Plane<float>& signal) {
   if (blinking_.empty()) return;
   std::vector<float> numbers(blinking_.size());
   fill_uniform({.seed = seed_, .stream = kBlinkStream, .clip = clip_, .frame = frame}, 0, numbers);
-  const float probability = frame == 0 ? 0.5F : flip_probability_;  // both states are equally likely at first
+  const float probability = begun_ ? flip_probability_ : 0.5F;  // both states are equally likely at first
+  begun_ = true;
   for (std::size_t i = 0; i < blinking_.size(); ++i) {
     if (numbers[i] < probability) is_up_[i] = !is_up_[i];
     if (is_up_[i]) signal.pixels()[blinking_[i]] += height;

@@ -35,6 +35,7 @@ class BadPixels {
   std::vector<bool> is_dead_;  ///< empty: none
   std::vector<std::size_t> blinking_;
   std::vector<bool> is_up_;  ///< of the blinking ones
+  bool begun_ = false;       ///< a frame was shown
 };
 
 }  // namespace thermal

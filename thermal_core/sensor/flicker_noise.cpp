@@ -171,7 +171,7 @@ void FlickerNoise::add_next(std::uint32_t frame, std::size_t first, float stddev
   field.frame = frame;
   for (std::size_t done = 0; done < out.size(); done += kBlock) {
     const std::size_t count = std::min(kBlock, out.size() - done);
-    if (frame == 0) start(first + done, count);
+    if (frame == begins_) start(first + done, count);
     fill_normal(field, first + done, std::span(normals).first(count));
     const std::span<float> place = out.subspan(done, count);
     add_scaled(std::span(normals).first(count), stddev * direct_, place);

@@ -39,9 +39,12 @@ class FlickerNoise {
  public:
   FlickerNoise(std::uint32_t seed, std::string_view clip, const FlickerFilter& filter, std::size_t pixels);
 
+  /// The frame that add_next() is first called for, where that is not 0.
+  void begin_at(std::uint32_t frame) noexcept { begins_ = frame; }
+
   /// Steps pixels [first, first + out.size()) to their next frame and adds `stddev` times the noise. `first` is a
   /// multiple of kRandomBatch. Safe to call from several threads on different pixels; every pixel must be stepped once a
-  /// frame, `frame` counting from 0.
+  /// frame, `frame` rising from that of begin_at().
   void add_next(std::uint32_t frame, std::size_t first, float stddev, std::span<float> out);
 
  private:
@@ -51,6 +54,7 @@ class FlickerNoise {
   std::vector<float> poles_;
   std::vector<float> residues_;
   float direct_;
+  std::uint32_t begins_ = 0;
   std::vector<double> start_;  ///< Cholesky factor of the states' stationary covariance, lower, row by row
   std::vector<std::vector<float>> states_;  ///< by pole, before the step to the next frame
 };

@@ -24,16 +24,6 @@ constexpr float kLargestCount = 65535;
 constexpr std::size_t kPixelsAChunk = 16384;
 constexpr std::size_t kPixelsABlock = 256;
 
-/// Apparent temperature by exact Planck, tabulated for anything a savanna night holds.
-TemperatureTable apparent_temperature_table(const SpectralResponse& response) {
-  constexpr double kColdest = 180;
-  constexpr double kHottest = 420;
-  const BandRadiance band(response);
-  const double low = band.radiance(kColdest);
-  const double high = band.radiance(kHottest);
-  return TemperatureTable([band](double radiance) { return band.temperature(radiance); }, low, high);
-}
-
 float netd_w_m2_sr(const SensorParameters& parameters) {
   const BandValue at_300_k = BandRadiance(parameters.response).evaluate(kReferenceTemperatureK);
   return static_cast<float>(parameters.noise.amount * parameters.netd_k() * at_300_k.derivative_w_m2_sr_k);
@@ -129,19 +119,33 @@ double noise_variance(const SensorParameters& parameters, double frame_rate_hz) 
 
 }  // namespace
 
-std::function<double(double temperature_k)> radiance_of(const SensorParameters& parameters) {
-  if (parameters.radiance == RadianceModel::script) return script_radiance;
-  return [band = BandRadiance(parameters.response)](double temperature_k) {
-    return band.radiance(temperature_k);
-  };
+std::function<double(double temperature_k)> radiance_of(RadianceModel model,
+                                                        const SpectralResponse& response) {
+  if (model == RadianceModel::script) return script_radiance;
+  return [band = BandRadiance(response)](double temperature_k) { return band.radiance(temperature_k); };
 }
 
-ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, float brightest_w_m2_sr)
+std::function<double(double temperature_k)> radiance_of(const SensorParameters& parameters) {
+  return radiance_of(parameters.radiance, parameters.response);
+}
+
+std::shared_ptr<const TemperatureTable> apparent_temperatures(const SpectralResponse& response) {
+  constexpr double kColdest = 180;
+  constexpr double kHottest = 420;
+  const BandRadiance band(response);
+  const double low = band.radiance(kColdest);
+  const double high = band.radiance(kHottest);
+  return std::make_shared<const TemperatureTable>(
+      [band](double radiance) { return band.temperature(radiance); }, low, high);
+}
+
+ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, float brightest_w_m2_sr,
+                             std::shared_ptr<const TemperatureTable> temperatures)
     : parameters_(parameters),
       clip_(std::move(clip)),
       clip_hash_(hash_name(clip_.id)),
       brightest_w_m2_sr_(static_cast<double>(brightest_w_m2_sr)),
-      temperature_table_(apparent_temperature_table(parameters.response)),
+      temperatures_(temperatures ? std::move(temperatures) : apparent_temperatures(parameters.response)),
       white_w_m2_sr_(netd_w_m2_sr(parameters)),
       flicker_w_m2_sr_(white_w_m2_sr_ * static_cast<float>(std::sqrt(parameters.noise.flicker_knee_hz))),
       saturation_w_m2_sr_(static_cast<float>(
@@ -174,7 +178,7 @@ SensorFrame ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr) {
 double ThermalCamera::temperature_k(double radiance_w_m2_sr) const {
   const auto radiance = static_cast<float>(radiance_w_m2_sr);
   float temperature_k = 0;
-  temperature_table_.temperatures(std::span(&radiance, 1), std::span(&temperature_k, 1));
+  temperatures_->temperatures(std::span(&radiance, 1), std::span(&temperature_k, 1));
   return static_cast<double>(temperature_k);
 }
 
@@ -221,7 +225,9 @@ void ThermalCamera::take_in(const Plane<float>& radiance_w_m2_sr) {
     copy_clipped(&in[begin], end - begin, saturation_w_m2_sr_, &signal[begin]);
   });
   optics_.apply(signal_);
-  if (frame_ > 0) return;
+  if (begun_) return;
+  begun_ = true;
+  if (flicker_) flicker_->begin_at(frame_);
   if (follow_ < 1) membrane_.assign(signal.begin(), signal.end());  // at rest
   const double ratio = parameters_.noise.amount * parameters_.noise.first_frame_ratio;
   if (ratio > 0) {
@@ -275,7 +281,7 @@ void ThermalCamera::count(Plane<std::uint16_t>& ir16) const {
     std::array<float, kPixelsABlock> temperatures_k{};
     for (std::size_t first = begin; first < end; first += kPixelsABlock) {
       const std::size_t size = std::min(kPixelsABlock, end - first);
-      temperature_table_.temperatures(signal.subspan(first, size), std::span(temperatures_k).first(size));
+      temperatures_->temperatures(signal.subspan(first, size), std::span(temperatures_k).first(size));
       round_to_counts(temperatures_k.data(), size, counts_per_kelvin, &out[first]);
     }
   });

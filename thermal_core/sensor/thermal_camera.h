@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +19,14 @@
 
 namespace thermal {
 
-/// In-band radiance [W m^-2 sr^-1] of a blackbody at a temperature [K], by the sensor's model and response.
+/// In-band radiance [W m^-2 sr^-1] of a blackbody at a temperature [K], by a sensor's model and response.
+[[nodiscard]] std::function<double(double temperature_k)> radiance_of(RadianceModel model,
+                                                                      const SpectralResponse& response);
 [[nodiscard]] std::function<double(double temperature_k)> radiance_of(const SensorParameters& parameters);
+
+/// Apparent temperature by exact Planck, tabulated for anything a savanna night holds: all that a ThermalCamera with this
+/// response needs. It takes some 16,000 exact inverses, so cameras with one response may share it.
+[[nodiscard]] std::shared_ptr<const TemperatureTable> apparent_temperatures(const SpectralResponse& response);
 
 /// What the camera makes of one frame.
 struct SensorFrame {
@@ -49,7 +56,9 @@ class ThermalCamera {
   using Look = std::function<void(const Plane<float>& radiance_w_m2_sr)>;
 
   /// @param brightest_w_m2_sr  radiance of level 255 in the AGC modes scene_max and table_max, > 0
-  ThermalCamera(const SensorParameters& parameters, Clip clip, float brightest_w_m2_sr);
+  /// @param temperatures  apparent_temperatures() of the parameters' response; null: the camera makes its own
+  ThermalCamera(const SensorParameters& parameters, Clip clip, float brightest_w_m2_sr,
+                std::shared_ptr<const TemperatureTable> temperatures = nullptr);
 
   /// Radiance plane [W m^-2 sr^-1] of the next frame to pictures; `out` is used again if it has the right size.
   /// NaN and negative radiance count as 0, more than the 16-bit picture can tell as that much: nothing that is not
@@ -60,6 +69,11 @@ class ThermalCamera {
 
   /// The same, into a new frame.
   [[nodiscard]] SensorFrame expose(const Plane<float>& radiance_w_m2_sr);
+
+  /// Lets a frame's time pass of which nothing is known: noise of later frames is what it would have been, but what
+  /// remembers earlier frames (lag, 1/f noise, blinking pixels, gain control) stands still, or, where no frame came
+  /// before, starts with the first that does.
+  void skip() noexcept { ++frame_; }
 
   /// Apparent temperature [K] of a radiance [W m^-2 sr^-1], as the 16-bit picture tells it before it is rounded.
   [[nodiscard]] double temperature_k(double radiance_w_m2_sr) const;
@@ -84,7 +98,7 @@ class ThermalCamera {
   Clip clip_;
   std::uint64_t clip_hash_;
   double brightest_w_m2_sr_;
-  TemperatureTable temperature_table_;
+  std::shared_ptr<const TemperatureTable> temperatures_;
   float white_w_m2_sr_;    ///< standard deviation of white temporal noise
   float flicker_w_m2_sr_;  ///< of 1/f noise in units of FlickerFilter's
   float saturation_w_m2_sr_;
@@ -102,6 +116,7 @@ class ThermalCamera {
   double noise_w_m2_sr_;            ///< of a pixel, without that pattern and the gain
   SensorFrame shown_;               ///< the last picture before the shutter closed
   std::uint32_t frame_ = 0;
+  bool begun_ = false;  ///< a frame was exposed
 };
 
 }  // namespace thermal

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "support/catch.h"
+#include "support/temporary_folder.h"
 
 using namespace thermal;
 
@@ -48,11 +49,19 @@ Instance known_instance() {
   return known;
 }
 
+std::string text_of(ClipAnnotations& annotations) {
+  std::string text;
+  annotations.write([&text](std::string_view piece) { text += piece; });
+  return text;
+}
+
+Json document_of(ClipAnnotations& annotations) { return Json::parse(text_of(annotations)); }
+
 Json document_of(const std::vector<std::vector<Instance>>& frames) {
   const Manifest used = manifest();
   ClipAnnotations annotations(used, {.k1 = -0.5, .k2 = 0.25, .p1 = 0.125});
   for (std::size_t i = 0; i < frames.size(); ++i) annotations.add_frame(static_cast<int>(i), frames[i]);
-  return annotations.document();
+  return document_of(annotations);
 }
 
 std::string size_class_of(const std::vector<std::pair<int, int>>& boxes) {
@@ -60,7 +69,7 @@ std::string size_class_of(const std::vector<std::pair<int, int>>& boxes) {
   ClipAnnotations annotations(used);
   for (const auto& [width_px, height_px] : boxes)
     annotations.add_frame(0, {instance(3, width_px, height_px)});
-  return annotations.document()["annotations"][0]["size_class"];
+  return document_of(annotations)["annotations"][0]["size_class"];
 }
 
 }  // namespace
@@ -94,7 +103,7 @@ TEST_CASE("What counts as occluded, and what is ignored, is the config's to say"
     const Manifest used = manifest();
     ClipAnnotations annotations(used, {}, parameters);
     annotations.add_frame(0, {known_instance()});
-    const Json label = annotations.document()["annotations"][0];
+    const Json label = document_of(annotations)["annotations"][0];
     return std::pair<bool, bool>{label["occluded"], label["ignore"]};
   };
   CHECK(told({}) == std::pair(true, false));
@@ -138,38 +147,28 @@ TEST_CASE("A track's size class goes by its mean box area") {
   CHECK(size_class_of({{10, 10}, {30, 10}}) == "medium");  // 100 and 300
 }
 
-TEST_CASE("Joined documents have ids that run on and files below the dataset's folder") {
-  const Json one = document_of({{instance(3, 1, 1)}, {instance(3, 1, 1)}});
-  const Json joined = join_annotations("nights", {"a", "b"}, {one, one});
-  CHECK(joined["info"]["description"] == "nights");
-  REQUIRE(joined["videos"].size() == 2);
-  CHECK(joined["videos"][1]["id"] == 2);
-  REQUIRE(joined["images"].size() == 4);
-  for (std::size_t i = 0; i < 4; ++i) {
-    CHECK(joined["images"][i]["id"] == i + 1);
-    CHECK(joined["images"][i]["video_id"] == i / 2 + 1);
-    CHECK(joined["annotations"][i]["id"] == i + 1);
-    CHECK(joined["annotations"][i]["image_id"] == i + 1);
+TEST_CASE("The document is laid out as every other of ours") {
+  const Manifest used = manifest();
+  ClipAnnotations annotations(used);
+  annotations.add_frame(0, {instance(3, 4, 5), known_instance()});
+  annotations.add_frame(1, {});
+  annotations.add_frame(2, {instance(4, 60, 50)});
+  const std::string text = text_of(annotations);
+  CHECK(text == to_text(Json::parse(text)));
+  ClipAnnotations empty(used);
+  CHECK(text_of(empty) == to_text(Json::parse(text_of(empty))));
+}
+
+TEST_CASE("Labels that wait in a file are those that wait in memory, and the file is gone") {
+  const TemporaryFolder folder;
+  const Manifest used = manifest();
+  ClipAnnotations in_file(used, {}, {}, folder / "spool");
+  ClipAnnotations in_memory(used);
+  for (ClipAnnotations* annotations : {&in_file, &in_memory}) {
+    annotations->add_frame(0, {known_instance(), instance(4, 1, 1)});
+    annotations->add_frame(2, {instance(3, 30, 20)});
   }
-  CHECK(joined["images"][0]["file_name"] == "clips/a/ir8/000000.png");
-  CHECK(joined["images"][3]["file_name"] == "clips/b/ir8/000001.png");
-}
-
-TEST_CASE("Joined labels keep all they had") {
-  const Json one = document_of({{known_instance()}});
-  Json expected = one["annotations"][0];
-  expected["id"] = 2;
-  expected["image_id"] = 2;
-  CHECK(join_annotations("nights", {"a", "b"}, {one, one})["annotations"][1].dump() == expected.dump());
-}
-
-TEST_CASE("A category keeps its name when clips that number it differently are joined") {
-  Json other = document_of({{instance(4, 1, 1)}});
-  other["categories"] =
-      Json::array({{{"id", 11}, {"name", "aardvark"}}});  // 11 there, antelope's number here
-  const Json joined = join_annotations("nights", {"a", "b"}, {document_of({{instance(4, 1, 1)}}), other});
-  CHECK(joined["categories"].dump() ==
-        R"([{"id":1,"name":"human"},{"id":11,"name":"aardvark"},{"id":12,"name":"antelope"}])");
-  CHECK(joined["annotations"][0]["category_id"] == 12);
-  CHECK(joined["annotations"][1]["category_id"] == 11);
+  CHECK(in_file.count() == 3);
+  CHECK(text_of(in_file) == text_of(in_memory));
+  CHECK(std::filesystem::is_empty(folder.path()));
 }

@@ -1,5 +1,7 @@
 #include "dataset/clip_maker.h"
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "base/parallel.h"
 #include "io/manifest_file.h"
@@ -38,7 +40,28 @@ struct Workplace {
   [[nodiscard]] std::vector<ClipRecord> make_all(const std::vector<ClipTask>& tasks) const {
     return make_clips(rendered(), tasks, read_materials(VELDT_SOURCE_DIR), {});
   }
+  /// The same, going on without bad frames.
+  [[nodiscard]] std::vector<ClipRecord> make_without_bad(const std::vector<ClipTask>& tasks,
+                                                         const ClipHooks& hooks = {}) const {
+    ClipPasses passes = rendered();
+    passes.bad_frames = BadFrames::skip;
+    return make_clips(passes, tasks, read_materials(VELDT_SOURCE_DIR), hooks);
+  }
+  [[nodiscard]] Path frame(int number) const { return passes / tiny_clip::file_name(number); }
+  void remove(int number) const { std::filesystem::remove(frame(number)); }
+  /// Puts an index into a frame that the manifest lacks.
+  void put_unknown_index(int number) const {
+    ExrChannels planes = tiny_clip::planes(number);
+    planes.at("Scene.IndexOB.X")[41] = 99;
+    write_exr(frame(number), tiny_clip::kWidth, tiny_clip::kHeight, planes);
+  }
+  [[nodiscard]] bool has_anything_of_the_clip() const {
+    return std::filesystem::exists(layout.clip("a")) || std::filesystem::exists(layout.unfinished_clip("a"));
+  }
 };
+
+constexpr const char* kUnknownIndex =
+    "object index at pixel (1, 1) = 99 (1 pixels); expected an index of the manifest's objects: 0, 1, 5, 6";
 
 }  // namespace
 
@@ -107,30 +130,122 @@ TEST_CASE("Whoever asked is told of every frame") {
 TEST_CASE("A clip that is cancelled is not there") {
   const Workplace place;
   ClipHooks hooks;
-  hooks.cancelled = [] { return true; };
+  int asked = 0;
+  hooks.cancelled = [&] { return ++asked == 3; };
   CHECK_THROWS_AS(place.make(hooks), Cancelled);
-  CHECK_FALSE(std::filesystem::exists(place.layout.clip("a")));
+  CHECK_FALSE(place.has_anything_of_the_clip());
 }
 
 TEST_CASE("A clip with a frame missing is not there, and the file is named") {
   const Workplace place;
-  const Path frame = place.passes / tiny_clip::file_name(2);
-  std::filesystem::remove(frame);
+  place.remove(2);
   CHECK(message_of<IoError>([&] { (void)place.make(); }) ==
-        "cannot read " + frame.string() + ": there is no such file");
-  CHECK_FALSE(std::filesystem::exists(place.layout.clip("a")));
+        fmt::format("cannot read {}: there is no such file", place.frame(2).string()));
+  CHECK_FALSE(place.has_anything_of_the_clip());
 }
 
 TEST_CASE("A frame with an index the manifest lacks is named") {
   const Workplace place;
-  ExrChannels planes = tiny_clip::planes(1);
-  planes.at("Scene.IndexOB.X")[41] = 99;
-  const Path frame = place.passes / tiny_clip::file_name(1);
-  write_exr(frame, tiny_clip::kWidth, tiny_clip::kHeight, planes);
+  place.put_unknown_index(1);
   CHECK(message_of<DataError>([&] { (void)place.make(); }) ==
-        frame.string() +
-            ": object index at pixel (1, 1) = 99 (1 pixels); expected an index of the manifest's "
-            "objects: 0, 1, 5, 6");
+        fmt::format("{}: {}", place.frame(1).string(), kUnknownIndex));
+}
+
+TEST_CASE("Of several bad frames the first is named, whichever is found first") {
+  const Workplace place;
+  place.put_unknown_index(0);  // takes longer to find than that a file is missing
+  place.remove(1);
+  for (int time = 0; time < 20; ++time)
+    CHECK(message_of<DataError>([&] { (void)place.make(); }).starts_with(place.frame(0).string()));
+}
+
+TEST_CASE("A clip goes without its bad frames: their numbers stay free, and its record names them") {
+  const Workplace place;
+  place.remove(1);
+  std::vector<SkippedFrame> told;
+  int done = 0;
+  ClipHooks hooks;
+  hooks.frame_skipped = [&](const SkippedFrame& frame) { told.push_back(frame); };
+  hooks.frame_done = [&] { ++done; };
+  const ClipRecord record = place.make_without_bad({place.task()}, hooks).front();
+  const SkippedFrame missing = {.frame_index = 1, .file = "000001.exr", .reason = "there is no such file"};
+  CHECK(record.skipped == std::vector{missing});
+  CHECK(told == record.skipped);
+  CHECK(done == 3);
+  CHECK(record.frames == 2);
+  CHECK(record.files.size() == 2 * 2 + 3);
+  CHECK(record.files.contains("ir16/000002.png"));
+  CHECK_FALSE(std::filesystem::exists(place.layout.clip("a") / "ir8/000001.png"));
+  const Json labels = read_json(place.layout.clip("a") / "labels.json");
+  CHECK(labels["images"].size() == 2);
+  CHECK(labels["images"][1]["id"] == 3);
+  CHECK(labels["images"][1]["frame_index"] == 2);
+  CHECK(read_clip_record(place.layout.clip("a") / "clip.json").skipped == record.skipped);
+}
+
+TEST_CASE("Pictures of the other frames do not hang on the threads, nor on why one is skipped") {
+  const auto record_with = [](int threads, bool missing) {
+    const ThreadLimit limit(threads);
+    const Workplace place;
+    missing ? place.remove(1) : place.put_unknown_index(1);
+    return place.make_without_bad({place.task()}).front();
+  };
+  const ClipRecord once = record_with(1, true);
+  const ClipRecord twice = record_with(2, true);
+  const ClipRecord unknown = record_with(2, false);
+  CHECK(twice.pixels_sha256 == once.pixels_sha256);
+  CHECK(twice.files.at("labels.json") == once.files.at("labels.json"));
+  CHECK(unknown.pixels_sha256 == once.pixels_sha256);
+  CHECK(unknown.skipped.front().reason == kUnknownIndex);
+  // Without memory from frame to frame, those before and after are what they are with it.
+  CHECK(once.files.at("ir16/000002.png") == Workplace().make().files.at("ir16/000002.png"));
+}
+
+TEST_CASE("A bad frame is skipped in all tasks") {
+  const Workplace place;
+  place.put_unknown_index(2);
+  const std::vector<ClipRecord> records = place.make_without_bad({place.task("one"), place.task("two")});
+  for (const ClipRecord& record : records) {
+    CHECK(record.frames == 2);
+    CHECK(record.skipped.front().frame_index == 2);
+  }
+}
+
+TEST_CASE("A clip without any good frame is not there; the first is named, and how many more") {
+  const Workplace place;
+  for (int frame = 0; frame < tiny_clip::kFrames; ++frame) place.remove(frame);
+  CHECK(message_of<DataError>([&] { (void)place.make_without_bad({place.task()}); }) ==
+        fmt::format("cannot read {}: there is no such file; nor can its 2 other frames be converted",
+                    place.frame(0).string()));
+  CHECK_FALSE(place.has_anything_of_the_clip());
+}
+
+TEST_CASE("What is no fault of a frame is not skipped") {
+  const Workplace place;
+  ClipHooks hooks;
+  hooks.wait_for_frame = [](int) { throw TryAgainError("no room"); };
+  CHECK(message_of<TryAgainError>([&] { (void)place.make_without_bad({place.task()}, hooks); }) == "no room");
+  hooks.wait_for_frame = [&](int) {  // a folder in the way of the first picture
+    make_folder(place.layout.unfinished_clip("a") / "ir8/000000.png");
+  };
+  CHECK(message_of<IoError>([&] { (void)place.make_without_bad({place.task()}, hooks); }) ==
+        fmt::format("cannot write {}: Is a directory",
+                    (place.layout.unfinished_clip("a") / "ir8/000000.png").string()));
+  CHECK_FALSE(place.has_anything_of_the_clip());
+}
+
+TEST_CASE("A picture larger than the limit is refused before anything of that size is made") {
+  const Workplace place;
+  ClipPasses passes = place.rendered();
+  passes.manifest.camera.width_px = 100'000;
+  passes.manifest.camera.height_px = 100'000;
+  passes.manifest.supersample = 16;
+  CHECK(message_of<DataError>([&] {
+          (void)make_clip(passes, place.task(), read_materials(VELDT_SOURCE_DIR), {});
+        }) == fmt::format("{}: size of the passes = 1600000 x 1600000 px; expected at most 256000000 pixels "
+                          "(--max-megapixels)",
+                          place.passes.string()));
+  CHECK_FALSE(place.has_anything_of_the_clip());
 }
 
 TEST_CASE("What an earlier run left half done is swept away") {
@@ -144,7 +259,8 @@ TEST_CASE("What an earlier run left half done is swept away") {
 
 namespace {
 
-/// Tasks of three datasets that differ in all a variant may: season, seed, sensor.
+/// Tasks of three datasets that differ in all a variant may: season, seed, sensor. The first and the third differ in
+/// the sensor alone.
 std::vector<ClipTask> three_tasks(const Workplace& place) {
   std::vector<ClipTask> tasks = {place.task("one"), place.task("two"), place.task("three")};
   tasks[1].clip.season = Season::summer;

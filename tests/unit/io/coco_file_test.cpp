@@ -114,6 +114,8 @@ TEST_CASE("What a COCO file must not hold is told to the entry") {
   CHECK(fault_with("/annotations/0/area", "big") ==
         "annotations[0].area = \"big\"; expected a finite number");
   CHECK(fault_with("/annotations/0/ignore", 2) == "annotations[0].ignore = 2; expected 0, 1, false or true");
+  CHECK(fault_with("/annotations/0/id", 9223372036854775808U) ==
+        "annotations[0].id = 9223372036854775808; expected a whole number up to 9223372036854775807");
   CHECK(fault_with("/annotations/0/id", 1.5) == "annotations[0].id = 1.5; expected a whole number");
 }
 

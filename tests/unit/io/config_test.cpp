@@ -172,6 +172,12 @@ TEST_CASE("A view stands for a height and an angle, which can be overruled") {
   CHECK(clips[1]["flight"]["look_angle_deg"] == 60);
 }
 
+TEST_CASE("A setting whose value is no JSON that can be meant is a text") {
+  const std::string deep(100, '[');
+  CHECK(with_setting("name=" + deep + std::string(100, ']'))["name"].is_string());
+  CHECK(with_setting(R"(name={"a": 1, "a": 2})")["name"] == R"({"a": 1, "a": 2})");
+}
+
 TEST_CASE("A config of flights needs no clips, and one of neither is a fault") {
   Json document = with_flight();
   document.erase("clips");

@@ -219,6 +219,9 @@ TEST_CASE("Faults of YOLO results are placed") {
   CHECK(yolo_fault("0 .5,5 .5 .1 .1 1") == "winter_000001.txt:1: cx = .5,5; expected a finite number");
   CHECK(yolo_fault("0 .5 .5 -.1 .1 1") == "winter_000001.txt:1: w = -.1; expected at least 0");
   CHECK(yolo_fault("0 .5 .5 .1 -.1 1") == "winter_000001.txt:1: h = -.1; expected at least 0");
+  const std::string touching = "; expected a box that touches its picture, 640 x 512 px";
+  CHECK(yolo_fault("0 0 .5 1e308 .1 1") == "winter_000001.txt:1: box = [0, .5, 1e308, .1]" + touching);
+  CHECK(yolo_fault("0 .5 .5 .1 3.6e305 1") == "winter_000001.txt:1: box = [.5, .5, .1, 3.6e305]" + touching);
   CHECK(
       yolo_fault("\n\n0 1.5 .5 .1 .1 1") ==
       "winter_000001.txt:3: box = [1.5, .5, .1, .1]; expected a box that touches its picture, 640 x 512 px");

@@ -42,6 +42,18 @@ TEST_CASE("A key that comes twice in one object is a fault, not a silent choice"
   CHECK_NOTHROW(parse_json(R"({"a": {"c": 1}, "b": [{"c": 2}, {"c": 3}]})", "night.json"));
 }
 
+TEST_CASE("Lists and objects may be 64 deep in each other and no deeper") {
+  const auto nested = [](std::size_t depth) {
+    return R"({"a":)" + std::string(depth - 1, '[') + std::string(depth - 1, ']') + "}";
+  };
+  CHECK_NOTHROW(parse_json(nested(64), "night.json"));
+  const std::string expected =
+      "night.json: lists and objects more than 64 deep in each other; expected fewer";
+  CHECK(fault_in(nested(65)) == expected);
+  CHECK(fault_in(nested(300'000)) == expected);
+  CHECK(fault_in(std::string(300'000, '[')) == expected);
+}
+
 TEST_CASE("A JSON file's faults name it") {
   const TemporaryFolder folder;
   const Path broken = folder.file("broken.json", "[1, 2");

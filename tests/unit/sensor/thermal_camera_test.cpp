@@ -236,3 +236,44 @@ TEST_CASE("A blurred picture's mean is the scene's, and the blur is in radiance"
   CHECK(frame.ir8.at(10, 0) == std::lround(100 + 100 * share));
   CHECK(frame.ir8.at(5, 0) == 100);
 }
+
+TEST_CASE("After a first frame that nobody saw, all that a camera remembers begins with the next") {
+  SensorParameters parameters = full_sensor();
+  parameters.shutter = {};
+  ThermalCamera late = camera(parameters, clip());
+  late.skip();
+  const SensorFrame first = late.expose(two_parts());
+  const SensorFrame usual = frames_of(parameters, clip(), 1).front();
+  // Another frame's noise, as strong as any: standard deviations of 4980 differences agree to a few per cent.
+  CHECK_FALSE(same_pixels(first, usual));
+  const auto spread = [](const SensorFrame& frame) {
+    double sum = 0;
+    double squares = 0;
+    int count = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth / 2; ++x, ++count) {
+        sum += frame.ir16.at(x, y);
+        squares += static_cast<double>(frame.ir16.at(x, y)) * frame.ir16.at(x, y);
+      }
+    }
+    return std::sqrt(squares / count - sum / count * sum / count);
+  };
+  CHECK_THAT(spread(first), WithinRel(spread(usual), 0.15));
+}
+
+TEST_CASE("A lag has nothing to lag behind in the first frame that is seen") {
+  SensorParameters parameters = perfect_sensor();
+  parameters.time_constant_s = 0.2;
+  ThermalCamera late = camera(parameters, clip());
+  late.skip();
+  CHECK(same_pixels(late.expose(two_parts()), frames_of(perfect_sensor(), clip(), 1).front()));
+}
+
+TEST_CASE("A skipped frame's noise is nobody's: later frames have the noise of their own numbers") {
+  SensorParameters parameters = perfect_sensor();
+  parameters.noise.amount = 1;
+  ThermalCamera gap = camera(parameters, clip());
+  (void)gap.expose(two_parts());
+  gap.skip();
+  CHECK(same_pixels(gap.expose(two_parts()), frames_of(parameters, clip(), 3).back()));
+}

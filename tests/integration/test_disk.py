@@ -1,0 +1,136 @@
+"""Full disks and read-only ones: `convert` says so, leaves nothing half written, and goes on once there is room."""
+
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+
+import passes
+from datasets import content_of
+from program import files_below
+from small_disk import BLOCK, can_be_root_of_a_namespace, small_disk
+
+FULL = "No space left on device"
+
+
+@pytest.fixture(name="disk")
+def _disk(veldt):
+    with small_disk(veldt.folder / "disk") as disk:
+        yield disk
+
+
+def _half_written(folder):
+    return [name for name in files_below(folder) if ".part/" in name or name.endswith(".tmp")]
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root mounts without a namespace")
+def test_this_file_as_root_of_a_namespace():
+    """For ordinary users, who cannot mount a disk as they are."""
+    if not can_be_root_of_a_namespace():
+        pytest.skip("unshare -rm: not allowed here")
+    command = [
+        "unshare",
+        "-rm",
+        sys.executable,
+        "-B",
+        "-m",
+        "pytest",
+        "-q",
+        "-p",
+        "no:cacheprovider",
+        __file__,
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
+    assert done.returncode == 0, done.stdout
+
+
+def test_a_disk_that_fills_with_pictures(veldt, disk):
+    """Exit code 75 and the file's name; with room again the same command makes what it always would have."""
+    passes.write_clip(veldt.folder / "one", frames=40)
+    usual = veldt("convert", "one", "--out", "usual", "--quiet")
+    assert usual.code == 0
+    disk.leave(50 * BLOCK)
+    done = veldt("convert", "one", "--out", "disk/out", "--quiet")
+    assert (done.code, done.out) == (75, "")
+    assert re.fullmatch(rf"veldt: cannot write disk/out/clips/one\.part/[\w/]+\.\w+: {FULL}\n", done.err)
+    assert _half_written(veldt.folder / "disk") == []
+    assert list((veldt.folder / "disk" / "out" / "clips").iterdir()) == []
+    assert veldt.read("disk/out/dataset.json")["clips"] == [{"id": "one", "status": "pending"}]
+    disk.make_room()
+    done = veldt("convert", "one", "--out", "disk/out", "--quiet")
+    assert (done.code, done.err) == (0, "")
+    assert content_of(veldt.folder / "disk" / "out") == content_of(veldt.folder / "usual")
+    assert veldt("validate", "disk/out").code == 0
+
+
+def test_a_disk_that_fills_at_any_file(veldt, disk):
+    """From no room at all block by block to enough: whatever file it is that finds none, it is named, nothing is half
+    written, and what is there is whole or not there."""
+    passes.write_clip(
+        veldt.folder / "one", frames=20
+    )  # so many that annotations.json is larger than dataset.json
+    run = ("convert", "one", "--out", "disk/out", "--quiet", "--threads", "1")
+    assert veldt("convert", "one", "--out", "usual", "--quiet").code == 0
+    named = set()
+    for blocks in range(200):
+        disk.leave(blocks * BLOCK)
+        done = veldt(*run)
+        if done.code == 0:
+            break
+        told = re.fullmatch(
+            rf"veldt: cannot (?:write|make folder|lock|rename to) disk/(\S+): {FULL}\n", done.err
+        )
+        assert (done.code, done.out) == (75, "") and told, done
+        assert _half_written(disk.folder) == []
+        disk.make_room()
+        kind = re.sub(r"\d{6}", "N", told[1])
+        if kind not in named:
+            assert veldt(*run).code == 0
+            assert content_of(disk.folder / "out") == content_of(veldt.folder / "usual")
+            assert veldt("validate", "disk/out").code == 0
+        named.add(kind)
+        subprocess.run(["rm", "-rf", disk.folder / "out"], check=True)
+    assert done.code == 0 and veldt("validate", "disk/out").code == 0
+    part = "out/clips/one.part"
+    expected = {"out/dataset.json.tmp", f"{part}/preview.mp4", f"{part}/ir8/N.png", f"{part}/ir16/N.png"}
+    expected |= {"out/annotations.json.tmp", f"{part}/labels.json", f"{part}/frames.jsonl"}
+    assert expected - named == set()
+
+
+def test_a_read_only_disk(veldt, disk):
+    passes.write_clip(veldt.folder / "one")
+    (disk.folder / "begun").mkdir()
+    disk.make_read_only()
+    done = veldt("convert", "one", "--out", "disk/out", "--quiet")
+    assert (done.code, done.err) == (1, "veldt: cannot make folder disk/out: Read-only file system\n")
+    done = veldt("convert", "one", "--out", "disk/begun", "--quiet")
+    assert (done.code, done.err) == (1, "veldt: cannot lock disk/begun/.lock: Read-only file system\n")
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root writes into any folder")
+@pytest.mark.parametrize("locked, message", [("", "make folder out"), ("out", "lock out/.lock")])
+def test_a_folder_that_is_not_ours_to_write_in(veldt, locked, message):
+    passes.write_clip(veldt.folder / "one")
+    if locked:
+        (veldt.folder / locked).mkdir()
+    folder = veldt.folder / locked
+    folder.chmod(0o555)
+    try:
+        done = veldt("convert", "one", "--out", "out", "--quiet")
+    finally:
+        folder.chmod(0o755)
+    assert (done.code, done.err) == (1, f"veldt: cannot {message}: Permission denied\n")
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can be an ordinary user")
+def test_a_folder_of_somebody_else(veldt):
+    """As the user nobody: everything may be read, nothing written."""
+    passes.write_clip(veldt.folder / "one")
+    for folder in (veldt.folder, *veldt.folder.parents):
+        if not folder.stat().st_mode & 0o005 and folder.is_relative_to("/tmp"):
+            folder.chmod(0o755)
+    nobody = ("setpriv", "--reuid=65534", "--regid=65534", "--clear-groups")
+    done = veldt("convert", "one", "--out", "out", "--quiet", under=nobody)
+    assert (done.code, done.err) == (1, "veldt: cannot make folder out: Permission denied\n")

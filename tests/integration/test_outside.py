@@ -1,0 +1,187 @@
+"""Nothing is written outside --out, whatever a name says and wherever a link leads."""
+
+import pytest
+
+import passes
+
+NAME = "expected letters, digits, _ and - only"
+
+
+def _state(folder):
+    """Every entry below a folder: its kind, content and time of change."""
+    state = {}
+    for place in [folder, *folder.rglob("*")]:
+        told = place.lstat()
+        content = place.read_bytes() if place.is_file() and not place.is_symlink() else None
+        state[str(place.relative_to(folder))] = (told.st_mode, told.st_mtime_ns, content)
+    return state
+
+
+@pytest.fixture(name="elsewhere")
+def _elsewhere(veldt):
+    """A folder that nobody is to touch, with a file of each name that a dataset has, and a clip."""
+    folder = veldt.folder / "elsewhere"
+    (folder / "ir8").mkdir(parents=True)
+    for name in ("kept", "ir8/000000.png", "dataset.json", "annotations.json"):
+        (folder / name).write_text("kept", encoding="utf-8")
+    return folder
+
+
+# --- names ------------------------------------------------------------------------------------------------------------
+
+NAMES = ["../x", "/tmp/veldt-x", "a/b", "..", ".", "", "a\\b", "one.part", "x\n"]
+
+
+def _around(veldt):
+    """Everything but the dataset's own folder."""
+    return {
+        name: told
+        for name, told in _state(veldt.folder).items()
+        if not name.startswith("out") and name != "."
+    }
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_clip_name_that_is_a_path(veldt, elsewhere, name):
+    folder = passes.write_clip(veldt.folder / "one")
+    passes.write_manifest(folder, passes.manifest() | {"clip": name})
+    before = _around(veldt)
+    done = veldt("convert", "one", "--out", "out")
+    shown = name.replace("\\", "\\\\").replace("\n", "\\n")
+    assert (done.code, done.err) == (1, f'veldt: one/manifest.json: clip = "{shown}"; {NAME}\n')
+    assert _around(veldt) == before and elsewhere.exists()
+    assert not (veldt.folder / "out").exists()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_variant_name_that_is_a_path(veldt, name):
+    passes.write_clip(veldt.folder / "one")
+    veldt.write("variants.json", {"variants": [{"name": name}]})
+    before = _around(veldt)
+    done = veldt("convert", "one", "--out", "out", "--variants", "variants.json")
+    shown = name.replace("\\", "\\\\").replace("\n", "\\n")
+    assert (done.code, done.err) == (2, f'veldt: variants.json: variants[0].name = "{shown}"; {NAME}\n')
+    assert _around(veldt) == before
+    assert not (veldt.folder / "out").exists()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_clip_name_of_a_config_that_is_a_path(veldt, name):
+    passes.write_clip(veldt.folder / "one")
+    veldt.write("config.json", {"name": "x", "clips": [{"id": name, "season": "winter", "frames": 3}]})
+    before = _around(veldt)
+    done = veldt("convert", "one", "--out", "out", "--config", "config.json")
+    shown = name.replace("\\", "\\\\").replace("\n", "\\n")
+    assert (done.code, done.err) == (2, f'veldt: config.json: clips[0].id = "{shown}"; {NAME}\n')
+    assert _around(veldt) == before
+    assert not (veldt.folder / "out").exists()
+
+
+# --- links ------------------------------------------------------------------------------------------------------------
+
+LEADS = "expected no link, because nothing is written to other places"
+
+
+def _link(veldt, place, target):
+    link = veldt.folder / "out" / place
+    link.parent.mkdir(parents=True, exist_ok=True)
+    link.symlink_to(veldt.folder / target)
+
+
+@pytest.mark.parametrize("place", ["clips", ".lock"])
+@pytest.mark.parametrize("target", ["elsewhere", "elsewhere/kept", "nowhere"])
+def test_a_link_where_things_are_made_is_refused(veldt, elsewhere, place, target):
+    passes.write_clip(veldt.folder / "one")
+    _link(veldt, place, target)
+    before = _around(veldt)
+    done = veldt("convert", "one", "--out", "out", "--quiet")
+    link = f"out/{place} = a link to {veldt.folder / target}"
+    assert (done.code, done.err) == (1, f"veldt: {link}; {LEADS}\n")
+    assert _around(veldt) == before and elsewhere.exists()
+    assert not (veldt.folder / "nowhere").exists()
+
+
+@pytest.mark.parametrize("target", ["elsewhere", "nowhere"])
+def test_a_link_instead_of_a_variants_folder_is_refused(veldt, elsewhere, target):
+    passes.write_clip(veldt.folder / "one")
+    veldt.write("variants.json", {"variants": [{"name": "dry"}, {"name": "wet"}]})
+    _link(veldt, "wet", target)
+    before = _around(veldt)
+    done = veldt("convert", "one", "--out", "out", "--variants", "variants.json", "--quiet")
+    link = f"out/wet = a link to {veldt.folder / target}"
+    assert (done.code, done.err) == (1, f"veldt: {link}; {LEADS}\n")
+    assert _around(veldt) == before and elsewhere.exists()
+    assert not (veldt.folder / "nowhere").exists()
+
+
+@pytest.mark.parametrize("target", ["elsewhere", "nowhere", "elsewhere/kept"])
+@pytest.mark.parametrize(
+    "place",
+    [
+        "clips/one.part",
+        "clips/one.part/ir8",
+        "clips/one.part/ir8/000000.png",
+        "clips/one",
+        "clips/one/ir8",
+        "annotations.json",
+        "annotations.json.tmp",
+        "dataset.json.tmp",
+    ],
+)
+def test_a_link_where_things_are_put_when_whole_is_replaced(veldt, elsewhere, place, target):
+    passes.write_clip(veldt.folder / "one")
+    assert veldt("convert", "one", "--out", "usual", "--quiet").code == 0
+    _link(veldt, place, target)
+    before = _around(veldt)
+    done = veldt("convert", "one", "--out", "out", "--quiet")
+    assert (done.code, done.err) == (0, "")
+    assert _around(veldt) == before and elsewhere.exists()
+    assert not (veldt.folder / "nowhere").exists()
+    assert veldt.pixels("out") == veldt.pixels("usual")
+    assert not any(found.is_symlink() for found in (veldt.folder / "out").rglob("*"))
+
+
+def test_an_index_that_is_a_link_is_read_and_replaced(veldt):
+    passes.write_clip(veldt.folder / "one")
+    assert veldt("convert", "one", "--out", "usual", "--quiet").code == 0
+    _link(veldt, "dataset.json", "usual/dataset.json")
+    before = _around(veldt)
+    assert veldt("convert", "one", "--out", "out", "--quiet").code == 0
+    assert _around(veldt) == before
+    assert not (veldt.folder / "out" / "dataset.json").is_symlink()
+
+
+def test_an_index_that_is_a_link_to_something_else_is_refused(veldt, elsewhere):
+    passes.write_clip(veldt.folder / "one")
+    _link(veldt, "dataset.json", "elsewhere/dataset.json")
+    before = _around(veldt)
+    done = veldt("convert", "one", "--out", "out", "--quiet")
+    assert (done.code, done.err.count("\n")) == (2, 1)
+    assert done.err.startswith("veldt: out/dataset.json:1:1: not JSON: ")
+    assert _around(veldt) == before and elsewhere.exists()
+
+
+def test_a_clip_made_anew_replaces_a_link_to_one_elsewhere(veldt):
+    """A finished clip may lie on another disk; it is read there, and never written there."""
+    folder = passes.write_clip(veldt.folder / "one")
+    content = (folder / "000001.exr").read_bytes()
+    (folder / "000001.exr").unlink()
+    assert veldt("convert", "one", "--out", "out", "--quiet").code == 3
+    (veldt.folder / "out" / "clips" / "one").rename(veldt.folder / "moved")
+    _link(veldt, "clips/one", "moved")
+    assert veldt("convert", "one", "--out", "out", "--quiet").code == 3
+    (folder / "000001.exr").write_bytes(content)
+    before = _around(veldt)
+    assert veldt("convert", "one", "--out", "out", "--quiet").code == 0
+    assert _around(veldt) == before
+    assert veldt("validate", "out").code == 0
+
+
+def test_passes_and_the_dataset_itself_may_be_links(veldt):
+    passes.write_clip(veldt.folder / "one")
+    (veldt.folder / "linked").symlink_to("one")
+    (veldt.folder / "disk").mkdir()
+    (veldt.folder / "out").symlink_to("disk")
+    done = veldt("convert", "linked", "--out", "out", "--quiet")
+    assert (done.code, done.err) == (0, "")
+    assert (veldt.folder / "disk" / "dataset.json").exists()

@@ -1,0 +1,45 @@
+#include "dataset/frame_faults.h"
+
+#include "io/manifest_file.h"
+#include "io/material_files.h"
+#include "support/catch.h"
+#include "support/temporary_folder.h"
+#include "support/tiny_clip.h"
+
+using namespace thermal;
+
+TEST_CASE("A fault's words are told without the file's name that they begin with") {
+  CHECK(without_name("cannot read one/1.exr: there is no such file", "one/1.exr") == "there is no such file");
+  CHECK(without_name("one/1.exr: size = 1 x 2 px", "one/1.exr") == "size = 1 x 2 px");
+  CHECK(without_name("one/1.exr is bad", "one/1.exr") == "one/1.exr is bad");
+  CHECK(without_name("bad: one/1.exr: worse", "one/1.exr") == "bad: one/1.exr: worse");
+}
+
+TEST_CASE("A clip of which nothing is left is told with its first fault and how many more") {
+  CHECK(no_frame_left("a: bad", 1) == "a: bad");
+  CHECK(no_frame_left("a: bad", 2) == "a: bad; nor can its 1 other frame be converted");
+  CHECK(no_frame_left("a: bad", 9) == "a: bad; nor can its 8 other frames be converted");
+}
+
+TEST_CASE("A clip can be mended once any of its skipped frames can be converted") {
+  const TemporaryFolder folder;
+  const Path passes = tiny_clip::write(folder / "passes", "a");
+  const ClipPasses clip = {.manifest = read_manifest(passes / "manifest.json", VELDT_SOURCE_DIR),
+                           .folder = passes};
+  const MaterialLibrary materials = read_materials(VELDT_SOURCE_DIR);
+  const auto can = [&](std::initializer_list<int> frames) {
+    std::vector<SkippedFrame> skipped;
+    for (const int frame : frames) skipped.push_back({.frame_index = frame, .file = "", .reason = ""});
+    ClipTask task;
+    task.clip.id = "a";
+    return can_be_mended(clip, task, materials, skipped);
+  };
+  CHECK(can({1}));
+  std::filesystem::remove(passes / tiny_clip::file_name(0));
+  ExrChannels planes = tiny_clip::planes(1);
+  planes.at("Scene.IndexOB.X")[41] = 99;  // can be read, and not converted
+  write_exr(passes / tiny_clip::file_name(1), tiny_clip::kWidth, tiny_clip::kHeight, planes);
+  CHECK_FALSE(can({0, 1}));
+  CHECK(can({0, 1, 2}));
+  CHECK_FALSE(can({-1, 3, 2147483647}));  // a record somebody wrote by hand
+}

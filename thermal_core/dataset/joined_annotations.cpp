@@ -1,0 +1,137 @@
+#include "dataset/joined_annotations.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "dataset/annotations.h"
+#include "io/output_file.h"
+#include "labels/categories.h"
+
+namespace thermal {
+namespace {
+
+/// What has to be known of all clips before the first image is told.
+struct Survey {
+  std::set<std::string> categories;
+  std::vector<std::map<int, std::string>> names;  ///< of a clip's categories, by its own ids
+  Json videos = Json::array();
+};
+
+struct HasSeenEnough {};
+
+/// Adds what stands before the images; a document that has it behind them is read to its end.
+void look_at(const ClipLabels& clip, Survey& survey) {
+  std::map<int, std::string>& names = survey.names.emplace_back();
+  std::size_t videos = 0;
+  const TakeElement take = [&](const std::string& array, std::size_t, const Json& element) {
+    if (array == "categories") names[element.at("id")] = element.at("name");
+    if (array == "videos") {
+      survey.videos.push_back(element);
+      survey.videos.back()["id"] = survey.names.size();
+      ++videos;
+    }
+    if (array == "images" && videos > 0 && !names.empty()) throw HasSeenEnough();
+  };
+  try {
+    clip.read(take);
+  } catch (const HasSeenEnough&) {
+  }
+  for (const auto& [id, name] : names) survey.categories.insert(name);
+}
+
+Survey look_at_all(const std::vector<ClipLabels>& clips) {
+  Survey survey;
+  for (const ClipLabels& clip : clips) look_at(clip, survey);
+  return survey;
+}
+
+/// Numbers images and annotations through all clips.
+class Joiner {
+ public:
+  Joiner(const Survey& survey, Spool spool, JsonStream& document)
+      : survey_(survey),
+        ids_(number_categories(survey.categories)),
+        spool_(std::move(spool)),
+        document_(document) {}
+
+  void join(const std::vector<ClipLabels>& clips) {
+    document_.begin_array("images");
+    for (std::size_t i = 0; i < clips.size(); ++i) add(clips[i], i);
+    document_.begin_array("annotations");
+    spool_.read([this](std::string_view line) { document_.add(line); });
+  }
+
+ private:
+  void add(const ClipLabels& clip, std::size_t number) {
+    const std::size_t images_before = last_image_;
+    clip.read([&](const std::string& array, std::size_t, const Json& element) {
+      if (array == "images") add_image(element, images_before, number, clip.clip);
+      if (array == "annotations") add_annotation(element, images_before, survey_.names[number]);
+    });
+  }
+
+  /// A clip's frames that were skipped leave holes in its ids: what counts is the last id, not their number.
+  void add_image(Json image, std::size_t before, std::size_t number, const std::string& clip) {
+    const std::size_t id = before + image.at("id").get<std::size_t>();
+    last_image_ = std::max(last_image_, id);
+    image["id"] = id;
+    image["video_id"] = number + 1;
+    image["file_name"] = "clips/" + clip + "/" + image.at("file_name").get<std::string>();
+    document_.add(image.dump());
+  }
+
+  void add_annotation(Json annotation, std::size_t images_before, const std::map<int, std::string>& names) {
+    annotation["id"] = ++annotations_;
+    annotation["image_id"] = images_before + annotation.at("image_id").get<std::size_t>();
+    annotation["category_id"] = ids_.at(names.at(annotation.at("category_id").get<int>()));
+    spool_.add(annotation.dump());
+  }
+
+  const Survey& survey_;
+  std::map<std::string, int> ids_;  ///< of categories, in the dataset
+  Spool spool_;
+  JsonStream& document_;
+  std::size_t last_image_ = 0;
+  std::size_t annotations_ = 0;
+};
+
+ClipLabels labels_of(const Layout& layout, const std::string& clip) {
+  const Path file = layout.clip(clip) / "labels.json";
+  return {.clip = clip, .read = [file](const TakeElement& take) { (void)read_json_elements(file, take); }};
+}
+
+/// Always the same, so that what a killed run left is swept away.
+Path beside(const Path& file, const char* ending) {
+  Path name = file;
+  name += ending;
+  return name;
+}
+
+}  // namespace
+
+void join_annotations(const std::string& dataset, const std::vector<ClipLabels>& clips, Spool spool,
+                      const TakeText& take) {
+  const Survey survey = look_at_all(clips);
+  JsonStream document({{"info", {{"description", dataset}, {"version", "1"}}},
+                       {"categories", category_list(survey.categories)},
+                       {"videos", survey.videos}},
+                      JsonLayout::compact, take);
+  Joiner(survey, std::move(spool), document).join(clips);
+  document.end();
+}
+
+std::string write_joined_annotations(const Layout& layout, const std::string& dataset,
+                                     const std::vector<std::string>& clips) {
+  std::vector<ClipLabels> labels;
+  for (const std::string& clip : clips) labels.push_back(labels_of(layout, clip));
+  const Path file = layout.annotations_json();
+  OutputFile out(beside(file, ".tmp"));
+  join_annotations(dataset, labels, Spool(beside(file, ".spool")),
+                   [&out](std::string_view text) { out.add(text); });
+  return out.close_as(file);
+}
+
+}  // namespace thermal

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "io/files.h"
+#include "io/sha256.h"
+
+namespace thermal {
+
+/// A file that is written piece by piece, and the sum of what went in: nothing of it stays in memory.
+/// All may throw an IoError naming the file and the system's reason, or a TryAgainError when the disk is full.
+class OutputFile {
+ public:
+  /// A new file; what was there under the name is removed, and not written through where it is a link.
+  explicit OutputFile(const Path& file);
+  /// Removes the file if it was not closed.
+  ~OutputFile();
+  OutputFile(OutputFile&&) noexcept = default;
+  OutputFile& operator=(OutputFile&&) noexcept = delete;
+
+  void add(std::string_view text);
+
+  /// Ends the file. Returns its SHA-256.
+  std::string close();
+
+  /// close(), with the file flushed to disk and renamed to `place`, which is whole or as it was before.
+  std::string close_as(const Path& place);
+
+ private:
+  struct Close {
+    void operator()(std::FILE* stream) const { std::fclose(stream); }
+  };
+  using Stream = std::unique_ptr<std::FILE, Close>;
+
+  Path file_;
+  Stream stream_;
+  Sha256 sum_;
+};
+
+}  // namespace thermal
