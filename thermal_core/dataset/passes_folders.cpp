@@ -8,34 +8,68 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "dataset/filled_in.h"
+#include "dataset/passes_groups.h"
 #include "io/manifest_file.h"
 
 namespace thermal {
 namespace {
 
-/// Folders of passes that a path means: itself, or those inside it.
-std::vector<Path> folders_of(const Path& folder) {
-  if (!std::filesystem::is_directory(folder)) {
-    throw ConfigError(fault("passes", folder.string(), "", "a folder of EXR files with a manifest.json"));
-  }
-  if (std::filesystem::exists(folder / "manifest.json")) return {folder};
-  std::vector<Path> inside;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (std::filesystem::exists(entry.path() / "manifest.json")) inside.push_back(entry.path());
-  }
-  std::sort(inside.begin(), inside.end());
-  return inside.empty() ? std::vector<Path>{folder} : inside;
+constexpr const char* kManifest = "manifest.json";
+
+/// Something of that name is there, whatever it is.
+bool is_there(const Path& file) {
+  std::error_code ignored;
+  return std::filesystem::symlink_status(file, ignored).type() != std::filesystem::file_type::not_found;
 }
 
-/// DataError if the manifest names a material that is not there.
-void check_materials(const Manifest& manifest, const Path& file, const MaterialLibrary& materials) {
-  try {
-    for (std::size_t i = 0; i < manifest.objects.size(); ++i)
-      (void)materials.find(manifest.objects[i].material, fmt::format("objects[{}].material", i));
-    for (std::size_t i = 0; i < manifest.materials.size(); ++i)
-      (void)materials.find(manifest.materials[i].material, fmt::format("materials[{}].material", i));
-  } catch (const ConfigError& error) {
-    throw DataError(fmt::format("{}: {}", file.string(), error.what()));
+/// The clips inside a folder that has none itself, each in a folder of its own; else the group.
+std::vector<PassesGroup> clips_of(const PassesGroup& group) {
+  if (!group.files.empty() || is_there(group.folder / kManifest)) return {group};
+  std::vector<PassesGroup> inside;
+  for (const auto& entry : std::filesystem::directory_iterator(group.folder)) {
+    if (!is_there(entry.path() / kManifest)) continue;
+    inside.push_back({.folder = entry.path(), .files = {}, .named = group.named});
+  }
+  std::sort(inside.begin(), inside.end(),
+            [](const PassesGroup& a, const PassesGroup& b) { return a.folder < b.folder; });
+  return inside.empty() ? std::vector<PassesGroup>{group} : inside;
+}
+
+std::vector<PassesGroup> groups_of(const std::vector<Path>& named, const Path& manifest) {
+  std::vector<PassesGroup> groups = group_passes(named);
+  if (!manifest.empty() && groups.size() != 1) {
+    throw ConfigError(fault("--manifest", manifest.string(), "",
+                            fmt::format("one folder of passes beside it, not {}", groups.size())));
+  }
+  if (!manifest.empty()) return groups;
+  std::vector<PassesGroup> clips;
+  for (const PassesGroup& group : groups) {
+    const std::vector<PassesGroup> more = clips_of(group);
+    clips.insert(clips.end(), more.begin(), more.end());
+  }
+  return clips;
+}
+
+Manifest read_meaning(const PassesGroup& group, const Path& file, const Path& home) {
+  if (is_there(file)) {
+    if (file.parent_path() == group.folder) check_is_file(file);  // --manifest may well name a pipe: <(…)
+    return read_manifest(file, home);
+  }
+  throw IoError(
+      fmt::format("cannot read {}: there is no such file; expected one that tells what the passes mean, "
+                  "such as \"veldt inspect {} --starter-manifest {}\" writes",
+                  file.string(), group.folder.string(), file.string()));
+}
+
+/// Frames that are not listed get their files, and times by their places.
+void take_frames(Manifest& manifest, const FrameSequence& sequence) {
+  if (!manifest.frames.empty()) return;
+  for (const auto& [name, is_gap] : sequence.frames) {
+    ManifestFrame frame;
+    frame.file = name.name;  // of a gap, too: it is named when it cannot be read
+    frame.time_s = static_cast<double>(manifest.frames.size()) / manifest.frame_rate_hz;
+    manifest.frames.push_back(std::move(frame));
   }
 }
 
@@ -52,22 +86,15 @@ void check_clips(const std::vector<ClipPasses>& all) {
 
 }  // namespace
 
-std::vector<ClipPasses> find_passes(const std::vector<Path>& folders, const Path& manifest,
+std::vector<ClipPasses> find_passes(const std::vector<Path>& named, const Path& manifest,
                                     const MaterialLibrary& materials, const Path& home) {
-  if (!manifest.empty() && folders.size() != 1) {
-    throw ConfigError(fault("--manifest", manifest.string(), "",
-                            fmt::format("one folder of passes beside it, not {}", folders.size())));
-  }
-  std::vector<Path> meant;
-  for (const Path& named : folders) {
-    const std::vector<Path> more = manifest.empty() ? folders_of(named) : std::vector<Path>{named};
-    meant.insert(meant.end(), more.begin(), more.end());
-  }
   std::vector<ClipPasses> all;
-  for (const Path& folder : meant) {
-    const Path file = manifest.empty() ? folder / "manifest.json" : manifest;
-    all.push_back({.manifest = read_manifest(file, home), .folder = folder});
-    check_materials(all.back().manifest, file, materials);
+  for (const PassesGroup& group : groups_of(named, manifest)) {
+    const Path file = manifest.empty() ? group.folder / kManifest : manifest;
+    Manifest meaning = read_meaning(group, file, home);
+    check_filled_in(meaning, file, materials);
+    take_frames(meaning, frames_of(group, meaning, file, !manifest.empty()));
+    all.push_back({.manifest = std::move(meaning), .folder = group.folder});
   }
   check_clips(all);
   return all;

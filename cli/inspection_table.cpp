@@ -1,0 +1,222 @@
+#include "cli/inspection_table.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+
+namespace veldt {
+namespace {
+
+using thermal::Inspection;
+
+constexpr std::size_t kMostLines = 40;
+constexpr std::size_t kMostNames = 4;
+
+/// Lines past the most are counted; --json has all.
+void print_lines(const std::vector<std::string>& lines) {
+  for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) fmt::print("  {}\n", lines[i]);
+  if (lines.size() > kMostLines)
+    fmt::print("  … and {} more; --json lists them\n", lines.size() - kMostLines);
+}
+
+void print_block(const std::string& heading, const std::vector<std::string>& lines) {
+  if (lines.empty()) return;
+  fmt::print("{}\n", heading);
+  print_lines(lines);
+}
+
+std::string of_frames(const Inspection& inspection) {
+  return inspection.survey.frames > 1 ? fmt::format(", of {} frames", inspection.survey.frames) : "";
+}
+
+void print_files(const Inspection& inspection) {
+  const thermal::FrameSequence& sequence = inspection.sequence;
+  const auto gaps = static_cast<std::size_t>(sequence.gaps());
+  const std::size_t files = sequence.frames.size() - gaps;
+  const std::string& compression = inspection.header.compression;
+  fmt::print("{}\n  {} x {} px{}{}\n", inspection.file.string(), inspection.header.width_px,
+             inspection.header.height_px, compression.empty() ? "" : ", compression " + compression,
+             files > 1 ? fmt::format("; the first of {} files", files) : "");
+  if (const auto& window = inspection.window)
+    fmt::print("  pixels in {} x {} px from ({}, {}) alone\n", window->width_px, window->height_px,
+               window->x_px, window->y_px);
+  std::vector<std::string> missing;
+  for (const auto& [name, is_gap] : sequence.frames)
+    if (is_gap) missing.push_back(name.name);
+  if (gaps > 0) fmt::print("  missing: {}\n", thermal::list_names(missing, kMostNames));
+  if (inspection.manifest && inspection.manifest->overscan_px > 0)
+    fmt::print("  {} of the camera's px on every side are overscan\n", inspection.manifest->overscan_px);
+}
+
+/// What a conversion reads a pass for; empty: nothing.
+std::string use_of(const Inspection& inspection, const thermal::ExrChannel& channel) {
+  const std::string name = channel.full_name();
+  const thermal::ChosenPlanes& planes = inspection.planes;
+  if (name == planes.objects) return "object index";
+  if (name == planes.materials) return "material index";
+  if (name == planes.depth) return "depth";
+  if (name == planes.normals) return "normal";
+  const bool is_matte = !inspection.cryptomatte.empty() && name.starts_with(inspection.cryptomatte);
+  return is_matte ? "cryptomatte" : "";
+}
+
+/// A pass of one layer, its components together.
+struct PassLine {
+  std::string layer;
+  std::string pass;
+  std::string type;
+  std::string components;
+  std::string use;
+};
+
+std::vector<PassLine> passes_of(const Inspection& inspection) {
+  std::vector<PassLine> lines;
+  for (const thermal::ExrChannel& channel : inspection.header.channels) {
+    const std::string use = use_of(inspection, channel);
+    const auto same = std::find_if(lines.begin(), lines.end(), [&channel](const PassLine& line) {
+      return std::tie(line.layer, line.pass, line.type) ==
+             std::tie(channel.layer, channel.pass, channel.type);
+    });
+    if (same == lines.end()) {
+      lines.push_back({channel.layer, channel.pass, channel.type, channel.component, use});
+    } else {
+      same->components += " " + channel.component;
+      if (same->use.empty()) same->use = use;
+    }
+  }
+  return lines;
+}
+
+void print_layers(const Inspection& inspection) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> layers;  // in the file's order
+  for (const PassLine& line : passes_of(inspection)) {
+    auto layer = std::find_if(layers.begin(), layers.end(),
+                              [&line](const auto& one) { return one.first == line.layer; });
+    if (layer == layers.end()) layer = layers.insert(layers.end(), {line.layer, {}});
+    std::string text = fmt::format("{:<24} {:<10} {:<6} {}", line.pass, line.components, line.type, line.use);
+    text.erase(text.find_last_not_of(' ') + 1);
+    layer->second.push_back(std::move(text));
+  }
+  for (const auto& [name, lines] : layers) print_block(name.empty() ? "no layer" : "layer " + name, lines);
+}
+
+void print_indices(const Inspection& inspection) {
+  std::vector<std::string> objects;
+  for (const auto& [index, pixels] : inspection.survey.objects) {
+    const std::string name = object_name(inspection, index);
+    objects.push_back(fmt::format("{:>5} {:>9} px{}{}", index, pixels, name.empty() ? "" : "  ", name));
+  }
+  print_block("object indices" + of_frames(inspection), objects);
+  std::vector<std::string> materials;
+  for (const auto& [index, pixels] : inspection.survey.materials)
+    materials.push_back(fmt::format("{:>5} {:>9} px", index, pixels));
+  print_block("material indices" + of_frames(inspection), materials);
+}
+
+void print_colours(const Inspection& inspection) {
+  std::vector<std::pair<std::int64_t, thermal::Colour>> by_pixels;
+  for (const auto& [colour, pixels] : inspection.survey.colours) by_pixels.emplace_back(-pixels, colour);
+  std::sort(by_pixels.begin(), by_pixels.end());
+  std::vector<std::string> lines;
+  for (const auto& [less, colour] : by_pixels)
+    lines.push_back(fmt::format("[{}] {:>9} px", fmt::join(colour, ", "), -less));
+  print_block("colours" + of_frames(inspection), lines);
+}
+
+void print_cryptomattes(const Inspection& inspection) {
+  for (const auto& [name, mattes] : inspection.survey.cryptomattes) {
+    std::vector<std::tuple<std::int64_t, std::string>> by_pixels;
+    for (const auto& [hash, matte] : mattes) {
+      const std::string text =
+          hash == 0 ? "(nothing)" : fmt::format("({:08x}, which the file has no name for)", hash);
+      by_pixels.emplace_back(-matte.pixels, matte.name.empty() ? text : matte.name);
+    }
+    std::sort(by_pixels.begin(), by_pixels.end());
+    std::vector<std::string> lines;
+    for (const auto& [less, matte] : by_pixels) lines.push_back(fmt::format("{:>9} px  {}", -less, matte));
+    print_block(fmt::format("cryptomatte {}{}", name, of_frames(inspection)), lines);
+  }
+  print_block("faults of cryptomattes", inspection.cryptomatte_faults);
+}
+
+std::string or_none(const std::string& channel, const std::string& none) {
+  return channel.empty() ? none : channel;
+}
+
+/// As a shell takes it.
+std::string typed(const thermal::Path& path) {
+  const std::string text = path.string();
+  const bool plain = text.find_first_of(" \t'\"\\$`*?#%&()[]{};<>|!~") == std::string::npos;
+  return plain ? text : fmt::format("\"{}\"", text);
+}
+
+std::string meanings(const Inspection& inspection) {
+  if (inspection.manifest) return "the manifest's";
+  const thermal::Path& folder = inspection.group.folder;
+  return fmt::format(
+      "unknown: no manifest.json; to begin one\n             veldt inspect {} --starter-manifest {}",
+      typed(folder), typed(folder / "manifest.json"));
+}
+
+std::string objects_from(const Inspection& inspection) {
+  if (!inspection.cryptomatte.empty()) return "cryptomatte " + inspection.cryptomatte;
+  return or_none(inspection.planes.objects, "the picture");
+}
+
+void print_conversion(const Inspection& inspection) {
+  fmt::print("conversion\n");
+  if (!inspection.obstacle.empty()) {
+    fmt::print("  cannot be converted: {}\n", inspection.obstacle);
+    if (!inspection.layers.empty())
+      fmt::print("  --layer {} looks at that one\n", typed(inspection.layers.front()));
+    for (const std::string& channel : inspection.likely)
+      fmt::print("  {} holds whole numbers: \"channels\": {{\"object_index\": \"{}\"}} takes it\n", channel,
+                 channel);
+    return;
+  }
+  fmt::print("  objects    {}\n", objects_from(inspection));
+  fmt::print("  materials  {}\n", or_none(inspection.planes.materials, "those of the objects"));
+  fmt::print("  depth      {}\n", or_none(inspection.planes.depth, "none"));
+  fmt::print("  normals    {}\n", or_none(inspection.planes.normals, "none"));
+  fmt::print("  meanings   {}\n", meanings(inspection));
+}
+
+void print_bad_frames(const Inspection& inspection) {
+  std::vector<std::string> lines;
+  for (const auto& [file, reason] : inspection.survey.bad_frames) lines.push_back(file + ": " + reason);
+  if (inspection.survey.frames > 0) print_block("bad frames", lines);
+}
+
+}  // namespace
+
+void print(const Inspection& inspection) {
+  print_files(inspection);
+  print_layers(inspection);
+  print_indices(inspection);
+  print_colours(inspection);
+  print_cryptomattes(inspection);
+  if (const auto& depth = inspection.survey.depth)
+    fmt::print("depth{}\n  {:.2f} m to {:.2f} m\n", of_frames(inspection), depth->nearest_m,
+               depth->farthest_m);
+  print_bad_frames(inspection);
+  print_conversion(inspection);
+}
+
+void print(const thermal::StarterManifest& starter, const Inspection& inspection, const thermal::Path& file) {
+  fmt::print("\n{}: a manifest to begin with\n", file.string());
+  print_block("guessed, to be checked", starter.guesses);
+  print_block("to fill in", starter.to_fill_in);
+  const thermal::Path& folder = inspection.group.folder;
+  const bool beside = (folder / "manifest.json").lexically_normal() == file.lexically_normal();
+  fmt::print("then\n  veldt convert {}{} --out dataset\n", typed(folder),
+             beside ? "" : fmt::format(" --manifest {}", typed(file)));
+}
+
+}  // namespace veldt

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "dataset/inspection.h"
+#include "dataset/starter_manifest.h"
+
+namespace veldt {
+
+/// Prints what passes hold, and what a conversion would do with them.
+void print(const thermal::Inspection& inspection);
+
+/// Prints what of a starter manifest was guessed and what is to be filled in, and the command to type then.
+void print(const thermal::StarterManifest& starter, const thermal::Inspection& inspection,
+           const thermal::Path& file);
+
+}  // namespace veldt
