@@ -5,6 +5,7 @@
 
 #include "base/version.h"
 #include "bench/balance_suite.h"
+#include "bench/convert_suite.h"
 #include "bench/labels_suite.h"
 #include "bench/radiance_suite.h"
 #include "bench/render_suite.h"
@@ -74,6 +75,17 @@ thermal::Json to_json(const thermal::RenderRow& row) {
   return {{"group", row.group}, {"name", row.name}, {"figures", figures}};
 }
 
+thermal::Json to_json(const thermal::ConvertRow& row) {
+  thermal::Json figures = thermal::Json::object();
+  for (const thermal::Figure& figure : row.figures) figures[figure.name] = figure.value;
+  thermal::Json json = {{"group", row.group}, {"name", row.name}, {"ms", row.ms}, {"mb_per_s", row.mb_per_s}};
+  if (!row.limit.empty()) json["limit"] = row.limit;
+  if (!row.limit.empty()) json["times_limit"] = row.times_limit;
+  if (!row.bound.empty()) json["bound"] = row.bound;
+  json["figures"] = figures;
+  return json;
+}
+
 /// Whole numbers as they are, others to three digits.
 std::string short_number(double value) {
   return value == std::floor(value) ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
@@ -91,6 +103,23 @@ void print_table(const std::vector<thermal::RenderRow>& rows) {
     fmt::print("  {:<30}", row.name);
     for (const thermal::Figure& figure : row.figures) fmt::print("{:>15}", short_number(figure.value));
     fmt::print("\n");
+  }
+}
+
+void print_table(const std::vector<thermal::ConvertRow>& rows) {
+  std::string group;
+  for (const thermal::ConvertRow& row : rows) {
+    if (row.group != group) {
+      fmt::print("\n{:<44}{:>10}{:>10}{:>10}\n", row.group, "ms/frame", "MB/s", "x limit");
+      group = row.group;
+    }
+    const std::string times =
+        row.limit.empty() ? "" : fmt::format("{:>10.1f}  {:<12}", row.times_limit, row.limit);
+    fmt::print("  {:<42}{:>10.3f}{:>10.0f}{:<24}", row.name, row.ms, row.mb_per_s, times);
+    for (const thermal::Figure& figure : row.figures)
+      fmt::print("  {} {}", figure.name, short_number(figure.value));
+    fmt::print("\n");
+    if (!row.bound.empty()) fmt::print("    bound by {}\n", row.bound);
   }
 }
 
@@ -130,6 +159,8 @@ int run(const Options& options, bool quiet) {
     return show(options.suite, thermal::run_balance_suite(teller(quiet)), options.json);
   if (options.suite == "render") return show(options.suite, measure_rendering(options, quiet), options.json);
   const thermal::MaterialLibrary materials = thermal::read_materials(thermal::find_home());
+  if (options.suite == "convert")
+    return show(options.suite, thermal::run_convert_suite(materials, teller(quiet)), options.json);
   return show(options.suite, thermal::run_radiance_suite(materials), options.json);
 }
 
@@ -140,7 +171,7 @@ void add_bench(CLI::App& app, Session& session) {
       add_command(app, session, "bench", "Speed and error of every kernel, measured on this machine");
   auto options = std::make_shared<Options>();
   command->add_option("--suite", options->suite, "What to measure")
-      ->check(CLI::IsMember({"radiance", "sensor", "labels", "balance", "render"}))
+      ->check(CLI::IsMember({"radiance", "sensor", "labels", "convert", "balance", "render"}))
       ->capture_default_str();
   command
       ->add_option("--blender", options->blender,

@@ -103,12 +103,77 @@ def test_labelling_is_measured_stage_by_stage_and_exact(labels):
     assert figures["worst_mk"] < 2 * (0.036 + 0.015)
 
 
+@pytest.fixture(scope="module", name="converting")
+def _converting(tmp_path_factory):
+    done = Veldt(tmp_path_factory.mktemp("bench"))(
+        "bench", "--suite", "convert", "--json", timeout_s=900  # under sanitizers
+    )
+    assert done.code == 0, done.err
+    return done
+
+
+SIZES = ("640 x 512", "3840 x 3072")
+MODELS = dict(zip(SIZES, (["published"] * 2 + ["physical"] * 2, ["published", "physical"])))
+STAGES = {
+    "read, published": "raw read",
+    "read, physical": "raw read",
+    "convert, published": "memcpy",
+    "convert, physical": "memcpy",
+    "expose, published": "memcpy",
+    "expose, physical": "memcpy",
+    "PNG, 8 bits": "raw deflate",
+    "PNG, 16 bits": "raw deflate",
+    "SHA-256 of pixels and files": "memcpy",
+    "files written": "memcpy",
+    "labels and frame record": "memcpy",
+    "preview": "memcpy",
+}
+
+
+def test_the_converter_is_measured_against_what_the_machine_allows(converting):
+    rows = converting.json()["rows"]
+    groups = {}
+    for row in rows:
+        groups.setdefault(row["group"], []).append(row)
+    assert list(groups) == [
+        f"{size}, {what}"
+        for size in SIZES
+        for what in ("limits of this machine", "stages, one thread", "from files to a clip")
+    ]
+    for size in SIZES:
+        stages = groups[f"{size}, stages, one thread"]
+        assert {row["name"]: row["limit"] for row in stages} == STAGES
+        assert all(row["times_limit"] > 0 for row in stages)
+        assert len(groups[f"{size}, limits of this machine"]) == 4
+        wholes = groups[f"{size}, from files to a clip"]
+        assert [row["name"].split(",")[0] for row in wholes] == MODELS[size]
+        assert all(row["bound"] for row in wholes)
+    assert all(row["ms"] > 0 and row["mb_per_s"] > 0 for row in rows)
+
+
+def test_what_the_converter_reads_and_writes_has_no_error(converting):
+    wrong = [row["figures"]["wrong_px"] for row in converting.json()["rows"] if "wrong_px" in row["figures"]]
+    assert wrong == [0] * (4 * len(SIZES))
+
+
+def test_what_is_measured_of_the_converter_is_told(converting):
+    told = [
+        f"measuring {size}, {what}\n"
+        for size, threads in zip(SIZES, (["one thread", "all threads"], ["all threads"]))
+        for what in [
+            "stages",
+            *(f"clips by the {model} model, {how}" for model in ("published", "physical") for how in threads),
+        ]
+    ]
+    assert converting.err == "".join(told)
+
+
 def test_an_unknown_suite_is_a_usage_fault(veldt):
     done = veldt("bench", "--suite", "optics")
     assert (done.code, done.out) == (2, "")
     assert (
         done.err
-        == "veldt: --suite: optics not in {radiance,sensor,labels,balance,render}; see veldt bench --help\n"
+        == "veldt: --suite: optics not in {radiance,sensor,labels,convert,balance,render}; see veldt bench --help\n"
     )
 
 
