@@ -4,6 +4,7 @@ import copy
 import json
 import math
 import random
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -390,3 +391,10 @@ def test_malformed_plans_are_refused_and_never_crash(tmp_path):
             )
         except ConfigError:
             pass
+
+
+def test_lists_as_deep_as_can_be_read_are_shown(tmp_path):
+    for depth in range(sys.getrecursionlimit() - 200, sys.getrecursionlimit()):
+        deep = json.dumps(SURVEY).replace('"Plan"', "[" * depth + "]" * depth)
+        with pytest.raises(ConfigError, match=r"^(survey.plan: fileType = \[+…; expected a text$|clips)"):
+            _read(tmp_path, deep)

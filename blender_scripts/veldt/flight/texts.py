@@ -22,7 +22,10 @@ def read_text(file: str, where: str) -> str:
 
 def shown(value) -> str:
     """A value of a JSON file as it stands there, cut short if it is long."""
-    text = json.dumps(value)
+    try:
+        text = json.dumps(value)
+    except RecursionError:  # lists in lists, as deep as json.loads could just read
+        return "[[[…"
     return text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}…"
 
 

@@ -1,0 +1,10 @@
+#include "fuzz/label_demands.h"
+#include "fuzz/targets.h"
+#include "io/birdsai_files.h"
+
+void fuzz::birdsai(Bytes bytes) {
+  static const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "annotations");
+  (void)folder.file("annotations/video.csv", text_of(bytes));
+  tolerate([] { demand_consistent(thermal::read_birdsai(folder.path())); });
+}

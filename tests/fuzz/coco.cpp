@@ -1,0 +1,12 @@
+#include "fuzz/label_demands.h"
+#include "fuzz/targets.h"
+#include "io/coco_file.h"
+
+void fuzz::coco(Bytes bytes) {
+  const auto file = as_file(bytes, "labels.json");
+  tolerate([&file] {
+    thermal::LabelSet set = thermal::read_coco(file);
+    demand_consistent(set);
+    thermal::assign_size_classes(set);
+  });
+}

@@ -1,0 +1,35 @@
+#include "io/config.h"
+
+#include "base/text.h"
+#include "fuzz/targets.h"
+
+namespace {
+
+const std::string kName = "config.json";
+
+/// A config that was resolved is one; resuming compares it with what it is resolved to.
+void resolve_twice(thermal::Json document) {
+  const thermal::Config config = thermal::resolve_config(std::move(document), kName, VELDT_SOURCE_DIR);
+  const thermal::Config again = thermal::resolve_config(config.resolved, kName, VELDT_SOURCE_DIR);
+  demand(again.resolved == config.resolved, "a resolved config is resolved to itself");
+}
+
+void apply_settings(std::string_view lines) {
+  static const thermal::Json kDemo = thermal::read_json(VELDT_SOURCE_DIR "/configs/demo.json");
+  thermal::Json document = kDemo;
+  for (const std::string_view line : thermal::split(lines, '\n'))
+    thermal::apply_setting(document, std::string(line));
+  resolve_twice(std::move(document));
+}
+
+}  // namespace
+
+void fuzz::config(Bytes bytes) {
+  const std::string_view text = text_of(bytes);
+  tolerate([text] {
+    if (!text.starts_with('{')) return apply_settings(text);
+    thermal::Json document = thermal::parse_json(text, kName);
+    thermal::root_files(document, "folder");
+    resolve_twice(std::move(document));
+  });
+}

@@ -1,0 +1,33 @@
+#include "io/exr_passes.h"
+
+#include "fuzz/pass_demands.h"
+#include "fuzz/pass_manifests.h"
+#include "fuzz/targets.h"
+#include "io/cryptomatte.h"
+#include "io/pass_reader.h"
+
+namespace {
+
+/// Far more than the seeds have, and little enough that a plane of that size is no great matter.
+constexpr thermal::ReadLimits kLimits = {.pixels = 1'000'000};
+
+std::vector<thermal::PassReader> readers(const std::vector<thermal::Manifest>& manifests) {
+  std::vector<thermal::PassReader> readers;
+  for (const thermal::Manifest& manifest : manifests) readers.emplace_back(manifest, kLimits);
+  return readers;
+}
+
+}  // namespace
+
+void fuzz::exr_passes(Bytes bytes) {
+  static const std::vector<thermal::Manifest> kManifests = small_manifests();
+  static const std::vector<thermal::PassReader> kReaders = readers(kManifests);
+  if (bytes.empty()) return;
+  const auto file = as_file(bytes, "passes.exr");
+  const unsigned last = bytes.back();
+  const std::size_t choice = last % kReaders.size();
+  const thermal::PassNeeds needs = {.depth = (last & 64U) == 0, .normals = (last & 32U) == 0, .actors = true};
+  tolerate([&] { (void)thermal::cryptomattes_in(thermal::read_exr_header(file)); });
+  tolerate([&] { (void)kReaders[choice].planes_in(file); });
+  tolerate([&] { demand_whole(kReaders[choice].read(file, needs), needs, kManifests[choice]); });
+}

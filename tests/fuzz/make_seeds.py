@@ -1,0 +1,157 @@
+"""Writes what fuzzing starts from: make_seeds.py FOLDER makes FOLDER/TARGET/… and dictionaries FOLDER/TARGET.dict.
+
+The same bytes on every run. A target's own readers would take each of its seeds.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+from pathlib import Path
+
+from exr_seeds import write_exr_seeds
+from png_seeds import write_png_seeds
+
+ROOT = Path(__file__).resolve().parents[2]
+CONFIGS, SCHEMAS, FLIGHTS = ROOT / "configs", ROOT / "configs" / "schema", ROOT / "tests" / "data" / "flights"
+
+MANIFEST = {
+    "format": "veldt-passes",
+    "version": 1,
+    "clip": "one",
+    "scene": "made_up",
+    "seed": 5,
+    "camera": {"width_px": 8, "height_px": 8, "fx_px": 9, "fy_px": 9, "cx_px": 4, "cy_px": 4},
+    "objects": [
+        {"index": 1, "name": "ground", "class": "ground", "material": "soil", "colour": [90, 60, 30]},
+        {
+            "index": 101,
+            "name": "walker",
+            "class": "actor",
+            "material": "human",
+            "category": "human",
+            "species": "human",
+            "track_id": 7,
+            "mattes": ["walker*"],
+            "bounds_m": [[-0.3, -0.3, 0], [0.3, 0.3, 1.8]],
+        },
+    ],
+    "materials": [{"index": 1, "material": "human", "part": "face"}],
+    "frames": [
+        {
+            "file": "000000.exr",
+            "time_s": 0,
+            "agl_m": 61,
+            "look_angle_deg": 45,
+            "camera_to_world": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 61, 0, 0, 0, 1],
+            "actors": [{"index": 101, "position_m": [1, 2, 0], "heading_rad": 0.5}],
+        }
+    ],
+}
+COCO = {
+    "info": {"version": "1"},
+    "images": [
+        {"id": 1, "file_name": "a/0.png", "width": 8, "height": 6, "video_id": 3, "frame_index": 1},
+        {"id": 2, "file_name": "b/1.png", "width": 8, "height": 6},
+    ],
+    "videos": [{"id": 3, "name": "n", "frame_rate_hz": 9}],
+    "categories": [{"id": 2, "name": "lion"}],
+    "annotations": [
+        {
+            "id": 5,
+            "image_id": 1,
+            "category_id": 2,
+            "bbox": [1, 2, 3.5, 4],
+            "area": 9,
+            "iscrowd": 0,
+            "track_id": 8,
+            "visibility": 0.25,
+            "occluded": True,
+            "segmentation": {"size": [6, 8], "counts": [10, 5, 33]},
+        }
+    ],
+}
+RESULTS = [{"image_id": 1, "category_id": 7, "bbox": [1, 2, 30.5, 40], "score": 0.5}]
+TEXTS = {
+    "birdsai/rows.csv": "4,2,10,20,5,6,1,-1,0,0\r\n4,1,-3,0,8,9,0,1,1,0\n\n0, 1,1,2,3,4,0,-1,0,1\n",
+    "coco/small.json": json.dumps(COCO),
+    "config/settings.txt": "seed=3\nseason=summer\nsensor.preset=boson_640_14mm\nclips[1].frames=1\n"
+    'weather.air_temperature_k=290\nsensor={"model": "physical"}',
+    "config/tiny.json": '{"name": "t", "seed": 1, "clips": [{"id": "a", "season": "winter", "frames": 2,'
+    ' "flight": {"pattern": "zigzag", "altitude_m": 61, "look_angle_deg": 90, "speed_m_s": 6,'
+    ' "area_m": [0, 0, 9, 9], "heading_deg": 0}}]}',
+    "detections/coco.json": json.dumps(RESULTS),
+    "detections/yolo.txt": "0 0.5 0.5 0.1 0.2 0.9\r\n1 0 1 1 1 1e-3\n",
+    "manifest/small.json": json.dumps(MANIFEST),
+    "manifest/sequence.json": json.dumps(
+        {**MANIFEST, "frames": [], "sequence": "frame_####.exr", "cryptomatte": "CryptoObject"}
+    ),
+}
+COPIES = {
+    "config": [CONFIGS / "demo.json", CONFIGS / "savanna.json"],
+    "variants": [CONFIGS / "variants_example.json", CONFIGS / "gallery.json"],
+    "plan": [FLIGHTS / "survey.plan"],
+    "log": [FLIGHTS / "log.csv"],
+}
+WORDS = {
+    "birdsai": ["-1", "2147483647", ",", "\r\n", " "],
+    "coco": ["images", "annotations", "categories", "videos", "image_id", "category_id", "bbox", "file_name"],
+    "detections": ["image_id", "category_id", "bbox", "score", "1e308", "-1e308"],
+    "exr_passes": "channels chlist compression dataWindow displayWindow box2i lineOrder pixelAspectRatio float v2f name"
+    " screenWindowCenter screenWindowWidth string tiles tiledesc type scanlineimage tiledimage chunkCount int version"
+    " cryptomatte/ /manifest /name /hash /conversion IndexOB.X IndexMA.X Depth.Z Normal.X Scene. Actors. .R .G .B .A"
+    " CryptoObject00".split(),
+    "index_picture": ["IHDR", "PLTE", "IDAT", "IEND", "tRNS", "gAMA", "sRGB", "iCCP", "zTXt", "eXIf"],
+    "plan": [],
+    "log": ["time_s", "x_m", "y_m", "z_m", "agl_m", "altitude_m", "yaw_deg", "nan", "inf", "1e308"],
+}
+SCHEMA_OF = {"config": "config", "manifest": "manifest", "variants": "variants"}
+
+
+def words_of_schema(schema) -> set[str]:
+    """Keys and choices anywhere in a schema."""
+    if isinstance(schema, list):
+        return {word for part in schema for word in words_of_schema(part)}
+    if not isinstance(schema, dict):
+        return set()
+    words = set(schema.get("properties", {})) | {
+        word for word in schema.get("enum", []) if isinstance(word, str)
+    }
+    return words | {word for part in schema.values() for word in words_of_schema(part)}
+
+
+def plan_words() -> list[str]:
+    """Keys of the plan that is a seed."""
+    return sorted(
+        {line.split('"')[1] for line in COPIES["plan"][0].read_text("utf-8").splitlines() if '": ' in line}
+    )
+
+
+def write_dictionary(file: Path, words: list[str]) -> None:
+    """In the form of libFuzzer and AFL."""
+    lines = ['"' + "".join(f"\\x{byte:02x}" for byte in word.encode()) + '"\n' for word in words]
+    file.write_text("".join(lines), encoding="utf-8")
+
+
+def main(folder: Path) -> None:
+    """Writes all seeds anew."""
+    shutil.rmtree(folder, ignore_errors=True)
+    words = dict(WORDS) | {"plan": plan_words()}
+    for target, name in SCHEMA_OF.items():
+        schema = json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8"))
+        words[target] = sorted(words_of_schema(schema))
+    for target, known in words.items():
+        (folder / target).mkdir(parents=True)
+        write_dictionary(folder / f"{target}.dict", known)
+    for name, text in TEXTS.items():
+        (folder / name).write_bytes(text.encode("utf-8"))
+    for target, files in COPIES.items():
+        for file in files:
+            shutil.copyfile(file, folder / target / file.name)
+    write_exr_seeds(folder / "exr_passes")
+    write_png_seeds(folder / "index_picture")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/manifest.h"
+
+/// Manifests of passes of 8 x 8 pixels, as make_seeds.py writes them.
+inline constexpr int kSidePx = 8;
+
+inline thermal::Manifest small_manifest() {
+  thermal::Manifest manifest;
+  manifest.clip = "clip";
+  manifest.camera = {
+      .width_px = kSidePx, .height_px = kSidePx, .fx_px = 9, .fy_px = 9, .cx_px = 4, .cy_px = 4};
+  manifest.objects = {
+      {.index = 1, .name = "ground__", .material = "soil", .colour = thermal::Colour{90, 60, 30}},
+      {.index = 4, .name = "shrub", .material = "shrub", .colour = thermal::Colour{0, 200, 0}},
+      {.index = 101, .name = "walker__", .material = "human", .colour = thermal::Colour{250, 0, 7}}};
+  manifest.objects[1].mattes = {"shrub*"};
+  return manifest;
+}
+
+inline thermal::Manifest with_layers(std::string layer, std::string actor_layer) {
+  thermal::Manifest manifest = small_manifest();
+  manifest.layer = std::move(layer);
+  manifest.actor_layer = std::move(actor_layer);
+  return manifest;
+}
+
+inline thermal::Manifest with_channels() {
+  thermal::Manifest manifest = small_manifest();
+  manifest.channels = {.object_index = "id", .material_index = "mat", .depth = "far", .normal = "N"};
+  return manifest;
+}
+
+inline thermal::Manifest with_cryptomatte(std::string name) {
+  thermal::Manifest manifest = small_manifest();
+  manifest.cryptomatte = std::move(name);
+  return manifest;
+}
+
+/// Four times as many pixels each way: enough for every compression to be worth its while.
+inline thermal::Manifest supersampled() {
+  thermal::Manifest manifest = small_manifest();
+  manifest.supersample = 4;
+  return manifest;
+}
+
+/// The number of each is what make_seeds.py puts at the end of a file.
+inline std::vector<thermal::Manifest> small_manifests() {
+  return {small_manifest(),
+          with_layers("Scene", ""),
+          with_layers("Scene", "Actors"),
+          with_channels(),
+          supersampled(),
+          with_cryptomatte("CryptoObject"),
+          with_cryptomatte("ViewLayer.CryptoMaterial")};
+}

@@ -1,0 +1,22 @@
+#include "io/variants.h"
+
+#include "fuzz/targets.h"
+#include "io/config.h"
+
+namespace {
+
+const thermal::Json& demo() {
+  static const thermal::Json kDemo = thermal::read_json(VELDT_SOURCE_DIR "/configs/demo.json");
+  return kDemo;
+}
+
+}  // namespace
+
+void fuzz::variants(Bytes bytes) {
+  tolerate([bytes] {
+    const thermal::Json document = thermal::parse_json(text_of(bytes), "variants.json");
+    for (const thermal::Variant& variant :
+         thermal::read_variants(document, "variants.json", VELDT_SOURCE_DIR))
+      (void)thermal::resolve_config(thermal::changed_by(variant, demo()), variant.where, VELDT_SOURCE_DIR);
+  });
+}
