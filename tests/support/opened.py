@@ -27,7 +27,6 @@ class Opened:
         self._descriptor = libc.inotify_init1(os.O_NONBLOCK | os.O_CLOEXEC)
         assert self._descriptor >= 0, os.strerror(ctypes.get_errno())
         for folder in self._folders:
-            # The kernel makes one of equal events in a row: closing between two openings keeps them apart.
             watched = _IN_OPEN | _IN_CLOSE_NOWRITE
             watch = libc.inotify_add_watch(self._descriptor, str(folder).encode(), watched)
             assert watch >= 0, os.strerror(ctypes.get_errno())
@@ -38,12 +37,19 @@ class Opened:
         os.close(self._descriptor)
 
     def counts(self, suffix: str) -> dict[Path, int]:
-        """How often each file with this suffix was opened since the last call."""
+        """How often each file with this suffix was opened since the last call, when nobody had it open.
+
+        The kernel makes one of equal events in a row, if nobody has read the first yet. So a file that is opened again
+        while it is open may be told of once or twice, and is counted once.
+        """
         found: Counter[Path] = Counter()
+        last: dict[Path, int] = {}
         for watch, mask, name in self._events():
             assert not mask & _IN_Q_OVERFLOW, "more events than the kernel keeps"
-            if mask & _IN_OPEN and name.endswith(suffix):
-                found[self._names[watch] / name] += 1
+            file, event = self._names[watch] / name, mask & (_IN_OPEN | _IN_CLOSE_NOWRITE)
+            if event == _IN_OPEN != last.get(file) and name.endswith(suffix):
+                found[file] += 1
+            last[file] = event
         return dict(found)
 
     def _events(self):
