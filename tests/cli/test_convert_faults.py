@@ -182,7 +182,8 @@ BAD_MANIFESTS = {
     ),
     "no frames": (
         _manifest(lambda document: document.update(frames=[])),
-        'frames and sequence are missing; expected one of them: a list of files, or a pattern of their names such as "f_####.exr"',
+        "frames and sequence are missing; expected one of them:"
+        ' a list of files, or a pattern of their names such as "f_####.exr"',
     ),
     "a frame in another folder": (
         _set_in("frames", "file", "../x.exr"),

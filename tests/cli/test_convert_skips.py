@@ -9,7 +9,10 @@ from opened import Opened
 from raw_exr import exr_bytes
 
 GONE = "there is no such file"
-UNKNOWN = "object index at pixel (3, 2) = 103 (1 pixels); expected an index of the manifest's objects: 0, 1, 4, 101, 102"
+UNKNOWN = (
+    "object index at pixel (3, 2) = 103 (1 pixels);"
+    " expected an index of the manifest's objects: 0, 1, 4, 101, 102"
+)
 
 
 def _clip(veldt, frames, missing=(), clip="one"):
@@ -266,7 +269,8 @@ def test_passes_over_the_limit_are_refused(veldt):
     done = veldt("convert", "one", "--out", "out", "--max-megapixels", "0.000383", "--quiet")
     assert (done.code, done.err) == (
         1,
-        "veldt: clip one rejected: one: size of the passes = 24 x 16 px; expected at most 383 pixels (--max-megapixels)\n",
+        "veldt: clip one rejected: one: size of the passes = 24 x 16 px;"
+        " expected at most 383 pixels (--max-megapixels)\n",
     )
     assert veldt("convert", "one", "--out", "out", "--max-megapixels", "0.000384", "--quiet").code == 0
 

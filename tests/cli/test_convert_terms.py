@@ -1,4 +1,4 @@
-"""Physical terms on passes that lack what those draw on: an automatic term is dropped and told, one asked for is a fault."""
+"""Physical terms on passes that lack what those draw on: automatic ones are dropped and told, others are faults."""
 
 import numpy as np
 import pytest

@@ -15,7 +15,8 @@ from pathlib import Path
 import pytest
 
 import passes
-from bad_inputs import ALL, BAD_INPUTS, NO_CLIP, NOTHING, OTHERS, RUN, BadInput
+from bad_input import ALL, NO_CLIP, NOTHING, OTHERS, RUN, BadInput
+from bad_inputs import BAD_INPUTS
 from program import files_below
 from raw_exr import exr_bytes
 
@@ -72,7 +73,7 @@ def _code(line: str) -> str:
     return "`" + short.replace("|", "\\|").replace("`", "'") + "`"
 
 
-# --- all cuts and flips of one file -------------------------------------------------------------------------------------
+# --- all cuts and flips of one file -----------------------------------------------------------------------------------
 
 REASON = re.compile(r"[^\n]+")
 

@@ -19,7 +19,7 @@ def _chunk(kind: bytes, content: bytes) -> bytes:
 
 
 def png_bytes(pixels: np.ndarray, colours: int = GREY, size: tuple[int, int] | None = None) -> bytes:
-    """A picture of unsigned bytes or words (height, width[, channels]); `size` is (width, height) as its header says."""
+    """A picture of unsigned bytes or words (height, width[, channels]); `size` is the header's (width, height)."""
     height, width = pixels.shape[:2]
     assert pixels.size == width * height * _CHANNELS[colours]
     wide, high = size or (width, height)

@@ -45,8 +45,9 @@ void write_passes(const Path& file, const Passes& passes) {
   Imf::FrameBuffer buffer;
   for (const auto& [name, plane] : planes) {
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    // A frame buffer is for reading into, too, and so takes no pointer to const.
     float* const pixels =
-        const_cast<float*>(plane.pixels().data());  // a frame buffer is for reading into, too
+        const_cast<float*>(plane.pixels().data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
     buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, pixels, header.dataWindow(), sizeof(float)));
   }
   try {

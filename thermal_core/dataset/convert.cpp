@@ -22,7 +22,7 @@ namespace {
 /// The folder of a dataset, in which nothing leads elsewhere.
 Layout own_layout(const ConvertRequest& request) {
   if (!request.variant.empty()) check_is_no_link(request.out);
-  const Layout layout{request.out};
+  Layout layout{request.out};
   check_is_no_link(layout.clips());
   return layout;
 }

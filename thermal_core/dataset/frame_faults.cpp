@@ -42,7 +42,7 @@ PassReader reader_for(const ClipPasses& passes) {
 }
 
 Path file_of(const ClipPasses& passes, int frame) {
-  const Path file = passes.folder / passes.manifest.frames[static_cast<std::size_t>(frame)].file;
+  Path file = passes.folder / passes.manifest.frames[static_cast<std::size_t>(frame)].file;
   check_is_file(file);
   return file;
 }

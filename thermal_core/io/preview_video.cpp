@@ -95,7 +95,7 @@ struct PreviewVideo::Impl {
     check(avcodec_open2(encoder.get(), codec, nullptr));
   }
 
-  void begin() {
+  void begin() const {
     AVStream* stream = avformat_new_stream(format.get(), nullptr);
     check(stream == nullptr ? AVERROR(ENOMEM) : 0);
     stream->time_base = encoder->time_base;
