@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,15 +10,24 @@
 /// Manifests of passes of 8 x 8 pixels, as make_seeds.py writes them.
 inline constexpr int kSidePx = 8;
 
+inline thermal::ManifestObject small_object(std::uint16_t index, const std::string& name,
+                                            const std::string& material, const thermal::Colour& colour) {
+  thermal::ManifestObject object;
+  object.index = index;
+  object.name = name;
+  object.material = material;
+  object.colour = colour;
+  return object;
+}
+
 inline thermal::Manifest small_manifest() {
   thermal::Manifest manifest;
   manifest.clip = "clip";
   manifest.camera = {
       .width_px = kSidePx, .height_px = kSidePx, .fx_px = 9, .fy_px = 9, .cx_px = 4, .cy_px = 4};
-  manifest.objects = {
-      {.index = 1, .name = "ground__", .material = "soil", .colour = thermal::Colour{90, 60, 30}},
-      {.index = 4, .name = "shrub", .material = "shrub", .colour = thermal::Colour{0, 200, 0}},
-      {.index = 101, .name = "walker__", .material = "human", .colour = thermal::Colour{250, 0, 7}}};
+  manifest.objects = {small_object(1, "ground__", "soil", {90, 60, 30}),
+                      small_object(4, "shrub", "shrub", {0, 200, 0}),
+                      small_object(101, "walker__", "human", {250, 0, 7})};
   manifest.objects[1].mattes = {"shrub*"};
   return manifest;
 }

@@ -13,9 +13,10 @@ constexpr int kStep = 2;  // as of to_text()
 
 JsonStream::JsonStream(const Json& head, JsonLayout layout, TakeText take)
     : layout_(layout), take_(std::move(take)) {
-  std::string text = head.dump(layout == JsonLayout::indented ? kStep : -1);
-  text.resize(text.size() - (layout == JsonLayout::indented ? 2 : 1));  // the brace, and its line
-  take_(text);
+  const std::string text = head.dump(layout == JsonLayout::indented ? kStep : -1);
+  std::string_view open = text;
+  open.remove_suffix(layout == JsonLayout::indented ? 2 : 1);  // the brace, and its line
+  take_(open);
 }
 
 void JsonStream::begin_array(const std::string& key) {

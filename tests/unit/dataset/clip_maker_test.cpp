@@ -43,9 +43,9 @@ struct Workplace {
   /// The same, going on without bad frames.
   [[nodiscard]] std::vector<ClipRecord> make_without_bad(const std::vector<ClipTask>& tasks,
                                                          const ClipHooks& hooks = {}) const {
-    ClipPasses passes = rendered();
-    passes.bad_frames = BadFrames::skip;
-    return make_clips(passes, tasks, read_materials(VELDT_SOURCE_DIR), hooks);
+    ClipPasses lenient = rendered();
+    lenient.bad_frames = BadFrames::skip;
+    return make_clips(lenient, tasks, read_materials(VELDT_SOURCE_DIR), hooks);
   }
   [[nodiscard]] Path frame(int number) const { return passes / tiny_clip::file_name(number); }
   void remove(int number) const { std::filesystem::remove(frame(number)); }
