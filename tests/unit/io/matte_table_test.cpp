@@ -62,7 +62,7 @@ struct Exr {
   [[nodiscard]] std::string fault(const PassNeeds& needs = {}, const Manifest& by = manifest()) const {
     const std::string message = message_of<DataError>([&] { (void)read(needs, by); });
     const std::string name = fmt::format("{}: ", file.string());
-    return message.starts_with(name) ? message.substr(name.size()) : "not named: " + message;
+    return message.starts_with(name) ? message.substr(name.size()) : fmt::format("not named: {}", message);
   }
 
   TemporaryFolder folder;
@@ -287,7 +287,7 @@ TEST_CASE("A hash without a name is told as it is") {
 
 TEST_CASE("That names cannot be read is told where they are missed, and nowhere else") {
   ExrTexts texts = matte_texts(kNames);
-  texts["cryptomatte/542cafa/manifest"] = "{";
+  texts["cryptomatte/542cafa/manifest"] = std::string(1, '{');
   Manifest plain = manifest();
   plain.objects[2].mattes = {"stone_1", "stone_2"};
   check_usual(Exr(matte_channels(kRanks), texts).read({}, plain));
