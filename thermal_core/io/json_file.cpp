@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -85,9 +86,9 @@ void check_depth(int depth, Json::parse_event_t event, const std::string& name) 
       fmt::format("{}: lists and objects more than {} deep in each other; expected fewer", name, kDeepest));
 }
 
-/// Parses while `keep` watches; faults name the place.
-template <typename Keep>
-Json parse_watched(std::string_view text, const std::string& name, const Keep& keep) {
+/// Parses a text or a stream while `keep` watches; faults name the place, which `place_of` a byte tells.
+template <typename Input, typename PlaceOf, typename Keep>
+Json parse_watched(Input&& input, const std::string& name, const PlaceOf& place_of, const Keep& keep) {
   DuplicateKeys duplicates;
   const auto watch = [&](int depth, Json::parse_event_t event, const Json& value) {
     check_depth(depth, event, name);
@@ -95,12 +96,11 @@ Json parse_watched(std::string_view text, const std::string& name, const Keep& k
     return keep(depth, event, value);
   };
   try {
-    Json json = Json::parse(text, watch);
+    Json json = Json::parse(std::forward<Input>(input), watch);
     if (duplicates.first().empty()) return json;
   } catch (const Json::parse_error& error) {
     // The library counts the offending byte from 1.
-    throw ConfigError(fmt::format("{}: not JSON: {}",
-                                  position(text, error.byte == 0 ? 0 : error.byte - 1, name),
+    throw ConfigError(fmt::format("{}: not JSON: {}", place_of(error.byte == 0 ? 0 : error.byte - 1),
                                   reason(error.what())));
   } catch (const Json::out_of_range& error) {  // "[json.exception.out_of_range.406] number overflow …"
     throw ConfigError(fmt::format("{}: not JSON: {}", name, reason(error.what())));
@@ -142,27 +142,29 @@ void collect_differences(const Json& here, const Json& there, const std::string&
 }  // namespace
 
 Json parse_json(std::string_view text, const std::string& name) {
-  return parse_watched(text, name, [](int, Json::parse_event_t, const Json&) { return true; });
+  return parse_watched(
+      text, name, [&](std::size_t byte) { return position(text, byte, name); },
+      [](int, Json::parse_event_t, const Json&) { return true; });
 }
 
 Json parse_json_elements(std::string_view text, const std::string& name, const TakeElement& take) {
   Elements elements(take);
-  return parse_watched(text, name, [&elements](int depth, Json::parse_event_t event, const Json& value) {
-    return elements.see(depth, event, value);
-  });
+  return parse_watched(
+      text, name, [&](std::size_t byte) { return position(text, byte, name); },
+      [&](int depth, Json::parse_event_t event, const Json& value) {
+        return elements.see(depth, event, value);
+      });
 }
 
 Json read_json_elements(const Path& file, const TakeElement& take) {
   std::ifstream in(file, std::ios::binary);
+  const std::string name = file.string();
   Elements elements(take);
-  try {
-    return Json::parse(in, [&elements](int depth, Json::parse_event_t event, const Json& value) {
-      return elements.see(depth, event, value);
-    });
-  } catch (const Json::parse_error&) {  // where it is takes the whole text to tell
-    return parse_json_elements(read_file(file), file.string(),
-                               [](const std::string&, std::size_t, const Json&) {});
-  }
+  return parse_watched(
+      in, name, [&](std::size_t byte) { return position(read_file(file), byte, name); },
+      [&](int depth, Json::parse_event_t event, const Json& value) {
+        return elements.see(depth, event, value);
+      });
 }
 
 Json read_json(const Path& file) { return parse_json(read_file(file), file.string()); }

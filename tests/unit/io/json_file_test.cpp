@@ -54,6 +54,21 @@ TEST_CASE("Lists and objects may be 64 deep in each other and no deeper") {
   CHECK(fault_in(std::string(300'000, '[')) == expected);
 }
 
+TEST_CASE("A file read element by element has the faults of one read whole") {
+  const TemporaryFolder folder;
+  const auto fault_of = [&](const std::string& text) {
+    const Path file = folder.file("a.json", text);
+    const TakeElement take = [](const std::string&, std::size_t, const Json&) {};
+    return message_of<ConfigError>([&] { (void)read_json_elements(file, take); });
+  };
+  const std::string name = (folder / "a.json").string();
+  CHECK(fault_of(std::string(300'000, '[')) ==
+        name + ": lists and objects more than 64 deep in each other; expected fewer");
+  CHECK(fault_of("[1e999]") == name + ": not JSON: number overflow parsing '1e999'");
+  CHECK_THAT(fault_of("[1,\n 2"), StartsWith(name + ":2:3: not JSON: "));
+  CHECK(fault_of(R"([{"a": 1, "a": 2}])") == name + ": key \"a\" comes twice in one object; expected once");
+}
+
 TEST_CASE("A JSON file's faults name it") {
   const TemporaryFolder folder;
   const Path broken = folder.file("broken.json", "[1, 2");
