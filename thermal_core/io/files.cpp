@@ -19,19 +19,12 @@
 namespace thermal {
 namespace {
 
-/// Throws what an errno says about a file.
-[[noreturn]] void fail(std::string_view doing, const Path& file, int error) {
-  const std::string message = fmt::format("cannot {} {}: {}", doing, file.string(), std::strerror(error));
-  if (error == ENOSPC || error == EDQUOT) throw TryAgainError(message);
-  throw IoError(message);
-}
-
 /// A file descriptor that closes itself.
 class Descriptor {
  public:
   Descriptor(const Path& file, int flags, std::string_view doing)
       : number_(::open(file.c_str(), flags | O_CLOEXEC, 0666)) {  // 0666: the user's umask decides
-    if (number_ < 0) fail(doing, file, errno);
+    if (number_ < 0) fail_at(doing, file, errno);
   }
   ~Descriptor() {
     if (number_ >= 0) ::close(number_);
@@ -42,7 +35,7 @@ class Descriptor {
   [[nodiscard]] int release() noexcept { return std::exchange(number_, -1); }
   /// What the system could not write before it tells now.
   void close(const Path& file) {
-    if (::close(release()) != 0 && errno != EINTR) fail("write", file, errno);
+    if (::close(release()) != 0 && errno != EINTR) fail_at("write", file, errno);
   }
 
  private:
@@ -60,11 +53,11 @@ void write_all(const Path& file, const std::byte* data, std::size_t bytes, const
   while (bytes > 0) {
     const ssize_t written = ::write(out.number(), data, bytes);
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("write", file, errno);
+    if (written < 0) fail_at("write", file, errno);
     data += written;
     bytes -= static_cast<std::size_t>(written);
   }
-  if (how.sync && ::fsync(out.number()) != 0) fail("write", file, errno);
+  if (how.sync && ::fsync(out.number()) != 0) fail_at("write", file, errno);
   out.close(file);
 }
 
@@ -93,20 +86,26 @@ Descriptor open_lock(const Path& folder) {
 void take(const Descriptor& lock, short kind, off_t first, off_t count, const Path& folder) {
   struct flock wanted = bytes_of_lock(kind, first, count);
   if (::fcntl(lock.number(), F_OFD_SETLK, &wanted) == 0) return;
-  if (errno != EAGAIN && errno != EACCES) fail("lock", folder / ".lock", errno);
+  if (errno != EAGAIN && errno != EACCES) fail_at("lock", folder / ".lock", errno);
   throw TryAgainError(fmt::format("{} is in use by another run of veldt; try again when that one has ended",
                                   folder.string()));
 }
 
 }  // namespace
 
+void fail_at(std::string_view doing, const Path& place, int error) {
+  const std::string message = fmt::format("cannot {} {}: {}", doing, place.string(), std::strerror(error));
+  if (error == ENOSPC || error == EDQUOT) throw TryAgainError(message);
+  throw IoError(message);
+}
+
 std::string read_file(const Path& file) {
   errno = 0;
   std::ifstream in(file, std::ios::binary);
-  if (!in) fail("read", file, errno == 0 ? EIO : errno);
-  if (std::filesystem::is_directory(file)) fail("read", file, EISDIR);
+  if (!in) fail_at("read", file, errno == 0 ? EIO : errno);
+  if (std::filesystem::is_directory(file)) fail_at("read", file, EISDIR);
   std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad()) fail("read", file, EIO);
+  if (in.bad()) fail_at("read", file, EIO);
   return content;
 }
 
@@ -117,7 +116,7 @@ void check_is_file(const Path& file) {
   if (type == Type::regular) return;
   if (type == Type::not_found)
     throw IoError(fmt::format("cannot read {}: there is no such file", file.string()));
-  if (error) fail("read", file, error.value());
+  if (error) fail_at("read", file, error.value());
   throw IoError(fmt::format("cannot read {}: it is {}; expected a file", file.string(),
                             type == Type::directory ? "a folder" : "a pipe or a device"));
 }
@@ -138,7 +137,7 @@ void write_file_atomically(const Path& file, std::string_view content) {
     // Excluded is what is there all the same: a link that was put there meanwhile.
     write_all(temporary, reinterpret_cast<const std::byte*>(content.data()), content.size(),
               {.flags = O_EXCL, .sync = true});
-    if (::rename(temporary.c_str(), file.c_str()) != 0) fail("rename to", file, errno);
+    if (::rename(temporary.c_str(), file.c_str()) != 0) fail_at("rename to", file, errno);
   } catch (...) {
     ::unlink(temporary.c_str());
     throw;
@@ -153,7 +152,7 @@ void write_file(const Path& file, std::span<const std::byte> content) {
 void make_folder(const Path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) fail("make folder", folder, error.value());
+  if (error) fail_at("make folder", folder, error.value());
 }
 
 bool is_disk_full(const Path& folder) {
@@ -166,13 +165,13 @@ bool is_disk_full(const Path& folder) {
 void sync_folder(const Path& folder) {
   const Path named = folder.empty() ? Path(".") : folder;
   const Descriptor descriptor(named, O_RDONLY | O_DIRECTORY, "open");
-  if (::fsync(descriptor.number()) != 0 && errno != EINVAL) fail("sync", named, errno);
+  if (::fsync(descriptor.number()) != 0 && errno != EINVAL) fail_at("sync", named, errno);
 }
 
 std::int64_t room_left_bytes(const Path& folder) {
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(folder, error);
-  if (error) fail("tell the room left in", folder, error.value());
+  if (error) fail_at("tell the room left in", folder, error.value());
   constexpr auto kMost = static_cast<std::uintmax_t>(std::numeric_limits<std::int64_t>::max());
   return static_cast<std::int64_t>(std::min(space.available, kMost));
 }

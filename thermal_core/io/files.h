@@ -13,6 +13,9 @@ namespace thermal {
 
 using Path = std::filesystem::path;
 
+/// A fault of the system's, by its number: "cannot DOING PLACE: reason". TryAgainError when the disk is full, else IoError.
+[[noreturn]] void fail_at(std::string_view doing, const Path& place, int error);
+
 /// Whole content. IoError naming the file and the system's reason.
 [[nodiscard]] std::string read_file(const Path& file);
 

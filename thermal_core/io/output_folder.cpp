@@ -5,18 +5,9 @@
 #include <system_error>
 
 #include <fcntl.h>
-#include <fmt/format.h>
-
-#include "base/error.h"
 
 namespace thermal {
 namespace {
-
-[[noreturn]] void fail(std::string_view doing, const Path& folder, const std::error_code& error) {
-  const std::string message = fmt::format("cannot {} {}: {}", doing, folder.string(), error.message());
-  if (error.value() == ENOSPC || error.value() == EDQUOT) throw TryAgainError(message);
-  throw IoError(message);
-}
 
 std::error_code rename_with(const Path& from, const Path& to, unsigned flags) {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0) return {};
@@ -36,7 +27,7 @@ void make_fresh_folder(const Path& folder) {
   check_is_no_link(folder.parent_path());
   std::error_code error;
   std::filesystem::remove_all(folder, error);
-  if (error) fail("empty", folder, error);
+  if (error) fail_at("empty", folder, error.value());
   make_folder(folder);
 }
 
@@ -45,7 +36,7 @@ void replace_folder(const Path& whole, const Path& place) {
   if (!error) sweep_folder(whole);
   if (error.value() == ENOENT) error = rename_with(whole, place, 0);
   if (error.value() == EINVAL || error.value() == ENOSYS) error = rename_after_removal(whole, place);
-  if (error) fail("rename to", place, error);
+  if (error) fail_at("rename to", place, error.value());
   sync_folder(place.parent_path());
 }
 
