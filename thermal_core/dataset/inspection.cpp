@@ -86,8 +86,7 @@ void read_header(Inspection& inspection, const ReadLimits& limits) {
   inspection.header = read_exr_header(inspection.file, inspection.layout.limits);
   const ExrWindow whole = {
       .x_px = 0, .y_px = 0, .width_px = inspection.header.width_px, .height_px = inspection.header.height_px};
-  const ExrWindow window = read_data_window(inspection.file, inspection.layout.limits);
-  if (window != whole) inspection.window = window;
+  if (inspection.header.data_window != whole) inspection.window = inspection.header.data_window;
 }
 
 /// The cryptomatte to read where there is no object index: of objects, if one is called so.

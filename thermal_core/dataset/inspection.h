@@ -7,7 +7,6 @@
 #include "dataset/pass_survey.h"
 #include "dataset/passes_groups.h"
 #include "dataset/progress.h"
-#include "io/exr_window.h"
 #include "io/json_file.h"
 #include "scene/manifest.h"
 

@@ -53,11 +53,21 @@ std::vector<ExrChannel> channels_of(const Imf::MultiPartInputFile& opened) {
   return channels;
 }
 
+ExrWindow window_of(const Imf::Header& header) {
+  const Imath::Box2i& picture = header.displayWindow();
+  const Imath::Box2i& data = header.dataWindow();
+  return {.x_px = data.min.x - picture.min.x,
+          .y_px = data.min.y - picture.min.y,
+          .width_px = data.max.x - data.min.x + 1,
+          .height_px = data.max.y - data.min.y + 1};
+}
+
 ExrHeader header_of(const Imf::MultiPartInputFile& opened) {
   const Imath::Box2i& picture = opened.header(0).displayWindow();
   ExrHeader header;
   header.width_px = picture.max.x - picture.min.x + 1;
   header.height_px = picture.max.y - picture.min.y + 1;
+  header.data_window = window_of(opened.header(0));
   header.compression = compression_name(opened.header(0).compression());
   header.channels = channels_of(opened);
   return header;

@@ -27,10 +27,21 @@ struct ExrChannel {
   [[nodiscard]] std::string full_name() const;
 };
 
+/// A rectangle of pixels, its corner counted from the picture's top left one; it may lie outside.
+struct ExrWindow {
+  int x_px = 0;
+  int y_px = 0;
+  int width_px = 0;
+  int height_px = 0;
+
+  [[nodiscard]] bool operator==(const ExrWindow&) const = default;
+};
+
 /// What an EXR file's headers say.
 struct ExrHeader {
   int width_px = 0;  ///< of the display window: the picture that is meant
   int height_px = 0;
+  ExrWindow data_window;    ///< of the first part: pixels outside are not in the file, or not in the picture
   std::string compression;  ///< of the first part
   std::vector<ExrChannel> channels;
   std::map<std::string, std::string> texts;  ///< attributes of type string, of all parts; the first of a name

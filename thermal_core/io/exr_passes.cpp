@@ -2,28 +2,15 @@
 
 #include <array>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
 #include "io/exr_file.h"
 #include "io/exr_indices.h"
 #include "io/exr_planes.h"
 
 namespace thermal {
 namespace {
-
-constexpr std::array<std::string_view, 3> kAxes = {"X", "Y", "Z"};
-
-void check_size(const ExrHeader& header, const ExrLayout& layout) {
-  if (layout.width_px == 0) return;
-  if (header.width_px == layout.width_px && header.height_px == layout.height_px) return;
-  throw DataError(fault("size", fmt::format("{} x {}", header.width_px, header.height_px), "px",
-                        fmt::format("the manifest's {} x {} px", layout.width_px, layout.height_px)));
-}
 
 using IndexPlanes = std::array<std::optional<ExrIndexPlane>, 3>;  // of objects, materials and actors
 
@@ -34,26 +21,6 @@ IndexPlanes index_planes(const ExrPlanes& planes, const PassNeeds& needs, PassBu
   const ExrChannel* actors = needs.actors ? planes.actors() : nullptr;
   if (actors != nullptr) indices[2].emplace(*actors, out.pixels[2]);
   return indices;
-}
-
-/// What is not asked for is emptied.
-std::vector<ExrTarget> shape_targets(const ExrPlanes& planes, const PassNeeds& needs, Passes& out) {
-  std::vector<ExrTarget> targets;
-  if (needs.depth) {
-    targets.push_back(
-        {.channel = &planes.required_depth(), .plane = &out.depth_m, .outside = kDepthOutsideM});
-  } else {
-    out.depth_m = {};
-  }
-  for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
-    if (needs.normals) {
-      targets.push_back(
-          {.channel = &planes.required_normal(kAxes[axis]), .plane = &out.normal[axis], .outside = 0});
-    } else {
-      out.normal[axis] = {};
-    }
-  }
-  return targets;
 }
 
 void take(const std::optional<ExrIndexPlane>& plane, Plane<std::uint16_t>& out) {
@@ -96,10 +63,9 @@ void read_passes(const Path& file, const ExrLayout& layout, const PassNeeds& nee
 PassNeeds planes_in_exr(const Path& file, const ExrLayout& layout) {
   return with_exr_file(file, layout.limits, [&](const ExrFile& opened) {
     const ExrPlanes planes(opened.header(), layout);
-    bool normals = true;
-    for (const std::string_view axis : kAxes) normals = normals && planes.normal(axis) != nullptr;
-    return PassNeeds{
-        .depth = planes.depth() != nullptr, .normals = normals, .actors = planes.actors() != nullptr};
+    PassNeeds there = planes_beside(planes);
+    there.actors = planes.actors() != nullptr;
+    return there;
   });
 }
 

@@ -1,15 +1,19 @@
 #include "io/exr_planes.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "io/exr_names.h"
+#include "io/exr_pixels.h"
 
 namespace thermal {
 namespace {
+
+constexpr std::array<std::string_view, 3> kAxes = {"X", "Y", "Z"};
 
 std::string quoted(const std::string& text) { return fmt::format("\"{}\"", text); }
 
@@ -177,6 +181,38 @@ const ExrChannel& ExrPlanes::required_depth() const { return required(depth(), "
 
 const ExrChannel& ExrPlanes::required_normal(std::string_view axis) const {
   return required(normal(axis), fmt::format("normal {}", axis));
+}
+
+void check_size(const ExrHeader& header, const ExrLayout& layout) {
+  if (layout.width_px == 0) return;
+  if (header.width_px == layout.width_px && header.height_px == layout.height_px) return;
+  throw DataError(fault("size", fmt::format("{} x {}", header.width_px, header.height_px), "px",
+                        fmt::format("the manifest's {} x {} px", layout.width_px, layout.height_px)));
+}
+
+std::vector<ExrTarget> shape_targets(const ExrPlanes& planes, const PassNeeds& needs, Passes& out) {
+  std::vector<ExrTarget> targets;
+  if (needs.depth) {
+    targets.push_back(
+        {.channel = &planes.required_depth(), .plane = &out.depth_m, .outside = kDepthOutsideM});
+  } else {
+    out.depth_m = {};
+  }
+  for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
+    if (needs.normals) {
+      targets.push_back(
+          {.channel = &planes.required_normal(kAxes[axis]), .plane = &out.normal[axis], .outside = 0});
+    } else {
+      out.normal[axis] = {};
+    }
+  }
+  return targets;
+}
+
+PassNeeds planes_beside(const ExrPlanes& planes) {
+  const bool normals = std::all_of(kAxes.begin(), kAxes.end(),
+                                   [&](std::string_view axis) { return planes.normal(axis) != nullptr; });
+  return {.depth = planes.depth() != nullptr, .normals = normals, .actors = false};
 }
 
 }  // namespace thermal

@@ -11,6 +11,8 @@
 
 namespace thermal {
 
+struct ExrTarget;
+
 /// Finds the channels of a clip's planes in a file. Planes are looked for in the layer of the object index;
 /// where that has no name, or theirs has none of its own, in the only other that has no object index. All
 /// faults are DataErrors without the file's name.
@@ -47,5 +49,15 @@ class ExrPlanes {
   const ExrChannel* objects_ = nullptr;
   std::string layer_;  ///< in which the other planes are
 };
+
+/// DataError (without the file's name) for a picture of another size than the layout's, if that has one.
+void check_size(const ExrHeader& header, const ExrLayout& layout);
+
+/// Depth and normals to decode into `out`, as far as they are needed; what is not is emptied.
+[[nodiscard]] std::vector<ExrTarget> shape_targets(const ExrPlanes& planes, const PassNeeds& needs,
+                                                   Passes& out);
+
+/// Whether there are depth and normals; says nothing of actors.
+[[nodiscard]] PassNeeds planes_beside(const ExrPlanes& planes);
 
 }  // namespace thermal

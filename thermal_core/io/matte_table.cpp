@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <optional>
 #include <string_view>
@@ -18,15 +17,6 @@
 
 namespace thermal {
 namespace {
-
-constexpr std::array<std::string_view, 3> kAxes = {"X", "Y", "Z"};
-
-void check_size(const ExrHeader& header, const ExrLayout& layout) {
-  if (layout.width_px == 0) return;
-  if (header.width_px == layout.width_px && header.height_px == layout.height_px) return;
-  throw DataError(fault("size", fmt::format("{} x {}", header.width_px, header.height_px), "px",
-                        fmt::format("the manifest's {} x {} px", layout.width_px, layout.height_px)));
-}
 
 /// A file's headers, and which of its cryptomattes is meant.
 struct Chosen {
@@ -70,12 +60,7 @@ Passes decode(ExrFile& opened, const Chosen& chosen, const ExrLayout& layout, co
   std::optional<ExrIndexPlane> materials;
   if (const ExrChannel* channel = planes.materials())
     targets.push_back(materials.emplace(*channel, material_pixels).target());
-  if (needs.depth)
-    targets.push_back(
-        {.channel = &planes.required_depth(), .plane = &passes.depth_m, .outside = kDepthOutsideM});
-  for (std::size_t axis = 0; needs.normals && axis < kAxes.size(); ++axis)
-    targets.push_back(
-        {.channel = &planes.required_normal(kAxes[axis]), .plane = &passes.normal[axis], .outside = 0});
+  for (const ExrTarget& target : shape_targets(planes, needs, passes)) targets.push_back(target);
   opened.decode(targets);
   if (materials) materials->indices(passes.material_index);
   return passes;
@@ -165,10 +150,7 @@ PassNeeds MatteTable::planes_in(const Path& file, const ExrLayout& layout) const
   return with_exr_file(file, layout.limits, [&](const ExrFile& opened) {
     const Chosen chosen(opened, cryptomatte_, layout);
     const ExrLayout about = chosen.layout_about(layout);
-    const ExrPlanes planes(chosen.header, about);
-    const bool normals = std::all_of(kAxes.begin(), kAxes.end(),
-                                     [&](std::string_view axis) { return planes.normal(axis) != nullptr; });
-    return PassNeeds{.depth = planes.depth() != nullptr, .normals = normals, .actors = false};
+    return planes_beside(ExrPlanes(chosen.header, about));
   });
 }
 
