@@ -14,8 +14,6 @@
 namespace thermal {
 namespace {
 
-constexpr float kSkyFromM = 1e9F;  // what renderers write for the depth of the sky
-
 /// What the first frame makes of `look` for which that is possible: a clip's other frames are like it, and those that
 /// cannot be read will be told when they are converted.
 template <typename Look>

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "dataset/frame_faults.h"
 #include "io/exr_planes.h"
 #include "io/exr_spellings.h"
 #include "labels/instances.h"
@@ -15,20 +16,11 @@
 namespace thermal {
 namespace {
 
-constexpr float kSkyFromM = 1e9F;  // renderers write this and more where there is nothing
-
 std::string name_of(const ExrChannel* channel) { return channel == nullptr ? "" : channel->full_name(); }
 
 void count(const Plane<std::uint16_t>& plane, std::map<int, std::int64_t>& pixels) {
   if (plane.empty()) return;
   for (const IndexUse& use : survey_indices(plane)) pixels[use.index] += use.pixels;
-}
-
-/// A fault's text without the file it begins with.
-std::string without_name(std::string text, const Path& file) {
-  for (const std::string& start : {file.string() + ": ", "cannot read " + file.string() + ": "})
-    if (text.starts_with(start)) text.erase(0, start.size());
-  return text;
 }
 
 bool could_be_index(float value) noexcept {

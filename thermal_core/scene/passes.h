@@ -8,6 +8,9 @@
 
 namespace thermal {
 
+/// Renderers write this depth and more where there is nothing.
+inline constexpr float kSkyFromM = 1e9F;
+
 /// Which planes beside the object index a conversion looks at.
 struct PassNeeds {
   bool depth = false;
