@@ -4,24 +4,10 @@
 #include "fuzz/pass_manifests.h"
 #include "fuzz/targets.h"
 #include "io/cryptomatte.h"
-#include "io/pass_reader.h"
-
-namespace {
-
-/// Far more than the seeds have, and little enough that a plane of that size is no great matter.
-constexpr thermal::ReadLimits kLimits = {.pixels = 1'000'000};
-
-std::vector<thermal::PassReader> readers(const std::vector<thermal::Manifest>& manifests) {
-  std::vector<thermal::PassReader> readers;
-  for (const thermal::Manifest& manifest : manifests) readers.emplace_back(manifest, kLimits);
-  return readers;
-}
-
-}  // namespace
 
 void fuzz::exr_passes(Bytes bytes) {
   static const std::vector<thermal::Manifest> kManifests = small_manifests();
-  static const std::vector<thermal::PassReader> kReaders = readers(kManifests);
+  static const std::vector<thermal::PassReader> kReaders = readers_of(kManifests);
   if (bytes.empty()) return;
   const auto file = as_file(bytes, "passes.exr");
   const unsigned last = bytes.back();

@@ -4,21 +4,9 @@
 #include "fuzz/pass_manifests.h"
 #include "fuzz/targets.h"
 
-namespace {
-
-constexpr thermal::ReadLimits kLimits = {.pixels = 1'000'000};
-
-std::vector<thermal::PassReader> readers(const std::vector<thermal::Manifest>& manifests) {
-  std::vector<thermal::PassReader> readers;
-  for (const thermal::Manifest& manifest : manifests) readers.emplace_back(manifest, kLimits);
-  return readers;
-}
-
-}  // namespace
-
 void fuzz::index_picture(Bytes bytes) {
   static const std::vector<thermal::Manifest> kManifests = small_manifests();
-  static const std::vector<thermal::PassReader> kReaders = readers(kManifests);
+  static const std::vector<thermal::PassReader> kReaders = readers_of(kManifests);
   if (bytes.empty()) return;
   const auto file = as_file(bytes, "index.png");
   const std::size_t choice = bytes.back() % kReaders.size();

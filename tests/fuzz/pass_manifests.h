@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/pass_reader.h"
 #include "scene/manifest.h"
 
 /// Manifests of passes of 8 x 8 pixels, as make_seeds.py writes them.
@@ -67,4 +68,13 @@ inline std::vector<thermal::Manifest> small_manifests() {
           supersampled(),
           with_cryptomatte("CryptoObject"),
           with_cryptomatte("ViewLayer.CryptoMaterial")};
+}
+
+/// A reader each. Their limit is far more than the seeds have, and little enough that a plane of that size is no great
+/// matter.
+inline std::vector<thermal::PassReader> readers_of(const std::vector<thermal::Manifest>& manifests) {
+  std::vector<thermal::PassReader> readers;
+  for (const thermal::Manifest& manifest : manifests)
+    readers.emplace_back(manifest, thermal::ReadLimits{.pixels = 1'000'000});
+  return readers;
 }

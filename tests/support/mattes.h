@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bit>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -10,7 +11,17 @@
 #include <fmt/format.h>
 
 #include "io/matte_names.h"
+#include "scene/manifest.h"
 #include "support/exr.h"
+
+inline thermal::ManifestObject matte_object(std::uint16_t index, const std::string& name,
+                                            const std::vector<std::string>& mattes = {}) {
+  thermal::ManifestObject object;
+  object.index = index;
+  object.name = name;
+  object.mattes = mattes;
+  return object;
+}
 
 /// A rank of a made-up cryptomatte: what covers each pixel most, or next, and how much of it; "" is nothing.
 struct MatteRank {

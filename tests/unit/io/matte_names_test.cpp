@@ -5,20 +5,12 @@
 
 #include "base/error.h"
 #include "support/catch.h"
+#include "support/mattes.h"
 #include "support/message_of.h"
 
 using namespace thermal;
 
 namespace {
-
-ManifestObject object(std::uint16_t index, const std::string& name,
-                      const std::vector<std::string>& mattes = {}) {
-  ManifestObject object;
-  object.index = index;
-  object.name = name;
-  object.mattes = mattes;
-  return object;
-}
 
 /// Index of a name's object; -1 for none.
 int index_of(const MatteNames& names, std::string_view name) {
@@ -76,8 +68,8 @@ TEST_CASE("A star is any letters, also none") {
 }
 
 TEST_CASE("An object's mattes are those it lists, or its name") {
-  const MatteNames names(
-      std::vector{object(1, "ground", {"soil", "stone_*"}), object(7, "anna"), object(8, "a*a")});
+  const MatteNames names(std::vector{matte_object(1, "ground", {"soil", "stone_*"}), matte_object(7, "anna"),
+                                     matte_object(8, "a*a")});
   CHECK(index_of(names, "soil") == 1);
   CHECK(index_of(names, "stone_7") == 1);
   CHECK(index_of(names, "ground") == -1);
@@ -88,13 +80,13 @@ TEST_CASE("An object's mattes are those it lists, or its name") {
 }
 
 TEST_CASE("A name goes before a pattern") {
-  const MatteNames names(std::vector{object(1, "stones", {"stone_*"}), object(2, "stone_7")});
+  const MatteNames names(std::vector{matte_object(1, "stones", {"stone_*"}), matte_object(2, "stone_7")});
   CHECK(index_of(names, "stone_7") == 2);
   CHECK(index_of(names, "stone_8") == 1);
 }
 
 TEST_CASE("A hash without a name is one of the names'") {
-  const MatteNames names(std::vector{object(1, "stones", {"stone_*"}), object(2, "anna")});
+  const MatteNames names(std::vector{matte_object(1, "stones", {"stone_*"}), matte_object(2, "anna")});
   REQUIRE(names.find_hash(cryptomatte_hash("anna")) != nullptr);
   CHECK(names.find_hash(cryptomatte_hash("anna"))->index == 2);
   CHECK(names.find_hash(cryptomatte_hash("stone_*")) == nullptr);
@@ -102,20 +94,21 @@ TEST_CASE("A hash without a name is one of the names'") {
 }
 
 TEST_CASE("A name of two objects is a fault that says whose") {
-  CHECK(fault_of({object(1, "anna"), object(2, "ben", {"x", "anna"})}) ==
+  CHECK(fault_of({matte_object(1, "anna"), matte_object(2, "ben", {"x", "anna"})}) ==
         "objects[1].mattes[1] = \"anna\"; expected a name of its own, objects[0].name is \"anna\"");
-  CHECK(fault_of({object(1, "a", {"t_*"}), object(2, "b", {"t_*"})}) ==
+  CHECK(fault_of({matte_object(1, "a", {"t_*"}), matte_object(2, "b", {"t_*"})}) ==
         "objects[1].mattes[0] = \"t_*\"; expected a name of its own, objects[0].mattes[0] is \"t_*\"");
-  CHECK(fault_of({object(1, "anna", {"anna", "anna", "t_*", "t_*"})}) == "(no fault was thrown)");
+  CHECK(fault_of({matte_object(1, "anna", {"anna", "anna", "t_*", "t_*"})}) == "(no fault was thrown)");
 }
 
 TEST_CASE("Names whose hashes are one cannot be two objects'") {
-  CHECK(fault_of({object(1, "stone_76992"), object(2, "stone_81521")}) ==
+  CHECK(fault_of({matte_object(1, "stone_76992"), matte_object(2, "stone_81521")}) ==
         "objects[1].name = \"stone_81521\"; expected a hash of its own, objects[0].name is \"stone_76992\"");
 }
 
 TEST_CASE("A name of two objects' patterns is a fault that names both") {
-  const MatteNames names(std::vector{object(1, "stones", {"stone_*", "s*"}), object(2, "sevens", {"*_7"})});
+  const MatteNames names(
+      std::vector{matte_object(1, "stones", {"stone_*", "s*"}), matte_object(2, "sevens", {"*_7"})});
   CHECK(index_of(names, "stone_8") == 1);  // by two of one object's
   CHECK(message_of<DataError>([&] { (void)names.find("stone_7"); }) ==
         "expected a name of one object, but stones's \"stone_*\" and sevens's \"*_7\" stand for it");

@@ -30,21 +30,13 @@ const std::vector<MatteRank> kRanks = {
     {{"", "", "anna", "stone_2", "", ""}, {0, 0, 0.375F, 0.25F, 0, 0}},
     {{"", "", "", "anna", "", ""}, {0, 0, 0, 0.25F, 0, 0}}};
 
-ManifestObject object(std::uint16_t index, const std::string& name,
-                      const std::vector<std::string>& mattes = {}) {
-  ManifestObject object;
-  object.index = index;
-  object.name = name;
-  object.mattes = mattes;
-  return object;
-}
-
 Manifest manifest() {
   Manifest manifest;
   manifest.camera = {
       .width_px = kWidth, .height_px = kHeight, .fx_px = 1, .fy_px = 1, .cx_px = 1, .cy_px = 1};
   manifest.cryptomatte = "CryptoObject";
-  manifest.objects = {object(1, "ground"), object(7, "anna"), object(3, "stones", {"stone_*"})};
+  manifest.objects = {matte_object(1, "ground"), matte_object(7, "anna"),
+                      matte_object(3, "stones", {"stone_*"})};
   return manifest;
 }
 
