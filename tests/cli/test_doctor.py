@@ -9,6 +9,7 @@ PARTS = [
     "Python",
     "OpenEXR",
     "OpenImageIO",
+    "ISA-L",
     "FFmpeg",
     "oneTBB",
     "OpenSSL",

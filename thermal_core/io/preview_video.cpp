@@ -46,11 +46,9 @@ struct FreePacket {
 };
 
 /// Black to white as video has them: 16 to 235 (ITU-R BT.601).
-std::array<std::uint8_t, 256> video_levels() {
-  std::array<std::uint8_t, 256> levels{};
-  for (std::size_t i = 0; i < levels.size(); ++i)
-    levels[i] = static_cast<std::uint8_t>(16 + (219 * i + 127) / 255);
-  return levels;
+std::uint8_t video_level(std::uint8_t level) {
+  const auto scaled = static_cast<std::uint16_t>(219 * level + 127);  // at most 55,972
+  return static_cast<std::uint8_t>(16 + scaled / 255);
 }
 
 }  // namespace
@@ -61,7 +59,6 @@ struct PreviewVideo::Impl {
   std::unique_ptr<AVCodecContext, FreeEncoder> encoder;
   std::unique_ptr<AVFrame, FreePicture> picture{av_frame_alloc()};
   std::unique_ptr<AVPacket, FreePacket> packet{av_packet_alloc()};
-  std::array<std::uint8_t, 256> levels = video_levels();
 
   void check(int result) const {
     if (result >= 0) return;
@@ -113,8 +110,8 @@ struct PreviewVideo::Impl {
     for (int y = 0; y < picture->height; ++y) {
       const auto row = frame.row(std::min(y, frame.height_px() - 1));
       std::uint8_t* const out = picture->data[0] + static_cast<std::ptrdiff_t>(y) * picture->linesize[0];
-      std::transform(row.begin(), row.end(), out, [this](std::uint8_t level) { return levels[level]; });
-      std::fill(out + row.size(), out + picture->width, levels[row.back()]);
+      std::transform(row.begin(), row.end(), out, video_level);
+      std::fill(out + row.size(), out + picture->width, video_level(row.back()));
     }
     constexpr std::uint8_t kNoColour = 128;
     for (const int plane : {1, 2})

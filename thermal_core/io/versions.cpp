@@ -3,6 +3,7 @@
 #include <OpenEXRConfig.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <isa-l.h>
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/version.h>
 #include <openssl/crypto.h>
@@ -17,6 +18,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
   const int oiio = OIIO::openimageio_version();
   return {{"OpenEXR", OPENEXR_VERSION_STRING},
           {"OpenImageIO", fmt::format("{}.{}.{}", oiio / 10000, oiio / 100 % 100, oiio % 100)},
+          {"ISA-L", fmt::format("{}.{}.{}", ISAL_MAJOR_VERSION, ISAL_MINOR_VERSION, ISAL_PATCH_VERSION)},
           {"FFmpeg", av_version_info()},
           {"oneTBB", TBB_runtime_version()},
           {"OpenSSL", OpenSSL_version(OPENSSL_VERSION_STRING)},
