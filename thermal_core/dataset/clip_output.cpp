@@ -85,7 +85,7 @@ ClipRecord ClipOutput::finish() {
   video_.close();
   write_labels();
   record_.files["frames.jsonl"] = frames_jsonl_.close();
-  record_.files["preview.mp4"] = sha256_of(read_file(folder_ / "preview.mp4"));
+  record_.files["preview.mp4"] = sha256_of_file(folder_ / "preview.mp4");
   record_.clip = task_.clip.id;
   record_.season = season_name(task_.clip.season);
   record_.seed = task_.seed;

@@ -110,7 +110,7 @@ std::vector<FoundClip> find_in_all(const std::vector<Source>& sources, const std
 
 void check_file(const Path& file, const std::string& sum) {
   if (!std::filesystem::exists(file)) throw DataError(file.string() + ": missing");
-  if (sha256_of(read_file(file)) != sum) throw DataError(file.string() + ": changed since it was written");
+  if (sha256_of_file(file) != sum) throw DataError(file.string() + ": changed since it was written");
 }
 
 class Merger {

@@ -66,7 +66,7 @@ class Checker {
       add(file, "missing");
       return false;
     }
-    if (sha256_of(read_file(file)) == sha256) return true;
+    if (sha256_of_file(file) == sha256) return true;
     check_.faults.push_back(fault_of(file));
     return false;
   }

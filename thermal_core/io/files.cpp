@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -99,13 +98,22 @@ void fail_at(std::string_view doing, const Path& place, int error) {
   throw IoError(message);
 }
 
-std::string read_file(const Path& file) {
+void read_pieces(const Path& file, const std::function<void(std::string_view piece)>& take) {
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   if (!in) fail_at("read", file, errno == 0 ? EIO : errno);
   if (std::filesystem::is_directory(file)) fail_at("read", file, EISDIR);
-  std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::vector<char> piece(1 << 16);
+  while (in) {
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    take({piece.data(), static_cast<std::size_t>(in.gcount())});
+  }
   if (in.bad()) fail_at("read", file, EIO);
+}
+
+std::string read_file(const Path& file) {
+  std::string content;
+  read_pieces(file, [&content](std::string_view piece) { content.append(piece); });
   return content;
 }
 

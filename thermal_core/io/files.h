@@ -16,7 +16,10 @@ using Path = std::filesystem::path;
 /// A fault of the system's, by its number: "cannot DOING PLACE: reason". TryAgainError when the disk is full, else IoError.
 [[noreturn]] void fail_at(std::string_view doing, const Path& place, int error);
 
-/// Whole content. IoError naming the file and the system's reason.
+/// Content in pieces of some ten kilobytes, in order. IoError naming the file and the system's reason.
+void read_pieces(const Path& file, const std::function<void(std::string_view piece)>& take);
+
+/// Whole content. IoError as read_pieces().
 [[nodiscard]] std::string read_file(const Path& file);
 
 /// Refuses what is there under a name but is no file: a folder, or a pipe or device that would be waited for, or read,

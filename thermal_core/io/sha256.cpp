@@ -46,4 +46,10 @@ std::string sha256_of(std::span<const std::byte> bytes) {
 
 std::string sha256_of(std::string_view text) { return sha256_of(std::as_bytes(std::span(text))); }
 
+std::string sha256_of_file(const Path& file) {
+  Sha256 sum;
+  read_pieces(file, [&sum](std::string_view piece) { sum.add(piece); });
+  return sum.hex();
+}
+
 }  // namespace thermal

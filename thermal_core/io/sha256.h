@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/files.h"
+
 namespace thermal {
 
 /// SHA-256 of bytes given piece by piece.
@@ -28,5 +30,7 @@ class Sha256 {
 
 [[nodiscard]] std::string sha256_of(std::span<const std::byte> bytes);
 [[nodiscard]] std::string sha256_of(std::string_view text);
+/// Of a file's content, however large, in little memory. IoError as read_pieces().
+[[nodiscard]] std::string sha256_of_file(const Path& file);
 
 }  // namespace thermal

@@ -81,7 +81,7 @@ Json request_of(const ExportOptions& options, const ExportSource& source) {
                   {"link", linking_name(options.linking)}};
   if (!options.splits.empty()) request["split"] = splits;
   if (!options.splits.empty()) request["seed"] = source.seed;
-  if (!options.selection.empty()) request["selection_sha256"] = sha256_of(read_file(options.selection));
+  if (!options.selection.empty()) request["selection_sha256"] = sha256_of_file(options.selection);
   return request;
 }
 
