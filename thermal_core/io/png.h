@@ -9,7 +9,7 @@
 
 namespace thermal {
 
-/// A grey PNG in memory; lossless. Every row goes through PNG's filter "sub" and is compressed by ISA-L at level 1: with
+/// A grey PNG in memory; lossless. Every row goes through PNG's filter "sub" and is compressed by ISA-L at level 3: with
 /// noise in the picture as small as by zlib, in a quarter of the time (ACCURACY.md, "The converter"). The bytes depend on
 /// the picture, on ISA-L's version, and may on the processor: it has a program for each kind.
 /// The picture must have pixels. `out` is overwritten; its memory is used again.

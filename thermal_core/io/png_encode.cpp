@@ -51,7 +51,7 @@ class PixelChunks {
  public:
   explicit PixelChunks(std::vector<std::byte>& out) : out_(out) {
     ::isal_deflate_init(&stream_);
-    stream_.level = 1;
+    stream_.level = kLevel;
     stream_.level_buf = search_.data();
     stream_.level_buf_size = static_cast<std::uint32_t>(search_.size());
     stream_.gzip_flag = IGZIP_ZLIB;
@@ -80,10 +80,13 @@ class PixelChunks {
     empty();
   }
 
+  /// Levels 1 and 2 find other repetitions in some one picture of a thousand when they work at another address.
+  static constexpr std::uint32_t kLevel = 3;
+
   std::vector<std::byte>& out_;
-  ::isal_zstream stream_;
-  std::array<std::uint8_t, ISAL_DEF_LVL1_DEFAULT> search_;
-  std::array<std::uint8_t, 1 << 16> chunk_;
+  ::isal_zstream stream_{};
+  std::array<std::uint8_t, ISAL_DEF_LVL3_DEFAULT> search_{};
+  std::array<std::uint8_t, 1 << 16> chunk_{};
 };
 
 /// A pixel's bytes in the standard's order.
@@ -124,7 +127,7 @@ void encode(const Plane<T>& picture, std::vector<std::byte>& out) {
   assert(picture.size() > 0);
   out.clear();
   append_head(out, picture.width_px(), picture.height_px(), 8 * sizeof(T));
-  const auto pixels = std::make_unique<PixelChunks>(out);  // half a megabyte, too much for a stack
+  const auto pixels = std::make_unique<PixelChunks>(out);  // a megabyte, too much for a stack
   Filter<T> filter(static_cast<std::size_t>(picture.width_px()));
   for (int y = 0; y < picture.height_px(); ++y)
     pixels->add(filter(picture.row(y)), y + 1 == picture.height_px());
