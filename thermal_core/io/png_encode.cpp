@@ -4,6 +4,7 @@
 #include <cassert>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string_view>
 
 #include <isa-l/crc.h>
@@ -64,8 +65,7 @@ class PixelChunks {
     stream_.end_of_stream = is_last ? 1 : 0;
     while (stream_.avail_in > 0 || (is_last && stream_.internal_state.state != ZSTATE_END)) {
       if (stream_.avail_out == 0) flush();
-      [[maybe_unused]] const int outcome = ::isal_deflate(&stream_);
-      assert(outcome == COMP_OK);  // others say that it was called wrongly
+      if (::isal_deflate(&stream_) != COMP_OK) throw std::logic_error("ISA-L was called wrongly");
     }
     if (is_last) flush();
   }
