@@ -130,7 +130,9 @@ Weather weather_of(const Config& config, Season season) {
 void set_season(Json& document, const Json& season) {
   for (const char* flown : {"clips", "flights"}) {
     if (!document.contains(flown)) continue;
-    for (Json& one : document[flown]) one["season"] = season;
+    for (Json& one : document[flown]) {
+      if (one.is_object()) one["season"] = season;  // of others the schema says that they are none
+    }
   }
 }
 

@@ -198,6 +198,16 @@ TEST_CASE("The season is that of every flight as well") {
   CHECK(document["flights"][0]["season"] == "summer");
 }
 
+TEST_CASE("What is no clip and no flight has no season, and is a fault as ever") {
+  Json document = least();
+  document["clips"] = {"a", document["clips"][0]};
+  document["flights"] = "b";
+  apply_setting(document, "season=summer");
+  CHECK(document["clips"][0] == "a");
+  CHECK(document["clips"][1]["season"] == "summer");
+  CHECK_THAT(fault_in(document), StartsWith("night.json: "));
+}
+
 TEST_CASE("The clips of flights come after a config's own") {
   const Config config = resolved(with_flight());
   Json clip = config.resolved["clips"][0];
