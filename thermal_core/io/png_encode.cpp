@@ -59,8 +59,9 @@ class PixelChunks {
     empty();
   }
 
-  void add(Bytes row, bool is_last) {
-    stream_.next_in = const_cast<std::uint8_t*>(row.data());  // which the library only reads
+  /// The row is only read, though the library's pointer says no such thing.
+  void add(std::span<std::uint8_t> row, bool is_last) {
+    stream_.next_in = row.data();
     stream_.avail_in = static_cast<std::uint32_t>(row.size());
     stream_.end_of_stream = is_last ? 1 : 0;
     while (stream_.avail_in > 0 || (is_last && stream_.internal_state.state != ZSTATE_END)) {
@@ -106,7 +107,7 @@ class Filter {
     filtered_[0] = kSub;
   }
 
-  Bytes operator()(std::span<const T> row) {
+  std::span<std::uint8_t> operator()(std::span<const T> row) {
     std::ranges::transform(row, pixels_.begin(), [](T pixel) { return as_written(pixel); });
     const auto* const bytes = reinterpret_cast<const std::uint8_t*>(pixels_.data());
     std::uint8_t* const out = &filtered_[1];
