@@ -1,12 +1,13 @@
-"""Draws the ground of a config's place from above, without Blender.
+"""Draw the ground of a config's place from above, without Blender.
 
     python3 draw_map.py --config FILE --out FOLDER [--points FILE]
 
-Writes place.png, all of the place. FILE of --points holds a JSON list of [x_m, y_m, ground_m], places with the height
-that the ground or the water is known to have there, or null: window.png then is the ground round them. Prints one JSON
-object: for each picture its south-west corner and side in metres, and off_m, how far those heights are off this place's
-at most.
-A fault in the config: one line on stderr, exit code 2.
+Writes place.png, which shows the whole place. With --points, also writes window.png, the ground around the given
+points: FILE holds a JSON list of [x_m, y_m, ground_m], where ground_m is the known height of the ground or water there,
+or null. Prints one JSON object: the south-west corner and the side of each picture in metres, and off_m, the largest
+difference between the given heights and those of this place.
+A fault in the config prints one line on stderr and exits with code 2. Any other failure prints a traceback whose last
+line has the exception, its place and a hint, and exits with code 1.
 """
 
 from __future__ import annotations
@@ -17,37 +18,38 @@ import sys
 from dataclasses import asdict
 from pathlib import Path
 
-import numpy as np
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # python3 -I leaves it out
 
-from veldt.config import load
-from veldt.faults import ConfigError
-from veldt.land.road_plan import plan_road
-from veldt.land.terrain import Terrain, build_terrain
-from veldt.plants.density import plan_density
-from veldt.png_files import rgb_png
-from veldt.preview.ground_picture import draw_ground, whole_place, window_round
+# pylint: disable=wrong-import-position
+from veldt.failures import reported_imports, run
+
+with reported_imports():
+    import numpy as np
+
+    from veldt.config import load
+    from veldt.land.road_plan import plan_road
+    from veldt.land.terrain import Terrain, build_terrain
+    from veldt.plants.density import plan_density
+    from veldt.png_files import rgb_png
+    from veldt.preview.ground_picture import draw_ground, whole_place, window_round
 
 PLACE_PX, WINDOW_PX = 320, 640
 
 
 def main(arguments: list[str]) -> int:
-    """Runs the command and returns its exit code."""
-    parser = argparse.ArgumentParser(prog="draw_map.py", description="Draws the place of a dataset config.")
+    """Run the command and return its exit code."""
+    parser = argparse.ArgumentParser(prog="draw_map.py", description="Draw the place of a dataset config.")
     parser.add_argument("--config", type=Path, required=True)
     parser.add_argument("--out", type=Path, required=True, help="folder for the pictures")
-    parser.add_argument("--points", type=Path, help="places to draw the ground round, and to compare it at")
+    parser.add_argument(
+        "--points", type=Path, help="points to draw the ground around, and to compare heights at"
+    )
     options = parser.parse_args(arguments)
-    try:
-        answer = draw(load(options.config), options.out, _points(options.points))
-    except ConfigError as error:
-        print(error, file=sys.stderr)
-        return 2
-    print(json.dumps(answer))
-    return 0
+    return run(lambda: print(json.dumps(draw(load(options.config), options.out, _points(options.points)))))
 
 
 def draw(config: dict, out: Path, points_m: np.ndarray) -> dict:
-    """Writes the pictures of a config's place and tells where they are; points_m (n, 3) may be none."""
+    """Write the pictures of a config's place and return their corners and sides; points_m (n, 3) may be empty."""
     settings, seed = config["scene"]["terrain"], config["seed"]
     terrain = build_terrain(settings, seed)
     terrain = terrain.with_road(plan_road(settings["road"], terrain, seed))

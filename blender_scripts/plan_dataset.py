@@ -1,8 +1,9 @@
-"""Checks what a config means and plans its dataset, without Blender.
+"""Check the meaning of a config and plan its dataset, without Blender.
 
     python3 plan_dataset.py --config FILE [--json]
 
-Prints what each clip will show. A fault in the config: one line on stderr, exit code 2.
+Prints what each clip will show. A fault in the config prints one line on stderr and exits with code 2. Any other
+failure prints a traceback whose last line has the exception, its place and a hint, and exits with code 1.
 """
 
 from __future__ import annotations
@@ -12,25 +13,29 @@ import json
 import sys
 from pathlib import Path
 
-from veldt.config import load
-from veldt.faults import ConfigError
-from veldt.plan import plan_dataset
-from veldt.world import plan_world
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # python3 -I leaves it out
+
+# pylint: disable=wrong-import-position
+from veldt.failures import reported_imports, run
+
+with reported_imports():
+    from veldt.config import load
+    from veldt.plan import plan_dataset
+    from veldt.world import plan_world
 
 
 def main(arguments: list[str]) -> int:
-    """Runs the command and returns its exit code."""
-    parser = argparse.ArgumentParser(prog="plan_dataset.py", description="Checks and plans a dataset config.")
+    """Run the command and return its exit code."""
+    parser = argparse.ArgumentParser(prog="plan_dataset.py", description="Check and plan a dataset config.")
     parser.add_argument("--config", type=Path, required=True)
     parser.add_argument("--json", action="store_true", help="print the plan as one JSON object")
     options = parser.parse_args(arguments)
-    try:
-        plan = plan_dataset(plan_world(load(options.config)))
-    except ConfigError as error:
-        print(error, file=sys.stderr)
-        return 2
+    return run(lambda: _plan(options))
+
+
+def _plan(options: argparse.Namespace) -> None:
+    plan = plan_dataset(plan_world(load(options.config)))
     print(json.dumps(plan) if options.json else in_words(plan))
-    return 0
 
 
 def in_words(plan: dict) -> str:

@@ -1,10 +1,10 @@
-"""Renders the passes of a dataset's clips. Blender runs it:
+"""Render the passes of a dataset's clips. Blender runs it:
 
-    blender -b --factory-startup --python-exit-code 1 --python render_passes.py -- --config FILE --out DIR
-            [--clip ID ...] [--preview] [--events-fd N]
+    blender -b --factory-startup --disable-autoexec --python-exit-code 1 --python render_passes.py --
+            --config FILE --out DIR [--clip ID ...] [--preview] [--events-fd N]
 
-For each clip it writes DIR/<clip>/manifest.json, then DIR/<clip>/000000.exr and so on; a file under such a name is
-whole. Run again, it goes on at a clip's first missing frame. Exit codes: 0 done, 1 failed, 2 the config is at fault.
+For each clip, writes DIR/<clip>/manifest.json and then DIR/<clip>/000000.exr and so on; a file with such a name is
+complete. A second run resumes at a clip's first missing frame. Exit codes: 0 done, 1 failed, 2 the config is at fault.
 """
 
 from __future__ import annotations
@@ -16,23 +16,26 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+sys.dont_write_bytecode = True  # nothing is written into the folder of the scripts, whoever owns it
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # pylint: disable=wrong-import-position
-from veldt.config import load
 from veldt.events import Events
 from veldt.faults import ConfigError
-from veldt.manifest import build_manifest, frame_file, to_json
-from veldt.plan import with_flights_cut
-from veldt.world import clip_of, plan_world
-from veldt_bl.entry import own_arguments, run
-from veldt_bl.preview import plan_pictures, render_pictures
-from veldt_bl.render import first_missing, render_frames, render_frames_and_actors, set_up_renderer
-from veldt_bl.scene import Stage, build_stage
+from veldt_bl.entry import own_arguments, reported_imports, run
+
+with reported_imports():
+    from veldt.config import load
+    from veldt.manifest import build_manifest, frame_file, to_json
+    from veldt.plan import with_flights_cut
+    from veldt.world import clip_of, plan_world
+    from veldt_bl.preview import plan_pictures, render_pictures
+    from veldt_bl.render import first_missing, render_frames, render_frames_and_actors, set_up_renderer
+    from veldt_bl.scene import Stage, build_stage
 
 
 def main(arguments: list[str]) -> int:
-    """Runs the command and returns its exit code."""
+    """Run the command and return its exit code."""
     options = _parse(arguments)
     events = Events(options.events_fd)
     return run(lambda: _render(options, events), events)
@@ -60,7 +63,7 @@ def _render(options: argparse.Namespace, events: Events) -> None:
     config = world.config
     clips = [clip_of(config, name) for name in options.clip] if options.clip else config["clips"]
     stage = build_stage(world)
-    events.tell("scene_built", seconds=round(time.monotonic() - started_s, 3))
+    events.report("scene_built", seconds=round(time.monotonic() - started_s, 3))
     if options.preview:
         _render_preview(stage, options.out, events)
         return
@@ -70,36 +73,36 @@ def _render(options: argparse.Namespace, events: Events) -> None:
 
 
 def _render_preview(stage: Stage, folder: Path, events: Events) -> None:
-    """Writes a map and stills, and tells of them as of the frames of a clip `preview`."""
+    """Write a map and stills, and report them as the frames of a clip `preview`."""
     pictures = plan_pictures(stage)
-    events.tell("clip", clip="preview", first_frame=0, frames=len(pictures))
+    events.report("clip", clip="preview", first_frame=0, frames=len(pictures))
     render_pictures(
         stage,
         pictures,
         folder,
-        lambda k: events.tell("frame", clip="preview", index=k, file=pictures[k].file),
+        lambda k: events.report("frame", clip="preview", index=k, file=pictures[k].file),
     )
-    events.tell("clip_done", clip="preview")
+    events.report("clip_done", clip="preview")
 
 
 def _render_clip(stage: Stage, clip: dict, folder: Path, events: Events) -> None:
-    """Writes a clip's manifest, then the frames it lacks."""
+    """Write a clip's manifest, then the frames it lacks."""
     name, frames = clip["id"], clip["frames"]
     folder.mkdir(parents=True, exist_ok=True)
     first = first_missing(folder, frames)
     _write_manifest(
         folder / "manifest.json", to_json(build_manifest(stage.world, clip)), has_frames=first > 0
     )
-    events.tell("clip", clip=name, first_frame=first, frames=frames)
+    events.report("clip", clip=name, first_frame=first, frames=frames)
     if first < frames:
         stage.animate(clip)
         _render_frames(
             stage,
             folder,
             range(first, frames),
-            lambda k: events.tell("frame", clip=name, index=k, file=frame_file(k)),
+            lambda k: events.report("frame", clip=name, index=k, file=frame_file(k)),
         )
-    events.tell("clip_done", clip=name)
+    events.report("clip_done", clip=name)
 
 
 def _render_frames(stage: Stage, folder: Path, frames: range, on_frame: Callable[[int], None]) -> None:
@@ -110,7 +113,7 @@ def _render_frames(stage: Stage, folder: Path, frames: range, on_frame: Callable
 
 
 def _write_manifest(path: Path, text: str, has_frames: bool) -> None:
-    """Writes the manifest in one step; frames that are there already must have been made from the same one."""
+    """Write the manifest atomically; existing frames must belong to the same manifest."""
     if has_frames and (not path.exists() or path.read_text(encoding="utf-8") != text):
         raise ConfigError(f"--out = {path.parent}; expected no frames there, or frames of this config")
     part = path.with_suffix(".part")

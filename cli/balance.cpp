@@ -23,11 +23,11 @@ struct Options {
   bool json = false;
 };
 
-/// Only what is a selection already may be replaced.
+/// An existing file may be replaced only if it is a selection.
 void check_out(const Options& options) {
   const thermal::Path out = options.out;
   if (!out.parent_path().empty() && !std::filesystem::is_directory(out.parent_path()))
-    throw thermal::ConfigError(thermal::fault("--out", options.out, "", "a file in a folder that is there"));
+    throw thermal::ConfigError(thermal::fault("--out", options.out, "", "a file in an existing folder"));
   if (!std::filesystem::exists(out)) return;
   try {
     (void)thermal::read_selection(out);
@@ -54,7 +54,7 @@ void check_labels(const std::vector<thermal::BalanceVideo>& videos, const Option
     if (!video.types.empty()) return;
   }
   throw thermal::DataError(thermal::list_names(options.datasets) +
-                           ": no label of an animal or a person that counts; expected some to balance");
+                           ": no labels of animals or people that count; expected at least one");
 }
 
 Balanced balance_sources(const Options& options) {
@@ -80,7 +80,7 @@ int run(const Options& options, bool quiet) {
     fmt::print("{}: written\n", options.out);
   }
   if (!done.result.in_time)
-    fmt::print(stderr, "veldt: stopped after {} s with a gap of {:.2f} %; {} % were asked for\n",
+    fmt::print(stderr, "veldt: stopped after {} s with a gap of {:.2f} %; {} % was requested\n",
                options.balance.time_limit_s, 100 * done.result.gap, 100 * options.balance.gap);
   return kDone;
 }
@@ -88,33 +88,36 @@ int run(const Options& options, bool quiet) {
 }  // namespace
 
 void add_balance(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(app, session, "balance",
-                                  "Choose frames so that small, medium and large animals and poachers come\n"
-                                  "evenly from all videos, within bounds for each class");
+  CLI::App* command =
+      add_command(app, session, "balance",
+                  "Select frames so that small, medium and large animals and poachers are drawn\n"
+                  "evenly from all videos, within bounds for each class");
   auto options = std::make_shared<Options>();
-  command->add_option("datasets", options->datasets, "Datasets, BIRDSAI folders or COCO files; only read")
+  command
+      ->add_option("datasets", options->datasets, "Datasets, BIRDSAI folders or COCO files; never modified")
       ->required()
       ->type_name("DATASET…");
   command
       ->add_option("--per-class", options->per_class,
-                   "How many labels each class is to have, e.g. 500:800 small_poacher=200:800.\n"
+                   "Number of labels per class, e.g. 500:800 small_poacher=200:800.\n"
                    "Classes: small_animal, medium_animal, large_animal, small_poacher, medium_poacher,\n"
-                   "large_poacher; those that nothing is said of may have any number.\n"
-                   "Where HI is all there is, taking everything is as even as anything")
+                   "large_poacher; classes that are not listed have no bounds.\n"
+                   "Taking all labels of a class, where HI allows it, counts as perfectly even")
       ->required()
       ->type_name("[CLASS=]LO:HI …");
   command->add_option("--out", options->out, "The selection: a file that `veldt export --selection` reads")
       ->required()
       ->type_name("FILE");
-  command->add_option("--seed", options->seed, "Which frames of a kind are taken")->capture_default_str();
+  command->add_option("--seed", options->seed, "Random seed: which of several equivalent frames are selected")
+      ->capture_default_str();
   command
       ->add_option("--gap", options->balance.gap,
-                   "How far the selection may be from the best there is, as a share of its objective")
+                   "Largest accepted gap to the optimum, as a fraction of the objective")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command
       ->add_option("--time-limit-s", options->balance.time_limit_s,
-                   "When to stop with the best selection found so far")
+                   "Time limit, after which the best selection found so far is written")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the table as JSON");

@@ -75,7 +75,7 @@ std::vector<std::string> cells_of(const Row& row) {
   return cells;
 }
 
-/// Under its heading and as wide as it has to be; names to the left, numbers to the right.
+/// Columns under their headings, as wide as needed; names left-aligned, numbers right-aligned.
 void print_rows(const std::vector<std::pair<std::string, std::vector<std::string>>>& lines) {
   std::vector<std::size_t> widths(kBalanceClasses + 1, 0);
   std::size_t name_width = 0;
@@ -131,13 +131,14 @@ void print_table(const Balanced& balanced) {
   lines.emplace_back("all", cells_of(all));
   print_rows(lines);
   const thermal::BalanceResult& result = balanced.result;
-  fmt::print("most from one video less least from any with more to give, summed over classes: {}\n",
-             result.solution.objective);
-  fmt::print("no selection has less than {}: gap {:.2f} %, {:.1f} s\n", result.bound, 100 * result.gap,
-             balanced.time_s);
-  if (all.frames_taken == 0) fmt::print("no frame is taken: no class has to have a label\n");
+  fmt::print(
+      "objective: {} (most labels from one video minus fewest from a video with labels left, summed over "
+      "classes)\n",
+      result.solution.objective);
+  fmt::print("lower bound: {}, gap {:.2f} %, {:.1f} s\n", result.bound, 100 * result.gap, balanced.time_s);
+  if (all.frames_taken == 0) fmt::print("no frame is selected: no class requires a label\n");
   if (all.unlabelled > 0)
-    fmt::print("{} frames have no label that counts, and none of them is taken\n", all.unlabelled);
+    fmt::print("{} frames have no label that counts; none of them is selected\n", all.unlabelled);
 }
 
 thermal::Json to_json(const Balanced& balanced) {

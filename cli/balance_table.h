@@ -16,7 +16,7 @@ struct Balanced {
   double time_s = 0;
 };
 
-/// Labels taken of those that are there, by video and class, and how good the selection is.
+/// Prints labels taken out of those available, by video and class, and how good the selection is.
 void print_table(const Balanced& balanced);
 
 /// The same as JSON.

@@ -86,7 +86,7 @@ thermal::Json to_json(const thermal::ConvertRow& row) {
   return json;
 }
 
-/// Whole numbers as they are, others to three digits.
+/// Whole numbers in full, others to three digits.
 std::string short_number(double value) {
   return value == std::floor(value) ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }

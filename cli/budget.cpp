@@ -39,7 +39,7 @@ void print(const thermal::Budget& budget, const thermal::SceneOutline& outline) 
     fmt::print("{:<12}{:>8}{:>14.1f}{:>22.1f}  {}\n", effect.name, choice_name(effect.choice),
                1e3 * effect.spread_k, 1e3 * effect.actor_shift_k, effect.kept ? "kept" : "dropped");
   }
-  fmt::print("\ndropped in all: {:.1f} mK\n", 1e3 * budget.dropped_k);
+  fmt::print("\ndropped in total: {:.1f} mK\n", 1e3 * budget.dropped_k);
   print_materials(outline);
 }
 

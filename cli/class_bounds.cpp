@@ -12,7 +12,7 @@ namespace {
 using thermal::ClassBounds;
 using thermal::ConfigError;
 
-constexpr std::int64_t kMostLabels = 1'000'000'000;  // of a class; far above any data set
+constexpr std::int64_t kMostLabels = 1'000'000'000;  // of a class; far more than any data set has
 
 ConfigError fault_of(const std::string& word, const std::string& rule) {
   return ConfigError(thermal::fault("--per-class", "\"" + word + "\"", "", rule));
@@ -23,7 +23,7 @@ std::optional<std::int64_t> parse_count(std::string_view text) {
   return count && *count >= 0 && *count <= kMostLabels ? count : std::nullopt;
 }
 
-/// "LO:HI"; `word` is what it is a part of.
+/// "LO:HI"; `word` is the argument that contains it, for messages.
 ClassBounds parse_bounds(std::string_view text, const std::string& word) {
   const std::size_t colon = text.find(':');
   const auto low = parse_count(text.substr(0, colon));

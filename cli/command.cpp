@@ -18,9 +18,9 @@ namespace veldt {
 namespace {
 
 /// The one table of commands, in the order help shows them.
-constexpr std::array kCommands = {add_generate, add_render,   add_convert, add_merge,    add_export,
-                                  add_inspect,  add_validate, add_balance, add_evaluate, add_report,
-                                  add_budget,   add_radiance, add_bench,   add_doctor};
+constexpr std::array kCommands = {add_generate, add_render,   add_convert,  add_merge,    add_export,
+                                  add_inspect,  add_validate, add_balance,  add_evaluate, add_report,
+                                  add_video,    add_budget,   add_radiance, add_bench,    add_doctor};
 
 void print_fault(const std::string& what) {
   std::istringstream lines(what);
@@ -28,23 +28,23 @@ void print_fault(const std::string& what) {
     fmt::print(stderr, "veldt: {}\n", thermal::printable(line));
 }
 
-/// What is wrong with a command line, in one line.
+/// What is wrong with a command line, as one line.
 std::string usage_fault(const CLI::App* app, const CLI::Error& error) {
   const std::vector<CLI::App*> named = app->get_subcommands();
   if (!named.empty())
     return fmt::format("veldt: {}; see veldt {} --help\n", error.what(), named.front()->get_name());
   const std::vector<std::string> unknown = app->remaining();
   if (!unknown.empty() && unknown.front().starts_with('-'))
-    return fmt::format("veldt: {} before a command; see veldt --help\n", unknown.front());
+    return fmt::format("veldt: option {} before a command; see veldt --help\n", unknown.front());
   std::vector<std::string> known;
   for (const CLI::App* command : app->get_subcommands({})) known.push_back(command->get_name());
   const std::string choice = "expected one of " + thermal::list_names(known);
   if (unknown.empty()) return fmt::format("veldt: no command; {}; see veldt --help\n", choice);
-  return fmt::format("veldt: \"{}\" is no command; {}{}\n", unknown.front(), choice,
+  return fmt::format("veldt: unknown command \"{}\"; {}{}\n", unknown.front(), choice,
                      thermal::did_you_mean(unknown.front(), known));
 }
 
-/// Runs a command and turns faults into words and exit codes.
+/// Runs a command and turns exceptions into messages and exit codes.
 int run_guarded(const std::function<int()>& run) {
   try {
     return run();
@@ -55,7 +55,7 @@ int run_guarded(const std::function<int()>& run) {
     print_fault(error.what());
     return kTryAgain;
   } catch (const thermal::Cancelled& error) {
-    print_fault(std::string(error.what()) + "; the same command goes on from here");
+    print_fault(std::string(error.what()) + "; run the same command again to resume");
     return 128 + stop_signal();
   } catch (const std::exception& error) {
     print_fault(error.what());
@@ -68,11 +68,11 @@ int run_guarded(const std::function<int()>& run) {
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
                       const std::string& description) {
   CLI::App* command = app.add_subcommand(name, description);
-  command->add_flag("--quiet", session.common.quiet, "Print faults only");
+  command->add_flag("--quiet", session.common.quiet, "Print errors only");
   command->add_option("--progress", session.common.progress, "How to show progress, on standard error")
       ->check(CLI::IsMember({"auto", "plain", "json", "none"}))
       ->capture_default_str();
-  command->add_option("--threads", session.common.threads, "Threads to use; 0: one a core")
+  command->add_option("--threads", session.common.threads, "Number of threads; 0: one per core")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   return command;
@@ -99,7 +99,7 @@ thermal::Path find_blender(const std::string& named) {
   thermal::Path found = thermal::find_program(named.empty() ? "blender" : named);
   if (!found.empty()) return found;
   if (!named.empty())
-    throw thermal::ConfigError(thermal::fault("--blender", named, "", "a program that can be run"));
+    throw thermal::ConfigError(thermal::fault("--blender", named, "", "an executable program"));
   throw thermal::IoError(
       "no blender on PATH; install it (apt-get install blender) or name one with --blender PATH");
 }

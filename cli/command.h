@@ -10,7 +10,7 @@
 
 namespace veldt {
 
-/// What a run ends with; scripts rely on the numbers.
+/// Exit codes; scripts rely on the numbers.
 enum ExitCode : int {
   kDone = 0,
   kFailed = 1,
@@ -42,6 +42,7 @@ void add_inspect(CLI::App& app, Session& session);
 void add_validate(CLI::App& app, Session& session);
 void add_evaluate(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
+void add_video(CLI::App& app, Session& session);
 void add_balance(CLI::App& app, Session& session);
 void add_budget(CLI::App& app, Session& session);
 void add_radiance(CLI::App& app, Session& session);
@@ -55,14 +56,14 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
 /// Adds --set KEY=VALUE …, changes to a config.
 void add_settings(CLI::App* command, std::vector<std::string>& settings);
 
-/// Reads a config, changes it by `settings` and checks it. Any fault of the file is a ConfigError.
+/// Reads a config, applies `settings` and checks it. Any fault of the file is a ConfigError.
 [[nodiscard]] thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
                                           const thermal::Path& home);
 
-/// The Blender to use: `named`, or "blender" on PATH where that is empty. ConfigError or IoError with what to do.
+/// The Blender to use: `named`, or "blender" on PATH where that is empty. ConfigError or IoError says what to do.
 [[nodiscard]] thermal::Path find_blender(const std::string& named);
 
-/// Parses and runs a command line; faults go to standard error. Returns the exit code.
+/// Parses and runs a command line; errors go to standard error. Returns the exit code.
 int run_command_line(int argc, const char* const* argv);
 
 }  // namespace veldt

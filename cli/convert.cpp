@@ -21,6 +21,7 @@ struct Options {
   std::string variants;
   std::vector<std::string> settings;
   double max_megapixels = 256;
+  double max_unusable_share = kMostUnusable;
   bool strict = false;
 };
 
@@ -34,6 +35,7 @@ std::optional<thermal::Json> read_document(const std::string& file) {
 }
 
 int run(const Options& options, const CommonOptions& common) {
+  check_max_unusable(options.max_unusable_share);
   thermal::ConvertOptions request = {.home = thermal::find_home(),
                                      .passes = {options.passes.begin(), options.passes.end()},
                                      .manifest = options.manifest,
@@ -52,7 +54,7 @@ int run(const Options& options, const CommonOptions& common) {
     ProgressBar bar(common);
     outcomes = thermal::convert(request, hooks_for(bar));
   }
-  return summarise(outcomes, common);
+  return summarise(outcomes, common, options.max_unusable_share);
 }
 
 }  // namespace
@@ -62,7 +64,7 @@ void add_convert(CLI::App& app, Session& session) {
   auto options = std::make_shared<Options>();
   command
       ->add_option("passes", options->passes,
-                   "Passes, those of a folder being a clip: folders with a manifest.json, files, or quoted "
+                   "Passes, one clip per folder: folders with a manifest.json, files, or quoted "
                    "patterns such as \"r/f_####.exr\"")
       ->required();
   command->add_option("--out", options->out, "Folder of the dataset")->required();
@@ -71,14 +73,15 @@ void add_convert(CLI::App& app, Session& session) {
   command->add_option("--config", options->config, "Config to take season, seed and sensor from")
       ->type_name("FILE");
   command
-      ->add_option(
-          "--variants", options->variants,
-          "List of changes to the config: a dataset each, in a folder of its name, all from one reading")
+      ->add_option("--variants", options->variants,
+                   "List of changes to the config; each makes a dataset in a folder of its name, and passes "
+                   "are read once")
       ->type_name("FILE");
   add_settings(command, options->settings);
   add_max_megapixels(command, options->max_megapixels);
+  add_max_unusable(command, options->max_unusable_share);
   command->add_flag("--strict", options->strict,
-                    "End at the first bad frame, instead of naming it and going on without it");
+                    "Stop at the first bad frame instead of reporting it and skipping it");
   command->callback(
       [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
 }

@@ -14,14 +14,14 @@
 namespace veldt {
 namespace {
 
-/// One thing that is looked for.
+/// One thing to look for.
 struct Finding {
   std::string what;
-  std::string found;   ///< version and place; empty if it is missing
+  std::string found;   ///< version and path; empty if missing
   std::string remedy;  ///< how to get it
 };
 
-/// First line of what a program prints; empty if it cannot be run.
+/// First line that a program prints; empty if it cannot be run.
 std::string first_line(const std::vector<std::string>& argv) {
   if (argv.front().empty()) return "";
   const thermal::Output output = thermal::run_program(argv);
@@ -44,8 +44,9 @@ std::vector<Finding> look() {
   findings.push_back({"Blender", blender_version.empty() ? "" : blender_version + ", " + blender,
                       "apt-get install blender, or name one with --blender PATH"});
   const std::string python = thermal::find_python().string();
-  const std::string numpy = first_line(
-      {python, "-c", "import sys, numpy; print(sys.version.split()[0], 'with NumPy', numpy.__version__)"});
+  const std::string numpy =
+      first_line({python, "-I", "-c",
+                  "import sys, numpy; print(sys.version.split()[0], 'with NumPy', numpy.__version__)"});
   findings.push_back({"Python", numpy.empty() ? "" : numpy + ", " + python, "apt-get install python3-numpy"});
   for (const auto& [library, version] : thermal::library_versions())
     findings.push_back({library, version, ""});
@@ -74,7 +75,7 @@ int run(bool json) {
 
 void add_doctor(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "doctor",
-                                  "What is installed, in which version, what is missing and how to get it");
+                                  "What is installed, which versions, what is missing and how to get it");
   auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "Print JSON");
   command->callback([json, &session] { session.run = [json] { return run(*json); }; });

@@ -22,7 +22,7 @@ struct Options {
   bool json = false;
 };
 
-/// What is not defined is null.
+/// Undefined values are null.
 thermal::Json to_json(const std::optional<double>& figure) {
   return figure ? thermal::Json(*figure) : thermal::Json();
 }
@@ -45,7 +45,7 @@ thermal::Json to_json(const thermal::AveragePrecision& precision) {
   return {{"ap50", to_json(precision.at_50)}, {"ap50_95", to_json(precision.at_50_to_95)}};
 }
 
-/// Precision and recall of a clip, in all and by category.
+/// Precision and recall of a clip, overall and by category.
 thermal::Json clip_to_json(const thermal::LabelSet& truth, const thermal::Evaluation& evaluation,
                            std::size_t video) {
   thermal::Json categories = thermal::Json::array();
@@ -91,8 +91,7 @@ int run(const Options& options) {
   options.evaluate.validate();
   const thermal::LabelSet truth = thermal::read_labels(options.truth);
   if (truth.labels.empty())
-    throw thermal::DataError(
-        thermal::fault(options.truth, "0 labels", "", "at least one, or there is nothing to measure"));
+    throw thermal::DataError(thermal::fault(options.truth, "0 labels", "", "at least one"));
   const std::vector<thermal::Detection> detections = thermal::read_detections(options.detections, truth);
   const thermal::Evaluation evaluation = thermal::evaluate(truth, detections, options.evaluate);
   if (options.json) {
@@ -109,27 +108,24 @@ void add_evaluate(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "evaluate",
                                   "Precision, recall and average precision of a detector's results");
   command->footer(
-      "Precision and recall are told by clip, category and size class. A target's class is that of its "
-      "track's\n"
-      "mean box (below 200 px small, above 2000 px large); a detection that finds no target has that of its "
-      "own "
-      "box.\n"
-      "Average precision agrees with pycocotools. Targets marked to be ignored, and crowds, count neither "
-      "as\n"
-      "found nor as missed, and detections that find them count neither way.");
+      "Precision and recall are reported by clip, category and size class. The size class of a target\n"
+      "is that of its track's mean box (below 200 px small, above 2000 px large); that of a detection\n"
+      "without a target is that of its own box.\n"
+      "Average precision agrees with pycocotools. Targets marked as ignored, and crowds, count neither\n"
+      "as found nor as missed; detections that match them are not counted.");
   auto options = std::make_shared<Options>();
   command->add_option("--truth", options->truth, "Labels: a dataset, a BIRDSAI folder or a COCO file")
       ->required();
   command
       ->add_option("--detections", options->detections,
-                   "What was detected: COCO results (.json), or a folder of YOLO results (VIDEO_PICTURE.txt)")
+                   "Detections: COCO results (.json), or a folder of YOLO results (VIDEO_PICTURE.txt)")
       ->required();
-  command->add_option("--iou", options->evaluate.iou, "Least overlap of a detection with its target")
+  command->add_option("--iou", options->evaluate.iou, "Lowest IoU at which a detection matches a target")
       ->capture_default_str();
-  command->add_option("--score", options->evaluate.score, "Least score of detections that count")
+  command->add_option("--score", options->evaluate.score, "Lowest score of the detections to count")
       ->capture_default_str();
   command->add_flag("--count-ignored", options->evaluate.count_ignored,
-                    "Count targets marked to be ignored like others, as pycocotools does");
+                    "Count targets that are marked as ignored like any others, as pycocotools does");
   command->add_flag("--json", options->json, "Print JSON, with each clip's categories too");
   command->callback([options, &session] { session.run = [options] { return run(*options); }; });
 }

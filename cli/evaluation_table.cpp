@@ -9,7 +9,7 @@
 namespace veldt {
 namespace {
 
-/// What is not defined is "-".
+/// Undefined values are "-".
 std::string to_text(const std::optional<double>& figure) {
   return figure ? fmt::format("{:.3f}", *figure) : "-";
 }
@@ -24,7 +24,7 @@ std::string counts_of(const thermal::Counts& counts) {
   return fmt::format("{}/{}/{}", counts.true_positives, counts.false_positives, counts.false_negatives);
 }
 
-/// Prints tables whose first column holds the names of clips and categories; then one a size, and one of all.
+/// Prints tables: a column of clip or category names, one column per size class, and one for all sizes.
 class Tables {
  public:
   Tables(const thermal::LabelSet& truth, const thermal::Evaluation& evaluation)

@@ -53,7 +53,7 @@ int labels_in(const thermal::ExportedSplit& split) {
   return std::accumulate(split.labels.begin(), split.labels.end(), 0);
 }
 
-/// Columns are as wide as what they are called, and numbers of six digits.
+/// Columns are wide enough for their headings and for numbers of six digits.
 std::size_t width_of(const std::string& heading) { return std::max<std::size_t>(heading.size(), 6) + 2; }
 
 void print_cells(const std::vector<std::string>& headings, const std::string& first,
@@ -82,7 +82,7 @@ std::string counted(int count, const std::string& what) {
 
 void summarise(const thermal::ExportOutcome& outcome, const Options& options) {
   if (outcome.already_there) {
-    fmt::print("{}: nothing to do, this export was there already\n", options.out);
+    fmt::print("{}: nothing to do; this export already exists\n", options.out);
     return;
   }
   int pictures = 0;
@@ -97,7 +97,7 @@ void summarise(const thermal::ExportOutcome& outcome, const Options& options) {
   for (const auto& [why, count] : outcome.left_out)
     fmt::print("left out: {} {}\n", counted(count, "label"), why);
   if (outcome.copied > 0)
-    fmt::print("{} copied: the file system could not link them\n", counted(outcome.copied, "picture"));
+    fmt::print("{} copied: the file system cannot link them\n", counted(outcome.copied, "picture"));
 }
 
 int run(const Options& options, const CommonOptions& common) {
@@ -118,7 +118,8 @@ void add_export(CLI::App& app, Session& session) {
   CLI::App* command = add_command(
       app, session, "export", "Write a dataset as other programs read it: COCO, YOLO, MOTChallenge, BIRDSAI");
   auto options = std::make_shared<Options>();
-  command->add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file; only read")
+  command
+      ->add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file; never modified")
       ->required()
       ->type_name("DATASET");
   command->add_option("--format", options->format, "Layout and files to write")
@@ -126,24 +127,24 @@ void add_export(CLI::App& app, Session& session) {
       ->check(CLI::IsMember({"coco", "yolo", "mot", "birdsai"}));
   command->add_option("--out", options->out, "Folder of the export, empty or new")->required();
   command
-      ->add_option("--link", options->link, "How pictures get there; a copy where the file system can't link")
+      ->add_option("--link", options->link, "How to place pictures; copies where the file system cannot link")
       ->check(CLI::IsMember({"hard", "symlink", "copy"}))
       ->capture_default_str();
   command
       ->add_option("--images", options->images,
-                   "Pictures of 8 bits after gain control, or of 16 bits in kelvin")
+                   "8-bit pictures after gain control, or 16-bit pictures in kelvin")
       ->check(CLI::IsMember({"ir8", "ir16"}))
       ->capture_default_str();
-  CLI::Option* split = command
-                           ->add_option("--split", options->split,
-                                        "Share out whole clips, stratified by category: train:0.8,val:0.2")
-                           ->type_name("NAME:SHARE,…");
-  command->add_option("--seed", options->what.seed, "Of the splits; otherwise the dataset's, or 1")
+  CLI::Option* split =
+      command
+          ->add_option("--split", options->split,
+                       "Split by whole clips, stratified by category, e.g. train:0.8,val:0.2")
+          ->type_name("NAME:SHARE,…");
+  command->add_option("--seed", options->what.seed, "Seed of the splits; by default the dataset's, or 1")
       ->needs(split);
-  command->add_option("--selection", options->selection, "Only the frames that veldt balance chose")
+  command->add_option("--selection", options->selection, "Export only the frames that veldt balance selected")
       ->type_name("FILE");
-  command->add_flag("--unfinished", options->what.unfinished_too,
-                    "Take a dataset of which clips are missing");
+  command->add_flag("--unfinished", options->what.unfinished_too, "Accept a dataset with missing clips");
   command->callback(
       [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
 }

@@ -28,6 +28,7 @@ struct Options {
   std::string shard = "0/1";
   std::vector<std::string> clips;
   std::vector<std::string> settings;
+  double max_unusable_share = kMostUnusable;
   int jobs = 1;
   bool keep_passes = false;
   bool preview = false;
@@ -55,11 +56,12 @@ int make_preview(const thermal::Config& config, const thermal::GenerateOptions& 
   }
   const thermal::Path folder = thermal::Layout{request.out}.preview();
   if (!common.quiet)
-    fmt::print("{}: {} pictures; map.png is the place from above\n", folder.string(), pictures);
+    fmt::print("{}: {} pictures; map.png shows the place from above\n", folder.string(), pictures);
   return kDone;
 }
 
 int run(const Options& options, const CommonOptions& common, Run work) {
+  check_max_unusable(options.max_unusable_share);
   const thermal::Path home = thermal::find_home();
   const thermal::Config given = load_config(options.config, options.settings, home);
   const thermal::GenerateOptions request = {.home = home,
@@ -70,7 +72,7 @@ int run(const Options& options, const CommonOptions& common, Run work) {
                                             .jobs = options.jobs,
                                             .threads = common.threads,
                                             .keep_passes = options.keep_passes};
-  if (given.resolved["flights"].empty())  // then --clips can be told to be wrong at once
+  if (given.resolved["flights"].empty())  // then wrong --clips can be reported at once
     (void)thermal::choose_clips(given, request.clips, request.shard);
   const thermal::DatasetPlan plan = thermal::plan_dataset(given.resolved, options.config, home);
   const thermal::Config config = thermal::with_flights_cut(given, plan.cut_clips);
@@ -86,7 +88,7 @@ int run(const Options& options, const CommonOptions& common, Run work) {
     ProgressBar bar(common);
     outcome = work(config, request, hooks_for(bar));
   }
-  return summarise(outcome, options.out, common);
+  return summarise(outcome, options.out, common, "made", options.max_unusable_share);
 }
 
 void add(CLI::App& app, Session& session, const std::string& name, const std::string& description, Run work) {
@@ -96,13 +98,13 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
   command->add_option("--out", options->out, "Folder of the dataset")->required();
   command->add_option("--clips", options->clips, "Only these clips")
       ->delimiter(',')
-      ->allow_extra_args(false)  // else a CONFIG that follows would be taken for a clip
+      ->allow_extra_args(false)  // otherwise a CONFIG that follows would be read as a clip
       ->type_name("ID,…");
   command->add_option("--shard", options->shard, "Only every N-th clip, from the I-th")->type_name("I/N");
   command
-      ->add_option(
-          "--jobs", options->jobs,
-          "Blenders at a time, a clip each; they share the --threads, and each holds the place in memory")
+      ->add_option("--jobs", options->jobs,
+                   "Blender processes to run at once, one clip each; they share --threads, and each holds "
+                   "the place in memory")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   command->add_option("--blender", options->blender, "Blender to use instead of the one on PATH")
@@ -110,10 +112,11 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
   if (name == "generate") {
     command->add_flag("--keep-passes", options->keep_passes,
                       "Keep the rendered EXR passes, for veldt convert");
+    add_max_unusable(command, options->max_unusable_share);
   }
   if (name == "render") {
     command->add_flag("--preview", options->preview,
-                      "Instead of passes, a map of the place and colour stills, for people to look at");
+                      "Render a map of the place and colour stills to look at, instead of passes");
   }
   add_settings(command, options->settings);
   command->add_flag("--dry-run", options->dry_run, "Check the config and print what would be made");

@@ -36,15 +36,15 @@ thermal::InspectOptions request_of(const Options& options) {
           .limits = read_limits(options.max_megapixels)};
 }
 
-/// Before any frame is read: all of them may take a while.
+/// Called before any frame is read, because reading all of them may take a while.
 void check_starter(const Path& file) {
   if (file.empty()) return;
   const auto refuse = [&file](const char* rule) {
     throw thermal::ConfigError(thermal::fault("--starter-manifest", file.string(), "", rule));
   };
-  if (std::filesystem::exists(file)) refuse("a file that is not there yet");
+  if (std::filesystem::exists(file)) refuse("a file that does not exist yet");
   if (file.has_parent_path() && !std::filesystem::is_directory(file.parent_path()))
-    refuse("a file in a folder that is there");
+    refuse("a file in an existing folder");
 }
 
 Inspection inspect(const Options& options, const CommonOptions& common) {
@@ -83,10 +83,10 @@ void add_inspect(CLI::App& app, Session& session) {
       command->add_option("--manifest", options->manifest, "Manifest to use instead of the folder's")
           ->type_name("FILE");
   command->add_option("--layer", options->layer, "Layer of an EXR file that has several")->type_name("NAME");
-  command->add_flag("--all-frames", options->all_frames, "Look at every frame, not at the first alone");
+  command->add_flag("--all-frames", options->all_frames, "Inspect every frame, not only the first");
   command
       ->add_option("--starter-manifest", options->starter,
-                   "Look at every frame, and write a manifest to fill in; never over a file")
+                   "Inspect every frame and write a manifest to fill in; never overwrites a file")
       ->type_name("FILE")
       ->excludes(manifest);
   add_max_megapixels(command, options->max_megapixels);

@@ -19,7 +19,7 @@ using thermal::Inspection;
 constexpr std::size_t kMostLines = 40;
 constexpr std::size_t kMostNames = 4;
 
-/// Lines past the most are counted; --json has all.
+/// Lines past the limit are only counted; --json has all.
 void print_lines(const std::vector<std::string>& lines) {
   for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) fmt::print("  {}\n", lines[i]);
   if (lines.size() > kMostLines)
@@ -45,17 +45,17 @@ void print_files(const Inspection& inspection) {
              inspection.header.height_px, compression.empty() ? "" : ", compression " + compression,
              files > 1 ? fmt::format("; the first of {} files", files) : "");
   if (const auto& window = inspection.window)
-    fmt::print("  pixels in {} x {} px from ({}, {}) alone\n", window->width_px, window->height_px,
+    fmt::print("  pixels only in {} x {} px from ({}, {})\n", window->width_px, window->height_px,
                window->x_px, window->y_px);
   std::vector<std::string> missing;
   for (const auto& [name, is_gap] : sequence.frames)
     if (is_gap) missing.push_back(name.name);
   if (gaps > 0) fmt::print("  missing: {}\n", thermal::list_names(missing, kMostNames));
   if (inspection.manifest && inspection.manifest->overscan_px > 0)
-    fmt::print("  {} of the camera's px on every side are overscan\n", inspection.manifest->overscan_px);
+    fmt::print("  overscan: {} camera px on every side\n", inspection.manifest->overscan_px);
 }
 
-/// What a conversion reads a pass for; empty: nothing.
+/// What a conversion uses a channel for; empty if it does not.
 std::string use_of(const Inspection& inspection, const thermal::ExrChannel& channel) {
   const std::string name = channel.full_name();
   const thermal::ChosenPlanes& planes = inspection.planes;
@@ -134,8 +134,7 @@ void print_cryptomattes(const Inspection& inspection) {
   for (const auto& [name, mattes] : inspection.survey.cryptomattes) {
     std::vector<std::tuple<std::int64_t, std::string>> by_pixels;
     for (const auto& [hash, matte] : mattes) {
-      const std::string text =
-          hash == 0 ? "(nothing)" : fmt::format("({:08x}, which the file has no name for)", hash);
+      const std::string text = hash == 0 ? "(nothing)" : fmt::format("({:08x}, no name in the file)", hash);
       by_pixels.emplace_back(-matte.pixels, matte.name.empty() ? text : matte.name);
     }
     std::sort(by_pixels.begin(), by_pixels.end());
@@ -143,14 +142,14 @@ void print_cryptomattes(const Inspection& inspection) {
     for (const auto& [less, matte] : by_pixels) lines.push_back(fmt::format("{:>9} px  {}", -less, matte));
     print_block(fmt::format("cryptomatte {}{}", name, of_frames(inspection)), lines);
   }
-  print_block("faults of cryptomattes", inspection.cryptomatte_faults);
+  print_block("cryptomatte faults", inspection.cryptomatte_faults);
 }
 
 std::string or_none(const std::string& channel, const std::string& none) {
   return channel.empty() ? none : channel;
 }
 
-/// As a shell takes it.
+/// Quoted for a shell where needed.
 std::string typed(const thermal::Path& path) {
   const std::string text = path.string();
   const bool plain = text.find_first_of(" \t'\"\\$`*?#%&()[]{};<>|!~") == std::string::npos;
@@ -161,7 +160,7 @@ std::string meanings(const Inspection& inspection) {
   if (inspection.manifest) return "the manifest's";
   const thermal::Path& folder = inspection.group.folder;
   return fmt::format(
-      "unknown: no manifest.json; to begin one\n             veldt inspect {} --starter-manifest {}",
+      "unknown: no manifest.json; to start one\n             veldt inspect {} --starter-manifest {}",
       typed(folder), typed(folder / "manifest.json"));
 }
 
@@ -175,9 +174,9 @@ void print_conversion(const Inspection& inspection) {
   if (!inspection.obstacle.empty()) {
     fmt::print("  cannot be converted: {}\n", inspection.obstacle);
     if (!inspection.layers.empty())
-      fmt::print("  --layer {} looks at that one\n", typed(inspection.layers.front()));
+      fmt::print("  --layer {} inspects that one\n", typed(inspection.layers.front()));
     for (const std::string& channel : inspection.likely)
-      fmt::print("  {} holds whole numbers: \"channels\": {{\"object_index\": \"{}\"}} takes it\n", channel,
+      fmt::print("  {} holds whole numbers: \"channels\": {{\"object_index\": \"{}\"}} selects it\n", channel,
                  channel);
     return;
   }
@@ -210,8 +209,8 @@ void print(const Inspection& inspection) {
 }
 
 void print(const thermal::StarterManifest& starter, const Inspection& inspection, const thermal::Path& file) {
-  fmt::print("\n{}: a manifest to begin with\n", file.string());
-  print_block("guessed, to be checked", starter.guesses);
+  fmt::print("\n{}: starter manifest\n", file.string());
+  print_block("guessed; check these", starter.guesses);
   print_block("to fill in", starter.to_fill_in);
   const thermal::Path& folder = inspection.group.folder;
   const bool beside = (folder / "manifest.json").lexically_normal() == file.lexically_normal();

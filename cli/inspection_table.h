@@ -8,7 +8,7 @@ namespace veldt {
 /// Prints what passes hold, and what a conversion would do with them.
 void print(const thermal::Inspection& inspection);
 
-/// Prints what of a starter manifest was guessed and what is to be filled in, and the command to type then.
+/// Prints what a starter manifest guessed, what the user has to fill in, and the command to run next.
 void print(const thermal::StarterManifest& starter, const thermal::Inspection& inspection,
            const thermal::Path& file);
 

@@ -22,7 +22,7 @@ struct Options {
 
 void print_missing(const thermal::MergeOutcome& outcome, const Options& options) {
   if (outcome.missing.empty()) return;
-  fmt::print(stderr, "veldt: {} lacks clips {}; none of {} has them whole\n", options.out,
+  fmt::print(stderr, "veldt: {} lacks clips {}; none of {} has them complete\n", options.out,
              thermal::list_names(outcome.missing), thermal::list_names(options.sources));
 }
 
@@ -47,11 +47,12 @@ int run(const Options& options, const CommonOptions& common) {
 void add_merge(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "merge", "Join datasets made as shards of one config");
   auto options = std::make_shared<Options>();
-  command->add_option("dirs", options->sources, "Datasets, each with some of the config's clips; only read")
+  command
+      ->add_option("dirs", options->sources, "Datasets, each with some of the config's clips; never modified")
       ->required()
       ->type_name("DIR…");
   command->add_option("--out", options->out, "Folder of the joined dataset")->required();
-  command->add_option("--link", options->link, "Hard links where the file system can, or copies of the files")
+  command->add_option("--link", options->link, "Hard links where the file system supports them, or copies")
       ->check(CLI::IsMember({"hard", "copy"}))
       ->capture_default_str();
   command->callback(

@@ -68,7 +68,7 @@ void print_plan(const thermal::Config& config, const thermal::DatasetPlan& plan,
   if (row.clips > 0) print_row(row);
   if (all.clips > row.clips) print_row(all);
   const thermal::Estimate estimate = thermal::estimate_run(config, all.clips, all.frames);
-  fmt::print("about {} on 2 cores, {} of disk\n", duration_text(estimate.seconds),
+  fmt::print("about {} on 2 cores, {} of disk space\n", duration_text(estimate.seconds),
              bytes_text(estimate.bytes));
 }
 

@@ -7,8 +7,8 @@
 
 namespace veldt {
 
-/// Prints what a dry run foresees: a line a clip, or a flight where clips are cut from one; then the sums, and about
-/// how long making them takes and how much disk.
+/// Prints what a run would make: a line per clip, or per flight where clips are cut from one; then totals, and an
+/// estimate of run time and disk space.
 void print_plan(const thermal::Config& config, const thermal::DatasetPlan& plan,
                 const std::vector<thermal::ClipConfig>& chosen);
 

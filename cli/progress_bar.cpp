@@ -21,7 +21,7 @@ double seconds_left(const thermal::Progress& progress, double frames_per_s) {
 
 std::string eta(const thermal::Progress& progress, double frames_per_s) {
   if (frames_per_s > 0) return "ETA " + clock_time(seconds_left(progress, frames_per_s));
-  return progress.frames_done > 0 ? "just begun" : "building the scene";
+  return progress.frames_done > 0 ? "starting" : "building the scene";
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ void ProgressBar::show_restart(const std::string& clip, const std::string& why) 
   }
   if (line_open_) fmt::print(stderr, "\n");
   line_open_ = false;
-  fmt::print(stderr, "clip {}: {}; started again\n", clip, why);
+  fmt::print(stderr, "clip {}: {}; restarting Blender\n", clip, why);
 }
 
 void ProgressBar::show_skipped(const std::string& clip, const thermal::SkippedFrame& frame) {

@@ -8,8 +8,8 @@
 
 namespace veldt {
 
-/// Shows how far a run is, on standard error: a bar with frames/s and time left on a terminal, a line every few
-/// seconds elsewhere, or a JSON object a line for machines.
+/// Shows the progress of a run on standard error: a bar with frames/s and time left on a terminal, a line every few
+/// seconds elsewhere, or one JSON object per line for machines.
 class ProgressBar {
  public:
   explicit ProgressBar(const CommonOptions& options);
@@ -18,9 +18,9 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(const thermal::Progress& progress);
-  /// Blender died over a clip and was started again.
+  /// Blender crashed while rendering a clip and is restarted.
   void show_restart(const std::string& clip, const std::string& why);
-  /// A frame was skipped: for machines alone, people are told at the end.
+  /// A frame was skipped. Printed only as JSON; the summary lists skipped frames for people.
   void show_skipped(const std::string& clip, const thermal::SkippedFrame& frame);
 
  private:
@@ -34,7 +34,7 @@ class ProgressBar {
 
   Style style_;
   Clock::time_point last_shown_;
-  Clock::time_point first_frame_at_;  ///< rate and time left leave the building of the scene out
+  Clock::time_point first_frame_at_;  ///< rate and time left exclude building the scene
   int first_frame_ = 0;
   bool line_open_ = false;
 };

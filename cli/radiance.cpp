@@ -47,6 +47,10 @@ class Evaluator {
 
   [[nodiscard]] double temperature_k(double radiance) const { return band_.temperature(radiance); }
 
+  [[nodiscard]] double radiance(double temperature_k, double emissivity) const {
+    return emissivity * band_.radiance(temperature_k);
+  }
+
   /// One row of the answer for a surface of this emissivity.
   [[nodiscard]] thermal::Json answer(double temperature_k, double emissivity) const {
     const thermal::BandValue value = band_.evaluate(temperature_k);
@@ -56,18 +60,19 @@ class Evaluator {
             {"radiance_w_m2_sr", emissivity * radiance},
             {"d_radiance_d_temperature_w_m2_sr_k", emissivity * value.derivative_w_m2_sr_k},
             {"ln_radiance", value.ln_radiance + std::log(emissivity)},
-            {"relative_error_bound", bound(temperature_k, value)}};
+            {"relative_error_bound", bound(temperature_k, emissivity * radiance)}};
   }
 
  private:
-  /// table: what it measured of itself. reference: rounding of temperature and wavelengths grows with the
-  /// problem's condition T L'/L, and some forty operations round once each.
-  [[nodiscard]] double bound(double temperature_k, const thermal::BandValue& value) const {
-    if (table_) return table_->worst_relative_error();
-    constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2;
-    const bool known = value.radiance_w_m2_sr > 0;
-    const double condition = known ? temperature_k * value.derivative_w_m2_sr_k / value.radiance_w_m2_sr : 0;
-    return (6 * condition + 44) * kRounding;
+  /// That of the radiance and of the product with an emissivity: two roundings, and few digits below the smallest
+  /// normal double.
+  [[nodiscard]] double bound(double temperature_k, double radiance) const {
+    using Double = std::numeric_limits<double>;
+    if (temperature_k == 0) return 0;
+    if (radiance == 0) return 1;
+    const double of_band =
+        table_ ? table_->relative_error_bound(temperature_k) : band_.relative_error_bound(temperature_k);
+    return of_band + Double::epsilon() + (radiance < Double::min() ? Double::denorm_min() / radiance : 0);
   }
 
   thermal::BandRadiance band_;
@@ -83,24 +88,40 @@ void print_table(const thermal::Json& rows) {
   }
 }
 
-void check_values(const std::vector<double>& values, const std::string& option, const std::string& unit) {
+/// Up to here the reference and its inverse are checked against 60-digit values.
+constexpr double kHottestK = 1e6;
+
+void check_values(const std::vector<double>& values, const std::string& option, const std::string& unit,
+                  double most, const std::string& why = "") {
   for (const double value : values) {
-    if (std::isfinite(value) && value >= 0) continue;
+    if (value >= 0 && value <= most) continue;
     throw thermal::ConfigError(
-        thermal::fault(option, fmt::format("{}", value), unit, "a finite number, at least 0 " + unit));
+        thermal::fault(option, fmt::format("{}", value), unit,
+                       fmt::format("a number from 0 {0} to {1:.7g} {0}{2}", unit, most, why)));
+  }
+}
+
+/// The band or the response that was named. A response that cannot be read is bad usage.
+thermal::SpectralResponse response_of(const Options& options) {
+  if (options.response.empty()) return parse_band(options.band_um);
+  try {
+    return thermal::read_response(options.response);
+  } catch (const thermal::IoError& error) {
+    throw thermal::ConfigError(error.what());
   }
 }
 
 int run(const Options& options) {
-  check_values(options.temperatures_k, "--temperature-k", "K");
-  check_values(options.radiances_w_m2_sr, "--radiance", "W m^-2 sr^-1");
+  check_values(options.temperatures_k, "--temperature-k", "K", kHottestK);
   if (!(options.emissivity > 0 && options.emissivity <= 1)) {
     throw thermal::ConfigError(
         thermal::fault("--emissivity", fmt::format("{}", options.emissivity), "", "above 0 and at most 1"));
   }
-  const thermal::SpectralResponse response =
-      options.response.empty() ? parse_band(options.band_um) : thermal::read_response(options.response);
+  const thermal::SpectralResponse response = response_of(options);
   const Evaluator evaluator(response, options.method);
+  check_values(options.radiances_w_m2_sr, "--radiance", "W m^-2 sr^-1",
+               evaluator.radiance(kHottestK, options.emissivity),
+               fmt::format(", that of {} K in this band", kHottestK));
   thermal::Json rows = thermal::Json::array();
   for (const double temperature_k : options.temperatures_k) {
     rows.push_back(evaluator.answer(temperature_k, options.emissivity));
@@ -128,15 +149,16 @@ void add_radiance(CLI::App& app, Session& session) {
                                   "In-band radiance of a temperature, or temperature of a radiance");
   auto options = std::make_shared<Options>();
   auto* temperatures =
-      command->add_option("--temperature-k", options->temperatures_k, "Temperatures [K], at least 0")
+      command->add_option("--temperature-k", options->temperatures_k, "Temperatures [K], from 0 to 1e6")
           ->delimiter(',')
           ->allow_extra_args(false)
           ->type_name("T,…");
-  auto* radiances =
-      command->add_option("--radiance", options->radiances_w_m2_sr, "Radiances [W m^-2 sr^-1], at least 0")
-          ->delimiter(',')
-          ->allow_extra_args(false)
-          ->type_name("L,…");
+  auto* radiances = command
+                        ->add_option("--radiance", options->radiances_w_m2_sr,
+                                     "Radiances [W m^-2 sr^-1], from 0 to that of 1e6 K")
+                        ->delimiter(',')
+                        ->allow_extra_args(false)
+                        ->type_name("L,…");
   temperatures->excludes(radiances);
   auto* band =
       command->add_option("--band-um", options->band_um, "Band with a flat response [um]")->type_name("A:B");

@@ -17,7 +17,7 @@ constexpr double kMostMegapixels = 1e6;
 void add_max_megapixels(CLI::App* command, double& max_megapixels) {
   command
       ->add_option("--max-megapixels", max_megapixels,
-                   "Refuse files that claim more pixels, before memory is taken for them")
+                   "Refuse files that claim more pixels, before memory is allocated for them")
       ->type_name("N")
       ->capture_default_str();
 }

@@ -37,10 +37,9 @@ void add_report(CLI::App& app, Session& session) {
   auto options = std::make_shared<Options>();
   command->add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file (.json)")
       ->required();
-  command->add_option("--out", options->out, "The page; report.html in the dataset if not given")
+  command->add_option("--out", options->out, "File of the page; by default report.html in the dataset")
       ->type_name("FILE");
-  command->add_flag("--unfinished", options->unfinished,
-                    "Report on what is there of a dataset that lacks clips");
+  command->add_flag("--unfinished", options->unfinished, "Accept a dataset with missing clips");
   command->callback(
       [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "cli/skip_lines.h"
 
 namespace veldt {
@@ -15,16 +16,15 @@ std::string counted(std::size_t count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-/// The line that tells of a dataset; `skipped`: frames its clips go without.
+/// The summary line of a dataset; `skipped`: number of frames its clips skip.
 std::string summary_of(const thermal::RunOutcome& run, const std::string& done, std::size_t skipped) {
   const std::size_t there = run.already_there.size();
-  const std::string were = there == 1 ? "was" : "were";
   const std::string without = skipped > 0 ? fmt::format("; {} skipped", counted(skipped, "frame")) : "";
   if (run.made.empty() && run.failed.empty())
-    return fmt::format("nothing to do, {} {} there already{}", counted(there, "clip"), were, without);
+    return fmt::format("nothing to do, {} already existed{}", counted(there, "clip"), without);
   std::string line = fmt::format("{} {}, {}{}", counted(run.made.size(), "clip"), done,
                                  counted(static_cast<std::size_t>(run.frames_made), "frame"), without);
-  if (there > 0) line += fmt::format("; {} {} there already", there, were);
+  if (there > 0) line += fmt::format("; {} already existed", there);
   return run.complete ? line : line + "; the dataset is not complete yet";
 }
 
@@ -32,8 +32,10 @@ bool has_clips(const thermal::ConvertOutcome& outcome) {
   return !outcome.run.made.empty() || !outcome.run.already_there.empty();
 }
 
-bool has_faults(const thermal::ConvertOutcome& outcome) {
-  return !outcome.run.failed.empty() || !outcome.skips.empty();
+bool has_faults(const thermal::ConvertOutcome& outcome, double max_unusable_share) {
+  return !outcome.run.failed.empty() || !outcome.skips.empty() ||
+         std::ranges::any_of(outcome.run.unusable,
+                             [=](const auto& plane) { return plane.share > max_unusable_share; });
 }
 
 std::size_t frames_in(const std::vector<thermal::ClipSkips>& skips) {
@@ -42,30 +44,64 @@ std::size_t frames_in(const std::vector<thermal::ClipSkips>& skips) {
   return frames;
 }
 
-/// Names clips that could not be made; `what` was done to them.
+/// Lists clips that could not be made; `what` happened to them.
 void print_failed(const thermal::RunOutcome& run, const std::string& whose, const std::string& what) {
   for (const auto& [clip, why] : run.failed)
     fmt::print(stderr, "veldt: {}clip {} {}: {}\n", whose, clip, what, why);
 }
 
-int exit_code_of(const std::vector<thermal::ConvertOutcome>& outcomes) {
-  if (std::none_of(outcomes.begin(), outcomes.end(), has_faults)) return kDone;
+/// Names clips with unusable depth or normals, and what of that is accepted.
+void print_unusable(const thermal::RunOutcome& run, const std::string& whose, double most) {
+  for (const auto& [clip, key, share] : run.unusable) {
+    const std::string where = fmt::format("{}clip {}: {}", whose, clip, key);
+    const std::string value = fmt::format("{:.3g}", share);
+    const std::string rule = fmt::format("at most {} (--max-unusable-share)", most);
+    fmt::print(stderr, "veldt: {}\n",
+               share > most ? thermal::fault(where, value, "", rule)
+                            : fmt::format("warning: {} = {}, {} is accepted", where, value, rule));
+  }
+}
+
+int exit_code_of(const std::vector<thermal::ConvertOutcome>& outcomes, double max_unusable_share) {
+  const auto is_faulty = [=](const auto& outcome) { return has_faults(outcome, max_unusable_share); };
+  if (std::none_of(outcomes.begin(), outcomes.end(), is_faulty)) return kDone;
   return std::any_of(outcomes.begin(), outcomes.end(), has_clips) ? kSomeRejected : kFailed;
 }
 
 }  // namespace
 
-int summarise(const thermal::RunOutcome& outcome, const thermal::Path& out, const CommonOptions& options,
-              const std::string& done) {
-  print_failed(outcome, "", "failed");
-  if (!options.quiet) fmt::print("{}: {}\n", out.string(), summary_of(outcome, done, 0));
-  if (outcome.try_again) return kTryAgain;
-  return exit_code_of({{.variant = "", .out = out, .run = outcome, .skips = {}}});
+void add_max_unusable(CLI::App* command, double& max_unusable_share) {
+  command
+      ->add_option(
+          "--max-unusable-share", max_unusable_share,
+          "Exit 3 if a larger share of a clip's pixels has no usable depth or normal where a kept term "
+          "needs one: NaN, infinite, depth of 0 or less, a normal of length 0. Smaller ones are warned of")
+      ->type_name("FRACTION")
+      ->capture_default_str();
 }
 
-int summarise(const std::vector<thermal::ConvertOutcome>& outcomes, const CommonOptions& options) {
-  for (const thermal::ConvertOutcome& one : outcomes)
-    print_failed(one.run, one.variant.empty() ? "" : one.variant + ": ", "rejected");
+void check_max_unusable(double max_unusable_share) {
+  if (max_unusable_share >= 0 && max_unusable_share <= 1) return;
+  throw thermal::ConfigError(
+      thermal::fault("--max-unusable-share", fmt::format("{}", max_unusable_share), "", "from 0 to 1"));
+}
+
+int summarise(const thermal::RunOutcome& outcome, const thermal::Path& out, const CommonOptions& options,
+              const std::string& done, double max_unusable_share) {
+  print_failed(outcome, "", "failed");
+  print_unusable(outcome, "", max_unusable_share);
+  if (!options.quiet) fmt::print("{}: {}\n", out.string(), summary_of(outcome, done, 0));
+  if (outcome.try_again) return kTryAgain;
+  return exit_code_of({{.variant = "", .out = out, .run = outcome, .skips = {}}}, max_unusable_share);
+}
+
+int summarise(const std::vector<thermal::ConvertOutcome>& outcomes, const CommonOptions& options,
+              double max_unusable_share) {
+  for (const thermal::ConvertOutcome& one : outcomes) {
+    const std::string whose = one.variant.empty() ? "" : one.variant + ": ";
+    print_failed(one.run, whose, "rejected");
+    print_unusable(one.run, whose, max_unusable_share);
+  }
   for (const std::string& line : skip_lines(outcomes)) fmt::print(stderr, "veldt: {}\n", line);
   for (const thermal::ConvertOutcome& one : outcomes) {
     if (options.quiet) break;
@@ -73,7 +109,7 @@ int summarise(const std::vector<thermal::ConvertOutcome>& outcomes, const Common
     fmt::print("{}: {}\n", out, summary_of(one.run, "made", frames_in(one.skips)));
     for (const std::string& term : one.left_out) fmt::print("{}: without the term {}\n", out, term);
   }
-  return exit_code_of(outcomes);
+  return exit_code_of(outcomes, max_unusable_share);
 }
 
 }  // namespace veldt

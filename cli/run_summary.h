@@ -7,12 +7,21 @@
 
 namespace veldt {
 
-/// Prints how a run ended, and returns what the program is to exit with. `done`: what was done to its clips.
-int summarise(const thermal::RunOutcome& outcome, const thermal::Path& out, const CommonOptions& options,
-              const std::string& done = "made");
+/// Share of unusable depth or normals above which a clip counts as rejected.
+inline constexpr double kMostUnusable = 0.01;
 
-/// The same for a run that made several datasets: a line each, and their variants' names with what was rejected. Frames
-/// that were skipped are named once, whatever datasets go without them.
-int summarise(const std::vector<thermal::ConvertOutcome>& outcomes, const CommonOptions& options);
+/// --max-unusable-share. ConfigError at check_max_unusable() unless from 0 to 1.
+void add_max_unusable(CLI::App* command, double& max_unusable_share);
+void check_max_unusable(double max_unusable_share);
+
+/// Prints how a run ended, and returns the exit code. `done`: what was done to its clips.
+/// Unusable depth and normals are reported on standard error; above the share the exit code is that of rejected inputs.
+int summarise(const thermal::RunOutcome& outcome, const thermal::Path& out, const CommonOptions& options,
+              const std::string& done = "made", double max_unusable_share = kMostUnusable);
+
+/// The same for a run that made several datasets: a line each, and what each variant rejected, by its name. Skipped
+/// frames are listed once, however many datasets lack them.
+int summarise(const std::vector<thermal::ConvertOutcome>& outcomes, const CommonOptions& options,
+              double max_unusable_share);
 
 }  // namespace veldt

@@ -14,7 +14,7 @@ constexpr std::size_t kMostLines = 20;
 
 using Frames = std::vector<thermal::SkippedFrame>;
 
-/// Where a run of neighbours ends that share a reason.
+/// The end of a run of consecutive frames that share a reason.
 std::size_t end_of_run(const Frames& frames, std::size_t begin) {
   std::size_t end = begin + 1;
   while (end < frames.size() && frames[end].reason == frames[begin].reason &&
@@ -34,9 +34,9 @@ std::string line_of(const thermal::ClipSkips& clip, std::size_t begin, std::size
 }
 
 void add_lines(const thermal::ClipSkips& clip, std::vector<std::string>& lines) {
-  std::size_t told = 0;
+  std::size_t printed = 0;
   std::size_t frame = 0;
-  for (; frame < clip.frames.size() && told < kMostLines; ++told) {
+  for (; frame < clip.frames.size() && printed < kMostLines; ++printed) {
     const std::size_t end = end_of_run(clip.frames, frame);
     lines.push_back(line_of(clip, frame, end));
     frame = end;
@@ -49,10 +49,11 @@ void add_lines(const thermal::ClipSkips& clip, std::vector<std::string>& lines) 
 
 std::vector<std::string> skip_lines(const std::vector<thermal::ConvertOutcome>& outcomes) {
   std::vector<std::string> lines;
-  std::map<std::string, std::vector<Frames>> told;  // by clip: datasets made by other runs may lack others
+  std::map<std::string, std::vector<Frames>>
+      printed;  // by clip: datasets of other runs may skip other frames
   for (const thermal::ConvertOutcome& outcome : outcomes) {
     for (const thermal::ClipSkips& clip : outcome.skips) {
-      std::vector<Frames>& before = told[clip.clip];
+      std::vector<Frames>& before = printed[clip.clip];
       if (std::find(before.begin(), before.end(), clip.frames) != before.end()) continue;
       before.push_back(clip.frames);
       add_lines(clip, lines);

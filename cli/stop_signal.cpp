@@ -6,7 +6,7 @@
 namespace veldt {
 namespace {
 
-/// A signal handler can reach nothing but a global; this is the program's only one.
+/// A signal handler can only reach a global; this is the program's only one.
 std::atomic<int> received{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 void remember(int signal) {

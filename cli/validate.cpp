@@ -34,7 +34,7 @@ int validate_dataset(const Options& options) {
   } else {
     for (const std::string& fault : check.faults) fmt::print("{}\n", fault);
     fmt::print("{}: {} clips, {} files checked, {}\n", options.what, check.clips, check.files,
-               check.faults.empty() ? "all as written" : fmt::format("{} faults", check.faults.size()));
+               check.faults.empty() ? "all unchanged" : fmt::format("{} faults", check.faults.size()));
   }
   return check.faults.empty() ? kDone : kFailed;
 }
@@ -68,7 +68,7 @@ int validate_config(const Options& options) {
 void add_validate(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "validate",
-                  "Check a config (form and meaning) or a dataset (complete, every file as written)");
+                  "Check a config (schema and meaning) or a dataset (complete, every file unchanged)");
   auto options = std::make_shared<Options>();
   command->add_option("what", options->what, "A config, or the folder of a dataset")->required();
   add_settings(command, options->settings);

@@ -1,4 +1,4 @@
-"""What tests of the program start from."""
+"""Fixtures for tests of the program."""
 
 import pytest
 

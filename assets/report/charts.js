@@ -1,7 +1,7 @@
-// Charts, by Chart.js. Each is made by a function that is called again when the colours of the page change.
+// Charts, drawn by Chart.js. Each has a function that is called again when the colour scheme of the page changes.
 
-// Okabe and Ito's colours (Color Universal Design, 2008), told apart with any colour vision; more categories than
-// these share the last one.
+// Okabe and Ito's colours (Color Universal Design, 2008), which people with any colour vision can distinguish. Further
+// categories share a grey.
 const SERIES = ["#e69f00", "#56b4e9", "#009e73", "#cc79a7", "#d55e00", "#0072b2", "#f0e442"];
 const OTHERS = "#8d939a";
 const seriesColour = (place) => SERIES[place] ?? OTHERS;
@@ -17,9 +17,9 @@ function drawCharts() {
   drawn = makers.map(({ canvas, settings }) => new Chart(canvas, settings()));
 }
 
-/** A place for a chart; `told` says in words what it shows. */
-function chart(told, settings, height) {
-  const canvas = element("canvas", { role: "img", "aria-label": told });
+/** An element that holds a chart; `description` is its text for screen readers. */
+function chart(description, settings, height) {
+  const canvas = element("canvas", { role: "img", "aria-label": description });
   makers.push({ canvas, settings });
   const frame = element("div", { class: "chart" }, canvas);
   if (height) frame.style.height = `${height}px`;
@@ -28,8 +28,8 @@ function chart(told, settings, height) {
 
 const tickCount = { precision: 0, maxTicksLimit: 6, callback: (value) => count(value) };
 
-/** Bars to the right, one a row; parts: {name, colour (a name of the style's), values}. */
-function rowsOfBars(told, rows, parts, unit) {
+/** Horizontal stacked bars, one per row; parts: {name, colour (a variable of the style sheet), values}. */
+function rowsOfBars(description, rows, parts, unit) {
   const settings = () => ({
     type: "bar",
     data: { labels: rows, datasets: parts.map((part) => ({ label: part.name, data: part.values, backgroundColor: colour(part.colour) })) },
@@ -39,18 +39,18 @@ function rowsOfBars(told, rows, parts, unit) {
       plugins: { legend: { position: "bottom", labels: { boxWidth: 14 } }, tooltip: { mode: "index", axis: "y" } },
     },
   });
-  return chart(told, settings, 110 + 30 * rows.length);
+  return chart(description, settings, 110 + 30 * rows.length);
 }
 
-/** What a legend says of the categories' colours. */
+/** Legend entries of the categories. */
 function seriesKeys(categories) {
   const keys = categories.slice(0, SERIES.length).map((name, k) => ({ name: words(name), colour: seriesColour(k) }));
   return categories.length > SERIES.length ? [...keys, { name: listed(categories.slice(SERIES.length).map(words)), colour: OTHERS }] : keys;
 }
 
-// --- histograms: the x axis counts bins, its ticks stand on the bins' edges
+// --- histograms: the x axis counts bins, and its ticks are at the edges of bins
 
-/** Up to seven series by category, the rest in one. */
+/** One series per category for the first seven, and one for the rest. */
 function seriesOf(histogram, categories) {
   const series = histogram.counts.slice(0, SERIES.length).map((data, k) => ({ name: words(categories[k]), data, colour: seriesColour(k) }));
   const rest = histogram.counts.slice(SERIES.length);
@@ -60,7 +60,7 @@ function seriesOf(histogram, categories) {
 
 const isDecade = (value) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-6;
 
-/** Which edges have a tick, at most eight: whole decades where there are some, or else round values. */
+/** Indices of at most eight edges with a tick: decades on wide logarithmic axes, otherwise round values. */
 function tickedEdges(edges, logarithmic) {
   const bins = edges.length - 1;
   if (logarithmic) return placesWhere(edges, bins > 9 ? isDecade : () => true);
@@ -73,14 +73,14 @@ function tickedEdges(edges, logarithmic) {
 
 const placesWhere = (edges, fits) => edges.map((_, k) => k).filter((k) => fits(edges[k]));
 
-/** Where a value is on the axis of bins. */
+/** Position of a value on the axis of bins, or null if it is outside. */
 function placeOf(value, edges, logarithmic) {
   const at = (v) => (logarithmic ? Math.log(v) : v);
   const place = ((at(value) - at(edges[0])) / (at(edges.at(-1)) - at(edges[0]))) * (edges.length - 1);
   return place >= 0 && place <= edges.length - 1 ? place : null;
 }
 
-/** Dashed lines with words at values of the x axis. */
+/** Dashed vertical lines with labels at values of the x axis. */
 const markLines = (marks) => ({
   id: "marks",
   afterDatasetsDraw({ ctx, chartArea, scales }) {
@@ -140,21 +140,21 @@ function histogramSettings(histogram, categories, { unit, logarithmic, marks = [
 }
 
 /** A card with a histogram. */
-function histogramCard(histogram, categories, told) {
-  const heading = element("h3", {}, told.title);
+function histogramCard(histogram, categories, quantity) {
+  const heading = element("h3", {}, quantity.title);
   const { known, of, below, above } = histogram;
-  const [least, median, most] = [histogram.least, histogram.median, histogram.most].map(told.say ?? ((value) => `${figure(value)} ${told.unit}`));
+  const [least, median, most] = [histogram.least, histogram.median, histogram.most].map(quantity.say ?? ((value) => `${figure(value)} ${quantity.unit}`));
   const tails = below + above > 0 ? `; the ${counted(below + above, "label")} beyond the axis ${below + above === 1 ? "counts" : "count"} at its ends` : "";
   const summary = `From ${least} to ${most}, median ${median}${known < of ? `; known for ${count(known)} of ${counted(of, "label")}` : ""}${tails}.`;
   return element("div", { class: "card" }, heading,
-    chart(`Histogram: ${told.title}. ${summary}`, () => histogramSettings(histogram, categories, told)),
-    element("p", { class: "under" }, summary, told.note ? ` ${told.note}` : null));
+    chart(`Histogram: ${quantity.title}. ${summary}`, () => histogramSettings(histogram, categories, quantity)),
+    element("p", { class: "under" }, summary, quantity.note ? ` ${quantity.note}` : null));
 }
 
-/** How much terms change, on a logarithmic axis, beside the noise. */
+/** Spread of each term on a logarithmic axis, with the NETD for comparison. */
 function termChart(terms, netd_mk) {
   const least = 0.1;
-  const told = `Spread of each term in millikelvin beside the NETD of ${figure(netd_mk)} mK`;
+  const description = `Spread of each term in millikelvin beside the NETD of ${figure(netd_mk)} mK`;
   const settings = () => ({
     type: "bar",
     data: {
@@ -173,5 +173,5 @@ function termChart(terms, netd_mk) {
     },
     plugins: [markLines([{ place: netd_mk, text: "NETD" }])],
   });
-  return chart(told, settings, 110 + 30 * terms.length);
+  return chart(description, settings, 110 + 30 * terms.length);
 }

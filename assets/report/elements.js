@@ -1,5 +1,5 @@
 "use strict";
-// Makes elements. Whatever comes from the figures becomes text nodes or attributes, never markup.
+// Creates elements. Values from the figures become text nodes or attributes, never markup.
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -26,7 +26,7 @@ const distinct = (values) => [...new Set(values)];
 const shortened = (text) => (text.length > 16 ? `${text.slice(0, 15)}\u2026` : text);
 const listed = (names) => (names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`);
 
-/** A number with about three digits, without an exponent where that can be. */
+/** A number with about three digits, without an exponent if possible. */
 function figure(value) {
   const size = Math.abs(value);
   if (size > 0 && (size < 1e-3 || size >= 1e7)) return value.toExponential(1);
@@ -54,7 +54,7 @@ function pairs(entries) {
     known.map(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
 }
 
-/** columns: {name, text?, wrap?}; rows: lists of cells (strings or nodes), or {bad, cells}. It scrolls in itself. */
+/** A scrollable table. columns: {name, text?, wrap?}; rows: lists of cells (strings or nodes), or {bad, cells}. */
 function table(label, columns, rows) {
   const kind = ({ text, wrap }) => [text && "text", wrap && "wrap"].filter(Boolean).join(" ") || undefined;
   const cells = (row) => row.cells ?? row;

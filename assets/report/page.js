@@ -1,4 +1,4 @@
-// Puts the page together.
+// Assembles the page.
 
 function showPage(figures) {
   const ours = figures.record !== undefined;

@@ -1,4 +1,4 @@
-// Pictures: sample frames with boxes, where boxes are, and the map with flights.
+// Pictures: sample frames with boxes, the heat map of boxes, and the map with flights.
 
 // --- frames
 
@@ -29,14 +29,14 @@ function frameFigure(frame, categories) {
     frame.boxes.map((box) => boxShapes(box, categories)));
   const name = `${frame.video}, frame ${frame.frame}`;
   const button = element("button", { type: "button", class: "frame", "aria-expanded": "false", "aria-label": `Enlarge ${name}: ${counted(frame.boxes.length, "label")}` }, picture, overlay);
-  const told = frame.boxes.length > 0 ? counted(frame.boxes.length, "label") : "no labels";
+  const labels = frame.boxes.length > 0 ? counted(frame.boxes.length, "label") : "no labels";
   const whole = element("figure", {}, button,
-    element("figcaption", {}, element("b", {}, frame.video), ` frame ${count(frame.frame)}`, element("br"), frame.why === "no labels" ? told : `${told} (${frame.why})`));
+    element("figcaption", {}, element("b", {}, frame.video), ` frame ${count(frame.frame)}`, element("br"), frame.why === "no labels" ? labels : `${labels} (${frame.why})`));
   button.addEventListener("click", () => button.setAttribute("aria-expanded", String(whole.classList.toggle("wide"))));
   return whole;
 }
 
-/** Which frames are shown; of many clips there are fewer of each, or of some none. */
+/** Describes which frames are shown; with many clips, there are fewer of each, and none of some. */
 function whichFrames(frames, clips) {
   const shown = distinct(frames.map((frame) => frame.video)).length;
   const whose = shown < clips ? `Of ${shown} of the ${clips} clips` : "Of each clip";
@@ -52,14 +52,14 @@ function framesSection({ samples, labels }) {
   const keys = seriesKeys(labels.categories).filter((_, k) => present.has(k));
   if (samples.frames.some((frame) => frame.boxes.some((box) => box.ignore))) keys.push({ name: "ignored", dashed: true });
   return section("frames", "Frames",
-    element("p", { class: "soft" }, `${whichFrames(samples.frames, labels.videos.length)} Choose one to enlarge it; boxes tell more when pointed at.`),
+    element("p", { class: "soft" }, `${whichFrames(samples.frames, labels.videos.length)} Click a frame to enlarge it; point at a box for details.`),
     samples.missing.length > 0 ? element("p", { class: "notice" }, `${counted(samples.missing.length, "picture")} could not be read: ${listed(samples.missing)}.`) : null,
     samples.frames.length > 0 ? [element("label", { class: "switch" }, shown, "Show boxes"), legend(keys), grid] : null);
 }
 
 // --- where boxes are
 
-// Black through violet and orange to pale yellow, brighter at every step.
+// From black through violet and orange to pale yellow, with increasing brightness.
 const RAMP = [[0, 0, 4], [60, 9, 101], [139, 34, 105], [212, 72, 66], [251, 155, 6], [252, 255, 164]];
 
 function rampColour(share) {
@@ -69,7 +69,7 @@ function rampColour(share) {
   return `rgb(${mix.join(" ")})`;
 }
 
-/** Share of all that boxes cover that is in the middle ninth of the picture. */
+/** Share of the area covered by boxes that is in the middle ninth of the picture. */
 function middleShare({ columns, rows, boxes_over }) {
   const inMiddle = (cell, cells) => cell + 0.5 > cells / 3 && cell + 0.5 < (2 * cells) / 3;
   const all = boxes_over.reduce((sum, value) => sum + value, 0);
@@ -80,22 +80,22 @@ function middleShare({ columns, rows, boxes_over }) {
 function heatSection({ heat, labels }) {
   const title = "Where boxes are";
   if (labels === 0) return section("places", title, element("p", {}, "There are no labels."));
-  if (heat.boxes_over === undefined) return section("places", title, element("p", {}, "The labels do not tell how large the pictures are."));
+  if (heat.boxes_over === undefined) return section("places", title, element("p", {}, "The labels do not state the size of the pictures."));
   const most = Math.max(...heat.boxes_over);
   const cells = heat.boxes_over.map((value, k) => shape("rect", { x: k % heat.columns, y: Math.floor(k / heat.columns), width: 1, height: 1, fill: rampColour(value / most) },
     shape("title", {}, `${figure(value)} boxes on average`)));
   const steps = 48;
   const ramp = Array.from({ length: steps }, (_, k) => shape("rect", { x: k, width: 1.1, height: 1, fill: rampColour(k / (steps - 1)) }));
   return section("places", title,
-    element("p", { class: "soft" }, `How many boxes lie over each spot of the picture, on average over all pictures. ${percent(middleShare(heat))} of what they cover is in the middle ninth; spread evenly it would be ${percent(1 / 9)}.`),
+    element("p", { class: "soft" }, `The number of boxes that cover each part of the picture, averaged over all pictures. ${percent(middleShare(heat))} of the covered area is in the middle ninth; for an even distribution it would be ${percent(1 / 9)}.`),
     element("div", { class: "card heat" },
       shape("svg", { viewBox: `0 0 ${heat.columns} ${heat.rows}`, role: "img", "aria-label": "Heat map of boxes over the picture", "shape-rendering": "crispEdges" }, cells),
       element("div", { class: "ramp" }, "0", shape("svg", { viewBox: `0 0 ${steps} 1`, preserveAspectRatio: "none", "aria-hidden": "true", "shape-rendering": "crispEdges" }, ramp), `${figure(most)} boxes`)));
 }
 
-// --- flights over the map: x east, y north, so y is turned round
+// --- flights over the map: x east, y north, so the sign of y changes
 
-// Dark and light ones by turns, all clear of the map's greens on a white casing.
+// Alternately dark and light, all distinct from the map's greens on a white casing.
 const TRACKS = ["#0072b2", "#d55e00", "#101010", "#aa3377", "#009e73", "#8c510a", "#5b2a86"];
 
 const pointsOf = (points) => points.map(([x, y]) => `${x},${-y}`).join(" ");
@@ -112,7 +112,7 @@ function trackShapes({ points_m: points, seen_m: seen, clip }, own, showSeen, si
   ];
 }
 
-/** A square that holds all tracks. */
+/** A square that contains all tracks. */
 function windowRound(tracks) {
   const [x, y] = [0, 1].map((axis) => tracks.flatMap((track) => track.points_m.map((point) => point[axis])));
   const [west, east, south, north] = [Math.min(...x), Math.max(...x), Math.min(...y), Math.max(...y)];
@@ -135,9 +135,9 @@ function scaleBar({ side_m }) {
   return bar;
 }
 
-function mapOf(ground, told, ...shapes) {
+function mapOf(ground, description, ...shapes) {
   return element("div", { class: "map" },
-    shape("svg", { viewBox: viewOf(ground), role: "img", "aria-label": told }, groundOf(ground), shapes),
+    shape("svg", { viewBox: viewOf(ground), role: "img", "aria-label": description }, groundOf(ground), shapes),
     scaleBar(ground), element("div", { class: "north", "aria-hidden": "true" }, "N", element("br"), "\u2191"));
 }
 
@@ -146,7 +146,7 @@ function frameOf({ west_m, south_m, side_m }) {
   return [shape("rect", { ...place, class: "place dark" }), shape("rect", { ...place, class: "place" })];
 }
 
-/** A colour for each track: its own, or its season's where there are many. */
+/** A colour for each track: its own, or that of its season if there are many. */
 function trackColours(tracks, seasons) {
   if (tracks.length <= TRACKS.length) return tracks.map((track, k) => ({ name: track.clip, colour: TRACKS[k] }));
   return tracks.map((track) => (seasons.get(track.clip) === "summer" ? { name: "summer", colour: TRACKS[1] } : { name: "winter", colour: TRACKS[0] }));
@@ -165,7 +165,7 @@ function flightsSection({ flights, record }) {
     ? element("figure", {}, mapOf(flights.map.place, "The whole place", frameOf(ground)), element("figcaption", {}, `The whole place, ${figure(flights.map.place.side_m / 1000)} km wide; the frame marks the other map.`))
     : null;
   return section("flights", "Flights",
-    element("p", { class: "soft" }, `Where the camera flew, from the dot on${showSeen ? "; dashed: the ground it saw halfway, taken as level" : ""}. ${flights.map.window ? "Green is densely grown, pale is open, blue is water." : ""}`),
+    element("p", { class: "soft" }, `The path of the camera, starting at the dot${showSeen ? "; dashed: the ground in view halfway, assumed to be level" : ""}. ${flights.map.window ? "Green: dense vegetation; pale: open ground; blue: water." : ""}`),
     flights.map.absent ? element("p", { class: "notice" }, flights.map.absent) : null,
     element("div", { class: place ? "maps" : "maps alone" }, close, place));
 }

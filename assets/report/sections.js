@@ -1,14 +1,15 @@
-// The sections made of words, tables and charts.
+// The sections with text, tables and charts.
 
 const madeClips = (record) => record.clips.filter((clip) => clip.status === "done");
 const missingClips = (record) => record.clips.filter((clip) => clip.status !== "done");
 
-// --- what it is
+// --- overview
 
 function sensorFacts({ sensor, camera }) {
   if (!sensor) return [];
-  const field = (size_px) => (2 * Math.atan((0.5 * size_px * camera.pixel_pitch_um * 1e-6) / camera.focal_length_m) * 180) / Math.PI;
-  const flown = camera?.focal_length_m ? `${figure(camera.focal_length_m * 1000)} mm, ${figure(field(camera.width_px))}\u00b0 wide` : undefined;
+  const field = ({ width_px, fx_px = camera.focal_length_m / (camera.pixel_pitch_um * 1e-6), cx_px = width_px / 2 }) =>
+    ((Math.atan(cx_px / fx_px) + Math.atan((width_px - cx_px) / fx_px)) * 180) / Math.PI;
+  const flown = camera?.focal_length_m ? `${figure(camera.focal_length_m * 1000)} mm, ${figure(field(camera))}\u00b0 wide` : undefined;
   return [["Sensor", sensor.preset], ["Model", sensor.model ?? "published"], ["Response", sensor.response],
     ["NETD", sensor.netd_mk === undefined ? undefined : `${figure(sensor.netd_mk)} mK`], ["Lens", flown]];
 }
@@ -21,9 +22,9 @@ function lengthOf(labels) {
 function unfinishedNotice(record) {
   const missing = missingClips(record);
   if (missing.length === 0) return null;
-  const told = missing.slice(0, 8).map((clip) => `${clip.id} (${clip.status}${clip.reason ? `: ${clip.reason}` : ""})`);
+  const names = missing.slice(0, 8).map((clip) => `${clip.id} (${clip.status}${clip.reason ? `: ${clip.reason}` : ""})`);
   return element("p", { class: "notice", role: "status" },
-    `This dataset is unfinished: ${missing.length} of ${counted(record.clips.length, "clip")} ${missing.length === 1 ? "is" : "are"} not made: ${listed(told)}${missing.length > told.length ? " \u2026" : ""}. All figures are of the others.`);
+    `This dataset is unfinished: ${missing.length} of ${counted(record.clips.length, "clip")} ${missing.length === 1 ? "is" : "are"} missing: ${listed(names)}${missing.length > names.length ? " \u2026" : ""}. All figures describe the other clips.`);
 }
 
 function overview({ name, labels, record }) {
@@ -53,35 +54,35 @@ function countsSection({ labels }) {
   if (categories.length === 0) return section("labels", "Labels", element("p", {}, "There are no labels."));
   const parts = SIZES.map((size) => ({ name: size, colour: size, values: counts.map((entry) => entry[size]) }));
   const columns = [{ name: "category", text: true }, ...[...SIZES, "all", "tracks", "cut by border", "occluded", "noisy", "ignored"].map((name) => ({ name }))];
-  const row = (entry) => [...SIZES.map((size) => entry[size]), entry.small + entry.medium + entry.large, entry.tracks, entry.truncated, entry.occluded, entry.noisy, entry.ignored].map((value) => (value === null ? "not told" : count(value)));
+  const row = (entry) => [...SIZES.map((size) => entry[size]), entry.small + entry.medium + entry.large, entry.tracks, entry.truncated, entry.occluded, entry.noisy, entry.ignored].map((value) => (value === null ? "unknown" : count(value)));
   const total = Object.fromEntries(Object.keys(counts[0]).map((key) => [key, counts.some((entry) => entry[key] !== null) ? counts.reduce((sum, entry) => sum + entry[key], 0) : null]));
-  const told = categories.map((name, k) => `${words(name)} ${SIZES.map((size) => `${counts[k][size]} ${size}`).join(", ")}`).join("; ");
+  const sizes = categories.map((name, k) => `${words(name)} ${SIZES.map((size) => `${counts[k][size]} ${size}`).join(", ")}`).join("; ");
   return section("labels", "Labels",
-    element("p", { class: "soft" }, "Sizes are of whole tracks, by the mean area of their boxes: small below 200 px, large above 2,000 px (Bondi et al. 2018)."),
-    element("div", { class: "card" }, rowsOfBars(`Labels by category and size: ${told}`, categories.map((name) => shortened(words(name))), parts, "labels")),
+    element("p", { class: "soft" }, "Size classes apply to whole tracks, by the mean area of their boxes: small below 200 px, large above 2,000 px (Bondi et al. 2018)."),
+    element("div", { class: "card" }, rowsOfBars(`Labels by category and size: ${sizes}`, categories.map((name) => shortened(words(name))), parts, "labels")),
     table("Labels by category", columns, [...categories.map((name, k) => [words(name), ...row(counts[k])]), ["all", ...row(total)]]),
     labels.unused_categories.length > 0 ? element("p", { class: "under" }, `Without labels: ${listed(labels.unused_categories.map(words))}.`) : null);
 }
 
-/** What is said of each quantity; marks and notes come from the config the dataset was made of. */
+/** Title, unit and texts of each quantity; marks and notes come from the config of the dataset. */
 function quantities({ sensor, labels: bounds } = {}, ours) {
-  const old = (what) => (ours ? `No label tells its ${what}: it was not measured when this dataset was made.` : `These labels do not tell ${what}.`);
+  const old = (what) => (ours ? `No label has a value for ${what}: it was not measured when this dataset was made.` : `These labels do not include ${what}.`);
   const visible = bounds ? [{ value: bounds.occluded_below_visibility, text: "occluded below" }, { value: bounds.ignore_below_visibility, text: "ignored below" }].filter(({ value }) => value > 0) : [];
   return {
-    area_px: { title: "Area of boxes", unit: "px", logarithmic: true, marks: [{ value: 200, text: "200 px" }, { value: 2000, text: "2,000 px" }], absent: "There are no labels.", note: "Dashed: where the size classes part." },
-    visibility: { title: "Visibility", unit: "share that nothing hides", say: percent, marks: visible, absent: ours ? "No label tells its visibility: that takes the actor layer of the passes (render.actor_layer), which this dataset was made without." : old("visibility") },
+    area_px: { title: "Area of boxes", unit: "px", logarithmic: true, marks: [{ value: 200, text: "200 px" }, { value: 2000, text: "2,000 px" }], absent: "There are no labels.", note: "Dashed: boundaries of the size classes." },
+    visibility: { title: "Visibility", unit: "visible share", say: percent, marks: visible, absent: ours ? "No label has a value for visibility: measuring it needs the actor layer of the passes (render.actor_layer), which this dataset does not have." : old("visibility") },
     contrast_k: { title: "Contrast against the surroundings", unit: "K", absent: old("contrast") },
-    contrast_noise: { title: "Contrast beside the noise", unit: "times the noise of a pixel", say: (value) => `${figure(value)} times`, marks: [{ value: 1, text: "noise" }], absent: old("contrast"), note: sensor ? `The noise of this sensor: NETD ${figure(sensor.netd_mk)} mK.` : undefined },
-    range_m: { title: "Range", unit: "m", absent: ours ? "No label tells its range: that takes depth in the passes." : old("range") },
+    contrast_noise: { title: "Contrast relative to noise", unit: "times the noise of a pixel", say: (value) => `${figure(value)} times`, marks: [{ value: 1, text: "noise" }], absent: old("contrast"), note: sensor ? `The noise of this sensor: NETD ${figure(sensor.netd_mk)} mK.` : undefined },
+    range_m: { title: "Range", unit: "m", absent: ours ? "No label has a value for range: measuring it needs depth in the passes." : old("range") },
     temperature_k: { title: "Apparent temperature", unit: "K", absent: old("temperature") },
   };
 }
 
 function histogramsSection({ labels, record }) {
-  const told = quantities(record?.config, record !== undefined);
-  const entries = Object.entries(told).map(([key, quantity]) => ({ quantity, histogram: labels.histograms[key] }));
+  const described = quantities(record?.config, record !== undefined);
+  const entries = Object.entries(described).map(([key, quantity]) => ({ quantity, histogram: labels.histograms[key] }));
   const absent = distinct(entries.filter(({ histogram }) => histogram.known === 0).map(({ quantity }) => quantity.absent));
-  return section("distributions", "Distributions", element("p", { class: "soft" }, "Of all labels, by category; ignored ones count too."),
+  return section("distributions", "Distributions", element("p", { class: "soft" }, "All labels by category, including ignored ones."),
     legend(seriesKeys(labels.categories)),
     element("div", { class: "grid" }, entries.filter(({ histogram }) => histogram.known > 0).map(({ histogram, quantity }) => histogramCard(histogram, labels.categories, quantity))),
     absent.map((sentence) => element("p", { class: "under absent" }, sentence)));
@@ -111,27 +112,27 @@ function clipsSection({ labels, record, flights }) {
 // --- physics
 
 const TERMS = {
-  variation: "temperature of ground and plants differs from spot to spot",
-  parts: "parts of a body have temperatures of their own",
-  sky: "surfaces reflect the sky and what is round them",
-  angular: "emissivity falls off towards grazing view",
-  path: "air between surface and camera takes and adds radiance",
-  falloff: "the lens gathers less light off its axis, so noise rises there",
+  variation: "the temperature of ground and plants varies in space",
+  parts: "parts of a body have their own temperatures",
+  sky: "surfaces reflect the sky and their surroundings",
+  angular: "emissivity decreases towards grazing angles",
+  path: "air between surface and camera absorbs and emits radiance",
+  falloff: "the lens gathers less light off axis, so noise increases there",
 };
 
 function physicsSection({ record }) {
   const { physics, config } = record;
   const terms = physics?.terms ?? [];
   const published = (config.sensor?.model ?? "published") === "published";
-  if (terms.length === 0) return section("physics", "Physics", element("p", {}, "The dataset does not say which physical terms it holds."));
+  if (terms.length === 0) return section("physics", "Physics", element("p", {}, "The dataset does not state which physical terms it includes."));
   const rows = terms.map((term) => [words(term.term), TERMS[term.term] ?? "", term.choice, figure(term.spread_mk), figure(term.actor_shift_mk), term.kept ? "kept" : "dropped"]);
   const columns = [{ name: "term", text: true }, { name: "what it adds", text: true, wrap: true }, { name: "choice", text: true }, { name: "spread, mK" }, { name: "largest on an actor, mK" }, { name: "outcome", text: true }];
   const words_of = published
-    ? "The published model: emission of surfaces alone, at one temperature a material. Below is what each term would have added."
-    : `A term left to Veldt is kept if what it changes differs across the pictures by more than a third of the NETD. Dropped in all: ${figure(physics.dropped_mk)} mK.`;
+    ? "The published model: emission only, with one temperature per material. The table shows what each term would have added."
+    : `An automatic term is kept if its effect varies across the pictures by more than a third of the NETD. Total of the dropped terms: ${figure(physics.dropped_mk)} mK.`;
   const weighed = terms.some((term) => term.spread_mk > 0);
   return section("physics", "Physics", element("p", { class: "soft" }, words_of),
-    weighed ? element("div", { class: "card" }, termChart(terms, config.sensor?.netd_mk ?? 40)) : element("p", {}, "None of the terms would change these pictures, as far as their manifests tell, so there is no chart of them."),
+    weighed ? element("div", { class: "card" }, termChart(terms, config.sensor?.netd_mk ?? 40)) : element("p", {}, "According to the manifests, none of the terms would change these pictures, so there is no chart."),
     table("Physical terms", columns, rows));
 }
 
@@ -146,9 +147,9 @@ function provenanceSection({ record }) {
       ["Made by", `Veldt ${record.veldt_version ?? "of an unknown version"}`],
       ["Status", record.status],
       ["Seed", String(config.seed)],
-      ["Pixels, SHA-256", element("code", {}, record.pixels_sha256 ?? "not told")],
-      ["Labels, SHA-256", element("code", {}, record.annotations_sha256 ?? "not told")],
-      ["To make it again", element("span", {}, "save the config below as config.json, then ", element("code", {}, command))],
+      ["Pixels, SHA-256", element("code", {}, record.pixels_sha256 ?? "unknown")],
+      ["Labels, SHA-256", element("code", {}, record.annotations_sha256 ?? "unknown")],
+      ["To reproduce it", element("span", {}, "save the config below as config.json, then run ", element("code", {}, command))],
     ]),
     folded("The whole config, with all defaults", element("pre", { tabindex: "0" }, JSON.stringify(config, null, 2))));
 }

@@ -1,1 +1,1 @@
-"""Plans a Veldt scene: pure Python and numpy, no bpy, the same answer on every machine."""
+"""Scene planning for Veldt: pure Python and NumPy, without bpy; results are the same on every machine."""

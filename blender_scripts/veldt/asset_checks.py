@@ -1,4 +1,4 @@
-"""What the files of species, plants and materials must have; faults name the file and the key."""
+"""Checks of species, plant and material files; faults name the file and the key."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterator
 
 from .faults import ConfigError, check_known, did_you_mean, listing
 
-# By kind: keys every file has, and what they are. Materials are checked against their schema by `veldt`.
+# By kind: the keys that every file has, and what they are. `veldt` checks materials against their schema.
 _TEXT, _NUMBER, _PAIR, _TABLE, _COUNT = (
     "text",
     "a number",
@@ -35,7 +35,7 @@ _KEYS = {
     },
     "materials": {"emissivity": _NUMBER, "winter_k": _NUMBER, "summer_k": _NUMBER, "source": _TEXT},
 }
-_PLAIN_PARTS = ("head", "torso")  # may have no entry in the material: they have its own temperature
+_PLAIN_PARTS = ("head", "torso")  # need no entry in the material: they use its own temperature
 _DRAWN = {"gait": _TABLE, "bones": _TABLE}
 _STANDING = {"form": _TEXT, "variants": _COUNT, "height_m": _NUMBER, "crown_diameter_m": _NUMBER}
 _FOLIAGE = ("crown_thickness_m", "trunk_radius_m", "clumps", "leaves", "leaf_m")
@@ -65,7 +65,7 @@ _IS: dict[str, Callable] = {
 
 
 def check(where: str, kind: str, data: dict) -> None:
-    """ConfigError if the content of the file `where`, of a kind of assets, lacks something."""
+    """Raise ConfigError if the content of the file `where`, an asset of the given kind, lacks something."""
     _check_keys(f"{where}: ", data, _KEYS.get(kind, {}))
     if kind == "species":
         _check_species(where, data)
@@ -74,7 +74,7 @@ def check(where: str, kind: str, data: dict) -> None:
 
 
 def check_parts(where: str, data: dict, parts: Collection[str]) -> None:
-    """ConfigError if a drawn species has a part that its material, with these parts, knows no temperature of."""
+    """Raise ConfigError if a drawn species has a part for which its material, with `parts`, has no temperature."""
     for name, bone in data.get("bones", {}).items():
         for k, shape in enumerate(bone["shapes"]):
             check_known(
@@ -114,7 +114,7 @@ def _check_species(where: str, data: dict) -> None:
 
 
 def _bones_named(data: dict) -> Iterator[tuple[str, str]]:
-    """Every place of a species file that names a bone, and the name."""
+    """Every position in a species file that names a bone, with the name."""
     for name, bone in data["bones"].items():
         yield from ((f"bones.{name}.parent", bone[key]) for key in ("parent",) if key in bone)
     for k, leg in enumerate(data.get("legs", [])):

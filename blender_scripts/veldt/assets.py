@@ -1,4 +1,4 @@
-"""Reads what species and plants are from `assets/`."""
+"""Read species and plants from `assets/`."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from .faults import ConfigError, check_known
 
 @lru_cache(maxsize=None)
 def names(kind: str) -> tuple[str, ...]:
-    """Names of all files of a kind, `species` or `plants`, in order."""
+    """Names of all files of a kind, `species` or `plants`, sorted."""
     return tuple(sorted(path.stem for path in _folder(kind).glob("*.json")))
 
 
 @lru_cache(maxsize=None)
 def load(kind: str, name: str) -> dict:
-    """One file's content; callers must not change it. ConfigError if it cannot be read, or lacks something.
+    """The content of one file, which callers must not modify. ConfigError if it cannot be read or is incomplete.
 
-    A `model` comes with its defaults, its file's whole path and its size; plants with one have a single variant.
+    A `model` comes with its defaults, the full path of its file and its size; plants with a model have one variant.
     """
     where = f"assets/{kind}/{name}.json"
     data = _read(where, _folder(kind) / f"{name}.json")

@@ -14,27 +14,43 @@ from .faults import ConfigError
 
 @dataclass(frozen=True)
 class Intrinsics:
-    """Size and focal lengths in pixels; the principal point is the middle of the picture."""
+    """Size, focal lengths along x and y, and principal point, all in pixels."""
 
     width_px: int
     height_px: int
-    f_px: float
+    focal_px: tuple[float, float]
+    centre_px: tuple[float, float]
 
-    @property
-    def centre_px(self) -> tuple[float, float]:
-        return self.width_px / 2, self.height_px / 2
+
+def centred(width_px: int, height_px: int, f_px: float) -> Intrinsics:
+    """A camera with square pixels and the principal point in the middle of the picture."""
+    return Intrinsics(width_px, height_px, (f_px, f_px), (width_px / 2, height_px / 2))
 
 
 def intrinsics_of(settings: dict) -> Intrinsics:
-    """Intrinsics of the config's `camera`: f_px = focal length / pixel pitch."""
-    f_px = settings["focal_length_m"] / (settings["pixel_pitch_um"] * 1e-6)
-    return Intrinsics(settings["width_px"], settings["height_px"], f_px)
+    """Intrinsics of the config's `camera`, as thermal_core/io/lens_config has them.
+
+    Where they are not given, fx_px = focal length / pixel pitch, fy_px = fx_px and the middle of the picture.
+    ConfigError if it names a calibration: `veldt` puts that file's numbers in its place before it starts Blender.
+    """
+    if "calibration" in settings:
+        raise ConfigError(
+            f'camera.calibration = "{settings["calibration"]}"; expected its numbers, which veldt fills in'
+        )
+    width_px, height_px = settings["width_px"], settings["height_px"]
+    fx_px = settings.get("fx_px", settings["focal_length_m"] / (settings["pixel_pitch_um"] * 1e-6))
+    return Intrinsics(
+        width_px,
+        height_px,
+        (fx_px, settings.get("fy_px", fx_px)),
+        (settings.get("cx_px", width_px / 2), settings.get("cy_px", height_px / 2)),
+    )
 
 
 def overscan_of(config: dict) -> int:
     """How many px a config's passes reach beyond the picture on every side, for the lens to draw on.
 
-    ConfigError if the lens distorts and nobody has worked it out: `veldt` does, before it starts Blender.
+    ConfigError if the lens distorts and the value is missing: `veldt` computes it before it starts Blender.
     """
     given_px = config["render"].get("overscan_px")
     if given_px is None and any(config["camera"]["distortion"].values()):
@@ -45,10 +61,35 @@ def overscan_of(config: dict) -> int:
 
 
 def widened(intrinsics: Intrinsics, overscan_px: int) -> Intrinsics:
-    """The same camera with so many pixels more on every side."""
+    """The same camera with additional pixels on every side."""
+    cx_px, cy_px = intrinsics.centre_px
     return Intrinsics(
-        intrinsics.width_px + 2 * overscan_px, intrinsics.height_px + 2 * overscan_px, intrinsics.f_px
+        intrinsics.width_px + 2 * overscan_px,
+        intrinsics.height_px + 2 * overscan_px,
+        intrinsics.focal_px,
+        (cx_px + overscan_px, cy_px + overscan_px),
     )
+
+
+def edge_tangents(intrinsics: Intrinsics) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Tangents of the angles from the axis outwards to the picture's edges: (left, top), (right, bottom)."""
+    (fx_px, fy_px), (cx_px, cy_px) = intrinsics.focal_px, intrinsics.centre_px
+    left, top = cx_px / fx_px, cy_px / fy_px
+    return (left, top), ((intrinsics.width_px - cx_px) / fx_px, (intrinsics.height_px - cy_px) / fy_px)
+
+
+def lens_shift(intrinsics: Intrinsics) -> tuple[float, float]:
+    """Blender's shift_x and shift_y: how far the picture's middle is right of and above the axis, over its width."""
+    (fx_px, fy_px), (cx_px, cy_px) = intrinsics.focal_px, intrinsics.centre_px
+    width_px, height_px = intrinsics.width_px, intrinsics.height_px
+    # Along y Blender counts in widths too, and pixels there are fx / fy as high as they are wide.
+    return (0.5 * width_px - cx_px) / width_px, (cy_px - 0.5 * height_px) * (fx_px / fy_px) / width_px
+
+
+def pixel_aspect(intrinsics: Intrinsics) -> tuple[float, float]:
+    """Blender's pixel_aspect_x and pixel_aspect_y, which are at least 1: a pixel is 1 / fx wide and 1 / fy high."""
+    fx_px, fy_px = intrinsics.focal_px
+    return max(fy_px / fx_px, 1.0), max(fx_px / fy_px, 1.0)
 
 
 def look(position_m: np.ndarray, bearing: np.ndarray, depression_rad: np.ndarray) -> np.ndarray:
@@ -79,5 +120,5 @@ def project(
     local = (points_m - position_m) @ rotation
     depth_m = local[..., 2]
     safe_m = np.where(depth_m > 0, depth_m, 1.0)
-    scaled = local[..., :2] * (intrinsics.f_px / safe_m)[..., None]
+    scaled = local[..., :2] * (np.array(intrinsics.focal_px) / safe_m[..., None])
     return scaled + np.array(intrinsics.centre_px), depth_m

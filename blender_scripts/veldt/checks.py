@@ -1,4 +1,4 @@
-"""Finds what a schema cannot: configs whose values are fine one by one but make no sense together."""
+"""Check what a schema cannot: configs whose values are valid one by one but contradict each other."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _LOOP_STEP_M = 1.0
 
 
 def check_names(config: dict) -> None:
-    """Everything named exists, and names that must differ do."""
+    """Check that everything named exists and that names are unique where they must be."""
     groups = config["scene"]["groups"]
     _check_unique([group["name"] for group in groups], "scene.groups[{}].name", "a name no other group has")
     _check_unique([clip["id"] for clip in config["clips"]], "clips[{}].id", "an id no other clip has")
@@ -35,7 +35,7 @@ def check_names(config: dict) -> None:
 
 
 def check_size(scene: dict) -> None:
-    """The place fits into a computer's memory."""
+    """Check that the place fits in memory."""
     size_m, cell_m = scene["terrain"]["size_m"], scene["terrain"]["cell_m"]
     if size_m > _MOST_CELLS * cell_m:
         raise ConfigError(
@@ -45,7 +45,7 @@ def check_size(scene: dict) -> None:
 
 
 def check_plants(scene: dict) -> None:
-    """Every species exists, some of it shall stand somewhere, and all of it fits into memory."""
+    """Check that every species exists, grows somewhere, and fits in memory."""
     size_m = scene["terrain"]["size_m"]
     most_per_ha = _MOST_PLANTS / (size_m**2 / 1e4)
     for name, wanted in scene["plants"].items():
@@ -61,7 +61,7 @@ def check_plants(scene: dict) -> None:
 
 
 def check_paths(scene: dict) -> None:
-    """Every path is either given corner by corner, or to be drawn about a centre."""
+    """Check that every path is either given by its corners or drawn around a centre."""
     for name, path in scene["paths"].items():
         where = f"scene.paths.{name}"
         if ("points_m" in path) == ("centre_m" in path):
@@ -69,14 +69,14 @@ def check_paths(scene: dict) -> None:
             raise ConfigError(f"{where}: {found}; expected points_m, or centre_m and radius_m")
         if "centre_m" in path and "radius_m" not in path:
             raise ConfigError(
-                f"{where}.radius_m is missing; expected how far from centre_m the loop shall be"
+                f"{where}.radius_m is missing; expected the mean distance of the loop from centre_m"
             )
         if name == ROAD:
             raise ConfigError(f'{where}; expected another name: "{ROAD}" is the road of scene.terrain')
 
 
 def check_road(terrain: dict, is_wet: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> None:
-    """A road given corner by corner is a loop that does not cross itself, on the place's dry ground."""
+    """Check that a road given by its corners is a loop on dry ground that does not cross itself."""
     if terrain["road"]["width_m"] <= 0 or "points_m" not in terrain["road"]:
         return
     where, loop = "scene.terrain.road.points_m", Loop(terrain["road"]["points_m"])
@@ -91,7 +91,7 @@ def check_road(terrain: dict, is_wet: Callable[[np.ndarray, np.ndarray], np.ndar
 
 
 def check_loops(scene: dict, loops: Mapping[str, Loop]) -> None:
-    """Loops have a length and do not cross themselves, and whoever walks on them stays on the terrain."""
+    """Check that loops have a length, do not cross themselves, and keep their walkers on the terrain."""
     for name, loop in loops.items():
         spread_m = max(
             (g.get("spread_m", 0.0) for g in scene["groups"] if g.get("path") == name), default=0.0
@@ -100,7 +100,7 @@ def check_loops(scene: dict, loops: Mapping[str, Loop]) -> None:
 
 
 def _targets(groups: list[dict]) -> dict[str, None]:
-    """Names a flight can follow: groups, and members of groups, all different."""
+    """Names that a flight can follow: groups and members of groups, all unique."""
     members = dict.fromkeys(name for group in groups for name in member_names(group))
     for k, group in enumerate(groups):
         if group["name"] in members:
@@ -119,7 +119,7 @@ def _check_unique(names: list[str], where: str, rule: str) -> None:
 
 
 def _check_loop(where: str, loop: Loop, spread_m: float, half_m: float) -> None:
-    """The loop has a length, stays on the terrain's square with all walkers, and does not cross itself."""
+    """Check that the loop has a length, keeps all walkers on the terrain's square, and does not cross itself."""
     if loop.length_m < _LEAST_LOOP_M:
         raise ConfigError(f"{where} = {loop.length_m:.1f} m long; expected at least {_LEAST_LOOP_M:.0f} m")
     _check_inside(where, loop, spread_m, half_m)
@@ -132,7 +132,7 @@ def _check_loop(where: str, loop: Loop, spread_m: float, half_m: float) -> None:
 
 
 def _check_inside(where: str, loop: Loop, spread_m: float, half_m: float) -> None:
-    """The loop, widened by the walkers' spread, within the terrain's square."""
+    """Check that the loop, widened by the walkers' spread, is within the terrain's square."""
     points, _ = loop.at(np.arange(0.0, loop.length_m, _LOOP_STEP_M))
     reach = np.abs(points).max(axis=1) + spread_m
     farthest = int(np.argmax(reach))

@@ -1,7 +1,6 @@
-"""Reads a dataset config and fills in the defaults its schema states.
+"""Read a dataset config and fill in the defaults stated in its schema.
 
-Types and ranges are checked by the `veldt` command against the same schema; what the values mean together is
-checked in `checks`.
+The `veldt` command checks types and ranges against the same schema; `checks` checks values against each other.
 """
 
 from __future__ import annotations

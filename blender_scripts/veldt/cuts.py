@@ -1,4 +1,4 @@
-"""Cuts long flights into clips, of what is worth keeping."""
+"""Cut long flights into clips, keeping the parts worth rendering."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ import numpy as np
 from .noise import stream
 
 _USUAL_S = 30.0  # of a clip
-_GAP_S = 2.0  # without actors, which is no reason to end a clip
+_GAP_S = 2.0  # a shorter stretch without actors does not end a clip
 
 Stretch = tuple[int, int]  # first frame, number of frames
 
 
 def cut(flight: dict, seen: np.ndarray, seed: int) -> list[Stretch]:
-    """The clips of a flight, in order: stretches of frames, none longer than clip_length_s.
+    """The clips of a flight, in order: ranges of frames, none longer than clip_length_s.
 
-    seen (n,): in which of its frames there is an actor. All frames, or those and as many others as `negatives` asks
-    for, as far as there are any; which, hangs on the seed and the flight's id.
+    seen (n,): the frames that contain an actor. Keeps all frames, or those with actors and, where available, as many
+    others as `negatives` asks for; the choice of these depends on the seed and the flight's id.
     """
     rate_hz = flight["frame_rate_hz"]
     longest = max(1, int(np.floor(flight.get("clip_length_s", _USUAL_S) * rate_hz + 1e-9)))
@@ -32,7 +32,7 @@ def cut(flight: dict, seen: np.ndarray, seed: int) -> list[Stretch]:
 
 
 def clips_of(flight: dict, stretches: list[Stretch]) -> list[dict]:
-    """The clips of a config that these stretches of a flight are."""
+    """The clips of a config for these stretches of a flight."""
     shared = {key: flight[key] for key in ("season", "frame_rate_hz", "flight")}
     return [
         {
@@ -47,7 +47,7 @@ def clips_of(flight: dict, stretches: list[Stretch]) -> list[dict]:
 
 
 def _parts(first: int, frames: int, longest: int) -> list[Stretch]:
-    """A stretch in as few parts as possible, as equal as can be."""
+    """A stretch split into as few parts as possible, of nearly equal length."""
     count = -(-frames // longest)
     ends = [first + frames * k // count for k in range(count + 1)]
     return [(begin, end - begin) for begin, end in zip(ends, ends[1:])]
@@ -59,7 +59,7 @@ def _runs(kept: np.ndarray) -> list[Stretch]:
 
 
 def _without_gaps(seen: np.ndarray, longest: int) -> np.ndarray:
-    """The same, with gaps between two frames with actors closed that are no longer than so many frames."""
+    """The same mask with gaps of at most the given number of frames between two frames with actors closed."""
     kept = seen.copy()
     for first, frames in _runs(~seen):
         if frames <= longest and first > 0 and first + frames < len(seen):
@@ -68,7 +68,7 @@ def _without_gaps(seen: np.ndarray, longest: int) -> np.ndarray:
 
 
 def _chosen(empty: list[Stretch], wanted: float, name: str, seed: int) -> list[Stretch]:
-    """Stretches picked at random until they have as many frames as wanted; the last one is shortened."""
+    """Stretches picked at random until they have the requested number of frames; the last one is shortened."""
     chosen, left = [], round(wanted)
     for k in stream(seed, "negatives", zlib.crc32(name.encode())).permutation(len(empty)):
         if left <= 0:

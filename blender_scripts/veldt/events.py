@@ -1,4 +1,4 @@
-"""Tells whoever started the renderer how it goes on: one JSON object a line."""
+"""Progress events for the process that started the renderer: one JSON object per line."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import os
 
 
 class Events:
-    """Writes events to an inherited file descriptor; without one it keeps quiet."""
+    """Writes events to an inherited file descriptor; without one, does nothing."""
 
     def __init__(self, fd: int | None):
         self._fd = fd
 
-    def tell(self, event: str, **fields) -> None:
-        """Writes one event whole, so that a reader never sees half a line for long."""
+    def report(self, event: str, **fields) -> None:
+        """Write one event completely, so that a reader never waits for the rest of a line."""
         if self._fd is not None:
             line = memoryview((json.dumps({"event": event, **fields}) + "\n").encode())
             while line:

@@ -1,6 +1,6 @@
-"""Tells whole EXR files from broken ones.
+"""Distinguish complete EXR files from truncated ones.
 
-Blender reports a file as saved even when the disk was full, so a frame is looked at before it gets its final name.
+Blender reports a file as saved even if the disk was full, so a frame is checked before it gets its final name.
 Layout: "OpenEXR File Layout", openexr.com; single-part scan-line files only, which is what Blender writes here.
 """
 
@@ -15,11 +15,11 @@ _LINES_PER_CHUNK = {0: 1, 1: 1, 2: 1, 3: 16}  # by compression code: none, RLE, 
 
 
 def is_whole(path: Path) -> bool:
-    """Whether the file has all its chunks of pixels, to the last byte. Their content is not unpacked."""
+    """Whether the file contains all of its pixel chunks, to the last byte. Chunks are not decompressed."""
     try:
         with open(path, "rb") as file:
             return _has_all_chunks(file, path.stat().st_size)
-    except (OSError, struct.error, KeyError, UnicodeDecodeError):  # too short, or no such header
+    except (OSError, struct.error, KeyError, UnicodeDecodeError):  # too short, or an invalid header
         return False
 
 
@@ -41,7 +41,7 @@ def _has_all_chunks(file: BinaryIO, size_bytes: int) -> bool:
 
 
 def read_header(file: BinaryIO) -> dict[str, bytes]:
-    """Attributes by name, from behind the first 8 bytes on; each is stored as name, type, size and value."""
+    """Attributes by name, starting after the first 8 bytes; each is stored as name, type, size and value."""
     header = {}
     while name := _read_word(file):
         _read_word(file)
@@ -51,5 +51,5 @@ def read_header(file: BinaryIO) -> dict[str, bytes]:
 
 
 def _read_word(file: BinaryIO) -> str:
-    """Text up to a zero byte, or up to the file's end."""
+    """Text up to a zero byte or the end of the file."""
     return b"".join(iter(lambda: file.read(1).rstrip(b"\0"), b"")).decode("ascii")

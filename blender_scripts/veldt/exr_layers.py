@@ -1,6 +1,6 @@
-"""Gives a frame's EXR file one more layer: the object index of actors alone.
+"""Add a layer to a frame's EXR file: the object index of actors alone.
 
-For files as Blender writes them here without compression: one part, lines from the top, channels of 32-bit floats.
+Reads the uncompressed files that Blender writes here: one part, increasing y, channels of 32-bit floats.
 Layout: "OpenEXR File Layout", openexr.com.
 """
 
@@ -14,7 +14,7 @@ import numpy as np
 
 from .exr_files import read_header
 
-_KEPT = {  # attributes that every file must have, and their types
+_KEPT = {  # required attributes and their types
     "dataWindow": "box2i",
     "displayWindow": "box2i",
     "lineOrder": "lineOrder",
@@ -28,7 +28,7 @@ _LEFT_OUT = ".Combined."  # the picture itself, which is black
 
 @dataclass(frozen=True)
 class Layers:
-    """A file's first bytes and header, and its channels (lines, columns) by name."""
+    """A file's magic number, version and header, and its channels (lines, columns) by name."""
 
     beginning: bytes
     header: dict[str, bytes]
@@ -36,7 +36,7 @@ class Layers:
 
 
 def add_layer(frame: Path, channel: str, other: Path | None, of_other: str, to: Path) -> None:
-    """Writes a frame to another file, with one more channel: that of another frame, or 0 everywhere without one."""
+    """Copy a frame to another file, adding the channel of a second frame, or a channel of 0 without one."""
     layers = read_layers(frame)
     channels = {name: plane for name, plane in layers.channels.items() if _LEFT_OUT not in name}
     added = read_layers(other).channels[of_other] if other else np.zeros_like(next(iter(channels.values())))
@@ -57,7 +57,7 @@ def read_layers(path: Path) -> Layers:
 
 
 def write_layers(path: Path, layers: Layers) -> None:
-    """The opposite of `read_layers`; attributes that files need not have are left out."""
+    """The inverse of `read_layers`; optional attributes are left out."""
     names = sorted(layers.channels)
     lines, columns = layers.channels[names[0]].shape
     data = np.empty(lines, _line(len(names), columns))

@@ -1,7 +1,7 @@
-"""Which number stands for what in the index planes.
+"""Object and material indices of the index planes.
 
-Object index 0 is sky. Ground and water have one index each, every plant species one, every actor its own, the same in
-all clips of a dataset: it is the actor's track id.
+Object index 0 is sky. Ground, water and every plant species have one index each. Every actor has its own, which is the
+same in all clips of a dataset and serves as the actor's track id.
 """
 
 from __future__ import annotations
@@ -16,24 +16,24 @@ LAST = 32767  # Blender clamps a larger pass_index silently
 
 def plan_indices(actor_names: Sequence[str]) -> dict[str, int]:
     """Index of each actor, counted up from FIRST_ACTOR in the order given; ConfigError past LAST."""
-    room = LAST - FIRST_ACTOR + 1
-    if len(actor_names) > room:
+    most = LAST - FIRST_ACTOR + 1
+    if len(actor_names) > most:
         raise ConfigError(
-            f"scene.groups = {len(actor_names)} actors; expected at most {room}, one object index each"
+            f"scene.groups = {len(actor_names)} actors; expected at most {most}, one object index each"
         )
     return {name: FIRST_ACTOR + k for k, name in enumerate(actor_names)}
 
 
 def plan_plant_indices(plant_names: Sequence[str]) -> dict[str, int]:
     """Index of each plant species, counted up from FIRST_PLANT in the order given; ConfigError past FIRST_ACTOR."""
-    room = FIRST_ACTOR - FIRST_PLANT
-    if len(plant_names) > room:
+    most = FIRST_ACTOR - FIRST_PLANT
+    if len(plant_names) > most:
         raise ConfigError(
-            f"scene.plants = {len(plant_names)} species; expected at most {room}, one object index each"
+            f"scene.plants = {len(plant_names)} species; expected at most {most}, one object index each"
         )
     return {name: FIRST_PLANT + k for k, name in enumerate(plant_names)}
 
 
 def plan_material_indices(pairs: Sequence[tuple[str, str]]) -> dict[tuple[str, str], int]:
-    """Index of each (material, part), part empty for what has none, counted up from 1 in order of first mention."""
+    """Index of each (material, part), with an empty part for surfaces without parts, from 1 in order of first use."""
     return {pair: 1 + k for k, pair in enumerate(dict.fromkeys(pairs))}

@@ -1,4 +1,4 @@
-"""The JSON beside a clip's passes: what their numbers mean, and where everything was.
+"""The manifest beside a clip's passes: the meaning of their indices, and camera and actor poses per frame.
 
 Contract: configs/schema/manifest.schema.json.
 """
@@ -49,7 +49,7 @@ def build_manifest(world: World, clip: dict) -> dict:
 
 
 def to_json(manifest: dict) -> str:
-    """The manifest as text, the same bytes for the same manifest; one frame a line."""
+    """The manifest as text, deterministic, with one frame per line."""
     frames = ",\n".join("  " + json.dumps(frame) for frame in manifest["frames"])
     head = json.dumps({**manifest, "frames": []}, indent=1)
     return head[: head.rindex("[]")] + f"[\n{frames}\n ]\n}}\n"
@@ -57,19 +57,19 @@ def to_json(manifest: dict) -> str:
 
 def _camera(world: World) -> dict:
     intrinsics = world.intrinsics
-    cx_px, cy_px = intrinsics.centre_px
+    (fx_px, fy_px), (cx_px, cy_px) = intrinsics.focal_px, intrinsics.centre_px
     return {
         "width_px": intrinsics.width_px,
         "height_px": intrinsics.height_px,
-        "fx_px": intrinsics.f_px,
-        "fy_px": intrinsics.f_px,
+        "fx_px": fx_px,
+        "fy_px": fy_px,
         "cx_px": cx_px,
         "cy_px": cy_px,
     }
 
 
 def _place(world: World) -> list[dict]:
-    """Ground, water and plants, as far as the scene has them."""
+    """Ground, and the water and plants of the scene, if any."""
     place = [{"index": ids.GROUND, "name": "ground", "class": "ground", "material": SOIL}]
     if world.terrain.waters:
         place.append({"index": ids.WATER, "name": "water", "class": "water", "material": WATER})
@@ -120,5 +120,5 @@ def _place_of(index: int, walk: Track, k: int) -> dict:
 
 
 def _rounded(values: np.ndarray, digits: int = 6) -> list:
-    """Plain numbers to the micrometre: far below a pixel, and above what two machines' cosines differ by."""
+    """Numbers rounded to the micrometre: far less than a pixel, and more than the cosines of two machines differ by."""
     return (np.round(values, digits) + 0.0).tolist()  # + 0.0 turns -0.0 into 0.0

@@ -1,4 +1,4 @@
-"""What the bytes of .glb, .obj and .blend files say of what is in them."""
+"""Inspect .glb, .obj and .blend files without Blender."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from pathlib import Path
 
 import numpy as np
 
-_BLEND_STARTS = (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # plain, and packed by zstd or gzip
-_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])  # y up as in files to z up: (x, -z, y)
+_BLEND_STARTS = (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # uncompressed, zstd, gzip
+_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])  # y up to z up: (x, -z, y)
 
 
 class Unreadable(Exception):
-    """A file that is not what its name says; the text is the reason."""
+    """A file that does not match its name; the text gives the reason."""
 
 
 @dataclass(frozen=True)
 class Survey:
-    """Names of the materials in use; box_m (2, 3), z up, in the file's unit; None where only Blender can tell."""
+    """Names of the materials in use; box_m (2, 3), z up, in the file's unit, or None if only Blender can measure it."""
 
     materials: tuple[str, ...]
     box_m: np.ndarray | None
 
 
 def survey(path: Path) -> Survey:
-    """What is in a model's file. OSError or Unreadable if it cannot be read."""
+    """The content of a model's file. OSError or Unreadable if it cannot be read."""
     data = path.read_bytes()
     if not data:
         raise Unreadable("it is empty")
@@ -65,9 +65,9 @@ def _numbers(text: str) -> list[float]:
     try:
         x, y, z = (float(word) for word in text.split()[:3])
     except ValueError as error:
-        raise Unreadable(f'"v {text}" is no point') from error
+        raise Unreadable(f'"v {text}" is not a point') from error
     if not np.isfinite([x, y, z]).all():
-        raise Unreadable(f'"v {text}" is no point')
+        raise Unreadable(f'"v {text}" is not a point')
     return [x, y, z]
 
 
@@ -76,7 +76,7 @@ def _survey_glb(data: bytes) -> Survey:
     try:
         used, boxes = _walk(gltf)
     except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
-        raise Unreadable("its description of meshes does not hang together") from error
+        raise Unreadable("its description of meshes is inconsistent") from error
     if not used:
         raise Unreadable("it has no mesh")
     names = [gltf["materials"][k].get("name", f"Material_{k}") for k in dict.fromkeys(used) if k is not None]
@@ -104,11 +104,11 @@ def _gltf(data: bytes) -> dict:
 
 
 def _walk(gltf: dict) -> tuple[list[int | None], list[np.ndarray] | None]:
-    """Numbers of the materials of all primitives, and the corners (8, 3) of their boxes; None if one has no box."""
+    """Material indices of all primitives, and the corners (8, 3) of their boxes; None if one has no box."""
     nodes, used, boxes = gltf.get("nodes", []), [], []
     children = [child for node in nodes for child in node.get("children", [])]
     if len(set(children)) < len(children):
-        raise ValueError("a node has two parents, and may be its own")
+        raise ValueError("a node has two parents or is its own ancestor")
     waiting = [(k, np.eye(4)) for k in range(len(nodes)) if k not in children]
     while waiting:
         number, parent = waiting.pop()

@@ -1,6 +1,6 @@
-"""Models from a user's own file, .glb, .obj or .blend: all that can be found out about them without Blender.
+"""Models from the user's files, .glb, .obj or .blend: everything that can be determined without Blender.
 
-Plans know a model as a box as large as it is, standing on the ground; `veldt_bl.models` reads the shape itself.
+A plan represents a model by its bounding box, standing on the ground; `veldt_bl.models` reads the shape itself.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from .faults import ConfigError, did_you_mean, listing
 from .geometry.shapes import Mesh, facets
 from .model_files import SUFFIXES, Unreadable, survey
 
-# By how much a model is turned, deg, so that the axis it faces becomes +x.
+# Rotation of a model, deg, that turns its forward axis to +x.
 FORWARD = {"x": 0.0, "-x": 180.0, "y": -90.0, "-y": 90.0}
 _KEYS = {"file", "scale", "forward", "parts", "size_m"}
 _CORNERS = np.array([[i, j, k] for i in (-0.5, 0.5) for j in (-0.5, 0.5) for k in (0.0, 1.0)])
@@ -27,21 +27,21 @@ def part_names(data: Mapping) -> tuple[str, ...]:
 
 
 def box_mesh(size_m) -> Mesh:
-    """A box of that length, width and height on the ground, its middle at the origin."""
+    """A box of the given length, width and height on the ground, centred on the origin."""
     return facets(_CORNERS * np.asarray(size_m, float), np.concatenate([_SIDES[:, :3], _SIDES[:, [0, 2, 3]]]))
 
 
 def in_body_axes(points_m: np.ndarray, model: Mapping) -> np.ndarray:
-    """Points (n, 3) of a file as Blender imports it, z up: facing +x, at the model's scale, where they were."""
+    """Points (n, 3) of a file as Blender imports it, z up, rotated to face +x and scaled, but not moved."""
     angle = np.radians(FORWARD[model["forward"]])
-    cos, sin = np.round([np.cos(angle), np.sin(angle)])  # quarter turns: exact
+    cos, sin = np.round([np.cos(angle), np.sin(angle)])  # exact for quarter turns
     return model["scale"] * points_m @ np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
 
 
 def checked(where: str, folder: Path, entry, parts: Mapping) -> dict:
-    """A `model` entry of the asset file `where` in `folder`, with defaults, the whole `path` of its file and size_m.
+    """A `model` entry of the asset file `where` in `folder`, with defaults, the full `path` of its file and size_m.
 
-    `parts` are those of its material. ConfigError names the key, or the file and what is wrong with it.
+    `parts` are those of its material. ConfigError names the key, or the file and its fault.
     """
     if not isinstance(entry, dict) or "file" not in entry or "parts" not in entry:
         raise ConfigError(f"{where}: model = {entry}; expected file, forward and parts")
@@ -59,15 +59,15 @@ def checked(where: str, folder: Path, entry, parts: Mapping) -> dict:
     if "size_m" not in model:
         if found.box_m is None:
             raise ConfigError(
-                f"{where}: model.size_m is missing; expected [length, width, height], since only Blender can tell"
-                f' how large "{model["file"]}" is'
+                f"{where}: model.size_m is missing; expected [length, width, height], since only Blender can"
+                f' measure "{model["file"]}"'
             )
         model["size_m"] = np.ptp(in_body_axes(found.box_m, model), axis=0).tolist()
     return model | {"path": str(path)}
 
 
 def check_mapped(where: str, name: str, parts: Mapping) -> None:
-    """ConfigError if a material or object of a model's file is not in the map of parts."""
+    """Raise ConfigError if a material or object of a model's file is not in the map of parts."""
     if name not in parts:
         raise ConfigError(
             f'{where}: "{name}" has no part; expected it in model.parts, which has {listing(parts)}'

@@ -1,7 +1,7 @@
-"""Random values that hang on a seed, a name and a place, and on nothing else.
+"""Random values that depend only on a seed, a name and a position.
 
-Only integer mixing and +, -, * on doubles are used, never a library's cos or exp: these round alike on every
-machine, so a scene is the same everywhere, bit for bit.
+Uses only integer mixing and +, -, * on doubles, never a library's cos or exp: these round identically on every
+machine, so a scene is bit-identical everywhere.
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ _MASK = (1 << 64) - 1
 
 
 def stream(seed: int, subsystem: str, *entity: int) -> np.random.Generator:
-    """The random generator of one entity of one subsystem, unlike that of any other."""
+    """The random generator of one entity of one subsystem, independent of all others."""
     key = [seed, zlib.crc32(subsystem.encode()), *entity]
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(key)))
 
 
 def lattice_hash(seed: int, name: str, ix: np.ndarray, iy: np.ndarray) -> np.ndarray:
-    """64 well mixed bits for each lattice point (ix, iy), integers of any sign; uint64, shape of ix and iy.
+    """64 well-mixed bits for each lattice point (ix, iy), integers of any sign; uint64, with the shape of ix and iy.
 
-    The mixer is the finaliser of SplitMix64 (Steele, Lea & Flood 2014), once for each coordinate.
+    The mixer is the finaliser of SplitMix64 (Steele, Lea & Flood 2014), applied once per coordinate.
     """
     key = np.uint64((seed << 32 | zlib.crc32(name.encode())) & _MASK)
-    with np.errstate(over="ignore"):  # numpy warns of the wrap-around of single values, though not of arrays
+    with np.errstate(over="ignore"):  # NumPy warns about overflow of scalars, but not of arrays
         bits = _mix(np.asarray(ix, np.int64).astype(np.uint64) ^ key)
         return _mix(bits + np.asarray(iy, np.int64).astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15))
 
@@ -39,7 +39,7 @@ def lattice_uniform(seed: int, name: str, ix: np.ndarray, iy: np.ndarray) -> np.
 def gradient_noise(seed: int, name: str, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Smooth noise with lattice period 1: zero at lattice points, mean 0, within [-1, 1], C2 (Perlin 2002).
 
-    Gradients fill the square [-1, 1]^2 instead of the unit circle, which spares the cosines.
+    Gradients fill the square [-1, 1]^2 instead of the unit circle, which avoids cosines.
     """
     x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
     ix, iy = np.floor(x), np.floor(y)
@@ -63,7 +63,7 @@ def fractal_noise(
 ) -> np.ndarray:
     """Octaves of gradient noise: octave k has wavelength_m / 2^k and amplitude gain^k. Mean 0, about [-1, 1].
 
-    Each octave is turned (by the 3-4-5 triangle's angle) and shifted against the last one, which hides the lattices.
+    Each octave is rotated (by the angle of a 3-4-5 triangle) and shifted against the previous one to hide the lattices.
     """
     total = np.zeros(np.broadcast(x_m, y_m).shape)
     x, y = np.asarray(x_m, float) / wavelength_m, np.asarray(y_m, float) / wavelength_m
@@ -82,7 +82,7 @@ def _mix(bits: np.ndarray) -> np.ndarray:
 def _gradients(seed: int, name: str, ix: np.ndarray, iy: np.ndarray) -> Callable:
     """A function of (i, j): the gradients drawn at lattice points (ix + i, iy + j), i and j 0 or 1.
 
-    Where many places share lattice points, each point is drawn once and looked up: that gives the same bits sooner.
+    If many positions share lattice points, each point is drawn once and looked up: the same bits, faster.
     """
     if ix.size == 0:
         return lambda i, j: _gradient(seed, name, ix, iy)
@@ -103,7 +103,7 @@ def _gradient(seed: int, name: str, ix, iy) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _slope(gradient: tuple[np.ndarray, np.ndarray], dx, dy) -> np.ndarray:
-    """The plane through a lattice point's zero with the gradient drawn there."""
+    """The plane that is zero at a lattice point and has the gradient drawn there."""
     gx, gy = gradient
     return gx * dx + gy * dy
 

@@ -1,4 +1,4 @@
-"""What a config will show, told without rendering it; and its long flights cut into clips."""
+"""Predict what a config will show without rendering it, and cut its long flights into clips."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .camera import Intrinsics, project
+from .camera import Intrinsics, edge_tangents, project
 from .cuts import clips_of, cut
 from .faults import ConfigError
 from .flight.poses import Flight
@@ -18,7 +18,7 @@ from .world import World
 
 @dataclass(frozen=True)
 class Outlook:
-    """A clip, and frame by frame whether the box of an actor reaches into its picture, and its height."""
+    """A clip, and for each frame whether an actor's box overlaps the picture, and the height above ground."""
 
     clip: dict
     seen: np.ndarray
@@ -26,7 +26,7 @@ class Outlook:
 
 
 def plan_dataset(world: World) -> dict:
-    """Frames and heights of each clip, the clips that flights are cut into, how many actors and plants there are."""
+    """Frames and heights of each clip, including those cut from flights, and the numbers of actors and plants."""
     outlooks = list(_outlooks(world))
     _check_ids([outlook.clip["id"] for outlook in outlooks])
     return {
@@ -38,7 +38,7 @@ def plan_dataset(world: World) -> dict:
 
 
 def with_flights_cut(world: World) -> World:
-    """The same world, whose config has clips instead of flights."""
+    """The same world with the flights of its config replaced by clips."""
     if not world.config["flights"]:
         return world
     clips = [outlook.clip for outlook in _outlooks(world)]
@@ -64,7 +64,7 @@ def _outlooks(world: World) -> Iterator[Outlook]:
 
 
 def _check_ids(ids: list[str]) -> None:
-    """Own clips, which come first, are named unlike those cut from flights."""
+    """Check that the config's own clips, which come first, have other ids than those cut from flights."""
     last = {name: k for k, name in enumerate(ids)}
     for k, name in enumerate(ids):
         if last[name] != k:
@@ -85,7 +85,7 @@ def _described(outlook: Outlook) -> dict:
 
 
 def _sightings(world: World, flight: Flight) -> np.ndarray:
-    """In which frames (n,) the box of an actor overlaps the picture; what may hide it is not considered."""
+    """Mask of frames (n,) in which the box of an actor overlaps the picture; occlusion is ignored."""
     seen = np.zeros(len(flight.time_s), bool)
     for actor in world.actors:
         seen |= is_in_frame(world.intrinsics, flight, actor)
@@ -93,7 +93,7 @@ def _sightings(world: World, flight: Flight) -> np.ndarray:
 
 
 def is_in_frame(intrinsics: Intrinsics, flight: Flight, actor: Actor) -> np.ndarray:
-    """In which frames (n,) the actor's box overlaps the picture."""
+    """Mask of frames (n,) in which the actor's box overlaps the picture."""
     walk = track(actor, flight.time_s)
     inside = _may_be_in_frame(intrinsics, flight, actor, walk)
     near = np.flatnonzero(inside)
@@ -106,20 +106,22 @@ def is_in_frame(intrinsics: Intrinsics, flight: Flight, actor: Actor) -> np.ndar
 
 
 def _may_be_in_frame(intrinsics: Intrinsics, flight: Flight, actor: Actor, walk: Track) -> np.ndarray:
-    """In which frames (n,) a ball about the actor's foot that holds its box is not wholly past an edge of the picture.
+    """Mask of frames (n,) in which a sphere around the actor's origin that contains its box is not outside the picture.
 
-    Cheap, and never false where the box is in the picture.
+    Cheap and conservative: never false where the box is in the picture.
     """
     radius_m = np.linalg.norm(np.abs(actor.bounds_m).max(axis=0))
     pose = flight.camera_to_world
     local = ((walk.position_m - pose[:, :3, 3])[:, None, :] @ pose[:, :3, :3])[:, 0]
-    tangents = np.array(intrinsics.centre_px) / intrinsics.f_px
-    outside_m = (np.abs(local[:, :2]) - tangents * local[:, 2:]) / np.sqrt(1.0 + tangents * tangents)
-    return (outside_m < radius_m).all(axis=1) & (local[:, 2] > -radius_m)
+    near = local[:, 2] > -radius_m
+    for side, tangents in zip((-1.0, 1.0), np.array(edge_tangents(intrinsics))):
+        outside_m = (side * local[:, :2] - tangents * local[:, 2:]) / np.sqrt(1.0 + tangents * tangents)
+        near &= (outside_m < radius_m).all(axis=1)
+    return near
 
 
 def box_corners_m(actor: Actor, walk: Track) -> np.ndarray:
-    """World positions (n, 8, 3) of the corners of the actor's box along a track."""
+    """World positions (n, 8, 3) of the corners of an actor's box along a track."""
     low, high = actor.bounds_m
     pick = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
     corners = np.where(pick == 0, low, high)

@@ -1,4 +1,4 @@
-"""PNG files (ISO/IEC 15948): writes colours, and tells whole files from those that a full disk cut short."""
+"""PNG files (ISO/IEC 15948): write RGB images, and detect files truncated by a full disk."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _END = b"\0\0\0\0IEND\xae\x42\x60\x82"
 
 
 def is_whole(path: Path) -> bool:
-    """Whether the file begins and ends as a PNG file does."""
+    """Whether the file begins and ends like a complete PNG file."""
     try:
         content = path.read_bytes()
     except OSError:
@@ -24,7 +24,7 @@ def is_whole(path: Path) -> bool:
 def rgb_png(colours: np.ndarray) -> bytes:
     """The file of a picture (height, width, 3) of 8 bits."""
     height, width, _ = colours.shape
-    # Each row's differences to the row above (filter 2) pack better than smooth colours themselves.
+    # Differences to the row above (filter 2) compress better than smooth colours themselves.
     above = np.concatenate([np.zeros_like(colours[:1]), colours[:-1]])
     rows = (colours - above).reshape(height, -1)
     packed = zlib.compress(np.insert(rows, 0, 2, axis=1).tobytes(), 6)

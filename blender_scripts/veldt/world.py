@@ -1,4 +1,4 @@
-"""Everything a config's scene holds, planned and numbered, before anything is built in Blender."""
+"""The complete plan of a config's scene, with all indices, before anything is built in Blender."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class World:
 
     @property
     def passes_intrinsics(self) -> Intrinsics:
-        """The pinhole camera whose picture the passes are, as fine as the camera's."""
+        """Intrinsics of the passes' pinhole camera, at the camera's resolution."""
         return widened(self.intrinsics, self.overscan_px)
 
     def flight(self, entry: dict) -> Flight:
@@ -51,7 +51,7 @@ class World:
 
 
 def plan_world(config: dict) -> World:
-    """Plans the scene of a config with defaults; ConfigError where the config cannot be meant."""
+    """Plan the scene of a config with defaults; ConfigError if the config makes no sense."""
     checks.check_names(config)
     scene, seed = config["scene"], config["seed"]
     checks.check_size(scene)
@@ -84,7 +84,7 @@ def plan_world(config: dict) -> World:
 
 
 def clip_of(config: dict, clip_id: str) -> dict:
-    """The config's clip of that id."""
+    """The config's clip with the given id."""
     known = {clip["id"]: clip for clip in config["clips"]}
     check_known(clip_id, known, "--clip", "a clip of the config")
     return known[clip_id]
@@ -93,7 +93,7 @@ def clip_of(config: dict, clip_id: str) -> dict:
 def _materials(
     terrain: Terrain, covers: list[Layer], plants: dict, actors: list[Actor]
 ) -> list[tuple[str, str]]:
-    """Every (material, part) of the scene, the place's first."""
+    """Every (material, part) of the scene, those of the place first."""
     names = [SOIL, *(layer.material for layer in covers), *([WATER] if terrain.waters else [])]
     pairs = [(name, "") for name in names]
     for plant in (assets.load("plants", name) for name in sorted(plants)):

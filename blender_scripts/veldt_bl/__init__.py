@@ -1,1 +1,1 @@
-"""Builds and renders a planned scene in Blender: the only modules that import bpy."""
+"""Build and render a planned scene in Blender; the only modules that import bpy."""

@@ -1,4 +1,4 @@
-"""Actors in Blender: one object a bone, put where it belongs frame by frame."""
+"""Actors in Blender: one object per bone, positioned frame by frame."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from veldt.world import World
 from . import models
 from .meshes import add_twin, new_mesh, new_object
 
-_AT_ONCE = 64  # frames posed together: one by one numpy is slow, all of a long clip take gigabytes
-_SLACK = 1.2  # of the reach of bodies beyond their boxes, which are taken at some moments only
-_PARK = mathutils.Matrix.Translation((0.0, 0.0, -1e5))  # m; several times farther away than a camera sees
+_AT_ONCE = 64  # frames posed together: single frames are slow in NumPy, whole clips take gigabytes
+_SLACK = 1.2  # of the size of bodies: allowance beyond their boxes, which are sampled in time
+_PARK = mathutils.Matrix.Translation((0.0, 0.0, -1e5))  # m; several times the range of a camera
 
 
 @dataclass(frozen=True)
 class Puppet:
-    """An actor and its objects, one for each bone that has a mesh: (place of the bone, object)."""
+    """An actor and its objects, one for each bone that has a mesh: (index of the bone, object)."""
 
     actor: Actor
     bones: list[tuple[int, bpy.types.Object]]
@@ -33,7 +33,7 @@ class Puppet:
 class Troupe:
     """All puppets, and their poses in the frames of a clip.
 
-    Who cannot be in the picture waits far below, which costs neither posing nor, in Cycles, taking over.
+    Actors that cannot be in the picture are kept far below, which avoids posing and synchronising them.
     """
 
     def __init__(self, puppets: list[Puppet]):
@@ -45,12 +45,12 @@ class Troupe:
         self._matrices: dict[int, np.ndarray] = {}
 
     def rehearse(self, time_s: np.ndarray, needed: np.ndarray | None = None) -> None:
-        """Frames 0, 1, … shall show the times (n,) from now on; needed (actors, n): who is when, by default all."""
+        """Set the times (n,) of frames 0, 1, …; needed (actors, n): frames in which each is posed, default all."""
         everybody = np.ones((len(self.puppets), len(time_s)), bool)
         self._time_s, self.needed, self._first = time_s, everybody if needed is None else needed, -1
 
     def pose(self, frame: int) -> None:
-        """Puts the actors needed in a frame where they are then, and the others out of sight."""
+        """Move the actors needed in a frame to their positions, and the others out of sight."""
         first = frame - frame % _AT_ONCE
         if first != self._first:
             self._matrices, self._first = {}, first
@@ -71,21 +71,21 @@ class Troupe:
 
 
 def add_actors(actors: list[Actor], materials: dict[tuple[str, str], bpy.types.Material]) -> Troupe:
-    """Puts all actors into the scene; those of one variant of a species share their meshes."""
+    """Put all actors into the scene; those of one variant of a species share their meshes."""
     meshes: dict[tuple[str, str], list[bpy.types.Mesh | None]] = {}
     for actor in actors:
         kind = actor.species, actor.variant
         if kind not in meshes:
             meshes[kind] = _meshes(actor, materials)
             for mesh in filter(None, meshes[kind]):
-                # Cycles takes a mesh of one user over again whenever that moves, and with it all others, the ground's
-                # too. A second user, which no camera ray meets, keeps it from that.
+                # If a mesh has a single user, Cycles synchronises it again whenever that user moves, and all other
+                # meshes with it, including the ground. A second user, which no camera ray meets, prevents this.
                 add_twin(mesh, actor.index)
     return Troupe([_puppet(actor, meshes[actor.species, actor.variant]) for actor in actors])
 
 
 def needed(world: World, flight: Flight) -> np.ndarray:
-    """Which actors may be in the picture in which frames of a flight: bool (actors, n)."""
+    """Mask (actors, n) of the frames of a flight in which each actor may be in the picture."""
     seen = [
         spheres_seen(
             world.passes_intrinsics,
@@ -101,7 +101,7 @@ def needed(world: World, flight: Flight) -> np.ndarray:
 def _meshes(
     actor: Actor, materials: dict[tuple[str, str], bpy.types.Material]
 ) -> list[bpy.types.Mesh | None]:
-    """The mesh of each bone of an actor's body; None of bones without."""
+    """The mesh of each bone of an actor's body, or None."""
     data = assets.load("species", actor.species)
     slots = [materials[data["material"], part] for part in actor.body.parts]
     if "model" in data:

@@ -6,19 +6,20 @@ import bpy
 import mathutils
 import numpy as np
 
-from veldt.camera import Intrinsics
+from veldt.camera import Intrinsics, lens_shift
 
-_SENSOR_MM = 36.0  # any value will do: only its ratio to the focal length counts
+_SENSOR_MM = 36.0  # arbitrary: only its ratio to the focal length matters
 _CLIP_M = (0.1, 20000.0)
 _FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])  # Blender's cameras look along -z with y up
 
 
 def add_camera(intrinsics: Intrinsics) -> bpy.types.Object:
-    """A camera with these intrinsics, made the scene's own."""
+    """Add a camera with these intrinsics and make it the scene's camera. The renderer sets their pixel aspect."""
     lens = bpy.data.cameras.new("camera")
     lens.sensor_fit = "HORIZONTAL"
     lens.sensor_width = _SENSOR_MM
-    lens.lens = _SENSOR_MM * intrinsics.f_px / intrinsics.width_px
+    lens.lens = _SENSOR_MM * intrinsics.focal_px[0] / intrinsics.width_px
+    lens.shift_x, lens.shift_y = lens_shift(intrinsics)
     lens.clip_start, lens.clip_end = _CLIP_M
     camera = bpy.data.objects.new("camera", lens)
     camera.rotation_mode = "QUATERNION"
@@ -29,7 +30,7 @@ def add_camera(intrinsics: Intrinsics) -> bpy.types.Object:
 
 
 def place(camera: bpy.types.Object, camera_to_world: np.ndarray) -> None:
-    """Puts the camera where a pose (4, 4) is."""
+    """Move the camera to a pose (4, 4)."""
     matrix = mathutils.Matrix((camera_to_world @ _FROM_OPENCV).tolist())
     camera.location = matrix.to_translation()
     camera.rotation_quaternion = matrix.to_quaternion()

@@ -1,4 +1,4 @@
-"""Every difference between Blender versions that matters here."""
+"""All differences between Blender versions that matter here."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ OBJECT_INDEX = "Object Index.X" if VERSION >= (5, 0, 0) else "IndexOB.X"
 
 
 def fill_triangles(mesh: bpy.types.Mesh, triangles: np.ndarray) -> None:
-    """Makes (m, 3) triangles the faces of a mesh that has points only."""
+    """Add triangles (m, 3) as faces to a mesh that has points only."""
     count = len(triangles)
     mesh.loops.add(3 * count)
     mesh.polygons.add(count)
     mesh.loops.foreach_set("vertex_index", np.ascontiguousarray(triangles, np.int32).ravel())
     mesh.polygons.foreach_set("loop_start", np.arange(0, 3 * count, 3, dtype=np.int32))
-    if VERSION < (3, 6, 0):  # later the sizes of faces follow from where they start
+    if VERSION < (3, 6, 0):  # later versions derive the sizes of faces from their starts
         mesh.polygons.foreach_set("loop_total", np.full(count, 3, np.int32))
 
 
 def new_geometry_socket(tree: bpy.types.NodeTree, in_out: str) -> None:
-    """Adds a group socket `Geometry`; in_out is INPUT or OUTPUT."""
+    """Add a group socket `Geometry`; in_out is INPUT or OUTPUT."""
     if VERSION >= (4, 0, 0):
         tree.interface.new_socket("Geometry", in_out=in_out, socket_type="NodeSocketGeometry")
     else:
@@ -34,14 +34,14 @@ def new_geometry_socket(tree: bpy.types.NodeTree, in_out: str) -> None:
 
 def use_nodes(shaded: bpy.types.Material | bpy.types.World) -> bpy.types.NodeTree:
     """The node tree of a material or a sky, empty."""
-    if VERSION < (5, 0, 0):  # from then on they all have nodes
+    if VERSION < (5, 0, 0):  # from this version on, all have nodes
         shaded.use_nodes = True
     shaded.node_tree.nodes.clear()
     return shaded.node_tree
 
 
 def write_png(settings: bpy.types.ImageFormatSettings) -> None:
-    """Output as PNG, 8 bits a colour."""
+    """Set the output to PNG, 8 bits per channel."""
     if VERSION >= (5, 0, 0):
         settings.media_type = "IMAGE"
     settings.file_format = "PNG"
@@ -49,34 +49,34 @@ def write_png(settings: bpy.types.ImageFormatSettings) -> None:
 
 
 def write_multilayer_exr(settings: bpy.types.ImageFormatSettings, packed: bool) -> None:
-    """Output as multilayer EXR, whole floats; lossless where packed.
+    """Set the output to multilayer EXR, 32-bit floats; compression, if any, is lossless.
 
-    RLE takes 0.03 s for a picture of 640 x 512 pixels where ZIP takes 0.15 s for two thirds of the bytes.
+    RLE takes 0.03 s for a picture of 640 x 512 pixels; ZIP takes 0.15 s for two thirds of the size.
     """
     if VERSION >= (5, 0, 0):
         settings.media_type = "MULTI_LAYER_IMAGE"
-        settings.use_exr_interleave = True  # one part with all channels, as earlier versions write
+        settings.use_exr_interleave = True  # a single part with all channels, as in earlier versions
     settings.file_format = "OPEN_EXR_MULTILAYER"
     settings.color_depth = "32"
     settings.exr_codec = "RLE" if packed else "NONE"
 
 
 def stop_rendering(scene: bpy.types.Scene) -> None:
-    """Ends the animation that is being rendered before its next frame; for handlers."""
-    if not bpy.app.binary_path:  # Blender as a Python module leaves signals to Python
+    """Stop the current animation render before its next frame; called by handlers."""
+    if not bpy.app.binary_path:  # as a Python module, Blender leaves signals to Python
         scene.frame_current = scene.frame_end
     else:
-        signal.raise_signal(signal.SIGINT)  # as Ctrl-C does
+        signal.raise_signal(signal.SIGINT)  # like Ctrl-C
 
 
 def import_gltf(path: str) -> None:
-    """Adds what is in a .glb file to the scene; RuntimeError if Blender cannot."""
-    # Any other shading fails in Debian's 3.4.1, whose importer wants an older numpy; only shapes count here.
+    """Import a .glb file into the scene; RuntimeError if Blender cannot read it."""
+    # Other shading modes fail in Debian's 3.4.1, whose importer needs an older NumPy; only shapes matter here.
     bpy.ops.import_scene.gltf(filepath=path, import_shading="FLAT")
 
 
 def import_obj(path: str) -> None:
-    """Adds what is in a .obj file to the scene, y up in the file; RuntimeError if Blender cannot."""
+    """Import a .obj file, with y up, into the scene; RuntimeError if Blender cannot read it."""
     if VERSION >= (3, 3, 0):
         bpy.ops.wm.obj_import(filepath=path, forward_axis="NEGATIVE_Z", up_axis="Y")
     else:

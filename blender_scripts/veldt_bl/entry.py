@@ -1,41 +1,54 @@
-"""What the scripts that Blender runs have in common: how they end."""
+"""Entry point shared by the scripts that Blender runs: exit codes and error events.
+
+Like veldt.failures, it imports nothing but Python's standard library.
+"""
 
 from __future__ import annotations
 
+import argparse
 import sys
 import traceback
-from collections.abc import Callable
-from pathlib import Path
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 
 from veldt.events import Events
-from veldt.faults import ConfigError
+from veldt.failures import failure_of
 
 
 def run(act: Callable[[], None], events: Events) -> int:
-    """Acts, tells how that ended, and returns the exit code: 0 done, 1 failed, 2 the config is at fault."""
+    """Run `act`, report its outcome, and return the exit code: 0 done, 1 failed, 2 the config is at fault."""
     try:
         act()
-    except ConfigError as error:
-        return _fail(events, "config", error, 2)
-    except Exception as error:  # pylint: disable=broad-exception-caught
-        traceback.print_exc()
-        return _fail(events, "internal", error, 1)
-    events.tell("done")
+    except BaseException as error:  # pylint: disable=broad-exception-caught
+        return _report(events, error)
+    events.report("done")
     return 0
 
 
+@contextmanager
+def reported_imports() -> Iterator[None]:
+    """Reports imports that fail, such as that of a missing NumPy, as run() does, and exits."""
+    try:
+        yield
+    except BaseException as error:  # pylint: disable=broad-exception-caught
+        parser = argparse.ArgumentParser(add_help=False)
+        parser.add_argument("--events-fd", type=int)
+        sys.exit(_report(Events(parser.parse_known_args(own_arguments())[0].events_fd), error))
+
+
 def own_arguments() -> list[str]:
-    """Those after Blender's own."""
+    """The arguments after Blender's own."""
     return sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
 
 
-def _fail(events: Events, kind: str, error: Exception, code: int) -> int:
-    """Tells of an error, and of the place in these scripts that it came out of."""
-    here = str(Path(__file__).resolve().parents[1])
-    ours = [step for step in traceback.extract_tb(error.__traceback__) if step.filename.startswith(here)]
-    message = str(error) or type(error).__name__
-    events.tell(
-        "error", kind=kind, message=message, where=f"{Path(ours[-1].filename).name}:{ours[-1].lineno}"
-    )
-    print(message, file=sys.stderr)
-    return code
+def _report(events: Events, error: BaseException) -> int:
+    """Writes an event of the exception, and its traceback into the log."""
+    failure = failure_of(error)
+    kind = "config" if failure.is_config_fault else "internal"
+    hint = {"hint": failure.hint} if failure.hint else {}
+    events.report("error", kind=kind, message=failure.message, where=failure.where, **hint)
+    with suppress(OSError):  # the disk that holds the log may be full
+        if kind == "internal":
+            traceback.print_exception(error)
+        print(failure.in_words(), file=sys.stderr)
+    return failure.exit_code

@@ -1,4 +1,4 @@
-"""A planned map sheet as Blender objects that glow in their colours and cast no shadow."""
+"""A planned map sheet as Blender objects with emissive colours that cast no shadow."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _STEP_M = 1.0  # between layers
 
 
 def add_sheet(sheet: MapSheet, height_m: float) -> float:
-    """Adds all layers above a height, the words on top; returns the height of these."""
+    """Add all layers above a height, with the labels on top; return the height of the labels."""
     for k, layer in enumerate(sheet.layers):
         _add_layer(layer, height_m + k * _STEP_M)
     top_m = height_m + len(sheet.layers) * _STEP_M
@@ -52,7 +52,7 @@ def _float(shown: bpy.types.Object, height_m: float) -> None:
 
 
 def _glow(name: str, colour: str, opacity: float) -> bpy.types.Material:
-    """Just this colour, whatever the light."""
+    """An emissive material with this colour, independent of light."""
     material = bpy.data.materials.new(f"map {name}")
     tree = compat.use_nodes(material)
     output = tree.nodes.new("ShaderNodeOutputMaterial")
@@ -64,7 +64,7 @@ def _glow(name: str, colour: str, opacity: float) -> bpy.types.Material:
     mix, clear = tree.nodes.new("ShaderNodeMixShader"), tree.nodes.new("ShaderNodeBsdfTransparent")
     mix.inputs[
         0
-    ].default_value = opacity  # the next two have one name, so that only their places tell them apart
+    ].default_value = opacity  # the next two sockets have the same name and differ only in their index
     tree.links.new(clear.outputs["BSDF"], mix.inputs[1])
     tree.links.new(glow.outputs["Emission"], mix.inputs[2])
     tree.links.new(mix.outputs["Shader"], output.inputs["Surface"])

@@ -1,4 +1,4 @@
-"""Numpy meshes and flat materials as Blender data."""
+"""NumPy meshes and flat materials as Blender data."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _TWIN_DEPTH_M = 10000.0
 
 
 def new_material(name: str, index: int) -> bpy.types.Material:
-    """A black material, the cheapest there is: only its index is ever looked at."""
+    """A black material, the cheapest to render: only its index is used."""
     material = bpy.data.materials.new(name)
     material.pass_index = index
     tree = compat.use_nodes(material)
@@ -41,7 +41,7 @@ def new_mesh(
 
 
 def new_points(name: str, points_m: np.ndarray) -> bpy.types.Mesh:
-    """A mesh of bare points."""
+    """A mesh of points without faces."""
     data = bpy.data.meshes.new(name)
     data.vertices.add(len(points_m))
     data.vertices.foreach_set("co", points_m.astype(np.float32).ravel())
@@ -49,7 +49,7 @@ def new_points(name: str, points_m: np.ndarray) -> bpy.types.Mesh:
 
 
 def add_twin(mesh: bpy.types.Mesh, index: int) -> None:
-    """One more user of a mesh, deep down where no camera ray may meet it."""
+    """Add another user of a mesh far below the ground, where no camera ray meets it."""
     twin = new_object(f"{mesh.name} twin", mesh, index)
     twin.location.z = -_TWIN_DEPTH_M
     twin.visible_camera = False
@@ -58,7 +58,7 @@ def add_twin(mesh: bpy.types.Mesh, index: int) -> None:
 def new_object(
     name: str, data: bpy.types.ID, index: int, collection: bpy.types.Collection | None = None
 ) -> bpy.types.Object:
-    """An object with an object index, linked into the collection, by default the scene's own."""
+    """An object with an object index, linked to the collection, by default the scene's."""
     new = bpy.data.objects.new(name, data)
     new.pass_index = index
     (collection or bpy.context.scene.collection).objects.link(new)

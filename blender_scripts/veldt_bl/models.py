@@ -1,4 +1,4 @@
-"""Models from a user's own file, as Blender reads them."""
+"""Import models from the user's files into Blender."""
 
 from __future__ import annotations
 
@@ -15,14 +15,15 @@ from veldt.geometry.shapes import Mesh, facets, joined
 
 from . import compat
 
-_TOLERANCE = 0.01  # of a side: less than the room that boxes of actors leave
+_TOLERANCE = 0.01  # of a side: less than the margin of the actors' boxes
 
 
 def load(where: str, data: Mapping) -> Mesh:
-    """The mesh of a species' or plant's model in body axes, on the ground below the middle of its box.
+    """The mesh of a species' or plant's model in body axes; the origin is on the ground below the middle of its box.
 
-    Slots count through `part_names`; `where` is the asset file. Nothing is left behind in Blender. ConfigError names
-    the file and the reason if Blender cannot read it, if something in it has no part, or if its size is another.
+    Slots are indices into `part_names`; `where` is the asset file. All imported data are removed from Blender again.
+    ConfigError names the file and the reason if Blender cannot read it, if a material in it has no part, or if its size
+    differs from the given one.
     """
     model, where = data["model"], f'{where}: model.file = "{data["model"]["file"]}"'
     before = _everything()
@@ -38,7 +39,7 @@ def load(where: str, data: Mapping) -> Mesh:
 
 
 def _everything() -> set[bpy.types.ID]:
-    """All data blocks there are."""
+    """All existing data blocks."""
     tables = [entry.identifier for entry in bpy.data.bl_rna.properties if entry.type == "COLLECTION"]
     return {
         block for table in tables for block in getattr(bpy.data, table) if isinstance(block, bpy.types.ID)
@@ -52,7 +53,7 @@ def _import(where: str, path: Path) -> None:
         else:
             {".glb": compat.import_gltf, ".obj": compat.import_obj}[path.suffix.lower()](str(path))
     except Exception as error:  # pylint: disable=broad-exception-caught
-        # Importers are scripts of others, and what they trip over in a broken file may be anything.
+        # Importers are third-party scripts and may raise anything for a broken file.
         lines = [
             line for line in str(error).splitlines() if line.strip() and not line.startswith("Location:")
         ]
@@ -68,7 +69,7 @@ def _append(path: Path) -> None:
 
 
 def _mesh(where: str, things: list[bpy.types.Object], data: Mapping) -> Mesh:
-    """All meshes among new objects that would be rendered, where they are."""
+    """All renderable meshes among new objects, in world positions."""
     bpy.context.view_layer.update()
     shapes = {bone.custom_shape for thing in things if thing.pose for bone in thing.pose.bones}
     seen = [
@@ -81,7 +82,7 @@ def _mesh(where: str, things: list[bpy.types.Object], data: Mapping) -> Mesh:
 
 
 def _one_mesh(where: str, thing: bpy.types.Object, data: Mapping) -> Mesh:
-    """An object's mesh with its modifiers, in the scene's axes, each triangle in its part's slot."""
+    """An object's mesh with modifiers applied, in the scene's axes, with each triangle in its part's slot."""
     final = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = final.to_mesh()
     mesh.calc_loop_triangles()
@@ -93,7 +94,7 @@ def _one_mesh(where: str, thing: bpy.types.Object, data: Mapping) -> Mesh:
     final.to_mesh_clear()
     matrix = np.array(final.matrix_world)
     triangles = triangles.reshape(-1, 3)
-    if np.linalg.det(matrix[:3, :3]) < 0:  # mirrored: its faces look inward
+    if np.linalg.det(matrix[:3, :3]) < 0:  # mirrored: its faces point inward
         triangles = triangles[:, ::-1]
     placed = facets(points.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3], triangles.astype(np.int64))
     slots = {k: _slot(where, _name(final, thing, k), data) for k in np.unique(material).tolist()}
@@ -101,7 +102,7 @@ def _one_mesh(where: str, thing: bpy.types.Object, data: Mapping) -> Mesh:
 
 
 def _name(final: bpy.types.Object, thing: bpy.types.Object, k: int) -> str:
-    """Name of the material in a slot, or of the object where there is none."""
+    """Name of the material in a slot, or of the object if there is none."""
     slots = final.material_slots
     material = slots[min(k, len(slots) - 1)].material if slots else None
     return material.name if material else thing.name
@@ -109,7 +110,7 @@ def _name(final: bpy.types.Object, thing: bpy.types.Object, k: int) -> str:
 
 def _slot(where: str, name: str, data: Mapping) -> int:
     parts = data["model"]["parts"]
-    if name not in parts:  # Blender numbers names that the scene has already
+    if name not in parts:  # Blender appends a number to names that already exist
         name = re.sub(r"\.\d{3}$", "", name)
     check_mapped(where, name, parts)
     return part_names(data).index(parts[name])

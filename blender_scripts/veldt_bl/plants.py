@@ -22,9 +22,9 @@ EVERYWHERE_M = 1e6
 
 @dataclass(frozen=True)
 class Flora:
-    """All plants of a scene: where they are, the view that tells which of them are in it, and their greatest reach.
+    """All plants of a scene: their positions, the object that controls which of them are shown, and their reach.
 
-    That is the distance of any plant's farthest point from its root.
+    The reach is the largest distance of any plant's points from its root.
     """
 
     places: list[bpy.types.Object]
@@ -33,7 +33,7 @@ class Flora:
 
 
 def add_flora(world: World, materials: dict[tuple[str, str], bpy.types.Material]) -> Flora:
-    """Puts all plants of a world into the scene."""
+    """Add all plants of a world to the scene."""
     view = bpy.data.objects.new("view", None)
     bpy.context.scene.collection.objects.link(view)
     places, reach_m = [], 0.0
@@ -47,10 +47,10 @@ def add_flora(world: World, materials: dict[tuple[str, str], bpy.types.Material]
 
 
 def circles_needed(flora: Flora, world: World, camera_to_world: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Centres (n, 2) and radii (n,) of circles in which all plants stand that poses (n, 4, 4) may see.
+    """Centres (n, 2) and radii (n,) of circles that contain all plants that poses (n, 4, 4) may see.
 
-    Cycles takes all meshes over again, the ground's too, whenever there is an instance more or less; so one circle
-    serves many frames.
+    Cycles synchronises all meshes again, including the ground, whenever the number of instances changes; therefore one
+    circle is kept for many frames.
     """
     low_m, high_m = world.terrain.heights_m.min(), world.terrain.heights_m.max() + flora.reach_m
     centres_m, radii_m = circles_seen(world.passes_intrinsics, camera_to_world, low_m, high_m)
@@ -58,20 +58,20 @@ def circles_needed(flora: Flora, world: World, camera_to_world: np.ndarray) -> t
 
 
 def show_within(flora: Flora, centre_m: np.ndarray, radius_m: float) -> None:
-    """Has only those plants in the scene that stand in a circle.
+    """Show only the plants in a circle.
 
-    Blender goes through all instances there are before each frame, which for a whole savanna takes longer than the
-    picture. So an empty tells the middle and the size of what the camera sees; the node trees look at it.
+    Blender iterates over all instances before each frame, which for a whole savanna takes longer than rendering.
+    Therefore an empty holds the centre and the radius of the visible circle, and the node trees read it.
     """
     place, scale = mathutils.Vector((*centre_m, 0.0)), mathutils.Vector((radius_m,) * 3)
-    if (flora.view.location, flora.view.scale) != (place, scale):  # else plants would be picked again
+    if (flora.view.location, flora.view.scale) != (place, scale):  # avoids selecting the plants again
         flora.view.location, flora.view.scale = place, scale
 
 
 def _variants(
     name: str, data: dict, seed: int, materials: dict[tuple[str, str], bpy.types.Material]
 ) -> list[bpy.types.Mesh]:
-    """The meshes of a species' variants, at its drawn size and standing at the origin."""
+    """The meshes of a species' variants at its drawn size, standing at the origin."""
     slots = [materials[data["material"], part] for part in plant_parts(data)]
     if "model" in data:
         meshes = [models.load(f"assets/plants/{name}.json", data)]
@@ -88,25 +88,25 @@ def _reach_m(mesh: bpy.types.Mesh) -> float:
 def _add_species(
     name: str, planting: Planting, variants: list[bpy.types.Mesh], index: int, view: bpy.types.Object
 ) -> bpy.types.Object:
-    """Puts one species into the scene; instances carry the object index of the variant they copy."""
-    # Not linked to the scene: only copies of it are seen.
+    """Add one species to the scene; instances have the object index of the variant they copy."""
+    # Not linked to the scene: only its instances are visible.
     variants_of = bpy.data.collections.new(f"{name} variants")
     for k, mesh in enumerate(variants):
-        # Instances are picked by number from the collection's objects in order of their names.
+        # Instances refer to the collection's objects by index, in the order of their names.
         new_object(f"{name} {k:03d}", mesh, index, variants_of)
-        # While a mesh has a single user, Cycles moves its points there, and depths differ in their last bits. Two more
-        # users that no camera ray meets keep a plant's the same however many of its kind are in the scene.
+        # If a mesh has a single user, Cycles transforms its points to world space, which changes the last bits of
+        # depth. Two more users that no camera ray meets keep depths the same for any number of plants of a species.
         for _ in range(2):
             add_twin(mesh, index)
     points = new_object(f"{name} places", _points(name, planting), index)
     points.modifiers.new("plants", "NODES").node_group = _instancer(name, variants_of, view)
-    # The points themselves have no faces; Cycles would take them over, and all meshes with them, when they move.
+    # The points themselves have no faces; otherwise Cycles would synchronise them, and all meshes, when they change.
     points.show_instancer_for_render = False
     return points
 
 
 def _points(name: str, planting: Planting) -> bpy.types.Mesh:
-    """One point a plant, with attributes `turn`, `size` and `variant`."""
+    """One point per plant, with attributes `turn`, `size` and `variant`."""
     points = new_points(f"{name} places", planting.points_m)
     turn = np.zeros((len(planting.scale), 3), np.float32)
     turn[:, 2] = planting.yaw_rad
@@ -143,7 +143,7 @@ def _instancer(name: str, variants: bpy.types.Collection, view: bpy.types.Object
 
 
 def _is_in(tree: bpy.types.NodeTree, view: bpy.types.Object) -> bpy.types.NodeSocket:
-    """Whether a point is above or below the circle of the view."""
+    """Node output: whether a point is above or below the view's circle."""
     circle = tree.nodes.new("GeometryNodeObjectInfo")
     circle.inputs["Object"].default_value = view
     here = tree.nodes.new("GeometryNodeInputPosition").outputs["Position"]
@@ -159,7 +159,7 @@ def _is_in(tree: bpy.types.NodeTree, view: bpy.types.Object) -> bpy.types.NodeSo
 
 
 def _vector(tree: bpy.types.NodeTree, operation: str, *values) -> bpy.types.Node:
-    """A node of vector mathematics; values are sockets or constants."""
+    """A vector-math node; values are sockets or constants."""
     node = tree.nodes.new("ShaderNodeVectorMath")
     node.operation = operation
     for socket, value in zip(node.inputs, values):
@@ -171,7 +171,7 @@ def _vector(tree: bpy.types.NodeTree, operation: str, *values) -> bpy.types.Node
 
 
 def _attribute(tree: bpy.types.NodeTree, name: str, kind: str) -> bpy.types.NodeSocket:
-    """Output that reads a named attribute; the node has one output for each kind, of which the enabled one counts."""
+    """The output of a named-attribute node: of its outputs, one per type, the enabled one."""
     node = tree.nodes.new("GeometryNodeInputNamedAttribute")
     node.data_type = kind
     node.inputs["Name"].default_value = name

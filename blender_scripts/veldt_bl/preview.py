@@ -1,4 +1,4 @@
-"""Renders what a person looks at before rendering a dataset: a map of the place, and colour stills."""
+"""Render a preview of a dataset: a map of the place, and colour stills."""
 
 from __future__ import annotations
 
@@ -26,28 +26,28 @@ from .scene import Stage
 
 _MAP_WIDTH_PX = 1920
 _MAP_SAMPLES, _STILL_SAMPLES = 8, 16
-_SUN_DEG = 45.0, 0.0, 45.0  # shines from the north-west, as on maps
+_SUN_DEG = 45.0, 0.0, 45.0  # from the north-west, as on maps
 _SUN_W_M2, _SKY_STRENGTH = 2.3, 0.7
 _SUN_DISC_RAD = 0.0093
-_CLEARANCE_M = 50.0  # of the sheet above all that grows
+_CLEARANCE_M = 50.0  # of the sheet above all plants
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture to make: its file's name, and what sets the scene up for it."""
+    """A picture to render: its file name, and the function that sets up the scene for it."""
 
     file: str
     set_up: Callable[[], None]
 
 
 def plan_pictures(stage: Stage) -> list[Picture]:
-    """The stills, then the map, all at the first clip's first moment."""
+    """The stills and then the map, all at the first moment of the first clip."""
     world = stage.world
     time_s = _moment_s(world)
     sheet, stills = plan_map(world, time_s), plan_stills(world, time_s)
     return [
         *(Picture(f"{still.name}.png", lambda still=still: _set_up_still(still)) for still in stills),
-        # Last, because what is on the map stays in the scene.
+        # Last, because the map's objects stay in the scene.
         Picture("map.png", lambda: _set_up_map(stage, sheet)),
     ]
 
@@ -55,7 +55,7 @@ def plan_pictures(stage: Stage) -> list[Picture]:
 def render_pictures(
     stage: Stage, pictures: list[Picture], folder: Path, on_picture: Callable[[int], None]
 ) -> None:
-    """Writes NAME.png for each picture; on_picture(k) when the k-th is whole. OSError if one cannot be written."""
+    """Write NAME.png for each picture and call on_picture(k) when the k-th is complete. OSError if writing fails."""
     folder.mkdir(parents=True, exist_ok=True)
     _remove_pictures(folder)
     _set_up_colours(stage.world)
@@ -73,14 +73,14 @@ def _moment_s(world: World) -> float:
 
 
 def _show(stage: Stage, time_s: float) -> None:
-    """All actors at a time, and all plants."""
+    """Show all actors at a time, and all plants."""
     stage.troupe.rehearse(np.array([time_s]))
     stage.troupe.pose(0)
     show_within(stage.flora, np.zeros(2), EVERYWHERE_M)
 
 
 def _remove_pictures(folder: Path) -> None:
-    """Removes those of an earlier preview, perhaps of another config."""
+    """Remove the pictures of an earlier preview, which may be of another config."""
     for pattern in ("map.png", "overview.png", "close_*.png", "part_*.png"):
         for picture in folder.glob(pattern):
             picture.unlink()
@@ -91,7 +91,7 @@ def _render(picture: Path) -> None:
     bpy.context.scene.render.filepath = str(part)
     try:
         bpy.ops.render.render(write_still=True)
-    except RuntimeError as error:  # its words end in a line break
+    except RuntimeError as error:  # its text ends with a line break
         raise OSError(f"{picture}: {str(error).strip()}") from error
     if not is_whole(part):
         raise OSError(f"{picture}: Blender could not write all of it; is the disk full?")
@@ -113,7 +113,7 @@ def _set_up_renderer() -> None:
 
 
 def _set_up_colours(world: World) -> None:
-    """Gives every surface its matte colour."""
+    """Give every surface a matte colour."""
     pairs = {index: pair for pair, index in world.material_indices.items()}
     for material in bpy.data.materials:
         if material.pass_index in pairs:
@@ -125,7 +125,7 @@ def _set_up_colours(world: World) -> None:
 
 
 def _add_light() -> None:
-    """A sun and a sky."""
+    """Add a sun and a sky."""
     sun = bpy.data.lights.new("sun", "SUN")
     sun.energy, sun.angle = _SUN_W_M2, _SUN_DISC_RAD
     shining = new_object("sun", sun, 0)

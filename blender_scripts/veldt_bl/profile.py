@@ -1,4 +1,4 @@
-"""Where the time of a frame goes."""
+"""Measure the time of the steps of rendering a frame."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from .render import render_frames
 def profile_frames(
     folder: Path, frames: range, pose: Callable[[int], None], clock_s: Callable[[], float]
 ) -> dict:
-    """Mean seconds of a frame: `frame_s` all in all, `split_s` by what is done in them. The first is not counted.
+    """Mean seconds per frame: `frame_s` in total, `split_s` by step. The first frame is not counted.
 
-    Renders into the folder; saves the last picture once more; then renders a single pixel of each frame, for which all
-    is done but tracing and writing, and of which nothing is kept.
+    Renders into the folder, saves the last picture once more, and then renders a single pixel of each frame, which
+    needs every step but tracing and writing; its output is discarded.
     """
     folder.mkdir(parents=True, exist_ok=True)
     whole = _spans_s(folder, frames, pose, clock_s)
@@ -47,7 +47,7 @@ def _spans_s(
     clock_s: Callable[[], float],
     only_a_pixel: bool = False,
 ) -> dict[str, float]:
-    """Mean seconds of all frames but the first: in `pose`, until the scene is up to date, until the file is there."""
+    """Mean seconds of all frames but the first: in `pose`, until the scene is updated, and until the file exists."""
     rows: list[tuple[float, ...]] = []
     at_s = {}
 
@@ -79,7 +79,7 @@ def _spans_s(
 
 
 def _crop(only_a_pixel: bool) -> None:
-    """Renders the picture's middle pixel alone, or all of it."""
+    """Restrict rendering to one pixel in the middle of the picture, or render all of it."""
     render = bpy.context.scene.render
     render.use_border = render.use_crop_to_border = only_a_pixel
     for side, size_px in (("x", render.resolution_x), ("y", render.resolution_y)):
@@ -88,7 +88,7 @@ def _crop(only_a_pixel: bool) -> None:
 
 
 def _write_s(file: Path, clock_s: Callable[[], float]) -> float:
-    """Seconds that writing the last picture takes, which is not there afterwards."""
+    """Seconds needed to write the last picture; the file is removed afterwards."""
     started_s = clock_s()
     bpy.data.images["Render Result"].save_render(str(file))
     written_s = clock_s() - started_s

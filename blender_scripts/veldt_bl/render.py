@@ -1,4 +1,4 @@
-"""Renders clips to multilayer EXR files, one a frame, each of which appears under its name only when it is whole."""
+"""Render clips to multilayer EXR files, one per frame; a file gets its final name only when it is complete."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import bpy
 
-from veldt.camera import Intrinsics
+from veldt.camera import Intrinsics, pixel_aspect
 from veldt.exr_files import is_whole
 from veldt.exr_layers import add_layer
 from veldt.manifest import ACTOR_LAYER, LAYER, frame_file
@@ -20,9 +20,9 @@ _PART = "part_"
 
 
 def set_up_renderer(intrinsics: Intrinsics, supersample: int) -> None:
-    """One ray a pixel, through its centre, and nothing but the passes: indices, depth, normals.
+    """Render one ray per pixel, through its centre, and only the passes: indices, depth and normals.
 
-    The picture has supersample x supersample pixels for each of those of `intrinsics`.
+    The picture has supersample x supersample pixels for each pixel of `intrinsics`.
     """
     scene = bpy.context.scene
     render, cycles = scene.render, scene.cycles
@@ -41,7 +41,7 @@ def set_up_renderer(intrinsics: Intrinsics, supersample: int) -> None:
     render.resolution_x = supersample * intrinsics.width_px
     render.resolution_y = supersample * intrinsics.height_px
     render.resolution_percentage = 100
-    render.pixel_aspect_x = render.pixel_aspect_y = 1.0
+    render.pixel_aspect_x, render.pixel_aspect_y = pixel_aspect(intrinsics)
     layer = bpy.context.view_layer
     layer.name = LAYER
     layer.use_pass_combined = False
@@ -50,7 +50,7 @@ def set_up_renderer(intrinsics: Intrinsics, supersample: int) -> None:
 
 
 def first_missing(folder: Path, frames: int) -> int:
-    """Number of the first frame not there or damaged, `frames` if none is; leftovers of killed renders are removed."""
+    """Index of the first missing or damaged frame, or `frames`; removes leftovers of killed renders."""
     for leftover in folder.glob(f"{_PART}*"):
         leftover.unlink()
     return next((k for k in range(frames) if not is_whole(folder / frame_file(k))), frames)
@@ -59,9 +59,9 @@ def first_missing(folder: Path, frames: int) -> int:
 def render_frames(
     folder: Path, frames: range, pose: Callable[[int], None], on_frame: Callable[[int], None]
 ) -> None:
-    """Renders frames into the folder; pose(k) before frame k is rendered, on_frame(k) when it is whole.
+    """Render frames into the folder; calls pose(k) before frame k is rendered and on_frame(k) when it is complete.
 
-    OSError if a frame cannot be written whole, or if Blender stops before the last one.
+    OSError if a frame cannot be written completely, or if Blender stops before the last one.
     """
     compat.write_multilayer_exr(bpy.context.scene.render.image_settings, packed=True)
 
@@ -75,9 +75,9 @@ def render_frames(
 def render_frames_and_actors(
     folder: Path, frames: range, stage: Stage, on_frame: Callable[[int], None]
 ) -> None:
-    """Renders frames as `render_frames` does, each with one more layer: the actors alone.
+    """Render frames like `render_frames`, each with an additional layer: the actors alone.
 
-    Where there may be actors, each frame is rendered twice, the second time without the place.
+    Frames that may contain actors are rendered twice, the second time without the place.
     """
     compat.write_multilayer_exr(bpy.context.scene.render.image_settings, packed=False)
 
@@ -97,13 +97,13 @@ def render_frames_and_actors(
 
 
 def _runs(frames: range, is_one_kind: Callable[[int], bool]) -> list[range]:
-    """Frames in parts as long as can be that are all of one kind."""
+    """Frames split into the longest possible runs of one kind."""
     starts = [k for k in frames if k == frames[0] or is_one_kind(k) != is_one_kind(k - 1)]
     return [range(start, stop) for start, stop in zip(starts, [*starts[1:], frames.stop])]
 
 
 def _join_layers(folder: Path, frame: int) -> None:
-    """Makes a whole frame of Blender's frames 2 * frame, and 2 * frame + 1 if there is one."""
+    """Combine Blender's frames 2 * frame and, if it exists, 2 * frame + 1 into one frame."""
     both, alone = _part(folder, 2 * frame), _part(folder, 2 * frame + 1)
     other = alone if alone.exists() else None
     for part in filter(None, (both, other)):
@@ -120,14 +120,14 @@ def _part(folder: Path, number: int) -> Path:
 
 
 def _animate(folder: Path, frames: range, pose: Callable[[int], None], finish: Callable[[int], None]) -> None:
-    """Has Blender render frames to part files; pose(k) before frame k is rendered, finish(k) when it is written."""
+    """Render frames to part files; calls pose(k) before frame k is rendered and finish(k) when it is written."""
     scene = bpy.context.scene
     scene.render.filepath = str(folder / f"{_PART}######")
     scene.frame_start, scene.frame_end, scene.frame_step = frames[0], frames[-1], frames.step
     done: list[int] = []
     failures: list[Exception] = []
 
-    def pose_one(number: int) -> None:  # Blender also passes by its own first frame
+    def pose_one(number: int) -> None:  # Blender also calls this for its current first frame
         pose(min(max(number, frames[0]), frames[-1]))
 
     def finish_one(number: int) -> None:
@@ -149,9 +149,9 @@ def _animate(folder: Path, frames: range, pose: Callable[[int], None], finish: C
 
 
 def _handler(act: Callable[[int], None], failures: list[Exception]) -> Callable:
-    """Calls act(frame) for Blender until one of its handlers failed.
+    """A Blender handler that calls act(frame) until a handler has failed.
 
-    Blender only prints what a handler raises, so a failure is kept, and rendering stopped.
+    Blender only prints exceptions of handlers, so a failure is stored and rendering is stopped.
     """
 
     def handle(scene: bpy.types.Scene, *_) -> None:
@@ -167,7 +167,7 @@ def _handler(act: Callable[[int], None], failures: list[Exception]) -> Callable:
 
 
 def _finish_frame(frame: Path, part: Path) -> None:
-    """Gives a written frame its final name, if it is whole."""
+    """Give a written frame its final name if it is complete."""
     _check_whole(frame, part)
     os.replace(part, frame)
 

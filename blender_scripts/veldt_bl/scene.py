@@ -1,4 +1,4 @@
-"""Builds a planned world in Blender, once, and sets it in motion clip by clip."""
+"""Build a planned world in Blender once, and animate it clip by clip."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from . import actors, camera, plants
 from .meshes import add_twin, new_material, new_mesh, new_object
 
 _SHEET_CORNERS = 64
-_OUT_OF_SIGHT_M = -1e5  # several times farther away than a camera sees
+_OUT_OF_SIGHT_M = -1e5  # several times the range of a camera
 
 
 class Stage:
@@ -35,16 +35,17 @@ class Stage:
         self._circles = np.zeros((1, 2)), np.zeros(1)
 
     def animate(self, clip: dict) -> None:
-        """Has `pose` show the frames of a clip from now on, the first of which is frame 0."""
+        """Select the clip whose frames, counted from 0, `pose` shows."""
         flight = self.world.flight(clip)
         self._camera_to_world = flight.camera_to_world
         self._circles = plants.circles_needed(self.flora, self.world, flight.camera_to_world)
         self.troupe.rehearse(flight.time_s, actors.needed(self.world, flight))
 
     def pose(self, frame: int) -> None:
-        """Puts the camera, and all it may see, where they are in a frame of the clip.
+        """Move the camera, and everything it may see, to their positions in a frame of the clip.
 
-        All is set outright and not keyed: keys of a long clip would fill the memory, and take longer than rendering.
+        Positions are set directly and not keyed: the keys of a long clip would fill memory and take longer than
+        rendering.
         """
         camera.place(self.camera, self._camera_to_world[frame])
         centres_m, radii_m = self._circles
@@ -52,11 +53,11 @@ class Stage:
         self.troupe.pose(frame)
 
     def has_actors(self, frame: int) -> bool:
-        """Whether there may be actors in the picture."""
+        """Whether actors may be in the picture."""
         return bool(self.troupe.needed[:, frame].any())
 
     def show_place(self, is_there: bool) -> None:
-        """Puts all but the actors where it belongs, or out of sight, which takes less than hiding it."""
+        """Move everything but the actors to its position, or out of sight, which is faster than hiding it."""
         height_m = 0.0 if is_there else _OUT_OF_SIGHT_M
         for thing in self.place:
             if thing.location.z != height_m:
@@ -64,7 +65,7 @@ class Stage:
 
 
 def build_stage(world: World) -> Stage:
-    """The world as objects of an empty scene."""
+    """Build the world as objects of an empty scene."""
     _empty_scene()
     materials = {
         (material, part): new_material(f"{material} {part}".strip(), index)
@@ -88,18 +89,18 @@ def _add_ground(world: World, materials: dict) -> bpy.types.Object:
     slots = [materials[material, ""] for material in ground.materials]
     mesh = new_mesh("ground", Mesh(ground.points_m, ground.triangles, ground.cover), slots)
     ground = new_object("ground", mesh, ids.GROUND)
-    # Cycles merges a mesh that only one object uses into the tree it rebuilds each frame, which for the ground takes
-    # longer than the picture. A second user, deep down where no camera ray may meet it, keeps the ground's own tree.
+    # Cycles merges a mesh with a single user into the BVH that it rebuilds each frame, which for the ground takes
+    # longer than rendering. A second user, far below where no camera ray meets it, keeps a separate BVH.
     add_twin(mesh, ids.GROUND)
     return ground
 
 
 def _add_water(water: Water, material: bpy.types.Material) -> bpy.types.Object:
-    """A flat disc; its rim lies under the banks, so the shoreline is where the ground rises through it."""
+    """Add a flat disc; its rim lies below the banks, so the shoreline is where the ground rises through it."""
     angle = 2.0 * np.pi * np.arange(_SHEET_CORNERS) / _SHEET_CORNERS
     rim = water.basin.centre_m + water.basin.disc_radius_m * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     points = np.column_stack([rim, np.full(_SHEET_CORNERS, water.level_m)])
     fan = np.array([[0, k, k + 1] for k in range(1, _SHEET_CORNERS - 1)])
     mesh = new_mesh("water", facets(points, fan), [material])
-    add_twin(mesh, ids.WATER)  # as the ground's, for when the place is put out of sight
+    add_twin(mesh, ids.WATER)  # the same as the ground's, for when the place is moved out of sight
     return new_object("water", mesh, ids.WATER)

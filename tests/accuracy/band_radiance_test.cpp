@@ -10,7 +10,7 @@ using namespace thermal;
 
 namespace {
 
-constexpr double kRounding = 1.11e-16;  // half of eps: the most one operation changes a value by, relatively
+constexpr double kRounding = 1.11e-16;  // half of eps: the largest relative change by one operation
 
 const BandRadiance kBand(SpectralResponse::flat(8, 14));
 
@@ -47,7 +47,7 @@ const std::map<std::string, std::vector<SpectralResponse::Sample>> kResponses = 
 
 }  // namespace
 
-// The worst measured is 1.5e-15, at 263.15 K; the bound of the next test is what theory promises.
+// The worst measured error is 1.5e-15, at 263.15 K; the next test has the bound that theory guarantees.
 TEST_CASE("Golden radiances, 30 K and up, to 1e-12") {
   const std::vector<Golden> goldens = golden_from(30);
   CHECK(goldens.size() == 16);
@@ -57,7 +57,7 @@ TEST_CASE("Golden radiances, 30 K and up, to 1e-12") {
   }
 }
 
-TEST_CASE("Golden radiances and derivatives, wherever a double holds them, to the rounding of their inputs") {
+TEST_CASE("Golden radiances and derivatives agree to the rounding of their inputs, where representable") {
   const std::vector<Golden> goldens = golden_from(3);
   CHECK(goldens.size() == 18);
   for (const Golden& golden : goldens) {
@@ -70,7 +70,7 @@ TEST_CASE("Golden radiances and derivatives, wherever a double holds them, to th
   }
 }
 
-TEST_CASE("Golden logarithms, also where the radiance is no double any more") {
+TEST_CASE("Golden logarithms agree, also where the radiance underflows a double") {
   const std::vector<Golden> goldens = golden_from(1);
   CHECK(goldens.size() == 19);
   for (const Golden& golden : goldens) {
@@ -95,7 +95,7 @@ TEST_CASE("Bands of any shape and width agree with 60-digit arithmetic") {
   }
 }
 
-TEST_CASE("The inverse undoes the forward way, 1 K to 1e5 K, through the logarithm") {
+TEST_CASE("The inverse undoes the forward function through the logarithm, 1 K to 1e5 K") {
   double worst_k = 0;
   for (double temperature_k = 1; temperature_k <= 1e5; temperature_k *= 1.01) {
     const BandValue value = kBand.evaluate(temperature_k);
@@ -114,7 +114,7 @@ TEST_CASE("The inverse undoes the forward way, 1 K to 1e5 K, through the logarit
   CHECK(worst_k <= 1e-6);
 }
 
-TEST_CASE("The inverse undoes the forward way from where the radiance is a normal double") {
+TEST_CASE("The inverse undoes the forward function wherever the radiance is a normal double") {
   double worst_k = 0;
   for (double temperature_k = 1.4485; temperature_k <= 1e5; temperature_k *= 1.01) {
     const BandValue value = kBand.evaluate(temperature_k);
@@ -128,7 +128,7 @@ TEST_CASE("The inverse undoes the forward way from where the radiance is a norma
   CHECK(worst_k <= 1e-6);
 }
 
-TEST_CASE("Golden radiances give their temperatures back to 1e-6 K") {
+TEST_CASE("Golden radiances give back their temperatures to 1e-6 K") {
   for (const Golden& golden : golden_from(1)) {
     CAPTURE(golden.temperature_k);
     const double back_k = golden.temperature_k < 1.5 ? kBand.temperature_from_ln(golden.ln_radiance)

@@ -24,7 +24,7 @@ constexpr std::size_t kTree = 6;
 constexpr Counts kWinter = {220, 255, 223, 220, 238, 233, 162, 164, 171, 168, 136, 164};
 constexpr Counts kSummer = {218, 255, 221, 218, 235, 234, 200, 201, 177, 207, 168, 201};
 
-/// Twelve objects, of which each shows one pixel.
+/// Twelve objects, one pixel each.
 Manifest twelve_objects() {
   Manifest manifest;
   manifest.clip = "table_1";

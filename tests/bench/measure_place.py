@@ -1,8 +1,8 @@
-"""Measures how long Blender takes to build a config's place and to render it, with its plants and without.
+"""Measure how long Blender takes to build and render a config's place, with and without its plants.
 
     python3 tests/bench/measure_place.py [configs/savanna.json] [--frames 12]
 
-Prints seconds to build, seconds a frame (the first of each clip, which builds search trees, aside) and peak memory.
+Prints the seconds to build, the seconds per frame (without the first of each clip, which builds BVHs) and peak memory.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def measure(config: dict, folder: Path) -> dict:
 
 
 def _events(folder: Path) -> Iterator[tuple[dict, float]]:
-    """What Blender tells while it renders folder/config.json, and when."""
+    """The events of Blender while it renders folder/config.json, with their times."""
     command = ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "-t", "2"]
     command += ["--python", str(_ROOT / "blender_scripts" / "render_passes.py"), "--"]
     command += ["--config", str(folder / "config.json"), "--out", str(folder / "passes"), "--events-fd", "1"]
@@ -59,7 +59,7 @@ def _in_words(measured: dict) -> str:
 
 
 def main() -> None:
-    """Measures the bare place first: memory is the most of all that ran so far."""
+    """Measure the bare place first: memory is the peak of all runs so far."""
     parser = argparse.ArgumentParser(description="Measures building and rendering of a config's place.")
     parser.add_argument("config", type=Path, nargs="?", default=_ROOT / "configs" / "savanna.json")
     parser.add_argument("--frames", type=int, default=12, help="of each clip")

@@ -1,9 +1,9 @@
-"""Draws the speed-error front of `veldt bench --suite radiance --json` as an SVG.
+"""Draw the speed-error front of `veldt bench --suite radiance --json` as an SVG.
 
     build/release/bin/veldt bench --json > bench.json
     python3 tests/bench/plot_front.py bench.json thermal_core/accuracy.svg
 
-Needs matplotlib (python3-matplotlib); nothing else here does.
+Needs matplotlib (python3-matplotlib).
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _LEAST_MK = 1e-11  # where a reference, whose error against itself is 0, is draw
 
 
 def draw(rows: list[dict], out: str) -> None:
-    """One panel a group: ns a pixel across, worst error in mK up, what is dominated in grey."""
+    """One panel per group: ns per pixel on x, worst error in mK on y, dominated points in grey."""
     figure, panels = pyplot.subplots(1, len(_GROUPS), figsize=(10, 4.2))
     for panel, group in zip(panels, _GROUPS):
         members = [row for row in rows if row["group"] == group]

@@ -1,4 +1,4 @@
-"""The small place of `scenes.tiny`, planned and rendered once for all tests."""
+"""Fixtures: the small place of `scenes.tiny`, planned and rendered once for all tests."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Small bodies in the format of species files, and ground to walk on, for tests that shall not hang on assets."""
+"""Small bodies in the format of species files, and ground to walk on, for tests that are independent of the assets."""
 
 from dataclasses import dataclass
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 def _legs(joints_m: list, phases: list, heel_deg: float, name: str) -> tuple[dict, dict]:
-    """Bones of a pair of legs drawn through three joints, and what the file says of their gait."""
+    """Bones of a pair of legs drawn through three joints, and the entry for their gait."""
     names = [f"{name}_{part}" for part in ("upper", "lower", "foot")]
     joints = [*joints_m, [joints_m[-1][0] + 0.08, joints_m[-1][1], 0.02]]
     bones = {

@@ -1,4 +1,4 @@
-"""Reads passes for the tests."""
+"""Read passes for the tests."""
 
 from pathlib import Path
 

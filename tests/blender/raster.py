@@ -1,4 +1,4 @@
-"""Draws posed bodies and plants on level ground without Blender, to check Blender's picture against."""
+"""Draw posed bodies and plants on level ground without Blender, as a reference for Blender's pictures."""
 
 import numpy as np
 
@@ -67,13 +67,13 @@ def farthest_from_an_edge(world, pose: np.ndarray, triangles: np.ndarray, pixels
 def _ground_depth(lens, pose: np.ndarray) -> np.ndarray:
     """Depth of the plane z = 0 at pixel centres; infinite above the horizon."""
     column, row = np.meshgrid(np.arange(lens.width_px) + 0.5, np.arange(lens.height_px) + 0.5)
-    cx_px, cy_px = lens.centre_px
-    falling = -(pose[2, 0] * (column - cx_px) + pose[2, 1] * (row - cy_px)) / lens.f_px - pose[2, 2]
+    (fx_px, fy_px), (cx_px, cy_px) = lens.focal_px, lens.centre_px
+    falling = -pose[2, 0] * (column - cx_px) / fx_px - pose[2, 1] * (row - cy_px) / fy_px - pose[2, 2]
     return np.where(falling > 0, pose[2, 3] / np.maximum(falling, 1e-30), np.inf)
 
 
 def _draw_triangle(index, nearness, number, corners_px, depth_m) -> None:
-    """Fills the pixels whose centres the triangle covers and is nearest in; 1 / depth is linear in the picture."""
+    """Fill the pixels whose centres the triangle covers and is nearest in; 1 / depth is linear in the picture."""
     height, width = index.shape
     low = np.clip(np.ceil(corners_px.min(axis=0) - 0.5).astype(int), 0, [width, height])
     high = np.clip(np.floor(corners_px.max(axis=0) - 0.5).astype(int) + 1, 0, [width, height])

@@ -1,4 +1,4 @@
-"""Does what render_passes.py does, but has Blender forget the scene after each frame. Blender runs it for a test."""
+"""Run render_passes.py, but clear Blender's cached scene after each frame. Run by Blender, for a test."""
 
 import sys
 from pathlib import Path

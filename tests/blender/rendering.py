@@ -1,4 +1,4 @@
-"""Runs the renderer as the `veldt` command does: a child process that tells its progress through a pipe."""
+"""Run the renderer like the `veldt` command: as a child process that reports its progress through a pipe."""
 
 import json
 import os
@@ -30,7 +30,7 @@ PLANES = (
 
 @dataclass
 class Run:
-    """What a run of the renderer left behind."""
+    """The result of a run of the renderer."""
 
     code: int
     out: Path
@@ -47,7 +47,7 @@ class Run:
 
 
 def _limit_files(size_bytes: int | None) -> None:
-    """Lets this process write no file longer than that, as if the disk were full; for a child before it starts."""
+    """Limit the size of files that a child process can write, as if the disk were full; called before it starts."""
     if size_bytes is not None:
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (size_bytes, size_bytes))
@@ -62,7 +62,7 @@ def render(
     largest_file_bytes: int | None = None,
     script: Path | None = None,
 ) -> Run:
-    """Renders a config, by default into `folder`/out; `options` go to render_passes.py, or to `script` instead."""
+    """Render a config, by default into `folder`/out; `options` go to render_passes.py, or to `script` instead."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "config.json").write_text(json.dumps(config))
     out = out or folder / "out"
@@ -82,5 +82,5 @@ def render(
             preexec_fn=lambda: _limit_files(largest_file_bytes),
         )
         os.close(writer)
-        told = [json.loads(line) for line in events]
-    return Run(done.returncode, out, told, done.stdout + done.stderr)
+        parsed = [json.loads(line) for line in events]
+    return Run(done.returncode, out, parsed, done.stdout + done.stderr)

@@ -1,4 +1,4 @@
-"""Small configs the tests share."""
+"""Small configs for the tests."""
 
 from veldt.config import resolve
 
@@ -6,7 +6,7 @@ import configs
 
 
 def tiny(change=None) -> dict:
-    """The program's small place, denser and flown over at large, defaults filled in after `change` had its way."""
+    """The program's small place with more plants and larger flights, resolved after `change` was applied."""
     config = configs.tiny()
     config["scene"]["plants"] = {"acacia": {"per_ha": 60}, "shrub": {"per_ha": 200}}
     config["scene"]["groups"][0]["count"] = 2
@@ -23,6 +23,6 @@ def tiny(change=None) -> dict:
 
 
 def flat(config: dict) -> None:
-    """Makes the place level and bare, so that nothing but actors hides actors."""
+    """Make the place level and bare, so that only actors occlude actors."""
     config["scene"]["terrain"].update(relief_m=0, water_radius_m=0)
     config["scene"]["plants"] = {}

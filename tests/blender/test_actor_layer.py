@@ -1,4 +1,4 @@
-"""The actors alone in a layer of their own, and actors out of the picture."""
+"""The layer with actors alone, and actors outside the picture."""
 
 import shutil
 
@@ -37,14 +37,14 @@ def test_the_layer_changes_nothing_else(full, layered):
 
 
 def _thicket(config: dict) -> None:
-    """Looked at from low down through trees."""
+    """A low view through trees."""
     config["scene"]["plants"] = {"acacia": {"per_ha": 400}}
     config["clips"] = [config["clips"][1]]
     config["clips"][0]["flight"] = config["clips"][0]["flight"] | {"look_angle_deg": 15}
 
 
 def test_the_layer_shows_actors_whole(tmp_path):
-    """Also those behind trees, just as a place shows them that has none."""
+    """Actors behind trees look as in a place without trees."""
 
     def bare(config: dict) -> None:
         _thicket(config)
@@ -79,7 +79,7 @@ def test_a_layered_clip_goes_on_where_it_stopped(layered, tmp_path):
 
 
 def _leaving(config: dict) -> None:
-    """A camera that flies to and fro over the place, and meets its actors here and there."""
+    """A camera that flies back and forth over the place and passes its actors now and then."""
     config["scene"]["plants"] = {}
     flight = {"area_m": [-25, -25, 25, 25], "altitude_m": 30, "lane_spacing_m": 15, "speed_m_s": 8}
     clip = config["clips"][0]
@@ -88,7 +88,7 @@ def _leaving(config: dict) -> None:
 
 
 def test_actors_that_left_the_picture_are_not_seen(tmp_path):
-    """Frames rendered one after another, in which actors come and go, are what each is when rendered first."""
+    """Frames rendered in sequence, in which actors come and go, equal those rendered on their own."""
     whole = render(tmp_path / "whole", tiny(_leaving))
     assert whole.code == 0, whole.log
     counts = [np.count_nonzero(whole.planes("down", k)[PLANES[0]] >= ids.FIRST_ACTOR) for k in range(16)]

@@ -1,4 +1,4 @@
-"""Who walks where, and how their bodies stand there."""
+"""Positions and poses of actors."""
 
 import numpy as np
 import pytest
@@ -65,7 +65,7 @@ def test_a_given_beginning_is_the_first_members(world):
     ids=["walking", "grazing"],
 )
 def test_boxes_hold_bodies_at_all_times(change):
-    """At moments that no box was made of."""
+    """Checked at moments that were not used to measure the boxes."""
     world = plan_world(tiny(change))
     for actor in world.actors:
         time_s = 0.37 + np.arange(0, 200, 3.1)
@@ -83,8 +83,8 @@ def test_boxes_are_not_much_larger_than_bodies(world):
         assert (np.ptp(actor.bounds_m, axis=0) < drawn_m + 0.45 * drawn_m.max()).all()
 
 
-def test_who_stops_stands_still_on_its_feet():
-    """While a grazer feeds, nothing of its legs moves; when it walks on, feet on the ground stay where they are."""
+def test_feet_do_not_move_while_an_animal_stands():
+    """While a grazer feeds, its legs do not move; when it walks on, feet on the ground stay in place."""
     actor = plan_world(tiny(_grazing)).actors[4]
     assert isinstance(actor.schedule, StopAndGo)
     time_s = np.arange(0, 120, 0.02)

@@ -1,4 +1,4 @@
-"""Scene code asks no clock and no hidden random state, and plans without Blender."""
+"""Scene code uses neither clocks nor hidden random state, and plans without Blender."""
 
 import ast
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Bodies: closed surfaces, left and right alike, what variants change, and angles in the files' words."""
+"""Bodies: closed surfaces, left-right symmetry, effects of variants, and the angles of files."""
 
 import numpy as np
 import pytest
@@ -66,7 +66,7 @@ def test_pairs_are_mirror_images():
     assert [leg.phase for leg in legs] == [0.25, 0.75, 0.0, 0.5]
 
 
-def test_children_hang_on_the_bone_of_their_own_side():
+def test_the_parent_of_a_bone_is_on_the_same_side():
     names = [bone.name for bone in MARE.bones]
     parents = {bone.name: names[bone.parent] for bone in MARE.bones if bone.parent >= 0}
     assert parents["fore_foot.right"] == "fore_lower.right" and parents["fore_upper.right"] == "trunk"

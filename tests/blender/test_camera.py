@@ -4,16 +4,63 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.camera import Intrinsics, intrinsics_of, look, overscan_of, project, widened
+from veldt.camera import (
+    Intrinsics,
+    centred,
+    edge_tangents,
+    intrinsics_of,
+    lens_shift,
+    look,
+    overscan_of,
+    pixel_aspect,
+    project,
+    widened,
+)
 from veldt.faults import ConfigError
 
-LENS = Intrinsics(640, 512, 1000.0)
+LENS = centred(640, 512, 1000.0)
+CALIBRATED = Intrinsics(640, 512, (800.0, 1000.0), (300.0, 272.0))
 
 
 def test_focal_length_in_pixels():
     lens = intrinsics_of(tiny()["camera"] | {"width_px": 640, "height_px": 512, "pixel_pitch_um": 17})
-    assert lens.f_px == pytest.approx(0.013 / 17e-6)
+    assert lens.focal_px == pytest.approx((0.013 / 17e-6, 0.013 / 17e-6))
     assert lens.centre_px == (320, 256)
+
+
+def test_what_is_given_goes_before_focal_length_and_middle():
+    camera = tiny()["camera"] | {"width_px": 640, "height_px": 512, "fx_px": 800}
+    assert intrinsics_of(camera) == Intrinsics(640, 512, (800, 800), (320, 256))
+    camera |= {"fy_px": 1000, "cx_px": 300, "cy_px": 272}
+    assert intrinsics_of(camera) == CALIBRATED
+
+
+def test_calibrations_are_not_read_here():
+    with pytest.raises(ConfigError) as fault:
+        intrinsics_of(tiny()["camera"] | {"calibration": "cal.yml"})
+    assert str(fault.value) == ('camera.calibration = "cal.yml"; expected its numbers, which veldt fills in')
+
+
+def test_points_are_projected_with_both_focal_lengths_about_the_principal_point():
+    pixels, _ = project(CALIBRATED, np.eye(4), np.array([[0.0, 0, 8], [1, 2, 8], [-1, -2, 8]]))
+    assert pixels.tolist() == [[300, 272], [400, 522], [200, 22]]
+
+
+def test_edges_are_where_points_on_them_project_to():
+    (left, top), (right, bottom) = edge_tangents(CALIBRATED)
+    pixels, _ = project(CALIBRATED, np.eye(4), np.array([[-left, -top, 1], [right, bottom, 1]]))
+    assert pixels == pytest.approx(np.array([[0, 0], [640, 512]]))
+
+
+def test_blender_shifts_the_picture_in_widths_of_it():
+    """20 px right of the axis of 640; along y 16 px above it, each 0.8 times as high as wide."""
+    assert lens_shift(CALIBRATED) == pytest.approx((20 / 640, 16 * 0.8 / 640))
+    assert pixel_aspect(CALIBRATED) == (1.25, 1.0)
+    assert pixel_aspect(Intrinsics(640, 512, (1000.0, 800.0), (320.0, 256.0))) == (1.0, 1.25)
+
+
+def test_a_centred_camera_with_square_pixels_is_blenders_own():
+    assert (lens_shift(LENS), pixel_aspect(LENS)) == ((0, 0), (1, 1))
 
 
 def test_straight_down_the_flight_direction_is_up_in_the_picture():
@@ -43,12 +90,14 @@ def test_points_behind_the_camera_have_no_positive_depth():
 
 
 def test_a_widened_camera_sees_the_same_with_more_around_it():
-    lens = Intrinsics(641, 512, 1000.0)
+    lens = centred(641, 512, 1000.0)
     wide = widened(lens, 7)
     assert (wide.width_px, wide.height_px) == (655, 526)
     point = np.array([[3.0, -2.0, 50.0]])
     shift = project(wide, np.eye(4), point)[0] - project(lens, np.eye(4), point)[0]
     assert shift == pytest.approx(np.array([[7, 7]]))
+    off = widened(CALIBRATED, 7)
+    assert off == Intrinsics(654, 526, (800, 1000), (307, 279))
 
 
 def test_overscan_is_the_configs_or_none():

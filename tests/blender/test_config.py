@@ -1,4 +1,4 @@
-"""Defaults come from the camera's preset, then from the schema, at every depth, and nowhere else."""
+"""Defaults come from the camera's preset and then from the schema, at every depth, and from nowhere else."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""configs/contact_sheet.json shows every species, finely enough, from where `./run contact-sheet` expects it."""
+"""configs/contact_sheet.json shows every species, at sufficient resolution, where `./run contact-sheet` expects it."""
 
 import json
 import re
@@ -26,7 +26,7 @@ def test_every_species_is_on_it():
     assert shown == set(assets.names("species"))
 
 
-def test_everybody_has_a_picture_from_the_side_and_one_from_above(sheet):
+def test_every_species_has_a_side_view_and_a_top_view(sheet):
     clips = [clip["id"] for clip in sheet.config["clips"]]
     assert sorted(clips) == sorted(
         f"{view}_{actor.group}" for actor in sheet.actors for view in ("side", "top")
@@ -39,11 +39,11 @@ def test_pixels_on_the_ground_are_8_cm_or_finer_from_61_m(sheet):
             flight = sheet.flight(clip)
             assert flight.agl_m == pytest.approx([61.0], abs=0.1)  # it holds its height over smoothed ground
             assert flight.look_angle_deg == pytest.approx([90.0], abs=0.05)  # but for the gimbal's lag
-    assert 61.0 / sheet.intrinsics.f_px < 0.08
+    assert 61.0 / sheet.intrinsics.focal_px[0] < 0.08
 
 
-def test_everybody_is_whole_in_both_pictures_and_alone(sheet):
-    """Corners of boxes, which hold bodies in all they do; of most pictures only the middle is shown."""
+def test_every_species_is_complete_and_alone_in_both_views(sheet):
+    """Checks the corners of boxes, which contain bodies at all times; most pictures show only the middle."""
     for clip in sheet.config["clips"]:
         view, name = clip["id"].split("_", 1)
         size_px = (

@@ -1,4 +1,4 @@
-"""Courses: speeds, turns, stops, and going on for ever."""
+"""Courses: speeds, turns, stops and repetition."""
 
 import numpy as np
 import pytest
@@ -167,7 +167,7 @@ def test_endless_courses_repeat_for_a_day(course):
 
 
 @pytest.mark.parametrize("course", [*WINGED.values(), *HOVERING.values()])
-def test_orders_do_not_hang_on_what_else_is_asked(course):
+def test_orders_do_not_depend_on_other_queries(course):
     time_s = np.random.Generator(np.random.PCG64(1)).uniform(0, min(course.duration_s, 2000.0), 200)
     ride, backwards = course.at(time_s), course.at(time_s[::-1])
     assert (ride.point_m == backwards.point_m[::-1]).all()

@@ -1,4 +1,4 @@
-"""A zigzag's pictures show all of its area, as told by their depth and poses."""
+"""A zigzag's pictures show all of its area, according to their depth and poses."""
 
 import numpy as np
 import pytest
@@ -29,15 +29,15 @@ def _survey(look_angle_deg: float, aircraft: str, duration_s: int):
 def _ground_m(world, planes: dict, pose: np.ndarray) -> np.ndarray:
     """Where the pixels' rays meet ground or water, (n, 2)."""
     lens = world.intrinsics
-    cx_px, cy_px = lens.centre_px
+    (fx_px, fy_px), (cx_px, cy_px) = lens.focal_px, lens.centre_px
     column, row = np.meshgrid(np.arange(lens.width_px) + 0.5, np.arange(lens.height_px) + 0.5)
-    rays = np.stack([(column - cx_px) / lens.f_px, (row - cy_px) / lens.f_px, np.ones_like(row)], axis=-1)
+    rays = np.stack([(column - cx_px) / fx_px, (row - cy_px) / fy_px, np.ones_like(row)], axis=-1)
     places = (rays * planes["Scene.Depth.Z"][..., None]) @ pose[:3, :3].T + pose[:3, 3]
     return places[planes["Scene.IndexOB.X"] > 0][:, :2]
 
 
 def _cells(points_m: np.ndarray) -> np.ndarray:
-    """Numbers of the area's cells that points (n, 2) lie in."""
+    """Indices of the area's cells that contain points (n, 2)."""
     x0, y0, x1, y1 = AREA_M
     column, row = np.floor((points_m - [x0, y0]) / CELL_M).astype(int).T
     inside = (column >= 0) & (column < x1 - x0) & (row >= 0) & (row < y1 - y0)
@@ -49,13 +49,13 @@ def _cells(points_m: np.ndarray) -> np.ndarray:
     [(90, "multirotor", 120), (45, "multirotor", 75), (90, "fixed_wing", 90), (60, "fixed_wing", 90)],
 )
 def test_all_of_the_area_is_seen(tmp_path, look_angle_deg, aircraft, duration_s):
-    """Pixels are a metre apart at most, so that every cell that is seen has one in some frame."""
+    """Pixels are at most a metre apart, so every visible cell contains one in some frame."""
     config = _survey(look_angle_deg, aircraft, duration_s)
     world, run = plan_world(config), render(tmp_path, config)
     assert run.code == 0, run.log
     seen = np.zeros(80 * 70, bool)
-    for frame, told in enumerate(run.manifest("down")["frames"]):
-        pose = np.array(told["camera_to_world"]).reshape(4, 4)
+    for frame, entry in enumerate(run.manifest("down")["frames"]):
+        pose = np.array(entry["camera_to_world"]).reshape(4, 4)
         seen[_cells(_ground_m(world, run.planes("down", frame), pose))] = True
     assert seen.mean() >= 0.99
     assert seen[: len(seen) // 2].mean() > 0.98 and seen[len(seen) // 2 :].mean() > 0.98

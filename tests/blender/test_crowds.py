@@ -1,4 +1,4 @@
-"""Bodies as discs, and where groups begin."""
+"""Crowds of discs, and the starting points of groups."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,7 @@ def test_discs_cover_a_body_and_little_more(size_m):
 
 
 def _walker(x_m, y_m, speed_m_s, half_m=(0.3, 0.3)):
-    """Someone who walks along x from where they are."""
+    """A crowd of one body that walks along x."""
     along_m = speed_m_s * TIMES_S
     point = np.column_stack([x_m + along_m, np.full(len(along_m), y_m)])
     return gather([(cover(*half_m), point, np.tile([1.0, 0.0], (len(along_m), 1)))])
@@ -51,14 +51,14 @@ def test_what_happens_between_two_moments_counts():
 
 @pytest.mark.parametrize("gap_m, clear", [(3.1, True), (3.3, False)])
 def test_walkers_side_by_side_keep_clear(gap_m, clear):
-    # 4 m between their middles, less two radii of 0.424 m; neither moves against the other, but nobody knows that:
-    # half a step at 2 x 0.01 m/s is kept free, 5 mm.
+    # 4 m between their middles, less two radii of 0.424 m; both move alike, but the bound
+    # allows for half a step at 2 x 0.01 m/s, 5 mm.
     one, other = _walker(0, 0, 0.01), _walker(0, 4.0, 0.01)
     assert (clear_until_s(one, other, gap_m) == HORIZON_S) == clear
 
 
 def _runner(start_m):
-    """Round a square of 4 x 100 m, at 1 m/s, whose first side lies on x."""
+    """A runner around a square of side 100 m at 1 m/s, with its first side on x."""
     corner = (start_m + TIMES_S) % 400.0
     side, along = np.divmod(corner, 100.0)
     heading = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]], float)[side.astype(int)]
@@ -82,12 +82,12 @@ def test_a_start_brings_groups_together():
 
 
 def test_where_no_start_is_clear_for_ever_the_one_clear_longest_is_taken():
-    # A stone on the path is met once a round; who begins just past it has nearly all of the 400 s before them.
+    # A stone on the path is met once a round; a walker that begins just past it is clear for nearly all of the 400 s.
     stone = _stone(50.0, 0.0, 2.0)
     start_m = choose_start(400.0, _runner, [stone], [], 0.0, 3, "group")
     assert 52.0 < start_m < 52.0 + 2 * 400.0 / 96
     assert clear_until_s(_runner(start_m), stone, 0.5) > 380.0
 
 
-def test_who_cannot_meet_has_no_start():
+def test_groups_that_cannot_meet_have_no_start():
     assert choose_start(400.0, _runner, [], [_stone(500.0, 0.0, 2.0)], 40.0, 3, "group") is None

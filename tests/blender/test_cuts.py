@@ -59,7 +59,7 @@ def test_empty_ends_are_no_gaps():
 
 
 @pytest.mark.parametrize("share", [0.1, 0.25, 0.5])
-def test_negatives_are_the_share_asked_for_and_show_nobody(share):
+def test_negatives_have_the_requested_share_and_show_no_actor(share):
     seen = _seen((100, 400))
     stretches = _cut(seen, keep="with_actors", negatives=share)
     frames = np.concatenate([np.arange(first, first + count) for first, count in stretches])
@@ -73,7 +73,7 @@ def test_there_are_no_more_negatives_than_empty_frames():
     assert sum(frames for _, frames in stretches) == FRAMES
 
 
-def test_which_negatives_hangs_on_seed_and_flight_alone():
+def test_the_choice_of_negatives_depends_only_on_seed_and_flight():
     seen, asked = _seen((100, 130)), {"keep": "with_actors", "negatives": 0.5, "clip_length_s": 2}
     assert cut(FLIGHT | asked, seen, 1) == cut(FLIGHT | asked, seen, 1)
     assert cut(FLIGHT | asked, seen, 1) != cut(FLIGHT | asked, seen, 2)
@@ -84,7 +84,7 @@ def test_a_flight_without_actors_gives_no_clip():
     assert not _cut(_seen(), keep="with_actors", negatives=0.5)
 
 
-def test_clips_are_told_as_a_config_has_them():
+def test_clips_have_the_format_of_a_config():
     assert clips_of(FLIGHT, [(0, 250), (250, 250)])[1] == {
         "id": "flight_0001",
         "season": "winter",

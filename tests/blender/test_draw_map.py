@@ -1,4 +1,4 @@
-"""Pictures of the ground from above: north on top, water where it is, and told where they are."""
+"""Pictures of the ground from above: north on top, water where it is, with the positions of the pictures."""
 
 import json
 import subprocess
@@ -106,7 +106,7 @@ def test_a_window_holds_its_points_and_some_ground():
     assert window_round(np.array([[1.0, 2.0]])) == Window(-14.0, -13.0, 30.0)
 
 
-def test_the_program_tells_where_its_pictures_are(tmp_path, place):
+def test_the_program_prints_the_positions_of_its_pictures(tmp_path, place):
     terrain, _ = place
     points = [
         [0.0, 40.0, float(terrain.surface_m(np.array([0.0]), np.array([40.0]))[0]) + 0.25],
@@ -132,10 +132,10 @@ def test_the_same_config_gives_the_same_bytes(tmp_path):
     assert pictures[0] == pictures[1]
 
 
-def test_a_map_that_is_gone_is_named(tmp_path):
+def test_a_missing_map_is_named(tmp_path):
     def lose(config: dict) -> None:
-        config["scene"]["terrain"]["heightmap"] = {"file": "gone.png", "height_m": [0, 5]}
+        config["scene"]["terrain"]["heightmap"] = {"file": "missing.png", "height_m": [0, 5]}
 
     done = _run(tmp_path, tiny(lose))
     assert (done.returncode, done.stdout) == (2, "")
-    assert len(done.stderr.splitlines()) == 1 and "gone.png" in done.stderr
+    assert len(done.stderr.splitlines()) == 1 and "missing.png" in done.stderr

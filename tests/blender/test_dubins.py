@@ -1,4 +1,4 @@
-"""Shortest ways with a least radius, against a search that knows nothing of the formulas."""
+"""Shortest paths with a minimum radius, checked against a search that does not use the formulas."""
 
 from collections import Counter
 

@@ -1,4 +1,4 @@
-"""A frame's file gets one more layer, and keeps what it had."""
+"""Adding a layer to a frame's file keeps its other layers."""
 
 import numpy as np
 import OpenImageIO

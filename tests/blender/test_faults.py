@@ -1,4 +1,4 @@
-"""Configs that cannot be meant are refused in exact words."""
+"""Configs that make no sense are rejected with exact messages."""
 
 import json
 import subprocess

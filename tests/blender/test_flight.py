@@ -1,4 +1,4 @@
-"""Flights as they are flown: heights, aim, what wind and a gimbal's lag do to them."""
+"""Flights as flown: heights, aim, and the effects of wind and gimbal lag."""
 
 import numpy as np
 import pytest
@@ -69,7 +69,7 @@ def test_a_multirotor_slows_down_to_keep_its_height_and_a_wing_cannot():
 
 
 def test_over_the_savanna_height_is_held_within_three_metres():
-    """Over all its hills, gullies and crags, at 12 m/s on average ground and 5 m/s of climb."""
+    """Over all hills, gullies and crags, at 12 m/s on average ground with a climb rate of 5 m/s."""
     config = load(ROOT / "configs" / "savanna.json")
     config["scene"] |= {"plants": {}, "groups": []}
     flight = {"pattern": "zigzag", "area_m": [-600, -600, 600, 600], "heading_deg": 20, "overlap": 0.0}
@@ -118,8 +118,8 @@ def test_following_keeps_the_target_in_the_central_half_for_a_minute_over_hills(
     assert depth.min() > 10
 
 
-def test_who_follows_keeps_to_its_speed():
-    """On a loop of 28 m radius the place 60 m in front of the leader sweeps round faster than it may fly."""
+def test_a_follower_keeps_to_its_speed():
+    """On a loop of 28 m radius the point 60 m ahead of the leader moves faster than the follower may fly."""
     _, flight = _fly(
         pattern="follow", target="people", look_angle_deg=20, altitude_m=30, azimuth_deg=0, speed_m_s=3
     )
@@ -152,7 +152,7 @@ def test_an_orbit_keeps_its_distance_and_its_middle_in_the_middle(turn, sense):
     assert pixels[:, 0] == pytest.approx(np.tile(world.intrinsics.centre_px, (len(pixels), 1)), abs=0.01)
 
 
-def test_an_orbit_goes_round_who_moves():
+def test_an_orbit_goes_around_a_moving_target():
     world, flight = _fly(pattern="orbit", target="herd", radius_m=30, speed_m_s=6)
     off = _position(flight)[:, :2] - _middle(world, "herd", flight.time_s)[:, :2]
     assert np.hypot(*off.T) == pytest.approx(30, abs=1)
@@ -221,7 +221,7 @@ FLIGHTS = ROOT / "tests" / "data" / "flights"
 
 
 def test_a_mission_of_qgroundcontrol_flies():
-    """Take-off, a faster survey and the way home, over ground that the mission knows nothing of."""
+    """Take-off, a faster survey and the way home, over terrain that is unknown to the mission."""
     plan = {"pattern": "waypoints", "waypoints": {"file": str(FLIGHTS / "survey.plan"), "home_m": [0, -100]}}
     terrain = {"size_m": 800, "relief_m": 20, "hill_wavelength_m": 200}
     world, flight = _fly(frames=640, terrain=terrain, look_angle_deg=70, **plan)

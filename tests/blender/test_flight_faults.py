@@ -1,4 +1,4 @@
-"""Flights that nobody can fly are refused in exact words, before anything is rendered."""
+"""Flights that cannot be flown are rejected with exact messages before anything is rendered."""
 
 import pytest
 
@@ -62,11 +62,11 @@ FAULTS = {  # of the plan of the first clip
         CENTRE | {"radius_m": 25},
         "clips[0].flight.radius_m = 25 m; expected at least 25.4 m, the tightest turn at 12 m/s and 30 deg of bank",
     ),
-    "a target nobody is": (
+    "an unknown target": (
         CENTRE | {"target": "herd_9", "centre_m": None},
         'clips[0].flight.target = "herd_9"; expected an actor or a group; did you mean "herd_2"?',
     ),
-    "nobody to follow": (
+    "nothing to follow": (
         {"pattern": "follow"},
         'clips[0].flight.target is missing; expected an actor or a group, since pattern is "follow"',
     ),
@@ -99,6 +99,15 @@ def test_plans(plan, words):
     assert str(fault.value) == words
 
 
+def test_a_clip_without_a_flight():
+    with pytest.raises(ConfigError) as fault:
+        _plan(lambda config: config["clips"][0].pop("flight"))
+    assert str(fault.value) == (
+        "clips[0].flight is missing; expected a flight plan with a pattern: zigzag, transect, waypoints, orbit or"
+        " follow"
+    )
+
+
 FLIGHT = {"id": "long", "season": "winter", "duration_s": 20, "flight": AREA | {"altitude_m": 40}}
 FLIGHT_FAULTS = {
     "a clip longer than its flight": (
@@ -109,7 +118,7 @@ FLIGHT_FAULTS = {
         {"duration_s": 0.1},
         "flights[0].duration_s = 0.1 s; expected at least one frame, 0.111111 s at 9 Hz",
     ),
-    "nobody in view": (
+    "no actor in view": (
         {
             "keep": "with_actors",
             "flight": AREA | {"area_m": [-55, 40, -50, 45], "altitude_m": 10},

@@ -25,7 +25,7 @@ def test_a_stride_is_as_long_as_alexander_measured():
     assert stride_m(1.2, 1.9) == pytest.approx(2.03, abs=0.01)
 
 
-def test_who_goes_faster_takes_longer_strides_within_those_of_a_walk():
+def test_strides_lengthen_with_speed_within_the_range_of_a_walk():
     speeds = [0.0, 0.3, 1.0, 2.0, 9.0]
     strides = [stride_m(speed, 0.9) for speed in speeds]
     assert strides == sorted(strides) and strides[0] > 0.5
@@ -69,13 +69,13 @@ def test_feet_move_without_a_jump():
         assert turn < 30  # radians a stride: what a heel does in a swing, and no jump
 
 
-def test_who_stops_in_mid_stride_puts_its_feet_down():
+def test_an_animal_that_stops_in_mid_stride_puts_its_feet_down():
     walked_m = np.linspace(0, STRIDE_M, 101)
     for foot in _feet(walked_m, pace=0.0):
         assert np.abs(foot.toe_m[:, 2] - HILLS.height_m(*foot.toe_m[:, :2].T)).max() < 1e-9
 
 
-def test_feet_hang_on_the_way_and_not_on_the_time():
+def test_feet_depend_on_distance_and_not_on_time():
     there, again = _feet(np.array([3.3, 3.3]))[0].toe_m
     assert np.array_equal(there, again)
 

@@ -1,4 +1,4 @@
-"""Metres from an origin are those of an independent computation in Earth-centred coordinates."""
+"""Metres from an origin agree with an independent computation in Earth-centred coordinates."""
 
 import math
 

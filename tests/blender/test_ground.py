@@ -1,4 +1,4 @@
-"""The ground's mesh: no crack, no lost area, the share of grass asked for, borders between the triangles."""
+"""The ground's mesh: no cracks, no lost area, the requested share of grass, borders along triangle edges."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,7 @@ def _build(**changes):
 
 
 def _share(ground, areas, material, where=slice(None)):
-    """Of the area `where`, what lies under a material."""
+    """The share of the area `where` that a material covers."""
     is_it = (ground.cover == ground.materials.index(material)) if material in ground.materials else areas < 0
     return areas[where][is_it[where]].sum() / areas[where].sum()
 

@@ -1,4 +1,4 @@
-"""Groups and paths that cannot be meant are told where, what and what was expected."""
+"""Faults in groups and paths: messages name the place, the value and the rule."""
 
 import pytest
 
@@ -23,6 +23,12 @@ def _group(k: int, **entries):
 def _path(**entries):
     """Another path beside the place's loop."""
     return lambda config: config["scene"]["paths"].update(entries)
+
+
+def _meet_each_other(config):
+    for group, met in zip(config["scene"]["groups"], ("herd", "people")):
+        group.pop("start_m", None)
+        group["meets"] = met
 
 
 FAULTS = {
@@ -55,9 +61,17 @@ FAULTS = {
         _group(0, meets="people"),
         'scene.groups[0].meets = "people"; expected another group: herd, zebras',
     ),
-    "a start and somebody to meet": (
+    "a start and a group to meet": (
         _group(1, start_m=3, meets="people"),
-        "scene.groups[1].start_m is given; expected none, since meets asks for one to be found",
+        "scene.groups[1].start_m is given; expected none, since meets determines it",
+    ),
+    "a group at a place that meets another": (
+        _group(2, path=None, start_m=None, place=[40, 40], meets="people"),
+        "scene.groups[2].meets is given; expected a path: a group at a place cannot move to meet others",
+    ),
+    "a group that meets a later one": (
+        _meet_each_other,
+        'scene.groups[0].meets = "herd"; expected a group listed before it, or one without meets',
     ),
     "an unknown place": (
         _group(2, path=None, start_m=None, place="shores"),
@@ -68,7 +82,7 @@ FAULTS = {
         _group(2, path=None, start_m=None, place="water"),
         'scene.groups[2].place = "water"; expected one on dry land, or behaviour = "float"',
     ),
-    "no room": (
+    "too many for a place": (
         _group(2, path=None, start_m=None, place=[40, 40], count=60, spread_m=4),
         "scene.groups[2].count = 60; expected at most ",
     ),
@@ -86,11 +100,11 @@ FAULTS = {
     ),
     "a centre alone": (
         _path(other={"centre_m": [0, 0]}),
-        "scene.paths.other.radius_m is missing; expected how far from centre_m the loop shall be",
+        "scene.paths.other.radius_m is missing; expected the mean distance of the loop from centre_m",
     ),
-    "no room for a drawn path": (
+    "no space for a drawn path": (
         _path(other={"centre_m": [500, 500], "radius_m": 20}),
-        "scene.paths.other = 20 m about [500, 500] m; expected room for a loop there, within the place and off"
+        "scene.paths.other = 20 m about [500, 500] m; expected space for a loop there, within the place and off"
         " water",
     ),
     "a path with the road's name": (
@@ -105,7 +119,7 @@ FAULTS = {
 
 
 @pytest.mark.parametrize("change, message", FAULTS.values(), ids=FAULTS)
-def test_groups_and_paths_that_cannot_be_meant(change, message):
+def test_faults_in_groups_and_paths(change, message):
     with pytest.raises(ConfigError) as raised:
         plan_world(tiny(change))
     text = str(raised.value)

@@ -1,4 +1,4 @@
-"""Dryden turbulence: its strengths and scales, its spectrum, from the first moment on, however long."""
+"""Dryden turbulence: strengths, scales and spectrum, from the first moment on and for any length."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def _gusts(name: str, moments: int, height_m=30.0, airspeed_m_s=20.0, step_s=0.0
 
 
 def _spectrum(axis: int, hz: np.ndarray) -> np.ndarray:
-    """Dryden's one-sided spectrum in (m/s)^2 per Hz, of samples 0.02 s apart: with what folds over from above."""
+    """Dryden's one-sided spectrum in (m/s)^2 per Hz of samples 0.02 s apart, including aliases."""
     strength = intensities_m_s("moderate", 30.0)[axis == 2]
     scale_s = scales_m(30.0)[axis == 2] / 20.0
     omega = 2.0 * np.pi * np.abs(hz[:, None] + np.arange(-40, 41) * 50.0) * scale_s

@@ -1,4 +1,4 @@
-"""Heights that an aircraft can climb: within its limits, as near to what is wanted as anything can be."""
+"""Heights that an aircraft can fly: within its limits, and as near to the wanted heights as possible."""
 
 import json
 
@@ -123,7 +123,7 @@ def test_the_look_ahead_is_no_longer_than_it_must_be():
 
 
 def test_over_the_savanna_three_metres_are_held_but_at_the_crag(savanna):
-    """At the crag, nothing that climbs at 5 m/s holds them."""
+    """At the crag, no aircraft with a climb rate of 5 m/s can hold them."""
     off_the_crag_m, over_m, best_m = [], [], []
     for points_m in _tracks(savanna):
         wanted_m = savanna.surface_m(*points_m.T)
@@ -134,5 +134,5 @@ def test_over_the_savanna_three_metres_are_held_but_at_the_crag(savanna):
         over_m.append(off_m.max())
         best_m.append(np.abs(nearest_heights(wanted_m, STEP_S, CLIMB_M_S) - wanted_m).max())
     assert max(off_the_crag_m) < 1.5
-    assert max(best_m) > 3.0  # the crag's cliffs are met, and this is the least anybody is off there
+    assert max(best_m) > 3.0  # smallest possible deviation at the crag's cliffs
     assert np.all(np.array(over_m) < np.array(best_m) + 0.5 * CLIMB_M_S)

@@ -1,4 +1,4 @@
-"""Members of a group: near each other, and never in each other."""
+"""Members of a group: close together, without overlap."""
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ def test_bodies_keep_apart(rooms, spread_m):
     assert max(abs(place.lateral_m) for place in places) <= spread_m
 
 
-def test_where_there_is_room_members_follow_at_their_spacing():
+def test_members_that_fit_follow_at_their_spacing():
     places = plan_places([ELEPHANT] * 6, 9.0, 3.0, LONG_M, 5, "herd")
     steps_m = np.diff([place.along_m for place in places])
     assert places[0].along_m == 0
@@ -38,12 +38,12 @@ def test_where_there_is_room_members_follow_at_their_spacing():
     assert np.ptp([place.lateral_m for place in places]) > 2.0
 
 
-def test_who_has_no_room_falls_back():
+def test_a_member_that_does_not_fit_falls_back():
     places = plan_places([ELEPHANT] * 4, 0.0, 0.0, LONG_M, 5, "herd")
     assert np.diff([place.along_m for place in places]).max() <= -(2 * 2.6)
 
 
-def test_a_member_has_its_place_whoever_comes_after_it():
+def test_a_members_place_does_not_depend_on_later_members():
     assert (
         plan_places([ELEPHANT] * 3, 6.0, 4.0, LONG_M, 5, "herd")
         == plan_places([ELEPHANT] * 5, 6.0, 4.0, LONG_M, 5, "herd")[:3]

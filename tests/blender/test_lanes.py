@@ -1,25 +1,27 @@
-"""What cameras see of the ground, and lanes that leave none of it out."""
+"""Footprints of cameras, and lanes that cover an area completely."""
 
 import numpy as np
 import pytest
 
-from veldt.camera import Intrinsics, look, project
+from veldt.camera import Intrinsics, centred, look, project
 from veldt.faults import ConfigError
 from veldt.flight.aircraft import Aircraft
 from veldt.flight.courses import zigzag_course
 from veldt.flight.footprints import Footprint, footprint
 from veldt.flight.lanes import check_lane_spacing, half_extents_m, lane_spacing_m, round_of_lanes
 
-CAMERA = Intrinsics(640, 512, 1100.0)
+CAMERA = centred(640, 512, 1100.0)
+OFF_CENTRE = Intrinsics(640, 512, (1100.0, 1000.0), (250.0, 300.0))
 HEIGHT_M = 61.0
 PLAN = {"area_m": [-60, -40, 60, 40], "heading_deg": 0, "lane_spacing_m": 20}
 NADIR = Footprint(35.0, -14.0, 14.0)
 
 
-def _seen_at(x_px, y_px, look_angle_deg):
+def _seen_at(x_px, y_px, look_angle_deg, camera=CAMERA):
     """Ground point (ahead, left) that is at a picture's point, by cutting its ray with the ground."""
     pose = look(np.array([[0, 0, HEIGHT_M]]), np.array([[1.0, 0.0]]), np.radians([look_angle_deg]))[0]
-    ray = pose[:3, :3] @ [(x_px - 320) / 1100, (y_px - 256) / 1100, 1.0]
+    (fx_px, fy_px), (cx_px, cy_px) = camera.focal_px, camera.centre_px
+    ray = pose[:3, :3] @ [(x_px - cx_px) / fx_px, (y_px - cy_px) / fy_px, 1.0]
     return pose[:2, 3] - ray[:2] * (HEIGHT_M / ray[2])
 
 
@@ -30,6 +32,17 @@ def test_footprints_are_what_rays_hit(look_angle_deg):
     assert seen.width_m == pytest.approx(left[1] - right[1])
     assert seen.near_m == pytest.approx(left[0])
     assert seen.far_m == pytest.approx(_seen_at(320, 0, look_angle_deg)[0])
+
+
+@pytest.mark.parametrize("look_angle_deg", [90, 75, 45, 20])
+def test_footprints_of_a_camera_off_its_axis_are_what_it_sees_flown_either_way(look_angle_deg):
+    """Of two lanes side by side, flown to and fro, the narrower halves face each other once in two."""
+    seen = footprint(OFF_CENTRE, HEIGHT_M, look_angle_deg)
+    left, right = (_seen_at(x_px, 512, look_angle_deg, OFF_CENTRE) for x_px in (0, 640))
+    assert seen.width_m == pytest.approx(2 * min(left[1], -right[1]))
+    assert 0 < seen.width_m < 0.8 * (left[1] - right[1])
+    assert seen.near_m == pytest.approx(left[0])
+    assert seen.far_m == pytest.approx(_seen_at(320, 0, look_angle_deg, OFF_CENTRE)[0])
 
 
 def test_straight_down_the_footprint_is_the_picture_scaled():

@@ -1,4 +1,4 @@
-"""Logs of real flights are flown as they were, or are refused in exact words."""
+"""Logs of real flights are flown as recorded, or rejected with exact messages."""
 
 import random
 from pathlib import Path
@@ -41,7 +41,7 @@ def test_a_log_is_flown_as_it_was():
     assert np.degrees(roll_rad) == pytest.approx([0, 0, 0.2, 0.8])
 
 
-def test_moments_do_not_hang_on_each_other_and_ends_go_on():
+def test_moments_are_independent_and_ends_are_extended():
     log = read_waypoints(str(FLIGHTS / "log.csv"), HOME_M, _ground_m, WHERE)
     time_s = np.array([0.0, 3.3, 4.0])
     together = log.at(time_s, _ground_m)
@@ -61,7 +61,7 @@ def test_heights_are_above_what_their_column_says(tmp_path, reference, height_m)
     assert position_m == pytest.approx(np.array([[10, 20, height_m[0]], [30, 20, height_m[1]]]))
 
 
-def test_the_camera_turns_as_aviators_say(tmp_path):
+def test_the_camera_turns_by_aviation_angles(tmp_path):
     """Yaw 90 looks east, pitch -30 down, and roll 10 puts the right side down."""
     log = _read(tmp_path, COLUMNS + "\n0,0,0,50,90,-30,10\n1,0,0,50,90,-30,10\n")
     position_m, bearing_rad, depression_rad, roll_rad = log.at(np.zeros(1), _ground_m)

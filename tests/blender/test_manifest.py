@@ -1,4 +1,4 @@
-"""The manifest keeps to its schema and says what was planned."""
+"""The manifest conforms to its schema and states what was planned."""
 
 import json
 
@@ -45,10 +45,10 @@ def test_actors_are_where_they_walk(world):
     frames = build_manifest(world, clip)["frames"]
     actor = world.actors[3]
     walk = track(actor, np.array([frame["time_s"] for frame in frames]))
-    told = [entry for frame in frames for entry in frame["actors"] if entry["index"] == actor.index]
+    entries = [entry for frame in frames for entry in frame["actors"] if entry["index"] == actor.index]
     # Times are rounded to 1e-9 s, places to 1e-6 m, angles to 1e-9 rad.
-    assert [entry["position_m"] for entry in told] == [pytest.approx(p, abs=2e-6) for p in walk.position_m]
-    assert [entry["heading_rad"] for entry in told] == pytest.approx(walk.heading_rad, abs=1e-8)
+    assert [entry["position_m"] for entry in entries] == [pytest.approx(p, abs=2e-6) for p in walk.position_m]
+    assert [entry["heading_rad"] for entry in entries] == pytest.approx(walk.heading_rad, abs=1e-8)
 
 
 def test_tracks_are_the_same_in_all_clips_of_a_dataset(world):
@@ -71,7 +71,7 @@ def test_the_camera_is_the_pictures_own_whatever_the_passes_reach():
     jsonschema.validate(manifest, SCHEMA)
 
 
-def test_only_passes_with_a_layer_of_actors_tell_of_it(world):
+def test_the_actor_layer_is_named_only_where_there_is_one(world):
     assert "actor_layer" not in build_manifest(world, world.config["clips"][0])
     layered = plan_world(tiny(lambda config: config.update(render={"actor_layer": True})))
     manifest = build_manifest(layered, layered.config["clips"][0])

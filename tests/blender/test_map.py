@@ -1,13 +1,13 @@
-"""Maps and stills, planned: where words go, what shapes cover, where cameras stand."""
+"""Plans of maps and stills: positions of labels, areas of shapes, poses of cameras."""
 
 import numpy as np
 import pytest
 
+from raw_png import png_bytes
 from veldt import assets
 from veldt.groups.actors import track
 from veldt.camera import project
 from veldt.preview.colours import UNKNOWN, linear, mixed, signal_colours, surface_colour
-from veldt.config import ROOT
 from veldt.preview.flat_shapes import band, box, disc, filled
 from veldt.preview.labels import Anchor, Label, place_labels
 from veldt.preview.legend import round_length_m
@@ -123,7 +123,7 @@ def test_a_label_stays_off_what_is_taken():
     assert free.x_m > 0 and crowded.plate_m[2] <= 0.0
 
 
-def test_a_label_without_room_is_still_there():
+def test_a_label_that_does_not_fit_is_still_placed():
     (label,) = place_labels([Anchor("a very long name", (0.0, 0.0), 1.0)], [], (-2, -2, 2, 2), 2.0)
     assert label.text == "a very long name"
 
@@ -189,8 +189,8 @@ def test_there_is_a_still_of_each_species_and_an_overview(world):
     ]
 
 
-def test_stills_look_at_whom_they_are_named_after(world):
-    """Within a pixel of the picture's middle: the middle of the body, by the box of its whole walk."""
+def test_stills_look_at_the_actor_they_are_named_after(world):
+    """The middle of the body, by the box of its whole walk, is within a pixel of the picture's middle."""
     for still in plan_stills(world, 2.0)[1:]:
         actor = next(a for a in world.actors if still.name == f"close_{a.group}")
         middle = track(actor, np.array([2.0])).position_m[0] + [
@@ -203,8 +203,8 @@ def test_stills_look_at_whom_they_are_named_after(world):
         assert 4.0 < depth_m[0] < 16.0
 
 
-def test_nothing_grows_between_a_still_and_whom_it_shows(world):
-    """By the crowns' drawn width; there is room enough in this place to look past all of them."""
+def test_no_plant_stands_between_a_still_and_its_actor(world):
+    """Uses the drawn width of crowns; this place is open enough to look past all of them."""
     for still in plan_stills(world, 2.0)[1:]:
         eye, way = still.camera_to_world[:2, 3], still.camera_to_world[:2, 2]
         for name, planting in world.plantings.items():
@@ -215,7 +215,7 @@ def test_nothing_grows_between_a_still_and_whom_it_shows(world):
 
 
 def test_stills_are_50_deg_wide():
-    assert np.degrees(np.arctan(0.5 * INTRINSICS.width_px / INTRINSICS.f_px)) == pytest.approx(25.0)
+    assert np.degrees(np.arctan(0.5 * INTRINSICS.width_px / INTRINSICS.focal_px[0])) == pytest.approx(25.0)
 
 
 def test_stills_are_taken_from_eye_height(world):
@@ -235,7 +235,7 @@ def test_the_overview_looks_down_at_45_deg_from_122_m(world):
 
 
 def test_a_png_file_is_whole_from_its_signature_to_its_end(tmp_path):
-    content = (ROOT / "assets" / "pictures" / "demo.png").read_bytes()
+    content = png_bytes(np.arange(12, dtype=np.uint8).reshape(3, 4))
     file = tmp_path / "picture.png"
     for written, expected in ((content, True), (content[:-1], False), (content[1:], False), (b"", False)):
         file.write_bytes(written)

@@ -1,4 +1,4 @@
-"""The user's own heights and densities, from images."""
+"""Heights and densities from the user's images."""
 
 import json
 import struct
@@ -110,7 +110,7 @@ def test_a_heightmap_is_the_land(tmp_path):
     assert build_terrain(settings | {"water_radius_m": 10}, 3).waters[0].level_m < 140
 
 
-def test_a_density_map_tells_the_areas(tmp_path):
+def test_a_density_map_defines_the_areas(tmp_path):
     path = _write(tmp_path / "areas.png", np.repeat([[0.0, 0.0, 0.5, 0.5, 1.0, 1.0]], 6, axis=0), "uint8")
     settings = tiny()["scene"]["terrain"] | {"density_map": {"file": str(path)}}
     areas = plan_density(build_terrain(settings, 3), settings, 3)

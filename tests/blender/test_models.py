@@ -1,4 +1,4 @@
-"""Models from a user's own file as far as plain Python knows them, and what is said of files that will not do."""
+"""Models from the user's files, as far as plain Python reads them, and messages about unsuitable files."""
 
 import json
 import struct
@@ -78,14 +78,14 @@ def bush(**more) -> dict:
 
 
 def put(folder, kind, data, file="okapi.obj", content=CUBE_OBJ.encode()):
-    """Writes an asset file okapi.json and a model's file."""
+    """Write an asset file okapi.json and a model's file."""
     (folder / kind / "okapi.json").write_text(data if isinstance(data, str) else json.dumps(data))
     if content is not None:
         (folder / kind / file).write_bytes(content)
 
 
 def fault(kind="species") -> str:
-    """What is said of the asset okapi."""
+    """The message about the asset okapi."""
     with pytest.raises(ConfigError) as found:
         assets.load(kind, "okapi")
     return str(found.value)
@@ -174,7 +174,7 @@ def test_a_blend_needs_its_size(place):
     put(place, "species", okapi(file="okapi.blend"), "okapi.blend", b"BLENDER-v304")
     assert fault() == (
         "assets/species/okapi.json: model.size_m is missing; expected [length, width, height], since only Blender can"
-        ' tell how large "okapi.blend" is'
+        ' measure "okapi.blend"'
     )
     put(place, "species", okapi(file="okapi.blend", size_m=[2, 1, 1.5]))
     assert assets.load("species", "okapi")["model"]["size_m"] == [2, 1, 1.5]
@@ -184,20 +184,20 @@ FILES = {
     "empty": (".obj", b"", "it is empty"),
     "missing": (".obj", None, "No such file or directory"),
     "no faces": (".obj", b"v 0 0 0\n", "it has no faces"),
-    "bad point": (".obj", b"v 0 a 0\nf 1 1 1\n", '"v 0 a 0" is no point'),
+    "bad point": (".obj", b"v 0 a 0\nf 1 1 1\n", '"v 0 a 0" is not a point'),
     "not glb": (".glb", b"PK\x03\x04 some archive of another kind", "it does not begin as a .glb file does"),
     "old glb": (".glb", glb(version=1), "it is glTF 1, not 2"),
     "glb cut short": (".glb", glb(cut=8), f"it is cut short: {len(glb()) - 8} of {len(glb())} bytes"),
     "glb without JSON": (".glb", glb().replace(b"JSON", b"BIN\0"), "its first chunk is not JSON"),
     "glb without mesh": (".glb", glb(nodes=[{"name": "x"}]), "it has no mesh"),
     "flat": (".obj", b"v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n", "it is 1 x 1 x 0 units large"),
-    "endless": (".obj", b"v inf 0 0\nv 1 1 0\nv 0 0 1\nf 1 2 3\n", '"v inf 0 0" is no point'),
+    "endless": (".obj", b"v inf 0 0\nv 1 1 0\nv 0 0 1\nf 1 2 3\n", '"v inf 0 0" is not a point'),
     "glb in circles": (
         ".glb",
         glb(nodes=[{"children": [1]}, {"children": [2]}, {"children": [1], "mesh": 0}]),
-        "its description of meshes does not hang together",
+        "its description of meshes is inconsistent",
     ),
-    "torn glb": (".glb", glb(accessors=[]), "its description of meshes does not hang together"),
+    "torn glb": (".glb", glb(accessors=[]), "its description of meshes is inconsistent"),
     "not blend": (".blend", b"PK\x03\x04", "it does not begin as a .blend file does"),
 }
 
@@ -209,7 +209,7 @@ def test_an_unreadable_file(place, name):
     assert fault() == f"{WHERE.format(suffix)}; expected a readable {suffix} file ({reason})"
 
 
-def test_a_folder_is_no_model(place):
+def test_a_folder_is_not_a_model(place):
     put(place, "species", okapi(), content=None)
     (place / "species" / "okapi.obj").mkdir()
     assert fault() == f"{WHERE.format('.obj')}; expected a readable .obj file (Is a directory)"
@@ -223,11 +223,11 @@ ENTRIES = {
     "scale": ({"scale": 0}, "model.scale = 0; expected a number above 0"),
     "forward": ({"forward": "z"}, 'model.forward = "z"; expected the axis it faces: -x, -y, x, y'),
     "no forward": ({"forward": None}, "model.forward is missing; expected the axis it faces: -x, -y, x, y"),
-    "forward is no text": (
+    "forward is not a string": (
         {"forward": ["x"]},
         "model.forward = \"['x']\"; expected the axis it faces: -x, -y, x, y",
     ),
-    "part is no text": (
+    "part is not a string": (
         {"parts": {"hide": "", "horn": []}},
         'model.parts["horn"] = "[]"; expected a part of its material: head, legs, mane, tail, or "" for the'
         " material's own temperature",
@@ -252,7 +252,7 @@ ENTRIES = {
 
 
 @pytest.mark.parametrize("name", ENTRIES)
-def test_an_entry_that_will_not_do(place, name):
+def test_an_invalid_entry(place, name):
     change, message = ENTRIES[name]
     put(place, "species", okapi(**change))
     assert fault() == f"assets/species/okapi.json: {message}"
@@ -287,7 +287,7 @@ ASSETS = {
         okapi() | {"material": "zebrra"},
         'material = "zebrra"; expected a material: {materials}; did you mean "zebra"?',
     ),
-    "model is no object": (
+    "model is not an object": (
         "species",
         okapi() | {"model": "okapi.obj"},
         "model = okapi.obj; expected file, forward and parts",
@@ -321,7 +321,7 @@ ASSETS = {
 
 
 @pytest.mark.parametrize("name", ASSETS)
-def test_an_asset_file_that_will_not_do(place, name):
+def test_an_invalid_asset_file(place, name):
     kind, data, message = ASSETS[name]
     put(place, kind, data)
     assert fault(kind) == f"assets/{kind}/okapi.json: " + message.replace(
@@ -336,6 +336,6 @@ def test_an_asset_file_that_is_missing(place):
 
 
 @pytest.mark.parametrize("kind", ["species", "plants", "materials"])
-def test_all_that_comes_with_the_program_will_do(kind):
+def test_all_assets_of_the_program_are_valid(kind):
     for name in assets.names(kind):
         assets.load(kind, name)

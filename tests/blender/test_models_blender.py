@@ -1,4 +1,4 @@
-"""Models that Blender wrote itself come back as they were, and what it cannot read is refused before it renders."""
+"""Models written by Blender are read back unchanged, and unreadable ones are rejected before rendering."""
 
 import json
 import shutil
@@ -52,11 +52,11 @@ bpy.data.materials.new("hide")  # as if the scene had one of that name
 before = _everything()
 try:
     mesh = load("assets/species/okapi.json", assets.load("species", "okapi"))
-    told = {"points": mesh.points_m.tolist(), "triangles": mesh.triangles.tolist(), "slot": mesh.slot.tolist()}
+    result = {"points": mesh.points_m.tolist(), "triangles": mesh.triangles.tolist(), "slot": mesh.slot.tolist()}
 except faults.ConfigError as error:
-    told = {"error": str(error)}
-told["left"] = len(_everything() - before)
-json.dump(told, open(sys.argv[-1], "w"))
+    result = {"error": str(error)}
+result["left"] = len(_everything() - before)
+json.dump(result, open(sys.argv[-1], "w"))
 """
 
 
@@ -81,7 +81,7 @@ def _made(tmp_path_factory) -> Path:
 
 
 def _load(made: Path, folder: Path, suffix: str, **model) -> dict:
-    """What Blender tells of a model of the files made, or of what `folder` has instead."""
+    """Blender's result for a model: one of the files made, or what `folder` has instead."""
     species = folder / "species"
     species.mkdir(exist_ok=True)
     file = f"okapi{suffix}"
@@ -90,15 +90,15 @@ def _load(made: Path, folder: Path, suffix: str, **model) -> dict:
     if not (folder / "materials").exists():
         (folder / "materials").symlink_to(ROOT / "assets" / "materials")
     (species / "okapi.json").write_text(json.dumps(okapi(file=file, forward="-y", size_m=SIZE_M, **model)))
-    _blender(folder, READ, str(ROOT / "blender_scripts"), str(folder), str(folder / "told.json"))
-    return json.loads((folder / "told.json").read_text())
+    _blender(folder, READ, str(ROOT / "blender_scripts"), str(folder), str(folder / "result.json"))
+    return json.loads((folder / "result.json").read_text())
 
 
 @pytest.mark.parametrize("suffix", [".blend", ".glb", ".obj"])
 def test_a_model_comes_back_as_it_was(made, tmp_path, suffix):
-    told = _load(made, tmp_path, suffix)
-    assert "error" not in told, told
-    points, triangles, slot = (np.array(told[key]) for key in ("points", "triangles", "slot"))
+    result = _load(made, tmp_path, suffix)
+    assert "error" not in result, result
+    points, triangles, slot = (np.array(result[key]) for key in ("points", "triangles", "slot"))
     # Six digits in .obj, floats in the others; the numbers are below 8 m.
     np.testing.assert_allclose(points.min(axis=0), [-1, -0.25, 0], atol=1e-5)
     np.testing.assert_allclose(points.max(axis=0), [1, 0.25, 1.5], atol=1e-5)
@@ -110,7 +110,7 @@ def test_a_model_comes_back_as_it_was(made, tmp_path, suffix):
     for corners in (points[triangles[slot == 1]], points[triangles[slot == 0]]):
         volume = np.linalg.det(corners - corners.reshape(-1, 3).mean(axis=0)).sum() / 6
         assert volume > 0, "faces look inward"
-    assert told["left"] == 0
+    assert result["left"] == 0
 
 
 def test_a_glb_and_an_obj_are_measured_alike_without_blender(made):
@@ -123,7 +123,7 @@ def test_a_glb_and_an_obj_are_measured_alike_without_blender(made):
         assert sorted(found.materials) == ["hide", "horn"]
 
 
-def test_what_only_blender_can_tell_is_refused(made, tmp_path):
+def test_faults_that_only_blender_can_find(made, tmp_path):
     file = 'assets/species/okapi.json: model.file = "okapi'
     assert _load(made, tmp_path, ".blend", parts={"hide": "", "horns": "head"})["error"] == (
         f'{file}.blend": "horn" has no part; expected it in model.parts, which has hide, horns; did you mean "horns"?'

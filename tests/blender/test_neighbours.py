@@ -1,4 +1,4 @@
-"""Pairs of near points, against looking at every pair."""
+"""Pairs of nearby points, checked against a brute-force search."""
 
 import numpy as np
 

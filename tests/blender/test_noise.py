@@ -1,4 +1,4 @@
-"""Random values hang on seed, name and place alone."""
+"""Random values depend only on seed, name and position."""
 
 import numpy as np
 
@@ -29,7 +29,7 @@ def test_lattice_values_are_uniform_and_unlike_for_unlike_names():
     assert abs(np.corrcoef(values.ravel(), others.ravel())[0, 1]) < 5 / np.sqrt(values.size)
 
 
-def test_noise_depends_on_the_place_alone_not_on_what_else_is_asked():
+def test_noise_depends_only_on_the_position_and_not_on_other_queries():
     x, y = np.linspace(-40, 40, 101), np.linspace(10, -30, 101)
     together = fractal_noise(3, "n", x, y, 11.0, 4)
     assert [float(fractal_noise(3, "n", x[k], y[k], 11.0, 4)) for k in range(101)] == together.tolist()

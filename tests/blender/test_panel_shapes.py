@@ -1,4 +1,4 @@
-"""Panels are closed, face outward, and hold what their side view and width say."""
+"""Panels are closed, face outward, and have the volume of their side view and width."""
 
 import numpy as np
 import pytest
@@ -58,7 +58,7 @@ def test_a_panel_can_be_narrower_at_the_top():
     assert np.abs(points[points[:, 2] < 0.5, 1]).max() == 0.5
 
 
-def test_a_wheel_is_as_large_as_told_and_faces_outward():
+def test_a_wheel_has_its_size_and_faces_outward():
     mesh = wheel([1.0, 0.7, 0.4], 0.4, 0.12, 0.03)
     assert np.hypot(mesh.points_m[:, 0] - 1.0, mesh.points_m[:, 2] - 0.4).max() == pytest.approx(
         0.4, abs=1e-12

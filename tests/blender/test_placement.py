@@ -1,4 +1,4 @@
-"""Plants: how many, how far apart, and where none stand."""
+"""Placement of plants: density, spacing, and free areas."""
 
 import itertools
 

@@ -1,4 +1,4 @@
-"""What each plant's mesh is like: its size, its shape, what it is made of, and that it is light enough."""
+"""Meshes of plants: size, shape, materials, and number of triangles."""
 
 import hashlib
 
@@ -16,7 +16,7 @@ NAMES = assets.names("plants")
 TREES = ("acacia", "hookthorn", "baobab")
 MOST_TRIANGLES = dict.fromkeys(NAMES, 260) | dict.fromkeys(TREES, 900) | {"shrub": 250, "elephant_grass": 120}
 
-# Least and greatest height over all sizes in m, and, where it tells the species, width of crown or foot.
+# Smallest and largest height over all sizes in m, and, where it identifies the species, width of crown or foot.
 HEIGHTS_M = {
     "acacia": (5, 8),
     "hookthorn": (3, 6),

@@ -1,4 +1,4 @@
-"""Points that keep apart: how dense, how far apart, and the same however large the place."""
+"""Poisson points: density, spacing, and independence of the size of the place."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ SIZE_M, SPACING_M = 400.0, 2.0
 
 
 def _points(filled: float, size_m: float = SIZE_M, seed: int = 3):
-    """Points whose discs of the spacing would fill this share of the plane."""
+    """Points for which discs of the spacing would fill this share of the plane."""
     per_m2 = filled / (np.pi * SPACING_M**2)
     return poisson_points(
         seed, "trees", size_m, SPACING_M, 1.1 * per_m2, lambda x_m, _: np.full(len(x_m), per_m2)

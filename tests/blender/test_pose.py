@@ -1,4 +1,4 @@
-"""Poses: legs that reach the ground and bend the right way, all along, on slopes and in turns, without a jump."""
+"""Poses: legs reach the ground and bend the right way, on slopes and in turns, without jumps."""
 
 import numpy as np
 import pytest
@@ -120,8 +120,8 @@ def test_a_body_lies_along_the_slope_as_much_as_its_file_says():
     assert left[2] == pytest.approx(np.sin(np.arctan(-0.4 * 0.2)) * np.cos(np.arctan(0.3)))
 
 
-def test_feet_hang_on_the_way_alone():
-    """Who stops stands as it stopped; what sways with time goes on."""
+def test_feet_depend_only_on_the_distance_walked():
+    """A walker that stops keeps its stance; periodic motion continues."""
     walker = _walker(MARE, GROUNDS["hills"])
     poses = pose(walker, _motion([2.2, 2.2], time_s=[0.0, 0.7]))
     moved = np.abs(np.diff(poses.rotation, axis=0)).max(axis=(0, 2, 3))
@@ -129,7 +129,7 @@ def test_feet_hang_on_the_way_alone():
     assert np.array_equal(*poses.position_m)
 
 
-def test_strides_move_nobody_who_stands():
+def test_strides_do_not_move_a_standing_body():
     walker = _walker(MARE, GROUNDS["level"])
     neck = [bone.name for bone in MARE.bones].index("neck")
     poses = pose(walker, _motion([0.3, 0.3], pace=[0.0, 1.0]))
@@ -182,7 +182,7 @@ def test_wheels_roll_as_far_as_they_go_and_stay_on_the_ground():
         assert hub[2] == wheel.radius_m
 
 
-def test_vertices_hang_on_their_bones():
+def test_vertices_follow_their_bones():
     walker = _walker(MARE, GROUNDS["hills"], scale=0.9)
     poses = pose(walker, _motion([1.0, 2.0]))
     expected = [

@@ -36,7 +36,7 @@ def test_manifests_are_the_planned_ones(full, world):
         assert full.manifest(clip) == build_manifest(world, world.config["clips"][number])
 
 
-def test_events_tell_the_story_in_order(full):
+def test_events_are_complete_and_in_order(full):
     expected = ["scene_built"]
     for clip in CLIPS:
         expected += [
@@ -45,13 +45,13 @@ def test_events_tell_the_story_in_order(full):
             ("clip_done", clip),
         ]
     expected.append("done")
-    told = [
+    reported = [
         {"frame": lambda e: ("frame", e["clip"], e["index"], e["file"])}.get(
             event["event"], lambda e: (e["event"], e["clip"]) if "clip" in e else e["event"]
         )(event)
         for event in full.events
     ]
-    assert told == expected
+    assert reported == expected
     assert full.events[0]["seconds"] > 0
     assert full.events[1] == {"event": "clip", "clip": "down", "first_frame": 0, "frames": 3}
 
@@ -110,8 +110,8 @@ def test_what_blender_keeps_from_frame_to_frame_changes_no_pixel(full, tmp_path)
 def test_a_killed_clip_goes_on_where_it_stopped(full, tmp_path):
     out = tmp_path / "out"
     shutil.copytree(full.out / "down", out / "down")
-    for gone in ("000001.exr", "000002.exr"):
-        (out / "down" / gone).unlink()
+    for name in ("000001.exr", "000002.exr"):
+        (out / "down" / name).unlink()
     (out / "down" / "part_000001.exr").write_bytes(b"half a frame")
     kept = (out / "down" / "000000.exr").stat().st_mtime_ns
     run = render(tmp_path, tiny(), "--clip", "down", out=out)
@@ -144,7 +144,7 @@ def test_frames_of_another_config_are_left_alone(full, tmp_path):
     assert (out / "down" / "manifest.json").read_bytes() == (full.out / "down" / "manifest.json").read_bytes()
 
 
-def test_a_fault_of_the_config_is_told_and_exits_2(tmp_path):
+def test_a_fault_of_the_config_is_reported_and_exits_2(tmp_path):
     run = render(tmp_path, tiny(lambda config: config["clips"][1].update(id="down")))
     assert run.code == 2
     where = run.events[-1].pop("where")
@@ -155,11 +155,11 @@ def test_a_fault_of_the_config_is_told_and_exits_2(tmp_path):
             "message": 'clips[1].id = "down"; expected an id no other clip has',
         }
     ]
-    assert where.startswith("checks.py:")
+    assert where.startswith("blender_scripts/veldt/checks.py:")
     assert not run.out.exists()
 
 
-def test_an_unknown_clip_is_told(tmp_path):
+def test_an_unknown_clip_is_reported(tmp_path):
     run = render(tmp_path, tiny(), "--clip", "dwn")
     assert run.code == 2
     assert run.events[-1]["message"] == (
@@ -173,8 +173,8 @@ def test_a_failure_names_the_line(tmp_path):
     assert run.code == 1
     error = run.events[-1]
     assert (error["event"], error["kind"]) == ("error", "internal")
-    assert "Not a directory" in error["message"]
-    assert error["where"].startswith("render_passes.py:")
+    assert error["message"].startswith("NotADirectoryError: [Errno 20] Not a directory: ")
+    assert error["where"].startswith("blender_scripts/render_passes.py:")
 
 
 def test_a_frame_cut_short_never_gets_its_final_name(tmp_path):
@@ -182,13 +182,14 @@ def test_a_frame_cut_short_never_gets_its_final_name(tmp_path):
     run = render(tmp_path, tiny(), largest_file_bytes=30_000)
     assert run.code == 1
     frame = run.out / "down" / "000000.exr"
-    assert run.events[-1]["message"] == f"{frame}: Blender could not write all of it; is the disk full?"
+    why = "Blender could not write all of it; is the disk full?"
+    assert run.events[-1]["message"] == f"OSError: {frame}: {why}"
     assert not [event for event in run.events if event["event"] == "frame"]
     assert not frame.exists()
     assert run.log.count("Saved:") == 1  # and the frames after it are not tried
 
 
-def test_broken_files_are_told_from_whole_ones(full, tmp_path):
+def test_truncated_files_are_detected(full, tmp_path):
     whole = (full.out / "down" / "000000.exr").read_bytes()
     copy = tmp_path / "copy.exr"
     zeroed = whole[:800] + bytes(200) + whole[1000:]

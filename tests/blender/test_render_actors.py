@@ -1,4 +1,4 @@
-"""Bodies in a real Blender stand, vertex by vertex, as they were planned to."""
+"""Bodies in a real Blender match their planned poses, vertex by vertex."""
 
 import json
 import subprocess
@@ -16,7 +16,7 @@ pytestmark = needs_blender
 
 FRAMES = (0, 70)  # the second beyond the frames that are posed at once
 
-# Where all vertices are in some frames of a clip, by frame and object index, bones in the order of their objects.
+# Positions of all vertices in some frames of a clip, by frame and object index, with bones in the order of objects.
 READ = """
 import json, sys
 from pathlib import Path
@@ -29,7 +29,7 @@ from veldt_bl.scene import build_stage
 config = load(Path(config))
 stage = build_stage(plan_world(config))
 stage.troupe.rehearse(stage.world.flight(config["clips"][0]).time_s)
-told = {}
+positions = {}
 for frame in json.loads(frames):
     stage.troupe.pose(frame)
     bpy.context.view_layer.update()
@@ -37,13 +37,13 @@ for frame in json.loads(frames):
         for bone, shown in puppet.bones:
             assert shown.pass_index == puppet.actor.index
             points = [shown.matrix_world @ vertex.co for vertex in shown.data.vertices]
-            told[f"{frame}/{puppet.actor.index}/{bone}"] = np.array(points)
-np.savez(out, **told)
+            positions[f"{frame}/{puppet.actor.index}/{bone}"] = np.array(points)
+np.savez(out, **positions)
 """
 
 
 def _herd(config: dict) -> None:
-    """On hills, walking, grazing and driving; few frames are looked at, none is rendered."""
+    """On hills, walking, grazing and driving; a few frames are checked, none is rendered."""
     config["scene"]["plants"] = {}
     walk = {"path": "loop", "count": 1}
     config["scene"]["groups"] = [

@@ -1,6 +1,7 @@
-"""What Blender draws is where it was planned, to the pixel."""
+"""Blender's pictures match the plan to the pixel."""
 
 import numpy as np
+import pytest
 
 from raster import draw, farthest_from_an_edge, plant_triangles, world_triangles
 from rendering import PLANES, needs_blender, render
@@ -19,9 +20,9 @@ CLIPS = ("down", "side")
 def test_ground_and_water_are_where_they_were_planned(full, world):
     """Depth and pose put every pixel of ground and water back onto the terrain."""
     lens = world.intrinsics
-    cx_px, cy_px = lens.centre_px
+    (fx_px, fy_px), (cx_px, cy_px) = lens.focal_px, lens.centre_px
     column, row = np.meshgrid(np.arange(lens.width_px) + 0.5, np.arange(lens.height_px) + 0.5)
-    rays = np.stack([(column - cx_px) / lens.f_px, (row - cy_px) / lens.f_px, np.ones_like(row)], axis=-1)
+    rays = np.stack([(column - cx_px) / fx_px, (row - cy_px) / fy_px, np.ones_like(row)], axis=-1)
     for clip in CLIPS:
         planes, manifest = full.planes(clip, 1), full.manifest(clip)
         pose = np.array(manifest["frames"][1]["camera_to_world"]).reshape(4, 4)
@@ -67,7 +68,7 @@ def test_overscan_adds_around_the_picture_and_leaves_it_as_it_is(full, tmp_path)
 
 
 def _crowd(config: dict) -> None:
-    """Everybody on a level, bare place, seen from above and from the side at half time steps."""
+    """All actors on a level, bare place, seen from above and from the side at half time steps."""
     flat(config)
     config["scene"]["terrain"]["size_m"] = 400  # no sky in the picture
     config["camera"] = {"width_px": 320, "height_px": 256, "pixel_pitch_um": 30}
@@ -109,10 +110,21 @@ def _assert_pictures_agree(
     assert len(row) < 10
 
 
-def test_bodies_fill_exactly_the_pixels_they_should(tmp_path):
+# Pixels higher than wide, then wider than high; the axis off the middle to either side.
+@pytest.mark.parametrize(
+    "camera",
+    [
+        {},
+        {"fx_px": 430, "fy_px": 390, "cx_px": 190.25, "cy_px": 101.5, "height_px": 250},
+        {"fx_px": 400, "fy_px": 436, "cx_px": 181, "cy_px": 150.75},
+    ],
+)
+def test_bodies_fill_exactly_the_pixels_they_should(tmp_path, camera):
     config = tiny(_crowd)
+    config["camera"].update(camera)
     world, run = plan_world(config), render(tmp_path, config)
     assert run.code == 0, run.log
+    assert run.manifest("down")["camera"].items() >= camera.items()
     for clip in config["clips"]:
         flight = world.flight(clip)
         for frame in range(clip["frames"]):
@@ -121,7 +133,7 @@ def test_bodies_fill_exactly_the_pixels_they_should(tmp_path):
 
 
 def _grove(config: dict) -> None:
-    """A level place with a few plants of every kind and nobody in sight, seen from above and at 45 deg."""
+    """A level place with a few plants of every kind and no actors in sight, seen from above and at 45 deg."""
     flat(config)
     config["scene"]["terrain"]["size_m"] = 160
     config["scene"]["plants"] = {name: {"per_ha": 12} for name in assets.names("plants")}

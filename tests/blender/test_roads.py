@@ -1,4 +1,4 @@
-"""The road: where it runs, and how it lies in the land."""
+"""The road: its course, and its height relative to the land."""
 
 import numpy as np
 import pytest
@@ -100,7 +100,7 @@ def test_there_may_be_no_road():
     assert plan_road(ROAD, small, 9) is None
 
 
-def test_a_given_road_runs_where_it_is_told():
+def test_a_given_road_follows_its_corners():
     terrain, _ = _place()
     corners = [[200, -80], [200, 90], [-60, 180], [-150, 20]]
     road = plan_road(ROAD | {"points_m": corners, "fork": False}, terrain, 9)

@@ -1,4 +1,4 @@
-"""Loops that a config asks for but does not draw."""
+"""Loops that are generated around a given centre."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The whole place of configs/savanna.json: who is there, who meets whom, and that nobody walks through anybody."""
+"""The place of configs/savanna.json: its actors, their meetings, and that no actors overlap."""
 
 import hashlib
 import json
@@ -39,7 +39,7 @@ def _rectangle(actor):
 
 
 def _overlap(one, walk, other, others_walk):
-    """At which moments (n,) the rectangles of two bodies overlap: no axis of either separates them."""
+    """Mask of moments (n,) at which the rectangles of two bodies overlap: no axis of either separates them."""
     (half_a, off_a), (half_b, off_b) = _rectangle(one), _rectangle(other)
     axes_a, axes_b = _axes(walk), _axes(others_walk)
     between = (others_walk.position_m[:, :2] + np.einsum("nik,i->nk", axes_b, off_b)) - (
@@ -61,7 +61,7 @@ def _axes(walk):
     return np.stack([walk.heading, np.stack([-walk.heading[:, 1], walk.heading[:, 0]], axis=1)], axis=1)
 
 
-def test_nobody_walks_through_anybody_in_ten_minutes(savanna, walks):
+def test_no_actors_overlap_in_ten_minutes(savanna, walks):
     near = 0
     for k, one in enumerate(savanna.actors):
         for other in savanna.actors[:k]:
@@ -84,7 +84,7 @@ def test_poachers_come_near_elephants(savanna, walks):
         assert nearest_m < 40.0
 
 
-def test_everybody_stays_on_the_terrain(savanna, walks):
+def test_all_actors_stay_on_the_terrain(savanna, walks):
     for actor in savanna.actors:
         x_m, y_m, z_m = walks[actor.name].position_m.T
         assert max(np.abs(x_m).max(), np.abs(y_m).max()) < 0.5 * savanna.terrain.size_m
@@ -97,7 +97,7 @@ def test_only_swimmers_are_in_the_water(savanna, walks):
         assert ((savanna.terrain.shore_m(x_m, y_m) < 0) == (actor.posture == "float")).all(), actor.name
 
 
-def test_plants_keep_off_everybody(savanna, walks):
+def test_plants_keep_off_all_actors(savanna, walks):
     woody = [
         savanna.plantings[name].points_m[:, :2] for name in ("acacia", "hookthorn", "baobab", "rock", "log")
     ]

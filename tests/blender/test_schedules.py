@@ -1,4 +1,4 @@
-"""Schedules: who grazes stops and goes, keeps with the herd, and lifts its head to walk."""
+"""Schedules: a grazer stops and goes, stays with the herd, and lifts its head to walk."""
 
 import numpy as np
 import pytest
@@ -13,13 +13,13 @@ def _speed_m_s(schedule):
     return np.diff(schedule.at(TIME_S).walked_m) / np.diff(TIME_S)
 
 
-def test_who_walks_steadily_walks_at_all_times():
+def test_a_steady_walker_walks_at_all_times():
     doing = Steady(1.4).at(np.array([0.0, 10.0, -5.0]))
     assert doing.walked_m == pytest.approx([0.0, 14.0, -7.0])
     assert (doing.pace == 1).all() and (doing.head_down == 0).all()
 
 
-def test_who_stands_stands():
+def test_speed_0_stands():
     doing = Steady(0.0).at(TIME_S)
     assert not doing.walked_m.any() and not doing.pace.any()
 

@@ -1,4 +1,4 @@
-"""Species: sizes as known, measured on the standing body, the parts that temperatures are told of, and sources."""
+"""Species: sizes as known, measured on the standing body, the parts that have temperatures, and sources."""
 
 import json
 import re
@@ -36,7 +36,7 @@ PARTS = {
 
 
 def _of(table: dict) -> list:
-    """The (species, variant, figure) of all kinds that a table tells of."""
+    """The (species, variant, figure) of all entries of a table."""
     return [
         (*kind, table.get(kind[0], table.get("/".join(kind))))
         for kind in KINDS
@@ -49,7 +49,7 @@ def _scales(species: str, variant: str) -> np.ndarray:
 
 
 def _standing(species: str, variant: str, parts=None) -> np.ndarray:
-    """Vertices (n, 3) of parts, by default all, of a body of middling size that stands on level ground facing +x."""
+    """Vertices (n, 3) of parts, by default all, of a body of medium size that stands on level ground facing +x."""
     body, scale = build_body(species, variant), _scales(species, variant).mean()
     far_m = 1e7
     walker = Walker(body, scale, 1.0, 0.0, circle(far_m), FLAT)

@@ -1,4 +1,4 @@
-"""Loops pass through their corners, know their length, and turn without a jerk."""
+"""Loops pass through their corners, have the right length, and turn smoothly."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Places to stay at: by the water, in it, about a point; on nobody's toes."""
+"""Spots to stay at: at the shore, in the water, around a point, clear of others."""
 
 import numpy as np
 import pytest
@@ -39,7 +39,7 @@ def test_bodies_at_a_place_are_apart_and_near_it(terrain):
     assert max(np.linalg.norm(spot.point_m - [90, 80]) for spot in spots) <= 25.0
 
 
-def test_there_is_room_where_no_spread_is_given(terrain):
+def test_the_default_spread_fits_the_group(terrain):
     rooms = [HIPPO] * 30
     assert len(find_spots(rooms, about([110, 110], rooms, None), on_land(terrain, []), [], 3, "herd")) == 30
 
@@ -51,7 +51,7 @@ def test_too_many_for_a_place_are_not_squeezed_in(terrain):
     assert min(_gaps_m(rooms, spots)) >= 0.5
 
 
-def test_nobody_lies_where_others_walk_or_stand(terrain):
+def test_spots_are_clear_of_walkers_and_other_groups(terrain):
     rooms = [ZEBRA] * 12
     path = Corridor(np.column_stack([np.arange(60.0, 130.0, 0.8), np.full(88, 80.0)]), 3.0)
     there = gather([(cover(2.0, 2.0), np.array([[90.0, 90.0]]), np.array([[1.0, 0.0]]))])

@@ -1,4 +1,4 @@
-"""Offsets in gusts, leaning, lags: they obey their differential equations, and settle as these say."""
+"""Offsets in gusts, tilt and lags: they satisfy their differential equations."""
 
 import numpy as np
 import pytest
@@ -134,7 +134,7 @@ def test_a_lag_follows_a_turn_its_lag_behind():
     assert behind == pytest.approx(0.7 * 0.3 * (1.0 - np.exp(-time_s / 0.3)), abs=1e-12)
 
 
-def test_a_gimbal_without_lag_does_exactly_as_it_is_told():
+def test_a_gimbal_without_lag_follows_commands_exactly():
     commanded = np.random.default_rng(1).normal(size=300)
     assert np.array_equal(lagged_angles(commanded, 0.0, STEP_S), commanded)
     assert not unsteadiness_rad(np.tile(commanded[:, None], 3), 0.0, STEP_S).any()

@@ -1,4 +1,4 @@
-"""`balance` chooses frames so that classes of targets come evenly from all videos."""
+"""`balance` selects frames so that classes of targets are spread evenly over all videos."""
 
 import json
 
@@ -13,7 +13,7 @@ HERD, WALKER = ("small", ANIMAL), ("medium", HUMAN)
 
 @pytest.fixture(name="videos")
 def _videos(veldt):
-    """Writes a BIRDSAI folder: videos by name, each a list of frames, each a list of targets."""
+    """Write a BIRDSAI folder: videos by name, each a list of frames, each a list of targets."""
 
     def write(folder: str, videos: dict) -> str:
         annotations = veldt.folder / folder / "annotations"
@@ -58,8 +58,8 @@ taken/all     frames  small animal  medium animal  large animal  small poacher  
 herds: herd     5/20         10/40              -             -              -               -              -
 walks: alone    9/15         10/16              -             -              -             7/7              -
 all            14/35         20/56              -             -              -             7/7              -
-most from one video less least from any with more to give, summed over classes: 0
-no selection has less than 0: gap 0.00 %, """
+objective: 0 (most labels from one video minus fewest from a video with labels left, summed over classes)
+lower bound: 0, gap 0.00 %, """
 
 
 def test_videos_give_alike(veldt, two_nights):
@@ -136,7 +136,7 @@ def test_our_own_datasets(veldt):
     assert len(_frames(veldt, "s.json")["out", "one"]) == 2
 
 
-def test_time_that_runs_out_is_told(veldt, videos):
+def test_a_time_limit_is_reported(veldt, videos):
     """The best of forty videos with animals and people in all mixtures, to the last label, in no time."""
     many = {
         f"v{i}": [[HERD] * (1 + (i * 7 + n) % 9) + [WALKER] * ((i + n) % 3) for n in range(30)]
@@ -151,7 +151,7 @@ def test_time_that_runs_out_is_told(veldt, videos):
         return
     assert done.code == 0
     assert done.err.startswith("veldt: stopped after 0.2 s with a gap of ")
-    assert done.err.endswith(" %; 0 % were asked for\n")
+    assert done.err.endswith(" %; 0 % was requested\n")
     assert veldt.read("s.json")["gap"] > 0
 
 
@@ -177,15 +177,15 @@ FAULTS = {
     "all twice": (["1:5", "2:5"], '--per-class = "2:5"; expected one LO:HI for all classes'),
     "more than there are": (
         ["0:9", "small_animal=60:80"],
-        "per-class small_animal: at least 60 asked for, 56 are there",
+        "per-class small_animal: at least 60 requested, 56 available",
     ),
     "class without labels": (
         ["large_animal=1:9"],
-        "per-class large_animal: at least 1 asked for, 0 are there",
+        "per-class large_animal: at least 1 requested, 0 available",
     ),
     "not together": (
         ["small_animal=0:0", "medium_poacher=5:7"],
-        "per-class medium_poacher: at least 5 asked for, at most 3 can be had together with the other bounds",
+        "per-class medium_poacher: at least 5 requested, at most 3 possible with the other bounds",
     ),
 }
 
@@ -204,8 +204,8 @@ def test_each_class_that_misses_is_named(veldt, two_nights):
     assert (done.code, done.err.splitlines()) == (
         2,
         [
-            "veldt: per-class small_animal: at least 60 asked for, 56 are there",
-            "veldt: per-class large_poacher: at least 1 asked for, 0 are there",
+            "veldt: per-class small_animal: at least 60 requested, 56 available",
+            "veldt: per-class large_poacher: at least 1 requested, 0 available",
         ],
     )
 
@@ -224,7 +224,7 @@ def test_a_folder_that_is_not_there(veldt, two_nights):
     done = veldt("balance", *two_nights, "--per-class", "0:9", "--out", "no/s.json")
     assert (done.code, done.err) == (
         2,
-        "veldt: --out = no/s.json; expected a file in a folder that is there\n",
+        "veldt: --out = no/s.json; expected a file in an existing folder\n",
     )
 
 
@@ -237,12 +237,12 @@ def test_nothing_to_balance(veldt, videos):
     done = veldt("balance", videos("empty", {"night": []}), "--per-class", "0:9", "--out", "s.json")
     assert (done.code, done.err) == (
         1,
-        "veldt: empty: no label of an animal or a person that counts; expected some to balance\n",
+        "veldt: empty: no labels of animals or people that count; expected at least one\n",
     )
 
 
 def test_what_does_not_count(veldt):
-    """Vehicles, crowds and ignored targets are no labels, and a frame of them alone is taken by nobody."""
+    """Vehicles, crowds and ignored targets are not labels, and frames with only these are never selected."""
     image = {"width": 200, "height": 100}
     box = {"bbox": [1, 1, 10, 10], "area": 100}
     document = {
@@ -258,6 +258,6 @@ def test_what_does_not_count(veldt):
     veldt.write("coco.json", document)
     done = veldt("balance", "coco.json", "--per-class", "0:0", "small_animal=1:9", "--out", "s.json")
     assert (done.code, done.err) == (0, "")
-    assert "4 frames have no label that counts, and none of them is taken" in done.out
+    assert "4 frames have no label that counts; none of them is selected" in done.out
     selection = json.loads((veldt.folder / "s.json").read_text(encoding="utf-8"))
     assert [video["frames"] for video in selection["datasets"][0]["videos"]] == [[0]]

@@ -1,4 +1,4 @@
-"""Configs that cannot be meant: exact words on standard error, exit code 2, nothing left behind."""
+"""Faults in configs: exact messages on standard error, exit code 2, no files left behind."""
 
 import json
 
@@ -42,7 +42,7 @@ FORM = {
         ' density_map, road, grass_fraction, grass_patch_m, area_wavelength_m; did you mean "relief_m"?',
     ),
     "key nowhere near": (_with("temperature", 7), f"temperature is not a known key; expected one of {KEYS}"),
-    "missing key": (_with("clips.1.season", None), "clips[1].season is missing; expected it to be given"),
+    "missing key": (_with("clips.1.season", None), "clips[1].season is missing; expected a value"),
     "text for a number": (_with("camera.width_px", "96"), 'camera.width_px = "96"; expected a whole number'),
     "number for text": (_with("clips.0.id", 4), "clips[0].id = 4; expected a string"),
     "fraction of a frame": (_with("clips.0.frames", 2.5), "clips[0].frames = 2.5; expected a whole number"),
@@ -74,13 +74,13 @@ FORM = {
     ),
     "plants of no number": (
         _with("scene.plants.acacia", {}),
-        "scene.plants.acacia.per_ha is missing; expected it to be given",
+        "scene.plants.acacia.per_ha is missing; expected a value",
     ),
     "unknown choice": (
         _with("clips.0.season", "wintr"),
         'clips[0].season = "wintr"; expected one of winter, summer; did you mean "winter"?',
     ),
-    "name that is no name": (
+    "invalid name": (
         _with("clips.0.id", "../down"),
         'clips[0].id = "../down"; expected letters, digits, _ and - only',
     ),
@@ -108,7 +108,7 @@ MEANING = {
         _with(f"{FOLLOW}.target", "hurd"),
         'clips[1].flight.target = "hurd"; expected an actor or a group; did you mean "herd"?',
     ),
-    "follow whom": (
+    "follow without a target": (
         _with(f"{FOLLOW}.target", None),
         'clips[1].flight.target is missing; expected an actor or a group, since pattern is "follow"',
     ),
@@ -120,7 +120,7 @@ MEANING = {
 
 
 def _check(veldt, config, *lines: str) -> None:
-    """validate and generate refuse the config in these words, and leave nothing behind."""
+    """Check that validate and generate reject the config with this message and leave no files behind."""
     veldt.write("config.json", config)
     for command in (["validate", "config.json"], ["generate", "config.json", "--out", "out"]):
         done = veldt(*command)
@@ -135,7 +135,7 @@ def test_fault(veldt, name):
     _check(veldt, config, f"config.json: {message}")
 
 
-def test_all_faults_of_form_are_told_at_once(veldt):
+def test_all_schema_faults_are_reported_at_once(veldt):
     def change(config):
         config.update(seed=-1, nme="tiny")
         config["clips"][0]["frames"] = 0
@@ -177,7 +177,7 @@ NOT_JSON = {
         "",
         "1:1: not JSON: syntax error while parsing value - unexpected end of input; expected '[', '{', or a literal",
     ),
-    "key twice": ('{"name": "a",\n "name": "b"}', ' key "name" comes twice in one object; expected once'),
+    "key twice": ('{"name": "a",\n "name": "b"}', ' key "name" appears twice in one object; expected once'),
 }
 
 

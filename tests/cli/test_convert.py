@@ -1,4 +1,4 @@
-"""`convert` turns passes into the canonical dataset: right pixels, right labels, whole or not at all."""
+"""`convert` turns passes into the canonical dataset: correct pixels and labels, complete or not at all."""
 
 import os
 import re
@@ -43,7 +43,7 @@ def test_the_dataset_is_laid_out_as_documented(veldt, clips):
     assert (veldt("validate", "out").code, veldt("validate", "out").err) == (0, "")
 
 
-def test_dataset_json_tells_what_was_made(veldt, clips):
+def test_dataset_json_describes_the_dataset(veldt, clips):
     _convert(
         veldt, *clips, "--out", "out", "--set", "season=summer", "sensor.optics.blur_sigma_px=0.5", "seed=9"
     )
@@ -93,7 +93,7 @@ def test_a_label_reads_as_documented(veldt, clips):
 
 @pytest.mark.parametrize("season", ["winter", "summer"])
 def test_16_bit_frames_are_the_materials_apparent_temperatures(veldt, clips, season):
-    """What `radiance` says of a material, through its inverse, is what an ideal sensor's frames hold."""
+    """The frames of an ideal sensor hold the apparent temperature that `radiance` computes for a material."""
     _convert(veldt, clips[0], "--out", "out", "--set", f"season={season}", *IDEAL)
     step_k = veldt.read("out/dataset.json")["kelvin_per_count"]
     frame = read_grey(veldt.folder / "out" / "clips" / "one" / "ir16" / "000000.png")
@@ -195,17 +195,17 @@ def test_a_finished_dataset_is_left_alone(veldt, clips):
     times = {file: file.stat().st_mtime_ns for file in (veldt.folder / "out").rglob("*")}
     done = veldt("convert", *clips, "--out", "out")
     assert (done.code, done.err) == (0, "")
-    assert done.out == "out: nothing to do, 2 clips were there already\n"
+    assert done.out == "out: nothing to do, 2 clips already existed\n"
     assert {file: file.stat().st_mtime_ns for file in (veldt.folder / "out").rglob("*")} == times
 
 
 def test_progress_in_json_counts_every_frame(veldt, clips):
     done = veldt("convert", *clips, "--out", "out", "--progress", "json", "--threads", "1")
-    told = [
+    matches = [
         re.match(r'{"clip":"(\w+)","frames_done":(\d),"frames_total":6,', line)
         for line in done.err.splitlines()
     ]
-    assert [match.groups() for match in told] == [
+    assert [match.groups() for match in matches] == [
         *(("one", str(k)) for k in range(4)),
         *(("two", str(k)) for k in range(3, 7)),
     ]
@@ -218,7 +218,7 @@ def test_progress_in_json_counts_every_frame(veldt, clips):
     "when", ["dataset.json", "clips/one.part", "clips/one", "clips/two.part", "clips/two"]
 )
 def test_killed_at_any_moment_it_goes_on_to_the_same_dataset(veldt, when):
-    """SIGKILL as soon as a file is there that marks the moment."""
+    """Sends SIGKILL as soon as a file exists that marks the moment."""
     frames = 40  # long enough to be caught in the middle
     folders = [passes.write_clip(veldt.folder / clip, clip, frames) for clip in ("one", "two")]
     _convert(veldt, *folders, "--out", "undisturbed")
@@ -246,6 +246,6 @@ def test_asked_to_stop_it_says_so_and_goes_on_later(veldt, number):
     os.kill(run.pid, number)
     out, err = run.communicate(timeout=10)
     assert (run.returncode, out) == (128 + number, "")
-    assert err == "veldt: stopped on request; the same command goes on from here\n"
+    assert err == "veldt: stopped on request; run the same command again to resume\n"
     assert not (veldt.folder / "out" / "clips" / "one").exists()
     _convert(veldt, folder, "--out", "out")

@@ -1,4 +1,4 @@
-"""`convert` reads cryptomattes: as an index plane where objects fill pixels, the mean of their radiances where not."""
+"""`convert` reads cryptomattes: like an index plane where objects fill pixels, and as mean radiance elsewhere."""
 
 import numpy as np
 import pytest
@@ -23,19 +23,19 @@ def _names(frame: int) -> np.ndarray:
 
 
 def _whole(frame: int) -> list[mattes.Rank]:
-    """Every pixel wholly one object's."""
+    """Every pixel belongs to a single object."""
     names = _names(frame)
     return [(names, (names != "").astype(np.float32))]
 
 
 def _write(
-    folder, ranks_of=_whole, manifest=None, told=tuple(NAMES.values()), matte="ViewLayer.CryptoObject"
+    folder, ranks_of=_whole, manifest=None, listed=tuple(NAMES.values()), matte="ViewLayer.CryptoObject"
 ):
     """A clip whose frames are cryptomattes."""
     folder.mkdir()
     for frame in range(passes.FRAMES):
         planes = mattes.planes_of(ranks_of(frame), matte)
-        mattes.write_exr_with_texts(folder / f"{frame:06d}.exr", planes, mattes.texts_of(told, matte))
+        mattes.write_exr_with_texts(folder / f"{frame:06d}.exr", planes, mattes.texts_of(listed, matte))
     document = passes.manifest(folder.name) | {"cryptomatte": "CryptoObject"} | (manifest or {})
     passes.write_manifest(folder, document)
     return folder
@@ -47,7 +47,7 @@ def _convert(veldt, folder, *options, out="out"):
 
 
 def _same_as_by_index(veldt, folder, *options):
-    """The dataset is that of an index plane, to the last bit of pictures and labels."""
+    """Check that the dataset equals that of an index plane, bit for bit."""
     _convert(veldt, folder, *options)
     passes.write_clip(veldt.folder / "index" / folder.name)
     done = veldt("convert", f"index/{folder.name}", "--out", "by_index", "--quiet", *options)
@@ -65,8 +65,8 @@ def test_whole_pixels_make_the_dataset_of_an_index_plane(veldt):
     _same_as_by_index(veldt, _write(veldt.folder / "one"))
 
 
-def test_names_the_file_does_not_tell_are_hashed(veldt):
-    _same_as_by_index(veldt, _write(veldt.folder / "one", told=None))
+def test_names_missing_from_the_file_are_hashed(veldt):
+    _same_as_by_index(veldt, _write(veldt.folder / "one", listed=None))
 
 
 def test_a_cryptomatte_is_chosen_by_its_whole_name(veldt):
@@ -75,7 +75,7 @@ def test_a_cryptomatte_is_chosen_by_its_whole_name(veldt):
 
 
 def test_patterns_gather_names(veldt):
-    """Ground of many pieces, each with a name of its own."""
+    """The ground consists of many pieces with different names."""
 
     def ranks_of(frame):
         ((names, coverage),) = _whole(frame)
@@ -94,7 +94,7 @@ def test_patterns_gather_names(veldt):
 
 
 def _edges(frame: int) -> list[mattes.Rank]:
-    """The walker's pixels a walker by 5/8 and shrub by 1/4, with sky in what is left; the elephant's one by 3/8."""
+    """The walker's pixels are 5/8 walker, 1/4 shrub and sky otherwise; the elephant's are 3/8 elephant."""
     names = _names(frame)
     coverage = (names != "").astype(np.float32)
     coverage[names == "walker"] = 0.625

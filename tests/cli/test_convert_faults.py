@@ -1,4 +1,4 @@
-"""Passes and requests `convert` must refuse: exact words, exit codes, and nothing half made."""
+"""Passes and requests that `convert` must reject: exact messages, exit codes, and no partial output."""
 
 import shutil
 
@@ -28,7 +28,7 @@ def _bytes(content):
 
 
 def _manifest(change):
-    """Changes the manifest of a clip."""
+    """Change the manifest of a clip."""
 
     def apply(folder):
         document = passes.manifest(folder.name)
@@ -60,7 +60,8 @@ BAD_FRAMES = {
     ),
     "no object index": (
         _frame({"Scene.Depth.Z": FLAT, "Scene.Normal.X": FLAT, "RGBA": FLAT}),
-        "no object index channel; expected one like Scene.IndexOB.X, the file has: RGBA, Scene.Depth.Z, Scene.Normal.X",
+        "no object index channel; expected one such as Scene.IndexOB.X; the file has: RGBA, Scene.Depth.Z,"
+        " Scene.Normal.X",
     ),
     "two layers": (
         _frame({"A.IndexOB.X": passes.object_index(1), "B.IndexOB.X": passes.object_index(1)}),
@@ -74,23 +75,23 @@ BAD_FRAMES = {
 
 
 def _skipped(veldt, clip="one"):
-    """What the clip's record tells of frames it goes without."""
+    """The skipped frames in the clip's record."""
     return veldt.read(f"out/clips/{clip}/clip.json").get("skipped")
 
 
 @pytest.mark.parametrize("name", BAD_FRAMES)
 def test_a_bad_frame_is_named_and_skipped(veldt, name):
-    """Exit code 3, all clips made; once mended the same command completes the dataset, as if nothing had been."""
+    """Exit code 3, all clips made; after a repair the same command completes the dataset as if undisturbed."""
     spoil, message = BAD_FRAMES[name]
     for clip in ("one", "two"):
         passes.write_clip(veldt.folder / clip, clip)
     run = ("convert", "one", "two", "--out", "out", "--quiet")
     assert veldt(*run[:3], "--out", "usual", "--quiet").code == 0
     spoil(veldt.folder / "one")
-    told = f"veldt: clip one: frame 1 skipped: {FRAME}: {message}\n"
+    expected = f"veldt: clip one: frame 1 skipped: {FRAME}: {message}\n"
     for _ in range(2):  # the second time there is nothing new
         done = veldt(*run)
-        assert (done.code, done.out, done.err) == (3, "", told)
+        assert (done.code, done.out, done.err) == (3, "", expected)
     assert _skipped(veldt) == [{"frame_index": 1, "file": "000001.exr", "reason": message}]
     assert _skipped(veldt, "two") is None
     index = veldt.read("out/dataset.json")
@@ -114,7 +115,7 @@ def test_if_strict_the_first_bad_frame_ends_the_run(veldt, name):
     for clip in ("one", "two"):
         passes.write_clip(veldt.folder / clip, clip)
     spoil(veldt.folder / "one")
-    (veldt.folder / "one" / "000002.exr").unlink()  # a later one is not told
+    (veldt.folder / "one" / "000002.exr").unlink()  # later faults are not reported
     done = veldt("convert", "one", "two", "--out", "out", "--strict", "--quiet")
     assert (done.code, done.out, done.err) == (1, "", f"veldt: {FRAME}: {message}\n")
     assert not list((veldt.folder / "out" / "clips").iterdir())
@@ -125,8 +126,8 @@ def test_if_strict_the_first_bad_frame_ends_the_run(veldt, name):
 
 
 UNREADABLE = {
-    "missing": (lambda folder: (folder / "000001.exr").unlink(), "there is no such file"),
-    "no picture at all": (_bytes(b"not an EXR file"), "not an EXR file (its first bytes are others)"),
+    "missing": (lambda folder: (folder / "000001.exr").unlink(), "no such file"),
+    "no picture at all": (_bytes(b"not an EXR file"), "not an EXR file (wrong first bytes)"),
     "empty": (_bytes(b""), ""),
     "cut short": (_cut_short, ""),
 }
@@ -187,9 +188,9 @@ BAD_MANIFESTS = {
     ),
     "a frame in another folder": (
         _set_in("frames", "file", "../x.exr"),
-        'frames[2].file = "../x.exr"; expected text like ^[^/\\\\]+$',
+        'frames[2].file = "../x.exr"; expected text that matches ^[^/\\\\]+$',
     ),
-    "nobody's position": (
+    "the position of an unknown object": (
         _set_in("frames", "actors", [{"index": 55, "position_m": [0, 0, 0], "heading_rad": 0}]),
         "frames[2].actors[0].index = 55; expected the index of an actor in objects",
     ),
@@ -256,7 +257,7 @@ REQUESTS = {
     ),
     "one manifest for two clips": (
         ["two", "--manifest", "one/manifest.json"],
-        "--manifest = one/manifest.json; expected one folder of passes beside it, not 2",
+        "--manifest = one/manifest.json; expected a single folder of passes with it, not 2",
     ),
 }
 
@@ -279,7 +280,7 @@ def test_two_folders_of_one_clip(veldt):
     passes.write_clip(veldt.folder / "one")
     shutil.copytree(veldt.folder / "one", veldt.folder / "copy")
     done = veldt("convert", "one", "copy", "--out", "out")
-    assert done.err == "veldt: one and copy are both of clip one; expected one folder a clip\n"
+    assert done.err == "veldt: one and copy both hold clip one; expected one folder per clip\n"
     assert (done.code, done.out) == (1, "")
     assert not (veldt.folder / "out").exists()
 

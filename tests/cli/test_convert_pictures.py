@@ -1,4 +1,4 @@
-"""`convert` reads pictures of indices and of colours: the pixels and labels of an EXR index plane."""
+"""`convert` reads pictures of indices and of colours, with the same result as an EXR index plane."""
 
 import numpy as np
 import OpenImageIO
@@ -19,7 +19,7 @@ SMALL = {passes.GROUND: 1, passes.SHRUB: 4, passes.WALKER: 101, passes.ELEPHANT:
 
 
 def write_png(file, pixels: np.ndarray) -> None:
-    """Writes pixels (height, width[, channels]) of 8 or 16 bits, alpha not multiplied in."""
+    """Write pixels (height, width[, channels]) of 8 or 16 bits, alpha not multiplied in."""
     shape = pixels.shape if pixels.ndim == 3 else (*pixels.shape, 1)
     spec = OpenImageIO.ImageSpec(shape[1], shape[0], shape[2], str(pixels.dtype))
     spec.attribute("oiio:UnassociatedAlpha", 1)
@@ -118,4 +118,4 @@ def test_a_picture_that_ends_too_soon_is_refused(veldt):
 def test_a_picture_that_is_something_else_is_refused(veldt):
     _write(veldt.folder / "one", "8 bits")
     (veldt.folder / "one" / "000000.png").write_bytes((ROOT / "README.md").read_bytes())
-    assert "one/000000.png: no PNG, or its head is damaged" in _refused(veldt)
+    assert "one/000000.png: not a PNG file, or its header is damaged" in _refused(veldt)

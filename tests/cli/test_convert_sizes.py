@@ -1,4 +1,4 @@
-"""`convert` takes passes of every size, from one pixel to 4K: every pixel is what it is in a small picture."""
+"""`convert` reads passes of every size, from one pixel to 4K, with the same pixel values as in a small picture."""
 
 import numpy as np
 import pytest
@@ -14,22 +14,17 @@ PLAUSIBLE_K = (150, 400)
 
 
 def _object_index(width: int, height: int, frame: int) -> np.ndarray:
-    """Slanted stripes of all there is; the first pixel of the first frame is an actor's."""
+    """Slanted stripes of all there is, a pixel wide in small pictures; the first of the first frame is an actor's."""
     kinds = np.array([passes.WALKER, passes.GROUND, passes.SHRUB, 0, passes.ELEPHANT])
+    across, down = (97, 61) if width * height > 1e6 else (1, 1)
     rows, columns = np.indices((height, width))
-    return kinds[(columns // 97 + rows // 61 + frame) % len(kinds)].astype(np.float32)
-
-
-def _small_object_index(width: int, height: int, frame: int) -> np.ndarray:
-    """The same where a picture is no larger than a stripe."""
-    return _object_index(width * 97, height * 61, frame)[::61, ::97]
+    return kinds[(columns // across + rows // down + frame) % len(kinds)].astype(np.float32)
 
 
 def _write_clip(folder, width: int, height: int):
-    """Writes a clip of that size; returns its planes by the names of their 8-bit frames, and its manifest."""
+    """Write a clip of that size; return its planes by the names of their 8-bit frames, and its manifest."""
     folder.mkdir()
-    index_of = _object_index if width * height > 1e6 else _small_object_index
-    planes = {f"clips/sized/ir8/{k:06d}.png": index_of(width, height, k) for k in range(FRAMES)}
+    planes = {f"clips/sized/ir8/{k:06d}.png": _object_index(width, height, k) for k in range(FRAMES)}
     for frame, plane in enumerate(planes.values()):
         normals = {f"Scene.Normal.{axis}": np.full_like(plane, axis == "Z") for axis in "XYZ"}
         depth = np.where(plane == 0, 1e10, 40.0)
@@ -42,7 +37,7 @@ def _write_clip(folder, width: int, height: int):
 
 
 def _counts_of_each_index(veldt) -> np.ndarray:
-    """By index, what an ideal sensor's 16-bit frames hold of each index, in a picture of 24 x 16 pixels."""
+    """The count of each index in an ideal sensor's 16-bit frames, from a picture of 24 x 16 pixels."""
     passes.write_clip(veldt.folder / "usual", "usual")
     done = veldt("convert", "usual", "--out", "usual_out", "--quiet", "--set", *IDEAL)
     assert (done.code, done.err) == (0, "")

@@ -1,4 +1,4 @@
-"""Frames that `convert` goes without: how they are told, what is read again, and what others make of such a dataset."""
+"""Frames that `convert` skips: reports, repeated runs, and other commands on such a dataset."""
 
 import json
 
@@ -8,7 +8,7 @@ import passes
 from opened import Opened
 from raw_exr import exr_bytes
 
-GONE = "there is no such file"
+MISSING = "no such file"
 UNKNOWN = (
     "object index at pixel (3, 2) = 103 (1 pixels);"
     " expected an index of the manifest's objects: 0, 1, 4, 101, 102"
@@ -23,28 +23,28 @@ def _clip(veldt, frames, missing=(), clip="one"):
     return folder
 
 
-def _told(done):
-    """What was said of skipped frames, without what all lines begin with."""
+def _messages(done):
+    """The messages about skipped frames, without their common prefix."""
     begin = "veldt: clip one: "
     lines = done.err.splitlines()
     assert all(line.startswith(begin) for line in lines)
     return [line[len(begin) :] for line in lines]
 
 
-def test_neighbours_that_are_missing_are_told_in_one_line(veldt):
+def test_consecutive_missing_frames_are_reported_in_one_line(veldt):
     _clip(veldt, 10, (0, 3, 4, 5, 7, 9))
     passes.change_index(veldt.folder / "one", 8, 103)
     done = veldt("convert", "one", "--out", "out", "--progress", "none")
     assert (done.code, done.out) == (3, "out: 1 clip made, 3 frames; 7 frames skipped\n")
-    assert _told(done) == [
-        f"frame 0 skipped: one/000000.exr: {GONE}",
-        f"frames 3 to 5 skipped: one/000003.exr to 000005.exr: {GONE}",
-        f"frame 7 skipped: one/000007.exr: {GONE}",
+    assert _messages(done) == [
+        f"frame 0 skipped: one/000000.exr: {MISSING}",
+        f"frames 3 to 5 skipped: one/000003.exr to 000005.exr: {MISSING}",
+        f"frame 7 skipped: one/000007.exr: {MISSING}",
         f"frame 8 skipped: one/000008.exr: {UNKNOWN}",
-        f"frame 9 skipped: one/000009.exr: {GONE}",
+        f"frame 9 skipped: one/000009.exr: {MISSING}",
     ]
     again = veldt("convert", "one", "--out", "out", "--progress", "none")
-    assert again.out == "out: nothing to do, 1 clip was there already; 7 frames skipped\n"
+    assert again.out == "out: nothing to do, 1 clip already existed; 7 frames skipped\n"
     assert (again.code, again.err) == (3, done.err)
 
 
@@ -53,13 +53,13 @@ def test_neighbours_that_are_missing_are_told_in_one_line(veldt):
 )
 def test_at_most_twenty_lines_a_clip(veldt, missing, more):
     _clip(veldt, 2 * missing, range(1, 2 * missing, 2))
-    told = _told(veldt("convert", "one", "--out", "out", "--quiet"))
-    assert told[:20] == [f"frame {k} skipped: one/{k:06d}.exr: {GONE}" for k in range(1, 40, 2)]
-    assert told[20:] == ([more] if more else [])
+    messages = _messages(veldt("convert", "one", "--out", "out", "--quiet"))
+    assert messages[:20] == [f"frame {k} skipped: one/{k:06d}.exr: {MISSING}" for k in range(1, 40, 2)]
+    assert messages[20:] == ([more] if more else [])
     assert len(veldt.read("out/clips/one/clip.json")["skipped"]) == missing
 
 
-def test_one_more_skipped_frame_is_told_in_the_singular(veldt):
+def test_a_single_skipped_frame_is_reported_in_the_singular(veldt):
     _clip(veldt, 3, (1,))
     done = veldt("convert", "one", "--out", "out", "--progress", "none")
     assert done.out == "out: 1 clip made, 2 frames; 1 frame skipped\n"
@@ -69,7 +69,7 @@ def test_a_clip_without_any_good_frame_is_rejected(veldt):
     _clip(veldt, 3, range(3))
     _clip(veldt, 3, clip="two")
     done = veldt("convert", "one", "two", "--out", "out", "--progress", "none")
-    why = f"cannot read one/000000.exr: {GONE}; nor can its 2 other frames be converted"
+    why = f"cannot read one/000000.exr: {MISSING}; its 2 other frames cannot be converted either"
     assert (done.code, done.err) == (3, f"veldt: clip one rejected: {why}\n")
     assert done.out == "out: 1 clip made, 3 frames; the dataset is not complete yet\n"
     assert [file.name for file in (veldt.folder / "out" / "clips").iterdir()] == ["two"]
@@ -78,7 +78,7 @@ def test_a_clip_without_any_good_frame_is_rejected(veldt):
     assert (alone.code, alone.err) == (1, done.err)
 
 
-def test_machines_are_told_of_a_skipped_frame_at_once(veldt):
+def test_json_progress_reports_a_skipped_frame_at_once(veldt):
     _clip(veldt, 3, (1,))
     done = veldt("convert", "one", "--out", "out", "--progress", "json", "--threads", "1")
     lines = [json.loads(line) for line in done.err.splitlines()[:-1]]
@@ -87,14 +87,14 @@ def test_machines_are_told_of_a_skipped_frame_at_once(veldt):
         "clip": "one",
         "frame_index": 1,
         "file": "000001.exr",
-        "reason": GONE,
+        "reason": MISSING,
     }
     assert [line["frames_done"] for line in lines if "frames_done" in line] == [0, 1, 2, 3]
-    assert done.err.splitlines()[-1] == f"veldt: clip one: frame 1 skipped: one/000001.exr: {GONE}"
+    assert done.err.splitlines()[-1] == f"veldt: clip one: frame 1 skipped: one/000001.exr: {MISSING}"
 
 
 def test_what_a_name_or_a_channel_says_is_shown_and_kept_as_one_line(veldt):
-    """Names come from files of others: they must neither command a terminal nor break the record's JSON."""
+    """Names come from untrusted files: they must neither control a terminal nor break the record's JSON."""
     folder = _clip(veldt, 3)
     document = passes.manifest()
     document["frames"][1]["file"] = "\x1b[2J\n.exr"
@@ -105,9 +105,9 @@ def test_what_a_name_or_a_channel_says_is_shown_and_kept_as_one_line(veldt):
     )
     done = veldt("convert", "one", "--out", "out", "--quiet")
     assert done.code == 3
-    rule = "no object index channel; expected one like Scene.IndexOB.X, the file has: "
-    assert _told(done) == [
-        f"frame 1 skipped: one/\\x1b[2J; .exr: {GONE}",
+    rule = "no object index channel; expected one such as Scene.IndexOB.X; the file has: "
+    assert _messages(done) == [
+        f"frame 1 skipped: one/\\x1b[2J; .exr: {MISSING}",
         f"frame 2 skipped: one/000002.exr: {rule}\\xff\\x1b[2J; \\x80.X",
     ]
     assert [frame["file"] for frame in veldt.read("out/clips/one/clip.json")["skipped"]] == [
@@ -132,13 +132,13 @@ def test_the_next_run_reads_the_skipped_frames_alone(veldt):
     assert (veldt.folder / "out" / "dataset.json").stat().st_mtime_ns == before
 
 
-def test_a_clip_is_made_anew_when_one_of_several_is_mended(veldt):
+def test_a_clip_is_made_again_when_one_of_several_frames_is_repaired(veldt):
     folder = _clip(veldt, 5, (1, 3))
     assert veldt("convert", "one", "--out", "out", "--quiet").code == 3
     (folder / "000001.exr").write_bytes((folder / "000002.exr").read_bytes())
     done = veldt("convert", "one", "--out", "out", "--progress", "none")
     assert (done.code, done.out) == (3, "out: 1 clip made, 4 frames; 1 frame skipped\n")
-    assert _told(done) == [f"frame 3 skipped: one/000003.exr: {GONE}"]
+    assert _messages(done) == [f"frame 3 skipped: one/000003.exr: {MISSING}"]
     assert veldt("validate", "out").code == 0
     assert len(veldt.read("out/annotations.json")["images"]) == 4
 
@@ -148,7 +148,7 @@ def test_strict_after_a_run_that_was_not_names_the_first_and_leaves_the_clip(vel
     assert veldt("convert", "one", "--out", "out", "--quiet").code == 3
     before = veldt.pixels("out")
     done = veldt("convert", "one", "--out", "out", "--strict", "--quiet")
-    assert (done.code, done.err) == (1, f"veldt: cannot read one/000001.exr: {GONE}\n")
+    assert (done.code, done.err) == (1, f"veldt: cannot read one/000001.exr: {MISSING}\n")
     assert veldt.pixels("out") == before
     assert veldt("validate", "out").code == 0
     assert [file.name for file in (veldt.folder / "out" / "clips").iterdir()] == ["one"]
@@ -162,7 +162,7 @@ def test_a_strict_run_over_good_frames_is_as_any(veldt):
     assert veldt.pixels("strict") == veldt.pixels("out")
 
 
-def test_variants_go_without_the_same_frames_which_are_told_once(veldt):
+def test_variants_skip_the_same_frames_which_are_reported_once(veldt):
     folder = _clip(veldt, 4, (2,))
     veldt.write(
         "variants.json",
@@ -170,7 +170,7 @@ def test_variants_go_without_the_same_frames_which_are_told_once(veldt):
     )
     run = ("convert", "one", "--out", "out", "--variants", "variants.json", "--progress", "none")
     done = veldt(*run)
-    assert (done.code, _told(done)) == (3, [f"frame 2 skipped: one/000002.exr: {GONE}"])
+    assert (done.code, _messages(done)) == (3, [f"frame 2 skipped: one/000002.exr: {MISSING}"])
     assert done.out == "".join(
         f"out/{name}: 1 clip made, 3 frames; 1 frame skipped\n" for name in ("dry", "wet")
     )
@@ -236,7 +236,7 @@ def test_mot_numbers_the_frames_that_are_there(veldt, holes):
     assert sorted(file.name for file in (folder / "img1").iterdir()) == [f"{k:06d}.png" for k in (1, 2, 3)]
     rows = [line.split(",") for line in (folder / "gt" / "gt.txt").read_text().splitlines()]
     walker = {int(row[0]): float(row[2]) for row in rows if row[1] == "7"}
-    assert walker == {1: 9.0, 2: 10.0, 3: 12.0}  # x from 1; the walker went on while nobody looked
+    assert walker == {1: 9.0, 2: 10.0, 3: 12.0}  # x from 1; the walker moves on during skipped frames
 
 
 def test_balance_chooses_from_it(veldt, holes):

@@ -1,4 +1,4 @@
-"""Physical terms on passes that lack what those draw on: automatic ones are dropped and told, others are faults."""
+"""Physical terms on passes that lack their inputs: automatic terms are dropped and reported, others are faults."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ LOOKING = {"variation", "sky", "angular", "path"}  # terms that draw on planes
 
 
 def _write_clip(folder, *, depth=True, normals=True, poses=True, height=True):
-    """Passes of a clip seen from 50 m above even ground, with some of what physical terms ask for."""
+    """Passes of a clip seen from 50 m above level ground, with some of the inputs of physical terms."""
     folder.mkdir()
     document = passes.manifest(folder.name)
     even = np.ones((passes.HEIGHT, passes.WIDTH))
@@ -40,20 +40,20 @@ def _kept(veldt, dataset="out") -> set:
 
 
 LACKING = {
-    "depth": ({"depth": False}, {"variation", "path"}, "there is no depth"),
-    "normals": ({"normals": False}, {"sky", "angular"}, "there are no normals"),
+    "depth": ({"depth": False}, {"variation", "path"}, "no depth"),
+    "normals": ({"normals": False}, {"sky", "angular"}, "no normals"),
     "poses": ({"poses": False}, {"variation", "sky", "angular"}, "frames[0] has no camera_to_world"),
 }
 
 
 @pytest.mark.parametrize("what", LACKING)
-def test_automatic_terms_are_dropped_and_told(veldt, what):
+def test_automatic_terms_are_dropped_and_reported(veldt, what):
     without, dropped, lacking = LACKING[what]
     _write_clip(veldt.folder / "one", **without)
     done = veldt("convert", "one", "--out", "out", "--progress", "none", *PHYSICAL)
     assert (done.code, done.err) == (0, "")
-    told = {name: term["impossible"] for name, term in _terms(veldt).items() if "impossible" in term}
-    assert told == {name: f"clip one: {lacking}" for name in dropped}
+    reasons = {name: term["impossible"] for name, term in _terms(veldt).items() if "impossible" in term}
+    assert reasons == {name: f"clip one: {lacking}" for name in dropped}
     assert not _kept(veldt) & dropped
     for name in sorted(dropped, key=list(_terms(veldt)).index):
         assert f"out: without the term {name} (clip one: {lacking})\n" in done.out
@@ -87,21 +87,21 @@ def test_of_several_clips_the_one_that_lacks_it_is_named(veldt):
     _write_clip(veldt.folder / "one")
     _write_clip(veldt.folder / "two", depth=False)
     assert veldt("convert", "one", "two", "--out", "out", "--quiet", *PHYSICAL).code == 0
-    assert _terms(veldt)["path"]["impossible"] == "clip two: there is no depth"
+    assert _terms(veldt)["path"]["impossible"] == "clip two: no depth"
 
 
-def test_a_height_that_nobody_told_is_read_off_the_depth(veldt):
-    """The same ground, 50 m below: told by the manifest, or by the depth plane. The path weighs the same, to what the
-    corners of the picture differ by (a grid of pixels' middles instead of the picture's corners)."""
+def test_a_missing_height_is_computed_from_depth(veldt):
+    """The same ground, 50 m below: from the manifest, or from the depth plane. The path term has the same spread, up to
+    the difference between a grid of pixel centres and the corners of the picture."""
     _write_clip(veldt.folder / "one")
-    assert veldt("convert", "one", "--out", "told", "--quiet", *PHYSICAL).code == 0
+    assert veldt("convert", "one", "--out", "stated", "--quiet", *PHYSICAL).code == 0
     (veldt.folder / "one").rename(veldt.folder / "other")
     _write_clip(veldt.folder / "one", height=False)
     assert veldt("convert", "one", "--out", "seen", "--quiet", *PHYSICAL).code == 0
-    told, seen = (_terms(veldt, name) for name in ("told", "seen"))
-    assert _kept(veldt, "told") == _kept(veldt, "seen")
-    assert told["path"]["spread_mk"] > 0
-    assert seen["path"]["spread_mk"] == pytest.approx(told["path"]["spread_mk"], rel=0.02)
+    stated, seen = (_terms(veldt, name) for name in ("stated", "seen"))
+    assert _kept(veldt, "stated") == _kept(veldt, "seen")
+    assert stated["path"]["spread_mk"] > 0
+    assert seen["path"]["spread_mk"] == pytest.approx(stated["path"]["spread_mk"], rel=0.02)
 
 
 def test_terms_that_need_no_plane_stay(veldt):
@@ -115,5 +115,5 @@ def test_a_first_frame_that_cannot_be_read_is_passed_over(veldt):
     (veldt.folder / "one" / "000000.exr").write_bytes(b"no picture")
     done = veldt("convert", "one", "--out", "out", "--quiet", *PHYSICAL)
     assert done.code == 3
-    assert _terms(veldt)["path"]["impossible"] == "clip one: there is no depth"
+    assert _terms(veldt)["path"]["impossible"] == "clip one: no depth"
     assert "clips/one/ir16/000002.png" in files_below(veldt.folder / "out")

@@ -1,4 +1,4 @@
-"""`doctor` says what is there, and how to get what is not."""
+"""`doctor` reports what is installed, and how to install what is missing."""
 
 import re
 
@@ -9,6 +9,7 @@ PARTS = [
     "Python",
     "OpenEXR",
     "OpenImageIO",
+    "OpenCV",
     "ISA-L",
     "FFmpeg",
     "oneTBB",

@@ -1,4 +1,4 @@
-"""`evaluate` tells how well a detector found what is in a dataset, by clip, category and size class."""
+"""`evaluate` reports how well a detector found the targets of a dataset, by clip, category and size class."""
 
 import pytest
 
@@ -40,7 +40,7 @@ def _truth(**changes):
 
 
 def _answers(targets=None, score=0.9):
-    """What a detector says that sees these targets as they are."""
+    """The output of a detector that finds exactly these targets."""
     return [
         {"image_id": image, "category_id": category, "bbox": BOXES[category], "score": score}
         for image, category in (TARGETS if targets is None else targets)
@@ -49,7 +49,7 @@ def _answers(targets=None, score=0.9):
 
 @pytest.fixture(name="evaluate")
 def _evaluate(veldt):
-    """Runs `evaluate` on detections of _truth(); what it prints."""
+    """Run `evaluate` on detections of _truth() and return its output."""
     veldt.write("truth.json", _truth())
 
     def run(detections, *options):
@@ -159,16 +159,16 @@ def test_the_tables(evaluate):
 
 
 def test_the_truth_given_back_is_perfect(evaluate):
-    told = evaluate(_answers(), "--json").json()
-    assert told["sizes"] == _sizes((4, 0, 0), (2, 0, 0))
-    assert told["average_precision"] == {"ap50": 1, "ap50_95": 1}
+    report = evaluate(_answers(), "--json").json()
+    assert report["sizes"] == _sizes((4, 0, 0), (2, 0, 0))
+    assert report["average_precision"] == {"ap50": 1, "ap50_95": 1}
 
 
 def test_no_detections_are_allowed(evaluate):
-    told = evaluate([], "--json").json()
-    assert told["sizes"] == _sizes((0, 0, 4), (0, 0, 2))
-    assert told["sizes"]["all"]["precision"] is None
-    assert told["average_precision"] == {"ap50": 0, "ap50_95": 0}
+    report = evaluate([], "--json").json()
+    assert report["sizes"] == _sizes((0, 0, 4), (0, 0, 2))
+    assert report["sizes"]["all"]["precision"] is None
+    assert report["average_precision"] == {"ap50": 0, "ap50_95": 0}
     rates = [line for line in evaluate([]).out.splitlines() if line.startswith("all ")][0]
     assert rates.split() == ["all", "-", "0.000", "-", "0.000", "-", "-", "-", "0.000"]
 
@@ -176,11 +176,11 @@ def test_no_detections_are_allowed(evaluate):
 def test_iou_and_score_are_chosen(evaluate):
     shifted = [d | {"bbox": [d["bbox"][0] + d["bbox"][2] / 4, *d["bbox"][1:]]} for d in _answers(score=0.3)]
     assert evaluate(shifted, "--json").json()["sizes"] == _sizes((0, 0, 4), (0, 0, 2))
-    told = evaluate(shifted, "--score", "0.3", "--json").json()
-    assert (told["score"], told["sizes"]) == (0.3, _sizes((4, 0, 0), (2, 0, 0)))
-    told = evaluate(shifted, "--score", "0.3", "--iou", "0.61", "--json").json()  # 3/4 shared of 5/4
-    assert (told["iou"], told["sizes"]) == (0.61, _sizes((0, 4, 4), (0, 2, 2)))
-    assert told["average_precision"] == {"ap50": 1, "ap50_95": pytest.approx(0.3)}  # at 0.5, 0.55 and 0.6
+    report = evaluate(shifted, "--score", "0.3", "--json").json()
+    assert (report["score"], report["sizes"]) == (0.3, _sizes((4, 0, 0), (2, 0, 0)))
+    report = evaluate(shifted, "--score", "0.3", "--iou", "0.61", "--json").json()  # 3/4 shared of 5/4
+    assert (report["iou"], report["sizes"]) == (0.61, _sizes((0, 4, 4), (0, 2, 2)))
+    assert report["average_precision"] == {"ap50": 1, "ap50_95": pytest.approx(0.3)}  # at 0.5, 0.55 and 0.6
 
 
 def test_ignored_targets_count_only_if_asked(veldt, evaluate):
@@ -188,14 +188,14 @@ def test_ignored_targets_count_only_if_asked(veldt, evaluate):
     for label in truth["annotations"]:
         label["ignore"] = label["category_id"] == HUMAN
     veldt.write("truth.json", truth)
-    told = evaluate(_answers(), "--json").json()
-    assert (told["ignored_targets"], told["ignored_detections"]) == (4, 4)
-    assert told["sizes"] == _sizes((0, 0, 0), (2, 0, 0))
-    assert told["categories"][0]["average_precision"] == {"ap50": None, "ap50_95": None}
-    assert told["average_precision"] == {"ap50": 1, "ap50_95": 1}
-    told = evaluate(_answers(TARGETS[:2]), "--count-ignored", "--json").json()
-    assert (told["count_ignored"], told["ignored_targets"], told["ignored_detections"]) == (True, 0, 0)
-    assert told["sizes"] == _sizes((1, 0, 3), (1, 0, 1))
+    report = evaluate(_answers(), "--json").json()
+    assert (report["ignored_targets"], report["ignored_detections"]) == (4, 4)
+    assert report["sizes"] == _sizes((0, 0, 0), (2, 0, 0))
+    assert report["categories"][0]["average_precision"] == {"ap50": None, "ap50_95": None}
+    assert report["average_precision"] == {"ap50": 1, "ap50_95": 1}
+    report = evaluate(_answers(TARGETS[:2]), "--count-ignored", "--json").json()
+    assert (report["count_ignored"], report["ignored_targets"], report["ignored_detections"]) == (True, 0, 0)
+    assert report["sizes"] == _sizes((1, 0, 3), (1, 0, 1))
 
 
 def test_yolo_results_measure_the_same(veldt, evaluate):
@@ -216,20 +216,20 @@ def test_our_own_dataset_is_a_truth(veldt):
     assert veldt("convert", *folders, "--out", "out", "--quiet").code == 0
     labels = veldt.read("out/annotations.json")["annotations"]
     veldt.write("found.json", [label | {"score": 1} for label in labels])
-    told = veldt(
+    report = veldt(
         "evaluate", "--truth", "out", "--detections", "found.json", "--count-ignored", "--json"
     ).json()
-    assert [clip["name"] for clip in told["clips"]] == ["one", "two"]
-    assert told["sizes"]["all"] == _row(len(labels), 0, 0)
-    assert told["average_precision"] == {"ap50": 1, "ap50_95": 1}
+    assert [clip["name"] for clip in report["clips"]] == ["one", "two"]
+    assert report["sizes"]["all"] == _row(len(labels), 0, 0)
+    assert report["average_precision"] == {"ap50": 1, "ap50_95": 1}
 
 
 def test_birdsai_is_a_truth(veldt):
     (veldt.folder / "birdsai" / "annotations").mkdir(parents=True)
     veldt.write("birdsai/annotations/0001.csv", "0,7,10,10,10,10,1,0,0,0\n0,8,100,100,20,20,0,1,0,0\n")
     veldt.write("found.json", _answers(TARGETS[:2]))
-    told = veldt("evaluate", "--truth", "birdsai", "--detections", "found.json", "--json").json()
-    assert [(clip["name"], clip["sizes"]) for clip in told["clips"]] == [
+    report = veldt("evaluate", "--truth", "birdsai", "--detections", "found.json", "--json").json()
+    assert [(clip["name"], clip["sizes"]) for clip in report["clips"]] == [
         ("0001", _sizes((1, 0, 0), (1, 0, 0)))
     ]
 

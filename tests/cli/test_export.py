@@ -1,4 +1,4 @@
-"""`export` writes what other programs read: right files, right numbers, pictures by link, whole or not at all."""
+"""`export` writes formats of other programs: correct files and numbers, linked pictures, complete or not at all."""
 
 import json
 import os
@@ -41,7 +41,7 @@ def _made(place, out, *options, source="data") -> Path:
 
 
 def _boxes(document: dict) -> list:
-    """Every label of a COCO file, told without ids: clip, frame, category, track, box."""
+    """Every label of a COCO file, without ids: clip, frame, category, track, box."""
     videos = {video["id"]: video["name"] for video in document["videos"]}
     images = {i["id"]: (videos[i["video_id"]], i["frame_index"]) for i in document["images"]}
     names = {category["id"]: category["name"] for category in document["categories"]}
@@ -164,7 +164,7 @@ def test_copies_where_a_file_system_ends(place):
     try:
         done = _export(place, out, "--format", "yolo")
         assert (done.code, done.err) == (0, "")
-        assert done.out.splitlines()[-1] == "9 pictures copied: the file system could not link them"
+        assert done.out.splitlines()[-1] == "9 pictures copied: the file system cannot link them"
         made = out / "images/train/one_000000.png"
         assert made.read_bytes() == (place.folder / "data/clips/one/ir8/000000.png").read_bytes()
     finally:
@@ -252,7 +252,7 @@ def test_once_more_there_is_nothing_to_do(place, tmp_path):
     times = {file: file.stat().st_mtime_ns for file in (tmp_path / "x").rglob("*")}
     done = _export(place, f"{tmp_path}/x/", *options)
     assert (done.code, done.err) == (0, "")
-    assert done.out == f"{tmp_path}/x/: nothing to do, this export was there already\n"
+    assert done.out == f"{tmp_path}/x/: nothing to do; this export already exists\n"
     assert {file: file.stat().st_mtime_ns for file in (tmp_path / "x").rglob("*")} == times
     assert not list(tmp_path.glob("*.part"))
 
@@ -265,7 +265,7 @@ def test_into_an_empty_folder_that_is_there(place, tmp_path):
 
 @pytest.fixture(name="many")
 def _many(veldt) -> Veldt:
-    """A COCO file of so many pictures that telling of them fills a pipe: whoever does not read it holds the run."""
+    """A COCO file with so many pictures that their progress fills a pipe, which blocks the run until it is read."""
     (veldt.folder / "pictures").mkdir()
     images = [
         {"id": k, "file_name": f"pictures/{k:05d}.png", "width": 4, "height": 4} for k in range(1, 3001)
@@ -289,7 +289,7 @@ def test_stopped_it_leaves_nothing(many):
     run.send_signal(signal.SIGINT)
     out, err = run.communicate(timeout=60)
     assert (run.returncode, out) == (128 + signal.SIGINT, "")
-    assert err.splitlines()[-1] == "veldt: stopped on request; the same command goes on from here"
+    assert err.splitlines()[-1] == "veldt: stopped on request; run the same command again to resume"
     assert sorted(path.name for path in many.folder.iterdir()) == ["many.json", "pictures"]
 
 
@@ -303,7 +303,7 @@ def test_two_runs_at_once(many):
     assert len(list((many.folder / "x/images/train").iterdir())) == 3000
 
 
-def test_killed_it_starts_anew(many):
+def test_killed_it_starts_again(many):
     run = _held(many)
     run.kill()
     run.communicate(timeout=60)

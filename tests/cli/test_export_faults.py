@@ -1,4 +1,4 @@
-"""What `export` says of requests, labels and files that cannot be meant; nothing is written then."""
+"""Faults in requests, labels and files for `export`: exact messages, and no output is written."""
 
 import json
 import shutil
@@ -124,7 +124,7 @@ def test_a_folder_that_holds_another_export(place, tmp_path):
     assert _bytes_of(out) == before
 
 
-def test_a_folder_of_somebody_s_where_it_would_be_made(place, veldt):
+def test_an_existing_folder_at_the_temporary_place(place, veldt):
     (veldt.folder / "x.part").mkdir()
     (veldt.folder / "x.part" / "thesis.txt").write_text("mine")
     done = _export(veldt, "--format", "yolo", source=place.folder / "data")
@@ -133,7 +133,7 @@ def test_a_folder_of_somebody_s_where_it_would_be_made(place, veldt):
     assert files_below(veldt.folder) == ["x.part/thesis.txt"]
 
 
-# --- what is to be exported -------------------------------------------------------------------------------------------
+# --- the labels to export ---------------------------------------------------------------------------------------------
 
 
 def test_an_unfinished_dataset(place, veldt):
@@ -148,21 +148,21 @@ def test_an_unfinished_dataset(place, veldt):
     ids = {image["id"] for image in document["images"]}
     document["annotations"] = [a for a in document["annotations"] if a["image_id"] in ids]
     veldt.write("data/annotations.json", document)
-    message = "data is unfinished: 1 of 2 clips are not made: two; expected all of them, or --unfinished to go without"
+    message = "data is unfinished: 1 of 2 clips are missing: two; expected all of them, or --unfinished to accept this"
     _check(veldt, _export(veldt, "--format", "yolo"), 1, message)
     done = _export(veldt, "--format", "yolo", "--unfinished")
     assert (done.code, done.err) == (0, "")
     assert done.out.splitlines()[0] == "x: 3 pictures and 6 labels as yolo"
 
 
-def test_a_picture_that_is_gone(place, veldt):
+def test_a_missing_picture(place, veldt):
     shutil.copytree(place.folder / "data", veldt.folder / "data")
     for k in range(3):
         (veldt.folder / "data" / "clips" / "two" / "ir8" / f"{k:06d}.png").unlink()
     (veldt.folder / "data" / "clips" / "one" / "ir8" / "000002.png").unlink()
     message = (
         "data: no picture clips/one/ir8/000002.png, clips/two/ir8/000000.png, clips/two/ir8/000001.png, … "
-        "(4 in all); expected all 6 that labels tell of"
+        "(4 in all); expected all 6 that the labels refer to"
     )
     for kind in ("coco", "yolo", "mot", "birdsai"):
         _check(veldt, _export(veldt, "--format", kind), 1, message)
@@ -170,7 +170,7 @@ def test_a_picture_that_is_gone(place, veldt):
 
 def test_pictures_of_sixteen_bits_that_only_datasets_have(place):
     done = _export(place, "--format", "yolo", "--images", "ir16", source="data/annotations.json")
-    _check(place, done, 2, "--images = ir16; expected ir8; only datasets of Veldt's have pictures of 16 bits")
+    _check(place, done, 2, "--images = ir16; expected ir8; only Veldt datasets have 16-bit pictures")
 
 
 # --- selections -------------------------------------------------------------------------------------------------------
@@ -191,7 +191,7 @@ SELECTIONS = {
     ),
     "another dataset": (
         {"path": "date", "name": "other", "videos": [ONE]},
-        'nothing in it is about data; expected one of date; did you mean "date"?',
+        'no entry for data; expected one of date; did you mean "date"?',
     ),
 }
 
@@ -213,7 +213,7 @@ def test_selection_that_is_no_file(place):
 
 
 def _coco(veldt, images: list[dict], annotations: list[dict]) -> None:
-    """Writes labels.json beside a picture `a.png`; what is not told of its entries is filled in."""
+    """Write labels.json beside a picture `a.png`; keys missing from its entries are filled in."""
     (veldt.folder / "a.png").write_bytes(b"a picture")
     filled = [{"id": k + 1, "width": 9, "height": 9, "file_name": "a.png"} | i for k, i in enumerate(images)]
     labels = [
@@ -242,13 +242,13 @@ LABELS = {
         "mot",
         [{}],
         [{}, {"track_id": None}],
-        "annotation 2 of a.png has no track_id; expected one, which --format mot needs",
+        "annotation 2 of a.png has no track_id; expected one, as --format mot requires",
     ),
     "a track twice in a picture": (
         "birdsai",
         [{}],
         [{"track_id": 4}, {}, {"track_id": 4}],
-        "annotations 1 and 3 of a.png have track_id 4 both; expected one of a track",
+        "annotations 1 and 3 of a.png both have track_id 4; expected one annotation per track",
     ),
     "a picture twice": (
         "coco",
@@ -266,11 +266,11 @@ LABELS = {
         "mot",
         [{}, {"file_name": "b.png", "width": 8}],
         [],
-        "a.png is 9 x 9 px and b.png is 8 x 9 px; expected pictures of one clip to be of one kind and size, which "
-        "--format mot needs",
+        "a.png is 9 x 9 px and b.png is 8 x 9 px; expected all pictures of a clip to have one kind and size, "
+        "as --format mot requires",
     ),
     "no picture at all": ("yolo", [], [], "labels.json has no pictures; expected at least one"),
-    "a picture whose size nobody tells": (
+    "a picture of unknown size": (
         "yolo",
         [{"width": None}],
         [{}],
@@ -296,7 +296,7 @@ def test_labels_that_a_format_cannot_hold(veldt, name):
 def test_a_picture_that_there_is_not(veldt):
     _coco(veldt, [{"file_name": "b.png"}], [])
     done = _export(veldt, "--format", "coco", source="labels.json")
-    _check(veldt, done, 1, ".: no picture b.png; expected all 1 that labels tell of")
+    _check(veldt, done, 1, ".: no picture b.png; expected all 1 that the labels refer to")
 
 
 def test_roundabout_names_are_names(veldt):
@@ -316,8 +316,8 @@ def test_pictures_in_folders_need_no_video(veldt):
     done = _export(veldt, "--format", "yolo", source="labels.json")
     assert (done.code, done.err) == (0, "")
     assert done.out.splitlines()[-2:] == [
-        "left out: 1 label of crowds, which YOLO has no mark for",
-        "left out: 1 label to be ignored, which YOLO has no mark for",
+        "left out: 1 label marked as ignored, which YOLO cannot mark",
+        "left out: 1 label of crowds, which YOLO cannot mark",
     ]
     assert sorted(file.name for file in (veldt.folder / "x/images/train").iterdir()) == [
         "day_1.jpg",

@@ -1,4 +1,4 @@
-"""Flights of a config: cut into clips, told by a dry run, made and converted like any clip."""
+"""Flights of a config are cut into clips, listed by a dry run, and made and converted like other clips."""
 
 import json
 import re
@@ -37,7 +37,7 @@ def _dataset(veldt, out="out") -> dict:
     return json.loads((veldt.folder / out / "dataset.json").read_text())
 
 
-def test_a_dry_run_tells_of_clips_and_flights_and_what_they_take(veldt):
+def test_a_dry_run_lists_clips_and_flights_and_their_sizes(veldt):
     lines = _run(veldt, "--dry-run").splitlines()
     assert lines[0].split() == [
         "clip",
@@ -57,11 +57,11 @@ def test_a_dry_run_tells_of_clips_and_flights_and_what_they_take(veldt):
         ["survey", "4", "48"],
         ["all", "6", "64"],
     ]
-    assert re.fullmatch(r"about \d+ s on 2 cores, \d+ MB of disk", lines[5])
+    assert re.fullmatch(r"about \d+ s on 2 cores, \d+ MB of disk space", lines[5])
     assert not (veldt.folder / "out").exists()
 
 
-def test_a_dry_run_tells_of_what_was_chosen_alone(veldt):
+def test_a_dry_run_lists_only_what_was_chosen(veldt):
     lines = _run(veldt, "--dry-run", "--clips", "survey_0002,survey_0003").splitlines()
     assert [line.split()[:3] for line in lines[1:-1]] == [["survey", "2", "24"]]
 
@@ -78,7 +78,7 @@ def test_a_flight_is_made_clip_by_clip(veldt):
     assert {clip["status"] for clip in dataset["clips"]} == {"done"}
     assert len(list((veldt.folder / "out/clips/survey_0003/ir8").iterdir())) == 12
     again = _run(veldt)
-    assert again == "out: nothing to do, 6 clips were there already\n"
+    assert again == "out: nothing to do, 6 clips already existed\n"
 
 
 def test_only_stretches_with_actors_are_kept_when_asked_for(veldt):
@@ -111,7 +111,7 @@ def test_shards_deal_out_the_clips_of_flights(veldt):
     assert made == [["down", "survey_0001"], ["side", "survey_0002"], ["survey_0000", "survey_0003"]]
 
 
-def test_a_fault_of_a_flight_is_told_before_anything_is_made(veldt):
+def test_a_fault_of_a_flight_is_reported_before_anything_is_made(veldt):
     veldt.write("config.json", tiny() | {"flights": [FLIGHT | {"clip_length_s": 60}]})
     done = veldt("generate", "config.json", "--out", "out", "--blender", veldt.folder / "fake_blender")
     assert (done.code, done.out) == (2, "")

@@ -1,4 +1,4 @@
-"""`generate` from start to end with a stand-in for Blender, so that every moment of a run can be held and hit.
+"""`generate` from start to end with a stand-in for Blender, so that a run can be stopped or killed at every stage.
 
 tests/integration does the same with a real one.
 """
@@ -17,7 +17,7 @@ from program import Veldt, files_below
 
 
 def _run(veldt, *options, command="generate") -> list[str]:
-    """The arguments of a run; its folder is named in full to tell its processes from those of other tests."""
+    """The arguments of a run; the full path of its folder distinguishes its processes from those of other tests."""
     blender, out = veldt.folder / "fake_blender", veldt.folder / "out"
     silent = [] if "--progress" in options else ["--progress", "none"]
     return [
@@ -53,7 +53,7 @@ def _ready(veldt):
 
 
 def _prepare(veldt):
-    """Lays out the config and the stand-in for Blender."""
+    """Lay out the config and the stand-in for Blender."""
     fake_blender.install(veldt.folder)
     veldt.write("config.json", tiny())
 
@@ -85,7 +85,7 @@ def test_a_finished_dataset_is_left_alone(veldt, usual):
     times = {file: file.stat().st_mtime_ns for file in (veldt.folder / "out").rglob("*")}
     done = veldt(*_run(veldt))
     assert (done.code, done.err) == (0, "")
-    assert done.out == f"{veldt.folder}/out: nothing to do, 2 clips were there already\n"
+    assert done.out == f"{veldt.folder}/out: nothing to do, 2 clips already existed\n"
     assert {file: file.stat().st_mtime_ns for file in (veldt.folder / "out").rglob("*")} == times
     assert veldt.pixels("out") == usual.pixels("out")
 
@@ -115,7 +115,7 @@ def test_a_part_is_made_and_the_rest_later(veldt, usual, parts):
     statuses = {clip["id"]: clip["status"] for clip in veldt.read("out/dataset.json")["clips"]}
     assert statuses == {"down": "pending", "side": "done"}
     assert veldt("validate", "out").out.startswith("out/clips/down: not made yet (status pending)\n")
-    assert veldt(*_run(veldt)).out == f"{veldt.folder}/out: 1 clip made, 8 frames; 1 was there already\n"
+    assert veldt(*_run(veldt)).out == f"{veldt.folder}/out: 1 clip made, 8 frames; 1 already existed\n"
     assert veldt.pixels("out") == usual.pixels("out")
 
 
@@ -123,7 +123,7 @@ def test_more_shards_than_clips_leave_some_nothing_to_do(veldt, usual):
     done = veldt(*_run(veldt, "--shard", "2/3"))
     assert (done.code, done.out, done.err) == (
         0,
-        f"{veldt.folder}/out: nothing to do, 0 clips were there already\n",
+        f"{veldt.folder}/out: nothing to do, 0 clips already existed\n",
         "",
     )
     for shard in ("0/3", "1/3"):
@@ -153,13 +153,14 @@ def _reached(veldt, clip: str, frame: int) -> bool:
 
 @pytest.mark.parametrize("moment", MOMENTS)
 def test_killed_at_any_moment_it_goes_on_to_the_same_dataset(veldt, usual, moment):
-    run = veldt.start(*_run(veldt), env=fake_blender.hold_after(*MOMENTS[moment]))
+    fake_blender.hold_after(veldt.folder, *MOMENTS[moment])
+    run = veldt.start(*_run(veldt))
     assert wait_until(lambda: _reached(veldt, *MOMENTS[moment]), 60)
     assert _has_renderer(veldt)
     run.kill()
     assert run.communicate() == ("", "")
     assert run.returncode == -signal.SIGKILL
-    assert wait_until(lambda: not _has_renderer(veldt), 2)  # the renderer dies with whoever started it
+    assert wait_until(lambda: not _has_renderer(veldt), 2)  # the renderer ends with its parent process
     _generate(veldt)
     assert veldt.pixels("out") == usual.pixels("out")
     assert files_below(veldt.folder / "out") == files_below(usual.folder / "out")
@@ -170,19 +171,21 @@ def test_killed_at_any_moment_it_goes_on_to_the_same_dataset(veldt, usual, momen
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_asked_to_stop_it_stops_the_renderer_and_goes_on_later(veldt, usual, number):
-    run = veldt.start(*_run(veldt), env=fake_blender.hold_after("side", 2))
+    fake_blender.hold_after(veldt.folder, "side", 2)
+    run = veldt.start(*_run(veldt))
     assert wait_until(lambda: _reached(veldt, "side", 2), 60)
     os.kill(run.pid, number)
     out, err = run.communicate(timeout=3)
     assert (run.returncode, out) == (128 + number, "")
-    assert err == "veldt: stopped on request; the same command goes on from here\n"
+    assert err == "veldt: stopped on request; run the same command again to resume\n"
     assert not _has_renderer(veldt)
-    assert veldt(*_run(veldt)).out == f"{veldt.folder}/out: 1 clip made, 8 frames; 1 was there already\n"
+    assert veldt(*_run(veldt)).out == f"{veldt.folder}/out: 1 clip made, 8 frames; 1 already existed\n"
     assert veldt.pixels("out") == usual.pixels("out")
 
 
 def test_a_second_run_in_the_same_folder_is_turned_away(veldt, usual):
-    run = veldt.start(*_run(veldt), env=fake_blender.hold_after("down", 3))
+    fake_blender.hold_after(veldt.folder, "down", 3)
+    run = veldt.start(*_run(veldt))
     assert wait_until(lambda: _reached(veldt, "down", 3), 60)
     second = veldt(*_run(veldt))
     assert (second.code, second.out) == (75, "")
@@ -197,8 +200,9 @@ def test_a_second_run_in_the_same_folder_is_turned_away(veldt, usual):
 
 
 def test_a_config_changed_between_kill_and_resume_is_refused(veldt):
-    """Even if not one clip was finished: the folder belongs to the config it was begun with."""
-    run = veldt.start(*_run(veldt), env=fake_blender.hold_after("down", 3))
+    """Even if no clip was finished: the folder belongs to the config that created it."""
+    fake_blender.hold_after(veldt.folder, "down", 3)
+    run = veldt.start(*_run(veldt))
     assert wait_until(lambda: _reached(veldt, "down", 3), 60)
     run.kill()
     run.communicate()
@@ -226,7 +230,8 @@ def test_jobs_make_the_same_dataset(veldt, usual, jobs):
 
 
 def test_jobs_render_at_the_same_time_and_share_the_threads(veldt, usual):
-    run = veldt.start(*_run(veldt, "--jobs", "2", "--threads", "5"), env=fake_blender.hold_after("down", 3))
+    fake_blender.hold_after(veldt.folder, "down", 3)
+    run = veldt.start(*_run(veldt, "--jobs", "2", "--threads", "5"))
     assert wait_until((veldt.folder / "out" / "clips" / "side").exists, 60)
     assert wait_until(lambda: _reached(veldt, "down", 3), 60)
     (command,) = [line for line in running_with(veldt.folder / "out" / "passes").values() if "down" in line]
@@ -257,7 +262,8 @@ def test_jobs_render_the_same_passes(veldt, usual):
 def test_shards_at_the_same_time_in_one_folder(veldt, usual, first):
     """One is held in its clip while the other begins and ends."""
     clip, second = ("down", "1/2") if first == "0/2" else ("side", "0/2")
-    run = veldt.start(*_run(veldt, "--shard", first), env=fake_blender.hold_after(clip, 3))
+    fake_blender.hold_after(veldt.folder, clip, 3)
+    run = veldt.start(*_run(veldt, "--shard", first))
     assert wait_until(lambda: _reached(veldt, clip, 3), 60)
     done = veldt(*_run(veldt, "--shard", second))
     assert (done.code, done.err) == (0, "")
@@ -272,7 +278,7 @@ def test_shards_at_the_same_time_in_one_folder(veldt, usual, first):
     _is_like(veldt, usual)
 
 
-def test_the_last_of_two_shards_tells_of_both(veldt, usual):
+def test_the_last_of_two_shards_reports_both(veldt, usual):
     runs = [veldt.start(*_run(veldt, "--shard", shard, "--quiet")) for shard in ("0/2", "1/2")]
     assert [run.communicate() for run in runs] == [("", ""), ("", "")]
     assert [run.returncode for run in runs] == [0, 0]
@@ -280,8 +286,9 @@ def test_the_last_of_two_shards_tells_of_both(veldt, usual):
 
 
 def test_a_conversion_waits_for_no_shard(veldt):
-    """What needs the folder for itself is turned away, too."""
-    run = veldt.start(*_run(veldt, "--shard", "0/2"), env=fake_blender.hold_after("down", 3))
+    """Commands that need exclusive access to the folder are rejected, too."""
+    fake_blender.hold_after(veldt.folder, "down", 3)
+    run = veldt.start(*_run(veldt, "--shard", "0/2"))
     assert wait_until(lambda: _reached(veldt, "down", 3), 60)
     done = veldt(*_run(veldt, "--preview", command="render"))
     assert (done.code, done.out) == (75, "")
@@ -289,10 +296,17 @@ def test_a_conversion_waits_for_no_shard(veldt):
     run.communicate()
 
 
-# --- a Blender that dies ----------------------------------------------------------------------------------------------
+# --- a Blender that crashes -------------------------------------------------------------------------------------------
 
 KILLED = "Blender was killed by signal 9 (Killed) while "
-IN_WORDS = "; if nobody stopped it, the machine may have run out of memory"
+IN_WORDS = "; unless someone killed it, the machine may have run out of memory"
+
+
+def _in_words(veldt, doing: str, log: str = "down") -> str:
+    """What a killed Blender is reported with; a Blender that has several clips names its log after the first."""
+    return f"{KILLED}{doing}{IN_WORDS}; log: {veldt.folder}/out/passes/{log}.log"
+
+
 DEATHS = {
     "as it builds the scene": ("scene", -1, "building the scene"),
     "before the first frame": ("down", -1, "rendering clip down"),
@@ -302,23 +316,25 @@ DEATHS = {
 
 
 @pytest.mark.parametrize("moment", DEATHS)
-def test_a_blender_that_dies_is_started_again(veldt, usual, moment):
+def test_a_crashed_blender_is_restarted(veldt, usual, moment):
     clip, frame, doing = DEATHS[moment]
-    done = veldt(*_run(veldt, "--progress", "plain"), env=fake_blender.die_after(veldt.folder, clip, frame))
+    fake_blender.die_after(veldt.folder, clip, frame)
+    done = veldt(*_run(veldt, "--progress", "plain"))
     assert (done.code, done.out) == (0, f"{veldt.folder}/out: 2 clips made, 16 frames\n")
-    told = "down" if clip == "scene" else clip
-    assert f"clip {told}: {KILLED}{doing}{IN_WORDS}; started again\n" in done.err
+    reported = "down" if clip == "scene" else clip
+    assert f"clip {reported}: {_in_words(veldt, doing)}; restarting Blender\n" in done.err
     _is_like(veldt, usual)
 
 
-def test_machines_are_told_of_a_restart(veldt):
-    done = veldt(*_run(veldt, "--progress", "json"), env=fake_blender.die_after(veldt.folder, "side", 5))
+def test_json_progress_reports_a_restart(veldt):
+    fake_blender.die_after(veldt.folder, "side", 5)
+    done = veldt(*_run(veldt, "--progress", "json"))
     lines = [json.loads(line) for line in done.err.splitlines()]
     assert [line for line in lines if "event" in line] == [
         {
             "event": "restart",
             "clip": "side",
-            "reason": f"{KILLED}rendering clip side after frame 5{IN_WORDS}",
+            "reason": _in_words(veldt, "rendering clip side after frame 5"),
         }
     ]
     assert [line["frames_done"] for line in lines if "event" not in line][-1] == 2 * FRAMES
@@ -326,51 +342,54 @@ def test_machines_are_told_of_a_restart(veldt):
 
 @pytest.mark.parametrize("jobs", ["1", "2"])
 @pytest.mark.parametrize("clip, other", [CLIPS, CLIPS[::-1]])
-def test_a_clip_it_dies_over_twice_fails_alone(veldt, usual, clip, other, jobs):
-    dying = fake_blender.die_after(veldt.folder, clip, 3, times=2)
-    done = veldt(*_run(veldt, "--jobs", jobs), env=dying)
-    why = f"{KILLED}rendering clip {clip} after frame 4{IN_WORDS}"
+def test_a_clip_that_crashes_blender_twice_fails_alone(veldt, usual, clip, other, jobs):
+    fake_blender.die_after(veldt.folder, clip, 3, times=2)
+    done = veldt(*_run(veldt, "--jobs", jobs))
+    why = _in_words(veldt, f"rendering clip {clip} after frame 4", log=clip if jobs == "2" else "down")
     assert (done.code, done.err) == (3, f"veldt: clip {clip} failed: {why}\n")
     assert done.out == f"{veldt.folder}/out: 1 clip made, 8 frames; the dataset is not complete yet\n"
-    told = {entry["id"]: entry for entry in veldt.read("out/dataset.json")["clips"]}
-    assert told[clip] == {"id": clip, "status": "failed", "reason": why}
-    assert told[other]["status"] == "done"
+    entries = {entry["id"]: entry for entry in veldt.read("out/dataset.json")["clips"]}
+    assert entries[clip] == {"id": clip, "status": "failed", "reason": why}
+    assert entries[other]["status"] == "done"
     assert (veldt.folder / "out" / "passes" / clip / "000004.exr").exists()  # for the next run to go on from
-    done = veldt(*_run(veldt), env=dying)
+    done = veldt(*_run(veldt))
     assert (done.code, done.err) == (0, "")
-    assert done.out == f"{veldt.folder}/out: 1 clip made, 8 frames; 1 was there already\n"
+    assert done.out == f"{veldt.folder}/out: 1 clip made, 8 frames; 1 already existed\n"
     _is_like(veldt, usual)
 
 
-def test_other_shards_keep_the_word_of_a_failed_clip(veldt):
-    veldt(*_run(veldt, "--shard", "0/2"), env=fake_blender.die_after(veldt.folder, "down", 3, times=2))
+def test_other_shards_keep_the_record_of_a_failed_clip(veldt):
+    fake_blender.die_after(veldt.folder, "down", 3, times=2)
+    veldt(*_run(veldt, "--shard", "0/2"))
     _generate(veldt, "--shard", "1/2")
-    told = [(entry["id"], entry["status"]) for entry in veldt.read("out/dataset.json")["clips"]]
-    assert told == [("down", "failed"), ("side", "done")]
+    statuses = [(entry["id"], entry["status"]) for entry in veldt.read("out/dataset.json")["clips"]]
+    assert statuses == [("down", "failed"), ("side", "done")]
 
 
-def test_a_blender_that_is_always_killed_is_to_be_tried_again(veldt, usual):
-    dying = fake_blender.die_after(veldt.folder, "down", 3, times=2)
-    done = veldt(*_run(veldt, "--clips", "down"), env=dying)
+def test_a_blender_that_is_always_killed_ends_with_exit_code_75(veldt, usual):
+    fake_blender.die_after(veldt.folder, "down", 3, times=2)
+    done = veldt(*_run(veldt, "--clips", "down"))
     assert (done.code, done.out) == (
         75,
         f"{veldt.folder}/out: 0 clips made, 0 frames; the dataset is not complete yet\n",
     )
-    why = f"{KILLED}rendering clip down after frame 4{IN_WORDS}"
+    why = _in_words(veldt, "rendering clip down after frame 4")
     assert done.err == f"veldt: clip down failed: {why}\n"
     _generate(veldt)
     _is_like(veldt, usual)
 
 
 def test_a_blender_that_cannot_even_build_the_scene_ends_the_run(veldt):
-    dying = fake_blender.die_after(veldt.folder, "scene", -1, times=9)
-    done = veldt(*_run(veldt), env=dying)
-    assert (done.code, done.out, done.err) == (75, "", f"veldt: {KILLED}building the scene{IN_WORDS}\n")
+    fake_blender.die_after(veldt.folder, "scene", -1, times=9)
+    done = veldt(*_run(veldt))
+    assert (done.code, done.out) == (75, "")
+    assert done.err == f"veldt: {_in_words(veldt, 'building the scene')}\n"
     assert (veldt.folder / "deaths.txt").stat().st_size == 2
 
 
 def test_render_loses_a_clip_alone_too(veldt, usual):
-    done = veldt(*_run(veldt, command="render"), env=fake_blender.die_after(veldt.folder, "down", 3, times=2))
+    fake_blender.die_after(veldt.folder, "down", 3, times=2)
+    done = veldt(*_run(veldt, command="render"))
     assert done.code == 3 and done.err.startswith("veldt: clip down failed: Blender was killed by signal 9")
     _generate(veldt, command="render")
     folders = [f"out/passes/{clip}" for clip in CLIPS]

@@ -1,4 +1,4 @@
-"""The command line explains itself, and says what is wrong with it."""
+"""Help texts and usage faults of the command line."""
 
 import re
 
@@ -7,9 +7,18 @@ import pytest
 COMMON = {"--help", "--quiet", "--progress", "--threads"}
 RENDERING = {"--out", "--clips", "--shard", "--jobs", "--blender", "--set", "--dry-run"}
 OPTIONS = {
-    "generate": RENDERING | {"--keep-passes"},
+    "generate": RENDERING | {"--keep-passes", "--max-unusable-share"},
     "render": RENDERING | {"--preview"},
-    "convert": {"--out", "--manifest", "--config", "--variants", "--set", "--strict", "--max-megapixels"},
+    "convert": {
+        "--out",
+        "--manifest",
+        "--config",
+        "--variants",
+        "--set",
+        "--strict",
+        "--max-megapixels",
+        "--max-unusable-share",
+    },
     "merge": {"--out", "--link"},
     "export": {"--format", "--out", "--link", "--images", "--split", "--seed", "--selection", "--unfinished"},
     "inspect": {
@@ -24,6 +33,18 @@ OPTIONS = {
     "balance": {"--per-class", "--out", "--seed", "--gap", "--time-limit-s", "--json"},
     "evaluate": {"--truth", "--detections", "--iou", "--score", "--count-ignored", "--json"},
     "report": {"--out", "--unfinished"},
+    "video": {
+        "--out",
+        "--clips",
+        "--palette",
+        "--boxes",
+        "--tracks",
+        "--scale",
+        "--range",
+        "--side-by-side",
+        "--frame",
+        "--width-px",
+    },
     "budget": {"--set", "--json"},
     "radiance": {
         "--temperature-k",
@@ -67,12 +88,12 @@ def test_version(veldt):
 
 USAGE_FAULTS = {
     "no command": ([], f"no command; expected one of {COMMANDS}; see veldt --help"),
-    "unknown command": (["evaporate"], f'"evaporate" is no command; expected one of {COMMANDS}'),
+    "unknown command": (["evaporate"], f'unknown command "evaporate"; expected one of {COMMANDS}'),
     "misspelt command": (
         ["genrate", "config.json"],
-        f'"genrate" is no command; expected one of {COMMANDS}; did you mean "generate"?',
+        f'unknown command "genrate"; expected one of {COMMANDS}; did you mean "generate"?',
     ),
-    "option without a command": (["--out", "x"], "--out before a command; see veldt --help"),
+    "option without a command": (["--out", "x"], "option --out before a command; see veldt --help"),
     "unknown option": (
         ["generate", "config.json", "--out", "x", "--sead"],
         "The following argument was not expected: --sead; see veldt generate --help",

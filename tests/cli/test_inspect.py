@@ -1,4 +1,4 @@
-"""`inspect` tells what is in passes and what `convert` would make of them."""
+"""`inspect` reports what passes contain and how `convert` would read them."""
 
 import shutil
 
@@ -13,7 +13,7 @@ from pictures import write_exr
 SIZE = passes.HEIGHT * passes.WIDTH
 INDEX = np.array([[0, 1, 1], [1, 1, 7]])
 NO_MANIFEST = [
-    "  meanings   unknown: no manifest.json; to begin one",
+    "  meanings   unknown: no manifest.json; to start one",
     "             veldt inspect one --starter-manifest one/manifest.json",
 ]
 
@@ -127,11 +127,11 @@ def test_in_json(veldt, clip):
     assert sum(entry["pixels"] for entry in objects) == SIZE
 
 
-def test_overscan_is_told(veldt, clip):
+def test_overscan_is_reported(veldt, clip):
     document = passes.manifest() | {"overscan_px": 2}
     document["camera"] = document["camera"] | {"width_px": 20, "height_px": 12}
     passes.write_manifest(clip, document)
-    assert _lines(veldt, "one")[2] == "  2 of the camera's px on every side are overscan"
+    assert _lines(veldt, "one")[2] == "  overscan: 2 camera px on every side"
     assert veldt("inspect", "one", "--json").json()["overscan_px"] == 2
 
 
@@ -174,7 +174,7 @@ def test_several_layers(veldt, folder):
         "conversion",
         "  cannot be converted: IndexOB is in several layers: Far, Near; expected the manifest's"
         ' "layer" to name one',
-        "  --layer Far looks at that one",
+        "  --layer Far inspects that one",
     ]
     lines = _lines(veldt, "one", "--layer", "Near")
     assert "  IndexOB                  X          float  object index" in lines
@@ -189,9 +189,9 @@ def test_a_channel_of_whole_numbers_is_proposed(veldt, folder):
     report = veldt("inspect", "one", "--json").json()
     assert report["conversion"]["likely_object_index"] == ["id.V"]
     assert _lines(veldt, "one")[-2:] == [
-        "  cannot be converted: no object index channel; expected one like Scene.IndexOB.X, the file has: R, flat.V,"
+        "  cannot be converted: no object index channel; expected one such as Scene.IndexOB.X; the file has: R, flat.V,"
         " half.V, id.V, minus.V",
-        '  id.V holds whole numbers: "channels": {"object_index": "id.V"} takes it',
+        '  id.V holds whole numbers: "channels": {"object_index": "id.V"} selects it',
     ]
 
 
@@ -222,10 +222,10 @@ CRYPTOMATTE_FAULTS = {
 def test_a_cryptomatte_with_a_fault(veldt, folder, field):
     write_cryptomatte(folder / "1.exr", fields={field: "md5"})
     lines = _lines(veldt, "one")
-    at = lines.index("faults of cryptomattes")
+    at = lines.index("cryptomatte faults")
     assert lines[at + 1] == f"  cryptomatte ViewLayer.CryptoObject: {CRYPTOMATTE_FAULTS[field]}"
     if field == "manifest":
-        assert "          3 px  (3f000001, which the file has no name for)" in lines
+        assert "          3 px  (3f000001, no name in the file)" in lines
 
 
 def test_colours_of_a_picture(veldt, folder):
@@ -252,8 +252,8 @@ def test_greys_of_a_picture_are_indices(veldt, folder):
     assert [entry["index"] for entry in veldt("inspect", "one", "--json").json()["objects"]] == [0, 300, 2100]
 
 
-def test_an_index_plane_that_nobody_set(veldt, folder):
-    """Blender writes zeros where no object has a pass index; the cryptomatte tells them apart."""
+def test_an_index_plane_that_is_not_set(veldt, folder):
+    """Blender writes zeros if no object has a pass index; the cryptomatte identifies the objects."""
     write_cryptomatte(folder / "1.exr", planes={"ViewLayer.IndexOB.X": np.zeros((2, 3))})
     lines = _lines(veldt, "one")
     assert "  objects    cryptomatte ViewLayer.CryptoObject" in lines
@@ -268,7 +268,7 @@ def test_a_data_window_that_is_not_the_picture(veldt, folder):
     assert out.open(str(folder / "1.exr"), spec) and out.write_image(INDEX.astype(np.float32))
     out.close()
     lines = _lines(veldt, "one")
-    assert lines[1:3] == ["  10 x 8 px, compression ZIP", "  pixels in 3 x 2 px from (5, 1) alone"]
+    assert lines[1:3] == ["  10 x 8 px, compression ZIP", "  pixels only in 3 x 2 px from (5, 1)"]
     window = {"x_px": 5, "y_px": 1, "width_px": 3, "height_px": 2}
     assert veldt("inspect", "one", "--json").json()["data_window"] == window
 
@@ -307,11 +307,11 @@ def test_passes_that_cannot_be_converted_are_described_all_the_same(veldt, clip)
     assert report["objects"] == []
     assert report["depth"] == {"nearest_m": 12.5, "farthest_m": 12.5}
     assert report["conversion"]["obstacle"] == (
-        "no object index channel; expected one like Scene.IndexOB.X, the file has: Scene.Depth.Z"
+        "no object index channel; expected one such as Scene.IndexOB.X; the file has: Scene.Depth.Z"
     )
 
 
-def test_an_index_that_is_none_is_told(veldt, clip):
+def test_an_invalid_index_is_reported(veldt, clip):
     passes.change_index(clip, 0, -3)
     report = veldt("inspect", "one", "--json").json()
     assert [channel["name"] for channel in report["channels"]] == [passes.OBJECTS]
@@ -327,7 +327,7 @@ def test_bad_frames_of_all(veldt, clip):
     at = lines.index("bad frames")
     assert lines[at + 1 : at + 4] == [
         f"  000001.exr: {passes.OBJECTS} at pixel (3, 2) = -3; expected a whole number from 0 to 32767",
-        "  000002.exr: not an EXR file (its first bytes are others)",
+        "  000002.exr: not an EXR file (wrong first bytes)",
         "conversion",
     ]
 
@@ -345,7 +345,7 @@ FAULTS = {
         2,
         'passes = none.exr; expected a folder of passes, files of passes or a pattern such as "passes/f_####.exr"',
     ),
-    "no EXR": (["text.exr"], 1, "cannot read text.exr: not an EXR file (its first bytes are others)"),
+    "no EXR": (["text.exr"], 1, "cannot read text.exr: not an EXR file (wrong first bytes)"),
     "folder without frames": (
         ["empty"],
         1,

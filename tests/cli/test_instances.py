@@ -1,4 +1,4 @@
-"""What labels tell beside box and mask: of made-up passes, known to the last pixel."""
+"""Properties of labels other than box and mask, from made-up passes that are known to the last pixel."""
 
 import numpy as np
 import pytest
@@ -40,7 +40,7 @@ def test_a_target_is_as_visible_as_its_share_of_the_actor_layer(veldt, clip):
     assert all(labels[WALKER, k]["truncated_fraction"] == 0 for k in range(3))
     cow = labels[COW, 0]
     assert (cow["visibility"], cow["occluded"], cow["truncated"]) == (1, False, True)
-    # How much of the cow is beyond the border only poses could tell.
+    # The share of the cow beyond the border is known from poses only.
     assert not {"amodal_bbox", "truncated_fraction", "range_m"} & set(cow)
 
 
@@ -61,7 +61,7 @@ def test_a_frame_may_lack_the_layer(veldt, clip):
     assert labels[WALKER, 1]["amodal_bbox"] == [9, 5, 2, 2]  # as much as is known of it
 
 
-def test_without_a_layer_labels_tell_nothing_of_visibility(veldt):
+def test_without_a_layer_labels_have_no_visibility(veldt):
     labels = _labels(veldt, passes.write_clip(veldt.folder / "one"))
     assert not any({"visibility", "occluded"} & set(label) for label in labels.values())
     assert not any(label["ignore"] for label in labels.values())

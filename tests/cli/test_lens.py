@@ -1,4 +1,4 @@
-"""Lens distortion in `convert`: pictures and labels go through the lens together, and users can project with it."""
+"""Lens distortion in `convert`: pictures and labels are distorted alike, and the camera is stored with the labels."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from labels import check_labels
 from pictures import read_grey, write_exr
 
 WIDTH, HEIGHT, OVERSCAN = 48, 40, 8
-LENS = {"k1": -0.4, "k2": 0.1, "p1": 0.004, "p2": -0.003}
+LENS = {"k1": -0.4, "k2": 0.1, "p1": 0.004, "p2": -0.003, "k3": 0.05}
 SET_LENS = [f"camera.distortion.{key}={value}" for key, value in LENS.items()]
 CAMERA = {"width_px": WIDTH, "height_px": HEIGHT, "fx_px": 50, "fy_px": 51, "cx_px": 23, "cy_px": 21}
 BLOCKS = {
@@ -27,7 +27,7 @@ def _wide_index() -> np.ndarray:
 
 @pytest.fixture(name="clip")
 def _clip(veldt):
-    """A clip of one frame whose passes reach beyond the picture."""
+    """A clip of one frame with passes that extend beyond the picture."""
     folder = veldt.folder / "one"
     folder.mkdir()
     write_exr(folder / "000000.exr", {passes.OBJECTS: _wide_index()})
@@ -37,14 +37,14 @@ def _clip(veldt):
 
 
 def _source_px(lens: dict) -> tuple[np.ndarray, np.ndarray]:
-    """Where the picture's pixels (height, width) lie in the passes: OpenCV's formula, inverted by its own iteration."""
+    """Positions of the picture's pixels (height, width) in the passes: OpenCV's formula, inverted by its iteration."""
     column, row = np.meshgrid(np.arange(WIDTH) + 0.5, np.arange(HEIGHT) + 0.5)
     x_shown = (column - CAMERA["cx_px"]) / CAMERA["fx_px"]
     y_shown = (row - CAMERA["cy_px"]) / CAMERA["fy_px"]
     x, y = x_shown, y_shown
     for _ in range(200):  # a contraction by half or better a step
         r2 = x * x + y * y
-        radial = 1 + lens["k1"] * r2 + lens["k2"] * r2 * r2
+        radial = 1 + lens["k1"] * r2 + lens["k2"] * r2 * r2 + lens["k3"] * r2 * r2 * r2
         x_tangential = 2 * lens["p1"] * x * y + lens["p2"] * (r2 + 2 * x * x)
         y_tangential = lens["p1"] * (r2 + 2 * y * y) + 2 * lens["p2"] * x * y
         x, y = (x_shown - x_tangential) / radial, (y_shown - y_tangential) / radial
@@ -94,7 +94,7 @@ def test_without_distortion_the_overscan_is_cut_off(veldt, clip):
     assert check_labels(document, {"clips/one/ir8/000000.png": inner}, {"one": clip}) == 2
 
 
-def test_the_camera_is_told_with_the_labels(veldt, clip):
+def test_the_camera_is_stored_with_the_labels(veldt, clip):
     (video,) = _convert(veldt, "out", *SET_LENS)["videos"]
     assert (
         video["camera"] == {key: clip["camera"][key] for key in ("fx_px", "fy_px", "cx_px", "cy_px")} | LENS

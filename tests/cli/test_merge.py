@@ -1,4 +1,4 @@
-"""`merge`: datasets made as shards become one, with the bytes of a dataset made in one go."""
+"""`merge`: datasets made as shards become one dataset, identical to one made in a single run."""
 
 import json
 import os
@@ -14,7 +14,7 @@ THREE = (*CLIPS, "third")
 
 
 def _three(config: dict) -> None:
-    """A third clip, so that a shard may have two."""
+    """A third clip, so that one shard has two."""
     config["clips"].append(config["clips"][0] | {"id": "third", "start_s": 3})
 
 
@@ -70,7 +70,7 @@ def test_once_more_there_is_nothing_to_do(place, tmp_path):
     times = {file: file.stat().st_mtime_ns for file in (tmp_path / "out").rglob("*")}
     done = _merge(place, *SHARDS, out=tmp_path / "out")
     assert (done.code, done.err) == (0, "")
-    assert done.out == f"{tmp_path}/out: nothing to do, 3 clips were there already\n"
+    assert done.out == f"{tmp_path}/out: nothing to do, 3 clips already existed\n"
     assert {file: file.stat().st_mtime_ns for file in (tmp_path / "out").rglob("*")} == times
 
 
@@ -78,14 +78,14 @@ def test_missing_clips_are_named_and_a_later_merge_adds_them(place, tmp_path):
     done = _merge(place, "shard_0", "shard_2", out=tmp_path / "out")
     assert done.code == 3
     assert done.out == f"{tmp_path}/out: 2 clips merged, 16 frames; the dataset is not complete yet\n"
-    assert done.err == f"veldt: {tmp_path}/out lacks clips side; none of shard_0, shard_2 has them whole\n"
+    assert done.err == f"veldt: {tmp_path}/out lacks clips side; none of shard_0, shard_2 has them complete\n"
     statuses = [
         clip["status"] for clip in json.loads((tmp_path / "out" / "dataset.json").read_text())["clips"]
     ]
     assert statuses == ["done", "pending", "done"]
     done = _merge(place, "shard_1", out=tmp_path / "out")
     assert (done.code, done.err) == (0, "")
-    assert done.out == f"{tmp_path}/out: 1 clip merged, 8 frames; 2 were there already\n"
+    assert done.out == f"{tmp_path}/out: 1 clip merged, 8 frames; 2 already existed\n"
     assert content_of(tmp_path / "out") == content_of(place.folder / "whole")
 
 
@@ -93,8 +93,8 @@ def test_missing_clips_are_named_even_if_there_is_nothing_to_merge(place, tmp_pa
     _merge(place, "shard_0", out=tmp_path / "out")
     done = _merge(place, "shard_0", out=tmp_path / "out")
     assert done.code == 3
-    assert done.out == f"{tmp_path}/out: nothing to do, 1 clip was there already\n"
-    assert done.err == f"veldt: {tmp_path}/out lacks clips side, third; none of shard_0 has them whole\n"
+    assert done.out == f"{tmp_path}/out: nothing to do, 1 clip already existed\n"
+    assert done.err == f"veldt: {tmp_path}/out lacks clips side, third; none of shard_0 has them complete\n"
 
 
 def test_generate_makes_what_is_missing(place, tmp_path):
@@ -124,7 +124,7 @@ def test_progress_counts_frames(place, tmp_path):
 
 @pytest.fixture(name="shards")
 def _shards(place, veldt) -> Veldt:
-    """Shards of one's own, to spoil."""
+    """A copy of the shards that a test may damage."""
     assert _merge(place, "shard_0", "--link", "copy", out=veldt.folder / "a").code == 3
     assert _merge(place, "shard_1", "shard_2", "--link", "copy", out=veldt.folder / "b").code == 3
     return veldt
@@ -138,7 +138,7 @@ def test_a_folder_that_is_no_dataset(shards):
     (shards.folder / "empty").mkdir()
     for name in ("empty", "nowhere"):
         done = _merge(shards, "a", name, out="out")
-        _check(done, 2, f"DIR = {name}; expected a dataset; there is no dataset.json of one in it")
+        _check(done, 2, f"DIR = {name}; expected a dataset, with a dataset.json")
     assert not (shards.folder / "out").exists()
 
 
@@ -148,7 +148,7 @@ def test_shards_of_different_configs(place, shards):
     place.write("other.json", config)
     _make(place, str(shards.folder / "c"), "--clips", "side", config="other.json")
     message = "seed is 7 here and 8 there; expected shards of one config"
-    _check(_merge(shards, "a", "c", out="out"), 2, f"a and c are of different configs: {message}")
+    _check(_merge(shards, "a", "c", out="out"), 2, f"a and c have different configs: {message}")
     assert not (shards.folder / "out").exists()
     _merge(shards, "a", out="out")
     message = "seed is 8 here and 7 there; expected the same config, or another folder"
@@ -160,7 +160,7 @@ def test_shards_of_another_version(shards):
     version, index["veldt_version"] = index["veldt_version"], "0.0.1"
     shards.write("b/dataset.json", index)
     done = _merge(shards, "a", "b", out="out")
-    _check(done, 2, f"b: veldt_version = 0.0.1; expected {version}, as this program's")
+    _check(done, 2, f"b: veldt_version = 0.0.1; expected {version}, this program's version")
 
 
 def test_two_of_one_clip_that_differ(place, shards):
@@ -175,14 +175,14 @@ def test_two_of_one_clip_that_differ(place, shards):
 
 def test_the_folder_of_a_source(shards):
     done = _merge(shards, "a", "b", out="b")
-    rule = "expected a folder that is none of DIR; leave it out there to add the others to it"
+    rule = "expected a folder that is not among DIR; to add the others to it, leave it out of DIR"
     _check(done, 2, f"--out = b; {rule}")
     done = _merge(shards, "a", out="b")
-    assert (done.code, done.out, done.err) == (0, "b: 1 clip merged, 8 frames; 2 were there already\n", "")
+    assert (done.code, done.out, done.err) == (0, "b: 1 clip merged, 8 frames; 2 already existed\n", "")
 
 
 DAMAGE = {
-    "a picture is gone": ("ir16/000002.png", lambda file: file.unlink(), "missing"),
+    "a picture is missing": ("ir16/000002.png", lambda file: file.unlink(), "missing"),
     "a picture has changed": (
         "ir8/000001.png",
         lambda file: file.write_bytes(b"x"),

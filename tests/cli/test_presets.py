@@ -1,4 +1,4 @@
-"""Both sides fill in a config alike: the one that renders, and the one that makes frames."""
+"""The Python and the C++ side resolve a config alike."""
 
 import json
 import sys

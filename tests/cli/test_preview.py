@@ -1,4 +1,4 @@
-"""`render --preview`: what it says and leaves behind, with a stand-in for Blender. A real one: tests/integration."""
+"""`render --preview` with a stand-in for Blender: messages and files. With a real one: tests/integration."""
 
 import json
 import os
@@ -28,7 +28,7 @@ def _run(blender, *options, out="out") -> list[str]:
 def test_it_makes_pictures_and_no_passes(veldt, blender):
     done = veldt(*_run(blender, "--progress", "none"))
     assert (done.code, done.err) == (0, "")
-    assert done.out == "out/preview: 2 pictures; map.png is the place from above\n"
+    assert done.out == "out/preview: 2 pictures; map.png shows the place from above\n"
     assert files_below(veldt.folder / "out") == [
         ".lock",
         *sorted(f"preview/{name}" for name in [*MADE, "blender.log"]),
@@ -51,7 +51,7 @@ def test_progress_counts_pictures(veldt, blender):
     ]
 
 
-def test_it_is_made_anew_of_another_config(veldt, blender):
+def test_it_is_made_again_for_another_config(veldt, blender):
     assert veldt(*_run(blender, "--quiet")).code == 0
     veldt.write("config.json", tiny(lambda config: config.update(seed=8)))
     assert veldt(*_run(blender, "--quiet")).code == 0
@@ -73,9 +73,8 @@ def test_a_dry_run_writes_nothing(veldt, blender):
 
 def test_asked_to_stop_it_stops_the_renderer(veldt, blender):
     out = veldt.folder / "out"
-    run = veldt.start(
-        *_run(blender, "--progress", "none", out=out), env=fake_blender.hold_after("preview", 0)
-    )
+    fake_blender.hold_after(veldt.folder, "preview", 0)
+    run = veldt.start(*_run(blender, "--progress", "none", out=out))
     assert wait_until((out / "preview" / "overview.png").exists, 60)
     os.kill(run.pid, signal.SIGINT)
     run.communicate(timeout=3)
@@ -108,19 +107,19 @@ def test_a_config_that_cannot_be_meant_is_refused_before_anything_is_made(veldt,
 
 
 BLENDERS = {
-    "ends without a word": ("exit 0", 1, "Blender ended early while building the scene"),
+    "ends without a word": ("exit 0", 1, "Blender ended early while building the scene; it printed nothing"),
     "is killed after a picture": (
         """echo '{"event": "clip", "clip": "preview", "first_frame": 0, "frames": 2}' >&3
         echo '{"event": "frame", "clip": "preview", "index": 0}' >&3; kill -9 $$""",
         75,
         "Blender was killed by signal 9 (Killed) while rendering clip preview after frame 0;"
-        " if nobody stopped it, the machine may have run out of memory",
+        " unless someone killed it, the machine may have run out of memory",
     ),
     "cannot write": (
-        """echo '{"event": "error", "kind": "internal", "message": "map.png: no", "where": "preview.py:12"}' >&3
+        """echo '{"event": "error", "kind": "internal", "message": "OSError: no", "where": "a/preview.py:12"}' >&3
         exit 1""",
         1,
-        "map.png: no (preview.py:12)",
+        "Blender failed while building the scene: OSError: no (a/preview.py:12)",
     ),
 }
 
@@ -130,7 +129,8 @@ def test_a_failing_blender_is_relayed_in_words(veldt, blender, name):
     script, code, message = BLENDERS[name]
     blender.write_text(f"#!/bin/sh\n{script}\n")
     done = veldt(*_run(blender, "--progress", "none"))
-    assert (done.code, done.out, done.err) == (code, "", f"veldt: {message}\n")
+    assert (done.code, done.out) == (code, "")
+    assert done.err == f"veldt: {message}; log: out/preview/blender.log\n"
 
 
 def test_only_render_makes_previews(veldt, blender):

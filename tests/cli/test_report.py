@@ -1,4 +1,4 @@
-"""`report`: one page about a dataset that needs nothing but itself, and says what it cannot show."""
+"""`report`: a self-contained page about a dataset that states what it cannot show."""
 
 import base64
 import hashlib
@@ -38,7 +38,7 @@ def test_the_page_lies_in_the_dataset_and_changes_nothing_else(veldt, dataset):
     assert re.fullmatch(r"out/report\.html: 2 clips, 6 frames, 12 labels, \d+ kB\n", done.out)
     assert files_below(dataset) == sorted([*before, "report.html"])
     assert veldt("validate", "out").code == 0
-    assert veldt("convert", *CLIPS, "--out", "out").out == "out: nothing to do, 2 clips were there already\n"
+    assert veldt("convert", *CLIPS, "--out", "out").out == "out: nothing to do, 2 clips already existed\n"
 
 
 def test_the_same_dataset_gives_the_same_bytes(veldt, dataset):
@@ -67,7 +67,7 @@ def _source(text: str) -> str:
 
 
 def test_the_page_may_run_and_load_nothing_else(veldt, dataset):
-    """Its policy names its own scripts and style by their sums, and no place to fetch from."""
+    """Its policy allows only its own scripts and style, by their hashes, and no external sources."""
     page = _report(veldt, dataset.name)
     (policy,) = (
         a["content"] for a, _ in page.all("meta") if a.get("http-equiv") == "Content-Security-Policy"
@@ -137,7 +137,7 @@ def test_counts_are_those_of_the_labels(veldt):
 
 @pytest.mark.usefixtures("dataset")
 def test_the_heat_map_is_the_mean_of_boxes(veldt):
-    """Cells of 0.6 x 0.59 px: what they hold, summed over the picture, is the boxes' mean area."""
+    """Cells of 0.6 x 0.59 px: their sum over the picture is the mean area of boxes."""
     heat = _report(veldt, "out").figures["labels"]["heat"]
     boxes = np.reshape(heat["boxes_over"], (heat["rows"], heat["columns"]))
     areas = [a["bbox"][2] * a["bbox"][3] for a in veldt.read("out/annotations.json")["annotations"]]
@@ -152,7 +152,7 @@ def test_the_heat_map_is_the_mean_of_boxes(veldt):
 
 
 def test_frames_shown_stand_for_each_clip(veldt, dataset):
-    """Frame 2 of `down` loses its labels, frame 1 all but one: most in 0, none in 2; of `side` all are alike."""
+    """Frame 2 of `down` loses its labels, frame 1 all but one: most in 0, none in 2; all frames of `side` are equal."""
 
     def thin(document):
         document["annotations"] = [
@@ -189,7 +189,7 @@ def test_pictures_are_the_clips_own(veldt, dataset):
 
 
 def test_an_older_dataset_has_fewer_figures(veldt, dataset):
-    """Before visibility, contrast and temperatures were told, and before the budget was."""
+    """Made before labels had visibility, contrast and temperature, and before the budget was recorded."""
 
     def older(document):
         keys = (
@@ -256,8 +256,8 @@ def test_an_unfinished_dataset_is_refused_unless_asked_for(veldt, dataset):
     done = veldt("report", "out")
     assert (done.code, done.out) == (1, "")
     assert done.err == (
-        "veldt: out is unfinished: 1 of 2 clips are not made: side; expected all of them, or --unfinished to go "
-        "without\n"
+        "veldt: out is unfinished: 1 of 2 clips are missing: side; expected all of them, or --unfinished to accept "
+        "this\n"
     )
     assert not (dataset / "report.html").exists()
     done = veldt("report", "out", "--unfinished")
@@ -313,7 +313,7 @@ def test_a_damaged_frame_is_a_fault(veldt, dataset):
     assert done.err.startswith("veldt: out/clips/down/ir8/000000.png: damaged: ")
     picture.unlink()
     done = veldt("report", "out")
-    assert done.err == "veldt: cannot read out/clips/down/ir8/000000.png: it does not exist\n"
+    assert done.err == "veldt: cannot read out/clips/down/ir8/000000.png: no such file\n"
     assert done.code == 1 and not (dataset / "report.html").exists()
 
 

@@ -1,4 +1,4 @@
-"""The map of a report: tracks lie on the place they were flown over, and on no other."""
+"""The map of a report: tracks are drawn on the place they were flown over, and on no other."""
 
 import base64
 import re
@@ -14,7 +14,7 @@ from veldt.config import resolve
 
 
 def _flights(veldt: Veldt) -> dict:
-    """What a report of the dataset `out` tells of its flights."""
+    """The flights in a report of the dataset `out`."""
     done = veldt("report", "out", "--quiet")
     assert (done.code, done.out, done.err) == (0, "", "")
     return Page(veldt.folder / "out" / "report.html").figures["flights"]
@@ -23,7 +23,7 @@ def _flights(veldt: Veldt) -> dict:
 def test_without_poses_there_is_no_map(veldt):
     make_dataset(veldt)
     flights = _flights(veldt)
-    assert flights["map"] == {"absent": "The passes this dataset was made of have no camera poses."}
+    assert flights["map"] == {"absent": "The passes of this dataset have no camera poses."}
     assert [track["points_m"] for track in flights["tracks"]] == [[], []]
 
 
@@ -42,7 +42,7 @@ def test_tracks_lie_on_the_map_of_their_place(veldt):
 
 
 def test_a_known_point_is_where_the_map_shows_it(veldt):
-    """Water is where the terrain has it: x to the right, y upwards, in the picture of the whole place."""
+    """Water has its position in the terrain: x to the right, y upwards, in the picture of the whole place."""
     config = flown_config()
     make_dataset(veldt, config)
     place = _flights(veldt)["map"]["place"]
@@ -57,7 +57,7 @@ def test_a_known_point_is_where_the_map_shows_it(veldt):
     assert (
         blue[shore_m < -1].all() and not blue[shore_m > 1].any()
     )  # a JPEG's border is a few pixels, 1 m, wide
-    assert not np.array_equal(blue, blue[::-1])  # it would tell if north were below
+    assert not np.array_equal(blue, blue[::-1])  # otherwise it would not detect a flipped map
 
 
 @pytest.mark.parametrize("other", ["seed", "relief"])
@@ -74,20 +74,20 @@ def test_another_place_than_the_cameras_is_not_drawn(veldt, other):
     change(dataset / "dataset.json", move)
     flights = _flights(veldt)
     assert re.fullmatch(
-        r"The ground of the config's place is up to \d\.\d m off the ground below the camera, so the passes are "
-        r"not of that place, and it is not drawn\.",
+        r"The ground of the config's place differs by up to \d\.\d m from the ground below the camera, so the passes "
+        r"are not of that place, and it is not drawn\.",
         flights["map"]["absent"],
     )
     assert len(flights["tracks"][0]["points_m"]) == passes.FRAMES
 
 
-def test_without_heights_nothing_tells_whose_place_it_is(veldt):
+def test_without_heights_the_place_cannot_be_verified(veldt):
     dataset = make_dataset(veldt, flown_config())
     frames = dataset / "clips" / "side" / "frames.jsonl"
     frames.write_text(frames.read_text(encoding="utf-8").replace('"agl_m":40.0,', ""), encoding="utf-8")
     assert _flights(veldt)["map"] == {
-        "absent": "The passes do not say how high the camera flew above ground, so nothing tells whether the place "
-        "of the config is theirs, and it is not drawn."
+        "absent": "The passes do not say how high the camera flew above ground, so it is unknown whether they show "
+        "the place of the config, and it is not drawn."
     }
 
 
@@ -95,13 +95,13 @@ def test_a_map_that_cannot_be_drawn_says_why(veldt):
     dataset = make_dataset(veldt, flown_config())
 
     def lose_heightmap(record):
-        record["config"]["scene"]["terrain"]["heightmap"] = {"file": "gone.png", "height_m": [0, 5]}
+        record["config"]["scene"]["terrain"]["heightmap"] = {"file": "missing.png", "height_m": [0, 5]}
 
     change(dataset / "dataset.json", lose_heightmap)
-    told = _flights(veldt)["map"]["absent"]
-    assert told.startswith("The place could not be drawn: ") and "gone.png" in told
+    reason = _flights(veldt)["map"]["absent"]
+    assert reason.startswith("The place could not be drawn: ") and "missing.png" in reason
     done = veldt("report", "out", "--quiet", env={"VELDT_PYTHON": "/none"})
     assert (done.code, done.err) == (0, "")
     assert Page(dataset / "report.html").figures["flights"]["map"] == {
-        "absent": "The place could not be drawn: there is no python3 on PATH."
+        "absent": "The place could not be drawn: no python3 on PATH."
     }

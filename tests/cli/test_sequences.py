@@ -1,4 +1,4 @@
-"""Frames named by folder, file or pattern: which files are taken, in which order, and what is missing."""
+"""Frames given by folder, file or pattern: selected files, their order, and missing frames."""
 
 import shutil
 
@@ -86,7 +86,7 @@ def test_gaps_are_frames_that_are_missing(veldt):
     assert veldt("inspect", "r", "--json").json()["missing"] == ["f_0012.exr"]
     done = veldt("convert", "r", "--out", "out", "--progress", "none")
     assert (done.code, done.out) == (3, "out: 1 clip made, 3 frames; 1 frame skipped\n")
-    assert done.err == "veldt: clip r: frame 2 skipped: r/f_0012.exr: there is no such file\n"
+    assert done.err == "veldt: clip r: frame 2 skipped: r/f_0012.exr: no such file\n"
     assert [float(time) for time in _frames(veldt)] == [0, 1 / 9, 3 / 9]
 
 
@@ -98,7 +98,7 @@ def test_a_pattern_stays_in_its_folder(veldt):
     assert veldt("inspect", "r/*.exr", "--json").json()["files"] == 1
 
 
-TWO = "expected one file a number, or a pattern that leaves some out"
+TWO = "expected one file per number, or a pattern that leaves some out"
 HOLDS = "which holds f_1.exr, f_2.exr, manifest.json"
 FAULTS = {
     "no such folder": (
@@ -123,7 +123,7 @@ FAULTS = {
         ["*/f_#.exr"],
         {},
         2,
-        'passes = "*/f_#.exr"; expected a pattern in a folder that is there, and * is none',
+        'passes = "*/f_#.exr"; expected a pattern in an existing folder, and * is not one',
     ),
     "a pattern that cannot be meant": (
         ["r/f_%6d.exr"],
@@ -147,13 +147,13 @@ FAULTS = {
         ["r"],
         {"sequence": "../f_#.exr"},
         1,
-        'r/manifest.json: sequence = "../f_#.exr"; expected text like ^[^/\\\\]*$',
+        'r/manifest.json: sequence = "../f_#.exr"; expected text that matches ^[^/\\\\]*$',
     ),
     "frames and sequence": (
         ["r"],
         {"sequence": "f_#.exr", "frames": [{"file": "f_1.exr"}]},
         1,
-        'r/manifest.json: sequence = "f_#.exr"; expected none beside frames, which lists the files',
+        'r/manifest.json: sequence = "f_#.exr"; expected none, because frames lists the files',
     ),
     "neither": (
         ["r"],
@@ -214,7 +214,7 @@ def test_without_a_manifest(veldt):
     for what in ("r", "r/f_#.exr"):
         done = veldt("convert", what, "--out", "out")
         assert done.err == (
-            "veldt: cannot read r/manifest.json: there is no such file; expected one that tells what the passes mean,"
+            "veldt: cannot read r/manifest.json: no such file; expected one that says what the passes mean,"
             ' such as "veldt inspect r --starter-manifest r/manifest.json" writes\n'
         )
         assert (done.code, done.out) == (1, "")
@@ -224,7 +224,9 @@ def test_one_manifest_is_for_one_folder(veldt):
     _write(veldt, ["1.exr"], "r")
     _write(veldt, ["1.exr"], "s")
     done = veldt("convert", "r/1.exr", "s/1.exr", "--manifest", "r/manifest.json", "--out", "out")
-    assert done.err == "veldt: --manifest = r/manifest.json; expected one folder of passes beside it, not 2\n"
+    assert (
+        done.err == "veldt: --manifest = r/manifest.json; expected a single folder of passes with it, not 2\n"
+    )
     assert done.code == 2
     done = veldt("inspect", "r/1.exr", "s/1.exr")
     assert done.err == "veldt: passes = r, s; expected one folder of passes, or files in one\n"

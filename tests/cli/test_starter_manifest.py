@@ -1,4 +1,4 @@
-"""`inspect --starter-manifest` writes a manifest to fill in, and `convert` names what is left to fill in."""
+"""`inspect --starter-manifest` writes a manifest to fill in, and `convert` names the values still missing."""
 
 import jsonschema
 import numpy as np
@@ -13,9 +13,9 @@ CAMERA = {"width_px": 3, "height_px": 2, "fx_px": FOCAL_PX, "fy_px": FOCAL_PX, "
 INDEX = np.array([[0, 1, 1], [1, 1, 7]])
 MATERIALS = ", ".join(sorted(file.stem for file in (ROOT / "assets" / "materials").glob("*.json")))
 GUESSED = [
-    "guessed, to be checked",
+    "guessed; check these",
     "  camera.fx_px = camera.fy_px = 4.167 (50 mm before 36 mm, Blender's usual lens)",
-    "  frame_rate_hz = 24 (Blender's usual one)",
+    "  frame_rate_hz = 24 (Blender's default)",
 ]
 
 
@@ -32,7 +32,7 @@ def _write_indices(folder, count=2):
 
 
 def _begin(veldt, *arguments):
-    """Writes a starter manifest; returns it and what was printed about it."""
+    """Write a starter manifest; return it and the lines printed about it."""
     done = veldt("inspect", "r", "--starter-manifest", "r/manifest.json", "--progress", "none", *arguments)
     assert (done.code, done.err) == (0, "")
     document = veldt.read("r/manifest.json")
@@ -41,9 +41,9 @@ def _begin(veldt, *arguments):
 
 
 def test_of_an_index_plane(veldt, folder):
-    """Every index of all frames is there: 7 is only in the first, 15 only in the second."""
+    """The manifest lists the indices of all frames: 7 is only in the first, 15 only in the second."""
     _write_indices(folder)
-    document, told = _begin(veldt)
+    document, lines = _begin(veldt)
     assert document == {
         "format": "veldt-passes",
         "version": 1,
@@ -67,8 +67,8 @@ def test_of_an_index_plane(veldt, folder):
         ],
         "materials": [],
     }
-    assert told == [
-        "r/manifest.json: a manifest to begin with",
+    assert lines == [
+        "r/manifest.json: starter manifest",
         *GUESSED,
         "  objects[0]: object_1 is ground, soil (it covers most)",
         "to fill in",
@@ -85,8 +85,8 @@ def test_what_is_left_to_fill_in_is_named(veldt, folder):
     done = veldt("convert", "r", "--out", "out")
     assert done.err == (
         f'veldt: r/manifest.json: objects[1].material, objects[2].material = "FILL IN"; expected one of {MATERIALS}\n'
-        'veldt: r/manifest.json: objects[1].category, objects[2].category = "FILL IN"; expected what its labels call'
-        " it, such as human or elephant; or another class than actor\n"
+        'veldt: r/manifest.json: objects[1].category, objects[2].category = "FILL IN"; expected a category such as'
+        " human or elephant, or a class other than actor\n"
     )
     assert (done.code, done.out) == (1, "")
 
@@ -101,10 +101,10 @@ def test_filled_in_it_converts(veldt, folder):
     assert (done.code, done.out, done.err) == (0, "out: 1 clip made, 2 frames\n", "")
 
 
-def test_what_names_tell_is_not_to_fill_in(veldt, folder):
-    """With names that are understood the first conversion needs no hand."""
+def test_values_known_from_names_are_filled_in(veldt, folder):
+    """With recognised names the first conversion needs no editing."""
     write_cryptomatte(folder / "f.exr", {"thin wire": "Acacia.002"})
-    document, told = _begin(veldt)
+    document, lines = _begin(veldt)
     assert document["cryptomatte"] == "ViewLayer.CryptoObject"
     assert document["sequence"] == "f.exr"
     assert document["objects"] == [
@@ -120,8 +120,8 @@ def test_what_names_tell_is_not_to_fill_in(veldt, folder):
         },
         {"index": 3, "name": "acacia", "class": "plant", "material": "acacia", "mattes": ["Acacia.002"]},
     ]
-    assert told == [
-        "r/manifest.json: a manifest to begin with",
+    assert lines == [
+        "r/manifest.json: starter manifest",
         *GUESSED,
         "  objects[0]: soil is ground, soil (by the name Ground)",
         "  objects[1]: Elephant.001 is actor, elephant (by the name Elephant.001)",
@@ -136,8 +136,10 @@ def test_what_names_tell_is_not_to_fill_in(veldt, folder):
 def test_of_colours(veldt, folder):
     write_colours(folder / "a.png")
     document, _ = _begin(veldt)
-    told = [(entry["index"], entry["name"], entry["class"], entry["colour"]) for entry in document["objects"]]
-    assert told == [
+    objects = [
+        (entry["index"], entry["name"], entry["class"], entry["colour"]) for entry in document["objects"]
+    ]
+    assert objects == [
         (1, "colour_00ff00", "ground", list(GROUND)),
         (2, "colour_ff0000", "actor", list(ELEPHANT)),
     ]
@@ -155,17 +157,17 @@ def test_of_greys(veldt, folder):
 
 def test_materials_are_to_fill_in(veldt, folder):
     write_exr(folder / "1.exr", {"S.IndexOB.X": INDEX, "S.IndexMA.X": INDEX // 2})
-    document, told = _begin(veldt)
+    document, lines = _begin(veldt)
     assert document["materials"] == [{"index": 3, "material": "FILL IN"}]
-    assert "  materials[0]: material of material index 3 (1 px)" in told
+    assert "  materials[0]: material of material index 3 (1 px)" in lines
 
 
 def test_the_only_channel_of_whole_numbers_is_taken(veldt, folder):
     write_exr(folder / "1.exr", {"id.V": INDEX, "half.V": INDEX / 2})
-    document, told = _begin(veldt)
+    document, lines = _begin(veldt)
     assert document["channels"] == {"object_index": "id.V"}
     assert [entry["index"] for entry in document["objects"]] == [1, 7]
-    assert '  channels.object_index = "id.V" (it holds whole numbers)' in told
+    assert '  channels.object_index = "id.V" (it holds whole numbers)' in lines
 
 
 def test_a_layer_is_named(veldt, folder):
@@ -223,7 +225,7 @@ FAULTS = {
         {"IndexOB.X": INDEX},
         "there.json",
         2,
-        "--starter-manifest = there.json; expected a file that is not there yet",
+        "--starter-manifest = there.json; expected a file that does not exist yet",
     ),
     "nothing but sky": (
         {"IndexOB.X": INDEX * 0},
@@ -235,7 +237,7 @@ FAULTS = {
         {"R": INDEX},
         "m.json",
         1,
-        "r/1.exr: no object index channel; expected one like Scene.IndexOB.X, the file has: R",
+        "r/1.exr: no object index channel; expected one such as Scene.IndexOB.X; the file has: R",
     ),
     "several layers": (
         {"A.IndexOB.X": INDEX, "B.IndexOB.X": INDEX},
@@ -247,7 +249,7 @@ FAULTS = {
         {"IndexOB.X": INDEX},
         "none/m.json",
         2,
-        "--starter-manifest = none/m.json; expected a file in a folder that is there",
+        "--starter-manifest = none/m.json; expected a file in an existing folder",
     ),
 }
 

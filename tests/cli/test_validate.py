@@ -1,4 +1,4 @@
-"""`validate` finds whatever happened to a dataset since it was made, and names the file."""
+"""`validate` finds all changes to a dataset since it was made, and names the file."""
 
 import pytest
 
@@ -14,7 +14,7 @@ def _dataset(veldt):
 
 
 def _flip(file, position):
-    """Flips the lowest bit of one byte."""
+    """Flip the lowest bit of one byte."""
     content = bytearray(file.read_bytes())
     content[position] ^= 1
     file.write_bytes(content)
@@ -64,7 +64,7 @@ def test_settings_are_for_configs(veldt, dataset):
 def test_a_whole_dataset_is_valid(veldt, dataset):
     done = veldt("validate", "out")
     # A clip's files: 3 frames of each kind, clip.json, labels.json, frames.jsonl, preview.mp4; then annotations.json.
-    assert (done.code, done.out, done.err) == (0, "out: 2 clips, 21 files checked, all as written\n", "")
+    assert (done.code, done.out, done.err) == (0, "out: 2 clips, 21 files checked, all unchanged\n", "")
     assert veldt("validate", dataset, "--json").json() == {
         "dataset": str(dataset),
         "valid": True,
@@ -97,7 +97,7 @@ def test_truncated_annotations_are_placed(veldt, dataset):
     assert fault.startswith("out/annotations.json:1:101: not JSON: syntax error while parsing ")
 
 
-def test_every_fault_is_told_at_once(veldt, dataset):
+def test_every_fault_is_reported_at_once(veldt, dataset):
     for name in ("000000", "000002"):
         (dataset / "clips" / "one" / "ir8" / f"{name}.png").unlink()
     (dataset / "annotations.json").unlink()
@@ -123,7 +123,7 @@ def test_a_clip_that_is_not_made_yet_is_named(veldt, dataset):
 
 NO_DATASETS = {
     "empty folder": ({}, "cannot read out/dataset.json: No such file or directory", 1),
-    "of something else": ({"format": "coco"}, "out/dataset.json is not of a Veldt dataset", 1),
+    "of something else": ({"format": "coco"}, "out/dataset.json does not belong to a Veldt dataset", 1),
 }
 
 

@@ -1,4 +1,4 @@
-"""`convert --variants`: many datasets from one reading of the passes, each as if it had been made alone."""
+"""`convert --variants`: many datasets from reading the passes once, each identical to one made alone."""
 
 import fcntl
 import shutil
@@ -94,10 +94,10 @@ def test_a_variant_is_what_it_would_be_alone(veldt, clips, threads):
         _convert(veldt, *clips, "--out", "alone", *(["--set", *settings] if settings else []))
         here, there = veldt.folder / "out" / name, veldt.folder / "alone"
         assert files_below(here) == files_below(there)
-        told, expected = veldt.read(here / "dataset.json"), veldt.read(there / "dataset.json")
-        for clip in (*told["clips"], *expected["clips"]):
+        found, expected = veldt.read(here / "dataset.json"), veldt.read(there / "dataset.json")
+        for clip in (*found["clips"], *expected["clips"]):
             del clip["record_sha256"]  # the preview is among it: lossy, and the encoder's own
-        assert told == expected
+        assert found == expected
         assert (here / "annotations.json").read_bytes() == (there / "annotations.json").read_bytes()
         assert veldt("validate", f"out/{name}").code == 0
         shutil.rmtree(there)
@@ -105,7 +105,7 @@ def test_a_variant_is_what_it_would_be_alone(veldt, clips, threads):
 
 
 def test_each_file_of_passes_is_opened_as_often_as_for_one_dataset(veldt, clips):
-    """As for one that asks what planes there are, which looks into the first frame of each clip before all else."""
+    """As for a single dataset that needs to know the planes, which reads the first frame of each clip first."""
     with Opened(*clips) as opened:
         _convert(veldt, *clips, "--out", "alone", "--set", "sensor.model=physical")
         once = opened.counts(".exr")
@@ -157,7 +157,7 @@ def test_finished_variants_are_left_alone(veldt, clips):
     assert veldt(*run, "--quiet").code == 0
     times = _times(veldt.folder / "out")
     done = veldt(*run)
-    expected = "".join(f"out/{name}: nothing to do, 2 clips were there already\n" for name in NAMES)
+    expected = "".join(f"out/{name}: nothing to do, 2 clips already existed\n" for name in NAMES)
     assert (done.code, done.out, done.err) == (0, expected, "")
     assert _times(veldt.folder / "out") == times
 
@@ -169,7 +169,7 @@ def test_another_list_adds_variants(veldt, clips):
     veldt.write("list.json", _list("summer", "plain"))
     done = veldt("convert", *clips, "--variants", "list.json", "--out", "out", "--progress", "none")
     assert done.out == (
-        "out/summer: 2 clips made, 6 frames\nout/plain: nothing to do, 2 clips were there already\n"
+        "out/summer: 2 clips made, 6 frames\nout/plain: nothing to do, 2 clips already existed\n"
     )
     assert _times(veldt.folder / "out" / "plain") == times
 
@@ -219,7 +219,7 @@ def test_killed_it_goes_on_to_the_same_datasets(veldt):
         ]
     done = veldt(*run, "--out", "out", "--progress", "none")
     assert done.out == "".join(
-        f"out/{name}: 1 clip made, 40 frames; 1 was there already\n" for name in ("plain", "summer")
+        f"out/{name}: 1 clip made, 40 frames; 1 already existed\n" for name in ("plain", "summer")
     )
     for name in ("plain", "summer"):
         assert veldt.pixels(f"out/{name}") == veldt.pixels(f"undisturbed/{name}")
@@ -233,7 +233,7 @@ def test_a_clip_that_cannot_be_converted_is_named_for_each_variant(veldt, clips)
     done = veldt("convert", "one", "two", "--variants", "list.json", "--out", "out", "--progress", "none")
     why = (
         f"clip two rejected: two/000000.exr: {passes.OBJECTS} at pixel (3, 2) = -7;"
-        " expected a whole number from 0 to 32767; nor can its 2 other frames be converted"
+        " expected a whole number from 0 to 32767; its 2 other frames cannot be converted either"
     )
     assert done.code == 3
     assert done.err == f"veldt: plain: {why}\nveldt: summer: {why}\n"
@@ -280,7 +280,7 @@ REQUESTS = {
     ),
     "value out of range": (
         [{"name": "a", "weather": {"air_temperature_k": 20}}],
-        f"{FIRST}: weather.air_temperature_k = 20 K; expected at least 200 and at most 340 K",
+        f"{FIRST}: weather.air_temperature_k = 20 K; expected at least 233 and at most 323 K",
     ),
     "unknown preset": (
         [{"name": "a", "sensor": {"preset": "boson"}}],
@@ -347,6 +347,6 @@ def test_datasets_do_not_go_into_a_dataset(veldt, clips):
     assert (done.code, done.out) == (2, "")
     assert (
         done.err
-        == "veldt: --out = out; expected a folder that is no dataset itself, for those of --variants\n"
+        == "veldt: --out = out; expected a folder that is not a dataset, to hold those of --variants\n"
     )
     assert files_below(veldt.folder / "out") == before

@@ -1,5 +1,5 @@
-"""Computes air_and_sky.csv, path_transmittance.csv and angular_factor.csv with 30 digits from the published formulas,
-written down here a second time; run `python3 air_and_angle.py` (needs mpmath 1.3).
+"""Compute air_and_sky.csv, path_transmittance.csv and angular_factor.csv with 30 digits from the published formulas,
+implemented independently; run `python3 air_and_angle.py` (needs mpmath 1.3).
 
 Path: FLIR's form after Passman and Larmore, coefficients of Tran et al., Sensors 17, 2017. Below 30 m Beer's law
 through the value at 30 m, by design: the fit's slope at 0 is infinite. Sky: Idso, Water Resour. Res. 17, 295, 1981;
@@ -99,7 +99,7 @@ def water_emissivity(cosine):
 
 
 def text(value):
-    """Twenty digits: more than a double tells apart."""
+    """Twenty digits: more than the precision of a double."""
     return mp.nstr(value, 20, min_fixed=0, max_fixed=0)
 
 
@@ -126,7 +126,7 @@ def sky_rows():
 
 
 def main():
-    """Writes the three files."""
+    """Write the three files."""
     write(
         "air_and_sky.csv",
         "Vapour, water content, and emissivity of the sky.",

@@ -1,4 +1,4 @@
-"""Computes band_radiance_points.csv, 200 in-band radiances with 50 digits, by a way of its own: Gauss-Legendre over
+"""Compute band_radiance_points.csv, 200 in-band radiances with 50 digits, by an independent method: Gauss-Legendre over
 wavelength, in panels that follow Planck's law, by two rules that must agree to 40 digits.
 
 Run `python3 band_radiance_points.py` (needs mpmath 1.3; where Debian's is missing, from
@@ -129,7 +129,7 @@ def gauss_rule(count):
 
 
 def text(value):
-    """Twenty-one digits: more than a double tells apart."""
+    """Twenty-one digits: more than the precision of a double."""
     return mp.nstr(value, 21, min_fixed=0, max_fixed=0)
 
 
@@ -139,7 +139,7 @@ def curve_text(samples):
 
 
 def main():
-    """Writes the CSV."""
+    """Write the CSV."""
     rules = gauss_rule(40), gauss_rule(46)
     rows = []
     for temperature_k, response, emissivity in points():

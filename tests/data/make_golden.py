@@ -1,4 +1,4 @@
-"""Computes the golden values beside this file, with 60 digits: run `python3 make_golden.py` (needs mpmath 1.3).
+"""Compute the golden values beside this file, with 60 digits: run `python3 make_golden.py` (needs mpmath 1.3).
 
 Every input is the double nearest to the decimal in the CSV, so that a test which reads it sees no input error.
 """
@@ -87,7 +87,7 @@ def script_radiance(temperature_k):
 
 
 def text(value):
-    """Twenty-one digits: more than a double tells apart."""
+    """Twenty-one digits: more than the precision of a double."""
     return mp.nstr(value, 21, min_fixed=0, max_fixed=0)
 
 
@@ -98,7 +98,7 @@ def write(name, what, header, rows):
 
 
 def main():
-    """Writes every file of golden values."""
+    """Write every file of golden values."""
     write(
         "planck_spectral.csv",
         "Spectral radiance of a blackbody, exact SI 2019 constants.",

@@ -7,7 +7,7 @@ namespace {
 
 const std::string kName = "config.json";
 
-/// A config that was resolved is one; resuming compares it with what it is resolved to.
+/// A resolved config is valid; a resumed run compares it with the resolved form of the new one.
 void resolve_twice(thermal::Json document) {
   const thermal::Config config = thermal::resolve_config(std::move(document), kName, VELDT_SOURCE_DIR);
   const thermal::Config again = thermal::resolve_config(config.resolved, kName, VELDT_SOURCE_DIR);

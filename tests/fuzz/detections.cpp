@@ -16,7 +16,7 @@ thermal::LabelSet small_truth() {
   return truth;
 }
 
-/// The bytes as results of the first picture, or of all where they are JSON.
+/// The bytes as results of the first picture, or of all if they are JSON.
 std::filesystem::path results_of(Bytes bytes) {
   static const TemporaryFolder folder;
   const std::string_view text = text_of(bytes);

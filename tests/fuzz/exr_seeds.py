@@ -19,7 +19,7 @@ Change = Callable[[OpenImageIO.ImageSpec], None]
 
 
 def object_index(scale: int = 1) -> np.ndarray:
-    """A walker beside a shrub on the ground, below the sky, of so many times as many pixels each way."""
+    """A walker beside a shrub on the ground, below the sky, scaled up by an integer factor."""
     plane = np.ones((SIDE, SIDE), np.float32)
     plane[:2] = 0
     plane[3:7, 2:4] = 101
@@ -39,7 +39,7 @@ def planes(prefix: str = "", scale: int = 1) -> Planes:
 
 
 def spec_of(part: Planes, kind: str = "float", **attributes) -> OpenImageIO.ImageSpec:
-    """What OpenImageIO wants to know of a part; compression="none" and the like are attributes."""
+    """The spec of a part for OpenImageIO; compression="none" and the like are attributes."""
     height, width = next(iter(part.values())).shape
     spec = OpenImageIO.ImageSpec(width, height, len(part), kind)
     spec.channelnames = tuple(part)
@@ -50,7 +50,7 @@ def spec_of(part: Planes, kind: str = "float", **attributes) -> OpenImageIO.Imag
 
 
 def write_parts(file: Path, parts: list[tuple[OpenImageIO.ImageSpec, Planes]], choice: int) -> None:
-    """Writes one part after another, then the byte that chooses a manifest."""
+    """Write one part after another, then the byte that chooses a manifest."""
     out = OpenImageIO.ImageOutput.create(str(file))
     specs = [spec for spec, _ in parts]
     assert out.open(str(file), specs if len(specs) > 1 else specs[0]), out.geterror()
@@ -66,7 +66,7 @@ def write_parts(file: Path, parts: list[tuple[OpenImageIO.ImageSpec, Planes]], c
 def write_one(
     file: Path, part: Planes, choice: int, change: Change = lambda spec: None, **attributes
 ) -> None:
-    """Writes a file of one part, whose spec is changed first."""
+    """Write a file of one part after changing its spec."""
     spec = spec_of(part, **attributes)
     change(spec)
     write_parts(file, [(spec, part)], choice)
@@ -139,7 +139,7 @@ def _write_cryptomattes(folder: Path) -> None:
 
 
 def write_exr_seeds(folder: Path) -> None:
-    """Writes all of them into a folder that is there."""
+    """Write all of them into an existing folder."""
     for compression in COMPRESSIONS:
         write_one(folder / f"{compression}.exr", planes(), PLAIN, compression=compression)
         write_one(folder / f"tiled_{compression}.exr", planes(), PLAIN, _tiled, compression=compression)

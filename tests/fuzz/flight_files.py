@@ -1,4 +1,4 @@
-"""Missions of QGroundControl and logs, fed with any bytes, as targets.h does with what C++ reads.
+"""Fuzz targets for missions of QGroundControl and logs, as targets.h has for the files that C++ reads.
 
 flight_files.py plan|log [ARGS of libFuzzer…] fuzzes, in an environment that has atheris (requirements.txt);
 flight_files.py replay plan|log FILE|FOLDER… runs over inputs that are there, without it: 0 when all went well, 1 with
@@ -55,7 +55,7 @@ ODD = (
 
 
 def target_of(suffix: str, folder: Path) -> Callable[[bytes], None]:
-    """What takes bytes as a flight file with this suffix; only ConfigError is a fault of the bytes."""
+    """A function that reads bytes as a flight file with this suffix; ConfigError is the only accepted exception."""
     files, faults = (importlib.import_module(f"veldt.{name}") for name in ("flight.waypoint_files", "faults"))
     file = folder / f"flight.{suffix}"
 
@@ -73,7 +73,7 @@ def target_of(suffix: str, folder: Path) -> Callable[[bytes], None]:
 
 
 def demand_usable(flight) -> None:
-    """What the autopilot takes for granted: places and times are numbers, and there are some."""
+    """Check the assumptions of the autopilot: positions and times are numbers, and there is at least one."""
     if isinstance(flight, list):
         assert flight, "a plan has waypoints"
         assert np.isfinite([(*point.point_m, point.height_m, point.hold_s) for point in flight]).all()
@@ -85,7 +85,7 @@ def demand_usable(flight) -> None:
 
 
 def replay(read: Callable[[bytes], None], paths: list[Path]) -> int:
-    """Reads files, and the files of folders, which may lack."""
+    """Read files and the files in folders, which need not exist."""
     files = sorted(
         file for path in paths for file in (path.iterdir() if path.is_dir() else [path]) if file.is_file()
     )
@@ -129,7 +129,7 @@ def changed_json(content: bytes, most: int, seed: int) -> bytes:
                 holder[place] = odd
             else:
                 del holder[place]
-        except (KeyError, IndexError):  # what was changed before is no more
+        except (KeyError, IndexError):  # removed by an earlier change
             continue
     return json.dumps(document).encode("utf-8")[:most]
 
@@ -147,7 +147,7 @@ def fuzz(suffix: str, folder: Path, arguments: list[str]) -> None:
 
 
 def main(arguments: list[str]) -> int:
-    """Replays or fuzzes."""
+    """Replay or fuzz."""
     sys.path.insert(0, str(ROOT / "blender_scripts"))
     suffixes = {"plan": "plan", "log": "csv"}
     with tempfile.TemporaryDirectory() as name:

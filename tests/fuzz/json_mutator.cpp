@@ -1,5 +1,5 @@
-// Changes JSON as a tree, so that what comes out is JSON still: bytes changed at random seldom are, and few would get past
-// the parser. One time in four, and always where the input is no JSON, libFuzzer changes bytes as it does by itself.
+// Mutates JSON as a tree, so that the result is still JSON: randomly changed bytes seldom are, and few would pass the
+// parser. One time in four, and always if the input is not JSON, libFuzzer mutates bytes as usual.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -75,7 +75,7 @@ void add_part(Json& value, const Json& part, const std::string& key) {
   if (value.is_object()) value[key] = part;
 }
 
-/// Keys that any of these objects have.
+/// Keys of any of these objects.
 std::vector<std::string> keys_of(const std::vector<Json*>& places) {
   std::vector<std::string> keys = {"x"};
   for (const Json* place : places) {

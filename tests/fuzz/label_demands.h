@@ -11,7 +11,7 @@ inline void demand_finite(const thermal::LabelBox& box) {
   demand(std::isfinite(box.height_px) && box.height_px >= 0, "a box has a finite height");
 }
 
-/// What exports, reports and analyses take for granted.
+/// Assumptions of exports, reports and analyses.
 inline void demand_consistent(const thermal::LabelSet& set) {
   for (const thermal::LabelImage& image : set.images)
     demand(image.video < set.videos.size(), "a picture's video is there");

@@ -1,4 +1,4 @@
-// The entry point of libFuzzer, built once a target: VELDT_FUZZ_TARGET is its name.
+// The entry point of libFuzzer, built once per target: VELDT_FUZZ_TARGET is its name.
 #include <cstddef>
 
 #include "fuzz/targets.h"

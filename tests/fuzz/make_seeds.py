@@ -1,6 +1,6 @@
-"""Writes what fuzzing starts from: make_seeds.py FOLDER makes FOLDER/TARGET/… and dictionaries FOLDER/TARGET.dict.
+"""Write the seeds for fuzzing: make_seeds.py FOLDER makes FOLDER/TARGET/… and dictionaries FOLDER/TARGET.dict.
 
-The same bytes on every run. A target's own readers would take each of its seeds.
+The output is the same on every run. Every seed is valid for the readers of its target.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from exr_seeds import write_exr_seeds
 from png_seeds import write_png_seeds
 
 ROOT = Path(__file__).resolve().parents[2]
-CONFIGS, SCHEMAS, FLIGHTS = ROOT / "configs", ROOT / "configs" / "schema", ROOT / "tests" / "data" / "flights"
+CONFIGS, SCHEMAS, DATA = ROOT / "configs", ROOT / "configs" / "schema", ROOT / "tests" / "data"
+FLIGHTS, CALIBRATIONS = DATA / "flights", DATA / "calibrations"
 
 MANIFEST = {
     "format": "veldt-passes",
@@ -89,6 +90,7 @@ TEXTS = {
     ),
 }
 COPIES = {
+    "calibration": [file for file in sorted(CALIBRATIONS.iterdir()) if file.suffix != ".md"],
     "config": [CONFIGS / "demo.json", CONFIGS / "savanna.json"],
     "variants": [CONFIGS / "variants_example.json", CONFIGS / "gallery.json"],
     "plan": [FLIGHTS / "survey.plan"],
@@ -96,6 +98,9 @@ COPIES = {
 }
 WORDS = {
     "birdsai": ["-1", "2147483647", ",", "\r\n", " "],
+    "calibration": "%YAML:1.0 --- !!opencv-matrix camera_matrix cameraMatrix Camera_Matrix distortion_coefficients"
+    " dist_coeffs image_width image_height cameraResolution rows cols dt data fisheye_model distortion_model plumb_bob"
+    " rectification_matrix M1 type_id opencv-matrix .Nan .Inf opencv_storage <data> </data> !!binary $base64$".split(),
     "coco": ["images", "annotations", "categories", "videos", "image_id", "category_id", "bbox", "file_name"],
     "detections": ["image_id", "category_id", "bbox", "score", "1e308", "-1e308"],
     "exr_passes": "channels chlist compression dataWindow displayWindow box2i lineOrder pixelAspectRatio float v2f name"
@@ -135,7 +140,7 @@ def write_dictionary(file: Path, words: list[str]) -> None:
 
 
 def main(folder: Path) -> None:
-    """Writes all seeds anew."""
+    """Write all seeds."""
     shutil.rmtree(folder, ignore_errors=True)
     words = dict(WORDS) | {"plan": plan_words()}
     for target, name in SCHEMA_OF.items():

@@ -20,7 +20,7 @@ inline void demand_indices(const thermal::Plane<std::uint16_t>& plane) {
   demand(std::ranges::all_of(plane.pixels(), is_one), "an index is 0 to 32767");
 }
 
-/// No more of a pixel is covered than all of it. Each of the ranks' sums may be a rounding (6e-8) too large.
+/// At most the whole of a pixel is covered. Each of the ranks' sums may exceed it by a rounding (6e-8).
 inline void demand_coverage(const std::vector<thermal::CoverageRank>& ranks) {
   if (ranks.empty()) return;
   for (std::size_t i = 0; i < ranks.front().coverage.size(); ++i) {
@@ -34,7 +34,7 @@ inline void demand_coverage(const std::vector<thermal::CoverageRank>& ranks) {
   }
 }
 
-/// What the frame converter takes for granted.
+/// Assumptions of the frame converter.
 inline void demand_whole(const thermal::Passes& passes, const thermal::PassNeeds& needs,
                          const thermal::Manifest& manifest) {
   const int width_px = thermal::passes_camera(manifest).width_px;

@@ -52,14 +52,14 @@ inline thermal::Manifest with_cryptomatte(std::string name) {
   return manifest;
 }
 
-/// Four times as many pixels each way: enough for every compression to be worth its while.
+/// Four times as many pixels along each axis: enough for every compression to be effective.
 inline thermal::Manifest supersampled() {
   thermal::Manifest manifest = small_manifest();
   manifest.supersample = 4;
   return manifest;
 }
 
-/// The number of each is what make_seeds.py puts at the end of a file.
+/// The number of each is what make_seeds.py appends to a file.
 inline std::vector<thermal::Manifest> small_manifests() {
   return {small_manifest(),
           with_layers("Scene", ""),
@@ -70,8 +70,8 @@ inline std::vector<thermal::Manifest> small_manifests() {
           with_cryptomatte("ViewLayer.CryptoMaterial")};
 }
 
-/// A reader each. Their limit is far more than the seeds have, and little enough that a plane of that size is no great
-/// matter.
+/// One reader each. Their limit is far above the size of the seeds, and small enough that planes of that size are
+/// cheap.
 inline std::vector<thermal::PassReader> readers_of(const std::vector<thermal::Manifest>& manifests) {
   std::vector<thermal::PassReader> readers;
   for (const thermal::Manifest& manifest : manifests)

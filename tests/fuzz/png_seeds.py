@@ -1,4 +1,4 @@
-"""PNG files of 8 x 8 pixels, one a kind of picture that tells objects apart; pass_manifests.h has their manifests."""
+"""PNG files of 8 x 8 pixels, one for each kind of index picture; pass_manifests.h has their manifests."""
 
 from __future__ import annotations
 
@@ -47,6 +47,6 @@ def pictures() -> dict[str, bytes]:
 
 
 def write_png_seeds(folder: Path) -> None:
-    """Writes all of them into a folder that is there, each with the byte that chooses a manifest."""
+    """Write all of them into an existing folder, each with the byte that chooses a manifest."""
     for name, content in pictures().items():
         (folder / f"{name}.png").write_bytes(content + bytes([PLAIN]))

@@ -1,7 +1,7 @@
-// Runs a target over inputs that are there: seeds, and what once was a fault. Any compiler, any sanitizer.
+// Runs a target over existing inputs: seeds, and inputs that once revealed a fault. Any compiler, any sanitizer.
 //
-// fuzz_replay TARGET FILE|FOLDER…: 0 when all went well, 1 with the file's name where one took too long or did not read,
-// 2 for another target; an exception or a sanitizer's complaint ends it as it ends the target.
+// fuzz_replay TARGET FILE|FOLDER…: 0 if everything passed, 1 with the file's name if one took too long or could not
+// be opened, 2 for an unknown target; an exception or a sanitizer's report ends it as it ends the target.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -18,13 +18,17 @@ using Path = std::filesystem::path;
 
 constexpr std::chrono::seconds kLongest(5);
 
-const std::map<std::string_view, void (*)(Bytes)> kTargets = {
-    {"birdsai", fuzz::birdsai},       {"coco", fuzz::coco},
-    {"config", fuzz::config},         {"detections", fuzz::detections},
-    {"exr_passes", fuzz::exr_passes}, {"index_picture", fuzz::index_picture},
-    {"manifest", fuzz::manifest},     {"variants", fuzz::variants}};
+const std::map<std::string_view, void (*)(Bytes)> kTargets = {{"birdsai", fuzz::birdsai},
+                                                              {"calibration", fuzz::calibration},
+                                                              {"coco", fuzz::coco},
+                                                              {"config", fuzz::config},
+                                                              {"detections", fuzz::detections},
+                                                              {"exr_passes", fuzz::exr_passes},
+                                                              {"index_picture", fuzz::index_picture},
+                                                              {"manifest", fuzz::manifest},
+                                                              {"variants", fuzz::variants}};
 
-/// Files of these folders, and these files, in an order that is the same everywhere. A folder may lack.
+/// Files of these folders, and these files, in an order that is the same everywhere. A folder may be missing.
 std::vector<Path> inputs_of(int count, char** paths) {
   std::vector<Path> inputs;
   for (const Path path : std::vector<std::string>(paths, paths + count)) {
@@ -52,7 +56,7 @@ bool runs_in_time(void (*target)(Bytes), const Path& input) {
 
 }  // namespace
 
-/// As -malloc_limit_mb does for libFuzzer: no reader takes half a gigabyte at once for an input of a few kB.
+/// Like -malloc_limit_mb of libFuzzer: no reader may allocate half a gigabyte at once for an input of a few kB.
 extern "C" const char* __asan_default_options() { return "max_allocation_size_mb=512"; }
 
 int main(int count, char** arguments) {
@@ -66,7 +70,7 @@ int main(int count, char** arguments) {
   const std::vector<Path> inputs = inputs_of(count - 2, arguments + 2);
   std::size_t good = 0;
   for (const Path& input : inputs) {
-    std::printf("%s\n", input.c_str());  // the last one named is the one that ended it
+    std::printf("%s\n", input.c_str());  // the last one printed is the one that ended it
     std::fflush(stdout);
     if (runs_in_time(target->second, input)) ++good;
   }

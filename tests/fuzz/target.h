@@ -17,21 +17,22 @@ inline std::string_view text_of(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Ends the target with a fault, where a reader let something through that no code behind it expects.
+/// Ends the target with a fault if a reader accepted something that the code behind it does not expect.
 inline void demand(bool holds, const char* what) {
   if (!holds) throw std::logic_error(what);
 }
 
-/// Reads; a fault that is told in words is what a reader is for, every other exception ends the target.
+/// Calls a reader; a thermal::Error is what it is meant to throw, every other exception ends the target.
 template <typename Read>
 void tolerate(const Read& read) {
   try {
     read();
-  } catch (const thermal::Error&) {  // as every reader promises
+  } catch (const thermal::Error&) {  // every reader must do this
   }
 }
 
-/// The bytes as a file of this name, which is overwritten by the next. TMPDIR is where; on a tmpfs it costs microseconds.
+/// Writes the bytes to a file of this name, overwriting the last. It is in TMPDIR; on a tmpfs this costs
+/// microseconds.
 inline std::filesystem::path as_file(Bytes bytes, const std::string& name) {
   static const TemporaryFolder folder;
   return folder.file(name, text_of(bytes));

@@ -2,13 +2,14 @@
 
 #include "fuzz/target.h"
 
-/// One function a reader of what strangers wrote. Whatever the bytes, it returns within seconds and a few hundred MB;
-/// an exception that leaves it, as a sanitizer's complaint, is a fault of the reader.
+/// One function per reader of untrusted files. Whatever the bytes, it returns within seconds and a few hundred MB; an
+/// exception that leaves it is a fault of the reader, and so is a sanitizer's report.
 namespace fuzz {
 
 void birdsai(Bytes bytes);        ///< annotations of one video, CSV
+void calibration(Bytes bytes);    ///< a camera's calibration: OpenCV's YAML, XML or JSON, or ROS'
 void coco(Bytes bytes);           ///< a COCO file
-void config(Bytes bytes);         ///< a config; or settings, one a line, as --set takes them
+void config(Bytes bytes);         ///< a config; or settings as for --set, one per line
 void detections(Bytes bytes);     ///< COCO results; or YOLO's of one picture
 void exr_passes(Bytes bytes);     ///< an EXR file; its last byte chooses the manifest
 void index_picture(Bytes bytes);  ///< a PNG; its last byte chooses the manifest

@@ -1,4 +1,4 @@
-"""Configs and lists of variants that cannot be meant."""
+"""Invalid configs and lists of variants."""
 
 # Messages are whole, however long.
 # pylint: disable=line-too-long
@@ -11,8 +11,8 @@ from pathlib import Path
 from bad_input import NOTHING, BadInput
 
 
-def _config(name: str, content, told: str, option: str = "--config") -> BadInput:
-    """A file of JSON, text or bytes, or what makes it of its path."""
+def _config(name: str, content, message: str, option: str = "--config") -> BadInput:
+    """A file of JSON, text or bytes, or a function that makes it at a path."""
 
     def spoil(folder: Path) -> None:
         file = folder.parent / "asked.json"
@@ -21,7 +21,7 @@ def _config(name: str, content, told: str, option: str = "--config") -> BadInput
         else:
             file.write_bytes(content if isinstance(content, bytes) else json.dumps(content).encode())
 
-    return BadInput(option[2:], name, spoil, 2, told, NOTHING, (option, "asked.json"))
+    return BadInput(option[2:], name, spoil, 2, message, NOTHING, (option, "asked.json"))
 
 
 CONFIGS = [
@@ -35,7 +35,7 @@ CONFIGS = [
     _config(
         "100,000 brackets",
         b"[" * 100_000,
-        "asked.json: lists and objects more than 64 deep in each other; expected fewer",
+        "asked.json: lists and objects are nested more than 64 deep; expected fewer",
     ),
     _config(
         "not UTF-8",

@@ -1,4 +1,4 @@
-"""EXR files that are none, or not what a clip needs."""
+"""Invalid EXR files, and EXR files that do not fit the clip."""
 
 # Messages are whole, however long.
 # pylint: disable=line-too-long
@@ -21,7 +21,7 @@ from raw_png import png_bytes
 
 
 def _frame(group: str, name: str, content, reason: str) -> BadInput:
-    """A file instead of frame 1: its bytes, planes (height, width), or what makes it of its path."""
+    """A replacement of frame 1: its bytes, planes (height, width), or a function that makes it at a path."""
 
     def spoil(folder: Path) -> None:
         file = folder / FRAME
@@ -72,20 +72,18 @@ AT = f"{passes.OBJECTS} at pixel (3, 2)"
 FLAT = np.full((passes.HEIGHT, passes.WIDTH), 30, np.float32)
 
 FILES = [
-    _frame("file", "missing", lambda file: None, "there is no such file"),
-    _frame("file", "empty", b"", "not an EXR file (its first bytes are others)"),
-    _frame("file", "text", b"not an EXR file", "not an EXR file (its first bytes are others)"),
-    _frame("file", "zeros", bytes(4096), "not an EXR file (its first bytes are others)"),
+    _frame("file", "missing", lambda file: None, "no such file"),
+    _frame("file", "empty", b"", "not an EXR file (wrong first bytes)"),
+    _frame("file", "text", b"not an EXR file", "not an EXR file (wrong first bytes)"),
+    _frame("file", "zeros", bytes(4096), "not an EXR file (wrong first bytes)"),
     _frame(
         "file",
         "a PNG named .exr",
         png_bytes(passes.object_index(1).astype(np.uint8)),
-        "not an EXR file (its first bytes are others)",
+        "not an EXR file (wrong first bytes)",
     ),
     _frame("file", "a folder", lambda file: file.mkdir(), "it is a folder; expected a file"),
-    _frame(
-        "file", "a named pipe that nobody writes to", os.mkfifo, "it is a pipe or a device; expected a file"
-    ),
+    _frame("file", "a named pipe without a writer", os.mkfifo, "it is a pipe or a device; expected a file"),
     _frame(
         "file",
         "a link to a device",
@@ -98,7 +96,7 @@ FILES = [
         lambda file: file.symlink_to(file.name),
         "Too many levels of symbolic links",
     ),
-    _frame("file", "a link to nowhere", lambda file: file.symlink_to("nowhere"), "there is no such file"),
+    _frame("file", "a link to nowhere", lambda file: file.symlink_to("nowhere"), "no such file"),
 ]
 
 HEADERS = [
@@ -118,7 +116,7 @@ HEADERS = [
         "EXR header",
         "window inside out",
         exr_bytes(_objects(), changed={"dataWindow": _window(23, 15, 0, 0)}),
-        "part 0: dataWindow = -22 x -14 px; expected sides of 1 and more",
+        "part 0: dataWindow = -22 x -14 px; expected sides of at least 1",
     ),
     _frame(
         "EXR header",
@@ -155,7 +153,7 @@ HEADERS = [
         "EXR header",
         "says it is tiled, and has no tiles",
         exr_bytes(_objects(), version=2 | TILED),
-        "part 0: tiles = 0 x 0 px; expected sides of 1 and more",
+        "part 0: tiles = 0 x 0 px; expected sides of at least 1",
     ),
     _frame(
         "EXR header",
@@ -175,7 +173,7 @@ HEADERS = [
         exr_bytes(_objects(), more=(("comments", "string", b"x" * 10),)).replace(
             b"string\0\n\0\0\0", b"string\0\xff\xff\xff\x7f"
         ),
-        "part 0: comments = 2147483647 bytes; expected at most the 1803 that are left of the file",
+        "part 0: comments = 2147483647 bytes; expected at most the 1803 left in the file",
     ),
     _frame(
         "EXR header",
@@ -183,7 +181,7 @@ HEADERS = [
         exr_bytes(_objects(), more=(("comments", "string", b"x" * 10),)).replace(
             b"string\0\n\0\0\0", b"string\0\xff\xff\xff\xff"
         ),
-        "part 0: comments = -1 bytes; expected at most the 1803 that are left of the file",
+        "part 0: comments = -1 bytes; expected at most the 1803 left in the file",
     ),
     _frame(
         "EXR header",
@@ -252,13 +250,13 @@ CHANNELS = [
         "EXR channels",
         "index under B44",
         _stored("b44", "half"),
-        "Scene.IndexOB.X: compression = B44; expected a lossless one (none, RLE, ZIPS, ZIP, PIZ or PXR24): others make other indices of these",
+        "Scene.IndexOB.X: compression = B44; expected a lossless one (none, RLE, ZIPS, ZIP, PIZ or PXR24): others change indices",
     ),
     _frame(
         "EXR channels",
         "index under DWAA",
         exr_bytes(_objects(), changed={"compression": b"\x08"}),
-        "Scene.IndexOB.X: compression = DWAA; expected a lossless one (none, RLE, ZIPS, ZIP, PIZ or PXR24): others make other indices of these",
+        "Scene.IndexOB.X: compression = DWAA; expected a lossless one (none, RLE, ZIPS, ZIP, PIZ or PXR24): others change indices",
     ),
     _frame(
         "EXR channels",
@@ -270,7 +268,7 @@ CHANNELS = [
         "EXR channels",
         "no object index",
         {"Scene.Depth.Z": FLAT, "Scene.Normal.X": FLAT},
-        "no object index channel; expected one like Scene.IndexOB.X, the file has: Scene.Depth.Z, Scene.Normal.X",
+        "no object index channel; expected one such as Scene.IndexOB.X; the file has: Scene.Depth.Z, Scene.Normal.X",
     ),
     _frame(
         "EXR channels",

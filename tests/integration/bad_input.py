@@ -1,4 +1,4 @@
-"""What a bad input is, and what may be made in spite of it."""
+"""The format of the table of bad inputs."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from pathlib import Path
 FRAME = "000001.exr"
 RUN = ("convert", "one", "--out", "out", "--quiet")
 
-# What is made in spite of it.
+# The output in spite of the fault.
 NOTHING, NO_CLIP, OTHERS, ALL = "nothing", "no clip", "the other frames", "all frames"
 
 
 @dataclass(frozen=True)
 class BadInput:
-    """One of them. `spoil` has a folder of good passes, three frames of clip one, to do its worst to."""
+    """A bad input. `spoil` receives a folder with valid passes, three frames of clip one, and damages it."""
 
     group: str
     name: str
     spoil: Callable[[Path], None]
     code: int
-    told: str  # standard error, without "veldt: " at the beginning of its lines
+    message: str  # standard error, without "veldt: " at the beginning of its lines
     made: str
     more: tuple[str, ...] = ()  # arguments

@@ -1,5 +1,5 @@
-"""Every bad input that was tried on `convert`, and what it gets: the one table of them. test_bad_inputs.py runs it and
-keeps README.md the same."""
+"""The table of all bad inputs for `convert` and their results. test_bad_inputs.py runs it and checks that README.md
+lists the same."""
 
 from bad_configs import CONFIGS
 from bad_exr import CHANNELS, FILES, HEADERS

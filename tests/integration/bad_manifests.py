@@ -1,4 +1,4 @@
-"""Manifests that cannot be meant, and frames that they do not find."""
+"""Invalid manifests, and manifests whose frames are missing."""
 
 # Messages are whole, however long.
 # pylint: disable=line-too-long
@@ -14,29 +14,34 @@ import passes
 from bad_input import NO_CLIP, NOTHING, OTHERS, BadInput
 
 
-def _text(name: str, content: bytes, told: str, code: int = 1) -> BadInput:
+def _text(name: str, content: bytes, message: str, code: int = 1) -> BadInput:
     return BadInput(
-        "manifest", name, lambda folder: (folder / "manifest.json").write_bytes(content), code, told, NOTHING
+        "manifest",
+        name,
+        lambda folder: (folder / "manifest.json").write_bytes(content),
+        code,
+        message,
+        NOTHING,
     )
 
 
 def _manifest(
-    name: str, change: Callable[[dict], object], told: str, code: int = 1, made: str = NOTHING
+    name: str, change: Callable[[dict], object], message: str, code: int = 1, made: str = NOTHING
 ) -> BadInput:
     def spoil(folder: Path) -> None:
         document = passes.manifest()
         change(document)
         passes.write_manifest(folder, document)
 
-    return BadInput("manifest", name, spoil, code, told, made)
+    return BadInput("manifest", name, spoil, code, message, made)
 
 
-def _instead(name: str, make: Callable[[Path], object], told: str, code: int = 1) -> BadInput:
+def _instead(name: str, make: Callable[[Path], object], message: str, code: int = 1) -> BadInput:
     def spoil(folder: Path) -> None:
         (folder / "manifest.json").unlink()
         make(folder / "manifest.json")
 
-    return BadInput("manifest", name, spoil, code, told, NOTHING)
+    return BadInput("manifest", name, spoil, code, message, NOTHING)
 
 
 _GOOD = json.dumps(passes.manifest())
@@ -45,7 +50,7 @@ MANIFESTS = [
     _instead(
         "missing",
         lambda file: None,
-        'cannot read one/manifest.json: there is no such file; expected one that tells what the passes mean, such as "veldt inspect one --starter-manifest one/manifest.json" writes',
+        'cannot read one/manifest.json: no such file; expected one that says what the passes mean, such as "veldt inspect one --starter-manifest one/manifest.json" writes',
     ),
     _instead(
         "a folder",
@@ -53,7 +58,7 @@ MANIFESTS = [
         "cannot read one/manifest.json: it is a folder; expected a file",
     ),
     _instead(
-        "a named pipe that nobody writes to",
+        "a named pipe without a writer",
         os.mkfifo,
         "cannot read one/manifest.json: it is a pipe or a device; expected a file",
     ),
@@ -91,22 +96,22 @@ MANIFESTS = [
     _text(
         "100,000 brackets",
         b"[" * 100_000,
-        "one/manifest.json: lists and objects more than 64 deep in each other; expected fewer",
+        "one/manifest.json: lists and objects are nested more than 64 deep; expected fewer",
     ),
     _text(
         "100,000 brackets, closed again",
         b"[" * 100_000 + b"]" * 100_000,
-        "one/manifest.json: lists and objects more than 64 deep in each other; expected fewer",
+        "one/manifest.json: lists and objects are nested more than 64 deep; expected fewer",
     ),
     _text(
         "100,000 objects, one in the other",
         b'{"a":' * 100_000,
-        "one/manifest.json: lists and objects more than 64 deep in each other; expected fewer",
+        "one/manifest.json: lists and objects are nested more than 64 deep; expected fewer",
     ),
     _text(
         "a key twice",
         _GOOD.replace('"seed"', '"clip": "two", "seed"').encode(),
-        'one/manifest.json: key "clip" comes twice in one object; expected once',
+        'one/manifest.json: key "clip" appears twice in one object; expected once',
     ),
     _text(
         "a number over all bounds",
@@ -162,12 +167,12 @@ MANIFESTS = [
     _manifest(
         "a frame in another folder",
         lambda m: m["frames"][1].update(file="../x.exr"),
-        'one/manifest.json: frames[1].file = "../x.exr"; expected text like ^[^/\\\\]+$',
+        'one/manifest.json: frames[1].file = "../x.exr"; expected text that matches ^[^/\\\\]+$',
     ),
     _manifest(
         "a frame at a place of its own",
         lambda m: m["frames"][1].update(file="/etc/passwd"),
-        'one/manifest.json: frames[1].file = "/etc/passwd"; expected text like ^[^/\\\\]+$',
+        'one/manifest.json: frames[1].file = "/etc/passwd"; expected text that matches ^[^/\\\\]+$',
     ),
     _manifest(
         "a frame named ..",
@@ -191,7 +196,7 @@ MANIFESTS = [
     _manifest(
         "frames and a sequence",
         lambda m: m.update(sequence="####.exr"),
-        'one/manifest.json: sequence = "####.exr"; expected none beside frames, which lists the files',
+        'one/manifest.json: sequence = "####.exr"; expected none, because frames lists the files',
     ),
     _manifest(
         "an index twice",

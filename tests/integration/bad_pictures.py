@@ -1,4 +1,4 @@
-"""PNGs of indices or colours that cannot be meant, and cryptomattes."""
+"""Invalid PNGs of indices or colours, and invalid cryptomattes."""
 
 # Messages are whole, however long.
 # pylint: disable=line-too-long
@@ -23,14 +23,14 @@ def _picture(name: str, content: bytes, reason: str, colours: bool = False) -> B
     def spoil(folder: Path) -> None:
         document = passes.manifest()
         if colours:
-            for place, told in enumerate(document["objects"]):
-                told["colour"] = [place + 1, 0, 0]
-        for frame, told in enumerate(document["frames"]):
-            (folder / told["file"]).unlink()
-            told["file"] = f"{frame:06d}.png"
+            for place, entry in enumerate(document["objects"]):
+                entry["colour"] = [place + 1, 0, 0]
+        for frame, entry in enumerate(document["frames"]):
+            (folder / entry["file"]).unlink()
+            entry["file"] = f"{frame:06d}.png"
             indices = passes.object_index(frame).astype(np.uint8)
             picture = png_bytes(_colours(frame), RGB) if colours else png_bytes(indices)
-            (folder / told["file"]).write_bytes(picture)
+            (folder / entry["file"]).write_bytes(picture)
         (folder / "000001.png").write_bytes(content)
         passes.write_manifest(folder, document)
 
@@ -41,8 +41,8 @@ def _colours(frame: int, change: int | None = None) -> np.ndarray:
     """A frame's objects as colours: (place in the manifest + 1, 0, 0); one pixel is (255, 0, `change`)."""
     index = passes.object_index(frame)
     picture = np.zeros((*index.shape, 3), np.uint8)
-    for place, told in enumerate(passes.manifest()["objects"]):
-        picture[index == told["index"], 0] = place + 1
+    for place, entry in enumerate(passes.manifest()["objects"]):
+        picture[index == entry["index"], 0] = place + 1
     if change is not None:
         picture[2, 3] = (255, 0, change)
     return picture
@@ -52,8 +52,8 @@ _INDICES = passes.object_index(1).astype(np.uint8)
 _ALPHA = np.concatenate([_colours(1), np.full((*_INDICES.shape, 1), 128, np.uint8)], axis=-1)
 
 PICTURES = [
-    _picture("empty", b"", "no PNG, or its head is damaged"),
-    _picture("text", b"not a PNG", "no PNG, or its head is damaged"),
+    _picture("empty", b"", "not a PNG file, or its header is damaged"),
+    _picture("text", b"not a PNG", "not a PNG file, or its header is damaged"),
     _picture(
         "2^31 pixels in 100 bytes",
         png_bytes(_INDICES, size=(65536, 32768)),
@@ -81,13 +81,13 @@ PICTURES = [
     _picture(
         "colours of 16 bits",
         png_bytes(_colours(1).astype(np.uint16), RGB),
-        "bits a channel = 16; expected 8 in a picture of colours",
+        "bits per channel = 16; expected 8 in a picture of colours",
         True,
     ),
     _picture(
         "half transparent colours",
         png_bytes(_ALPHA, RGBA),
-        "alpha at pixel (0, 0) = 128; expected 0 (sky) or 255: a pixel is one object's",
+        "alpha at pixel (0, 0) = 128; expected 0 (sky) or 255, because a pixel belongs to one object",
         True,
     ),
     _picture(
@@ -102,21 +102,21 @@ PICTURES = [
 # --- cryptomattes -----------------------------------------------------------------------------------------------------
 
 _MATTE = "ViewLayer.CryptoObject"
-_NAMES = {told["index"]: told["name"] for told in passes.manifest()["objects"]}
+_NAMES = {entry["index"]: entry["name"] for entry in passes.manifest()["objects"]}
 
 
 def _write_matte(
     file: Path, names: np.ndarray, planes: dict | None = None, texts: dict | None = None, **how
 ) -> None:
-    """A frame of names; some channels are others, or None for none, and so are texts of the metadata."""
+    """A frame of names; `planes` and `texts` replace channels and metadata, or remove them if None."""
     ranks = [(names, (names != "").astype(np.float32))]
-    told = mattes.texts_of(tuple(_NAMES.values()), _MATTE)
-    key = next(iter(told)).rsplit("/", 1)[0]
-    told |= {f"{key}/{name}": text for name, text in (texts or {}).items()}
+    metadata = mattes.texts_of(tuple(_NAMES.values()), _MATTE)
+    key = next(iter(metadata)).rsplit("/", 1)[0]
+    metadata |= {f"{key}/{name}": text for name, text in (texts or {}).items()}
     channels = mattes.planes_of(ranks, _MATTE) | (planes or {})
     kept = {name: plane for name, plane in channels.items() if plane is not None}
     mattes.write_exr_with_texts(
-        file, kept, {name: text for name, text in told.items() if text is not None}, **how
+        file, kept, {name: text for name, text in metadata.items() if text is not None}, **how
     )
 
 
@@ -149,7 +149,7 @@ def _put_stranger(names: np.ndarray) -> None:
 CRYPTOMATTES = [
     _matte(
         "none in the file",
-        'cryptomatte = "CryptoObject"; expected a file with cryptomattes, this one has none',
+        'cryptomatte = "CryptoObject"; expected a file with cryptomattes; this one has none',
         texts={"name": None, "hash": None, "conversion": None, "manifest": None},
     ),
     _matte(

@@ -1,4 +1,4 @@
-"""What tests with a real Blender start from."""
+"""Fixtures for tests with a real Blender."""
 
 import os
 import shutil

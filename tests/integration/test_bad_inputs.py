@@ -1,6 +1,6 @@
-"""Bad inputs get the exit code and the words that bad_inputs.py says, and README.md lists them all.
+"""Bad inputs give the exit code and the message that bad_inputs.py states, and README.md lists them all.
 
-VELDT_WRITE_README=1 writes that list anew. VELDT_UNDER names a program to run `veldt` under, such as "valgrind -q".
+VELDT_WRITE_README=1 rewrites that list. VELDT_UNDER names a program to run `veldt` under, such as "valgrind -q".
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ PATIENCE_S = 300 if UNDER else 20  # the sanitizers' build on a busy machine tak
 
 
 def _made(out: Path) -> str:
-    """What of the clip is there, which must be whole."""
+    """The part of the clip that exists, which must be complete."""
     if not out.exists():
         return NOTHING
     assert not [name for name in files_below(out) if ".part/" in name or name.endswith(".tmp")]
@@ -44,8 +44,8 @@ def test_a_bad_input_gets_what_the_table_says(veldt, bad: BadInput):
     begun = time.monotonic()
     done = veldt(*RUN, *bad.more, under=UNDER)
     assert time.monotonic() - begun < PATIENCE_S
-    told = "".join(f"veldt: {line}\n" for line in bad.told.splitlines())
-    assert (done.code, done.out, done.err) == (bad.code, "", told)
+    expected = "".join(f"veldt: {line}\n" for line in bad.message.splitlines())
+    assert (done.code, done.out, done.err) == (bad.code, "", expected)
     assert _made(veldt.folder / "out") == bad.made
 
 
@@ -60,12 +60,12 @@ def test_readme_lists_them_all():
 
 
 def _table():
-    yield "| input | exit code | what is told | what is made |\n|---|---|---|---|\n"
+    yield "| input | exit code | message | what is made |\n|---|---|---|---|\n"
     for group, inputs in itertools.groupby(BAD_INPUTS, key=lambda bad: bad.group):
         yield f"| **{group}** | | | |\n"
         for bad in inputs:
-            told = "<br>".join(_code(line) for line in bad.told.splitlines())
-            yield f"| {bad.name.replace('|', chr(92) + '|')} | {bad.code} | {told} | {bad.made} |\n"
+            message = "<br>".join(_code(line) for line in bad.message.splitlines())
+            yield f"| {bad.name.replace('|', chr(92) + '|')} | {bad.code} | {message} | {bad.made} |\n"
 
 
 def _code(line: str) -> str:
@@ -87,7 +87,7 @@ def _spoilt_clip(folder: Path, frames: list[bytes]) -> None:
 
 
 def _skipped(veldt, frames: list[bytes]) -> set[int]:
-    """Numbers of the frames that are skipped, each with a reason of one line; all others are made."""
+    """Check that skipped frames have a reason of one line and all others are made; return the skipped ones."""
     _spoilt_clip(veldt.folder / "one", frames)
     done = veldt(*RUN, under=UNDER)
     assert (done.code, done.out) == (3, "")
@@ -116,7 +116,7 @@ def test_a_compressed_file_cut_anywhere_is_skipped(veldt):
 
 @pytest.mark.parametrize("which", ["plain", "compressed"])
 def test_a_file_with_any_bit_flipped_is_skipped_or_read(veldt, which):
-    """A flip may turn a value into another that could be meant: then nobody can tell. There is no third way."""
+    """A flip may turn a value into another valid one, which cannot be detected. There is no other outcome."""
     passes.write_clip(veldt.folder / "good", frames=1)
     whole = _whole() if which == "plain" else (veldt.folder / "good" / "000000.exr").read_bytes()
     flipped = []

@@ -1,4 +1,4 @@
-"""Cryptomattes that a plain Blender wrote: masks, radiance and names."""
+"""Cryptomattes written by a plain Blender: masks, radiance and names."""
 
 import json
 import subprocess
@@ -66,7 +66,7 @@ def _render(folder: Path, blender: str) -> None:
 
 
 def _manifest(cryptomatte: str, names: dict[str, int]) -> dict:
-    """Three actors of three materials, told by the names of a cryptomatte."""
+    """Three actors of three materials, identified by the names of a cryptomatte."""
     materials = ("elephant", "human", "zebra")
     return {
         "format": "veldt-passes",
@@ -129,7 +129,7 @@ def _ranks(veldt: Veldt, matte: str, names: dict[str, int]) -> list[tuple[np.nda
 
 
 def _expected_index(ranks) -> np.ndarray:
-    """What covers most, or sky where nothing covers more. Blender 3.4's rank 0 is not always what covers most."""
+    """The index with the largest coverage, or sky. Blender 3.4's rank 0 is not always the largest."""
     index = np.stack([each for each, _ in ranks])
     shares = np.where(index > 0, np.stack([coverage for _, coverage in ranks]), 0)
     most = shares.argmax(axis=0)[None]  # the first of several
@@ -175,8 +175,8 @@ def test_edges_are_means_of_radiance(rendered):
     mean += np.maximum(1 - sum(shares), 0) * radiance[0]
     levels, place = np.unique(mean, return_inverse=True)
     asked = ",".join(f"{level:.17g}" for level in levels)
-    told = rendered("radiance", "--radiance", asked, "--json").json()["values"]
-    apparent_k = np.array([value["temperature_k"] for value in told])[place].reshape(mean.shape)
+    answers = rendered("radiance", "--radiance", asked, "--json").json()["values"]
+    apparent_k = np.array([value["temperature_k"] for value in answers])[place].reshape(mean.shape)
     step_k = rendered.read("edges/dataset.json")["kelvin_per_count"]
     counts = read_grey(rendered.folder / "edges" / "clips" / "spheres" / "ir16" / "000000.png").astype(float)
     assert len(levels) > 20
@@ -195,14 +195,14 @@ def _attributes(file: Path) -> dict[str, str]:
 def test_blender_hashes_names_as_we_do(rendered):
     texts = _attributes(rendered.folder / "passes" / "000000.exr")
     (key,) = [name[: -len("/name")] for name, text in texts.items() if text == "ViewLayer.CryptoObject"]
-    told = json.loads(texts[f"{key}/manifest"])
-    assert set(told) == set(OBJECTS)
-    for name, digits in told.items():
+    hashes = json.loads(texts[f"{key}/manifest"])
+    assert set(hashes) == set(OBJECTS)
+    for name, digits in hashes.items():
         assert mattes.hash_in_float(int(digits, 16)) == mattes.matte_hash(name)
 
 
 def test_without_blender_s_manifest_names_are_hashed_to_the_same(rendered):
-    """What the program makes of the names that it hashes itself is what Blender's hashes are."""
+    """The program's hashes of names equal Blender's."""
     file = rendered.folder / "passes" / "000000.exr"
     planes = {name: plane for name, plane in read_planes(file).items() if ".CryptoObject" in name}
     (rendered.folder / "nameless").mkdir()

@@ -1,4 +1,4 @@
-"""Full disks and read-only ones: `convert` says so, leaves nothing half written, and goes on once there is room."""
+"""Full and read-only disks: `convert` reports them, leaves no partial files, and resumes once there is disk space."""
 
 import os
 import re
@@ -27,7 +27,7 @@ def _half_written(folder):
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root mounts without a namespace")
 def test_this_file_as_root_of_a_namespace():
-    """For ordinary users, who cannot mount a disk as they are."""
+    """Runs the tests in a user namespace for ordinary users, who cannot mount a disk otherwise."""
     if not can_be_root_of_a_namespace():
         pytest.skip("unshare -rm: not allowed here")
     command = [
@@ -47,7 +47,7 @@ def test_this_file_as_root_of_a_namespace():
 
 
 def test_a_disk_that_fills_with_pictures(veldt, disk):
-    """Exit code 75 and the file's name; with room again the same command makes what it always would have."""
+    """Exit code 75 and the file's name; with enough disk space the same command makes the usual dataset."""
     passes.write_clip(veldt.folder / "one", frames=40)
     usual = veldt("convert", "one", "--out", "usual", "--quiet")
     assert usual.code == 0
@@ -58,7 +58,7 @@ def test_a_disk_that_fills_with_pictures(veldt, disk):
     assert _half_written(veldt.folder / "disk") == []
     assert list((veldt.folder / "disk" / "out" / "clips").iterdir()) == []
     assert veldt.read("disk/out/dataset.json")["clips"] == [{"id": "one", "status": "pending"}]
-    disk.make_room()
+    disk.free_space()
     done = veldt("convert", "one", "--out", "disk/out", "--quiet")
     assert (done.code, done.err) == (0, "")
     assert content_of(veldt.folder / "disk" / "out") == content_of(veldt.folder / "usual")
@@ -66,8 +66,8 @@ def test_a_disk_that_fills_with_pictures(veldt, disk):
 
 
 def test_a_disk_that_fills_at_any_file(veldt, disk):
-    """From no room at all block by block to enough: whatever file it is that finds none, it is named, nothing is half
-    written, and what is there is whole or not there."""
+    """Disk space grows block by block from none to enough: whichever file does not fit is named, and every file is
+    complete or missing."""
     passes.write_clip(
         veldt.folder / "one", frames=20
     )  # so many that annotations.json is larger than dataset.json
@@ -79,13 +79,13 @@ def test_a_disk_that_fills_at_any_file(veldt, disk):
         done = veldt(*run)
         if done.code == 0:
             break
-        told = re.fullmatch(
+        match = re.fullmatch(
             rf"veldt: cannot (?:write|make folder|lock|rename to) disk/(\S+): {FULL}\n", done.err
         )
-        assert (done.code, done.out) == (75, "") and told, done
+        assert (done.code, done.out) == (75, "") and match, done
         assert _half_written(disk.folder) == []
-        disk.make_room()
-        kind = re.sub(r"\d{6}", "N", told[1])
+        disk.free_space()
+        kind = re.sub(r"\d{6}", "N", match[1])
         if kind not in named:
             assert veldt(*run).code == 0
             assert content_of(disk.folder / "out") == content_of(veldt.folder / "usual")
@@ -125,12 +125,12 @@ def test_a_folder_that_is_not_ours_to_write_in(veldt, locked, message):
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can be an ordinary user")
-def test_a_folder_of_somebody_else(veldt):
-    """As the user nobody: everything may be read, nothing written."""
+def test_a_folder_of_another_user(veldt):
+    """As an unprivileged user, who may read everything and write nothing."""
     passes.write_clip(veldt.folder / "one")
     for folder in (veldt.folder, *veldt.folder.parents):
         if not folder.stat().st_mode & 0o005 and folder.is_relative_to("/tmp"):
             folder.chmod(0o755)
-    nobody = ("setpriv", "--reuid=65534", "--regid=65534", "--clear-groups")
-    done = veldt("convert", "one", "--out", "out", "--quiet", under=nobody)
+    unprivileged = ("setpriv", "--reuid=65534", "--regid=65534", "--clear-groups")
+    done = veldt("convert", "one", "--out", "out", "--quiet", under=unprivileged)
     assert (done.code, done.err) == (1, "veldt: cannot make folder out: Permission denied\n")

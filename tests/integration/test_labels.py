@@ -1,4 +1,4 @@
-"""Labels of a really rendered dataset against its index planes, and against where the manifest says everybody is."""
+"""Labels of a rendered dataset, checked against its index planes and the positions of actors in the manifest."""
 
 import itertools
 
@@ -15,7 +15,7 @@ ALONE = "Actors.IndexOB.X"
 
 
 def _apart(config: dict) -> None:
-    """Nobody hides anybody: no plants, and groups far from each other. Every group is followed by a clip."""
+    """No occlusion: no plants, and groups far from each other. Every group is followed by a clip."""
     config["scene"]["plants"] = {}
     for k, group in enumerate(config["scene"]["groups"]):
         group.update(start_m=50 * k, spacing_m=6 + 2 * k)
@@ -45,7 +45,7 @@ OVERSCAN = 100
 
 
 def _in_a_thicket(config: dict) -> None:
-    """Looked at from low down through trees, and beyond the borders of the picture."""
+    """A low view through trees, with actors beyond the borders of the picture."""
     config["scene"]["plants"] = {"acacia": {"per_ha": 400}}
     config["camera"] = {"width_px": WIDTH, "height_px": HEIGHT, "pixel_pitch_um": 30}
     for clip, view in zip(config["clips"], ({"altitude_m": 20, "speed_m_s": 3}, {"look_angle_deg": 15})):
@@ -55,7 +55,7 @@ def _in_a_thicket(config: dict) -> None:
 
 
 def _picture(plane: np.ndarray, manifest: dict) -> np.ndarray:
-    """Of a plane of passes what is in the picture."""
+    """The part of a plane of passes that is in the picture."""
     cut_px = manifest["overscan_px"]
     height, width = plane.shape
     return plane[cut_px : height - cut_px, cut_px : width - cut_px]
@@ -185,7 +185,7 @@ def test_labels_reach_as_far_as_their_actors_do(apart):
 
 
 def test_in_the_open_actors_are_wholly_visible(apart):
-    """But for what of their feet is in the ground."""
+    """Except for the parts of their feet below the ground."""
     visibility = np.array([label["visibility"] for label in apart.labels["annotations"]])
     assert visibility.min() > 0.9 and np.median(visibility) == 1
 
@@ -198,7 +198,7 @@ def test_behind_trees_actors_are_as_visible_as_their_pixels_say(thicket):
 
 
 def _is_split(label: dict) -> bool:
-    """Whether columns without a pixel lie between others."""
+    """Whether there are empty columns between columns with pixels."""
     columns = decode_rle(label["segmentation"]).any(axis=0)
     first, last = np.flatnonzero(columns)[[0, -1]]
     return not columns[first : last + 1].all()
@@ -213,18 +213,21 @@ def test_the_whole_box_is_that_of_the_actor_behind_trees(thicket):
         x, y, width, height = box_of(_picture(plane, manifest) == actor["index"])
         left, top, wide, high = label["amodal_bbox"]
         inside = np.array([x, y, x + width, y + height])
-        told = np.array([left, top, left + wide, top + high])
+        labelled_px = np.array([left, top, left + wide, top + high])
         border = np.array([0, 0, manifest["camera"]["width_px"], manifest["camera"]["height_px"]])
         touched = inside == border
-        assert told[~touched] == pytest.approx(inside[~touched], abs=0.011)  # corners are rounded to 0.01 px
+        # Corners are rounded to 0.01 px.
+        assert labelled_px[~touched] == pytest.approx(inside[~touched], abs=0.011)
         assert label["truncated"] == touched.any()
-        shown = np.minimum(told[2:], border[2:]) - np.maximum(told[:2], 0)
+        shown = np.minimum(labelled_px[2:], border[2:]) - np.maximum(labelled_px[:2], 0)
         assert label["truncated_fraction"] == pytest.approx(1 - shown.prod() / (wide * high), abs=2e-3)
         x, y, width, height = box_of(plane == actor["index"])
         whole = np.array([x, y, x + width, y + height]) - OVERSCAN
         seen_to_its_end = (whole > -OVERSCAN) & (whole < border + OVERSCAN)
         checked = touched & seen_to_its_end
-        assert (np.abs(told - whole) <= 0.5 * np.array([width, height, width, height]) + 0.5)[checked].all()
+        assert (np.abs(labelled_px - whole) <= 0.5 * np.array([width, height, width, height]) + 0.5)[
+            checked
+        ].all()
         cut += np.count_nonzero(checked)
     assert cut > 3
 

@@ -1,4 +1,4 @@
-"""Nothing is written outside --out, whatever a name says and wherever a link leads."""
+"""Nothing is written outside --out, whatever names and links there are."""
 
 import pytest
 
@@ -11,15 +11,15 @@ def _state(folder):
     """Every entry below a folder: its kind, content and time of change."""
     state = {}
     for place in [folder, *folder.rglob("*")]:
-        told = place.lstat()
+        status = place.lstat()
         content = place.read_bytes() if place.is_file() and not place.is_symlink() else None
-        state[str(place.relative_to(folder))] = (told.st_mode, told.st_mtime_ns, content)
+        state[str(place.relative_to(folder))] = (status.st_mode, status.st_mtime_ns, content)
     return state
 
 
 @pytest.fixture(name="elsewhere")
 def _elsewhere(veldt):
-    """A folder that nobody is to touch, with a file of each name that a dataset has, and a clip."""
+    """A folder that must not be modified, with a file of each name that a dataset has, and a clip."""
     folder = veldt.folder / "elsewhere"
     (folder / "ir8").mkdir(parents=True)
     for name in ("kept", "ir8/000000.png", "dataset.json", "annotations.json"):
@@ -35,8 +35,8 @@ NAMES = ["../x", "/tmp/veldt-x", "a/b", "..", ".", "", "a\\b", "one.part", "x\n"
 def _around(veldt):
     """Everything but the dataset's own folder."""
     return {
-        name: told
-        for name, told in _state(veldt.folder).items()
+        name: entry
+        for name, entry in _state(veldt.folder).items()
         if not name.startswith("out") and name != "."
     }
 
@@ -79,7 +79,7 @@ def test_a_clip_name_of_a_config_that_is_a_path(veldt, name):
 
 # --- links ------------------------------------------------------------------------------------------------------------
 
-LEADS = "expected no link, because nothing is written to other places"
+LEADS = "expected a path that is not a link; nothing is written to other places"
 
 
 def _link(veldt, place, target):
@@ -161,7 +161,7 @@ def test_an_index_that_is_a_link_to_something_else_is_refused(veldt, elsewhere):
     assert _around(veldt) == before and elsewhere.exists()
 
 
-def test_a_clip_made_anew_replaces_a_link_to_one_elsewhere(veldt):
+def test_a_clip_made_again_replaces_a_link_to_one_elsewhere(veldt):
     """A finished clip may lie on another disk; it is read there, and never written there."""
     folder = passes.write_clip(veldt.folder / "one")
     content = (folder / "000001.exr").read_bytes()

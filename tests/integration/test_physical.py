@@ -1,4 +1,4 @@
-"""The model `physical` and supersampling on what a real Blender renders, down to the dataset on disk."""
+"""The model `physical` and supersampling with passes of a real Blender, up to the dataset on disk."""
 
 import struct
 
@@ -62,7 +62,7 @@ def test_threads_and_conversion_again_change_no_pixel(made):
 
 
 def test_terms_change_the_picture(made):
-    """Without the sky's reflection, and as the published model has it, the same passes look different."""
+    """The same passes look different without the sky's reflection, and with the published model."""
     seen = {made.pixels("out")["all"]}
     for setting in ("terms.sky=off", "sensor.model=published"):
         done = made(

@@ -1,4 +1,4 @@
-"""README's way from a plain Blender to a dataset, with the commands that stand there."""
+"""The example of thermal_core/PASSES.md, from plain Blender to a dataset, with the commands printed there."""
 
 import json
 import os
@@ -17,11 +17,11 @@ ONE_CLIP = "dataset: 1 clip made, 3 frames\n"
 
 
 class Tutorial:
-    """The code blocks of a section of README."""
+    """The code blocks of the page's example."""
 
     def __init__(self):
-        text = (ROOT / "README.md").read_text(encoding="utf-8")
-        section = text[text.index("## Convert passes you have") : text.index("\n## Commands")]
+        text = (ROOT / "thermal_core" / "PASSES.md").read_text(encoding="utf-8")
+        section = text[text.index("## Example: plain Blender") : text.index("\n## Clips and frames")]
         blocks = re.findall(r"^```(\w*)\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)
         self.script = next(code for language, code in blocks if language == "python")
         self.objects = json.loads(f"[{next(code for language, code in blocks if language == 'json')}]")
@@ -60,7 +60,7 @@ def _made(veldt, *command):
 
 
 def _write_over(veldt, changes: list[dict]) -> None:
-    """Does by program what README has done by hand."""
+    """Make the edits that the page asks the user to make."""
     manifest = veldt.read("passes/manifest.json")
     by_index = {change["index"]: change for change in changes}
     manifest["objects"] = [by_index.pop(entry["index"], entry) for entry in manifest["objects"]]
@@ -77,9 +77,9 @@ def _rendered(tmp_path_factory, blender) -> Veldt:
 
 def test_from_a_plain_blender_to_a_dataset(rendered):
     tutorial = Tutorial()
-    told = _made(rendered, *tutorial.command("veldt", "inspect"))
-    assert "object index" in told
-    assert told.split("\n\n")[1].splitlines()[0] == "passes/manifest.json: a manifest to begin with"
+    output = _made(rendered, *tutorial.command("veldt", "inspect"))
+    assert "object index" in output
+    assert output.split("\n\n")[1].splitlines()[0] == "passes/manifest.json: starter manifest"
     convert = tutorial.command("veldt", "convert")
     unedited = rendered(*convert[1:])
     assert unedited.code == 1
@@ -122,12 +122,12 @@ def test_the_other_commands_of_the_tutorial(rendered):
 
 
 def test_with_a_cryptomatte_for_an_index(veldt, blender):
-    """Names are guessed from: here there is nothing to fill in but what is called big."""
+    """Categories are guessed from names: here only the object called big is left to fill in."""
     script = _changed(Tutorial().script, "use_pass_object_index =", "use_pass_cryptomatte_object =")
     script = _changed(script, '"small"', '"Poacher.001"')
     _render(veldt.folder, blender, script)
-    told = _made(veldt, *Tutorial().command("veldt", "inspect"))
-    assert "cryptomatte ViewLayer.CryptoObject, of 3 frames" in told
+    output = _made(veldt, *Tutorial().command("veldt", "inspect"))
+    assert "cryptomatte ViewLayer.CryptoObject, of 3 frames" in output
     manifest = veldt.read("passes/manifest.json")
     assert manifest["cryptomatte"] == "ViewLayer.CryptoObject"
     objects = {entry["name"]: entry for entry in manifest["objects"]}

@@ -1,4 +1,4 @@
-"""`render --preview` with a real Blender: a map that shows what was planned where it was planned, and stills."""
+"""`render --preview` with a real Blender: a map that matches the plan, and stills."""
 
 import re
 
@@ -17,7 +17,7 @@ PICTURES = ["close_herd.png", "close_people.png", "close_zebras.png", "map.png",
 
 
 def _open_plain(config: dict) -> None:
-    """Few plants, so that most of the ground is to be seen."""
+    """Few plants, so that most of the ground is visible."""
     config["scene"]["plants"] = {"acacia": {"per_ha": 20}}
 
 
@@ -25,19 +25,19 @@ def _open_plain(config: dict) -> None:
 def _made(tmp_path_factory, blender) -> Veldt:
     veldt = Veldt(tmp_path_factory.mktemp("made"))
     veldt.write("config.json", tiny(_open_plain))
-    veldt.write("nobody.json", tiny(_nobody))
+    veldt.write("empty.json", tiny(_empty))
     (veldt.folder / "out" / "preview").mkdir(parents=True)
-    for name in ("close_gone.png", "part_map.png", "notes.txt"):
+    for name in ("close_old.png", "part_map.png", "notes.txt"):
         veldt.write(f"out/preview/{name}", "of another time")
     done = veldt(
         "render", "config.json", "--out", "out", "--preview", "--blender", blender, "--progress", "none"
     )
     assert (done.code, done.err) == (0, "")
-    assert done.out == "out/preview: 5 pictures; map.png is the place from above\n"
+    assert done.out == "out/preview: 5 pictures; map.png shows the place from above\n"
     return veldt
 
 
-def _nobody(config: dict) -> None:
+def _empty(config: dict) -> None:
     config["scene"].update(plants={}, groups=[])
     config["scene"]["terrain"]["water_radius_m"] = 0
     config["clips"] = config["clips"][:1]
@@ -72,7 +72,7 @@ def _pixels(sheet: MapSheet, picture: np.ndarray, points_m) -> tuple[np.ndarray,
     return np.round(row - 0.5).astype(int), np.round(column - 0.5).astype(int)
 
 
-def test_pictures_of_other_times_are_gone_and_nothing_else(made):
+def test_only_pictures_of_earlier_previews_are_removed(made):
     there = sorted(file.name for file in (made.folder / "out" / "preview").iterdir())
     assert there == sorted([*PICTURES, "blender.log", "config.json", "notes.txt"])
 
@@ -84,7 +84,7 @@ def test_map_has_the_sheets_shape(made, sheet):
 
 
 def test_each_flat_colour_is_on_the_map_as_planned(made, sheet):
-    """Opaque layers glow in just their colour: sRGB there and back is within one count."""
+    """Opaque layers have exactly their colour: conversion to linear and back to sRGB is within one count."""
     picture = _picture(made, "map.png")
     for layer in sheet.layers:
         if layer.opacity == 1.0 and len(layer.mesh.triangles):
@@ -93,7 +93,7 @@ def test_each_flat_colour_is_on_the_map_as_planned(made, sheet):
 
 
 def test_groups_are_marked_where_they_are(made, world, sheet):
-    """The first member's marker is the largest, and lies over those of the others of its own group only."""
+    """The first member's marker is the largest, and covers only markers of its own group."""
     picture = _picture(made, "map.png")
     firsts = [actor for actor in world.actors if actor.name.endswith("_1")]
     members = [layer for layer in sheet.layers if layer.name == "members"]
@@ -146,8 +146,8 @@ def test_a_close_view_shows_its_animal_in_the_middle(made):
     assert grey.mean() > 0.3
 
 
-def test_a_place_with_a_path_and_nobody_on_it_has_a_map_and_an_overview(made, blender):
-    done = made("render", "nobody.json", "--out", "empty", "--preview", "--blender", blender, "--quiet")
+def test_a_place_with_an_empty_path_has_a_map_and_an_overview(made, blender):
+    done = made("render", "empty.json", "--out", "empty", "--preview", "--blender", blender, "--quiet")
     assert (done.code, done.out, done.err) == (0, "", "")
     assert sorted(file.name for file in (made.folder / "empty" / "preview").glob("*.png")) == [
         "map.png",
@@ -163,5 +163,11 @@ def test_a_disk_that_fills_up_leaves_no_broken_picture(made, blender):
     )
     assert done.code == 1
     why = r"(.*\(File too large\).*|Blender could not write all of it; is the disk full\?)"  # 3.4, or later ones
-    assert re.fullmatch(rf"veldt: cut/preview/overview\.png: {why} \(preview\.py:\d+\)\n", done.err)
+    place = r"blender_scripts/veldt_bl/preview\.py:\d+"
+    doing = "while rendering clip preview"
+    assert re.fullmatch(
+        rf"veldt: Blender failed {doing}: \w+: cut/preview/overview\.png: {why} \({place}\);"
+        r" log: cut/preview/blender\.log\n",
+        done.err,
+    ), done.err
     assert not list((made.folder / "cut" / "preview").glob("[!p]*.png"))

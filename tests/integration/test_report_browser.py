@@ -1,4 +1,4 @@
-"""A report in a real browser: nothing complains, everything is drawn, and it can be read on a desk and on a phone."""
+"""A report in a real browser: no console messages, all charts drawn, and legible on desktops and phones."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def _browser(tmp_path_factory):
 
 
 def _enrich(document: dict) -> None:
-    """Labels of ten categories that tell everything a label can tell."""
+    """Add labels of ten categories with all properties that a label can have."""
     names = [
         "human",
         "elephant",
@@ -69,7 +69,7 @@ def _full(tmp_path_factory):
 
 @pytest.fixture(scope="module", name="bare")
 def _bare(tmp_path_factory):
-    """The page of a dataset that lacks a clip, poses, labels and the budget."""
+    """The page of a dataset without a clip, poses, labels and the budget."""
     veldt = Veldt(tmp_path_factory.mktemp("bare"))
     dataset = make_dataset(veldt)
     change(dataset / "annotations.json", lambda document: document.update(annotations=[]))
@@ -115,7 +115,7 @@ def test_all_sections_are_there_and_text_stays_text(browser, full):
     browser.open(full)
     assert browser.run("return [...document.querySelectorAll('section')].map((s) => s.id)") == SECTIONS
     assert browser.run("return document.querySelectorAll('main b:not(figcaption b), main i').length") == 0
-    assert "not told" not in browser.run("return document.querySelector('#labels').textContent")
+    assert "unknown" not in browser.run("return document.querySelector('#labels').textContent")
     assert "a <b>bold</b> one" in browser.run("return document.querySelector('#labels').textContent")
 
 
@@ -206,12 +206,12 @@ def test_what_is_missing_is_said(browser, bare):
     assert browser.complaints() == []
     text = browser.run("return document.body.innerText")
     assert (
-        f"This dataset is unfinished: 1 of 3 clips is not made: {'third' * 20} (failed: no <i>room</i> left). "
-        "All figures are of the others." in text
+        f"This dataset is unfinished: 1 of 3 clips is missing: {'third' * 20} (failed: no <i>room</i> left). "
+        "All figures describe the other clips." in text
     )
     assert text.count("There are no labels.") == 2
-    assert "The passes this dataset was made of have no camera poses." in text
-    assert "The dataset does not say which physical terms it holds." in text
+    assert "The passes of this dataset have no camera poses." in text
+    assert "The dataset does not state which physical terms it includes." in text
     assert browser.run("return document.querySelectorAll('canvas').length") == 0
 
 

@@ -1,4 +1,4 @@
-"""`convert` stopped in the middle of a clip: nothing half made is left, and the same command completes the dataset."""
+"""`convert` stopped in the middle of a clip: no partial clip is left, and the same command completes the dataset."""
 
 import os
 import signal
@@ -11,12 +11,12 @@ from processes import wait_until
 from program import files_below
 
 FRAMES = 300  # long enough to be caught in the middle
-STOPPED = "veldt: stopped on request; the same command goes on from here\n"
+STOPPED = "veldt: stopped on request; run the same command again to resume\n"
 
 
 @pytest.fixture(name="clip")
 def _clip(veldt):
-    """Passes of a clip, and what an undisturbed run makes of it."""
+    """Passes of a clip, and the dataset of an undisturbed run."""
     passes.write_clip(veldt.folder / "one", frames=FRAMES)
     assert veldt("convert", "one", "--out", "usual", "--quiet").code == 0
     return veldt.folder / "usual"
@@ -69,7 +69,7 @@ def test_killed_it_leaves_what_the_next_run_sweeps_away(veldt, clip):
     assert content_of(veldt.folder / "out") == content_of(clip)
 
 
-def test_stopped_while_a_clip_is_made_anew_the_old_one_stays(veldt, clip):
+def test_stopped_while_a_clip_is_made_again_the_old_one_stays(veldt, clip):
     """A clip that lacks a frame is replaced in one step, when the new one is whole."""
     frame = veldt.folder / "one" / f"{FRAMES // 2:06d}.exr"
     content = frame.read_bytes()

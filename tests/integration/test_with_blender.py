@@ -1,4 +1,4 @@
-"""`generate` with a real Blender: the same pixels every time, whatever happens on the way."""
+"""`generate` with a real Blender: the same pixels every time, even after interruptions."""
 
 import json
 import os
@@ -15,7 +15,7 @@ from datasets import content_of
 from processes import running_with, wait_until
 from program import ROOT, Veldt
 
-IN_WORDS = "; if nobody stopped it, the machine may have run out of memory"
+IN_WORDS = "; unless someone killed it, the machine may have run out of memory; log: "
 
 
 @pytest.fixture(scope="module", name="usual")
@@ -30,20 +30,20 @@ def _usual(tmp_path_factory, blender) -> Veldt:
 
 @pytest.fixture(name="command")
 def _command(veldt, blender) -> list[str]:
-    """The arguments of the same run in a place of its own, which is named in full to find its processes."""
+    """The arguments of the same run in a separate folder; its full path identifies its processes."""
     veldt.write("config.json", tiny())
     return ["generate", "config.json", "--out", str(veldt.folder / "out"), "--blender", blender]
 
 
 def _complete(veldt, command, usual) -> None:
-    """Runs to the end and compares with the undisturbed run."""
+    """Run to the end and compare with the undisturbed run."""
     done = veldt(*command, "--quiet")
     assert (done.code, done.out, done.err) == (0, "", "")
     _check_same(veldt, "out", usual)
 
 
 def _check_same(veldt, out, usual) -> None:
-    """A dataset has the pixels, the labels and the words of the undisturbed run's."""
+    """Check that a dataset has the pixels, the labels and the records of the undisturbed run's."""
     assert veldt.pixels(out) == usual.pixels("out")
     usual_files = content_of(usual.folder / "out")
     made = content_of(veldt.folder / out)
@@ -60,11 +60,11 @@ MOMENTS = {
 
 
 def _start(veldt, command, moment: dict) -> subprocess.Popen:
-    """Starts a run and returns as soon as its progress says so."""
+    """Start a run and return as soon as its progress says so."""
     run = veldt.start(*command, "--progress", "json")
     for line in run.stderr:
-        told = json.loads(line)
-        if moment.items() <= told.items():
+        event = json.loads(line)
+        if moment.items() <= event.items():
             return run
     raise AssertionError(f"the run ended before {moment}: {run.communicate()}")
 
@@ -86,7 +86,7 @@ def test_a_finished_dataset_is_left_alone_and_starts_no_blender(usual, blender):
     times = {file: file.stat().st_mtime_ns for file in (usual.folder / "out" / "clips").rglob("*")}
     done = usual("generate", "config.json", "--out", "out", "--keep-passes", "--blender", blender)
     assert (done.code, done.err) == (0, "")
-    assert done.out == "out: nothing to do, 2 clips were there already\n"
+    assert done.out == "out: nothing to do, 2 clips already existed\n"
     assert {file: file.stat().st_mtime_ns for file in (usual.folder / "out" / "clips").rglob("*")} == times
 
 
@@ -121,7 +121,7 @@ def test_shards_merged_make_the_undivided_dataset(veldt, command, usual, blender
     assert done.out == "out: 2 clips merged, 16 frames\n"
     _check_same(veldt, "out", usual)
     done = veldt(*command)
-    assert done.out == f"{veldt.folder}/out: nothing to do, 2 clips were there already\n"
+    assert done.out == f"{veldt.folder}/out: nothing to do, 2 clips already existed\n"
 
 
 # --- disturbed --------------------------------------------------------------------------------------------------------
@@ -133,13 +133,13 @@ def test_killed_at_any_moment_it_goes_on_to_the_same_dataset(veldt, command, usu
     run.kill()
     run.communicate()
     assert run.returncode == -signal.SIGKILL
-    assert wait_until(lambda: not running_with(veldt.folder / "out"), 2)  # Blender is gone, too
+    assert wait_until(lambda: not running_with(veldt.folder / "out"), 2)  # Blender has ended, too
     assert veldt.read("out/dataset.json")["status"] == "unfinished"
     _complete(veldt, command, usual)
 
 
 def test_killed_again_and_again(veldt, command, usual):
-    """After 2 frames, 5 frames, the first clip and 1 frame, and 3 frames of what was then left."""
+    """After 2 frames, 5 frames, the first clip and 1 frame, and 3 of the remaining frames."""
     for frames_done in (2, 5, FRAMES + 1, 3):
         run = _start(veldt, command, {"frames_done": frames_done})
         run.kill()
@@ -148,7 +148,7 @@ def test_killed_again_and_again(veldt, command, usual):
     _complete(veldt, command, usual)
 
 
-@pytest.mark.parametrize(  # with two, each has so little to do that it may have ended by the first frame told
+@pytest.mark.parametrize(  # with two, each has so little to do that it may have ended by the first reported frame
     "moment, jobs", [("building the scene", 1), ("in the first clip", 1), ("building the scene", 2)]
 )
 def test_a_killed_blender_is_started_again(veldt, command, usual, moment, jobs):
@@ -157,10 +157,13 @@ def test_a_killed_blender_is_started_again(veldt, command, usual, moment, jobs):
     os.kill(min(running_with(veldt.folder / "out" / "passes")), signal.SIGKILL)
     out, err = run.communicate(timeout=60)
     assert (run.returncode, out) == (0, f"{veldt.folder}/out: 2 clips made, 16 frames\n")
-    (told,) = [event for event in map(json.loads, err.splitlines()) if "event" in event]
-    assert told["event"] == "restart" and told["clip"] in CLIPS
+    (restart,) = [event for event in map(json.loads, err.splitlines()) if "event" in event]
+    assert restart["event"] == "restart" and restart["clip"] in CLIPS
     doing = r"(building the scene|rendering clip (down|side)( after frame \d)?)"
-    assert re.fullmatch(rf"Blender was killed by signal 9 \(Killed\) while {doing}{IN_WORDS}", told["reason"])
+    log = rf"{veldt.folder}/out/passes/(down|side)\.log"
+    assert re.fullmatch(
+        rf"Blender was killed by signal 9 \(Killed\) while {doing}{IN_WORDS}{log}", restart["reason"]
+    )
     _check_same(veldt, "out", usual)
 
 
@@ -171,7 +174,7 @@ def test_ctrl_c_stops_blender_too(veldt, command, usual, moment):
     os.kill(run.pid, signal.SIGINT)
     out, err = run.communicate(timeout=10)
     assert (run.returncode, out) == (130, "")
-    assert err.splitlines()[-1] == "veldt: stopped on request; the same command goes on from here"
+    assert err.splitlines()[-1] == "veldt: stopped on request; run the same command again to resume"
     assert not running_with(veldt.folder / "out")
     assert time.monotonic() - asked_s < 3
     _complete(veldt, command, usual)
@@ -192,7 +195,7 @@ def test_a_second_run_in_the_same_folder_is_turned_away(veldt, command, usual):
 
 
 def test_a_fault_in_the_scripts_is_one_line_that_names_its_place(veldt, command):
-    """Not the page that Blender prints, which stays in the log."""
+    """Blender's full output stays in the log."""
     for part in ("assets", "blender_scripts", "configs"):
         shutil.copytree(ROOT / part, veldt.folder / "home" / part)
     script = veldt.folder / "home" / "blender_scripts" / "veldt_bl" / "render.py"
@@ -202,8 +205,12 @@ def test_a_fault_in_the_scripts_is_one_line_that_names_its_place(veldt, command)
     script.write_text("\n".join(lines))
     done = veldt(*command, "--progress", "none", env={"VELDT_HOME": str(veldt.folder / "home")})
     assert done.code == 1
-    why = f"no such pass: heat (render.py:{body + 1})"
-    assert done.err == f"veldt: clip down failed: {why}\nveldt: clip side failed: {why}\n"
+    why = f"RuntimeError: no such pass: heat (blender_scripts/veldt_bl/render.py:{body + 1})"
+    log = f"{veldt.folder}/out/passes/down.log"
+    assert done.err == "".join(
+        f"veldt: clip {clip} failed: Blender failed while rendering clip {clip}: {why}; log: {log}\n"
+        for clip in ("down", "side")
+    )
     assert "Traceback" in (veldt.folder / "out" / "passes" / "down.log").read_text()
 
 

@@ -1,4 +1,4 @@
-"""Datasets to be read by other people's programs, whose environment has what they need and little else."""
+"""Datasets for tests with third-party programs, which run in an environment of their own."""
 
 import os
 import subprocess

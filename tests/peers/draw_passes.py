@@ -1,7 +1,7 @@
-"""Draws passes for the tests beside it; run by the Python that has OpenImageIO, which their environment lacks.
+"""Draw passes for the tests beside it; run by the Python that has OpenImageIO, which their environment lacks.
 
-draw_passes.py FOLDER writes FOLDER/{masks_a,masks_b}, clips of masks as odd as can be, and FOLDER/{march_a,march_b},
-clips of boxes that are easily reckoned with, and beside each its object planes, (frames, height, width), as .npy.
+draw_passes.py FOLDER writes FOLDER/{masks_a,masks_b}, clips with irregular masks, and FOLDER/{march_a,march_b}, clips
+of boxes that are easy to calculate with, and beside each its object planes, (frames, height, width), as .npy.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ CATEGORIES = ("human", "elephant", "zebra")
 ACTORS = 6  # of index FIRST and on, two of each category
 MASKS_HEIGHT, MASKS_WIDTH = 41, 67
 MARCH_HEIGHT, MARCH_WIDTH = 96, 160
-BOX_WIDTH, BOX_HEIGHT = 20, 9  # of whoever marches
+BOX_WIDTH, BOX_HEIGHT = 20, 9  # of the marching actors
 
 
 def _ground(height: int, width: int) -> np.ndarray:
@@ -27,7 +27,7 @@ def _ground(height: int, width: int) -> np.ndarray:
 
 
 def _odd_masks(seed: int) -> list[np.ndarray]:
-    """Object planes with masks that run-length codes may stumble over."""
+    """Object planes with masks that are hard for run-length codes."""
     planes = [_ground(MASKS_HEIGHT, MASKS_WIDTH) for _ in range(9)]
     planes[0][:] = FIRST  # all of the picture
     planes[1][0, 0], planes[1][-1, -1] = FIRST, FIRST + 1  # the first pixel, the last
@@ -85,7 +85,7 @@ def _write(folder: Path, planes: list[np.ndarray]) -> None:
 
 
 def main(folder: Path) -> None:
-    """Draws all of them."""
+    """Draw all of them."""
     for seed, name in enumerate("ab"):
         _write(folder / f"masks_{name}", _odd_masks(seed))
         _write(folder / f"march_{name}", _march(seed))

@@ -1,4 +1,4 @@
-"""`evaluate` says what pycocotools says of the same files."""
+"""`evaluate` gives the same results as pycocotools for the same files."""
 
 import contextlib
 import io
@@ -28,7 +28,7 @@ class HonouringIgnore(COCOeval):
 
 
 def _figure(precision):
-    """Mean of what is defined, or None."""
+    """Mean of the defined values, or None."""
     defined = precision[precision > -1]
     return float(np.mean(defined)) if defined.size else None
 
@@ -59,7 +59,7 @@ def _average_precision(found):
 def _counts(found, score):
     """By category's name: [true positives, false positives, false negatives] at the first IoU.
 
-    Detections are matched by falling score, so what those below `score` do does not touch the others."""
+    Detections are matched by decreasing score, so those below `score` do not affect the others."""
     names = {category["id"]: category["name"] for category in found.cocoGt.dataset["categories"]}
     counts = {name: np.zeros(3, int) for name in names.values()}
     for one in filter(None, found.evalImgs):
@@ -71,26 +71,26 @@ def _counts(found, score):
     return {name: count.tolist() for name, count in counts.items()}
 
 
-def _told(veldt, *options):
-    """What the program says of the same files."""
+def _report(veldt, *options):
+    """The program's result for the same files."""
     done = veldt("evaluate", "--truth", "truth.json", "--detections", "found.json", "--json", *options)
     assert (done.code, done.err) == (0, "")
     return done.json()
 
 
-def _assert_same_precision(told, theirs):
-    ours = {"all": told["average_precision"]}
-    ours |= {category["name"]: category["average_precision"] for category in told["categories"]}
+def _assert_same_precision(report, theirs):
+    ours = {"all": report["average_precision"]}
+    ours |= {category["name"]: category["average_precision"] for category in report["categories"]}
     assert ours.keys() == theirs.keys()
     for name, figures in theirs.items():
         assert tuple(ours[name].values()) == pytest.approx(figures, rel=0, abs=TOLERANCE), name
 
 
-def _assert_same_counts(told, theirs):
+def _assert_same_counts(report, theirs):
     keys = ("true_positives", "false_positives", "false_negatives")
-    ours = {c["name"]: [c["sizes"]["all"][key] for key in keys] for c in told["categories"]}
+    ours = {c["name"]: [c["sizes"]["all"][key] for key in keys] for c in report["categories"]}
     assert ours == theirs
-    assert [told["sizes"]["all"][key] for key in keys] == np.sum(list(theirs.values()), axis=0).tolist()
+    assert [report["sizes"]["all"][key] for key in keys] == np.sum(list(theirs.values()), axis=0).tolist()
 
 
 def _box(random, whole):
@@ -103,7 +103,7 @@ def _box(random, whole):
 
 
 def _near(random, box, whole):
-    """A box a little off another, or just that."""
+    """A box near another one, or equal to it."""
     if random.random() < 0.2:
         return box
     moved = box + random.normal(0, 0.15, 4) * np.tile(box[2:], 2)
@@ -170,10 +170,10 @@ def test_any_set_is_measured_as_pycocotools_measures_it(veldt, seed):
     files = veldt.write("truth.json", truth), veldt.write("found.json", found)
     iou, score = (0.5, 0.5) if seed % 4 else (0.75, 0.2)
     for option, kind in OPTIONS.items():
-        told = _told(veldt, "--iou", iou, "--score", score, *filter(None, [option]))
-        _assert_same_precision(told, _average_precision(_evaluated(kind, *files)))
+        report = _report(veldt, "--iou", iou, "--score", score, *filter(None, [option]))
+        _assert_same_precision(report, _average_precision(_evaluated(kind, *files)))
         all_matched = _evaluated(kind, *files, iouThrs=[iou], maxDets=[10**6])
-        _assert_same_counts(told, _counts(all_matched, score))
+        _assert_same_counts(report, _counts(all_matched, score))
 
 
 def test_random_sets_are_hard():
@@ -195,7 +195,7 @@ def test_the_truth_given_back_is_perfect_for_both(veldt):
         for label in truth["annotations"]
     ]
     files = veldt.write("truth.json", truth), veldt.write("found.json", found)
-    told = _told(veldt)
-    assert (told["sizes"]["all"]["precision"], told["sizes"]["all"]["recall"]) == (1, 1)
-    assert told["average_precision"] == {"ap50": 1, "ap50_95": 1}
-    _assert_same_precision(told, _average_precision(_evaluated(COCOeval, *files)))
+    report = _report(veldt)
+    assert (report["sizes"]["all"]["precision"], report["sizes"]["all"]["recall"]) == (1, 1)
+    assert report["average_precision"] == {"ap50": 1, "ap50_95": 1}
+    _assert_same_precision(report, _average_precision(_evaluated(COCOeval, *files)))

@@ -1,4 +1,4 @@
-"""Exports, read by the programs that people read them with, say what the dataset says.
+"""Exports, read by the usual third-party programs, agree with the dataset.
 
 Boxes given back as detections are perfect; shifted and dropped ones give figures that can be worked out by hand.
 """

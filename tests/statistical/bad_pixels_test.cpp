@@ -29,7 +29,7 @@ std::vector<std::vector<bool>> states(double blinking_hz, int side_px, int frame
 
 }  // namespace
 
-TEST_CASE("As many pixels are bad as was asked") {
+TEST_CASE("The number of bad pixels is the requested one") {
   constexpr double kPixels = 640 * 512;
   const BadPixels bad({.dead_share = 0.01, .blinking_share = 0.002}, 5, "clip", kFrameRate, 640, 512);
   // Binomial.
@@ -48,11 +48,11 @@ TEST_CASE("A blinking pixel is up half the time, from the first frame on") {
   }
 }
 
-TEST_CASE("A blinking pixel jumps as often as asked, and does not remember how long ago") {
+TEST_CASE("A blinking pixel jumps at the requested rate, without memory") {
   const double blinking_hz = GENERATE(0.5, 6.0);
   const auto up = states(blinking_hz, 60, 300);
-  // Seen at frames 1 / rate apart, a telegraph signal has changed with probability (1 - e^{-2 r / rate}) / 2:
-  // runs are geometric.
+  // Sampled at frames 1 / rate apart, a telegraph signal has changed with probability (1 - e^{-2 r / rate}) / 2: runs
+  // are geometric.
   const double flip = (1 - std::exp(-2 * blinking_hz / kFrameRate)) / 2;
   std::vector<double> chances(3);  // in any frame; just after a jump; otherwise
   std::vector<double> jumps(3);

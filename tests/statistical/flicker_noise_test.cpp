@@ -24,7 +24,7 @@ constexpr double kFrameRate = 60;
 constexpr int kFrames = 16384;
 constexpr std::size_t kPixels = 10240;
 
-/// Whole cycles of the clip, evenly spread over 0.02 to 20 Hz; windows overlap from 3 cycles on.
+/// Whole cycles of the clip, evenly spaced over 0.02 to 20 Hz; windows overlap from 3 cycles on.
 std::vector<double> three_decades() {
   std::vector<double> cycles;
   for (int k = 0; k <= 12; ++k) {
@@ -35,7 +35,7 @@ std::vector<double> three_decades() {
   return cycles;
 }
 
-/// Mean over pixels of the periodograms of one run, chunk of pixels by chunk of pixels, each through all frames.
+/// Mean over pixels of the periodograms of one run, in chunks of pixels, each through all frames.
 std::vector<double> measured_powers(const FlickerFilter& filter, const std::vector<double>& cycles) {
   constexpr std::size_t kChunk = 512;
   FlickerNoise noise(3, "clip", filter, kPixels);
@@ -57,7 +57,7 @@ std::vector<double> measured_powers(const FlickerFilter& filter, const std::vect
   return powers;
 }
 
-/// What the filter's spectrum is through Hann's window: two thirds of it, and a sixth from either side.
+/// The filter's spectrum through Hann's window: two thirds of it, and a sixth from either side.
 double windowed(const FlickerFilter& filter, double cycles) {
   const auto density = [&](double at) { return filter.density(at * kFrameRate / kFrames, kFrameRate); };
   return kFrameRate / 2 * (4 * density(cycles) + density(cycles - 1) + density(cycles + 1)) / 6;
@@ -79,7 +79,7 @@ TEST_CASE("1/f noise is as strong in the first frame as in any later one") {
   }
 }
 
-TEST_CASE("1/f noise remembers from the first frame on as it does later") {
+TEST_CASE("1/f noise has the same correlation from the first frame on") {
   constexpr std::size_t kMany = 65536;
   const FlickerFilter filter = FlickerFilter::design(9);
   FlickerNoise noise(4, "clip", filter, kMany);
@@ -96,8 +96,8 @@ TEST_CASE("1/f noise remembers from the first frame on as it does later") {
       }
       return sum / kMany;
     };
-    // Each is a mean of products of normals of that variance: deviation at most sqrt(2 / n) of it, and the two at
-    // most sqrt(2) as much, were they independent.
+    // Each is a mean of products of normals of that variance: deviation at most sqrt(2 / n) of it, and at most
+    // sqrt(2) more for the two, were they independent.
     CHECK_THAT(covariance(0) - covariance(200),
                WithinAbs(0, kSigmas * filter.variance() * 2 / std::sqrt(kMany)));
   }
@@ -108,7 +108,7 @@ TEST_CASE(
   const FlickerFilter filter = FlickerFilter::design(kFrameRate);
   const std::vector<double> cycles = three_decades();
   const std::vector<double> powers = measured_powers(filter, cycles);
-  // A periodogram scatters by its own size, averaged over the pixels by this much.
+  // A periodogram scatters by its own size, reduced by the average over the pixels.
   const double scatter = 1 / std::sqrt(static_cast<double>(kPixels));
   std::vector<double> log_frequency;
   std::vector<double> log_power;
@@ -129,7 +129,7 @@ TEST_CASE(
   CHECK_THAT(line.slope, WithinAbs(-1, 0.03));
 }
 
-TEST_CASE("1/f noise of one pixel says nothing of its neighbours'") {
+TEST_CASE("1/f noise of one pixel is independent of its neighbours'") {
   constexpr std::size_t kMany = std::size_t{1} << 18;
   const FlickerFilter filter = FlickerFilter::design(9);
   FlickerNoise noise(3, "clip", filter, kMany);
@@ -148,7 +148,7 @@ TEST_CASE("1/f noise of one pixel says nothing of its neighbours'") {
   }
 }
 
-TEST_CASE("In a camera's picture 1/f noise adds its variance at the knee asked for") {
+TEST_CASE("In a camera's picture 1/f noise adds its variance at the requested knee") {
   SensorParameters parameters = cameras::perfect_sensor();
   parameters.noise = {.amount = 1, .flicker_knee_hz = GENERATE(0.25, 2.0)};
   parameters.netd_mk = 100;
@@ -158,8 +158,8 @@ TEST_CASE("In a camera's picture 1/f noise adds its variance at the knee asked f
   double squares_k2 = 0;
   for (const std::uint16_t count : frame.ir16.pixels()) squares_k2 += std::pow(0.01 * count - 300, 2);
   const double flicker = parameters.noise.flicker_knee_hz * FlickerFilter::design(9).variance();
-  // White noise of (100 mK)^2 and as much times the filter's variance; rounding to counts adds 1/12 of one squared.
-  // A curve of 1.3 % a kelvin between radiance and temperature changes the variance of 0.3 K by 1e-5.
+  // White noise of (100 mK)^2 plus that times the filter's variance; rounding to counts adds 1/12 of one squared. A
+  // slope of 1.3 % per kelvin between radiance and temperature changes the variance of 0.3 K by 1e-5.
   CHECK_THAT(squares_k2 / (kSide * kSide),
              WithinRel(0.01 * (1 + flicker) + 1e-4 / 12, kSigmas * std::sqrt(2.0) / kSide));
 }

@@ -1,4 +1,4 @@
-// What ThermalCamera::noise_w_m2_sr() says of a pixel against the frames of many clips.
+// Compares ThermalCamera::noise_w_m2_sr() with the frames of many clips.
 #include <cmath>
 
 #include "support/cameras.h"
@@ -17,7 +17,8 @@ cameras::ClipOf clip(std::uint32_t seed) {
   return {.width_px = kSide, .height_px = kSide, .seed = seed, .frame_rate_hz = kRateHz};
 }
 
-/// Mean square [W^2 m^-4 sr^-2] of what a clip's frames, five intervals of the shutter, are off a uniform scene.
+/// Mean square [W^2 m^-4 sr^-2] of the difference of a clip's frames, five intervals of the shutter, from a uniform
+/// scene.
 double mean_square(const SensorParameters& parameters, std::uint32_t seed) {
   constexpr int kFrames = 150;
   const double per_k = BandRadiance(parameters.response).evaluate(kSceneK).derivative_w_m2_sr_k;
@@ -35,8 +36,8 @@ double mean_square(const SensorParameters& parameters, std::uint32_t seed) {
   return sum / (kSide * kSide * kFrames);
 }
 
-/// Clips are independent of each other, so their mean squares scatter about the variance. A kelvin is the same radiance
-/// to 0.3 % within 0.2 K of 300 K, and counts of 5 mK round by 1.4 mK, a thousandth of the variance.
+/// Clips are independent of each other, so their mean squares scatter about the variance. A kelvin is the same
+/// radiance to 0.3 % within 0.2 K of 300 K, and counts of 5 mK round by 1.4 mK, a thousandth of the variance.
 void check_noise(const SensorParameters& parameters) {
   constexpr int kClips = 16;
   const double sigma = cameras::camera(parameters, clip(1)).noise_w_m2_sr(0, 0);
@@ -50,20 +51,20 @@ void check_noise(const SensorParameters& parameters) {
   const double mean = sum / kClips;
   const double error = std::sqrt((squares / kClips - mean * mean) / (kClips - 1));
   CAPTURE(mean, error);
-  CHECK(error < 0.015);  // each part below is a tenth of the whole or more, and would be missed
+  CHECK(error < 0.015);  // each part below is a tenth of the whole or more, so a missing one fails
   CHECK(std::abs(mean - 1) < statistics::kSigmas * error + 0.003);
 }
 
 SensorParameters white() {
   SensorParameters parameters = cameras::perfect_sensor();
   parameters.noise.amount = 1;
-  parameters.kelvin_per_count = 0.005;  // 16 bits reach to 327 K
+  parameters.kelvin_per_count = 0.005;  // 16 bits reach 327 K
   return parameters;
 }
 
 }  // namespace
 
-TEST_CASE("A pixel's white noise, 1/f noise, fixed pattern and drift are what the camera says they are") {
+TEST_CASE("A pixel's white noise, 1/f noise, fixed pattern and drift have the stated variance") {
   SensorParameters parameters = white();
   parameters.noise.flicker_knee_hz = 1;
   parameters.noise.fixed_pattern_ratio = 1;
@@ -72,7 +73,7 @@ TEST_CASE("A pixel's white noise, 1/f noise, fixed pattern and drift are what th
   check_noise(parameters);
 }
 
-TEST_CASE("So are rows, columns and bands") {
+TEST_CASE("Rows, columns and bands do too") {
   SensorParameters parameters = white();
   parameters.noise.row_ratio = 1;
   parameters.noise.column_ratio = 1;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kCount = std::size_t{1} << 21;
 constexpr auto kN = static_cast<double>(kCount);
-constexpr double kSigmas = 5;  // of a good generator, one check in 1.7 million fails
+constexpr double kSigmas = 5;  // for a good generator, one check in 1.7 million fails
 
 constexpr RandomField kField = {.seed = 7, .stream = 1, .clip = hash_name("clip"), .frame = 100};
 
@@ -34,7 +34,7 @@ double moment(const std::vector<float>& values, int power) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Mean of the products of two fields' values, the second moved on by `lag`: their correlation, for normals.
+/// Mean of the products of two fields' values, the second shifted by `lag`: their correlation, for normals.
 double correlation(const std::vector<float>& a, const std::vector<float>& b, std::size_t lag) {
   double sum = 0;
   for (std::size_t i = lag; i < a.size(); ++i) {
@@ -43,7 +43,7 @@ double correlation(const std::vector<float>& a, const std::vector<float>& b, std
   return sum / static_cast<double>(a.size() - lag);
 }
 
-/// How far chi-square of equally likely bins is from its mean, in its standard deviations.
+/// Difference of chi-square of equally likely bins from its mean, in standard deviations.
 template <std::size_t Bins>
 double chi_square_sigmas(const std::array<int, Bins>& counts) {
   double total = 0;
@@ -75,7 +75,7 @@ TEST_CASE("Normal numbers have a normal distribution's shape") {
   CHECK(std::abs(chi_square_sigmas(bins)) < kSigmas);
 }
 
-TEST_CASE("Normal numbers reach as far out as they should") {
+TEST_CASE("Normal numbers have the tails of a normal distribution") {
   const double threshold = GENERATE(3.0, 4.0);
   double beyond = 0;
   for (const float value : normals(kField))
@@ -86,7 +86,7 @@ TEST_CASE("Normal numbers reach as far out as they should") {
 
 TEST_CASE("Neighbours in a field are uncorrelated") {
   const std::vector<float> values = normals(kField);
-  // Up to a row of 640 px; the lags in between are those of one Philox block and of one batch of 64.
+  // Up to a row of 640 px; the lags between are those of one Philox block and of one batch of 64.
   const auto lag = GENERATE(as<std::size_t>{}, 1, 2, 3, 4, 63, 64, 640);
   CHECK_THAT(correlation(values, values, lag), WithinAbs(0, kSigmas / std::sqrt(kN)));
 }
@@ -100,7 +100,7 @@ TEST_CASE("Neighbouring fields are uncorrelated") {
   CHECK_THAT(correlation(normals(kField), normals(other), 0), WithinAbs(0, kSigmas / std::sqrt(kN)));
 }
 
-TEST_CASE("The two numbers Box and Muller make of one pair are uncorrelated, squares too") {
+TEST_CASE("The two numbers of a Box-Muller pair are uncorrelated, and so are their squares") {
   const std::vector<float> values = normals(kField);
   double product = 0;
   double product_of_squares = 0;

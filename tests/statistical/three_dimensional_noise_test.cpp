@@ -17,7 +17,7 @@ constexpr double kT = kFrames;
 constexpr double kV = kRows;
 constexpr double kH = kColumns;
 
-/// One number for each of the seven components of three-dimensional noise.
+/// One number per component of three-dimensional noise, of which there are seven.
 struct Components {
   double tvh = 0;
   double tv = 0;
@@ -30,7 +30,7 @@ struct Components {
 
 double squared(double value) { return value * value; }
 
-/// Sums of a cube of pixels, about a middle value, over one, two and all of its three directions.
+/// Sums of a cube of pixels, relative to a middle value, over one, two and all of its three directions.
 class CubeSums {
  public:
   void add(int frame, const Plane<std::uint16_t>& ir16, int middle) {
@@ -89,8 +89,8 @@ class CubeSums {
   double squares_ = 0;
 };
 
-/// What mean squares are in the mean, for variances of the components: a mean along one direction still holds a
-/// share of whatever varies along it, which is why the plain variances of means are too large in a finite cube
+/// Expected mean squares for given variances of the components: a mean along one direction still contains a fraction
+/// of everything that varies along it, which is why the plain variances of means are too large in a finite cube
 /// (Haefner and Burks, Finite sampling corrected 3D noise with confidence intervals, Applied Optics 54, 2015).
 Components expected_mean_squares(const Components& variance) {
   Components mean;
@@ -104,7 +104,7 @@ Components expected_mean_squares(const Components& variance) {
   return mean;
 }
 
-/// The variances that have these mean squares in the mean: unbiased.
+/// The variances with these expected mean squares: unbiased.
 Components unbiased(const Components& mean) {
   return {.tvh = mean.tvh,
           .tv = (mean.tv - mean.tvh) / kH,
@@ -133,7 +133,7 @@ Components deviations(const Components& mean) {
 
 }  // namespace
 
-TEST_CASE("Every component of three-dimensional noise is as strong in 10,000 frames as was asked") {
+TEST_CASE("Every component of three-dimensional noise has the requested strength in 10,000 frames") {
   SensorParameters parameters = cameras::perfect_sensor();
   parameters.netd_mk = 80;  // 8 counts: rounding to counts is white noise of 1/12
   parameters.noise = {.amount = 1,
@@ -162,10 +162,10 @@ TEST_CASE("Every component of three-dimensional noise is as strong in 10,000 fra
                             .h = white * squared(parameters.noise.column_ratio)};
   const Components found = unbiased(sums.mean_squares());
   const Components sigma = deviations(expected_mean_squares(asked));
-  // 99.9 % of a normal distribution lie within 3.29 sigma: that all seven do is asked of this seed alone, as one
-  // sound seed in 140 fails. 5 sigma no sound seed fails; v and h have only 47 and 63 degrees of freedom, whose
-  // longer upper tails pass 5 sigma once in 60,000.
-  // The curve between radiance and temperature, 1.7 % a kelvin, changes a variance of (0.12 K)^2 by 1e-5.
+  // 99.9 % of a normal distribution are within 3.29 sigma; that all seven are is only required for this seed, because
+  // one sound seed in 140 fails. No sound seed fails 5 sigma; v and h have only 47 and 63 degrees of freedom, whose
+  // longer upper tails exceed 5 sigma once in 60,000.
+  // A slope of 1.7 % per kelvin between radiance and temperature changes a variance of (0.12 K)^2 by 1e-5.
   const auto check = [](const char* name, double found_variance, double asked_variance, double deviation) {
     CAPTURE(name, found_variance, asked_variance, deviation);
     CHECK_THAT(found_variance, WithinAbs(asked_variance, kSigmas * deviation));

@@ -18,7 +18,7 @@ SensorParameters white_sensor() {
   return parameters;
 }
 
-constexpr double kVariance = 100 + 1.0 / 12;  // counts squared, with what rounding to counts adds
+constexpr double kVariance = 100 + 1.0 / 12;  // counts squared, plus the rounding to counts
 
 std::vector<float> noise_of(const Plane<std::uint16_t>& ir16) {
   std::vector<float> noise;
@@ -49,7 +49,7 @@ TEST_CASE("A camera's white noise is normal, and its spectrum over time is flat"
   constexpr int kHeight = 48;
   constexpr double kPixels = kWidth * kHeight;
   std::vector<double> cycles;
-  for (int k = 0; k < 24; ++k) cycles.push_back(3 + 85 * k);  // to 0.96 of Nyquist, windows apart
+  for (int k = 0; k < 24; ++k) cycles.push_back(3 + 85 * k);  // to 0.96 of Nyquist, with independent windows
   statistics::Spectrum spectrum(cycles, kFrames, kWidth * kHeight);
   ThermalCamera camera = cameras::camera(white_sensor(), {.width_px = kWidth, .height_px = kHeight});
   const Plane<float> scene = cameras::uniform_scene(kWidth, kHeight, 300);
@@ -67,7 +67,7 @@ TEST_CASE("A camera's white noise is normal, and its spectrum over time is flat"
     }
   }
   constexpr double kValues = kPixels * kFrames;
-  // The curve between radiance and temperature, 1.7 % a kelvin, changes the variance of (0.1 K)^2 by 1e-5 and the
+  // A slope of 1.7 % per kelvin between radiance and temperature changes the variance of (0.1 K)^2 by 1e-5 and the
   // kurtosis by 1e-4 at most.
   CHECK_THAT(second / kValues, WithinRel(kVariance, kSigmas * std::sqrt(2 / kValues) + 1e-5));
   CHECK_THAT(fourth / kValues / std::pow(second / kValues, 2),
@@ -85,7 +85,7 @@ TEST_CASE("A camera's white noise is normal, and its spectrum over time is flat"
   CHECK_THAT(line.slope, WithinAbs(0, kSigmas * line.slope_per_noise / std::sqrt(kPixels)));
 }
 
-TEST_CASE("White noise of one pixel says nothing of any other's: no tiles, no stripes") {
+TEST_CASE("White noise of different pixels is independent: no tiles, no stripes") {
   constexpr int kSide = 256;
   constexpr int kReach = 64;
   ThermalCamera camera = cameras::camera(white_sensor(), {.width_px = kSide, .height_px = kSide});
@@ -102,9 +102,9 @@ TEST_CASE("White noise of one pixel says nothing of any other's: no tiles, no st
       largest = std::max(largest, sigmas);
     }
   }
-  // 5 % of the shifts lie beyond 1.96 / sqrt(N), by chance a binomial number of them.
+  // 5 % of the shifts exceed 1.96 / sqrt(N); their number is binomial.
   CHECK_THAT(beyond, WithinAbs(0.05 * shifts, kSigmas * std::sqrt(0.05 * 0.95 * shifts)));
-  // 8384 shifts: the largest of them passes 6 sigma once in 60,000 sound pictures.
+  // 8384 shifts: the largest of them exceeds 6 sigma once in 60,000 sound pictures.
   CHECK(largest < 6);
 }
 

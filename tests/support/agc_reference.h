@@ -8,13 +8,13 @@
 #include "base/image.h"
 #include "sensor/sensor_parameters.h"
 
-/// The adaptive modes of the AGC once more, in plain double precision, count by count and without histograms'
-/// arrays: what agc.h says, as directly as it can be written.
+/// The adaptive modes of the AGC again, in plain double precision, count by count and without histogram arrays: the
+/// documentation of agc.h, implemented as directly as possible.
 namespace agc_reference {
 
 using Counts = thermal::Plane<std::uint16_t>;
 
-/// Counts that say something, in order.
+/// Counts that the adaptive modes use, in order.
 inline std::vector<int> measured(const Counts& ir16) {
   std::vector<int> counts;
   for (const std::uint16_t count : ir16.pixels()) {
@@ -29,14 +29,14 @@ struct Limits {
   double high = 0;
 };
 
-/// Of the counts without a share of them at either end.
+/// The counts without a fraction of them at either end.
 inline Limits without_tails(const std::vector<int>& sorted, double tail_percent) {
   const auto dropped = static_cast<std::size_t>(tail_percent / 100 * static_cast<double>(sorted.size()));
   return {.low = static_cast<double>(sorted[dropped]),
           .high = static_cast<double>(sorted[sorted.size() - 1 - dropped])};
 }
 
-/// Limits of mode percentile that a frame asks for.
+/// Limits of mode percentile for a single frame.
 inline Limits percentile_limits(const thermal::AgcParameters& parameters, double counts_per_netd,
                                 const Counts& ir16) {
   const Limits tails = without_tails(measured(ir16), parameters.tail_percent);
@@ -49,7 +49,7 @@ inline double linear_level(const Limits& limits, double count) {
   return std::clamp(255 * (count - limits.low) / (limits.high - limits.low), 0.0, 255.0);
 }
 
-/// The curve of mode plateau that a frame asks for: level at the lower edge of each bin, by bin.
+/// The curve of mode plateau for a single frame: level at the lower edge of each bin, by bin.
 inline std::vector<double> plateau_levels(const thermal::AgcParameters& parameters, double counts_per_netd,
                                           int bin_counts, const Counts& ir16) {
   const std::vector<int> sorted = measured(ir16);
@@ -83,7 +83,7 @@ inline std::vector<double> plateau_levels(const thermal::AgcParameters& paramete
   return levels;
 }
 
-/// Straight lines between the edges of bins.
+/// Linear interpolation between the edges of bins.
 inline double level_between(const std::vector<double>& levels, int bin_counts, int count) {
   const auto bin = static_cast<std::size_t>(count / bin_counts);
   const double share = static_cast<double>(count % bin_counts) / bin_counts;

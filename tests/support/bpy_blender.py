@@ -1,6 +1,6 @@
 """Stands in for the Blender program where only its Python module `bpy` is installed: runs a script as Blender would.
 
-    python bpy_blender.py -b --factory-startup --python-exit-code 1 -t 2 --python FILE -- ARGS …
+    python bpy_blender.py -b --factory-startup --disable-autoexec --python-exit-code 1 -t 2 --python FILE -- ARGS …
     python bpy_blender.py --version
 
 Of Blender's options it knows those that this project uses. Run it with the Python that has the module.
@@ -19,7 +19,7 @@ import bpy
 
 
 def main(arguments: list[str]) -> int:
-    """Does what Blender's command line says and returns its exit code."""
+    """Execute Blender's command line and return its exit code."""
     end = arguments.index("--") if "--" in arguments else len(arguments)
     options = _parse(arguments[:end])
     if options.version:
@@ -35,6 +35,9 @@ def _parse(arguments: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="blender", allow_abbrev=False)
     parser.add_argument("-b", "--background", action="store_true", help="always; it has no window")
     parser.add_argument("--factory-startup", action="store_true", help="always")
+    parser.add_argument(
+        "--disable-autoexec", action="store_true", help="always: no .blend file's scripts are run"
+    )
     parser.add_argument("--python-exit-code", type=int, default=0)
     parser.add_argument("-t", "--threads", type=int, default=0)
     parser.add_argument("--python", type=Path)
@@ -50,7 +53,7 @@ def _limit_threads(threads: int) -> None:
 
 
 def _run(script: Path, exit_code: int) -> int:
-    """Runs a script to its end, and returns what it exits with; `exit_code` if an exception ends it."""
+    """Run a script and return its exit code; `exit_code` if it raises an exception."""
     try:
         runpy.run_path(str(script), run_name="__main__")
     except SystemExit as end:

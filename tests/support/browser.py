@@ -1,4 +1,4 @@
-"""A real Chromium without a window, for pages that people look at."""
+"""A headless Chromium, to test pages."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Browser:
         self._driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
 
     def open(self, page: Path, size: tuple[int, int] = DESKTOP, scheme: str = "light") -> None:
-        """Loads a file in a window of this size; a narrow one is a phone's, with touch."""
+        """Load a file in a window of this size; a narrow one is a phone's, with touch."""
         width, height = size
         phone = width < 600
         self._command(
@@ -51,7 +51,7 @@ class Browser:
         return [entry["message"] for entry in self._driver.get_log("browser")]
 
     def picture(self, file: Path) -> None:
-        """Writes a PNG of the whole page, as far down as it goes."""
+        """Write a PNG of the whole page, as far down as it goes."""
         height = self.run("return document.documentElement.scrollHeight")
         width = self.run("return window.innerWidth")
         clip = {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}

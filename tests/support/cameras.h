@@ -10,7 +10,7 @@
 /// Cameras and scenes that tests of the sensor share.
 namespace cameras {
 
-/// Shows the scene as it is: sharp, at once, without noise.
+/// Shows the scene unchanged: sharp, without lag, without noise.
 inline thermal::SensorParameters perfect_sensor() {
   thermal::SensorParameters parameters;
   parameters.optics.blur_sigma_px = 0;
@@ -18,7 +18,7 @@ inline thermal::SensorParameters perfect_sensor() {
   return parameters;
 }
 
-/// Everything a camera can do to a picture, all at once.
+/// Every effect of a camera at once.
 inline thermal::SensorParameters full_sensor() {
   thermal::SensorParameters parameters;
   parameters.optics.psf = thermal::Psf::physical;

@@ -12,12 +12,13 @@ using Catch::Matchers::ContainsSubstring;
 
 #include <catch2/catch.hpp>
 
-// Version 2 calls this one Contains, a name that there also finds elements in a vector.
+// Version 2 names this one Contains, which there also matches elements of a vector.
 // NOLINTNEXTLINE(readability-identifier-naming): version 3's name
 inline auto ContainsSubstring(const std::string& substring) { return Catch::Matchers::Contains(substring); }
 #endif
 
-// Global on purpose: a test file is a leaf, and `CHECK_THAT(x, WithinRel(y, tolerance))` reads best unqualified.
+// Global on purpose: test files are not included elsewhere, and `CHECK_THAT(x, WithinRel(y, tolerance))` reads best
+// unqualified.
 // NOLINTBEGIN(google-global-names-in-headers)
 using Catch::Matchers::EndsWith;
 using Catch::Matchers::Equals;

@@ -73,7 +73,7 @@ _TINY = {
 
 
 def tiny(change: Callable[[dict], None] | None = None) -> dict:
-    """A small place with people, elephants and zebras, after `change` had its way with it."""
+    """A small place with people, elephants and zebras, after `change` was applied."""
     config = copy.deepcopy(_TINY)
     if change is not None:
         change(config)

@@ -1,4 +1,4 @@
-"""What two datasets have in common that were made of one config."""
+"""Comparison of datasets made from one config."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from pathlib import Path
 
 from program import files_below
 
-_PREVIEW = "preview.mp4"  # the encoder's choices may hang on time: the same pictures, other bytes
+_PREVIEW = "preview.mp4"  # the encoder's output may depend on timing: the same pictures, other bytes
 
 
 def content_of(folder: Path) -> dict:
-    """Every file of a dataset by its name: its bytes, without the previews and the sums of theirs."""
+    """The bytes of every file of a dataset by name, without the previews and their hashes."""
     return {name: _content(folder / name) for name in files_below(folder) if not name.endswith(_PREVIEW)}
 
 

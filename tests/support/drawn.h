@@ -6,7 +6,7 @@
 
 #include "base/image.h"
 
-/// An index plane drawn as text, one character a pixel: '.' is 0, a digit an index.
+/// An index plane drawn as text, one character per pixel: '.' is 0, a digit an index.
 inline thermal::Plane<std::uint16_t> drawn(const std::vector<std::string>& rows) {
   thermal::Plane<std::uint16_t> plane(static_cast<int>(rows.front().size()), static_cast<int>(rows.size()));
   for (int y = 0; y < plane.height_px(); ++y) {

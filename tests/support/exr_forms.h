@@ -20,8 +20,7 @@
 #include <ImfTileDescription.h>
 #include <ImfTiledOutputPart.h>
 
-/// EXR files in every form that the format has: several parts, tiles and levels, windows, orders of lines,
-/// mixed types.
+/// EXR files in every form of the format: several parts, tiles and levels, windows, line orders, mixed types.
 namespace exr_forms {
 
 /// Pixels as they are stored, row by row.
@@ -97,7 +96,7 @@ inline Imf::FrameBuffer buffer_of(const Part& part) {
   return buffer;
 }
 
-/// Coarser levels hold something else, so that it shows if they are read.
+/// Coarser levels hold other values, so that reading them would be noticed.
 inline Part coarser(Part part) {
   for (auto& [name, plane] : part.channels) std::fill(plane.bytes.begin(), plane.bytes.end(), '\x45');
   return part;

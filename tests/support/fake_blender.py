@@ -1,7 +1,7 @@
-"""Stands in for Blender: takes its command line, delivers made-up passes, and tells of them as render_passes.py does.
+"""A stand-in for Blender: takes its command line, writes made-up passes, and reports them as render_passes.py does.
 
-With it `generate` can be tested where there is no Blender, in no time, and under sanitizers; and it stops for good
-after any frame it is told to, so that a run can be killed at a moment of the test's choosing, or dies there itself.
+With it `generate` can be tested without Blender, quickly, and under sanitizers. It can block or crash after any given
+frame, so that a test can kill a run at a chosen moment.
 """
 
 from __future__ import annotations
@@ -17,30 +17,32 @@ from pathlib import Path
 import passes
 from pictures import write_exr
 
+# Orders lie beside the program: its environment is not that of the test.
+_HOLDS, _DIES = "blender_holds_after.txt", "blender_dies_after.txt"
+
 
 def install(folder: Path) -> Path:
-    """Writes a program that runs this file, and returns its path."""
+    """Write a program that runs this file, and return its path."""
     program = folder / "fake_blender"
-    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -B "{__file__}" "$@"\n', encoding="utf-8")
+    program.write_text(
+        f'#!/bin/sh\nexec "{sys.executable}" -B "{__file__}" "{folder}" "$@"\n', encoding="utf-8"
+    )
     program.chmod(0o755)
     return program
 
 
-def hold_after(clip: str, frame: int) -> dict:
-    """Environment in which it stops after a frame of a clip; frame -1 is the manifest."""
-    return {"FAKE_BLENDER_HOLDS_AFTER": f"{clip} {frame}"}
+def hold_after(folder: Path, clip: str, frame: int) -> None:
+    """Has the program of `folder` stop, once, after a frame of a clip; frame -1 is the manifest."""
+    (folder / _HOLDS).write_text(f"{clip} {frame}", encoding="utf-8")
 
 
-def die_after(folder: Path, clip: str, frame: int, times: int = 1) -> dict:
-    """Environment in which it dies after a frame of a clip, as if out of memory.
+def die_after(folder: Path, clip: str, frame: int, times: int = 1) -> None:
+    """Makes the program of `folder` crash after a frame of a clip, as if out of memory.
 
     Frame -1 is the manifest, clip `scene` the moment before the scene is built. If it is to die more often than once,
     it does so after the next frame it renders.
     """
-    return {
-        "FAKE_BLENDER_DIES_AFTER": f"{clip} {frame} {times}",
-        "FAKE_BLENDER_DEATHS": str(folder / "deaths.txt"),
-    }
+    (folder / _DIES).write_text(f"{clip} {frame} {times}", encoding="utf-8")
 
 
 def _main() -> None:
@@ -83,22 +85,31 @@ def _preview(folder: Path, events) -> None:
 
 
 def _hold(clip: str, frame: int) -> None:
-    _die(clip, frame)
-    if os.environ.get("FAKE_BLENDER_HOLDS_AFTER") == f"{clip} {frame}":
+    folder = Path(sys.argv[1])
+    _die(folder, clip, frame)
+    if _order(folder / _HOLDS) == f"{clip} {frame}":
+        (folder / _HOLDS).unlink()
         time.sleep(60)
 
 
-def _die(clip: str, frame: int) -> None:
+def _die(folder: Path, clip: str, frame: int) -> None:
     """Each death leaves a byte in a file, which counts them."""
-    fatal_clip, first_frame, times = os.environ.get("FAKE_BLENDER_DIES_AFTER", "- 0 0").split()
+    fatal_clip, first_frame, times = (_order(folder / _DIES) or "- 0 0").split()
     if clip != fatal_clip or frame < int(first_frame):
         return
-    deaths = Path(os.environ["FAKE_BLENDER_DEATHS"])
+    deaths = folder / "deaths.txt"
     if deaths.exists() and deaths.stat().st_size >= int(times):
         return
     with open(deaths, "ab") as file:
         file.write(b"x")
     os.kill(os.getpid(), signal.SIGKILL)
+
+
+def _order(file: Path) -> str:
+    try:
+        return file.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return ""
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import OpenImageIO
 SKY, GROUND, ELEPHANT = (0, 0, 0), (0, 255, 0), (255, 0, 0)
 COLOURS = [[SKY, GROUND, GROUND], [GROUND, ELEPHANT, ELEPHANT]]
 
-# Hashes are those that a file's manifest tells, so that any will do that are floats.
+# Hashes are read from a file's manifest, so any that are valid floats will do.
 HASHES = {"Ground": 0x3F000001, "Elephant.001": 0x3F000002, "thin wire": 0x3F000003}
 MATTES = {"Ground": 3, "Elephant.001": 2, "thin wire": 0}  # pixels of which each fills most
 
@@ -24,7 +24,7 @@ def _write(file: Path, spec: OpenImageIO.ImageSpec, pixels: np.ndarray) -> None:
 
 
 def write_png(file: Path, pixels: np.ndarray) -> None:
-    """Writes a grey picture (height, width) or one of three colours, of 8 or 16 bits."""
+    """Write a grey picture (height, width) or one of three colours, of 8 or 16 bits."""
     height, width = pixels.shape[:2]
     planes = pixels.reshape(height, width, -1)
     kind = "uint16" if pixels.dtype == np.uint16 else "uint8"
@@ -32,7 +32,7 @@ def write_png(file: Path, pixels: np.ndarray) -> None:
 
 
 def write_colours(file: Path) -> None:
-    """Writes a picture of one pixel of sky, three of ground and two of an elephant."""
+    """Write a picture of one pixel of sky, three of ground and two of an elephant."""
     write_png(file, np.array(COLOURS, np.uint8))
 
 
@@ -43,7 +43,7 @@ def write_cryptomatte(
     planes: dict[str, np.ndarray] | None = None,
     fields: dict[str, str] | None = None,
 ) -> None:
-    """Writes two ranks: sky, ground and an elephant as in the colours; a wire fills a quarter of one pixel of ground.
+    """Write two ranks: sky, ground and an elephant as in the colours; a wire fills a quarter of one pixel of ground.
     `names` changes what things are called; `more`, hashes by name, adds a column for each, with sky below;
     `planes` are further channels, and `fields` changes the metadata."""
     hashes = {(names or {}).get(name, name): number for name, number in HASHES.items()} | (more or {})
@@ -59,12 +59,12 @@ def write_cryptomatte(
     )
     spec = OpenImageIO.ImageSpec(ranks.shape[1], 2, len(channels), "float")
     spec.channelnames = tuple(channels)
-    told = {
+    texts = {
         "name": "ViewLayer.CryptoObject",
         "hash": "MurmurHash3_32",
         "conversion": "uint32_to_float32",
         "manifest": json.dumps({name: f"{number:08x}" for name, number in hashes.items()}),
     }
-    for key, text in (told | (fields or {})).items():
+    for key, text in (texts | (fields or {})).items():
         spec.attribute(f"cryptomatte/1234567/{key}", text)
     _write(file, spec, np.stack(list(channels.values()), axis=-1).astype(np.float32))

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-/// One line of a CSV of golden values, as text and as the nearest doubles: 0 for what is no number or smaller
-/// than any double.
+/// One line of a CSV of golden values, as text and as the nearest doubles: 0 if it is not a number or is smaller than
+/// any double.
 struct GoldenRow {
   std::vector<std::string> texts;
   std::vector<double> numbers;

@@ -1,4 +1,4 @@
-"""Checks labels against index planes, pixel by pixel."""
+"""Check labels against index planes, pixel by pixel."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def check_labels(
     manifests: Mapping[str, dict],
     alone: Mapping[str, np.ndarray] | None = None,
 ) -> int:
-    """Every label holds exactly its actor's pixels, and every actor in a plane has one label; how many there are.
+    """Check that every label has exactly its actor's pixels, and every actor in a plane one label; return their number.
 
     planes: object index (height, width) of each picture, by file name; alone: the same of actors alone, from which
     visibility is checked; manifests: by clip.

@@ -23,7 +23,7 @@ inline thermal::ManifestObject matte_object(std::uint16_t index, const std::stri
   return object;
 }
 
-/// A rank of a made-up cryptomatte: what covers each pixel most, or next, and how much of it; "" is nothing.
+/// A rank of a synthetic cryptomatte: what covers each pixel most, or next, and its coverage; "" is nothing.
 struct MatteRank {
   std::vector<std::string> names;
   std::vector<float> coverage;
@@ -37,7 +37,7 @@ inline float matte_float(const std::string& name) {
   return name.empty() ? 0.0F : std::bit_cast<float>(thermal::cryptomatte_hash(name));
 }
 
-/// Channels of a cryptomatte: two ranks a layer, the last layer always whole, as renderers write it.
+/// Channels of a cryptomatte: two ranks per layer, the last layer always complete, as renderers write it.
 inline ExrChannels matte_channels(const std::vector<MatteRank>& ranks,
                                   const std::string& name = "ViewLayer.CryptoObject",
                                   const std::string& components = "rgba") {

@@ -1,4 +1,4 @@
-"""Writes cryptomattes, independently of the program: hashes, metadata and ranks as the specification has them."""
+"""Write cryptomattes, independently of the program: hashes, metadata and ranks as the specification has them."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def texts_of(names: Sequence[str] | None, matte: str = "ViewLayer.CryptoObject")
 def write_exr_with_texts(
     file: Path, planes: Mapping[str, np.ndarray], texts: Mapping[str, str], compression: str = "zip"
 ) -> None:
-    """Writes planes (height, width) as float channels, bit by bit, with attributes of text."""
+    """Write planes (height, width) as float channels, bit by bit, with attributes of text."""
     height, width = next(iter(planes.values())).shape
     spec = OpenImageIO.ImageSpec(width, height, len(planes), "float")
     spec.channelnames = tuple(planes)

@@ -2,7 +2,7 @@
 
 #include <string>
 
-/// What the fault says that `work` throws; a text that equals no message if it throws none of this kind.
+/// The message of the exception that `work` throws; a text that equals no message if it throws none of this type.
 /// Other exceptions pass through, and Catch2 reports them.
 template <typename Fault, typename Work>
 std::string message_of(const Work& work) {

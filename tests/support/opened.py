@@ -1,4 +1,4 @@
-"""Counts how often files are opened, whoever opens them: Linux's inotify through the C library."""
+"""Count how often files are opened by any process: Linux's inotify through the C library."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ class Opened:
         os.close(self._descriptor)
 
     def counts(self, suffix: str) -> dict[Path, int]:
-        """How often each file with this suffix was opened since the last call, when nobody had it open.
+        """How often each file with this suffix was opened since the last call; no file may be open at the call.
 
-        The kernel makes one of equal events in a row, if nobody has read the first yet. So a file that is opened again
-        while it is open may be told of once or twice, and is counted once.
+        The kernel merges consecutive equal events until the first is read. Therefore a file that is opened again while
+        it is open may be reported once or twice, and is counted once.
         """
         found: Counter[Path] = Counter()
         last: dict[Path, int] = {}

@@ -55,7 +55,7 @@ def object_index(frame: int) -> np.ndarray:
 
 
 def write_clip(folder: Path, clip: str = "one", frames: int = FRAMES) -> Path:
-    """Writes a clip's passes and manifest into a new folder."""
+    """Write a clip's passes and manifest into a new folder."""
     folder.mkdir()
     for frame in range(frames):
         depth = np.full((HEIGHT, WIDTH), 40.0 + frame)
@@ -74,7 +74,7 @@ def actor_index(frame: int) -> np.ndarray:
 
 
 def add_actor_layer(folder: Path, frames: Iterable[int] = range(FRAMES)) -> None:
-    """Writes some frames of a clip anew, with the actors alone in a layer that its manifest then names."""
+    """Rewrite some frames of a clip with the actors alone in an additional layer, and name it in the manifest."""
     for frame in frames:
         planes = {OBJECTS: object_index(frame), ACTORS: actor_index(frame)}
         write_exr(folder / f"{frame:06d}.exr", planes)
@@ -82,12 +82,12 @@ def add_actor_layer(folder: Path, frames: Iterable[int] = range(FRAMES)) -> None
 
 
 def write_manifest(folder: Path, document: dict) -> None:
-    """Writes a manifest beside the passes."""
+    """Write a manifest beside the passes."""
     (folder / "manifest.json").write_text(json.dumps(document, indent=1), encoding="utf-8")
 
 
 def change_index(folder: Path, frame: int, value: float, x_px: int = 3, y_px: int = 2) -> None:
-    """Writes a frame anew with another value in one pixel of its object index."""
+    """Rewrite a frame with another value in one pixel of its object index."""
     plane = object_index(frame)
     plane[y_px, x_px] = value
     write_exr(folder / f"{frame:06d}.exr", {OBJECTS: plane})

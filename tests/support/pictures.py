@@ -1,4 +1,4 @@
-"""Reads and writes pictures, independently of the program's own readers and writers."""
+"""Read and write pictures, independently of the program's own readers and writers."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def read_grey(file: Path) -> np.ndarray:
 
 
 def write_exr(file: Path, planes: dict[str, np.ndarray]) -> None:
-    """Writes planes (height, width) as the float channels of an EXR file."""
+    """Write planes (height, width) as the float channels of an EXR file."""
     height, width = next(iter(planes.values())).shape
     spec = OpenImageIO.ImageSpec(width, height, len(planes), "float")
     spec.channelnames = tuple(planes)

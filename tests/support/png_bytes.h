@@ -14,12 +14,12 @@ struct PngPicture {
   std::uint32_t height_px = 1;
   int bit_depth = 8;
   int colour_type = 0;       ///< 0 grey, 2 colour, 3 palette, 4 grey and alpha, 6 colour and alpha
-  std::string samples = {};  ///< rows as they are stored, without the bytes that name their filters
+  std::string samples = {};  ///< rows as stored, without filter bytes
   std::string palette = {};
   std::string transparency = {};  ///< of the palette's entries
   std::uint32_t gamma_100000 = 0;
   bool interlaced = false;   ///< for pixels of whole bytes
-  std::string filters = {};  ///< numbers of the rows' filters, again and again; empty: 0
+  std::string filters = {};  ///< filter numbers of the rows, repeated; empty: 0
 };
 
 namespace png_bytes {
@@ -68,7 +68,7 @@ inline std::size_t row_bytes(const PngPicture& picture) {
   return (picture.width_px * channels * static_cast<std::size_t>(picture.bit_depth) + 7) / 8;
 }
 
-/// A row with the number of its filter before it. Source: ISO/IEC 15948, 9.
+/// A row preceded by its filter number. Source: ISO/IEC 15948, 9.
 inline std::string filtered(const std::string& row, const std::string& above, std::size_t pixel_bytes,
                             char filter) {
   std::string bytes(1, filter);
@@ -99,7 +99,7 @@ inline std::string rows(const PngPicture& picture, std::array<std::size_t, 2> fi
   const std::size_t pixel = std::max<std::size_t>(1, bytes / picture.width_px);
   std::size_t number = 0;
   for (std::size_t y = first[1]; y < picture.height_px && first[0] < picture.width_px; y += step[1]) {
-    if (y * bytes >= picture.samples.size()) break;  // a head may claim more than there is
+    if (y * bytes >= picture.samples.size()) break;  // a header may claim more than there is
     std::string row;
     if (step[0] == 1) row = picture.samples.substr(y * bytes, bytes);
     for (std::size_t x = first[0]; step[0] > 1 && x < picture.width_px; x += step[0])
@@ -119,7 +119,7 @@ inline std::string all_rows(const PngPicture& picture) {
   return data + rows(picture, {0, 1}, {1, 2});
 }
 
-/// `stream` instead of the picture's own pixels, if it is not empty.
+/// `stream` replaces the picture's own pixels, unless empty.
 inline std::string encode(const PngPicture& picture, const std::string& stream = "") {
   std::string head = big_endian(picture.width_px) + big_endian(picture.height_px);
   head += {static_cast<char>(picture.bit_depth), static_cast<char>(picture.colour_type), '\0', '\0',

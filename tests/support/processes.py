@@ -21,7 +21,7 @@ def running_with(word: str | Path) -> dict[int, str]:
 
 
 def wait_until(condition: Callable[[], bool], seconds: float) -> bool:
-    """Waits for a condition; whether it came true in time."""
+    """Wait for a condition; whether it came true in time."""
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:

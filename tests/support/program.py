@@ -1,4 +1,4 @@
-"""Runs the built program as a user would, in a folder of its own."""
+"""Run the built program like a user, in a separate folder."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ class Ended:
 
 
 class Veldt:
-    """The program, run in `folder`: what it says of files is then as short as their names."""
+    """The program, run in `folder`, so that its messages contain short paths."""
 
     def __init__(self, folder: Path):
         self.folder = folder
 
     def __call__(
-        self, *arguments, env: dict | None = None, under: Sequence[str] = (), timeout_s: float = 120
+        self, *arguments, env: dict | None = None, under: Sequence[str] = (), timeout_s: float = 300
     ) -> Ended:
-        """Runs to the end. `env` changes the environment; `under` is a command that runs the program."""
+        """Run to the end. `env` changes the environment; `under` is a command that runs the program."""
         done = subprocess.run(
             [*under, PROGRAM, *map(str, arguments)],
             cwd=self.folder,
@@ -48,7 +48,7 @@ class Veldt:
         return Ended(done.returncode, done.stdout, done.stderr)
 
     def start(self, *arguments, env: dict | None = None) -> subprocess.Popen:
-        """Starts a run in the background; its progress can be read from `stderr`, line by line."""
+        """Start a run in the background; its progress can be read from `stderr`, line by line."""
         return subprocess.Popen(
             [PROGRAM, *map(str, arguments)],
             cwd=self.folder,
@@ -59,13 +59,13 @@ class Veldt:
         )
 
     def write(self, name: str, content) -> Path:
-        """Writes a file of text, or of JSON."""
+        """Write a file of text, or of JSON."""
         file = self.folder / name
         file.write_text(content if isinstance(content, str) else json.dumps(content), encoding="utf-8")
         return file
 
     def read(self, name: str | Path):
-        """Reads a file of JSON."""
+        """Read a file of JSON."""
         return json.loads((self.folder / name).read_text(encoding="utf-8"))
 
     def pixels(self, dataset: str | Path) -> dict[str, str]:

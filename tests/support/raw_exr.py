@@ -1,4 +1,4 @@
-"""Writes EXR files byte by byte, so that they can say what no library would write.
+"""Write EXR files byte by byte, so that they can contain what no library would write.
 
 Source: Technical Introduction to OpenEXR, "OpenEXR File Layout".
 """
@@ -31,7 +31,7 @@ class Header:
     def encoded(self) -> bytes:
         """Its bytes, the file's first."""
         window = struct.pack("<4i", 0, 0, self.width - 1, self.height - 1)
-        told = [
+        entries = [
             ("channels", "chlist", self._channel_list()),
             ("compression", "compression", b"\0"),
             ("dataWindow", "box2i", window),
@@ -43,7 +43,7 @@ class Header:
             *self.more,
         ]
         out = struct.pack("<ii", MAGIC, self.version)
-        for name, kind, content in told:
+        for name, kind, content in entries:
             if name not in self.dropped:
                 content = self.changed.get(name, content)
                 out += (

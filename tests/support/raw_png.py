@@ -1,4 +1,4 @@
-"""Writes PNG files chunk by chunk, so that they can say what no library would write.
+"""Write PNG files chunk by chunk, so that they can contain what no library would write.
 
 Source: PNG specification (ISO/IEC 15948).
 """

@@ -1,4 +1,4 @@
-"""Datasets for reports, and what a report's page holds, read with a parser of HTML that is not the browser's."""
+"""Datasets for reports, and the content of a report's page, read with Python's HTML parser."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def terrain_of(config: dict) -> Terrain:
 
 
 def flown_config(change=None) -> dict:
-    """The tiny place, filmed by the camera of the made-up passes."""
+    """The tiny place, seen by the camera of the made-up passes."""
     config = configs.tiny(change)
     config["camera"] = {
         "width_px": passes.WIDTH,
@@ -105,7 +105,7 @@ def make_dataset(veldt: Veldt, config: dict | None = None, out: str = "out") -> 
 
 
 def change(file: Path, how) -> None:
-    """Rewrites a file of JSON after `how` had its way with it."""
+    """Rewrite a JSON file after applying `how`."""
     document = json.loads(file.read_text(encoding="utf-8"))
     how(document)
     file.write_text(json.dumps(document), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""A disk of its own, so small that it fills: memory that is mounted as a file system."""
+"""A small disk that can be filled: a file system in memory."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ def _run(*command) -> subprocess.CompletedProcess:
 
 
 class SmallDisk:
-    """A mounted disk. Files of no use take the room that is not to be left."""
+    """A mounted disk. Dummy files occupy the disk space that must not be free."""
 
     def __init__(self, folder: Path):
         self.folder = folder
 
     def left(self) -> int:
         """Bytes that are free."""
-        told = os.statvfs(self.folder)
-        return told.f_bavail * told.f_frsize
+        status = os.statvfs(self.folder)
+        return status.f_bavail * status.f_frsize
 
     def leave(self, count: int) -> None:
-        """Leaves so many bytes free, in whole blocks."""
-        self.make_room()
+        """Leave the given number of bytes free, in whole blocks."""
+        self.free_space()
         (self.folder / "filling").write_bytes(bytes(self.left() - count))
 
-    def make_room(self) -> None:
-        """All that is not used by others is free again."""
+    def free_space(self) -> None:
+        """Free all disk space that the dummy files occupy."""
         (self.folder / "filling").unlink(missing_ok=True)
 
     def make_read_only(self) -> None:
@@ -45,7 +45,7 @@ class SmallDisk:
 
 @contextmanager
 def small_disk(folder: Path, size: str = "2m") -> Iterator[SmallDisk]:
-    """Mounts a disk in a new folder; where nobody lets us, the test is skipped and says why."""
+    """Mount a disk in a new folder; without permission, the test is skipped with the reason."""
     folder.mkdir()
     done = _run("mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", folder)
     if done.returncode != 0:
@@ -57,5 +57,5 @@ def small_disk(folder: Path, size: str = "2m") -> Iterator[SmallDisk]:
 
 
 def can_be_root_of_a_namespace() -> bool:
-    """Whether an ordinary user can mount where nobody else sees it."""
+    """Whether an ordinary user can mount in a namespace of its own."""
     return _run("unshare", "-rm", "true").returncode == 0

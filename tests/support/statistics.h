@@ -11,8 +11,8 @@ namespace statistics {
 
 inline constexpr double kSigmas = 5;  // a sound generator fails one check in 1.7 million
 
-/// Least-squares line through points (x, y): its slope, and the slope's standard deviation for independent y of
-/// standard deviation 1.
+/// Least-squares line through points (x, y): its slope, and the slope's standard deviation for independent y with a
+/// standard deviation of 1.
 struct Line {
   double slope = 0;
   double slope_per_noise = 0;
@@ -30,7 +30,7 @@ inline Line fit_line(const std::vector<double>& x, const std::vector<double>& y)
   return {.slope = rise / spread, .slope_per_noise = 1 / std::sqrt(spread)};
 }
 
-/// Periodograms of many pixels at chosen frequencies, through Hann's window, which keeps strong low frequencies
+/// Periodograms of many pixels at chosen frequencies, through Hann's window, which prevents strong low frequencies
 /// from leaking into weak high ones.
 class Spectrum {
  public:

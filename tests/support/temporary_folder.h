@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-/// A new empty folder that is removed with all it holds when the test ends.
+/// A new empty folder that is removed with its contents when the test ends.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

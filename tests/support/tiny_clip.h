@@ -21,8 +21,8 @@ inline constexpr int kElephant = 6;
 
 inline std::string file_name(int frame) { return "00000" + std::to_string(frame) + ".exr"; }
 
-/// Index planes of a frame: an elephant of 10 x 8 px moving right, a person of 2 x 4 px leaving to the left, gone
-/// by the third.
+/// Index planes of a frame: an elephant of 10 x 8 px moving right, a person of 2 x 4 px leaving to the left, out of
+/// the frame by the third.
 inline ExrChannels planes(int frame) {
   std::vector<float> objects(kWidth * kHeight, 1);
   std::vector<float> materials(kWidth * kHeight, 0);

@@ -11,7 +11,7 @@ constexpr std::size_t kMostDetections = 100;
 
 enum class Outcome : std::uint8_t { missed, found, ignored };
 
-/// A detection's score, and what became of it at each IoU.
+/// A detection's score, and whether it matched at each IoU.
 struct Judged {
   double score = 0;
   std::array<Outcome, kIouSteps> outcomes{};
@@ -41,7 +41,7 @@ std::size_t counted_targets(std::span<const Encounter> encounters) {
   return count;
 }
 
-/// Mean of those figures that are there.
+/// Mean of the figures that are defined.
 template <typename Figure>
 std::optional<double> mean_over(std::span<const AveragePrecision> categories, const Figure& figure) {
   double sum = 0;
@@ -81,7 +81,7 @@ double average_precision(const std::vector<bool>& found, std::size_t targets) {
   constexpr int kRecallSteps = 101;
   double sum = 0;
   for (int step = 0; step < kRecallSteps; ++step) {
-    const double recall = step * 0.01;  // rounded as numpy's linspace does: step / 100. has other last bits
+    const double recall = step * 0.01;  // rounded like numpy's linspace; step / 100. differs in last bits
     const auto reached = std::lower_bound(recalls.begin(), recalls.end(), recall);
     if (reached != recalls.end()) sum += precisions[static_cast<std::size_t>(reached - recalls.begin())];
   }

@@ -63,7 +63,7 @@ BalanceResult balance(const BalanceProgram& program, const BalanceOptions& optio
   BalanceResult result = search_balance(program, std::move(nearest.taken), options.gap, deadline);
   const std::vector<std::string> faults = check_balance(program, result.solution);
   if (!faults.empty())
-    throw Error(fmt::format("the solution breaks the program: {}", fmt::join(faults, "; ")));
+    throw Error(fmt::format("the solution violates the program: {}", fmt::join(faults, "; ")));
   return result;
 }
 

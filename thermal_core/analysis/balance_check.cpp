@@ -68,7 +68,7 @@ class Checker {
     if (v > s + (top - there) * w)
       add("{}: v of {} = {}; expected at most {}", name, of, v, s + (top - there) * w);
     if (there * (1 - w) < there - s)
-      add("{}: w of {} = {}; expected 0, because {} of {} labels are taken", name, of, w, s, there);
+      add("{}: w of {} = {}; expected 0, because {} of {} labels are selected", name, of, w, s, there);
   }
 
   [[nodiscard]] std::int64_t taken(std::size_t i, std::size_t k) const {
@@ -97,7 +97,7 @@ class Checker {
 }  // namespace
 
 std::vector<std::string> check_balance(const BalanceProgram& program, const BalanceSolution& solution) {
-  if (!has_shape(program, solution)) return {"the solution is of another program"};
+  if (!has_shape(program, solution)) return {"the solution belongs to another program"};
   return Checker(program, solution).check();
 }
 

@@ -7,9 +7,9 @@
 
 namespace thermal {
 
-/// What is wrong with a solution: each constraint of the program that it breaks, and its objective where that is not
-/// what the variables give. Empty if nothing is. Counts whole numbers, from the videos and frames alone: it shares
-/// nothing with the solver or the models it was given.
+/// Faults of a solution: each constraint of the program that it violates, and its objective if it does not follow
+/// from the variables. Empty if it is correct. Exact integer arithmetic on the videos and frames alone: it shares no
+/// code with the solver and its models.
 [[nodiscard]] std::vector<std::string> check_balance(const BalanceProgram& program,
                                                      const BalanceSolution& solution);
 

@@ -9,7 +9,7 @@ namespace {
 
 using Terms = std::vector<IntegerProgram::Term>;
 
-/// The largest level in 0 … top that `holds` for; it holds for all below one it holds for, and for 0.
+/// The largest level in 0 … top for which `holds`, a predicate that is true up to some level and true at 0.
 template <typename Holds>
 std::int64_t last_level(std::int64_t top, const Holds& holds) {
   std::int64_t low = 0;
@@ -53,7 +53,7 @@ class ModelMaker {
     add_row({.lower = 0, .terms = {{most_[k], 1}, {least_[k], -1}}});
   }
 
-  /// A video whose frames are known bounds u and v, and takes its labels off the sums.
+  /// A video with known frames bounds u and v, and its labels are subtracted from the sums.
   void fix_video(std::size_t i) {
     const ClassCounts there = program_.videos[i].available();
     ClassCounts labels{};
@@ -93,8 +93,7 @@ class ModelMaker {
   /// The rows of u, v and w for one video and class.
   void add_rows_of(std::size_t i, std::size_t k, const Terms& labels, std::int64_t there) {
     add_row({.upper = 0, .terms = with(labels, {most_[k], -1})});
-    const std::int64_t beyond =
-        levels_.least_at_most[k] - there;  // v_k is never more than it may exceed T_ik by
+    const std::int64_t beyond = levels_.least_at_most[k] - there;  // v_k never exceeds T_ik by more than
     Terms above_least = with(labels, {least_[k], -1});
     if (beyond > 0) {
       const std::optional<bool> known = shape_.used_up.empty() ? std::nullopt : shape_.used_up[i][k];

@@ -10,7 +10,7 @@
 
 namespace thermal {
 
-/// What the bounds alone say of u_k and v_k, before anything is solved.
+/// Limits of u_k and v_k that follow from the bounds alone, before anything is solved.
 struct LevelBounds {
   ClassCounts most_at_least{};   ///< u_k >= the level that sum_i min(T_ik, level) reaches L^k_l at
   ClassCounts least_at_most{};   ///< v_k <= the last level at which sum_i min(T_ik, level) is within L^k_u
@@ -18,41 +18,41 @@ struct LevelBounds {
 };
 [[nodiscard]] LevelBounds level_bounds(const BalanceProgram& program);
 
-/// How a video takes part in a model.
+/// How a video enters a model.
 enum class VideoPart {
   whole,    ///< whole numbers of frames
   relaxed,  ///< any numbers of frames
-  fixed,    ///< those of a start
+  fixed,    ///< the frames of the start
 };
 
-/// Values of w that are known, by video; none where that is empty.
+/// Known values of w, by video; empty where unknown.
 using FixedUse = std::vector<std::array<std::optional<bool>, kBalanceClasses>>;
 
-/// What a model is to be made of.
+/// What to build a model from.
 struct ModelShape {
-  std::vector<VideoPart> parts;                       ///< one a video
-  std::vector<std::vector<std::int64_t>> start = {};  ///< frames of fixed videos; others' are not looked at
+  std::vector<VideoPart> parts;                       ///< one per video
+  std::vector<std::vector<std::int64_t>> start = {};  ///< frames of fixed videos; others are not read
   FixedUse used_up = {};
-  bool elastic = false;  ///< bounds of the classes may be broken, at a price above any objective
+  bool elastic = false;  ///< bounds of the classes may be violated, at a cost above any objective
   double objective_at_most = kUnbounded;
 };
 
-/// A program for the solver, and where its variables are.
+/// A program for the solver, and the positions of its variables.
 struct BalanceModel {
   IntegerProgram program;
-  std::vector<std::vector<std::size_t>> taken;  ///< columns of x, by video; none for fixed ones
+  std::vector<std::vector<std::size_t>> taken;  ///< columns of x, by video; empty for fixed ones
   std::vector<std::array<std::optional<std::size_t>, kBalanceClasses>>
-      used_up;  ///< of w, where it says something
+      used_up;  ///< of w, where it has an effect
 
-  /// What a solution takes of a video that is not fixed.
+  /// Frames of a solution from a video that is not fixed.
   [[nodiscard]] std::vector<std::int64_t> frames_in(const std::vector<double>& solution,
                                                     std::size_t video) const;
   [[nodiscard]] FixedUse used_up_in(const std::vector<double>& solution) const;
 };
 
-/// The balance program (balance.h), with the same best solutions in less room: u and v are whole and within the level
-/// bounds, v <= u, and M of the second row is what v may exceed T_ik by, max(0, bound of v - T_ik), without w where that
-/// is 0. What the solver finds in it is completed and checked as the published program's.
+/// The balance program (balance.h), with the same optimal solutions in a smaller search space: u and v are whole and
+/// within the level bounds, v <= u, and M of the second row is the most by which v may exceed T_ik, max(0, bound of v
+/// - T_ik), without w where that is 0. Solutions are completed and checked against the published program.
 [[nodiscard]] BalanceModel make_model(const BalanceProgram& program, const ModelShape& shape);
 
 }  // namespace thermal

@@ -18,8 +18,8 @@ constexpr std::size_t kBlock = 4;  // videos rounded together
 constexpr int kBlockNodes = 200;   // of the search tree of a block
 constexpr int kPasses = 8;
 
-/// Videos in the order that a pass rounds them in: fewest frame types first, then most first, then anyhow. What is
-/// rounded last has the least room, and which order suits the data is not known before.
+/// Orders of videos in which a pass rounds them: fewest frame types first, most first, then random. The videos
+/// rounded last have the least freedom, and which order suits the data is not known in advance.
 std::vector<std::size_t> order_of_pass(const BalanceProgram& program, int pass) {
   const auto key = [&](std::size_t i) -> std::uint64_t {
     const std::uint64_t types = program.videos[i].types.size();
@@ -33,10 +33,10 @@ std::vector<std::size_t> order_of_pass(const BalanceProgram& program, int pass) 
   return order;
 }
 
-/// Bounds first, solutions next, both at last. With any numbers of frames instead of whole ones the program is solved
-/// in seconds, and its objective is a bound that a few labels are missing to, because videos have many frames. Which
-/// videos it uses up is kept, and the frames are made whole a few videos at a time, exactly, while the later ones may
-/// still give way. What gap is left is for the solver, with the whole program and no help.
+/// Bounds first, then solutions, then both. With fractional numbers of frames the program is solved in seconds;
+/// because videos have many frames, its objective is a bound within a few labels of the optimum. Which videos it
+/// exhausts is kept, and frames are made whole a few videos at a time, exactly, while later videos remain free. The
+/// rest of the gap is left to the solver, with the whole program.
 class Search {
  public:
   Search(const BalanceProgram& program, Frames taken, double gap, const Deadline& deadline)
@@ -47,7 +47,7 @@ class Search {
 
   BalanceResult run() && {
     relax();
-    const int passes = program_.videos.size() > kBlock ? kPasses : 0;  // a single block would be the whole
+    const int passes = program_.videos.size() > kBlock ? kPasses : 0;  // one block would be the whole
     for (int pass = 0; pass < passes && !is_done() && deadline_.left_s() > 0; ++pass) round_in_blocks(pass);
     if (!is_done() && deadline_.left_s() > 0) solve_whole();
     return {.solution = best_, .bound = bound_, .gap = gap_to_bound(), .in_time = is_done()};
@@ -68,7 +68,7 @@ class Search {
     if (!solved.values.empty()) used_up_ = model.used_up_in(solved.values);
   }
 
-  /// Bounds of the classes may be broken on the way; what breaks them at the end is not kept.
+  /// Bounds of the classes may be violated on the way; a final solution that violates them is discarded.
   void round_in_blocks(int pass) {
     if (used_up_.empty()) return;
     const std::vector<std::size_t> order = order_of_pass(program_, pass);
@@ -90,7 +90,7 @@ class Search {
     keep_better(std::move(shape.start));
   }
 
-  /// Looks only for what is better than the best by more than the gap; that there is none proves the gap.
+  /// Searches only for solutions better than the best by more than the gap; if there are none, the gap is proven.
   void solve_whole() {
     const double enough = static_cast<double>(best_.objective) * (1 - gap_);
     const std::int64_t sought = static_cast<std::int64_t>(std::ceil(enough - 1e-9)) - 1;
@@ -108,7 +108,7 @@ class Search {
     keep_better(std::move(taken));
   }
 
-  /// Objectives are whole numbers, and the solver's arithmetic is not exact.
+  /// Objectives are whole numbers, but the solver's arithmetic is not exact.
   void raise_bound(double bound) {
     if (!std::isfinite(bound)) return;
     const double slack = 1e-6 * std::max(1.0, std::abs(bound));
@@ -126,7 +126,7 @@ class Search {
   double gap_;
   const Deadline& deadline_;
   BalanceSolution best_;
-  std::int64_t bound_ = 0;  // no objective is below: balance.h
+  std::int64_t bound_ = 0;  // the objective is never negative: balance.h
   FixedUse used_up_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace thermal {
 
-/// When a search has to be done.
+/// When a search must end.
 class Deadline {
  public:
   explicit Deadline(double seconds)
@@ -24,8 +24,8 @@ class Deadline {
   Clock::time_point end_;
 };
 
-/// Searches for a solution to within a gap, from frames that meet the bounds of the classes; the best found by the
-/// deadline, and what is proven of the best there is.
+/// Searches for a solution to within a gap, from frames that meet the bounds of the classes. Returns the best found
+/// by the deadline and the proven bound.
 [[nodiscard]] BalanceResult search_balance(const BalanceProgram& program,
                                            std::vector<std::vector<std::int64_t>> taken, double gap,
                                            const Deadline& deadline);

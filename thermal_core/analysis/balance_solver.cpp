@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #if defined(__SANITIZE_ADDRESS__)
-/// CoinUtils loses some memory in implied_free_action::presolve, a few hundred bytes in one program of a hundred.
+/// CoinUtils leaks memory in implied_free_action::presolve, a few hundred bytes in about one program in a hundred.
 extern "C" const char* __lsan_default_suppressions() { return "leak:implied_free_action"; }
 extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
 #endif
@@ -19,7 +19,7 @@ namespace {
 
 using ModelHandle = std::unique_ptr<Cbc_Model, decltype(&Cbc_deleteModel)>;
 
-/// The program as the solver wants it: column by column.
+/// The program in the solver's layout, column by column.
 struct SparseColumns {
   std::vector<CoinBigIndex> begins;
   std::vector<int> rows;
@@ -48,7 +48,7 @@ SparseColumns by_columns(const IntegerProgram& program) {
 
 double clamped(double value) { return std::min(std::max(value, -DBL_MAX), DBL_MAX); }
 
-/// Bounds as the solver wants them.
+/// Bounds in the solver's form.
 struct Bounds {
   std::vector<double> lower;
   std::vector<double> upper;

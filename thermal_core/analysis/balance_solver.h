@@ -28,7 +28,7 @@ struct IntegerProgram {
   std::vector<Column> columns;
   std::vector<Row> rows;
 
-  /// Returns the column's place.
+  /// Returns the column's index.
   std::size_t add(const Column& column) {
     columns.push_back(column);
     return columns.size() - 1;
@@ -36,23 +36,23 @@ struct IntegerProgram {
 };
 
 struct SolverLimits {
-  double gap = 0;         ///< (objective - bound) / |objective| that will do
+  double gap = 0;         ///< largest accepted (objective - bound) / |objective|
   double time_s = 60;     ///< wall clock
   int nodes = 100000000;  ///< of the search tree
 };
 
 enum class SolverEnd {
   solved,      ///< to within the gap
-  stopped,     ///< at a limit, with a solution
+  stopped,     ///< stopped at a limit, with a solution
   infeasible,  ///< proven
   nothing,     ///< stopped at a limit without a solution
 };
 
 struct SolverResult {
   SolverEnd end = SolverEnd::nothing;
-  std::vector<double> values;  ///< one a column; empty without a solution. Whole ones to within 1e-6
+  std::vector<double> values;  ///< one per column; empty without a solution. Whole ones to within 1e-6
   double objective = 0;
-  double bound = -kUnbounded;  ///< no solution is better
+  double bound = -kUnbounded;  ///< proven lower bound
 };
 
 /// Solves with COIN-OR CBC: one thread and a fixed seed, so that the same program gives the same solution unless the

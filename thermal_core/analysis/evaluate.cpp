@@ -22,7 +22,7 @@ void add(SizeCounts& to, const SizeCounts& more) {
   for (std::size_t size = 0; size < to.size(); ++size) to[size] += more[size];
 }
 
-/// Those that are sure enough; they come first.
+/// The leading detections with a sufficient score.
 Encounter above_score(Encounter encounter, double score) {
   const auto end = std::find_if(encounter.detections.begin(), encounter.detections.end(),
                                 [score](const Detection& detection) { return detection.score < score; });
@@ -31,7 +31,7 @@ Encounter above_score(Encounter encounter, double score) {
   return encounter;
 }
 
-/// Adds what came of one encounter.
+/// Adds the counts of one encounter.
 void count(const Encounter& encounter, const LabelSet& truth, double iou, Evaluation& evaluation) {
   SizeCounts& counts = evaluation.counts[truth.images[encounter.image].video][encounter.category];
   for (const Target& target : encounter.targets) {

@@ -15,7 +15,7 @@ std::size_t class_of(const LabelSet& set, const Label& label) {
   return static_cast<std::size_t>(label.size) + (human ? 3 : 0);
 }
 
-/// Labels of each class in each image.
+/// Number of labels of each class in each image.
 std::vector<ClassCounts> count_labels(const LabelSet& set) {
   std::vector<ClassCounts> counts(set.images.size());
   for (const Label& label : set.labels) {

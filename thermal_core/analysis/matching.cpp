@@ -7,7 +7,7 @@
 namespace thermal {
 namespace {
 
-/// Places 0 … count - 1 in the order of `key`; equal keys stay as they are.
+/// Indices 0 … count - 1 in the order of `key`; equal keys keep their order.
 template <typename Key>
 std::vector<std::size_t> order_by(std::size_t count, const Key& key) {
   std::vector<std::size_t> order(count);
@@ -17,7 +17,7 @@ std::vector<std::size_t> order_by(std::size_t count, const Key& key) {
   return order;
 }
 
-/// Where each picture stands in the order of ids: scores that are equal are ranked in it.
+/// Rank of each picture in the order of ids, which ranks equal scores.
 std::vector<std::size_t> ranks_of(const std::vector<LabelImage>& images) {
   const auto order = order_by(images.size(), [&images](std::size_t i) { return images[i].id; });
   std::vector<std::size_t> ranks(images.size());
@@ -55,7 +55,7 @@ std::vector<Target> sorted_targets(const LabelSet& truth, std::span<const std::s
   return sorted;
 }
 
-/// The first of `rest` that `belongs`, taken off its front.
+/// Removes and returns the leading items of `rest` for which `belongs`.
 template <typename Item, typename Belongs>
 std::span<const Item> take_while(std::span<const Item>& rest, const Belongs& belongs) {
   const auto end = std::find_if_not(rest.begin(), rest.end(), belongs);
@@ -97,7 +97,7 @@ double overlap(const LabelBox& detection, const Target& target) noexcept {
                            std::max(detection.y_px, box.y_px);
   if (width_px <= 0 || height_px <= 0) return 0;
   const double shared_px = width_px * height_px;
-  // The order of the sum decides the last bit, and with it ties.
+  // The order of summation decides the last bit, and with it ties.
   const double whole_px =
       target.crowd ? detection.area_px() : detection.area_px() + box.area_px() - shared_px;
   return shared_px / whole_px;
@@ -113,7 +113,7 @@ std::vector<std::size_t> match(const Encounter& encounter, double iou) {
       if (taken[t] && !targets[t].crowd) continue;
       if (found[d] != kNoTarget && !targets[found[d]].ignored && targets[t].ignored) break;
       const double here = overlap(encounter.detections[d].box, targets[t]);
-      if (!(here >= best)) continue;  // nor if areas too large or small to hold made it NaN
+      if (!(here >= best)) continue;  // also false if areas too small or large to represent made it NaN
       best = here;
       found[d] = t;
     }

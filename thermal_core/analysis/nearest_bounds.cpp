@@ -23,8 +23,9 @@ std::map<ClassCounts, std::int64_t> pooled_types(const BalanceProgram& program) 
   return pooled;
 }
 
-/// minimise the labels below and above the bounds. The first columns are the types, in their order. Each sum of labels
-/// is its greatest common divisor times a whole number, which is told: the search would have to find out by trying.
+/// Minimises the number of labels below and above the bounds. The first columns are the types, in their order. Each
+/// sum of labels is its greatest common divisor times a whole number; the model states this, because the search would
+/// otherwise have to discover it.
 IntegerProgram pooled_program(const std::map<ClassCounts, std::int64_t>& pooled,
                               const std::array<ClassBounds, kBalanceClasses>& bounds) {
   IntegerProgram program;
@@ -53,7 +54,7 @@ IntegerProgram pooled_program(const std::map<ClassCounts, std::int64_t>& pooled,
   return program;
 }
 
-/// Hands the frames of each pooled type to the videos that have it, the first first.
+/// Assigns the frames of each pooled type to the videos that have it, in order.
 std::vector<std::vector<std::int64_t>> share_out(const BalanceProgram& program,
                                                  std::map<ClassCounts, std::int64_t> frames) {
   std::vector<std::vector<std::int64_t>> taken;
@@ -88,7 +89,7 @@ NearestBounds nearest_bounds(const BalanceProgram& program, double time_limit_s)
   const SolverResult solved = solve(pooled_program(pooled, program.bounds), {.time_s = time_limit_s});
   if (solved.end != SolverEnd::solved)
     throw ConfigError(fault("time_limit_s", fmt::format("{}", time_limit_s), "s",
-                            "more; whether the bounds can be met was not found out by then"));
+                            "more; it is still unknown whether the bounds can be met"));
   std::size_t column = 0;
   for (auto& [labels, frames] : pooled) frames = std::llround(solved.values[column++]);
   NearestBounds nearest;
@@ -110,13 +111,13 @@ std::vector<std::string> bounds_not_met(const BalanceProgram& program, const Nea
     if (missed(bounds, labels) == 0) continue;
     std::string line = fmt::format("per-class {}: ", balance_class_names()[k]);
     if (there[k] < bounds.at_least)
-      line += fmt::format("at least {} asked for, {} are there", bounds.at_least, there[k]);
+      line += fmt::format("at least {} requested, {} available", bounds.at_least, there[k]);
     else if (labels < bounds.at_least)
-      line += fmt::format("at least {} asked for", bounds.at_least);
+      line += fmt::format("at least {} requested", bounds.at_least);
     else
-      line += fmt::format("at most {} asked for", bounds.at_most);
+      line += fmt::format("at most {} requested", bounds.at_most);
     if (labels != there[k] || labels >= bounds.at_least)
-      line += fmt::format(", {} {} can be had together with the other bounds",
+      line += fmt::format(", {} {} possible with the other bounds",
                           labels < bounds.at_least ? "at most" : "at least", labels);
     lines.push_back(line);
   }

@@ -6,20 +6,19 @@
 
 namespace thermal {
 
-/// Frames whose labels break the bounds of the classes least.
+/// Frames whose labels violate the bounds of the classes least.
 struct NearestBounds {
   std::vector<std::vector<std::int64_t>> taken;  ///< frames, by video and type
-  ClassCounts labels{};                          ///< that they bring
+  ClassCounts labels{};                          ///< in those frames
   std::int64_t missed_by = 0;  ///< sum over classes of labels below at_least or above at_most; 0: all are met
 };
 
-/// The frames that break the bounds by the fewest labels in all: an integer program of its own, over the frame types
-/// of all videos together, because bounds do not tell videos apart.
-/// ConfigError if that is not solved in time.
+/// The frames that violate the bounds by the fewest labels in total: a separate integer program over the frame types
+/// of all videos together, because bounds do not depend on videos. ConfigError if it is not solved in time.
 [[nodiscard]] NearestBounds nearest_bounds(const BalanceProgram& program, double time_limit_s);
 
-/// Which bounds of which classes cannot be met, and the nearest that can; a line a class:
-/// "per-class small_poacher: at least 500 asked for, at most 312 can be had together with the other bounds".
+/// Which bounds of which classes cannot be met, and the nearest feasible ones; one line per class: "per-class
+/// small_poacher: at least 500 requested, at most 312 possible with the other bounds".
 [[nodiscard]] std::vector<std::string> bounds_not_met(const BalanceProgram& program,
                                                       const NearestBounds& nearest);
 

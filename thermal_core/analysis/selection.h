@@ -15,12 +15,12 @@ struct LabelSource {
   LabelSet labels;
 };
 
-/// The videos of all sources, one source after another: videos of equal names in different sources stay apart.
+/// The videos of all sources, one source after another: videos with equal names in different sources stay separate.
 [[nodiscard]] std::vector<BalanceVideo> videos_of(const std::vector<LabelSource>& sources);
 
-/// So many of these frames of a video, any with the same chance, ascending. Each frame has a random number that is a
-/// function of (seed, video, frame), and those of the smallest are taken: what other videos and types are there does
-/// not matter, and of a larger count the same frames are a part.
+/// Selects `count` of these frames of a video, each with the same probability; ascending. Each frame has a random
+/// number that is a function of (seed, video, frame), and the frames with the smallest are selected, so that the
+/// selection does not depend on other videos and types, and a larger count includes the frames of a smaller one.
 [[nodiscard]] std::vector<int> choose_frames(const std::vector<int>& frames, std::int64_t count,
                                              std::uint32_t seed, const std::string& video);
 

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Before a function: compile it for AVX2 as well and pick at run time what the machine has. Both versions give
-/// the same bits: no contraction into fused multiply-adds (see CMakeLists.txt), no reordering of sums. Not under
-/// sanitizers, which cannot run before the choice is made.
+/// Before a function: compile it for AVX2 as well, and select the version for this machine at run time. Both versions
+/// give the same bits: no contraction into fused multiply-adds (see CMakeLists.txt), no reordering of sums. Disabled
+/// under sanitizers, which cannot run before the selection is made.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define VELDT_CLONES __attribute__((target_clones("default", "avx2")))
@@ -10,8 +10,8 @@
 #define VELDT_CLONES
 #endif
 
-/// Before a small function that a function with VELDT_CLONES calls in its loops: it becomes part of both versions.
-/// (A compiler may otherwise keep it apart, and then in the plain version only.)
+/// Before a small function that a function with VELDT_CLONES calls in its loops: it is inlined into both versions.
+/// (Otherwise a compiler may keep it out of line, compiled for the plain version only.)
 #if defined(__GNUC__)
 #define VELDT_INLINE __attribute__((always_inline)) inline
 #else

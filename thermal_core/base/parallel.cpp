@@ -23,7 +23,7 @@ ThreadLimit::~ThreadLimit() = default;
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
   const std::size_t chunks = (count + grain - 1) / grain;
-  // Isolated: while it waits for its chunks, a thread must not pick up unrelated work that may block.
+  // Isolated: a thread that waits for its chunks must not pick up unrelated work that may block.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
       const std::size_t begin = chunk * grain;

@@ -6,7 +6,7 @@
 
 namespace thermal {
 
-/// Bounds how many threads the library uses for as long as it lives. 0: one a core.
+/// Limits the number of threads the library uses while it lives. 0: one per core.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
@@ -19,8 +19,8 @@ class ThreadLimit {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Calls body(begin, end) on chunks that cover [0, count) exactly once, in any order and on any thread.
-/// Chunks depend on `count` and `grain` alone, so work that is a function of its chunk is deterministic.
+/// Calls body(begin, end) on chunks that cover [0, count) exactly once, in any order and on any thread. Chunks depend
+/// only on `count` and `grain`, so work that is a function of its chunk is deterministic.
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 

@@ -7,7 +7,7 @@ namespace thermal {
 
 std::vector<double> fit_polynomial(const std::function<double(double)>& function, int terms) {
   const auto count = static_cast<std::size_t>(terms);
-  // Series of Chebyshev polynomials from the values at their roots.
+  // Chebyshev series from the values at the polynomials' roots.
   std::vector<double> series(count);
   for (int point = 0; point < terms; ++point) {
     const double angle = std::numbers::pi * (point + 0.5) / terms;

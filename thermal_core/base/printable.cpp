@@ -14,7 +14,7 @@ bool is_between(unsigned char byte, unsigned char low, unsigned char high) {
   return byte >= low && byte <= high;
 }
 
-/// How a character of more than one byte begins, what its second may be, and how many it has; others are 80 to BF.
+/// Lead bytes of a multi-byte character, the range of its second byte, and its length; further bytes are 80 to BF.
 struct Form {
   unsigned char first_low;
   unsigned char first_high;
@@ -43,7 +43,7 @@ bool has_form(std::string_view text, const Form& form) {
   return true;
 }
 
-/// Bytes of the character that a text begins with; 0 if that is none, or one that controls.
+/// Length in bytes of the character at the start of a text; 0 if it is not a valid one, or a control character.
 std::size_t shown_bytes(std::string_view text) {
   const auto first = static_cast<unsigned char>(text.front());
   if (first < kDelete) return first >= ' ' ? 1 : 0;

@@ -10,11 +10,11 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kLanes = 16;  // counters worked on together, so that loops vectorise
+constexpr std::size_t kLanes = 16;  // counters processed together, so that loops vectorise
 using Words = std::array<std::uint32_t, kLanes>;
 
-/// The four output words of counters block, block + 1, …, one array a word: Philox4x32::generate() with a lane a
-/// counter.
+/// The four output words of counters block, block + 1, …, one array per word: Philox4x32::generate() with one lane
+/// per counter.
 VELDT_INLINE void generate_lanes(const RandomField& field, std::uint32_t block,
                                  std::array<Words, 4>& words) noexcept {
   const auto clip_low = static_cast<std::uint32_t>(field.clip);

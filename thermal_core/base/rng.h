@@ -32,7 +32,7 @@ struct Philox4x32 {
   }
 };
 
-/// Names one field of random numbers, a value for each pixel: every (seed, stream, clip, frame) has its own.
+/// Identifies one field of random numbers with one value per pixel: every (seed, stream, clip, frame) has its own.
 struct RandomField {
   std::uint32_t seed = 0;    ///< of the dataset
   std::uint32_t stream = 0;  ///< what the numbers are for
@@ -49,16 +49,16 @@ struct RandomField {
   return hash;
 }
 
-/// Numbers are made in batches of so many.
+/// Numbers are generated in batches of this size.
 inline constexpr std::size_t kRandomBatch = 64;
 
 /// Values [first, first + out.size()) of a field, uniform in [0, 1). `first` is a multiple of kRandomBatch.
 /// Value 64 b + 16 w + l is made of word w of counter 16 b + l.
 void fill_uniform(const RandomField& field, std::size_t first, std::span<float> out) noexcept;
 
-/// The same for the standard normal distribution (Box and Muller 1958), |value| <= 6.7.
-/// Logarithm and sine are polynomials of our own (absolute error below 3e-7 of the value's scale), so that the
-/// bits do not depend on the C library. `first` is a multiple of kRandomBatch.
+/// The same for the standard normal distribution (Box and Muller 1958), |value| <= 6.7. Logarithm and sine are our
+/// own polynomials (absolute error below 3e-7 of the value's scale), so that the bits do not depend on the C library.
+/// `first` is a multiple of kRandomBatch.
 void fill_normal(const RandomField& field, std::size_t first, std::span<float> out) noexcept;
 
 }  // namespace thermal

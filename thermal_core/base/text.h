@@ -9,11 +9,11 @@
 
 namespace thermal {
 
-/// The candidate a person most likely meant by `word`: within two edits (insert, delete, replace, swap of
-/// neighbours) and fewer than half its letters changed. Empty if there is none. Ties go to the first.
+/// The candidate most likely meant by `word`: within two edits (insert, delete, replace, swap of neighbours) that
+/// change fewer than half its letters. Empty if there is none. Ties go to the first.
 [[nodiscard]] std::string near_miss(std::string_view word, std::span<const std::string> candidates);
 
-/// "; did you mean "x"?", or nothing where there is no near miss.
+/// "; did you mean "x"?", or empty without a near miss.
 [[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 
 /// "a, b, c"; past `most` names, "a, b, … (12 in all)".
@@ -22,8 +22,8 @@ namespace thermal {
 /// The parts between separators, one more than there are of those; views into `text`.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// The number that the whole of a text is, as std::from_chars reads it: no blanks, no plus sign, and nothing where it
-/// does not fit.
+/// The number that the whole text represents, in the syntax of std::from_chars: no blanks, no plus sign. Empty if it
+/// is not a number or out of range.
 template <typename Number>
 [[nodiscard]] std::optional<Number> number_in(std::string_view text) {
   Number number{};

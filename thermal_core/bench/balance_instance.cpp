@@ -31,13 +31,13 @@ class Dice {
   std::uint32_t count_ = 0;
 };
 
-using Counts = std::vector<ClassCounts>;  // a frame each
+using Counts = std::vector<ClassCounts>;  // one per frame
 
-/// A group comes into view, its members within a few frames of each other, and leaves it again.
+/// A group enters the view, its members within a few frames of each other, and leaves it again.
 void pass_by(Dice& dice, std::size_t of, int members, Counts& counts) {
   const auto frames = static_cast<double>(counts.size());
   constexpr double kApart = 30;     // frames between members
-  constexpr double kMissed = 0.03;  // of the frames
+  constexpr double kMissed = 0.03;  // fraction of the frames
   const double begin = dice.uniform(-0.2, 0.9) * frames;
   const double end = begin + dice.uniform(0.05, 0.6) * frames;
   for (int member = 0; member < members; ++member) {

@@ -25,7 +25,7 @@ ClassCounts sums_of(const std::vector<BalanceVideo>& videos) {
   return sums;
 }
 
-/// The same for all classes, as shares of the rarest.
+/// The same bounds for all classes, as fractions of the rarest.
 std::array<ClassBounds, kBalanceClasses> alike(const ClassCounts& there, double low, double high) {
   const auto rarest = static_cast<double>(*std::min_element(there.begin(), there.end()));
   std::array<ClassBounds, kBalanceClasses> bounds;
@@ -33,7 +33,7 @@ std::array<ClassBounds, kBalanceClasses> alike(const ClassCounts& there, double 
   return bounds;
 }
 
-/// Shares of each class.
+/// Fractions of each class.
 std::array<ClassBounds, kBalanceClasses> shares(const ClassCounts& there, double low, double high) {
   std::array<ClassBounds, kBalanceClasses> bounds;
   for (std::size_t k = 0; k < kBalanceClasses; ++k) {
@@ -72,7 +72,7 @@ RenderRow instance_row(const std::vector<BalanceVideo>& videos) {
     for (const FrameType& type : video.types) frames += type.frames.size();
   }
   RenderRow row{"to choose from",
-                "made up, of published size",
+                "synthetic, of published size",
                 {{"videos", static_cast<double>(videos.size())},
                  {"frames", static_cast<double>(frames)},
                  {"frame_types", static_cast<double>(types)}}};
@@ -84,17 +84,17 @@ RenderRow instance_row(const std::vector<BalanceVideo>& videos) {
 
 }  // namespace
 
-std::vector<RenderRow> run_balance_suite(const std::function<void(const std::string&)>& tell) {
+std::vector<RenderRow> run_balance_suite(const std::function<void(const std::string&)>& announce) {
   BalanceProgram program{.videos = made_up_videos(kSeed, kVideos, kFrames), .bounds = {}};
   const ClassCounts there = sums_of(program.videos);
   std::vector<RenderRow> rows = {instance_row(program.videos)};
   const auto measure = [&](const std::string& name, const std::array<ClassBounds, kBalanceClasses>& bounds) {
-    tell(name);
+    announce(name);
     program.bounds = bounds;
     rows.push_back(solved_row(name, program));
   };
   measure("half of the rarest, of each", alike(there, 0.5, 0.6));
-  measure("all but all of the rarest", alike(there, 0.9, 1.1));
+  measure("nearly all of the rarest", alike(there, 0.9, 1.1));
   measure("a third of each class", shares(there, 0.3, 0.4));
   measure("two thirds of each class", shares(there, 0.6, 0.7));
   measure("a tenth to all of the rarest", alike(there, 0.1, 1));

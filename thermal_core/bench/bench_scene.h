@@ -5,18 +5,18 @@
 
 namespace thermal {
 
-/// A synthetic frame and what its indices mean.
+/// A synthetic frame and the meaning of its indices.
 struct BenchScene {
   Manifest manifest;
   Passes passes;
 };
 
-/// Rolling ground of soil, grass, shrubs and water with people and elephants on it, seen at 45 deg from 61 m:
-/// every plane filled as a renderer would fill it, 640 x 512.
+/// Rolling ground of soil, grass, shrubs and water with people and elephants on it, seen at 45 deg from 61 m: all
+/// planes are filled as by a renderer, 640 x 512.
 [[nodiscard]] BenchScene rolling_ground();
 
-/// A person from above on bare soil, 122 m below, `factor` times finer than the camera, its middle at a
-/// position in the camera's pixels.
+/// A person from above on bare soil, 122 m below, `factor` times finer than the camera, centred at a position in the
+/// camera's pixels.
 [[nodiscard]] BenchScene person_from_above(int factor, double x_px, double y_px);
 
 }  // namespace thermal

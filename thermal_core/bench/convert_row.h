@@ -7,15 +7,15 @@
 
 namespace thermal {
 
-/// What a step of the converter costs a frame, and what the machine would allow.
+/// Cost of a converter step per frame, and the limit set by the machine.
 struct ConvertRow {
   std::string group;
   std::string name;
-  double ms = 0;           ///< a frame
-  double mb_per_s = 0;     ///< of what goes in, 10^6 bytes
-  std::string limit;       ///< what it is held against, measured in the same run; empty: nothing
-  double times_limit = 0;  ///< how many times as long it takes as that
-  std::string bound;       ///< of a whole: what keeps it from being faster
+  double ms = 0;           ///< per frame
+  double mb_per_s = 0;     ///< of input, 10^6 bytes
+  std::string limit;       ///< what it is compared with, measured in the same run; empty: nothing
+  double times_limit = 0;  ///< its time / that of the limit
+  std::string bound;       ///< of a whole: what limits its speed
   std::vector<Figure> figures = {};
 };
 

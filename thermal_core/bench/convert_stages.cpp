@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kBudgetS = 0.2;
 
-/// The bytes of a file into memory that is there already.
+/// Reads a file into existing memory.
 void read_raw(const Path& file, std::vector<char>& memory) {
   std::ifstream in(file, std::ios::binary);
   in.rdbuf()->sgetn(memory.data(), static_cast<std::streamsize>(memory.size()));
@@ -36,24 +36,24 @@ std::span<const std::byte> bytes_of(const Plane<T>& picture) {
   return std::as_bytes(picture.pixels());
 }
 
-/// ISA-L at level 3 on pixels as they are, all at once.
+/// ISA-L at level 3 on unfiltered pixels, all at once.
 class RawDeflate {
  public:
   explicit RawDeflate(std::span<const std::byte> pixels)
       : pixels_(pixels.begin(), pixels.end()),
         search_(ISAL_DEF_LVL3_DEFAULT),
         out_(2 * pixels.size() + 4096) {}
-  /// Returns how many bytes came out.
+  /// Returns the number of bytes written.
   std::size_t operator()() {
     ::isal_deflate_stateless_init(&stream_);
     stream_.level = 3;
-    stream_.level_buf = reinterpret_cast<std::uint8_t*>(search_.data());
+    stream_.level_buf = search_.data();
     stream_.level_buf_size = static_cast<std::uint32_t>(search_.size());
     stream_.gzip_flag = IGZIP_ZLIB;
     stream_.end_of_stream = 1;
     stream_.next_in = reinterpret_cast<std::uint8_t*>(pixels_.data());
     stream_.avail_in = static_cast<std::uint32_t>(pixels_.size());
-    stream_.next_out = reinterpret_cast<std::uint8_t*>(out_.data());
+    stream_.next_out = out_.data();
     stream_.avail_out = static_cast<std::uint32_t>(out_.size());
     if (::isal_deflate_stateless(&stream_) != COMP_OK) throw Error("ISA-L cannot compress a picture");
     return stream_.total_out;
@@ -62,11 +62,11 @@ class RawDeflate {
  private:
   ::isal_zstream stream_{};
   std::vector<std::byte> pixels_;
-  std::vector<std::byte> search_;
-  std::vector<std::byte> out_;
+  std::vector<std::uint8_t> search_;
+  std::vector<std::uint8_t> out_;
 };
 
-/// One model at work: a frame's way through every stage, each of which can be done again and again.
+/// One model's stages for a frame, each of which can be repeated.
 class Line {
  public:
   Line(const ConvertJob& job, const ClipTask& task)
@@ -82,8 +82,8 @@ class Line {
       tell_contrast(camera_, radiance, scene_.instances);
     });
   }
-  /// Its labels and its line of frames.jsonl; returns how many bytes.
-  std::size_t tell() {
+  /// Its labels and its line of frames.jsonl; returns the number of bytes.
+  std::size_t label_and_record() {
     ClipAnnotations annotations(manifest_);
     annotations.add_frame(0, scene_.instances);
     std::size_t bytes = 0;
@@ -112,7 +112,7 @@ class Line {
   SensorFrame pictures_;
 };
 
-/// Pixels of the object index that were not read back as they were written.
+/// Pixels of the object index that differ after reading back.
 double wrong_px(const Passes& read, const Passes& written) {
   double wrong = 0;
   for (std::size_t i = 0; i < read.object_index.size(); ++i)
@@ -129,7 +129,7 @@ double wrong_px(const Plane<T>& read, const Plane<T>& written) {
   return wrong;
 }
 
-/// Measures rows of one size of picture.
+/// Measures the rows of one picture size.
 class Stages {
  public:
   Stages(const ConvertJob& job, const Path& folder)
@@ -182,7 +182,7 @@ class Stages {
                      .figures = std::move(figures)});
   }
 
-  /// Copying the bytes that a stage takes in and puts out.
+  /// Copies as many bytes as a stage reads and writes.
   [[nodiscard]] static Limit copying(std::size_t bytes) { return {"memcpy", memcpy_s(bytes, kBudgetS / 4)}; }
 
   void measure_limits() {
@@ -238,9 +238,10 @@ class Stages {
     add("files written", png_bytes_, copying(png_bytes_), {},
         [&] { write_file(folder_ / "written.png", files); });
     std::size_t text = 0;
-    const auto tell = [&] { text = published_.tell(); };
-    tell();
-    add("labels and frame record", text, copying(text), {{"bytes", static_cast<double>(text)}}, tell);
+    const auto label_and_record = [&] { text = published_.label_and_record(); };
+    label_and_record();
+    add("labels and frame record", text, copying(text), {{"bytes", static_cast<double>(text)}},
+        label_and_record);
     PreviewVideo video(folder_ / "preview.mp4", job_.scene.manifest.frame_rate_hz, pictures.ir8.width_px(),
                        pictures.ir8.height_px());
     add("preview", pixels_, copying(pixels_), {}, [&] { video.add(pictures.ir8); });

@@ -8,7 +8,7 @@
 
 namespace thermal {
 
-/// A clip to measure: a scene, its frame in a file, and what a dataset makes of it by one of the two models.
+/// A clip to measure: a scene, its frame in a file, and the output of one of the two models.
 struct ConvertJob {
   const BenchScene& scene;
   Path file;  ///< of its passes
@@ -17,8 +17,8 @@ struct ConvertJob {
   ClipTask physical;
 };
 
-/// Every stage that a frame goes through, one after another in one thread: first what the machine allows, then the
-/// stages of both models. Writes into `folder`.
+/// Every stage of a frame, one after another in one thread: first the machine's limits, then the stages of both
+/// models. Writes into `folder`.
 [[nodiscard]] std::vector<ConvertRow> convert_stage_rows(const ConvertJob& job, const Path& folder);
 
 }  // namespace thermal

@@ -17,7 +17,7 @@ ClipTask task_of(const BenchScene& scene) {
   return task;
 }
 
-/// Every term that looks at planes, and a camera with every stage.
+/// Every term that reads planes, and a camera with every stage.
 ClipTask physical_task_of(const BenchScene& scene) {
   ClipTask task = task_of(scene);
   task.sensor = full_camera();
@@ -28,14 +28,14 @@ ClipTask physical_task_of(const BenchScene& scene) {
   return task;
 }
 
-/// Clips to make from end to end.
+/// Clips to convert end to end.
 struct Whole {
   int frames = 0;
-  std::vector<int> threads;  ///< 0: as many as there are processors
+  std::vector<int> threads;  ///< 0: one per processor
 };
 
 void add_rows(const BenchScene& scene, const MaterialLibrary& materials, const Whole& work,
-              const std::function<void(const std::string&)>& tell, std::vector<ConvertRow>& rows) {
+              const std::function<void(const std::string&)>& announce, std::vector<ConvertRow>& rows) {
   const std::string size =
       fmt::format("{} x {}", scene.manifest.camera.width_px, scene.manifest.camera.height_px);
   const PassingFolder folder;
@@ -45,13 +45,13 @@ void add_rows(const BenchScene& scene, const MaterialLibrary& materials, const W
                        .published = task_of(scene),
                        .physical = physical_task_of(scene)};
   write_passes(job.file, scene.passes);
-  tell(size + ", stages");
+  announce(size + ", stages");
   const std::vector<ConvertRow> stages = convert_stage_rows(job, folder.path());
   rows.insert(rows.end(), stages.begin(), stages.end());
   for (const bool physical : {false, true}) {
     for (const int threads : work.threads) {
-      tell(fmt::format("{}, clips by the {} model, {}", size, physical ? "physical" : "published",
-                       threads == 1 ? "one thread" : "all threads"));
+      announce(fmt::format("{}, clips by the {} model, {}", size, physical ? "physical" : "published",
+                           threads == 1 ? "one thread" : "all threads"));
       rows.push_back(convert_whole_row(job, physical, work.frames, threads, stages, folder.path()));
     }
   }
@@ -60,12 +60,12 @@ void add_rows(const BenchScene& scene, const MaterialLibrary& materials, const W
 }  // namespace
 
 std::vector<ConvertRow> run_convert_suite(const MaterialLibrary& materials,
-                                          const std::function<void(const std::string&)>& tell) {
+                                          const std::function<void(const std::string&)>& announce) {
   constexpr int kFactor = 6;  // to 3840 x 3072
   std::vector<ConvertRow> rows;
   const BenchScene scene = rolling_ground();
-  add_rows(scene, materials, {.frames = 60, .threads = {1, 0}}, tell, rows);
-  add_rows(enlarged(scene, kFactor), materials, {.frames = 2, .threads = {0}}, tell, rows);
+  add_rows(scene, materials, {.frames = 60, .threads = {1, 0}}, announce, rows);
+  add_rows(enlarged(scene, kFactor), materials, {.frames = 2, .threads = {0}}, announce, rows);
   return rows;
 }
 

@@ -9,10 +9,10 @@
 
 namespace thermal {
 
-/// The converter from files of passes to frames and labels, in a temporary folder: what the machine allows, what each
-/// stage takes in one thread, and what clips take from end to end, at 640 x 512 and 3840 x 3072. `tell` hears what is
-/// measured next. IoError if the folder cannot be written.
-[[nodiscard]] std::vector<ConvertRow> run_convert_suite(const MaterialLibrary& materials,
-                                                        const std::function<void(const std::string&)>& tell);
+/// The converter from files of passes to frames and labels, in a temporary folder: the machine's limits, the time of
+/// each stage in one thread, and the time of whole clips, at 640 x 512 and 3840 x 3072. `announce` is called with the
+/// name of each measurement before it starts. IoError if the folder cannot be written.
+[[nodiscard]] std::vector<ConvertRow> run_convert_suite(
+    const MaterialLibrary& materials, const std::function<void(const std::string&)>& announce);
 
 }  // namespace thermal

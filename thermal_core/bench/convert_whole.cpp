@@ -13,7 +13,7 @@
 namespace thermal {
 namespace {
 
-/// Processor time of this process so far, in all its threads.
+/// Processor time of this process so far, over all its threads.
 double processor_s() {
   rusage used{};
   ::getrusage(RUSAGE_SELF, &used);
@@ -34,7 +34,7 @@ struct Spent {
   double processor_ms = 0;
 };
 
-/// A frame's share of a clip of so many.
+/// Cost per frame of a clip of that many.
 Spent make(const ConvertJob& job, const ClipTask& task, int frames) {
   ClipPasses passes{.manifest = job.scene.manifest,
                     .folder = job.file.parent_path(),
@@ -49,7 +49,7 @@ Spent make(const ConvertJob& job, const ClipTask& task, int frames) {
   return {.wall_ms = wall.count() / frames, .processor_ms = 1e3 * (processor_s() - before_s) / frames};
 }
 
-/// Stages of the model among the rows; those without a model in their names are of both.
+/// Stages of the model among the rows; rows that name no model belong to both.
 std::vector<ConvertRow> stages_of(bool physical, const std::vector<ConvertRow>& stages) {
   std::vector<ConvertRow> own = stages;
   std::erase_if(own, [physical](const ConvertRow& row) {
@@ -58,7 +58,7 @@ std::vector<ConvertRow> stages_of(bool physical, const std::vector<ConvertRow>& 
   return own;
 }
 
-/// What frames have to go through one by one: the camera, and beside it what is collected of them.
+/// The slowest of the stages that process frames in order: the camera, and the preview collected beside it.
 const ConvertRow& slowest_in_order(const std::vector<ConvertRow>& stages) {
   const auto in_order_ms = [](const ConvertRow& row) {
     return row.name.starts_with("expose") || row.name == "preview" ? row.ms : 0;
@@ -77,11 +77,11 @@ std::string bound_of(const Spent& spent, int threads, const std::vector<ConvertR
       *std::max_element(stages.begin(), stages.end(),
                         [](const ConvertRow& one, const ConvertRow& other) { return one.ms < other.ms; });
   if (threads > 1 && in_order.ms > kNearly * spent.wall_ms)
-    return fmt::format("{}, which takes frames one by one", in_order.name);
+    return fmt::format("{}, which processes frames one by one", in_order.name);
   if (spent.processor_ms > kNearly * threads * spent.wall_ms)
     return fmt::format("the processors; {} is {:.0f} % of the stages' {:.1f} ms", largest.name,
                        100 * largest.ms / sum_ms, sum_ms);
-  return "waiting: for the disk, or for processors that others use";
+  return "waiting: for the disk, or for processors used by other programs";
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace thermal {
 
-/// What `frames` frames cost from their files to a finished clip, a frame; `threads` 0: as many as there are
-/// processors. What bounds it is told from `stages`, which were measured before. Writes into `folder`.
+/// Cost per frame of converting `frames` frames from files to a finished clip; `threads` 0: one per processor. The
+/// bottleneck is derived from `stages`, measured before. Writes into `folder`.
 [[nodiscard]] ConvertRow convert_whole_row(const ConvertJob& job, bool physical, int frames, int threads,
                                            const std::vector<ConvertRow>& stages, const Path& folder);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kSeed = 1;
 
-/// A camera of which nothing but the outputs is left.
+/// A camera that leaves the signal unchanged except for its outputs.
 SensorParameters bare_camera() {
   SensorParameters camera;
   camera.optics.blur_sigma_px = 0;
@@ -26,7 +26,7 @@ SensorParameters bare_camera() {
   return camera;
 }
 
-/// Temperatures a few kelvin about a middle, so that rounding to counts leaves no trace in their mean.
+/// Temperatures within a few kelvin of a mean, so that rounding to counts averages out.
 Plane<float> spread_radiance(const BandRadiance& band, double middle_k) {
   Plane<float> plane(kSceneWidthPx, kSceneHeightPx);
   for (std::size_t i = 0; i < plane.size(); ++i) {
@@ -87,8 +87,8 @@ RandomField white_field(std::uint32_t frame) {
   return {.seed = kSeed, .stream = kWhiteStream, .clip = hash_name("bench"), .frame = frame};
 }
 
-/// Mean square and mean fourth power of white noise, in their standard errors; those of normal values are
-/// sqrt(2 / n) and sqrt(96 / n).
+/// Mean square and mean fourth power of white noise, in their standard errors; for normal values these are sqrt(2 /
+/// n) and sqrt(96 / n).
 std::vector<Figure> white_moments() {
   constexpr std::uint32_t kFrames = 32;
   std::vector<float> values(kScenePixels);
@@ -107,8 +107,8 @@ std::vector<Figure> white_moments() {
           {"fourth_moment_sigma", (fourths / count - 3) / std::sqrt(96 / count)}};
 }
 
-/// Largest distance of a band's mean density from the flat one, in standard errors: bins of a periodogram
-/// scatter as much as their mean, and a Hann window makes 35/18 neighbours one.
+/// Largest difference of a band's mean density from a flat spectrum, in standard errors: bins of a periodogram
+/// scatter by as much as their mean, and a Hann window correlates 35/18 neighbours.
 double worst_band_sigma() {
   constexpr std::size_t kPixels = 64;
   constexpr std::uint32_t kFrames = 4096;
@@ -148,8 +148,8 @@ StageRow white_row() {
   });
 }
 
-/// Variance of one component alone, of so many pictures with a shutter's closing before each and one interval
-/// since, in standard errors. A picture is as small as leaves the component's values independent.
+/// Variance of one component alone over this many pictures, each one interval after a closing of the shutter, in
+/// standard errors. Pictures are small enough for the component's values to be independent.
 double component_sigma(double NoiseParameters::*ratio, int width_px, int height_px, int pictures) {
   NoiseParameters parameters;
   parameters.*ratio = 1;
@@ -187,7 +187,7 @@ StageRow pattern_row() {
   });
 }
 
-/// Temperatures stand for radiances: the means of neighbours are then in kelvin. Behind the optics, as in a
+/// Temperatures stand for radiances, so that means of neighbours are in kelvin. Applied behind the optics, as in a
 /// camera.
 StageRow bad_pixel_row() {
   const SensorParameters camera = full_camera();

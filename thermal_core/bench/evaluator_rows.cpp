@@ -13,18 +13,24 @@ namespace thermal {
 namespace {
 
 constexpr std::size_t kPixels = 640 * 512;
-constexpr double kColdest = 200;
-constexpr double kHottest = 400;
+/// Temperatures a row is measured over [K].
+struct Range {
+  double coldest_k;
+  double hottest_k;
+};
+constexpr Range kNight = {200, 400};
+constexpr Range kHot = {421, 1999};  ///< fires, exhausts
 
 using PlaneFunction = std::function<void(std::span<const float>, std::span<float>)>;
 
-/// Temperatures over the whole range in an order that no cache can guess: multiples of the golden ratio.
-std::vector<float> spread_temperatures() {
+/// Temperatures over the whole range in a cache-unfriendly order: multiples of the golden ratio.
+std::vector<float> spread_temperatures(const Range& range) {
   constexpr double kGolden = 0.6180339887498949;
   std::vector<float> values;
   for (std::size_t i = 0; i < kPixels; ++i) {
     const double turn = kGolden * static_cast<double>(i);
-    values.push_back(static_cast<float>(kColdest + (kHottest - kColdest) * (turn - std::floor(turn))));
+    values.push_back(static_cast<float>(range.coldest_k +
+                                        (range.hottest_k - range.coldest_k) * (turn - std::floor(turn))));
   }
   return values;
 }
@@ -71,11 +77,11 @@ PlaneFunction pixel_by_pixel(const std::function<double(double)>& function) {
   };
 }
 
-/// One evaluator: its error in double where it has one, then its time on a plane.
+/// One evaluator: its error in double if available, then its time on a plane.
 BenchRow forward_row(const std::string& name, const std::function<double(float)>& value,
                      const PlaneFunction& plane, const BandRadiance& reference, std::size_t pixels) {
   BenchRow row{.group = "temperature to radiance", .name = name};
-  const std::vector<float> all = spread_temperatures();
+  const std::vector<float> all = spread_temperatures(kNight);
   const std::span<const float> in = std::span(all).first(pixels);
   ErrorStatistics errors;
   for (const float temperature_k : in) {
@@ -99,9 +105,10 @@ BenchRow forward_row(const std::string& name, const std::function<double(double)
 }
 
 BenchRow inverse_row(const std::string& name, const PlaneFunction& plane, const BandRadiance& reference,
-                     std::size_t pixels) {
-  BenchRow row{.group = "radiance to temperature", .name = name};
-  const std::vector<float> temperatures = spread_temperatures();
+                     std::size_t pixels, bool hot = false) {
+  BenchRow row{.group = hot ? "radiance to temperature, 421 to 1999 K" : "radiance to temperature",
+               .name = name};
+  const std::vector<float> temperatures = spread_temperatures(hot ? kHot : kNight);
   std::vector<float> in(pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
     in[i] = static_cast<float>(reference.radiance(static_cast<double>(temperatures[i])));
@@ -123,12 +130,17 @@ BenchRow inverse_row(const std::string& name, const PlaneFunction& plane, const 
 }  // namespace
 
 std::vector<BenchRow> evaluator_rows() {
-  constexpr std::size_t kSlow = 4096;  // pixels for what takes microseconds each
+  constexpr std::size_t kSlow = 4096;  // pixels for evaluators that take microseconds each
   constexpr std::size_t kMiddling = 65536;
   const BandRadiance reference(SpectralResponse::flat(8, 14));
   const RadianceTable table(reference);
   const TemperatureTable inverse([&reference](double radiance) { return reference.temperature(radiance); },
-                                 reference.radiance(kColdest - 1), reference.radiance(kHottest + 1));
+                                 reference.radiance(kNight.coldest_k - 1),
+                                 reference.radiance(kNight.hottest_k + 1), reference.radiance(2000));
+  const PlaneFunction exact = pixel_by_pixel([&reference](double l) { return reference.temperature(l); });
+  const PlaneFunction tables = [&inverse](std::span<const float> in, std::span<float> out) {
+    inverse.temperatures(in, out);
+  };
   return {
       forward_row(
           "reference, panelled Gauss", [&reference](double t) { return reference.radiance(t); }, reference,
@@ -143,13 +155,10 @@ std::vector<BenchRow> evaluator_rows() {
           "table, lines of 1/16 K", [&table](float t) { return static_cast<double>(table.radiance(t)); },
           [&table](std::span<const float> in, std::span<float> out) { table.radiances(in, out); }, reference,
           kPixels),
-      inverse_row("reference, Newton",
-                  pixel_by_pixel([&reference](double l) { return reference.temperature(l); }), reference,
-                  kSlow),
-      inverse_row(
-          "table, 8192 lines",
-          [&inverse](std::span<const float> in, std::span<float> out) { inverse.temperatures(in, out); },
-          reference, kPixels)};
+      inverse_row("reference, Newton", exact, reference, kSlow),
+      inverse_row("table, 8192 lines", tables, reference, kPixels),
+      inverse_row("reference, Newton", exact, reference, kSlow, true),
+      inverse_row("table, 1024 lines an octave", tables, reference, kPixels, true)};
 }
 
 }  // namespace thermal

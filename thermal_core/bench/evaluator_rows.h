@@ -6,7 +6,7 @@
 
 namespace thermal {
 
-/// Temperature to radiance and back, 8-14 um, 200 to 400 K: ours, the published script, and textbook ways.
+/// Temperature to radiance and back, 8-14 um, 200 to 400 K: Veldt's, the published script's, and textbook methods.
 [[nodiscard]] std::vector<BenchRow> evaluator_rows();
 
 }  // namespace thermal

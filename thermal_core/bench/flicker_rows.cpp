@@ -20,7 +20,7 @@ constexpr std::uint32_t kSeed = 1;
 
 using AddNext = std::function<void(std::uint32_t frame, std::span<float> out)>;
 
-/// A way of making 1/f noise.
+/// A generator of 1/f noise.
 struct Generator {
   std::string name;
   Density density;
@@ -30,7 +30,7 @@ struct Generator {
 
 Generator pole_zero(double poles_per_decade) {
   const FlickerFilter filter = FlickerFilter::design(kSceneRateHz, poles_per_decade);
-  return {.name = fmt::format("pole-zero, {} a decade, {} poles", poles_per_decade, filter.poles.size()),
+  return {.name = fmt::format("pole-zero, {} per decade, {} poles", poles_per_decade, filter.poles.size()),
           .density = [filter](double f_hz) { return filter.density(f_hz, kSceneRateHz); },
           .variance = filter.variance(),
           .start = [filter](std::size_t pixels) -> AddNext {
@@ -66,7 +66,7 @@ double measured_slope_error(const Generator& generator) {
   const std::vector<double> spectrum = mean_periodogram(series, kSceneRateHz);
   const double bin_hz = kSceneRateHz / kFrames;
   const double half_band = std::pow(kHighHz / kLowHz, 0.5 / kBands);
-  const auto band_mean = [&](double frequency_hz) {  // of f S, which hardly changes within a band
+  const auto band_mean = [&](double frequency_hz) {  // of f S, which is nearly constant within a band
     double sum = 0;
     int count = 0;
     const auto last = static_cast<std::size_t>(frequency_hz * half_band / bin_hz);

@@ -24,10 +24,10 @@ constexpr std::uint16_t kFirstActor = 101;
 constexpr int kColumns = 10;
 constexpr int kRows = 5;
 
-/// Half sides of an actor [px]: 3 to 22 wide, people to elephants from near by.
+/// Half widths of an actor [px]: 3 to 22 wide, from people to near elephants.
 double half_width_px(int actor) { return 3 + 19 * std::fmod(0.618 * actor, 1); }
 
-/// Which actor is at a pixel, hidden by nothing; 0 for none.
+/// The actor at a pixel, ignoring occlusion; 0 for none.
 std::uint16_t actor_at(int x, int y) {
   const int column = x * kColumns / kSceneWidthPx;
   const int row = y * kRows / kSceneHeightPx;
@@ -40,7 +40,7 @@ std::uint16_t actor_at(int x, int y) {
   return inside ? static_cast<std::uint16_t>(kFirstActor + actor) : std::uint16_t{0};
 }
 
-/// Patches of plants some pixels across, and a trunk before the middle of every third actor.
+/// Patches of plants some pixels across, and a trunk in front of every third actor.
 bool is_plant(int x, int y) {
   const int cell = kSceneWidthPx / kColumns;
   if ((x / cell) % 3 == 1 && std::abs(x % cell - cell / 2) < 2) return true;
@@ -62,7 +62,7 @@ Passes passes_with_actors() {
   return passes;
 }
 
-/// What a renderer's manifest says of them; where they stand is made up, and the camera looks straight down on it.
+/// A manifest as a renderer writes it; positions are synthetic, and the camera looks straight down.
 Manifest manifest_of_actors() {
   Manifest manifest;
   manifest.clip = "bench";
@@ -90,7 +90,7 @@ Manifest manifest_of_actors() {
   return manifest;
 }
 
-/// A frame and all that labelling it takes.
+/// A frame and everything needed to label it.
 struct LabelScene {
   Manifest manifest = manifest_of_actors();
   Passes passes = passes_with_actors();
@@ -152,7 +152,7 @@ double worst_visibility(const LabelScene& scene) {
   return worst;
 }
 
-/// Contrast by its definition, looking at every pixel of the frame.
+/// Contrast by its definition, over every pixel of the frame.
 double exact_contrast_k(const LabelScene& scene, const Instance& instance, const BandRadiance& band) {
   const PixelBox& box = instance.box;
   const int reach_px = 2 + std::max(4, (std::max(box.width_px, box.height_px) + 1) / 2);

@@ -51,7 +51,7 @@ double memcpy_s(std::size_t bytes, double budget_s) {
   return shortest_run_s(
       [&] {
         std::memcpy(to.data(), from.data(), bytes);
-        // The compiler must not see that nobody reads the copy.
+        // Hides from the compiler that the copy is never read.
         asm volatile("" : : "r"(to.data()) : "memory");
       },
       budget_s);

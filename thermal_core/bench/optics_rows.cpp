@@ -18,8 +18,8 @@ double sinc(double cycles_per_px) {
   return x == 0 ? 1 : std::sin(x) / x;
 }
 
-/// Transfer at a frequency in the plane. The lens is round, the pixel square; what else there is falls apart
-/// into rows and columns, being Gaussian.
+/// Transfer at a two-dimensional frequency. The lens is round and the pixel square; the Gaussian rest is separable
+/// into rows and columns.
 double true_mtf(const OpticsParameters& optics, const SpectralResponse& response, double across,
                 double down) {
   const double radius = std::hypot(across, down);
@@ -65,7 +65,7 @@ StageRow kernel_row(const std::string& name, const OpticsParameters& optics) {
   return timed(row, 2 * sizeof(float), [&] { convolution.apply(picture); });
 }
 
-/// Temperatures stand for radiances: the error of straight lines between pixels is then in kelvin.
+/// Temperatures stand for radiances, so that the error of linear interpolation is in kelvin.
 StageRow distortion_row() {
   constexpr double kFocalLengthPx = 0.013 / 17e-6;
   const CameraIntrinsics camera = {.width_px = kSceneWidthPx,

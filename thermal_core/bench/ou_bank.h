@@ -9,10 +9,9 @@
 
 namespace thermal {
 
-/// Independent Ornstein-Uhlenbeck processes whose sum has a spectrum near 1/f: the reference that the
-/// sensor's cheaper filter is measured against. Corners are evenly spread in log frequency from 1e-3 Hz to a
-/// third of Nyquist, variances fitted (least squares of the relative error from 3e-3 Hz to Nyquist). Sampled
-/// exactly.
+/// Independent Ornstein-Uhlenbeck processes with a spectrum near 1/f in sum: the reference for the sensor's cheaper
+/// filter. Corners are evenly spaced in log frequency from 1e-3 Hz to a third of Nyquist, variances fitted (least
+/// squares of the relative error from 3e-3 Hz to Nyquist). Sampled exactly.
 struct OuBank {
   std::vector<double> decays;  ///< from frame to frame
   std::vector<double> variances;
@@ -27,7 +26,7 @@ struct OuBank {
   [[nodiscard]] double variance() const;
 };
 
-/// The bank's noise of every pixel over time, from the stationary distribution.
+/// The bank's noise of every pixel over time, started from the stationary distribution.
 class OuNoise {
  public:
   OuNoise(std::uint32_t seed, std::string_view clip, OuBank bank, std::size_t pixels);

@@ -45,7 +45,7 @@ void write_passes(const Path& file, const Passes& passes) {
   Imf::FrameBuffer buffer;
   for (const auto& [name, plane] : planes) {
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-    // A frame buffer is for reading into, too, and so takes no pointer to const.
+    // A frame buffer also serves for reading, so it takes no pointer to const.
     float* const pixels =
         const_cast<float*>(plane.pixels().data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
     buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, pixels, header.dataWindow(), sizeof(float)));

@@ -13,7 +13,7 @@ namespace thermal {
 namespace {
 
 constexpr std::size_t kBytesInAndOut = sizeof(float) + sizeof(std::uint16_t) + sizeof(std::uint8_t);
-constexpr int kEveryPx = 7;  // pixels apart: the double-precision way takes microseconds each
+constexpr int kEveryPx = 7;  // pixels apart: the double-precision reference takes microseconds each
 
 StageRow table_row() {
   const BandRadiance band(SensorParameters().response);
@@ -32,7 +32,7 @@ StageRow table_row() {
   return timed(row, 2 * sizeof(float), [&] { table.temperatures(scene.pixels(), temperatures_k.pixels()); });
 }
 
-/// The scene's temperatures, all so much warmer.
+/// The scene's temperatures with a constant added.
 std::vector<double> temperatures(double warmer_k) {
   std::vector<double> all_k;
   for (int y = 0; y < kSceneHeightPx; ++y) {
@@ -49,7 +49,7 @@ Plane<std::uint16_t> counts_of(const std::vector<double>& temperatures_k, double
   return ir16;
 }
 
-/// How the pictures of an AGC differ from the reference's in the second of two frames, the warmer one.
+/// Differences of an AGC's pictures from the reference's in the second of two frames, the warmer one.
 std::vector<Figure> agc_figures(const AgcParameters& parameters, const AgcScene& scene) {
   ReferenceAgc reference(parameters, scene);
   Agc agc(parameters, scene);
@@ -87,7 +87,7 @@ StageRow agc_row(const std::string& name, AgcMode mode) {
                [&] { apply_tone_curve(agc.next(ir16), parameters.polarity, ir16, ir8); });
 }
 
-/// The pixel under the whole kernel, in double precision. It lies far enough from the border.
+/// The pixel under the whole kernel, in double precision. It must be far enough from the border.
 double blurred(const Plane<float>& scene, const HalfKernel& kernel, int x, int y) {
   const int radius = static_cast<int>(kernel.size()) - 1;
   double sum = 0;

@@ -6,8 +6,8 @@
 
 namespace thermal {
 
-/// The AGC modes once more, in double precision, from temperatures that were never rounded to counts and
-/// without a table: what Agc is measured against. Histograms have bins of 0.04 K as Agc's.
+/// The AGC modes in double precision, on unrounded temperatures and without a table: the reference for Agc.
+/// Histograms have bins of 0.04 K, like Agc's.
 class ReferenceAgc {
  public:
   ReferenceAgc(const AgcParameters& parameters, const AgcScene& scene);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "dataset/blender_failure.h"
 #include "io/child_process.h"
 #include "io/json_file.h"
 
@@ -13,8 +14,8 @@ namespace thermal {
 namespace {
 
 std::vector<std::string> command_of(const ProfileTask& task, const char* script) {
-  std::vector<std::string> command = {task.blender.string(), "--background", "--factory-startup",
-                                      "--python-exit-code", "1"};
+  std::vector<std::string> command = {task.blender.string(), "--background",       "--factory-startup",
+                                      "--disable-autoexec",  "--python-exit-code", "1"};
   if (task.threads > 0) command.insert(command.end(), {"--threads", std::to_string(task.threads)});
   command.insert(command.end(), {"--python", (task.home / "blender_scripts" / script).string(), "--",
                                  "--config", task.config.string(), "--out", task.out.string(), "--events-fd",
@@ -22,24 +23,26 @@ std::vector<std::string> command_of(const ProfileTask& task, const char* script)
   return command;
 }
 
-/// Runs Blender to its end. IoError with its own reason if it fails.
+/// Runs Blender to completion. IoError with Blender's reason if it fails.
 void run_blender(const std::vector<std::string>& command, const ProfileTask& task,
                  const std::function<void(const std::string& kind, const Json& event)>& take) {
   constexpr int kPollMs = 1000;
   Path log = task.out;
   log += ".log";
   ChildProcess process(command, log);
-  std::string reason = "it gave no reason";
+  std::string reported;
   while (!process.ended()) {
     const Json event = Json::parse(process.next_line(kPollMs).value_or(""), nullptr, false);
     if (!event.is_object()) continue;
     const auto kind = event.value("event", std::string());
-    if (kind == "error") reason = event.value("message", reason);
+    if (kind == "error") reported = reported_failure(event).in_words();
     take(kind, event);
   }
   const ExitStatus status = process.wait();
-  if (status.signal != 0 || status.code != 0)
-    throw IoError(fmt::format("Blender {} while measuring frames: {}", status.in_words(), reason));
+  if (status.signal == 0 && status.code == 0) return;
+  // The log is in a folder that is about to be removed: what it says last is part of the message.
+  throw IoError(reported.empty() ? unreported_end(status, "measuring frames", last_words_in(log, 0))
+                                 : "Blender failed while measuring frames: " + reported);
 }
 
 Profile to_profile(const Json& event) {
@@ -68,7 +71,7 @@ Profile profile_frames(const ProfileTask& task) {
   try {
     return to_profile(profile);
   } catch (const Json::exception& error) {
-    throw IoError(fmt::format("profile_render.py told of frames in other words: {}", error.what()));
+    throw IoError(fmt::format("unexpected output of profile_render.py: {}", error.what()));
   }
 }
 
@@ -80,7 +83,7 @@ double rendered_per_s(const ProfileTask& task, const std::string& clip) {
   run_blender(command, task, [&whole_at](const std::string& kind, const Json&) {
     if (kind == "frame") whole_at.push_back(Clock::now());
   });
-  if (whole_at.size() < 2) throw IoError("render_passes.py told of fewer than two frames");
+  if (whole_at.size() < 2) throw IoError("render_passes.py reported fewer than two frames");
   const std::chrono::duration<double> taken = whole_at.back() - whole_at.front();
   return static_cast<double>(whole_at.size() - 1) / taken.count();
 }

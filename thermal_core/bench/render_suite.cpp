@@ -16,7 +16,7 @@
 namespace thermal {
 namespace {
 
-/// A config of the project with other settings of `render`, as a file in `folder`.
+/// A config of the project with other `render` settings, as a file in `folder`.
 Path config_with(const Path& home, const std::string& name, const Json& render, const Path& folder) {
   Json config = read_json(home / "configs" / (name + ".json"));
   config["render"] = render;
@@ -36,7 +36,7 @@ Passes read_all(const Path& file) {
   return read_passes(file, {.layer = "Scene"}, {.depth = true, .normals = true});
 }
 
-/// Time beside size. What Blender takes to write one is among the steps of a frame.
+/// Time against size. Blender's time to write a file is among the steps of a frame.
 std::vector<RenderRow> file_rows(const Path& file) {
   constexpr double kMega = 1e6;
   const std::string content = read_file(file);
@@ -52,7 +52,7 @@ std::vector<RenderRow> file_rows(const Path& file) {
           row("its bytes written", shortest_run_s([&] { write_file(copy, bytes); }))};
 }
 
-/// Pixels of which any plane differs in a bit.
+/// Pixels with any bit different in any plane.
 int differing_pixels(const Passes& one, const Passes& other) {
   int count = 0;
   const auto differs = [](const auto& a, const auto& b, std::size_t at) {
@@ -74,7 +74,7 @@ RenderRow process_row(const char* name, double frames_per_s, int differing_px) {
           {{"frames_per_s", frames_per_s}, {"differing_px", static_cast<double>(differing_px)}}};
 }
 
-/// Frames/s of one process with two threads and of two with one, actor layers included; then a frame as a file.
+/// Frames/s of one process with two threads and of two with one each, including actor layers; then a frame as a file.
 std::vector<RenderRow> process_rows(const RenderSuiteTask& task, const Path& folder) {
   constexpr int kFrames = 12;
   Json config = read_json(task.home / "configs" / "demo.json");
@@ -87,9 +87,9 @@ std::vector<RenderRow> process_rows(const RenderSuiteTask& task, const Path& fol
     return rendered_per_s({task.blender, task.home, file, folder / out, threads}, clip);
   };
   const auto frame = [&](const char* out) { return folder / out / clip / "000001.exr"; };
-  task.tell("demo with actor layers, one process of two threads");
+  task.announce("demo with actor layers, one process of two threads");
   const double wide = rate("wide", 2);
-  task.tell("demo with actor layers, two processes of one thread");
+  task.announce("demo with actor layers, two processes of one thread");
   auto second = std::async(std::launch::async, [&] { return rate("second", 1); });
   const double first = rate("first", 1);
   const double pair = first + second.get();
@@ -107,7 +107,7 @@ std::vector<RenderRow> run_render_suite(const RenderSuiteTask& task) {
   std::vector<RenderRow> rows;
   for (const char* scene : {"demo", "savanna"}) {
     for (const int supersample : {1, 2}) {
-      task.tell(fmt::format("{}, {}x{} rays a pixel", scene, supersample, supersample));
+      task.announce(fmt::format("{}, {}x{} rays per pixel", scene, supersample, supersample));
       const Path config = config_with(task.home, scene, {{"supersample", supersample}}, folder.path());
       const Path out = folder.path() / fmt::format("{}_{}", scene, supersample);
       const Profile profile = profile_frames({task.blender, task.home, config, out});

@@ -9,7 +9,7 @@
 
 namespace thermal {
 
-/// One thing that was measured; all rows of a group have the same figures.
+/// One measurement; all rows of a group have the same figures.
 struct RenderRow {
   std::string group;
   std::string name;
@@ -19,11 +19,11 @@ struct RenderRow {
 struct RenderSuiteTask {
   Path blender;
   Path home;
-  std::function<void(const std::string&)> tell = {};  ///< what is measured next
+  std::function<void(const std::string&)> announce = {};  ///< the next measurement
 };
 
-/// What a frame of passes takes, by scene, supersampling and step; processes against threads, and whether they
-/// make the same bits; files of passes against copying and writing their bytes. Takes minutes. IoError if Blender fails.
+/// Time of a frame of passes by scene, supersampling and step; processes against threads, and whether their output is
+/// identical; files of passes against copying and writing their bytes. Takes minutes. IoError if Blender fails.
 [[nodiscard]] std::vector<RenderRow> run_render_suite(const RenderSuiteTask& task);
 
 }  // namespace thermal

@@ -11,7 +11,7 @@ namespace {
 
 SpectralResponse flat_8_14_um() { return SpectralResponse::flat(8, 14); }
 
-/// The terms' formulas once more, in double and without a table, for a single pixel.
+/// The terms' formulas in double precision and without tables, for a single pixel.
 class ExactChain {
  public:
   ExactChain(const BenchScene& scene, const MaterialLibrary& materials, const PhysicsSettings& settings)
@@ -106,7 +106,7 @@ class ExactChain {
   double air_radiance_;
 };
 
-/// Bytes of the planes a chain reads, and of the one it writes.
+/// Bytes of the planes that a chain reads, and of the one it writes.
 std::size_t bytes_moved(const PassNeeds& needs, std::size_t pixels) {
   std::size_t bytes = 2 * sizeof(std::uint16_t) + sizeof(float);
   if (needs.depth) bytes += sizeof(float);
@@ -123,7 +123,7 @@ BenchRow term_row(const std::string& name, const Terms& terms, const BenchScene&
   BenchRow row{.group = "term: " + name, .name = name};
   Plane<float> plane = chain.radiance(scene.passes, scene.manifest.frames[0]);
   ErrorStatistics errors;
-  constexpr int kEvery = 7;  // pixels apart: the double-precision way takes microseconds each
+  constexpr int kEvery = 7;  // pixels apart: the double-precision reference takes microseconds each
   for (int y = 0; y < plane.height_px(); y += kEvery) {
     for (int x = 0; x < plane.width_px(); x += kEvery) {
       const double value = exact.radiance(x, y);
@@ -182,7 +182,7 @@ std::vector<BenchRow> term_rows(const MaterialLibrary& materials) {
   std::vector<BenchRow> rows = {term_row("emission alone", {}, scene, materials)};
   for (const TermInfo& term : kTerms) {
     if (term.name == "parts" || term.name == "falloff")
-      continue;  // they change figures, not the work a pixel is
+      continue;  // they change values, not the work per pixel
     Terms one;
     one.*term.kept = true;
     rows.push_back(term_row("emission + " + std::string(term.name), one, scene, materials));

@@ -11,8 +11,8 @@ namespace thermal {
 /// formulas in double precision, pixel by pixel.
 [[nodiscard]] std::vector<BenchRow> term_rows(const MaterialLibrary& materials);
 
-/// A person seen straight down from 122 m, a few pixels in size, supersampled 1 to 4 times each way; error of
-/// the pixels it touches against 8 times.
+/// A person seen from straight above at 122 m, a few pixels in size, supersampled 1 to 4 times per axis; error of the
+/// affected pixels against 8 times.
 [[nodiscard]] std::vector<BenchRow> supersample_rows(const MaterialLibrary& materials);
 
 }  // namespace thermal

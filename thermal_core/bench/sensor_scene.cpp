@@ -42,7 +42,7 @@ SensorParameters full_camera() {
                   .frame_ratio = 0.05,
                   .drift_ratio = 0.5};
   camera.shutter = {.interval_s = 180,
-                    .freeze_s = 0};  // a closed shutter is cheap, and would be the shortest run
+                    .freeze_s = 0};  // a frame with a closed shutter is cheap, and would be the shortest run
   camera.bad_pixels = {.dead_share = 1e-3, .blinking_share = 1e-4};
   camera.agc.mode = AgcMode::plateau;
   return camera;

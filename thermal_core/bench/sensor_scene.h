@@ -13,14 +13,14 @@ inline constexpr double kSceneRateHz = 30;
 /// Smooth ground, 282 to 288 K, at a place in pixels: waves of 8 px and longer.
 [[nodiscard]] double ground_k(double u_px, double v_px);
 
-/// The same with squares 10 K warmer on it, 10 px wide: edges for optics, two heaps for a histogram.
+/// The same with squares on it, 10 K warmer and 10 px wide: edges for optics, two peaks for a histogram.
 [[nodiscard]] double scene_k(double u_px, double v_px);
 
-/// In-band radiance of scene_k(), one value a pixel.
+/// In-band radiance of scene_k(), one value per pixel.
 [[nodiscard]] Plane<float> scene_radiance(const SpectralResponse& response);
 
-/// A camera with every stage at work: physical optics f/1.0 12 um, 10 ms of lag, white and 1/f noise, every
-/// pattern, bad pixels, plateau equalisation. Ratios are like a preset's, and no camera's.
+/// A camera with every stage enabled: physical optics f/1.0 12 um, 10 ms of lag, white and 1/f noise, every pattern,
+/// bad pixels, plateau equalisation. Ratios are typical of presets, but not those of any camera.
 [[nodiscard]] SensorParameters full_camera();
 
 /// A clip of the scene's size and rate.

@@ -6,9 +6,9 @@
 
 namespace thermal {
 
-/// Speed beside error of everything between radiance and pictures on a 640 x 512 frame: every stage alone,
-/// the generators of 1/f noise against each other, and the whole camera. One thread, seeds fixed. Every error
-/// is measured before its stage is timed.
+/// Speed and error of everything between radiance and pictures on a 640 x 512 frame: every stage alone, the
+/// generators of 1/f noise against each other, and the whole camera. One thread, fixed seeds. The error of each stage
+/// is measured before its time.
 [[nodiscard]] std::vector<StageRow> run_sensor_suite();
 
 }  // namespace thermal

@@ -31,10 +31,11 @@ Json box_entry(const LabelBox& box) {
           rounded(box.y_px + box.height_px - top, kStepsAPixel)};
 }
 
-/// What a user projects points of the scene with.
+/// What a user needs to project points of the scene; OpenCV's principal point is 0.5 px less.
 Json camera_entry(const CameraIntrinsics& camera, const LensDistortion& lens) {
-  return {{"fx_px", camera.fx_px}, {"fy_px", camera.fy_px}, {"cx_px", camera.cx_px}, {"cy_px", camera.cy_px},
-          {"k1", lens.k1},         {"k2", lens.k2},         {"p1", lens.p1},         {"p2", lens.p2}};
+  return {{"fx_px", camera.fx_px}, {"fy_px", camera.fy_px}, {"cx_px", camera.cx_px},
+          {"cy_px", camera.cy_px}, {"k1", lens.k1},         {"k2", lens.k2},
+          {"p1", lens.p1},         {"p2", lens.p2},         {"k3", lens.k3}};
 }
 
 }  // namespace
@@ -132,7 +133,7 @@ void ClipAnnotations::write(const TakeText& take) {
   document.end();
 }
 
-/// With the size class that only the whole clip tells, in the place of the closing brace.
+/// Replaces the closing brace by the size class, which is known only at the end of the clip.
 void ClipAnnotations::write_annotations(JsonStream& document) {
   constexpr std::string_view kEnd = "\n    }\n";
   std::string text;

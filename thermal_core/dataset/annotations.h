@@ -14,17 +14,18 @@
 
 namespace thermal {
 
-/// Collects one clip's labels, frame after frame, as a COCO document of its own: ids from 1, file names
-/// relative to the clip's folder, one entry in videos. What grows with the clip is put aside.
+/// Collects one clip's labels, frame after frame, as a COCO document of its own: ids from 1, file names relative to
+/// the clip's folder, one entry in videos. Data that grows with the clip is spooled.
 class ClipAnnotations {
  public:
-  /// `lens`: the distortion the labels went through; it is told with the camera, so that users can project.
-  /// `spool`: file that holds labels while the clip is made; empty: they stay in memory.
+  /// `lens`: the distortion applied to the labels; written with the camera, so that users can project points.
+  /// `spool`: file for labels while the clip is made; empty: in memory.
   explicit ClipAnnotations(const Manifest& manifest, const LensDistortion& lens = {},
                            const LabelParameters& parameters = {}, const Path& spool = {});
 
-  /// What is not known of an instance is left out. Places are rounded to 0.01 px, all else to four decimals.
-  /// `frozen`: the shutter was closed, and the picture is one of before; what is labelled is where things are now.
+  /// Unknown properties of an instance are left out. Positions are rounded to 0.01 px, everything else to four
+  /// decimals.
+  /// `frozen`: the shutter was closed, and the picture is an earlier one; labels show the current positions.
   void add_frame(int frame, const std::vector<Instance>& instances, bool frozen = false);
 
   [[nodiscard]] int count() const noexcept { return count_; }
@@ -34,7 +35,7 @@ class ClipAnnotations {
   void write(const TakeText& take);
 
  private:
-  /// A frame that was made.
+  /// A finished frame.
   struct Image {
     int frame = 0;
     bool frozen = false;
@@ -53,16 +54,16 @@ class ClipAnnotations {
   const Manifest& manifest_;
   LensDistortion lens_;
   LabelParameters parameters_;
-  std::vector<const ManifestObject*> objects_;  ///< by index; null where it is no actor
+  std::vector<const ManifestObject*> objects_;  ///< by index; null if it is not an actor
   std::set<std::string> categories_;
   std::map<std::string, int> category_ids_;
   std::vector<Image> images_;
   std::map<int, Boxes> tracks_;
-  Spool annotations_;  ///< of each its text, then its track's id in a line of its own
+  Spool annotations_;  ///< for each its text, then its track's id on a line of its own
   int count_ = 0;
 };
 
-/// The list of categories in use, by their ids.
+/// The list of categories in use, by id.
 [[nodiscard]] Json category_list(const std::set<std::string>& used);
 
 }  // namespace thermal

@@ -12,7 +12,7 @@ namespace thermal {
 
 [[nodiscard]] int frames_of(const std::vector<ClipConfig>& clips);
 
-/// Where these clips are in the config: what a run holds of its folder.
+/// Positions of these clips in the config: the part of its folder that a run locks.
 [[nodiscard]] std::vector<std::size_t> places_of(const Config& config, const std::vector<ClipConfig>& clips);
 
 }  // namespace thermal

@@ -22,23 +22,23 @@ namespace {
 
 constexpr std::size_t kFramesInFlight = 8;
 
-/// Fewer of large pictures: with these, what frames on their way hold of them stays under half a gigabyte.
+/// Limits the number of large pictures, so that the memory of frames in flight stays under half a gigabyte.
 std::size_t frames_in_flight(const CameraIntrinsics& camera) {
   constexpr std::size_t kPixelsInFlight = 24'000'000;
   const auto pixels = static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
   return std::clamp<std::size_t>(kPixelsInFlight / pixels, 2, kFramesInFlight);
 }
 
-/// A frame on its way through the pipeline: what each scene and each output makes of it.
+/// A frame in the pipeline: the results of each scene and each output.
 struct FrameWork {
   int number = 0;
-  std::exception_ptr fault;             ///< of its file or what that holds
+  std::exception_ptr fault;             ///< the fault of its file or contents
   std::optional<SkippedFrame> skipped;  ///< for that fault
   std::vector<SceneFrame> scenes;
   std::vector<ClipOutput::Frame> frames;
 };
 
-/// What is made of a scene's frames for one task.
+/// The output of a scene's frames for one task.
 struct Output {
   std::size_t scene;
   ClipOutput clip;
@@ -66,7 +66,7 @@ Outputs open_outputs(const std::vector<ClipTask>& tasks, const Manifest& manifes
   return outputs;
 }
 
-/// Makes one clip for all its tasks: the stages of the pipeline, and what they share.
+/// Makes one clip for all its tasks: the stages of the pipeline, and their shared state.
 class ClipMaker {
  public:
   ClipMaker(const ClipPasses& passes, const std::vector<ClipTask>& tasks, const MaterialLibrary& materials,
@@ -129,7 +129,7 @@ class ClipMaker {
     return work;
   }
 
-  /// While a thread waits in here for others, it takes on no other frame (parallel_for()): the buffer is this one's.
+  /// A thread that waits in here takes on no other frame (parallel_for()): the buffer belongs to this one.
   void convert(FrameWork& work) {
     const Path file = file_of(passes_, work.number);
     PassBuffer& buffer = buffers_.local();
@@ -141,8 +141,8 @@ class ClipMaker {
     }
   }
 
-  /// Frames come one by one here: with several outputs, those are what there is to share between cores. A fault waits
-  /// for its turn, so that which one is told does not hang on which was found first.
+  /// Frames arrive here one by one; with several outputs, these are what can be shared between cores. Faults are
+  /// reported in frame order, so that the reported one does not depend on which was found first.
   FrameWork* expose(FrameWork* work) {
     if (work->fault) {
       skip(*work);
@@ -186,8 +186,8 @@ class ClipMaker {
   Outputs outputs_;
   PassNeeds needs_;  ///< of all scenes
   tbb::enumerable_thread_specific<PassBuffer> buffers_;
-  /// Frame k is in place k modulo their number. That one is free again when k enters: frames leave in order.
-  /// Pointers, because what TBB allocates to pass on larger things, it loses when a stage throws.
+  /// Frame k is in slot k modulo their number. That slot is free again when k enters, because frames leave in order.
+  /// Pointers, because TBB leaks the memory it allocates to pass larger objects when a stage throws.
   std::array<FrameWork, kFramesInFlight> in_flight_;
   int next_frame_ = 0;
   int frames_skipped_ = 0;
@@ -200,7 +200,7 @@ std::vector<ClipRecord> make_clips(const ClipPasses& passes, const std::vector<C
                                    const MaterialLibrary& materials, const ClipHooks& hooks) {
   try {
     return ClipMaker(passes, tasks, materials, hooks).make();
-  } catch (...) {  // half a clip is of no use, and may be in need of room
+  } catch (...) {  // an incomplete clip is useless, and takes disk space
     for (const ClipTask& task : tasks) sweep_folder(task.layout.unfinished_clip(task.clip.id));
     throw;
   }

@@ -54,6 +54,7 @@ ClipOutput::ClipOutput(const ClipTask& task, const Manifest& manifest, float bri
 
 void ClipOutput::expose(const SceneFrame& scene, Frame& frame) {
   frame.instances = scene.instances;
+  frame.checks = scene.checks;
   camera_.expose(scene.radiance_w_m2_sr, frame.pictures, [&](const Plane<float>& radiance_w_m2_sr) {
     tell_contrast(camera_, radiance_w_m2_sr, frame.instances);
   });
@@ -73,12 +74,13 @@ void ClipOutput::collect(int number, const Frame& frame) {
   record_.files["ir8/" + frame_name(number)] = frame.ir8.file_sha256;
   record_.files["ir16/" + frame_name(number)] = frame.ir16.file_sha256;
   frames_jsonl_.add(frame_line(number, frame).dump() + "\n");
+  checks_ += frame.checks;
   ++record_.frames;
 }
 
 void ClipOutput::skip(int number, const std::string& reason) {
   camera_.skip();
-  record_.skipped.push_back({.frame_index = number, .file = told_of(number).file, .reason = reason});
+  record_.skipped.push_back({.frame_index = number, .file = frame_of(number).file, .reason = reason});
 }
 
 ClipRecord ClipOutput::finish() {
@@ -92,6 +94,8 @@ ClipRecord ClipOutput::finish() {
   record_.annotations = annotations_.count();
   record_.frame_rate_hz = manifest_.frame_rate_hz;
   record_.pixels_sha256 = pixels_.hex();
+  if (checks_.depth.pixels > 0) record_.unusable_depth_share = checks_.depth.share();
+  if (checks_.normal.pixels > 0) record_.unusable_normal_share = checks_.normal.share();
   write_file_atomically(folder_ / "clip.json", to_text(to_json(record_)));
   return record_;
 }
@@ -101,16 +105,16 @@ void ClipOutput::move_into_place() const {
   replace_folder(folder_, finished);
 }
 
-const ManifestFrame& ClipOutput::told_of(int number) const {
+const ManifestFrame& ClipOutput::frame_of(int number) const {
   return manifest_.frames[static_cast<std::size_t>(number)];
 }
 
 Json ClipOutput::frame_line(int number, const Frame& frame) const {
-  const ManifestFrame& told = told_of(number);
-  Json line = {{"frame_index", number}, {"time_s", told.time_s}};
-  if (told.agl_m) line["agl_m"] = *told.agl_m;
-  if (told.look_angle_deg) line["look_angle_deg"] = *told.look_angle_deg;
-  if (told.camera_to_world) line["camera_to_world"] = *told.camera_to_world;
+  const ManifestFrame& pose = frame_of(number);
+  Json line = {{"frame_index", number}, {"time_s", pose.time_s}};
+  if (pose.agl_m) line["agl_m"] = *pose.agl_m;
+  if (pose.look_angle_deg) line["look_angle_deg"] = *pose.look_angle_deg;
+  if (pose.camera_to_world) line["camera_to_world"] = *pose.camera_to_world;
   line["ffc"] = frame.pictures.shutter_closed;
   line["agc"] = tone_record(frame.pictures.curve, task_.sensor.agc, brightest_w_m2_sr_);
   line["ir8_sha256"] = frame.ir8.pixels_sha256;

@@ -15,48 +15,49 @@
 
 namespace thermal {
 
-/// One task's clip while it is made: its camera and its files, in the task's unfinished folder.
-/// A frame of its scene goes through expose, write and collect; different frames may be written at the same time,
-/// expose and collect want them one by one and in order.
+/// One task's clip while it is made: its camera and its files, in the task's unfinished folder. A frame of its scene
+/// goes through expose, write and collect; different frames may be written at the same time, expose and collect must
+/// be called one by one and in order.
 class ClipOutput {
  public:
-  /// One picture as it was written: sums of its pixels and of its file.
+  /// Checksums of one written picture: of its pixels and of its file.
   struct WrittenPicture {
     std::string pixels_sha256;
     std::string file_sha256;
   };
-  /// A frame on its way. Its memory is used again.
+  /// A frame in flight. Its memory is reused.
   struct Frame {
     std::vector<Instance> instances;
+    PassChecks checks;
     SensorFrame pictures;
     WrittenPicture ir8;
     WrittenPicture ir16;
     std::vector<std::byte> png;
   };
 
-  /// Empties the task's unfinished folder, or makes it. `task` and `manifest` must outlive this.
+  /// Creates the task's unfinished folder, or empties it. `task` and `manifest` must outlive this object.
   /// @param brightest_w_m2_sr  of the task's scene: FrameConverter::brightest_w_m2_sr()
-  /// @param temperatures  for its camera: see there
+  /// @param temperatures  for its camera; see ThermalCamera
   ClipOutput(const ClipTask& task, const Manifest& manifest, float brightest_w_m2_sr,
              std::shared_ptr<const TemperatureTable> temperatures);
 
-  /// `scene` may be that of other outputs as well: what this camera tells of actors is written into the frame.
+  /// `scene` may be shared with other outputs: this camera's properties of actors are written into the frame.
   void expose(const SceneFrame& scene, Frame& frame);
   void write(int number, Frame& frame) const;
   void collect(int number, const Frame& frame);
 
-  /// Instead of expose(), for a frame that could not be read or converted: the clip goes on without it. Its number stays
-  /// free in file names, labels and frames.jsonl; clip.json tells of it.
+  /// Replaces expose() for a frame that could not be read or converted: the clip continues without it. Its number
+  /// stays unused in file names, labels and frames.jsonl; clip.json lists it.
   void skip(int number, const std::string& reason);
 
-  /// Writes what is about the clip as a whole.
+  /// Writes the files of the clip as a whole.
   ClipRecord finish();
 
   /// Renames the finished clip's folder.
   void move_into_place() const;
 
  private:
-  [[nodiscard]] const ManifestFrame& told_of(int number) const;
+  [[nodiscard]] const ManifestFrame& frame_of(int number) const;
   [[nodiscard]] Json frame_line(int number, const Frame& frame) const;
   void write_labels();
 
@@ -69,6 +70,7 @@ class ClipOutput {
   ClipAnnotations annotations_;
   Sha256 pixels_;
   ClipRecord record_;
+  PassChecks checks_;  ///< of all frames made
   OutputFile frames_jsonl_;
 };
 

@@ -21,7 +21,17 @@ std::vector<SkippedFrame> read_skipped(const Json& record) {
   return frames;
 }
 
+std::optional<double> read_share(const Json& record, const char* key) {
+  if (!record.contains(key)) return std::nullopt;
+  return record.at(key).get<double>();
+}
+
 }  // namespace
+
+void add_unusable(const ClipRecord& record, Json& json) {
+  if (record.unusable_depth_share) json["unusable_depth_share"] = *record.unusable_depth_share;
+  if (record.unusable_normal_share) json["unusable_normal_share"] = *record.unusable_normal_share;
+}
 
 Json to_json(const ClipRecord& record) {
   Json json = {{"format", "veldt-clip"},
@@ -34,6 +44,7 @@ Json to_json(const ClipRecord& record) {
                {"frame_rate_hz", record.frame_rate_hz},
                {"pixels_sha256", record.pixels_sha256},
                {"files", record.files}};
+  add_unusable(record, json);
   for (const SkippedFrame& frame : record.skipped) json["skipped"].push_back(to_json(frame));
   return json;
 }
@@ -49,11 +60,13 @@ ClipRecord read_clip_record(const Path& file) {
             .frame_rate_hz = json.at("frame_rate_hz"),
             .pixels_sha256 = json.at("pixels_sha256"),
             .files = json.at("files").get<std::map<std::string, std::string>>(),
-            .skipped = read_skipped(json)};
+            .skipped = read_skipped(json),
+            .unusable_depth_share = read_share(json, "unusable_depth_share"),
+            .unusable_normal_share = read_share(json, "unusable_normal_share")};
   } catch (const ConfigError& error) {
     throw DataError(error.what());
   } catch (const Json::exception& error) {
-    throw DataError(fmt::format("{}: not the record of a clip: {}", file.string(), error.what()));
+    throw DataError(fmt::format("{}: not a clip record: {}", file.string(), error.what()));
   }
 }
 

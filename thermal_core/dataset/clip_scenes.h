@@ -10,20 +10,20 @@
 
 namespace thermal {
 
-/// What a clip's tasks make of its passes before their sensors: tasks that differ in the sensor alone have one scene,
-/// which is converted once a frame for all of them. Likewise tables of temperatures, one a response.
+/// What a clip's tasks need from its passes before their sensors. Tasks that differ only in the sensor share one
+/// scene, which is converted once per frame; tables of temperatures are shared by response.
 class ClipScenes {
  public:
-  /// Both must outlive this.
+  /// Both must outlive this object.
   ClipScenes(const Manifest& manifest, const MaterialLibrary& materials)
       : manifest_(manifest), materials_(materials) {}
 
-  /// Number of a task's scene, which is a new one if no task before had it. ConfigError as FrameConverter's.
+  /// Number of a task's scene, a new one if no earlier task has the same. ConfigError as FrameConverter's.
   std::size_t add(const ClipTask& task);
 
   [[nodiscard]] std::size_t size() const noexcept { return scenes_.size(); }
 
-  /// Planes that any of the scenes wants.
+  /// Planes that any of the scenes needs.
   [[nodiscard]] PassNeeds needs() const;
 
   /// FrameConverter::brightest_w_m2_sr() of a scene.
@@ -34,8 +34,8 @@ class ClipScenes {
   /// apparent_temperatures() of a response, made once.
   [[nodiscard]] std::shared_ptr<const TemperatureTable> temperatures(const SpectralResponse& response);
 
-  /// A frame of each scene, whose memory is used again. DataError without the name of a file. Safe to call from several
-  /// threads.
+  /// Converts a frame for each scene; its memory is reused. DataError without the file's name. Safe to call from
+  /// several threads.
   void convert(const Passes& passes, int number, std::vector<SceneFrame>& out) const;
 
  private:

@@ -19,7 +19,7 @@
 namespace thermal {
 namespace {
 
-/// The folder of a dataset, in which nothing leads elsewhere.
+/// The folder of a dataset, checked for links that lead elsewhere.
 Layout own_layout(const ConvertRequest& request) {
   if (!request.variant.empty()) check_is_no_link(request.out);
   Layout layout{request.out};
@@ -27,7 +27,7 @@ Layout own_layout(const ConvertRequest& request) {
   return layout;
 }
 
-/// Which terms each dataset keeps. Passes are looked into once for all.
+/// Decides which terms each dataset keeps. Passes are inspected once for all.
 std::vector<Budget> budgets_of(const std::vector<ConvertRequest>& requests, const MaterialLibrary& materials,
                                const std::vector<ClipPasses>& sources) {
   const bool looks =
@@ -41,7 +41,7 @@ std::vector<Budget> budgets_of(const std::vector<ConvertRequest>& requests, cons
   return budgets;
 }
 
-/// What is told of automatic terms for which the passes lack something.
+/// Messages about automatic terms for which the passes lack something.
 std::vector<std::string> terms_left_out(const Budget& budget) {
   std::vector<std::string> left_out;
   for (const TermEffect& effect : budget.effects) {
@@ -51,7 +51,7 @@ std::vector<std::string> terms_left_out(const Budget& budget) {
   return left_out;
 }
 
-/// A dataset that is being made.
+/// A dataset being made.
 class Dataset {
  public:
   Dataset(ConvertRequest request, const Budget& budget, const MaterialLibrary& materials,
@@ -76,7 +76,7 @@ class Dataset {
     return !index_.finished.contains(clip) || mended_.contains(clip);
   }
 
-  /// From here on the folder belongs to its config.
+  /// From here on the folder belongs to this config.
   void begin() const {
     if (!index_.complete()) write_progress(layout_, index_);
   }
@@ -110,6 +110,10 @@ class Dataset {
   ConvertOutcome end(const std::vector<ClipPasses>& sources) {
     if (behind_) write_dataset(layout_, index_);
     outcome_.complete = index_.complete();
+    for (const ClipPasses& source : sources) {
+      const std::vector<UnusableShare> shares = index_.unusable({source.manifest.clip});
+      outcome_.unusable.insert(outcome_.unusable.end(), shares.begin(), shares.end());
+    }
     return {.variant = request_.variant,
             .out = request_.out,
             .run = outcome_,
@@ -122,7 +126,7 @@ class Dataset {
   }
 
  private:
-  /// Whether a clip that is there can be made with more of its frames. If strict, making it will tell what is bad.
+  /// Whether an existing clip can be remade with more of its frames. In strict mode, making it reports what is bad.
   [[nodiscard]] bool is_to_mend(const ClipPasses& source, const MaterialLibrary& materials) const {
     const auto found = index_.skipped.find(source.manifest.clip);
     if (found == index_.skipped.end() || found->second.empty()) return false;
@@ -146,18 +150,18 @@ class Dataset {
   DatasetIndex index_;
   Terms kept_;
   std::vector<std::string> left_out_;
-  bool behind_;                   ///< clips are missing, or the files do not tell of all
-  std::set<std::string> mended_;  ///< clips that are there, and are made anew
+  bool behind_;                   ///< clips are missing, or the files do not list all
+  std::set<std::string> mended_;  ///< existing clips that are remade
   RunOutcome outcome_;
 };
 
-/// Makes the clips that are not there yet, clip by clip for all the datasets that lack it.
+/// Makes the missing clips, clip by clip for all the datasets that lack it.
 class Converter {
  public:
   Converter(const std::vector<ConvertRequest>& requests, const std::vector<ClipPasses>& sources,
             const MaterialLibrary& materials, const RunHooks& hooks)
       : sources_(sources), materials_(materials), hooks_(hooks) {
-    // First, because a term that is asked for and cannot be had is a fault, and then no folder is touched.
+    // First, because a required term that is impossible is a fault, and then no folder is touched.
     const std::vector<Budget> budgets = budgets_of(requests, materials, sources);
     for (std::size_t i = 0; i < requests.size(); ++i)
       datasets_.push_back(std::make_unique<Dataset>(requests[i], budgets[i], materials, sources));
@@ -210,7 +214,7 @@ class Converter {
     if (records.empty()) progress_.frames_done = before + static_cast<int>(source.manifest.frames.size());
   }
 
-  /// For where a fault is caught: if strict, it goes on from here.
+  /// Call in a catch block: in strict mode, rethrows.
   void reject(const ClipPasses& source, const std::vector<Dataset*>& wanted, const std::string& why) const {
     for (Dataset* dataset : wanted) dataset->reject(source.manifest.clip, why);
     if (source.bad_frames == BadFrames::fail) throw;

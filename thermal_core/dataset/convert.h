@@ -12,41 +12,42 @@ namespace thermal {
 struct ConvertOptions {
   Path home;
   std::vector<Path> passes;           ///< folders, each one clip: EXR files and a manifest.json
-  Path manifest;                      ///< instead of the folder's own; only with one folder
-  std::optional<Json> config;         ///< document, not yet resolved; without one, defaults and winter
-  std::string config_name;            ///< for faults in it
+  Path manifest;                      ///< replaces the folder's own; only with one folder
+  std::optional<Json> config;         ///< document, not resolved; without one, defaults and winter
+  std::string config_name;            ///< for messages
   std::vector<std::string> settings;  ///< "key=value", applied to the config
-  std::optional<Json> variants;       ///< document: a dataset each, in a folder of its name in `out`
-  std::string variants_name;          ///< for faults in it
+  std::optional<Json> variants;       ///< document: one dataset each, in a folder of its name in `out`
+  std::string variants_name;          ///< for messages
   Path out;
   ReadLimits limits = {};
-  bool strict = false;  ///< the first bad frame or clip ends the run
+  bool strict = false;  ///< stop at the first bad frame or clip
   int threads = 0;
 };
 
-/// The frames a clip was made without.
+/// The frames missing from a clip.
 struct ClipSkips {
   std::string clip;
   Path folder;  ///< of its passes
   std::vector<SkippedFrame> frames;
 };
 
-/// How a dataset of a run came out.
+/// Result of a run for one dataset.
 struct ConvertOutcome {
   std::string variant;  ///< empty: the only dataset
   Path out;             ///< its folder
   RunOutcome run;
-  std::vector<ClipSkips> skips;            ///< of clips this run made, and of those that were there
+  std::vector<ClipSkips> skips;            ///< of clips made in this run, and of existing ones
   std::vector<std::string> left_out = {};  ///< automatic terms, each with what the passes lack for it
 };
 
-/// Turns passes that exist into a dataset, or into one a variant: then a variant is the config with its changes
-/// over it, and the passes of a clip are read once for all variants that lack it. Progress counts frames of
-/// passes, each once. A frame that cannot be converted is named in the outcome, and its clip is made without it; a clip
-/// that cannot be made is named, and the others go on. The next run reads the frames that a clip goes without, and
-/// makes it anew if one of them can be converted now. Nothing is written outside `out`: a folder in it that is a link
-/// is an IoError.
-/// ConfigError, IoError, TryAgainError or Cancelled; DataError for manifests, and for the first bad frame if strict.
+/// Makes a dataset from existing passes, or one per variant: a variant is the config with its changes applied, and
+/// the passes of a clip are read once for all variants that lack it. Progress counts frames of passes, each once. A
+/// frame that cannot be converted is listed in the outcome, and its clip is made without it; a clip that cannot be
+/// made is listed, and the others are still made. The next run reads the skipped frames again, and remakes the clip
+/// if one of them can be converted now. Nothing is written outside `out`: a folder in it that is a link is an
+/// IoError.
+/// ConfigError, IoError, TryAgainError or Cancelled; DataError for manifests and, in strict mode, for the first bad
+/// frame.
 std::vector<ConvertOutcome> convert(const ConvertOptions& options, const RunHooks& hooks);
 
 }  // namespace thermal

@@ -1,15 +1,19 @@
 #include "dataset/convert_requests.h"
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
+#include "io/lens_config.h"
 #include "io/variants.h"
 
 namespace thermal {
 namespace {
 
-/// What stands for a config where none is given.
+/// Used in place of a config if none is given.
 Json default_document(const std::vector<ClipPasses>& sources) {
   Json clips = Json::array();
   for (const ClipPasses& source : sources) {
@@ -25,7 +29,7 @@ Json default_document(const std::vector<ClipPasses>& sources) {
           {"clips", std::move(clips)}};
 }
 
-/// The clip a manifest tells of, where that is cut from one of the config's flights: FLIGHT_0012 is, of FLIGHT.
+/// The clip of a manifest, if it is cut from one of the config's flights: FLIGHT_0012 is, from FLIGHT.
 std::optional<Json> clip_of_flight(const Config& config, const Manifest& manifest) {
   const std::string flight_id = manifest.clip.substr(0, manifest.clip.rfind('_'));
   for (const Json& flight : config.resolved["flights"]) {
@@ -41,7 +45,7 @@ std::optional<Json> clip_of_flight(const Config& config, const Manifest& manifes
   return std::nullopt;
 }
 
-/// Keeps of a config what is about these clips, so that the dataset is complete once they are made.
+/// Reduces a config to these clips, so that the dataset is complete once they are made.
 Config only_clips_of(Config config, const std::vector<ClipPasses>& sources) {
   Json documents = Json::array();
   for (const ClipPasses& source : sources) {
@@ -60,11 +64,38 @@ Config only_clips_of(Config config, const std::vector<ClipPasses>& sources) {
   return with_flights_cut(std::move(config), documents);
 }
 
-/// A folder is a dataset or holds datasets: clips of one must not lie among the others.
+/// The folder of a file that names others. Without a file, names are relative to the working folder.
+Path folder_of(const std::string& file) { return std::filesystem::absolute(file).parent_path(); }
+
+/// The passes were rendered with the manifest's camera. A config that gives intrinsics, directly or by a calibration, must
+/// give the same ones.
+void check_cameras(const Config& config, const std::vector<ClipPasses>& sources, const std::string& name) {
+  if (!gives_intrinsics(config.resolved["camera"])) return;
+  const CameraIntrinsics given = read_intrinsics(config.resolved["camera"]);
+  for (const ClipPasses& source : sources) {
+    const CameraIntrinsics& there = source.manifest.camera;
+    const auto check = [&](const char* key, double given_px, double there_px) {
+      constexpr double kSamePx = 0.01;
+      if (std::abs(given_px - there_px) <= kSamePx) return;
+      throw ConfigError(fmt::format(
+          "{}: {}", name,
+          fault(fmt::format("camera.{}", key), fmt::format("{}", given_px), "px",
+                fmt::format("{} px, as the passes in {} have it", there_px, source.folder.string()))));
+    };
+    check("width_px", given.width_px, there.width_px);
+    check("height_px", given.height_px, there.height_px);
+    check("fx_px", given.fx_px, there.fx_px);
+    check("fy_px", given.fy_px, there.fy_px);
+    check("cx_px", given.cx_px, there.cx_px);
+    check("cy_px", given.cy_px, there.cy_px);
+  }
+}
+
+/// A folder either is a dataset or holds datasets: clips of one must not be mixed with the others.
 void check_out(const Path& out) {
   if (!Layout{out}.is_begun()) return;
   throw ConfigError(
-      fault("--out", out.string(), "", "a folder that is no dataset itself, for those of --variants"));
+      fault("--out", out.string(), "", "a folder that is not a dataset, to hold those of --variants"));
 }
 
 }  // namespace
@@ -74,8 +105,10 @@ std::vector<ConvertRequest> convert_requests(const ConvertOptions& options,
   Json document = options.config.value_or(default_document(sources));
   for (const std::string& setting : options.settings) apply_setting(document, setting);
   const std::string name = options.config ? options.config_name : "--set";
-  // Resolved even if only variants are made, so that faults all of them share are not put down to the first.
+  root_calibration(document, folder_of(options.config ? options.config_name : "."));
+  // Resolved even if only variants are made, so that shared faults are not attributed to the first variant.
   Config shared = only_clips_of(resolve_config(document, name, options.home), sources);
+  check_cameras(shared, sources, name);
   std::vector<ConvertRequest> requests;
   if (!options.variants) {
     requests.push_back({.variant = "", .where = "", .config = std::move(shared), .out = options.out});

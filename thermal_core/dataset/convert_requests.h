@@ -9,15 +9,15 @@
 
 namespace thermal {
 
-/// One dataset to make of passes.
+/// One dataset to make from passes.
 struct ConvertRequest {
   std::string variant;  ///< empty: the only one
-  std::string where;    ///< begins faults of what the variant asks for; empty for the only one
-  Config config;        ///< with these clips alone
+  std::string where;    ///< start of messages about the variant; empty if there is only one
+  Config config;        ///< with these clips only
   Path out;
 };
 
-/// The datasets that are asked for: one, or one a variant. ConfigError for any of them.
+/// The requested datasets: one, or one per variant. ConfigError for any of them.
 [[nodiscard]] std::vector<ConvertRequest> convert_requests(const ConvertOptions& options,
                                                            const std::vector<ClipPasses>& sources);
 

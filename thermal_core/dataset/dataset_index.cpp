@@ -24,12 +24,12 @@ void check_same_config(const Layout& layout, const Json& config, const Json& the
                   layout.root.string(), list_names(found, kMost)));
 }
 
-/// Not so if a run was killed after it had renamed a clip and before it told of it, or before it joined the labels.
+/// False if a run was killed after it renamed a clip and before it recorded it, or before it joined the labels.
 bool is_recorded(const Layout& layout, const DatasetIndex& index, const Json& there) {
   if (!there.contains("annotations_sha256")) return false;
   for (const Json& clip : there.at("clips")) {
-    const bool told = clip.at("status") == "done";
-    if (told != index.finished.contains(clip.at("id").get<std::string>())) return false;
+    const bool recorded = clip.at("status") == "done";
+    if (recorded != index.finished.contains(clip.at("id").get<std::string>())) return false;
   }
   return std::filesystem::exists(layout.annotations_json());
 }
@@ -50,7 +50,7 @@ std::map<std::string, std::string> failed_there(const Json& there) {
   return failed;
 }
 
-/// Clips that are whole and not told of.
+/// Complete clips that are not recorded.
 void find_finished(const Layout& layout, DatasetIndex& index) {
   for (const std::string& id : index.clips) {
     const Path record = layout.clip(id) / "clip.json";
@@ -106,9 +106,23 @@ void DatasetIndex::add(const std::string& id, const ClipRecord& record) {
                   {"annotations", record.annotations},
                   {"pixels_sha256", record.pixels_sha256},
                   {"record_sha256", sha256_of(to_text(to_json(record)))}};
+  add_unusable(record, finished[id]);
   if (!record.skipped.empty()) finished[id]["skipped"] = record.skipped.size();
   skipped[id] = record.skipped;
   failed.erase(id);
+}
+
+std::vector<UnusableShare> DatasetIndex::unusable(const std::vector<std::string>& ids) const {
+  std::vector<UnusableShare> shares;
+  for (const std::string& id : ids) {
+    const auto found = finished.find(id);
+    if (found == finished.end()) continue;
+    for (const char* key : {"unusable_depth_share", "unusable_normal_share"}) {
+      if (const double share = found->second.value(key, 0.0); share > 0)
+        shares.push_back({.clip = id, .key = key, .share = share});
+    }
+  }
+  return shares;
 }
 
 DatasetIndex open_dataset(const Layout& layout, const Config& config) {
@@ -144,7 +158,7 @@ void write_dataset(const Layout& layout, const DatasetIndex& index) {
 void write_dataset_after_fault(const Layout& layout, const DatasetIndex& index) noexcept {
   try {
     write_dataset(layout, index);
-  } catch (const std::exception&) {  // the next run finds it not recorded
+  } catch (const std::exception&) {  // the next run detects that it is not recorded
   }
 }
 

@@ -12,7 +12,7 @@
 namespace thermal {
 namespace {
 
-/// A material that is named, and everywhere that it is.
+/// An unknown material, and every place that names it.
 using MaterialUses = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 void add_use(MaterialUses& uses, const std::string& material, std::string where) {
@@ -51,7 +51,7 @@ std::vector<std::string> categories_to_fill_in(const Manifest& manifest) {
     if (manifest.objects[i].category == kFillIn) places.push_back(fmt::format("objects[{}].category", i));
   if (places.empty()) return {};
   return {fault(list_names(places), fmt::format("\"{}\"", kFillIn), "",
-                "what its labels call it, such as human or elephant; or another class than actor")};
+                "a category such as human or elephant, or a class other than actor")};
 }
 
 }  // namespace

@@ -6,11 +6,11 @@
 
 namespace thermal {
 
-/// What stands in a starter manifest where only its reader knows what belongs there.
+/// Placeholder in a starter manifest for values that only the user knows.
 inline constexpr const char* kFillIn = "FILL IN";
 
-/// DataError that names every entry of `file` that is left to fill in, and every material that is not there; entries
-/// with the same fault in one line.
+/// DataError that lists every placeholder left in `file`, and every unknown material; entries with the same fault
+/// share a line.
 void check_filled_in(const Manifest& manifest, const Path& file, const MaterialLibrary& materials);
 
 }  // namespace thermal

@@ -71,7 +71,7 @@ SkippedFrame skipped_frame(const ClipPasses& passes, int frame, const std::excep
 
 std::string no_frame_left(const std::string& first, int count) {
   if (count == 1) return first;
-  return fmt::format("{}; nor can its {} other frame{} be converted", first, count - 1,
+  return fmt::format("{}; its {} other frame{} cannot be converted either", first, count - 1,
                      count == 2 ? "" : "s");
 }
 

@@ -23,7 +23,7 @@ namespace {
 
 using Stop = std::function<bool()>;
 
-/// Makes clips from what render jobs deliver.
+/// Makes clips from the output of render jobs.
 class Generator {
  public:
   Generator(const Config& config, const GenerateOptions& options, const RunHooks& hooks)
@@ -84,7 +84,7 @@ class Generator {
     try {
       const ClipRecord record = make(clip, job, stop_wanted, board);
       if (!options_.keep_passes) std::filesystem::remove_all(layout_.passes(clip.id));
-      tell([&] { index_.add(clip.id, record); });
+      change_index([&] { index_.add(clip.id, record); });
       board.made(clip);
     } catch (const ClipLost& fault) {
       lose(clip, fault.what(), fault.killed(), board);
@@ -125,25 +125,25 @@ class Generator {
     try {
       return make_clip(passes, task, materials_, clip_hooks);
     } catch (...) {
-      std::error_code ignored;  // half a clip is of no use, and may be in need of room
+      std::error_code ignored;  // an incomplete clip is useless, and takes disk space
       std::filesystem::remove_all(layout_.unfinished_clip(clip.id), ignored);
       throw;
     }
   }
 
-  /// Passes that are there and of no use are made anew by the next run; until then they can be looked at.
+  /// Useless passes are rendered anew by the next run; until then they can be inspected.
   void reject(const ClipConfig& clip, const std::string& why, RunBoard& board) {
     write_file_atomically(layout_.unusable(clip.id), why + "\n");
     lose(clip, why, false, board);
   }
 
   void lose(const ClipConfig& clip, const std::string& why, bool killed, RunBoard& board) {
-    tell([&] { index_.failed[clip.id] = why; });
+    change_index([&] { index_.failed[clip.id] = why; });
     board.lost(clip, why, killed);
   }
 
-  /// Changes what the dataset says of itself, together with what other runs have made.
-  void tell(const std::function<void()>& change) {
+  /// Updates the dataset's record, including what other runs have made.
+  void change_index(const std::function<void()>& change) {
     const std::lock_guard lock(mutex_);
     lock_.in_turn([&] {
       catch_up(layout_, own_, index_);
@@ -163,13 +163,14 @@ class Generator {
         catch_up(layout_, own_, index_);
         write_dataset(layout_, index_);
       });
-    } catch (const std::exception&) {  // must not hide the first; the next run finds it not recorded
+    } catch (const std::exception&) {  // must not hide the first; the next run detects the missing record
     }
   }
 
   [[nodiscard]] RunOutcome outcome_of(RunOutcome outcome) const {
     outcome.already_there = already_there_;
     outcome.complete = index_.complete();
+    outcome.unusable = index_.unusable(ids_of(chosen_));
     return outcome;
   }
 

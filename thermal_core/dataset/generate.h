@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/dataset_index.h"
 #include "dataset/layout.h"
 #include "dataset/progress.h"
 #include "io/config.h"
@@ -23,37 +24,38 @@ struct GenerateOptions {
   Path blender;
   std::vector<std::string> clips;  ///< only these; empty: all
   Shard shard;
-  int jobs = 1;     ///< Blenders at a time
-  int threads = 0;  ///< of all of them together, and of the conversion; 0: one a core
+  int jobs = 1;     ///< number of Blender processes
+  int threads = 0;  ///< for all of them together, and for the conversion; 0: one per core
   bool keep_passes = false;
 };
 
-/// How a run ended.
+/// Result of a run.
 struct RunOutcome {
-  std::vector<std::string> made;              ///< clips this run made
-  std::vector<std::string> already_there;     ///< clips that were whole before
-  std::map<std::string, std::string> failed;  ///< clips that could not be made: why
-  bool try_again = false;                     ///< not one could, and only because Blender was killed
+  std::vector<std::string> made;              ///< clips made in this run
+  std::vector<std::string> already_there;     ///< clips that were complete before
+  std::map<std::string, std::string> failed;  ///< clips that could not be made, with the reason
+  bool try_again = false;                     ///< none could be made, and only because Blender was killed
   int frames_made = 0;
-  bool complete = false;  ///< the dataset now has all its clips
+  bool complete = false;                     ///< the dataset now has all its clips
+  std::vector<UnusableShare> unusable = {};  ///< of clips made and already there
 };
 
-/// Which of the config's clips a run is about. ConfigError for an unknown id.
+/// The config's clips that a run makes. ConfigError for an unknown id.
 [[nodiscard]] std::vector<ClipConfig> choose_clips(const Config& config, const std::vector<std::string>& ids,
                                                    const Shard& shard);
 
-/// Makes a dataset: Blenders render, and frames are converted while later ones render. Takes up an unfinished
-/// one where it was left; leaves a finished one alone. The config must have been planned (plan_dataset). Other runs
-/// may make other clips of it at the same time. A clip that Blender dies over twice, or whose passes cannot be
-/// converted, is named in the outcome, and the others go on; the next run tries it again.
-/// ConfigError, IoError, TryAgainError or Cancelled; what was finished by then stays.
+/// Makes a dataset: Blender renders, and frames are converted while later ones render. Resumes an unfinished dataset;
+/// leaves a finished one alone. The config must have been planned (plan_dataset). Other runs may make other clips of
+/// it at the same time. A clip over which Blender crashes twice, or whose passes cannot be converted, is listed in
+/// the outcome, and the others are still made; the next run tries it again.
+/// ConfigError, IoError, TryAgainError or Cancelled; finished clips stay.
 RunOutcome generate(const Config& config, const GenerateOptions& options, const RunHooks& hooks);
 
-/// Renders passes and manifests only, into passes/<clip>; as generate() in all else.
+/// Renders passes and manifests only, into passes/<clip>; otherwise like generate().
 RunOutcome render(const Config& config, const GenerateOptions& options, const RunHooks& hooks);
 
-/// Renders a map of what the config makes, and colour stills of it, into preview/; anew each time. Returns how
-/// many pictures.
+/// Renders a map of the config's place, and colour stills of it, into preview/; overwrites earlier ones. Returns the
+/// number of pictures.
 int preview(const Config& config, const GenerateOptions& options, const RunHooks& hooks);
 
 }  // namespace thermal

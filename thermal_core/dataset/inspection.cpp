@@ -31,7 +31,7 @@ std::optional<Manifest> manifest_of(const PassesGroup& group, const InspectOptio
   return read_manifest(beside, options.home);
 }
 
-/// Files that are named, whatever a manifest lists: inspection is for whom that puzzles.
+/// Named files, whatever a manifest lists: inspection is meant for users who do not know what their files hold.
 FrameSequence sequence_to_inspect(const PassesGroup& group, const std::optional<Manifest>& manifest) {
   const bool says = manifest && (!manifest->frames.empty() || !manifest->sequence.empty());
   if (!says || !group.files.empty()) return frames_of(group);
@@ -41,7 +41,7 @@ FrameSequence sequence_to_inspect(const PassesGroup& group, const std::optional<
   return sequence;
 }
 
-/// As it would be typed: without the folder where one is.
+/// As the user would type it: without the folder where one is given.
 Path file_in(const PassesGroup& group, const std::string& name) {
   return group.folder == "." ? Path(name) : group.folder / name;
 }
@@ -69,7 +69,7 @@ ExrLayout layout_of(const std::optional<Manifest>& manifest, const InspectOption
   return layout;
 }
 
-/// A picture's kind and size as the headers of an EXR file would tell them.
+/// A picture's kind and size in the form of EXR headers.
 ExrHeader header_of_picture(const Path& file, const ReadLimits& limits) {
   const PictureSurvey picture = survey_picture(file, limits);
   ExrHeader header;
@@ -89,7 +89,7 @@ void read_header(Inspection& inspection, const ReadLimits& limits) {
   if (inspection.header.data_window != whole) inspection.window = inspection.header.data_window;
 }
 
-/// The cryptomatte to read where there is no object index: of objects, if one is called so.
+/// The cryptomatte to read without an object index: that of objects, if one is named so.
 std::string best_cryptomatte(const std::vector<Cryptomatte>& all, const std::string& layer) {
   const Cryptomatte* best = nullptr;
   for (const Cryptomatte& one : all) {
@@ -107,7 +107,7 @@ std::vector<std::string> index_layers(const ExrHeader& header) {
   return {layers.begin(), layers.end()};
 }
 
-/// Decides what a conversion of EXR files would read, or why there would be none.
+/// Decides what a conversion of EXR files would read, or why it is impossible.
 class Choice {
  public:
   Choice(Inspection& inspection, const InspectOptions& options)
@@ -132,7 +132,7 @@ class Choice {
     }
   }
 
-  /// An index plane of nothing but sky is one that nobody set.
+  /// An index plane that is all sky has never been set.
   void reconsider() {
     const auto& objects = inspection_.survey.objects;
     const bool only_sky = objects.size() == 1 && objects.begin()->first == kSkyIndex;

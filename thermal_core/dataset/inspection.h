@@ -15,40 +15,40 @@ namespace thermal {
 struct InspectOptions {
   Path home;
   std::vector<Path> passes;  ///< a folder, or files and patterns of one folder
-  Path manifest;             ///< empty: the folder's, if it has one
+  Path manifest;             ///< empty: the folder's, if any
   std::string layer;         ///< empty: the manifest's
-  bool all_frames = false;   ///< look at the pixels of every frame, not of the first alone
-  bool for_starter = false;  ///< as if there were no manifest, and taking the only likely index plane for one
+  bool all_frames = false;   ///< read the pixels of every frame, not only of the first
+  bool for_starter = false;  ///< ignore any manifest, and accept the only likely index plane as one
   ReadLimits limits;
 };
 
-/// What passes hold, and what a conversion would do with them.
+/// Contents of passes, and what a conversion would do with them.
 struct Inspection {
   PassesGroup group;
   FrameSequence sequence;            ///< gaps: frames without a file
-  Path file;                         ///< the first that is there: what is said of headers is said of it
-  std::optional<Manifest> manifest;  ///< that was given or is in the folder
-  ExrLayout layout;                  ///< by which planes were chosen
-  ExrHeader header;                  ///< of a picture (PNG) the size alone
-  std::optional<ExrWindow> window;   ///< that has pixels, where it is not the whole picture
+  Path file;                         ///< the first existing one: headers are described for it
+  std::optional<Manifest> manifest;  ///< given, or in the folder
+  ExrLayout layout;                  ///< determines which planes are chosen
+  ExrHeader header;                  ///< of a picture (PNG) only the size
+  std::optional<ExrWindow> window;   ///< with pixels, where it is not the whole picture
   std::vector<std::string> cryptomatte_faults;
   PassSurvey survey;
-  ChosenPlanes planes;              ///< none where the conversion has no object index
+  ChosenPlanes planes;              ///< empty if the conversion has no object index
   std::string cryptomatte;          ///< that a conversion would read instead of an object index
-  std::string obstacle;             ///< why passes like these cannot be converted; empty: they can
-  std::vector<std::string> layers;  ///< of which one is to be chosen; empty: that is clear
-  std::vector<std::string> likely;  ///< channels that could be an object index where none has a name of one
+  std::string obstacle;             ///< why these passes cannot be converted; empty if they can
+  std::vector<std::string> layers;  ///< candidates to choose from; empty: unambiguous
+  std::vector<std::string> likely;  ///< channels that could be an object index although none is named so
 };
 
-/// Looks at passes; never fails for what is in them, but tells it.
-/// ConfigError for names that mean no files, or files of several folders; IoError for a first file that cannot be read; DataError
-/// for a manifest that cannot be meant. Progress counts frames.
+/// Inspects passes; reports faults of their contents instead of throwing. ConfigError for names that match no files,
+/// or files of several folders; IoError if the first file cannot be read; DataError for an invalid manifest. Progress
+/// counts frames.
 [[nodiscard]] Inspection inspect(const InspectOptions& options, const RunHooks& hooks);
 
-/// All of it, for programs.
+/// All of it, as JSON.
 [[nodiscard]] Json to_json(const Inspection& inspection);
 
-/// What an object index is called; empty: nobody says.
+/// Name of an object index; empty: unknown.
 [[nodiscard]] std::string object_name(const Inspection& inspection, int index);
 
 }  // namespace thermal

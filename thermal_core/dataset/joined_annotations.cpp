@@ -13,16 +13,16 @@
 namespace thermal {
 namespace {
 
-/// What has to be known of all clips before the first image is told.
+/// What must be known of all clips before the first image is written.
 struct Survey {
   std::set<std::string> categories;
-  std::vector<std::map<int, std::string>> names;  ///< of a clip's categories, by its own ids
+  std::vector<std::map<int, std::string>> names;  ///< of a clip's categories, by the clip's ids
   Json videos = Json::array();
 };
 
 struct HasSeenEnough {};
 
-/// Adds what stands before the images; a document that has it behind them is read to its end.
+/// Adds what precedes the images; a document that has it after them is read to its end.
 void look_at(const ClipLabels& clip, Survey& survey) {
   std::map<int, std::string>& names = survey.names.emplace_back();
   std::size_t videos = 0;
@@ -48,7 +48,7 @@ Survey look_at_all(const std::vector<ClipLabels>& clips) {
   return survey;
 }
 
-/// Numbers images and annotations through all clips.
+/// Numbers images and annotations across all clips.
 class Joiner {
  public:
   Joiner(const Survey& survey, Spool spool, JsonStream& document)
@@ -73,7 +73,7 @@ class Joiner {
     });
   }
 
-  /// A clip's frames that were skipped leave holes in its ids: what counts is the last id, not their number.
+  /// Skipped frames of a clip leave gaps in its ids: the last id counts, not the number of images.
   void add_image(Json image, std::size_t before, std::size_t number, const std::string& clip) {
     const std::size_t id = before + image.at("id").get<std::size_t>();
     last_image_ = std::max(last_image_, id);
@@ -103,7 +103,7 @@ ClipLabels labels_of(const Layout& layout, const std::string& clip) {
   return {.clip = clip, .read = [file](const TakeElement& take) { (void)read_json_elements(file, take); }};
 }
 
-/// Always the same, so that what a killed run left is swept away.
+/// Always the same, so that leftovers of a killed run are overwritten.
 Path beside(const Path& file, const char* ending) {
   Path name = file;
   name += ending;

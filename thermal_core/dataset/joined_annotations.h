@@ -13,18 +13,18 @@ namespace thermal {
 /// Labels of one clip of a dataset.
 struct ClipLabels {
   std::string clip;
-  /// Hands on the elements of its document, as parse_json_elements() does; may be called twice.
+  /// Passes on the elements of its document, as parse_json_elements() does; may be called twice.
   std::function<void(const TakeElement& take)> read;
 };
 
-/// Joins clips' documents into the dataset's, all in one line: ids run on, file names become relative to the dataset's
-/// folder, a category keeps its id. `spool` holds annotations while images are told.
+/// Joins clips' documents into the dataset's, on one line: ids are renumbered, file names become relative to the
+/// dataset's folder, a category keeps its id. `spool` holds annotations while images are written.
 void join_annotations(const std::string& dataset, const std::vector<ClipLabels>& clips, Spool spool,
                       const TakeText& take);
 
-/// Writes a dataset's annotations.json: the labels of these clips, which are whole, in this order. Memory does not
-/// grow with them. Returns the SHA-256 of the file.
-/// IoError naming a file that cannot be read or written, TryAgainError when the disk is full.
+/// Writes a dataset's annotations.json: the labels of these complete clips, in this order. Memory does not grow with
+/// them. Returns the SHA-256 of the file. IoError with a file that cannot be read or written, TryAgainError if the
+/// disk is full.
 std::string write_joined_annotations(const Layout& layout, const std::string& dataset,
                                      const std::vector<std::string>& clips);
 

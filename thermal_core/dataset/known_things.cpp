@@ -8,10 +8,10 @@
 namespace thermal {
 namespace {
 
-/// Ground has no files of its own: materials that are one.
+/// Ground has no asset files of its own: materials that are ground.
 constexpr std::array<const char*, 4> kGrounds = {"soil", "wet_soil", "grass", "road"};
 
-/// What people call what we have; estimates, all of them told to who reads the manifest.
+/// Common names for things in the assets; estimates, all of them reported to the user as guesses.
 constexpr std::array<std::pair<const char*, const char*>, 24> kOtherWords = {{
     {"person", "human"},     {"people", "human"}, {"man", "human"},        {"woman", "human"},
     {"poacher", "human"},    {"ranger", "human"}, {"pedestrian", "human"}, {"hippo", "hippopotamus"},

@@ -11,7 +11,7 @@
 
 namespace thermal {
 
-/// What an object most likely is, in a manifest's words.
+/// What an object most likely is, in terms of a manifest.
 struct KnownThing {
   ObjectClass object_class = ObjectClass::ground;
   std::string material;
@@ -21,22 +21,22 @@ struct KnownThing {
   [[nodiscard]] bool operator==(const KnownThing&) const = default;
 };
 
-/// The words of a name, in small letters: "Elephant_bull.001" and "elephantBull" have elephant and bull.
+/// The words of a name, in lower case: "Elephant_bull.001" and "elephantBull" have elephant and bull.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view name);
 
-/// Tells what things are from the names that people give them.
+/// Guesses what things are from their names.
 class KnownThings {
  public:
   /// Knows the species and plants of `home`/assets, kinds of ground, and common words for them.
   explicit KnownThings(const Path& home);
 
-  /// By one word of the name, or two: the first that is known, two before one; in the plural, too. Nothing if none is.
+  /// By one or two words of the name: the first known, two before one; plurals too. Empty if none is known.
   [[nodiscard]] std::optional<KnownThing> find(std::string_view name) const;
 
  private:
   [[nodiscard]] const KnownThing* find_word(const std::string& word) const;
 
-  std::map<std::string, KnownThing> things_;  ///< by word, or two with _ between
+  std::map<std::string, KnownThing> things_;  ///< by word, or two joined by _
 };
 
 }  // namespace thermal

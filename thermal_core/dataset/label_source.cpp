@@ -14,7 +14,7 @@
 namespace thermal {
 namespace {
 
-/// A dataset's own record, read as data that someone may have damaged.
+/// A dataset's own record, read as data that may be damaged.
 Json read_record(const Path& file) {
   try {
     Json record = read_json(file);
@@ -23,7 +23,7 @@ Json read_record(const Path& file) {
     throw DataError(error.what());
   } catch (const Json::exception&) {  // not even an object
   }
-  throw DataError(file.string() + " is not of a Veldt dataset");
+  throw DataError(file.string() + " does not belong to a Veldt dataset");
 }
 
 std::vector<std::string> clips_not_made(const Json& record) {
@@ -34,19 +34,19 @@ std::vector<std::string> clips_not_made(const Json& record) {
   return clips;
 }
 
-/// annotations.json has all clips that are whole only once a run has ended.
+/// annotations.json is complete only after a finished run.
 void check_made(const Path& root, const Json& record, bool unfinished_too) {
   if (!record.contains("annotations_sha256")) {
     throw DataError(
-        fmt::format("{}: annotations.json may lack clips (a run has not ended, or was killed); expected "
-                    "the end of a run: start the same command again",
+        fmt::format("{}: annotations.json may lack clips (a run has not ended, or was killed); expected a "
+                    "finished run: run the same command again",
                     root.string()));
   }
   const std::vector<std::string> missing = clips_not_made(record);
   if (missing.empty() || unfinished_too) return;
   throw DataError(
-      fmt::format("{} is unfinished: {} of {} clips are not made: {}; expected all of them, or "
-                  "--unfinished to go without",
+      fmt::format("{} is unfinished: {} of {} clips are missing: {}; expected all of them, or "
+                  "--unfinished to accept this",
                   root.string(), missing.size(), record.at("clips").size(), list_names(missing, 8)));
 }
 

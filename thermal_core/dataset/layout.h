@@ -6,22 +6,22 @@
 
 namespace thermal {
 
-/// Where things are in a dataset's folder.
+/// Locations in a dataset's folder.
 struct Layout {
   Path root;
 
   [[nodiscard]] Path dataset_json() const { return root / "dataset.json"; }
-  /// A dataset was begun here.
+  /// Whether a dataset exists here.
   [[nodiscard]] bool is_begun() const { return std::filesystem::exists(dataset_json()); }
   [[nodiscard]] Path annotations_json() const { return root / "annotations.json"; }
   [[nodiscard]] Path clips() const { return root / "clips"; }
   [[nodiscard]] Path clip(const std::string& id) const { return clips() / id; }
-  /// Where a clip is made before it is whole and renamed.
+  /// Where a clip is made before it is complete and renamed.
   [[nodiscard]] Path unfinished_clip(const std::string& id) const { return clips() / (id + ".part"); }
   [[nodiscard]] Path passes() const { return root / "passes"; }
   [[nodiscard]] Path passes(const std::string& id) const { return passes() / id; }
   [[nodiscard]] Path passes_config() const { return passes() / "config.json"; }
-  /// Says that a clip's passes could not be converted: the next run renders them anew.
+  /// Marks a clip whose passes could not be converted: the next run renders them anew.
   [[nodiscard]] Path unusable(const std::string& id) const { return passes(id) / "unusable.txt"; }
   [[nodiscard]] Path preview() const { return root / "preview"; }
 };

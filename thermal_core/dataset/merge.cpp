@@ -20,58 +20,59 @@ namespace {
 /// A dataset to merge.
 struct Source {
   Path root;
-  Json told;  ///< its dataset.json
+  Json document;  ///< its dataset.json
 };
 
-/// A clip that is whole in some folder.
+/// A complete clip in some folder.
 struct FoundClip {
   Path folder;
   ClipRecord record;
-  std::string record_sha256;  ///< as dataset.json tells; empty where it does not
+  std::string record_sha256;  ///< its entry in dataset.json; empty without one
 };
 
 Source open_source(const Path& root) {
   const Path file = Layout{root}.dataset_json();
-  const Json told = std::filesystem::exists(file) ? read_json(file) : Json::object();
-  if (told.value("format", "") != "veldt-dataset")
-    throw ConfigError(fault("DIR", root.string(), "", "a dataset; there is no dataset.json of one in it"));
-  const auto version = told.value("veldt_version", std::string());
+  const Json document = std::filesystem::exists(file) ? read_json(file) : Json::object();
+  if (document.value("format", "") != "veldt-dataset")
+    throw ConfigError(fault("DIR", root.string(), "", "a dataset, with a dataset.json"));
+  const auto version = document.value("veldt_version", std::string());
   if (version != kVersion)
-    throw ConfigError(
-        fault(root.string() + ": veldt_version", version, "", std::string(kVersion) + ", as this program's"));
-  return {.root = root, .told = told};
+    throw ConfigError(fault(root.string() + ": veldt_version", version, "",
+                            std::string(kVersion) + ", this program's version"));
+  return {.root = root, .document = document};
 }
 
-/// All of one config: `told.physics` follows from it.
+/// Checks that all have one config: `document.physics` follows from it.
 std::vector<Source> open_sources(const MergeOptions& options) {
   std::vector<Source> sources;
   for (const Path& root : options.sources) {
     if (std::error_code error; std::filesystem::equivalent(root, options.out, error) && !error)
-      throw ConfigError(fault("--out", options.out.string(), "",
-                              "a folder that is none of DIR; leave it out there to add the others to it"));
+      throw ConfigError(
+          fault("--out", options.out.string(), "",
+                "a folder that is not among DIR; to add the others to it, leave it out of DIR"));
     sources.push_back(open_source(root));
     const std::vector<std::string> found =
-        differences(sources.front().told.at("config"), sources.back().told.at("config"));
+        differences(sources.front().document.at("config"), sources.back().document.at("config"));
     if (found.empty()) continue;
     constexpr std::size_t kMost = 8;
-    throw ConfigError(fmt::format("{} and {} are of different configs: {}; expected shards of one config",
+    throw ConfigError(fmt::format("{} and {} have different configs: {}; expected shards of one config",
                                   sources.front().root.string(), root.string(), list_names(found, kMost)));
   }
   return sources;
 }
 
-/// What the index of a merged dataset needs of a config.
+/// What the index of a merged dataset needs from a config.
 Config config_of(const Source& source) {
   Config config;
-  config.resolved = source.told.at("config");
-  for (const Json& clip : source.told.at("clips"))
+  config.resolved = source.document.at("config");
+  for (const Json& clip : source.document.at("clips"))
     config.clips.push_back({.id = clip.at("id"), .frames = clip.value("frames", 0)});
   return config;
 }
 
-/// Empty where a run was killed after it had renamed the clip and before it told of it.
+/// Empty if a run was killed after it renamed the clip and before it recorded it.
 std::string told_record_sha256(const Source& source, const std::string& id) {
-  for (const Json& clip : source.told.value("clips", Json::array())) {
+  for (const Json& clip : source.document.value("clips", Json::array())) {
     if (clip.at("id") == id) return clip.value("record_sha256", std::string());
   }
   return {};
@@ -85,7 +86,7 @@ std::optional<FoundClip> find_clip(const Source& source, const std::string& id) 
                    .record_sha256 = told_record_sha256(source, id)};
 }
 
-/// Pictures and labels; how the files hold them may differ between machines' libraries.
+/// Pictures and labels; their encoding in files may differ between machines' libraries.
 bool same_content(const ClipRecord& one, const ClipRecord& other) {
   const auto sum = [](const ClipRecord& record, const char* name) {
     const auto file = record.files.find(name);
@@ -94,7 +95,7 @@ bool same_content(const ClipRecord& one, const ClipRecord& other) {
   return one.pixels_sha256 == other.pixels_sha256 && sum(one, "labels.json") == sum(other, "labels.json");
 }
 
-/// The clip as each folder has it that has it. DataError if they are not the same.
+/// The clip in each folder that has it. DataError if they differ.
 std::vector<FoundClip> find_in_all(const std::vector<Source>& sources, const std::string& id) {
   std::vector<FoundClip> all;
   for (const Source& source : sources) {
@@ -122,7 +123,7 @@ class Merger {
         layout_{options.out},
         lock_(options.out),
         index_(open_dataset(layout_, config_of(sources_.front()))) {
-    index_.physics = sources_.front().told.at("physics");
+    index_.physics = sources_.front().document.at("physics");
   }
 
   MergeOutcome run() {
@@ -140,9 +141,9 @@ class Merger {
   }
 
  private:
-  /// Finds every clip, and all that is wrong with the request, before anything is written.
+  /// Finds every clip, and every fault of the request, before anything is written.
   void plan() {
-    std::vector<Source> with_out = {{.root = options_.out, .told = Json::object()}};
+    std::vector<Source> with_out = {{.root = options_.out, .document = Json::object()}};
     with_out.insert(with_out.end(), sources_.begin(), sources_.end());
     for (const std::string& id : index_.clips) {
       const std::vector<FoundClip> found = find_in_all(with_out, id);
@@ -157,7 +158,7 @@ class Merger {
     }
   }
 
-  /// From the first folder in which the clip's files are as they were written.
+  /// From the first folder with unchanged files of the clip.
   void try_add(const std::string& id, const std::vector<FoundClip>& found) {
     progress_.clip = id;
     hooks_.report(progress_);

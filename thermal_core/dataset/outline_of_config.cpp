@@ -7,13 +7,14 @@
 
 #include "dataset/outline.h"
 #include "dataset/outline_parts.h"
+#include "io/lens_config.h"
 
 namespace thermal {
 namespace {
 
 constexpr double kSquareMetresPerHectare = 1e4;
 
-/// The angle below the horizon at which a flight looks; an orbit looks at its middle.
+/// The look angle of a flight below the horizon; an orbit looks at its centre.
 double look_angle_deg(const Json& flight) {
   if (flight["pattern"] != "orbit") return flight["look_angle_deg"];
   const double rise_m = std::abs(flight["altitude_m"].get<double>());
@@ -23,17 +24,17 @@ double look_angle_deg(const Json& flight) {
 struct Cover {
   std::string material;
   double crown_m2;
-  double share;  ///< of the ground under it, if nothing taller hides it
+  double share;  ///< of the ground beneath it, if nothing taller hides it
 };
 
-/// Plants an area or, of three areas, a mean one; they cover about as much each.
+/// Plants in an area or, given three areas, the mean; each covers about the same area.
 double mean_per_ha(const Json& per_ha) {
   if (!per_ha.is_array()) return per_ha;
   const auto areas = per_ha.get<std::vector<double>>();
   return std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
 }
 
-/// What the plants of `scene.plants` cover, the widest and so tallest first.
+/// Cover by the plants of `scene.plants`, the widest and therefore tallest first.
 std::vector<Cover> plant_covers(const Json& plants, const Path& home) {
   std::vector<Cover> covers;
   for (const auto& [name, wanted] : plants.items()) {
@@ -47,13 +48,13 @@ std::vector<Cover> plant_covers(const Json& plants, const Path& home) {
 }
 
 constexpr double kMostBare = 0.9;         // of a place that is all water, rock and road
-constexpr double kWetMarginM = 2.5;       // as the ground is laid in covers.py
-constexpr double kRockOfCrag = 0.6;       // measured: what outcrops cover of the crag
-constexpr double kRoadSideLengths = 2.2;  // loop and fork together, in sides of the place
+constexpr double kWetMarginM = 2.5;       // as covers.py lays out the ground
+constexpr double kRockOfCrag = 0.6;       // measured: cover of outcrops on the crag
+constexpr double kRoadSideLengths = 2.2;  // loop and fork together, relative to the sides of the place
 
 double disc_m2(double radius_m) { return std::numbers::pi * radius_m * radius_m; }
 
-/// What lies on the dry soil whatever the plants, as shares of the place.
+/// Cover of dry soil regardless of plants, as shares of the place.
 std::map<std::string, double> bare_shares(const Json& terrain) {
   const double size_m = terrain["size_m"];
   std::map<std::string, double> shares;
@@ -101,16 +102,13 @@ SceneOutline outline_of(const Config& config, const MaterialLibrary& materials, 
     actors.insert(read_json(species).at("material").get<std::string>());
   }
   add_actors(actors, materials, outline);
-  const Json& camera = document["camera"];
-  const double pitch_m = 1e-6 * camera["pixel_pitch_um"].get<double>();
-  const double half_pixel_m = 0.5 * pitch_m / camera["focal_length_m"].get<double>();
+  const CameraIntrinsics camera = read_intrinsics(document["camera"]);
   Nights nights(config);
   for (const char* flown : {"clips", "flights"}) {
     for (const Json& one : document[flown]) {
       if (!one.contains("flight")) continue;
       nights.add(season_of(one["season"].get<std::string>()), one["flight"]["altitude_m"],
-                 look_angle_deg(one["flight"]), half_pixel_m * config.width_px,
-                 half_pixel_m * config.height_px);
+                 look_angle_deg(one["flight"]), camera);
     }
   }
   outline.nights = nights.list();

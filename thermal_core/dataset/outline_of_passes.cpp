@@ -14,8 +14,8 @@
 namespace thermal {
 namespace {
 
-/// What the first frame makes of `look` for which that is possible: a clip's other frames are like it, and those that
-/// cannot be read will be told when they are converted.
+/// Adds what the first readable frame provides: other frames of a clip are like it, and unreadable ones are reported
+/// when they are converted.
 template <typename Look>
 auto of_a_frame(const ClipPasses& source, const Look& look) -> std::optional<decltype(look(0))> {
   const auto frames = static_cast<int>(source.manifest.frames.size());
@@ -37,10 +37,10 @@ std::string pose_lacking(const Manifest& manifest) {
   return "";
 }
 
-/// What each term draws on. The first that is lacking is told; of several clips, that of the first.
+/// What each term needs. The first missing input is reported; among several clips, that of the first.
 void add_impossible(const ClipPasses& source, const PassNeeds& planes, SceneOutline& outline) {
-  const std::string depth = planes.depth ? "" : "there is no depth";
-  const std::string normals = planes.normals ? "" : "there are no normals";
+  const std::string depth = planes.depth ? "" : "no depth";
+  const std::string normals = planes.normals ? "" : "no normals";
   const std::string poses = pose_lacking(source.manifest);
   const auto add = [&](const std::string& term, const std::string& lacking) {
     if (!lacking.empty())
@@ -52,14 +52,14 @@ void add_impossible(const ClipPasses& source, const PassNeeds& planes, SceneOutl
   add("path", depth);
 }
 
-/// How steeply a ray meets level ground; without a pose, as if straight on.
+/// Angle of incidence of a ray on level ground; without a pose, as if perpendicular.
 double ground_cosine(const ManifestFrame& frame, double ray_x, double ray_y, double length) {
   if (!frame.camera_to_world) return 1;
   const auto& m = *frame.camera_to_world;
   return -(m[8] * ray_x + m[9] * ray_y + m[10]) / length;
 }
 
-/// Five by five rays over the picture to what the depth plane tells they meet.
+/// Five by five rays over the picture to their depths in the depth plane.
 std::vector<SceneOutline::Look> looks_in(const Plane<float>& depth_m, const CameraIntrinsics& camera,
                                          const ManifestFrame& frame) {
   constexpr int kRays = 5;
@@ -84,18 +84,16 @@ std::vector<SceneOutline::Look> looks_in(const Plane<float>& depth_m, const Came
   return looks;
 }
 
-/// A clip keeps its height and angle: one frame tells them.
+/// A clip keeps its height and angle, so one frame is representative.
 void add_told_height(const Manifest& manifest, Season season, Nights& nights) {
-  const CameraIntrinsics& camera = manifest.camera;
   const auto frame =
       std::ranges::find_if(manifest.frames, [](const ManifestFrame& one) { return one.agl_m.has_value(); });
   if (frame == manifest.frames.end()) return;
   constexpr double kStraightDown = 90;
-  nights.add(season, *frame->agl_m, frame->look_angle_deg.value_or(kStraightDown),
-             0.5 * camera.width_px / camera.fx_px, 0.5 * camera.height_px / camera.fy_px);
+  nights.add(season, *frame->agl_m, frame->look_angle_deg.value_or(kStraightDown), manifest.camera);
 }
 
-/// Where a clip's camera looks, by the depths of a frame; nothing if there are none.
+/// Viewing directions of a clip's camera, by the depths of a frame; empty without depths.
 std::vector<SceneOutline::Look> looks_of(const ClipPasses& source, const PassReader& reader) {
   const auto look = [&](int number) {
     const Passes passes =
@@ -106,7 +104,7 @@ std::vector<SceneOutline::Look> looks_of(const ClipPasses& source, const PassRea
   return of_a_frame(source, look).value_or(std::vector<SceneOutline::Look>());
 }
 
-/// Whether a frame tells how high its camera is.
+/// Whether a frame gives the height of its camera.
 bool tells_height(const Manifest& manifest) {
   return std::ranges::any_of(manifest.frames,
                              [](const ManifestFrame& frame) { return frame.agl_m.has_value(); });

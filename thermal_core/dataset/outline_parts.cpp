@@ -7,13 +7,17 @@ namespace thermal {
 namespace {
 
 /// Rays over the picture: a grid of five by five.
-std::vector<SceneOutline::Look> looks_from(double height_m, double look_angle_rad, double half_width,
-                                           double half_height) {
+std::vector<SceneOutline::Look> looks_from(double height_m, double look_angle_rad,
+                                           const CameraIntrinsics& camera) {
+  const double half_width = 0.5 * camera.width_px / camera.fx_px;
+  const double half_height = 0.5 * camera.height_px / camera.fy_px;
+  const double x_middle = (0.5 * camera.width_px - camera.cx_px) / camera.fx_px;
+  const double y_middle = (0.5 * camera.height_px - camera.cy_px) / camera.fy_px;
   std::vector<SceneOutline::Look> looks;
   for (int row = -2; row <= 2; ++row) {
     for (int column = -2; column <= 2; ++column) {
-      const double x = half_width * column / 2;
-      const double y = half_height * row / 2;
+      const double x = x_middle + half_width * column / 2;
+      const double y = y_middle + half_height * row / 2;
       const double length = std::sqrt(x * x + y * y + 1);
       // Downward part of the ray (x, y, 1) of a camera pitched down by the look angle.
       const double down = (std::sin(look_angle_rad) + y * std::cos(look_angle_rad)) / length;
@@ -38,11 +42,10 @@ void add_actors(const std::set<std::string>& names, const MaterialLibrary& mater
   }
 }
 
-void Nights::add(Season season, double height_m, double look_angle_deg, double half_width,
-                 double half_height) {
+void Nights::add(Season season, double height_m, double look_angle_deg, const CameraIntrinsics& camera) {
   if (!seen_.insert({season, height_m, look_angle_deg}).second) return;  // many clips fly alike
   const double angle = look_angle_deg * std::numbers::pi / 180;
-  add(season, looks_from(height_m, angle, half_width, half_height));
+  add(season, looks_from(height_m, angle, camera));
 }
 
 void Nights::add(Season season, const std::vector<SceneOutline::Look>& looks) {

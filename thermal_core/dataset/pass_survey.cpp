@@ -34,7 +34,7 @@ bool is_candidate(const ExrChannel& channel) {
   return !colour && !pass_kind_of(channel.pass).has_value();
 }
 
-/// False for a channel that cannot be read, too.
+/// False also for a channel that cannot be read.
 bool holds_indices(const Path& file, const ExrHeader& header, const ExrChannel& channel,
                    const ReadLimits& limits) {
   try {
@@ -42,7 +42,7 @@ bool holds_indices(const Path& file, const ExrHeader& header, const ExrChannel& 
     const auto pixels = plane.pixels();
     const auto [least, most] = std::minmax_element(pixels.begin(), pixels.end());
     return *least != *most && std::all_of(pixels.begin(), pixels.end(), could_be_index);
-  } catch (const Error&) {  // what is wrong with the file, the survey tells
+  } catch (const Error&) {  // faults of the file are reported by the survey
     return false;
   }
 }
@@ -88,7 +88,7 @@ void PassSurveyor::add_planes(const Path& file, const ExrHeader& header) {
   PassNeeds needs;
   try {
     needs.depth = !choose_planes(header, layout_).depth.empty();
-  } catch (const DataError&) {  // no object index: there may be a depth all the same
+  } catch (const DataError&) {  // no object index: there may still be a depth
     const ExrChannel* depth = header.find_depth(layout_.layer);
     if (depth != nullptr) add_depth(read_exr_channel(file, header, *depth, kDepthOutsideM, layout_.limits));
     return;
@@ -111,7 +111,7 @@ void PassSurveyor::add_mattes(const Path& file, const ExrHeader& header) {
   }
 }
 
-/// Things that never fill most of a pixel are there all the same, and a conversion must know them.
+/// Things that never fill most of a pixel still exist, and a conversion must know them.
 void PassSurveyor::add_lower_ranks(const Path& file, const ExrHeader& header,
                                    const Cryptomatte& cryptomatte) {
   auto& found = survey_.cryptomattes[cryptomatte.name];
@@ -130,7 +130,7 @@ void PassSurveyor::add_lower_ranks(const Path& file, const ExrHeader& header,
 
 void PassSurveyor::add_depth(const Plane<float>& depth_m) {
   for (const float value : depth_m.pixels()) {
-    if (!(value >= 0 && value < kSkyFromM)) continue;  // nor is NaN a depth
+    if (!(value >= 0 && value < kSkyFromM)) continue;  // NaN is not a depth either
     if (!survey_.depth) survey_.depth = {.nearest_m = value, .farthest_m = value};
     survey_.depth->nearest_m = std::min(survey_.depth->nearest_m, value);
     survey_.depth->farthest_m = std::max(survey_.depth->farthest_m, value);

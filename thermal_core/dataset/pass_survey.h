@@ -13,7 +13,7 @@
 
 namespace thermal {
 
-/// Channels that a conversion would read; empty: there is none.
+/// Channels that a conversion would read; empty: missing.
 struct ChosenPlanes {
   std::string objects;
   std::string materials;
@@ -21,10 +21,10 @@ struct ChosenPlanes {
   std::string normals;  ///< of one axis
 };
 
-/// What is in the pixels of a clip's passes, counted over all frames that were looked at.
+/// Contents of a clip's passes, counted over the pixels of all frames read.
 struct PassSurvey {
   struct Matte {
-    std::string name;  ///< empty: the file does not tell
+    std::string name;  ///< empty: the file does not name it
     std::int64_t pixels = 0;
   };
   struct DepthRange {
@@ -43,11 +43,11 @@ struct PassSurvey {
   std::map<std::string, std::map<std::uint32_t, Matte>>
       cryptomattes;                   ///< by name, then hash; pixels of rank 0
   std::optional<DepthRange> depth;    ///< without sky
-  std::int64_t uncounted_pixels = 0;  ///< transparent, or of more colours or mattes than are counted
-  std::vector<BadFrame> bad_frames;   ///< that cannot be read
+  std::int64_t uncounted_pixels = 0;  ///< transparent, or beyond the limit of colours or mattes
+  std::vector<BadFrame> bad_frames;   ///< unreadable ones
 };
 
-/// Counts the pixels of frames. Whatever of them can be read is; what cannot is among the bad frames.
+/// Counts the pixels of frames. Everything readable is counted; unreadable frames are listed as bad.
 class PassSurveyor {
  public:
   PassSurveyor(ExrLayout layout, ReadLimits limits);
@@ -68,11 +68,11 @@ class PassSurveyor {
   PassSurvey survey_;
 };
 
-/// The channels that are chosen of a file. DataError if it has no object index, or several and none is chosen.
+/// Chooses the channels of a file. DataError if it has no object index, or several and none is chosen.
 [[nodiscard]] ChosenPlanes choose_planes(const ExrHeader& header, const ExrLayout& layout);
 
-/// Channels of one component, neither a colour nor of a known pass, whose every pixel could be an index, and that are not
-/// the same all over: full names, in the file's order.
+/// Channels of one component, neither a colour nor a known pass, in which every pixel could be an index and not all
+/// are equal: full names, in the file's order.
 [[nodiscard]] std::vector<std::string> likely_indices(const Path& file, const ExrHeader& header,
                                                       const ReadLimits& limits);
 

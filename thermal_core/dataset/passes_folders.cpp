@@ -17,13 +17,13 @@ namespace {
 
 constexpr const char* kManifest = "manifest.json";
 
-/// Something of that name is there, whatever it is.
+/// Whether something of that name exists, whatever it is.
 bool is_there(const Path& file) {
   std::error_code ignored;
   return std::filesystem::symlink_status(file, ignored).type() != std::filesystem::file_type::not_found;
 }
 
-/// The clips inside a folder that has none itself, each in a folder of its own; else the group.
+/// The clips inside a folder without passes of its own, each in a folder of its own; otherwise the group.
 std::vector<PassesGroup> clips_of(const PassesGroup& group) {
   if (!group.files.empty() || is_there(group.folder / kManifest)) return {group};
   std::vector<PassesGroup> inside;
@@ -40,7 +40,7 @@ std::vector<PassesGroup> groups_of(const std::vector<Path>& named, const Path& m
   std::vector<PassesGroup> groups = group_passes(named);
   if (!manifest.empty() && groups.size() != 1) {
     throw ConfigError(fault("--manifest", manifest.string(), "",
-                            fmt::format("one folder of passes beside it, not {}", groups.size())));
+                            fmt::format("a single folder of passes with it, not {}", groups.size())));
   }
   if (!manifest.empty()) return groups;
   std::vector<PassesGroup> clips;
@@ -57,29 +57,29 @@ Manifest read_meaning(const PassesGroup& group, const Path& file, const Path& ho
     return read_manifest(file, home);
   }
   throw IoError(
-      fmt::format("cannot read {}: there is no such file; expected one that tells what the passes mean, "
+      fmt::format("cannot read {}: no such file; expected one that says what the passes mean, "
                   "such as \"veldt inspect {} --starter-manifest {}\" writes",
                   file.string(), group.folder.string(), file.string()));
 }
 
-/// Frames that are not listed get their files, and times by their places.
+/// Frames that are not listed get their files, and times by position.
 void take_frames(Manifest& manifest, const FrameSequence& sequence) {
   if (!manifest.frames.empty()) return;
   for (const auto& [name, is_gap] : sequence.frames) {
     ManifestFrame frame;
-    frame.file = name.name;  // of a gap, too: it is named when it cannot be read
+    frame.file = name.name;  // of a gap, too: it is reported when it cannot be read
     frame.time_s = static_cast<double>(manifest.frames.size()) / manifest.frame_rate_hz;
     manifest.frames.push_back(std::move(frame));
   }
 }
 
-/// DataError if two folders are of one clip.
+/// DataError if two folders have one clip.
 void check_clips(const std::vector<ClipPasses>& all) {
   std::map<std::string, Path> seen;
   for (const ClipPasses& passes : all) {
     const auto [first, fresh] = seen.emplace(passes.manifest.clip, passes.folder);
     if (fresh) continue;
-    throw DataError(fmt::format("{} and {} are both of clip {}; expected one folder a clip",
+    throw DataError(fmt::format("{} and {} both hold clip {}; expected one folder per clip",
                                 first->second.string(), passes.folder.string(), passes.manifest.clip));
   }
 }

@@ -22,14 +22,14 @@ Path folder_of(const Path& file) {
   return folder.empty() ? Path(".") : folder;
 }
 
-/// Files that a pattern's last part means; the folders before it are meant as they are.
+/// Files that match a pattern's last part; the folders before it are taken literally.
 std::vector<FrameName> files_of(const Path& named) {
   const std::string where = "passes";
   const Path folder = folder_of(named);
   if (!std::filesystem::is_directory(folder)) {
     throw ConfigError(
         fault(where, fmt::format("\"{}\"", named.string()), "",
-              fmt::format("a pattern in a folder that is there, and {} is none", folder.string())));
+              fmt::format("a pattern in an existing folder, and {} is not one", folder.string())));
   }
   const std::vector<std::string> names = files_in(folder);
   std::vector<FrameName> found = names_matching(NamePattern(named.filename().string(), where), names);

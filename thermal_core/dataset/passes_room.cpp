@@ -35,7 +35,7 @@ std::vector<RenderJob::Task> passes_tasks(const GenerateOptions& options, const 
   const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::vector<RenderJob::Task> tasks;
   for (const std::vector<std::string>& hand : hands) {
-    // Runs that share the folder never share a clip: its name tells their logs apart.
+    // Runs that share the folder never share a clip, so the clip's name keeps their logs apart.
     tasks.push_back({.blender = options.blender,
                      .home = options.home,
                      .config = layout.passes_config(),

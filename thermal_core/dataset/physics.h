@@ -10,11 +10,11 @@
 
 namespace thermal {
 
-/// Physics of one clip with the terms a dataset keeps; nothing for the published model.
+/// Physics of one clip with the terms a dataset keeps; empty for the published model.
 [[nodiscard]] std::optional<PhysicsSettings> physics_of(const Config& config, const ClipConfig& clip,
                                                         const Terms& terms);
 
-/// What dataset.json says of the terms: the budget of a physical dataset, emission alone for the published model.
+/// The entry of dataset.json on terms: the budget of a physical dataset, emission alone for the published model.
 [[nodiscard]] Json to_json(const Budget& budget);
 
 }  // namespace thermal

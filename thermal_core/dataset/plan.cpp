@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "io/child_process.h"
 #include "io/passing_folder.h"
 #include "io/resources.h"
@@ -40,11 +41,13 @@ DatasetPlan plan_dataset(const Json& resolved_config, const std::string& name, c
   write_file_atomically(config, to_text(resolved_config));
   const Path script = home / "blender_scripts" / "plan_dataset.py";
   const Output output =
-      run_program({python.string(), "-B", script.string(), "--config", config.string(), "--json"});
+      run_program({python.string(), "-I", "-B", script.string(), "--config", config.string(), "--json"});
   constexpr int kConfigFault = 2;
   if (output.status.signal == 0 && output.status.code == kConfigFault) throw_faults(output.error, name);
   if (output.status.signal != 0 || output.status.code != 0) {
-    throw IoError(fmt::format("{} {}: {}", script.string(), output.status.in_words(), output.last_words()));
+    const std::string why = printable(output.last_words());
+    throw IoError(fmt::format("{} {} {}{}", python.string(), script.filename().string(),
+                              output.status.in_words(), why.empty() ? "" : ": " + why));
   }
   const Json answer = parse_json(output.out, script.string());
   DatasetPlan plan{.clips = {}, .cut_clips = answer.at("cut_clips")};

@@ -7,20 +7,20 @@
 
 namespace thermal {
 
-/// How far a run is.
+/// Progress of a run.
 struct Progress {
-  std::string clip;     ///< the one being worked on
-  int frames_done = 0;  ///< of the whole run, counting only frames this run has to make
+  std::string clip;     ///< the one being made
+  int frames_done = 0;  ///< of the whole run, counting only frames that this run has to make
   int frames_total = 0;
 };
 
-/// How a long run talks to whoever started it. All may be empty; no two are called at once.
+/// Callbacks of a long run. All may be empty; no two are called at once.
 struct RunHooks {
   std::function<void(const Progress&)> progress;
   std::function<bool()> cancelled;
-  /// Blender died over a clip, and why, and was started again.
+  /// Blender crashed while rendering a clip and is restarted, with the reason.
   std::function<void(const std::string& clip, const std::string& why)> restarted = {};
-  /// A clip goes on without a frame.
+  /// A frame is skipped, and the clip continues without it.
   std::function<void(const std::string& clip, const SkippedFrame& frame)> skipped = {};
 
   void report(const Progress& state) const {

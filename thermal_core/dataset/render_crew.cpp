@@ -9,7 +9,7 @@
 namespace thermal {
 namespace {
 
-/// Threads of which the first that throws ends all.
+/// Threads that all stop when the first of them throws.
 class Crew {
  public:
   Crew(const ClipWork& work, const std::function<bool()>& cancelled)

@@ -2,25 +2,25 @@
 
 #include <algorithm>
 #include <chrono>
-#include <sstream>
 
 #include <fmt/format.h>
 
-#include "io/json_file.h"
+#include "base/printable.h"
+#include "dataset/blender_failure.h"
 
 namespace thermal {
 namespace {
 
 constexpr int kPollMs = 100;
 
-/// The line of Blender's output that says most about a failure: the last one that names an error.
-std::string telling_line(const Path& log) {
-  std::string telling;
-  std::istringstream lines(read_file(log));
-  for (std::string line; std::getline(lines, line);) {
-    if (line.find("Error") != std::string::npos || line.find("error") != std::string::npos) telling = line;
-  }
-  return telling;
+std::string with_log(const std::string& failure, const Path& log) {
+  return failure + "; log: " + log.string();
+}
+
+std::uintmax_t size_of(const Path& log) {
+  std::error_code none;
+  const std::uintmax_t bytes = std::filesystem::file_size(log, none);
+  return none ? 0 : bytes;
 }
 
 std::deque<std::string> clips_of(const RenderJob::Task& task) {
@@ -31,8 +31,8 @@ std::deque<std::string> clips_of(const RenderJob::Task& task) {
 }  // namespace
 
 std::vector<std::string> render_command(const RenderJob::Task& task) {
-  std::vector<std::string> command = {task.blender.string(), "--background", "--factory-startup",
-                                      "--python-exit-code", "1"};
+  std::vector<std::string> command = {task.blender.string(), "--background",       "--factory-startup",
+                                      "--disable-autoexec",  "--python-exit-code", "1"};
   if (task.threads > 0) command.insert(command.end(), {"--threads", std::to_string(task.threads)});
   const std::string script = (task.home / "blender_scripts" / "render_passes.py").string();
   command.insert(command.end(),
@@ -53,6 +53,8 @@ RenderJob::~RenderJob() {
 
 void RenderJob::run(const std::stop_token& stop) {
   try {
+    std::error_code none;
+    std::filesystem::remove(task_.log, none);  // an earlier run's
     while (run_once(stop)) {
     }
   } catch (...) {
@@ -68,7 +70,7 @@ void RenderJob::run(const std::stop_token& stop) {
 bool RenderJob::run_once(const std::stop_token& stop) {
   ChildProcess process(render_command(task_left()), task_.log);
   while (!stop.stop_requested() && !process.ended()) {
-    if (const auto line = process.next_line(kPollMs)) take_event(*line);
+    if (const auto line = process.next_line(kPollMs)) take_line(*line);
   }
   if (!stop.stop_requested()) return take_end(process.wait());
   process.stop();
@@ -78,41 +80,55 @@ bool RenderJob::run_once(const std::stop_token& stop) {
 RenderJob::Task RenderJob::task_left() {
   const std::lock_guard lock(mutex_);
   run_ = {};
+  run_.log_begin = size_of(task_.log);
   Task task = task_;
   if (!task.preview) task.clips.assign(left_.begin(), left_.end());
   return task;
 }
 
-void RenderJob::take_event(const std::string& line) {
+void RenderJob::take_line(const std::string& line) {
+  constexpr std::size_t kMostShownBytes = 200;
   const Json event = Json::parse(line, nullptr, false);
-  if (event.is_discarded() || !event.contains("event")) return;
+  if (!event.is_object() || !event.contains("event")) return;
   const std::lock_guard lock(mutex_);
-  const auto kind = event["event"].get<std::string>();
+  try {
+    take_event(event);
+  } catch (const Json::exception&) {
+    const std::string shown = printable(line.substr(0, kMostShownBytes));
+    throw IoError(
+        with_log(fmt::format("Blender sent a malformed event while {}: {}", run_.doing, shown), task_.log));
+  }
+}
+
+void RenderJob::take_event(const Json& event) {
+  const auto kind = event.at("event").get<std::string>();
   if (kind == "scene_built") {
     run_.scene_built = true;
     if (!left_.empty()) run_.doing = "rendering clip " + left_.front();
   } else if (kind == "clip") {
-    ready_[event["clip"]] = 1 + event["first_frame"].get<int>();
-    frames_[event["clip"]] = event.value("frames", 0);
-    run_.doing = fmt::format("rendering clip {}", event["clip"].get<std::string>());
-    leave_if_whole(event["clip"]);
+    ready_[event.at("clip")] = 1 + event.at("first_frame").get<int>();
+    frames_[event.at("clip")] = event.value("frames", 0);
+    run_.doing = fmt::format("rendering clip {}", event.at("clip").get<std::string>());
+    leave_if_whole(event.at("clip"));
   } else if (kind == "frame") {
-    const int index = event["index"];
-    ready_[event["clip"]] = 2 + index;
-    run_.doing = fmt::format("rendering clip {} after frame {}", event["clip"].get<std::string>(), index);
-    leave_if_whole(event["clip"]);
+    const int index = event.at("index");
+    ready_[event.at("clip")] = 2 + index;
+    run_.doing = fmt::format("rendering clip {} after frame {}", event.at("clip").get<std::string>(), index);
+    leave_if_whole(event.at("clip"));
   } else if (kind == "error") {
-    if (event.value("kind", "") == "config") run_.blame = Blame::config;
-    const auto where = event.value("where", std::string());
+    const ReportedFailure failure = reported_failure(event);
+    if (failure.config) run_.blame = Blame::config;
     run_.failure =
-        event.value("message", std::string("unknown reason")) + (where.empty() ? "" : " (" + where + ")");
+        failure.config
+            ? failure.message
+            : with_log(fmt::format("Blender failed while {}: {}", run_.doing, failure.in_words()), task_.log);
   }
   changed_.notify_all();
 }
 
 /// Another Blender is not to render again what may be converted and gone by then.
 void RenderJob::leave_if_whole(const std::string& clip) {
-  const int frames = frames_[clip];  // 0 where Blender did not tell
+  const int frames = frames_[clip];  // 0 if Blender did not report it
   if (frames == 0 || ready_[clip] <= frames || left_.empty() || left_.front() != clip) return;
   left_.pop_front();
   deaths_in_clip_ = 0;
@@ -142,18 +158,9 @@ bool RenderJob::take_end(const ExitStatus& status) {
 /// Puts into words why Blender ended early, unless it did so itself.
 void RenderJob::explain(const ExitStatus& status) {
   if (!run_.failure.empty()) return;
-  if (status.signal != 0) {
-    run_.blame = Blame::circumstances;
-    run_.failure =
-        fmt::format("Blender {} while {}; if nobody stopped it, the machine may have run out of memory",
-                    status.in_words(), run_.doing);
-  } else if (status.code != 0) {
-    const std::string said = telling_line(task_.log);
-    run_.failure = fmt::format("Blender {} while {}{}", status.in_words(), run_.doing,
-                               said.empty() ? "; it gave no reason" : ": " + said);
-  } else {
-    run_.failure = fmt::format("Blender ended early while {}", run_.doing);
-  }
+  if (status.signal != 0) run_.blame = Blame::circumstances;
+  const std::string last_words = last_words_in(task_.log, run_.log_begin);
+  run_.failure = with_log(unreported_end(status, run_.doing, last_words), task_.log);
 }
 
 /// Counts a death.
@@ -177,7 +184,7 @@ void RenderJob::wait_until(const std::function<bool()>& done, const std::functio
   while (!done()) {
     if (const auto lost = lost_.find(clip); lost != lost_.end()) throw ClipLost(lost->second);
     if (fault_) std::rethrow_exception(fault_);
-    if (ended_) throw IoError(fmt::format("Blender ended early while {}", run_.doing));
+    if (ended_) throw IoError(with_log(fmt::format("Blender ended early while {}", run_.doing), task_.log));
     if (cancelled && cancelled()) throw Cancelled();
     changed_.wait_for(lock, std::chrono::milliseconds(kPollMs));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <exception>
 #include <functional>
@@ -13,6 +14,7 @@
 #include "base/error.h"
 #include "io/child_process.h"
 #include "io/files.h"
+#include "io/json_file.h"
 
 namespace thermal {
 
@@ -37,7 +39,7 @@ class RenderJob {
     Path home;
     Path config;  ///< resolved
     Path passes;  ///< gets a folder for each clip
-    Path log;     ///< what the latest Blender printed
+    Path log;     ///< what the Blenders of this job print, one after another
     std::vector<std::string> clips;
     int threads = 0;       ///< 0: one a core
     bool preview = false;  ///< pictures for people instead: the frames of one clip, kPreview
@@ -58,7 +60,7 @@ class RenderJob {
   /// Blender was killed as it built the scene or the disk is full; else IoError. Cancelled when `cancelled` says so.
   void wait_for_frame(const std::string& clip, int frame, const std::function<bool()>& cancelled);
 
-  /// How many frames a clip has, as Blender told with its manifest; 0 before.
+  /// How many frames a clip has, as Blender reported with its manifest; 0 before.
   [[nodiscard]] int frames_of(const std::string& clip);
 
   /// How many leading frames of a clip are whole.
@@ -77,14 +79,16 @@ class RenderJob {
   struct Run {
     bool scene_built = false;
     Blame blame = Blame::blender;
-    std::string failure;  ///< why it ended early, in its own words
+    std::string failure;           ///< why it ended early, in one line
+    std::uintmax_t log_begin = 0;  ///< where its part of the log begins
     std::string doing = "building the scene";
   };
 
   void run(const std::stop_token& stop);
   [[nodiscard]] bool run_once(const std::stop_token& stop);
   [[nodiscard]] Task task_left();
-  void take_event(const std::string& line);
+  void take_line(const std::string& line);
+  void take_event(const Json& event);
   void leave_if_whole(const std::string& clip);
   [[nodiscard]] bool take_end(const ExitStatus& status);
   void explain(const ExitStatus& status);

@@ -9,10 +9,10 @@
 namespace thermal {
 namespace {
 
-// A frame's passes are ten channels of four bytes a pixel. Packed by RLE they take 24 bytes over dense savanna, but
-// nothing says that they must be smaller packed; nor are they while the actors' layer is joined to them.
+// A frame's passes are ten channels of four bytes per pixel. RLE reduces dense savanna to 24 bytes, but other scenes
+// may not shrink at all, and the joined actors' layer adds to that.
 constexpr std::int64_t kPassesBytesPerPixel = 40;
-// Three bytes before PNG, which noise leaves hardly smaller; one more for labels, preview and PNG's own.
+// Three bytes before PNG, which hardly reduces noise; one more for labels, preview and PNG's overhead.
 constexpr std::int64_t kPicturesBytesPerPixel = 4;
 
 }  // namespace
@@ -51,7 +51,7 @@ std::string bytes_in_words(std::int64_t bytes) {
 void check_room(std::int64_t left_bytes, std::int64_t needed_bytes, const std::string& folder,
                 const std::string& whose) {
   if (left_bytes / 2 >= needed_bytes) return;
-  throw TryAgainError(fmt::format("{} = {} left; expected at least 2 x {}, what {} still needs", folder,
+  throw TryAgainError(fmt::format("{} = {} left; expected at least 2 x the {} that {} still needs", folder,
                                   bytes_in_words(left_bytes), bytes_in_words(needed_bytes), whose));
 }
 

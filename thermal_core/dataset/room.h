@@ -7,19 +7,19 @@
 
 namespace thermal {
 
-/// How much of a clip is on the disk, and with that how much is still to come.
+/// Disk space used by a clip, and an estimate of what it still needs.
 struct ClipRoom {
-  /// Files of one kind, one a frame.
+  /// Files of one kind, one per frame.
   struct Files {
-    std::int64_t worst_bytes = 0;  ///< of one, for as long as there is none
-    std::int64_t bytes = 0;        ///< of those there are
+    std::int64_t worst_bytes = 0;  ///< size of one, used until the first exists
+    std::int64_t bytes = 0;        ///< of the existing ones
     int count = 0;
 
     void add(std::int64_t file_bytes) {
       bytes += file_bytes;
       ++count;
     }
-    /// The mean of those there are, rounded up, else the worst.
+    /// The mean of the existing ones, rounded up; the worst case without any.
     [[nodiscard]] std::int64_t bytes_a_frame() const;
   };
 
@@ -27,17 +27,17 @@ struct ClipRoom {
   Files passes;
   Files pictures;  ///< ir8 and ir16 together
 
-  /// Bytes of the frames that are still to come.
+  /// Bytes of the frames still to be made.
   [[nodiscard]] std::int64_t needed_bytes() const;
 };
 
-/// A clip of which nothing is there yet. `pictures`: whether it is converted, too.
+/// A clip without any files yet. `pictures`: whether it is also converted.
 [[nodiscard]] ClipRoom room_for(const Config& config, const ClipConfig& clip, bool pictures);
 
-/// "850 kB", "85 MB", "1.2 GB": two digits or more; kB is 1000 bytes and the least.
+/// "850 kB", "85 MB", "1.2 GB": two digits or more; kB is 1000 bytes and the smallest unit.
 [[nodiscard]] std::string bytes_in_words(std::int64_t bytes);
 
-/// TryAgainError where less than twice what is needed is left. `folder` and `whose` are for its words.
+/// TryAgainError if less than twice the needed space is left. `folder` and `whose` are for the message.
 void check_room(std::int64_t left_bytes, std::int64_t needed_bytes, const std::string& folder,
                 const std::string& whose);
 

@@ -5,7 +5,7 @@
 namespace thermal {
 namespace {
 
-/// 0 where the file is gone meanwhile.
+/// 0 if the file has been removed meanwhile.
 std::int64_t size_bytes(const Path& file) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
@@ -26,7 +26,7 @@ void RoomWatch::passes_ready(int frames) {
   const std::lock_guard lock(mutex_);
   while (room_.passes.count < frames)
     room_.passes.add(size_bytes(layout_.passes(id_) / passes_name(room_.passes.count)));
-  tell();
+  report();
 }
 
 void RoomWatch::pictures_written() {
@@ -34,9 +34,9 @@ void RoomWatch::pictures_written() {
   const Path folder = layout_.unfinished_clip(id_);
   const std::string name = frame_name(room_.pictures.count);
   room_.pictures.add(size_bytes(folder / "ir8" / name) + size_bytes(folder / "ir16" / name));
-  tell();
+  report();
 }
 
-void RoomWatch::tell() { board_.needs(id_, room_.needed_bytes()); }
+void RoomWatch::report() { board_.needs(id_, room_.needed_bytes()); }
 
 }  // namespace thermal

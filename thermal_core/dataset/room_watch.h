@@ -8,21 +8,21 @@
 
 namespace thermal {
 
-/// Follows the files of a clip as they come, and tells what room the clip still needs; from any thread.
-/// All throw TryAgainError where there is too little.
+/// Follows the files of a clip as they are written, and reports the disk space it still needs; from any thread. All
+/// functions throw TryAgainError if there is too little.
 class RoomWatch {
  public:
-  /// Counts the passes that an earlier run left. `pictures`: whether they are converted, too.
+  /// Counts the passes left by an earlier run. `pictures`: whether they are also converted.
   RoomWatch(const Config& config, const ClipConfig& clip, const Layout& layout, bool pictures,
             RunBoard& board);
 
-  /// So many leading frames of the passes are whole.
+  /// Records that this many leading frames of the passes are complete.
   void passes_ready(int frames);
-  /// The pictures of one more frame are written.
+  /// Records one more frame's pictures.
   void pictures_written();
 
  private:
-  void tell();
+  void report();
 
   std::string id_;
   Layout layout_;

@@ -39,7 +39,7 @@ void RunBoard::lost(const ClipConfig& clip, const std::string& why, bool killed)
   const std::lock_guard lock(mutex_);
   outcome_.failed[clip.id] = why;
   all_killed_ = all_killed_ && killed;
-  progress_.frames_done += clip.frames - frames_done_[clip.id];  // those that will not come: none to wait for
+  progress_.frames_done += clip.frames - frames_done_[clip.id];  // those will never come
   end(clip);
   hooks_.report(progress_);
 }

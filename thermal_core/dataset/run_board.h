@@ -8,8 +8,8 @@
 
 namespace thermal {
 
-/// What the workers of a run tell of it, from any thread: one after another it goes on to the run's hooks, its outcome
-/// and its watch over the disk.
+/// Collects reports of a run's workers, from any thread, and passes them one by one to the run's hooks, its outcome
+/// and its check of disk space.
 class RunBoard {
  public:
   RunBoard(const RunHooks& hooks, const Path& out, int frames_total);
@@ -21,11 +21,11 @@ class RunBoard {
   void lost(const ClipConfig& clip, const std::string& why, bool killed);
   void restarted(const std::string& clip, const std::string& why);
 
-  /// What a clip that is being made still needs. TryAgainError where all of them together may not find room.
+  /// Sets the space that a clip being made still needs. TryAgainError if all of them together may not fit.
   void needs(const std::string& clip, std::int64_t bytes);
 
   [[nodiscard]] bool stop_wanted();
-  /// All but what was there before and whether the dataset is complete.
+  /// Everything except clips that existed before and whether the dataset is complete.
   [[nodiscard]] RunOutcome outcome();
 
  private:
@@ -36,9 +36,9 @@ class RunBoard {
   std::mutex mutex_;
   Progress progress_;
   RunOutcome outcome_;
-  bool all_killed_ = true;                     ///< of the clips that were lost
-  std::map<std::string, int> frames_done_;     ///< of each clip that is being made
-  std::map<std::string, std::int64_t> needs_;  ///< bytes, of each clip that is being made
+  bool all_killed_ = true;                     ///< of failed clips
+  std::map<std::string, int> frames_done_;     ///< of each clip being made
+  std::map<std::string, std::int64_t> needs_;  ///< bytes, of each clip being made
 };
 
 }  // namespace thermal

@@ -14,7 +14,7 @@
 namespace thermal {
 namespace {
 
-/// What the file must be. People may write one themselves: only the frames have to be there.
+/// Schema of the file. Users may write their own: only the frames are required.
 constexpr const char* kSchema = R"({
   "type": "object",
   "required": ["format", "version", "datasets"],
@@ -73,7 +73,7 @@ Json totals_json(const Selection& selection) {
   return {{"videos", videos}, {"frames", frames}, {"labels", labels}};
 }
 
-/// A video a line, so that people can read it.
+/// One video per line, for readability.
 std::string datasets_text(const Selection& selection) {
   std::vector<std::string> datasets;
   for (const SelectedDataset& dataset : selection.datasets) {
@@ -137,7 +137,7 @@ void check_dataset(const SelectedDataset& dataset, const std::string& where) {
     const std::string video = fmt::format("{}.videos[{}]", where, i);
     if (!seen.insert(dataset.videos[i].name).second)
       throw DataError(fault(video + ".name", "\"" + dataset.videos[i].name + "\"", "",
-                            "a name that no other video of the dataset has"));
+                            "a name unique among the videos of the dataset"));
     check_frames(dataset.videos[i].frames, video + ".frames");
   }
 }
@@ -148,7 +148,7 @@ void check(const Selection& selection) {
     const std::string where = fmt::format("datasets[{}]", i);
     if (!seen.insert(selection.datasets[i].path).second)
       throw DataError(fault(where + ".path", "\"" + selection.datasets[i].path + "\"", "",
-                            "a path that no other dataset has"));
+                            "a path unique among the datasets"));
     check_dataset(selection.datasets[i], where);
   }
 }
@@ -201,8 +201,8 @@ const SelectedDataset& selection_for(const Selection& selection, const Path& fil
     known.push_back(dataset.path);
   }
   if (named.size() == 1) return *named.front();
-  throw DataError(fmt::format("{}: nothing in it is about {}; expected one of {}{}", file.string(),
-                              path.string(), list_names(known), did_you_mean(path.string(), known)));
+  throw DataError(fmt::format("{}: no entry for {}; expected one of {}{}", file.string(), path.string(),
+                              list_names(known), did_you_mean(path.string(), known)));
 }
 
 }  // namespace thermal

@@ -8,19 +8,19 @@
 
 namespace thermal {
 
-/// Frames taken of a video; none where it is left out of the data set that is made.
+/// Frames selected from a video; empty if the video is left out of the new data set.
 struct SelectedVideo {
   std::string name;
   std::vector<int> frames;  ///< indices in the video, from 0, ascending
 };
 
 struct SelectedDataset {
-  std::string path;  ///< as it was given
+  std::string path;  ///< as given
   std::string name;  ///< of its LabelSet
   std::vector<SelectedVideo> videos;
 };
 
-/// What was asked of a class of targets, what is there and what was taken.
+/// The request for a class of targets, what is available and what was selected.
 struct SelectedClass {
   std::string name;
   std::int64_t at_least = 0;
@@ -34,7 +34,7 @@ struct Selection {
   std::uint32_t seed = 0;
   std::vector<SelectedClass> classes;
   std::int64_t objective = 0;
-  std::int64_t bound = 0;  ///< no selection has a smaller objective
+  std::int64_t bound = 0;  ///< proven lower bound of the objective
   double gap = 0;          ///< (objective - bound) / max(1, |objective|)
   std::vector<SelectedDataset> datasets;
 };
@@ -42,12 +42,12 @@ struct Selection {
 /// Writes it as JSON, atomically; the same selection gives the same bytes. IoError or TryAgainError.
 void write_selection(const Path& file, const Selection& selection);
 
-/// DataError naming the file and the place if it is no selection, or one that contradicts itself: frames that are
-/// negative, not ascending or twice there, videos or datasets that come twice; IoError if it can't be read.
+/// DataError with the file and the place if it is not a selection, or contradicts itself: frames that are negative,
+/// not ascending or repeated, repeated videos or datasets; IoError if it cannot be read.
 [[nodiscard]] Selection read_selection(const Path& file);
 
-/// The part of a selection that is about the dataset at `path`, of this name: the one given by the same path, or else
-/// the only one of the name. DataError naming `file` if there is none, or several.
+/// The part of a selection for the dataset at `path`, of this name: the one with the same path, otherwise the only
+/// one of that name. DataError with `file` if there is none, or several.
 [[nodiscard]] const SelectedDataset& selection_for(const Selection& selection, const Path& file,
                                                    const Path& path, const std::string& name);
 

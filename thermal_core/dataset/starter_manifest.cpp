@@ -14,12 +14,12 @@
 namespace thermal {
 namespace {
 
-// What Blender's cameras and scenes begin with.
+// Defaults of Blender's cameras and scenes.
 constexpr double kLensMm = 50;
 constexpr double kSensorMm = 36;  // of the picture's longer side
 constexpr double kFrameRateHz = 24;
 
-/// A word that clips can be called by, of a folder's name.
+/// A word to name clips by, from a folder's name.
 std::string clip_name(const Path& folder) {
   const Path whole = std::filesystem::absolute(folder).lexically_normal();
   std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
@@ -56,7 +56,7 @@ class Writer {
     add_channels();
     add_camera();
     json["frame_rate_hz"] = kFrameRateHz;
-    made_.guesses.push_back(fmt::format("frame_rate_hz = {} (Blender's usual one)", kFrameRateHz));
+    made_.guesses.push_back(fmt::format("frame_rate_hz = {} (Blender's default)", kFrameRateHz));
     add_files();
     json["objects"] = Json::array();
     for (const StarterObject& object : starter_objects(inspection_, known_)) add_object(object);
@@ -131,7 +131,7 @@ class Writer {
   void add_materials() {
     Json& materials = made_.document["materials"] = Json::array();
     for (const auto& [index, pixels] : inspection_.survey.materials) {
-      if (index == 0) continue;  // means: that of the object
+      if (index == 0) continue;  // means that of the object
       made_.to_fill_in.push_back(fmt::format("materials[{}]: material of material index {} ({} px)",
                                              materials.size(), index, pixels));
       materials.push_back({{"index", index}, {"material", kFillIn}});
@@ -142,7 +142,7 @@ class Writer {
     const auto count = made_.document["objects"].size();
     if (count >= 1 && count <= static_cast<std::size_t>(kLargestIndex)) return;
     if (count > 0) {
-      throw DataError(fmt::format("{}: {} objects; expected at most {}: colours that blend at edges, perhaps",
+      throw DataError(fmt::format("{}: {} objects; expected at most {}; colours may be blended at edges",
                                   inspection_.file.string(), count, kLargestIndex));
     }
     throw DataError(

@@ -32,7 +32,7 @@ std::vector<StarterObject> objects_by_colour(const PassSurvey& survey) {
   return objects;
 }
 
-/// A name without the number that Blender gives to copies: "Tree" of "Tree.001".
+/// A name without the number that Blender adds to copies: "Tree" of "Tree.001".
 std::string original(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   const bool copy = dot != std::string::npos && dot + 1 < name.size() &&
@@ -43,7 +43,8 @@ std::string original(const std::string& name) {
 /// Mattes that make one object, by its name.
 using Groups = std::map<std::string, std::map<std::string, std::int64_t>>;
 
-/// What of `mattes` is one object: all of a kind of ground or plant, else a name alone unless it has many copies.
+/// Groups `mattes` into objects: everything of one kind of ground or plant, otherwise single names unless a name has
+/// many copies.
 Groups group_mattes(const std::map<std::uint32_t, PassSurvey::Matte>& mattes, const KnownThings& known) {
   std::map<std::string, std::size_t> copies;
   for (const auto& [hash, matte] : mattes) ++copies[original(matte.name)];
@@ -87,7 +88,7 @@ void number(std::vector<StarterObject>& objects) {
   for (std::size_t i = 0; i < objects.size(); ++i) objects[i].index = static_cast<int>(i) + 1;
 }
 
-/// Of several things of which none is known as ground, what covers most is taken for it.
+/// If none of several things is known as ground, the one that covers most is taken as ground.
 void guess_ground(std::vector<StarterObject>& objects) {
   const auto is_ground = [](const StarterObject& object) {
     return object.known && object.known->object_class == ObjectClass::ground;

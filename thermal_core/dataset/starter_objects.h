@@ -18,11 +18,12 @@ struct StarterObject {
   std::optional<Colour> colour = {};
   std::vector<std::string> mattes = {};  ///< empty: its name
   std::optional<KnownThing> known = {};  ///< what it most likely is
-  std::string reason = {};               ///< by what that was guessed
+  std::string reason = {};               ///< what the guess is based on
 };
 
-/// The objects that an inspection found: indices as they are, names of a cryptomatte and colours numbered from 1, most pixels
-/// first. Mattes that are the same kind of ground or plant are one object, as are more than twenty copies of anything.
+/// The objects that an inspection found: indices unchanged, names of a cryptomatte and colours numbered from 1, most
+/// pixels first. Mattes of one kind of ground or plant are one object, and so are more than twenty copies of
+/// anything.
 [[nodiscard]] std::vector<StarterObject> starter_objects(const Inspection& inspection,
                                                          const KnownThings& known);
 

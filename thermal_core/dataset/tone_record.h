@@ -7,11 +7,11 @@
 
 namespace thermal {
 
-/// What frames.jsonl says of how a frame's 8 bits came from its 16: the mode, its parameters, and the thresholds,
-/// which tell it exactly (see ToneCurve).
+/// The entry of frames.jsonl on how a frame's 8 bits were made from its 16: the mode, its parameters, and the
+/// thresholds, which define it exactly (see ToneCurve).
 [[nodiscard]] Json tone_record(const ToneCurve& curve, const AgcParameters& agc, float brightest_w_m2_sr);
 
-/// As configs spell it.
+/// Spelled as in configs.
 [[nodiscard]] std::string mode_name(AgcMode mode);
 
 }  // namespace thermal

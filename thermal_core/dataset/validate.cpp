@@ -11,7 +11,7 @@
 namespace thermal {
 namespace {
 
-/// What is wrong with a file whose bytes have changed.
+/// The fault of a file with changed bytes.
 std::string fault_of(const Path& file) {
   if (file.extension() == ".json") {
     try {
@@ -30,7 +30,7 @@ class Checker {
   DatasetCheck run() {
     const Json dataset = read_json(layout_.dataset_json());
     if (dataset.value("format", "") != "veldt-dataset") {
-      throw IoError(layout_.dataset_json().string() + " is not of a Veldt dataset");
+      throw IoError(layout_.dataset_json().string() + " does not belong to a Veldt dataset");
     }
     for (const Json& clip : dataset.at("clips")) check_clip(clip);
     if (dataset.contains("annotations_sha256")) {

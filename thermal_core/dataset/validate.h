@@ -7,15 +7,15 @@
 
 namespace thermal {
 
-/// What a check of a dataset on disk came to.
+/// Result of checking a dataset on disk.
 struct DatasetCheck {
   int clips = 0;
   int files = 0;                    ///< checked
   std::vector<std::string> faults;  ///< each naming its file
 };
 
-/// Checks that a dataset is complete and every file is as it was written: SHA-256 of all of them.
-/// Never throws for what is wrong inside the dataset; IoError if there is none.
+/// Checks that a dataset is complete and every file unchanged: SHA-256 of all of them. Never throws for faults inside
+/// the dataset; IoError if there is none.
 [[nodiscard]] DatasetCheck validate_dataset(const Path& root);
 
 }  // namespace thermal

@@ -9,7 +9,7 @@ namespace thermal {
 namespace {
 
 using Vector = std::array<double, 3>;
-using Corners = std::array<Vector, 8>;  // bit 0, 1 and 2 of the place: which end along x, y and z
+using Corners = std::array<Vector, 8>;  // bits 0, 1 and 2 of the index: which end along x, y and z
 
 /// A point in actor axes (x forward, y left, z up) to camera axes (x right, y down, z forward).
 Vector to_camera(const Vector& local_m, const ActorPose& pose,
@@ -26,14 +26,14 @@ Vector to_camera(const Vector& local_m, const ActorPose& pose,
   return seen_m;
 }
 
-/// Where the edge between two corners comes near the camera's plane.
+/// Where the edge between two corners crosses the near plane.
 Vector cut(const Vector& before, const Vector& behind) {
   const double share = (before[2] - kNearestM) / (before[2] - behind[2]);
   return {before[0] + share * (behind[0] - before[0]), before[1] + share * (behind[1] - before[1]),
           kNearestM};
 }
 
-/// Corners of the part of the box that lies before the camera.
+/// Corners of the part of the box in front of the camera.
 std::vector<Vector> corners_before(const Corners& corners) {
   std::vector<Vector> before;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -54,7 +54,7 @@ double farthest_corner(const CameraIntrinsics& camera) {
   return std::hypot(x, y);
 }
 
-/// Goes out from the axis to the point as long as that leads outwards in what the lens shows.
+/// Moves outwards from the axis to the point for as long as the lens shows that as outwards.
 LensPoint shown_by(const LensDistortion& lens, LensPoint point, double reach) {
   if (lens.is_none()) return point;
   constexpr int kSteps = 96;  // a 32nd of the way to the picture's corner, or less
@@ -86,7 +86,7 @@ LabelBox box_about(const std::vector<Vector>& points, const CameraIntrinsics& ca
   return {.x_px = *left, .y_px = *top, .width_px = *right - *left, .height_px = *bottom - *top};
 }
 
-/// One side of a box, from low to high, within a frame that ends at 0 and at `size`.
+/// One side of a box, from low to high, within a frame from 0 to `size`.
 struct Side {
   double low = 0;
   double high = 0;

@@ -32,7 +32,7 @@ std::vector<std::uint16_t> indices_of(const std::vector<ManifestObject>& actors)
   return indices;
 }
 
-/// In a list by rising index; null if it is not there.
+/// Looks up an ascending list; null if absent.
 template <typename List>
 auto* find_index(List& list, std::uint16_t index) {
   const auto found =
@@ -58,7 +58,7 @@ PixelBox around(const PixelBox& a, const PixelBox& b) {
 
 }  // namespace
 
-/// One index plane of a frame, as it was rendered and as the picture has it.
+/// One index plane of a frame, as rendered and as in the picture.
 struct ActorLabeller::Layer {
   const Plane<std::uint16_t>* fine = nullptr;
   std::span<const IndexUse> fine_uses;
@@ -116,7 +116,7 @@ Plane<std::uint16_t> ActorLabeller::in_picture(const Plane<std::uint16_t>& fine,
   return map_ ? map_->resample_nearest(coarse) : coarse;
 }
 
-/// Pixels of the passes with an index, as often as the picture shows them.
+/// Pixels of the passes with an index, each counted as often as the picture shows it.
 double ActorLabeller::shown_px(const Layer& layer, std::uint16_t index) const {
   const IndexUse* coarse = find_use(layer.uses(), index);
   if (supersample_ == 1) return coarse != nullptr ? coarse->pixels : 0;
@@ -157,7 +157,7 @@ void ActorLabeller::tell_visible(const Layer& all, const Layer* alone, Instance&
   instance.whole_box = to_label(box);
 }
 
-/// From poses alone, as far as those are told.
+/// From poses alone, where given.
 void ActorLabeller::tell_places(const ManifestFrame& frame, std::vector<Instance>& instances) const {
   for (const ActorPose& pose : frame.actors) {
     Instance* instance = find_index(instances, pose.index);

@@ -12,28 +12,29 @@
 
 namespace thermal {
 
-/// Labels the actors of a clip's frames, all that can be told without the sensor.
+/// Labels the actors of a clip's frames with everything that does not need the sensor.
 class ActorLabeller {
  public:
-  /// `map`: from the passes, where they are as fine as the camera, to its picture; null where they are that.
-  /// `uses_depth`: whether passes come with depth for sure. Only then is it looked at, so that labels do not depend on
-  /// what others have asked for.
+  /// `map`: from passes at the camera's resolution to its picture; null where they are the same. `uses_depth`:
+  /// whether passes are certain to have depth. Depth is read only then, so that labels do not depend on which planes
+  /// others have requested.
   ActorLabeller(const Manifest& manifest, const LensDistortion& lens, std::shared_ptr<const ResampleMap> map,
                 bool uses_depth = false);
 
-  /// The actors that have a pixel of the camera's picture, by rising index. `uses` is a survey of the object index.
+  /// The actors with at least one pixel in the camera's picture, in ascending order of index. `uses` is a survey of
+  /// the object index.
   ///
-  /// In passes finer than the camera an actor has the pixels it covers at least half of; covered_px and visibility
-  /// count the finer pixels, as often as the camera's pixels they are in show them. One that covers half of no pixel
-  /// has no label.
-  /// visibility: its pixels over its pixels in the actor layer, at most 1; not known where the frame has no such layer
-  /// or that lacks the actor. Others may hide it there too.
-  /// whole_box: about its pixels, in the actor layer too, extended() where it touches the border. An estimate: over the
-  /// demo's actors, an end found so is off by 7 % of an elephant's side, 11 % of a zebra's, 13 % of a human's (rms); by
-  /// the box in the world alone it would be too far out by 19 to 41 %. Not known, like truncated_fraction, where it
-  /// touches a border and poses or bounds are not told.
-  /// range_m: to the middle of the box in the world; else the mean over its pixels, where depth is used.
-  /// DataError if the actor layer holds an index that is no actor's. Safe to call from several threads.
+  /// In passes finer than the camera, an actor has the pixels of which it covers at least half; covered_px and
+  /// visibility count finer pixels, weighted by how often the camera shows them. An actor that covers half of no
+  /// pixel has no label.
+  /// visibility: its pixels / its pixels in the actor layer, at most 1; empty if the frame has no such layer or the
+  /// layer lacks the actor. Other actors may hide it there too.
+  /// whole_box: the box of its pixels, including the actor layer, extended() where it touches the border. An
+  /// estimate: over the demo's actors, an end found so is off by 7 % of an elephant's side, 11 % of a zebra's, 13 %
+  /// of a human's (rms); the box in the world alone would be too large by 19 to 41 %. Empty, like truncated_fraction,
+  /// if it touches a border and poses or bounds are not given.
+  /// range_m: to the centre of the box in the world; otherwise the mean over its pixels, if depth is used.
+  /// DataError if the actor layer holds an index that is not an actor's. Safe to call from several threads.
   [[nodiscard]] std::vector<Instance> label(const Passes& passes, std::span<const IndexUse> uses,
                                             const ManifestFrame& frame) const;
 
@@ -54,8 +55,8 @@ class ActorLabeller {
   bool uses_depth_;
   int supersample_;
   std::shared_ptr<const ResampleMap> map_;
-  Plane<std::uint16_t> times_shown_;    ///< of pixels as large as the camera's; where finer ones are counted
-  std::vector<ManifestObject> actors_;  ///< by rising index
+  Plane<std::uint16_t> times_shown_;    ///< in pixels of the camera's size; where finer ones are counted
+  std::vector<ManifestObject> actors_;  ///< in ascending order
   IndexSet is_actor_;
 };
 

@@ -10,13 +10,13 @@
 namespace thermal {
 namespace {
 
-/// A shift and how much of the pictures it applies to.
+/// A shift and the fraction of the pictures it applies to.
 struct Weighted {
   double value = 0;
   double weight = 0;
 };
 
-/// Value below which a share of the weight lies.
+/// Weighted quantile: the value below which a fraction of the weight lies.
 double percentile(const std::vector<Weighted>& sorted, double share) {
   double total = 0;
   for (const Weighted& entry : sorted) total += entry.weight;
@@ -50,7 +50,7 @@ class MaterialModel {
   [[nodiscard]] double temperature_k() const { return material_.temperature_k(weather_.air.temperature_k); }
   [[nodiscard]] double emitted(double temperature_k) const { return band_.radiance(temperature_k); }
 
-  /// Emission and reflection at an angle; a fall-off factor of 1 leaves the angle out.
+  /// Emission and reflection at an angle; a fall-off factor of 1 ignores the angle.
   [[nodiscard]] double with_sky(double factor, double cosine) const {
     const double sky = material_.angular == AngularLaw::water ? mirrored_sky_emissivity(weather_.air, cosine)
                                                               : sky_emissivity(weather_.air);
@@ -119,7 +119,7 @@ class NightShifts {
     }
   }
 
-  /// Quantiles of a normal distribution at 5, 15, … 95 % stand for the field.
+  /// Quantiles of a normal distribution at 5, 15, … 95 % represent the field.
   void add_variation(const SceneOutline::Cover& cover) {
     constexpr double kQuantiles[] = {-1.645, -1.036, -0.674, -0.385, -0.126,
                                      0.126,  0.385,  0.674,  1.036,  1.645};
@@ -138,7 +138,7 @@ class NightShifts {
     }
   }
 
-  /// The signal keeps its level; it is the noise that grows.
+  /// The signal keeps its level; the noise grows.
   void add_falloff() {
     for (const SceneOutline::Look& look : night_.looks) {
       add("falloff", outline_.netd_k * std::pow(look.axis_cosine, -4), 1, false);

@@ -7,7 +7,7 @@
 namespace thermal {
 namespace {
 
-/// What nothing covers; empty where that is nothing anywhere.
+/// Uncovered fractions; empty if zero everywhere.
 Plane<float> uncovered(const std::vector<CoverageRank>& ranks) {
   Plane<float> left(ranks.front().coverage.width_px(), ranks.front().coverage.height_px(), 1.0F);
   const auto pixels = left.pixels();
@@ -19,7 +19,8 @@ Plane<float> uncovered(const std::vector<CoverageRank>& ranks) {
   return any ? std::move(left) : Plane<float>();
 }
 
-/// Adds what a share of each pixel radiates. Rounded sums of coverages may pass 1, so shares may be below 0.
+/// Adds the radiance of a fraction of each pixel. Rounded sums of coverages may exceed 1, so fractions may be
+/// negative.
 void add_weighted(const Plane<float>& radiance, const Plane<float>& share, Plane<float>& sum) {
   const auto out = sum.pixels();
   const auto from = radiance.pixels();
@@ -29,8 +30,8 @@ void add_weighted(const Plane<float>& radiance, const Plane<float>& share, Plane
 
 }  // namespace
 
-void coverage_radiance(const SceneRadiance& scene, const Passes& passes, const ManifestFrame& frame,
-                       Plane<float>& out) {
+PassChecks coverage_radiance(const SceneRadiance& scene, const Passes& passes, const ManifestFrame& frame,
+                             Plane<float>& out) {
   assert(!passes.ranks.empty());
   const PassNeeds needs = scene.needs();
   Passes one;
@@ -39,17 +40,20 @@ void coverage_radiance(const SceneRadiance& scene, const Passes& passes, const M
   one.material_index = passes.material_index;
   out = Plane<float>(passes.object_index.width_px(), passes.object_index.height_px());
   Plane<float> radiance;
+  PassChecks checks;
   for (const CoverageRank& rank : passes.ranks) {
     one.object_index = rank.object_index;
-    scene.radiance(one, frame, radiance);
+    const PassChecks of_rank = scene.radiance(one, frame, radiance);
+    if (&rank == &passes.ranks.front()) checks = of_rank;  // depth and normals are those of what fills most
     add_weighted(radiance, rank.coverage, out);
     one.material_index = {};
   }
   const Plane<float> left = uncovered(passes.ranks);
-  if (left.empty()) return;
+  if (left.empty()) return checks;
   one.object_index = Plane<std::uint16_t>(out.width_px(), out.height_px(), kSkyIndex);
   scene.radiance(one, frame, radiance);
   add_weighted(radiance, left, out);
+  return checks;
 }
 
 }  // namespace thermal

@@ -80,21 +80,19 @@ void FrameConverter::convert(const Passes& passes, const ManifestFrame& frame, S
   if (!passes.material_index.empty()) surfaces.check_materials(survey_indices(passes.material_index));
   out.instances = labeller_.label(passes, uses, frame);
   if (supersample_ == 1 && !map_) {
-    radiance(passes, frame, out.radiance_w_m2_sr);
+    out.checks = radiance(passes, frame, out.radiance_w_m2_sr);
     return;
   }
   Plane<float> fine;
-  radiance(passes, frame, fine);
+  out.checks = radiance(passes, frame, fine);
   reshape(std::move(fine), out.radiance_w_m2_sr);
 }
 
-/// Of the passes' pixels.
-void FrameConverter::radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const {
-  if (passes.ranks.empty()) {
-    scene_radiance_.radiance(passes, frame, out);
-  } else {
-    coverage_radiance(scene_radiance_, passes, frame, out);
-  }
+/// At the resolution of the passes.
+PassChecks FrameConverter::radiance(const Passes& passes, const ManifestFrame& frame,
+                                    Plane<float>& out) const {
+  if (passes.ranks.empty()) return scene_radiance_.radiance(passes, frame, out);
+  return coverage_radiance(scene_radiance_, passes, frame, out);
 }
 
 /// From the passes' pixels to the camera's.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kRowsAChunk = 8;
 
-/// From a pixel to the one on its right and the one below; none in a picture one pixel wide or high.
+/// Offsets from a pixel to its right and lower neighbours; 0 in a picture one pixel wide or high.
 struct Steps {
   std::int32_t right = 0;
   std::int32_t down = 0;
@@ -23,7 +23,7 @@ Steps steps_of(const Plane<T>& plane) noexcept {
   return {.right = plane.width_px() > 1 ? 1 : 0, .down = plane.height_px() > 1 ? plane.width_px() : 0};
 }
 
-/// a + share * (b - a), and not a weighted sum, so that what is even stays even to the last bit.
+/// a + share * (b - a) instead of a weighted sum, so that uniform areas stay exactly uniform.
 VELDT_CLONES void interpolate(const float* __restrict in, Steps steps, const std::int32_t* __restrict corner,
                               const float* __restrict x_share, const float* __restrict y_share,
                               float* __restrict out, std::size_t count) noexcept {
@@ -36,7 +36,7 @@ VELDT_CLONES void interpolate(const float* __restrict in, Steps steps, const std
   }
 }
 
-/// Calls work(begin, end) on runs of whole rows' pixels.
+/// Calls work(begin, end) on pixel ranges of whole rows.
 template <typename Work>
 void for_rows(int width_px, int height_px, const Work& work) {
   const auto width = static_cast<std::size_t>(width_px);
@@ -44,7 +44,7 @@ void for_rows(int width_px, int height_px, const Work& work) {
                [&](std::size_t begin, std::size_t end) { work(begin * width, end * width); });
 }
 
-/// The last pixel at or before a place that has another one behind it, and how far beyond it the place is.
+/// The last pixel at or before a position that has a next one, and the fraction beyond it.
 std::pair<int, float> split(double place_px, int size_px) noexcept {
   const double inside_px = std::clamp(place_px, 0.0, size_px - 1.0);
   const int first = std::min(static_cast<int>(inside_px), std::max(size_px - 2, 0));
@@ -71,8 +71,7 @@ void ResampleMap::place_row(const CameraIntrinsics& camera, const LensDistortion
   const int high_px = height_px_ + 2 * overscan_px_;
   std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_);
   for (int x = 0; x < width_px_; ++x, ++i) {
-    const LensPoint seen =
-        undistort(lens, {(x + 0.5 - camera.cx_px) / camera.fx_px, (y + 0.5 - camera.cy_px) / camera.fy_px});
+    const LensPoint seen = unproject(camera, lens, {x + 0.5, y + 0.5});
     const double u_px = camera.fx_px * seen.x + camera.cx_px + overscan_px_;
     const double v_px = camera.fy_px * seen.y + camera.cy_px + overscan_px_;
     const auto [column, x_share] = split(u_px - 0.5, wide_px);

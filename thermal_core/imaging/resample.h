@@ -9,24 +9,24 @@
 
 namespace thermal {
 
-/// Where the camera's pixels lie in a pinhole's picture that reaches `overscan_px` pixels further on every side.
-/// Without distortion that is a crop.
+/// Maps the camera's pixels into a pinhole picture that extends `overscan_px` further on every side. Without
+/// distortion this is a crop. Not cv::remap(): it rounds positions to 1/32 px, and bits must not depend on the machine.
 class ResampleMap {
  public:
-  /// `overscan_px` is at least what the lens needs (thermal::overscan_px), or this is a programmer's fault.
+  /// `overscan_px` must be at least what the lens needs (thermal::overscan_px); asserted.
   ResampleMap(const CameraIntrinsics& camera, int overscan_px, const LensDistortion& lens);
 
   [[nodiscard]] int width_px() const noexcept { return width_px_; }
   [[nodiscard]] int height_px() const noexcept { return height_px_; }
 
-  /// Radiance as the lens shows it: bilinear between the centres of four pixels. Where one of the four is not
-  /// finite, neither is the result; other pixels are not touched by it. A crop copies.
+  /// Radiance as the lens shows it: bilinear between the centres of four pixels. If one of the four is not finite,
+  /// neither is the result; other pixels are unaffected. A crop copies.
   void resample_linear(const Plane<float>& in, Plane<float>& out) const;
 
-  /// Indices as the lens shows them: that of the nearest pixel.
+  /// Indices as the lens shows them: the nearest pixel's.
   [[nodiscard]] Plane<std::uint16_t> resample_nearest(const Plane<std::uint16_t>& in) const;
 
-  /// How many of the camera's pixels resample_nearest() has show each pixel of the pinhole's picture.
+  /// How often resample_nearest() uses each pixel of the pinhole picture.
   [[nodiscard]] Plane<std::uint16_t> times_shown() const;
 
  private:
@@ -38,7 +38,8 @@ class ResampleMap {
   int width_px_;
   int height_px_;
   int overscan_px_;
-  // By pixel of the camera, empty for a crop: the upper left one of the four, and how far towards the others.
+  // By pixel of the camera, empty for a crop: the upper left of the four pixels, and the fractions towards the
+  // others.
   std::vector<std::int32_t> corner_;
   std::vector<float> x_share_;
   std::vector<float> y_share_;

@@ -29,7 +29,7 @@ VELDT_CLONES void find_places(const PlaceInput& in, float* __restrict x, float* 
     const float depth = p.depth_m[i] * scale;
     x[i] = p.origin_x_m * scale + depth * (p.x_along + p.x_across * p.ray_x[i]);
     y[i] = p.origin_y_m * scale + depth * (p.y_along + p.y_across * p.ray_x[i]);
-    footprint[i] = depth > 0 ? depth * p.pixel_width : -1.0F;  // of which the field gives the mean
+    footprint[i] = depth > 0 ? depth * p.pixel_width : -1.0F;  // the field gives its mean there
   }
 }
 

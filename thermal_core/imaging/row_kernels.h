@@ -6,13 +6,13 @@
 
 namespace thermal::kernels {
 
-// The loops the terms spend their time in, over plain arrays that do not overlap: branch-free, so that they
-// vectorise, and for AVX2 too where the machine has it. See row_terms.h for what they mean.
+// The inner loops of the terms, over plain arrays that do not overlap: branch-free, so that they vectorise, and
+// compiled for AVX2 as well. See row_terms.h for their meaning.
 
 /// out[i] = by_surface[surface[i]].
 void look_up(const std::uint16_t* surface, const float* by_surface, float* out, std::size_t count) noexcept;
 
-/// Where the ray of each pixel meets what it shows, and the pixel's size there, in correlation lengths.
+/// Where the ray of each pixel meets a surface, and the pixel's size there, in correlation lengths.
 struct PlaceInput {
   const std::uint16_t* surface;
   const float* per_correlation_length;  ///< by surface
@@ -25,20 +25,20 @@ struct PlaceInput {
 };
 void find_places(const PlaceInput& in, float* x, float* y, float* footprint, std::size_t count) noexcept;
 
-/// Radiance of temperatures that vary about each surface's mean, by lines between the nodes of its table. A
-/// surface whose temperature does not vary has one node of its own, a position of 0 and a spread of 0.
+/// Radiance of temperatures that vary about each surface's mean, linear between the nodes of its table. A surface
+/// with constant temperature has a single node, a position of 0 and a spread of 0.
 struct VariedInput {
   const std::uint16_t* surface;
-  const float* position;      ///< by surface: of its mean temperature among its nodes
-  const float* spread;        ///< by surface: nodes that a variation of 1 moves it
-  const std::int32_t* table;  ///< by surface: where its nodes begin
-  const float* node_w_m2_sr;  ///< of all surfaces: radiance and step to the next node's, in turn
+  const float* position;      ///< by surface: position of its mean temperature among its nodes
+  const float* spread;        ///< by surface: nodes per unit of variation
+  const std::int32_t* table;  ///< by surface: index of its first node
+  const float* node_w_m2_sr;  ///< of all surfaces: radiance and step to the next node's, alternating
   const float* variation;
   float last_node;  ///< of a table
 };
 void emit_varied(const VariedInput& in, float* radiance, std::size_t count) noexcept;
 
-/// Sky view and cosine of the angle of view from normals.
+/// Sky view and cosine of the viewing angle from normals.
 struct OrientationInput {
   const float* nx;
   const float* ny;
@@ -54,13 +54,13 @@ void orient(const OrientationInput& in, float* sky_view, float* cosine, std::siz
 /// Multiplies radiance by the fall-off of soil, 1 - loss (1 - cosine)^2, and moves the rest to `reflected`.
 struct AngularInput {
   const std::uint16_t* surface;
-  const float* loss;                    ///< by surface, 0 where there is none
+  const float* loss;                    ///< by surface, 0 if none
   const float* emitted_as_air_w_m2_sr;  ///< by surface
   const float* cosine;
 };
 void fall_off(const AngularInput& in, float* radiance, float* reflected, std::size_t count) noexcept;
 
-/// Adds what diffuse surfaces reflect of sky and surroundings.
+/// Adds the reflection of sky and surroundings by diffuse surfaces.
 struct ReflectionInput {
   const float* reflected_w_m2_sr;
   const float* sky_view;
@@ -68,18 +68,19 @@ struct ReflectionInput {
 };
 void reflect(const ReflectionInput& in, float* radiance, std::size_t count) noexcept;
 
-/// What the air absorbs on its way, as polynomials: up to `near_end_m` in range, beyond in the root of the range.
+/// Absorption by the air along the path, as polynomials: in range up to `near_end_m`, beyond in the root of the
+/// range.
 struct Absorption {
   static constexpr std::size_t kTerms = 8;
-  std::array<float, kTerms> near{};  ///< lowest power first, of range / near_end_m
-  std::array<float, kTerms> far{};   ///< of the root of the range, mapped to [-1, 1]
+  std::array<float, kTerms> near{};  ///< lowest power first, in range / near_end_m
+  std::array<float, kTerms> far{};   ///< in the root of the range, mapped to [-1, 1]
   float near_end_m = 0;
   float farthest_m = 0;
   float far_middle = 0;  ///< in roots of metres
   float far_half = 1;
 };
 
-/// Puts air between surfaces and camera. Surface 0 is the sky.
+/// Adds the air between surfaces and camera. Surface 0 is the sky.
 struct PathInput {
   const std::uint16_t* surface;
   const float* depth_m;

@@ -9,7 +9,7 @@
 namespace thermal {
 namespace {
 
-/// One figure of every surface, for looking up by number.
+/// One figure of every surface, as a lookup table by surface number.
 template <typename T = float, typename Get>
 std::vector<T> column(const SurfaceOpticsList& surfaces, const Get& get) {
   std::vector<T> values;
@@ -28,7 +28,7 @@ RayLine ray_line(const Row& row, const CameraRays& rays, std::size_t axis) {
   return {r[1] * rays.y()[static_cast<std::size_t>(row.y)] + r[2], r[0]};
 }
 
-/// A function of the cosine at which water is seen, tabulated: water is rare, its functions are slow.
+/// A function of the cosine at which water is seen, tabulated, because its functions are slow; water is rare.
 class WaterCurve {
  public:
   template <typename Function>
@@ -50,8 +50,8 @@ class WaterCurve {
 
 bool is_water(const SurfaceOptics& surface) { return surface.angular == AngularLaw::water; }
 
-/// Polynomials for what the path takes away. See path_transmittance: Beer's law up to 30 m, then the fit in
-/// sqrt(range). Against it in double: below 1e-7, which is 0.01 mK for 20 K between surface and air.
+/// Polynomials for the absorption of the path. See path_transmittance: Beer's law up to 30 m, then the fit in
+/// sqrt(range). Error against it in double precision below 1e-7, or 0.01 mK for 20 K between surface and air.
 kernels::Absorption fit_absorption(const Air& air) {
   constexpr double kNearEnd = 30;
   constexpr double kFarthest = 1000;
@@ -63,7 +63,7 @@ kernels::Absorption fit_absorption(const Air& air) {
   fit.farthest_m = static_cast<float>(kFarthest);
   fit.far_middle = static_cast<float>((first + last) / 2);
   fit.far_half = static_cast<float>((last - first) / 2);
-  // A power series about 0 for the near part: what no range takes away must be exactly nothing.
+  // A power series about 0 for the near part: at range 0 the absorption must be exactly 0.
   const double exponent = std::log(path_transmittance(air, kNearEnd));
   double term = 1;
   for (std::size_t k = 1; k < kernels::Absorption::kTerms; ++k) {
@@ -182,7 +182,7 @@ RowTerm angular_emissivity(const SurfaceOpticsList& surfaces) {
   const WaterCurve water([](double cosine) { return angular_factor(AngularLaw::water, cosine); });
   return [water, loss = column(surfaces, loss),
           as_air = column(surfaces, [](const auto& s) { return s.emitted_as_air_w_m2_sr; })](Row& row) {
-    row.reflected_w_m2_sr.resize(row.surface.size());  // filled by reflectivity, or else never read
+    row.reflected_w_m2_sr.resize(row.surface.size());  // filled by reflectivity, otherwise never read
     kernels::fall_off({.surface = row.surface.data(),
                        .loss = loss.data(),
                        .emitted_as_air_w_m2_sr = as_air.data(),
@@ -200,7 +200,7 @@ RowTerm sky_reflection(const Air& air) {
   const auto sky_deficit = static_cast<float>(1 - sky_emissivity(air));
   const WaterCurve mirrored([&air](double cosine) { return mirrored_sky_emissivity(air, cosine); });
   return [sky_deficit, mirrored](Row& row) {
-    // Water first: the diffuse kernel that follows then finds nothing more to reflect there.
+    // Water first: the diffuse kernel that follows then has nothing left to reflect there.
     for (const std::size_t i : row.water) {
       row.radiance_w_m2_sr[i] += row.reflected_w_m2_sr[i] * mirrored.at(row.cosine[i]);
       row.reflected_w_m2_sr[i] = 0;

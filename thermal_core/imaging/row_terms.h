@@ -17,7 +17,7 @@ namespace thermal {
 /// The figures of one surface that the terms read.
 struct SurfaceOptics {
   float emitted_w_m2_sr = 0;         ///< at its mean temperature
-  float emitted_as_air_w_m2_sr = 0;  ///< were it at air temperature
+  float emitted_as_air_w_m2_sr = 0;  ///< at air temperature
   float reflected_air_w_m2_sr = 0;   ///< of surroundings that radiate as a blackbody at air temperature
   float temperature_k = 0;
   float variation_stddev_k = 0;
@@ -26,7 +26,7 @@ struct SurfaceOptics {
   const RadianceTable* table = nullptr;  ///< where the temperature varies
 };
 
-/// One row of a frame on its way through the terms, with room for what they hand on. Surface 0 is the sky.
+/// One row of a frame as the terms process it, with buffers for intermediate results. Surface 0 is the sky.
 struct Row {
   int y = 0;
   std::span<const std::uint16_t> surface;
@@ -34,17 +34,17 @@ struct Row {
   std::array<std::span<const float>, 3> normal;  ///< the same
   const CameraPose* pose = nullptr;
   std::span<float> radiance_w_m2_sr;
-  std::vector<float> sky_view;           ///< share of the sky a surface faces
-  std::vector<float> cosine;             ///< of the angle it is seen at
+  std::vector<float> sky_view;           ///< fraction of the sky that a surface faces
+  std::vector<float> cosine;             ///< of the viewing angle
   std::vector<float> reflected_w_m2_sr;  ///< of blackbody surroundings at air temperature
-  std::vector<std::size_t> water;        ///< pixels of water
+  std::vector<std::size_t> water;        ///< indices of water pixels
   std::vector<float> place_x;            ///< on the ground [correlation lengths]
   std::vector<float> place_y;
   std::vector<float> footprint;
   std::vector<float> variation;
 };
 
-/// Adds one term to a row. A scene's chain is a list of these: what is dropped is not there at all.
+/// Adds one term to a row. A scene's chain is a list of these; dropped terms are not in it.
 using RowTerm = std::function<void(Row&)>;
 
 using SurfaceOpticsList = std::vector<SurfaceOptics>;
@@ -52,30 +52,30 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 /// Emission of every surface at its mean temperature.
 [[nodiscard]] RowTerm emission(const SurfaceOpticsList& surfaces);
 
-/// Emission with the fractal temperature field on the surfaces that have one. Depth that is not a positive
-/// finite number below 1e9 leaves a surface at its mean; temperatures are held within the tables' 180 to 436 K.
+/// Emission with the fractal temperature field on the surfaces that have one. Where depth is not a positive finite
+/// number below 1e9, a surface has its mean; temperatures are clamped to the tables' 180 to 436 K.
 [[nodiscard]] RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField& field,
                                       const CameraRays& rays);
 
-/// Finds sky_view and cosine from the normals. Normals that face away from the camera are turned round; those
-/// that are zero, NaN or far from unit length count as facing sky and camera squarely.
+/// Computes sky_view and cosine from the normals. Normals that face away from the camera are flipped; those that are
+/// zero, NaN or far from unit length count as facing both sky and camera.
 [[nodiscard]] RowTerm orientation(const CameraRays& rays);
 
-/// Lists the row's pixels of water, which reflects and falls off in ways of its own.
+/// Lists the row's water pixels, which reflect and fall off by functions of their own.
 [[nodiscard]] RowTerm water_pixels(const SurfaceOpticsList& surfaces);
 
-/// Emissivity falling off with angle; what is not emitted is added to `reflected`.
+/// Applies the fall-off of emissivity with angle; the loss is added to `reflected`.
 [[nodiscard]] RowTerm angular_emissivity(const SurfaceOpticsList& surfaces);
 
-/// Fills `reflected` with each surface's share at normal incidence. Comes before angular_emissivity.
+/// Fills `reflected` with each surface's reflectivity at normal incidence. Must precede angular_emissivity.
 [[nodiscard]] RowTerm reflectivity(const SurfaceOpticsList& surfaces);
 
-/// Adds the reflection of sky and surroundings: diffuse surfaces see a share sky_view of sky, water what stands
-/// in the mirror direction.
+/// Adds the reflection of sky and surroundings: diffuse surfaces see a fraction sky_view of sky, water the mirror
+/// direction.
 [[nodiscard]] RowTerm sky_reflection(const Air& air);
 
-/// Transmission and emission of the air over the true range. Depth that is NaN, infinite or beyond the path
-/// model counts as 1000 m; the sky itself is left alone.
+/// Transmission and emission of the air over the true range. Depth that is NaN, infinite or beyond the path model
+/// counts as 1000 m; the sky is unaffected.
 [[nodiscard]] RowTerm path(const Air& air, float air_radiance_w_m2_sr, const CameraRays& rays);
 
 }  // namespace thermal

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kRowsAChunk = 8;
 
-/// As the planes hold it, so that the brightest material's pixels are exactly the brightest count.
+/// In the planes' precision, so that pixels of the brightest material have exactly the brightest count.
 float emitted(const Material& material, Season season, const SceneRadiance::RadianceOf& radiance_of) {
   return static_cast<float>(material.emissivity * radiance_of(material.temperature_k(season)));
 }
@@ -24,7 +24,7 @@ EmissivitySpectrum spectrum_of(const Material& material) {
   return material.spectrum.value_or(EmissivitySpectrum(material.emissivity));
 }
 
-/// The field's values stay within 6 standard deviations, and the tables it is turned to radiance with end.
+/// The field's values stay within 6 standard deviations, and the tables that convert it to radiance are limited.
 void check_varied_range(const Material& material, double mean_k) {
   const double reach_k = 6 * material.variation.stddev_k;
   constexpr auto kLow = static_cast<double>(RadianceTable::kColdest);
@@ -138,7 +138,8 @@ Plane<float> SceneRadiance::radiance(const Passes& passes, const ManifestFrame& 
   return plane;
 }
 
-void SceneRadiance::radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const {
+PassChecks SceneRadiance::radiance(const Passes& passes, const ManifestFrame& frame,
+                                   Plane<float>& out) const {
   const Plane<std::uint16_t>& objects = passes.object_index;
   const bool has_materials = !passes.material_index.empty();
   assert(!has_materials || passes.material_index.size() == objects.size());
@@ -147,6 +148,8 @@ void SceneRadiance::radiance(const Passes& passes, const ManifestFrame& frame, P
     out = Plane<float>(objects.width_px(), objects.height_px());
   }
   const auto rows = static_cast<std::size_t>(objects.height_px());
+  std::vector<PassChecks> checks((rows + kRowsAChunk - 1) /
+                                 kRowsAChunk);  // a chunk each: sums of any order are equal
   parallel_for(rows, kRowsAChunk, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint16_t> numbers(static_cast<std::size_t>(objects.width_px()));
     Row row;
@@ -156,10 +159,14 @@ void SceneRadiance::radiance(const Passes& passes, const ManifestFrame& frame, P
       const auto materials = has_materials ? passes.material_index.row(y) : std::span<const std::uint16_t>();
       map_.number(objects.row(y), materials, numbers);
       begin_row(passes, y, row);
+      checks[begin / kRowsAChunk] += check_row(row);
       row.radiance_w_m2_sr = out.row(y);
       for (const RowTerm& term : chain_) term(row);
     }
   });
+  PassChecks sum;
+  for (const PassChecks& chunk : checks) sum += chunk;
+  return sum;
 }
 
 float brightest_of_table_1(const MaterialLibrary& materials, Season season,

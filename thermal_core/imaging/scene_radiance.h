@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "imaging/pass_checks.h"
 #include "imaging/row_terms.h"
 #include "imaging/surfaces.h"
 #include "radiometry/spectral_response.h"
@@ -14,7 +15,7 @@
 
 namespace thermal {
 
-/// What the physical model of a scene is made from.
+/// Inputs of the physical model of a scene.
 struct PhysicsSettings {
   Terms terms;
   Weather weather;
@@ -24,34 +25,34 @@ struct PhysicsSettings {
   [[nodiscard]] bool operator==(const PhysicsSettings&) const = default;
 };
 
-/// Radiance that reaches the camera from everything a clip's manifest names.
+/// Radiance at the camera from everything that a clip's manifest names.
 class SceneRadiance {
  public:
   /// In-band radiance [W m^-2 sr^-1] of a blackbody.
   using RadianceOf = std::function<double(double temperature_k)>;
 
-  /// The published model: emissivity * L(temperature of Table 1), nothing else.
-  /// ConfigError if a material of the manifest is not in the library.
+  /// The published model: emissivity * L(temperature of Table 1). ConfigError if a material of the manifest is not in
+  /// the library.
   SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials, Season season,
                 const RadianceOf& radiance_of);
 
-  /// The physical model with the terms that were kept. The same fault, and ConfigError for a manifest without
-  /// the camera poses that the terms need.
+  /// The physical model with the kept terms. ConfigError in the same case, and if the manifest lacks the camera poses
+  /// that the terms need.
   SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials, const PhysicsSettings& settings);
 
   [[nodiscard]] const SurfaceMap& surfaces() const noexcept { return map_; }
 
-  /// Planes beside the object index that the chain reads.
+  /// Planes that the chain reads besides the object index.
   [[nodiscard]] PassNeeds needs() const noexcept { return needs_; }
 
-  /// Planes to radiance plane [W m^-2 sr^-1]. All indices must be known: check them first. `frame` is the
-  /// manifest's. Safe to call from several threads; the same bits whatever their number.
+  /// Converts planes to a radiance plane [W m^-2 sr^-1]. All indices must be known; check them first. `frame` is the
+  /// manifest's. Safe to call from several threads; the result does not depend on their number.
   [[nodiscard]] Plane<float> radiance(const Passes& passes, const ManifestFrame& frame = {}) const;
 
-  /// The same into a plane whose memory is used again if it has the right size.
-  void radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const;
+  /// The same into a plane whose memory is reused if it has the right size. Returns how usable the planes were.
+  PassChecks radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const;
 
-  /// Radiance of the most radiant surface the manifest names; of the sky where it names none.
+  /// Radiance of the most radiant surface that the manifest names; of the sky if it names none.
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
 
  private:
@@ -60,7 +61,7 @@ class SceneRadiance {
   void find_brightest();
   void begin_row(const Passes& passes, int y, Row& row) const;
 
-  // The chain's terms point into what is held here, so none of it may move.
+  // The chain's terms point to these members, so none of them may move.
   struct Held {
     SurfaceOpticsList optics;
     std::vector<std::unique_ptr<RadianceTable>> tables;

@@ -5,7 +5,7 @@
 namespace thermal {
 namespace {
 
-/// The blocks that a box of fine pixels reaches into.
+/// The blocks that overlap a box of fine pixels.
 PixelBox blocks_of(const PixelBox& fine, int factor) {
   const int left = fine.x_px / factor;
   const int top = fine.y_px / factor;

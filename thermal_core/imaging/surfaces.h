@@ -21,24 +21,24 @@ struct Surface {
   [[nodiscard]] bool operator==(const Surface&) const = default;
 };
 
-/// What the pixels of index planes are made of. A pixel takes the material of its material index; where that is
-/// 0 or there is no material plane, the material of its object. Object index 0 is the material "sky".
+/// The surfaces of the pixels of index planes. A pixel has the material of its material index; where that is 0 or
+/// there is no material plane, the material of its object. Object index 0 is the material "sky".
 class SurfaceMap {
  public:
   static constexpr std::uint16_t kSky = 0;  ///< the number of the sky among surfaces()
 
-  /// ConfigError if a material of the manifest is not in the library, which must outlive this.
+  /// ConfigError if a material of the manifest is not in the library, which must outlive this object.
   SurfaceMap(const Manifest& manifest, const MaterialLibrary& materials);
 
-  /// Every surface there can be; the sky first, each once.
+  /// All possible surfaces, each once; the sky first.
   [[nodiscard]] const std::vector<Surface>& surfaces() const noexcept { return surfaces_; }
 
-  /// DataError naming the first pixel whose index the manifest lacks.
+  /// DataError with the first pixel whose index the manifest lacks.
   void check_objects(std::span<const IndexUse> uses) const;
   void check_materials(std::span<const IndexUse> uses) const;
 
-  /// Number of each pixel's surface, for one row. All indices must be known: check them first.
-  /// `materials` is empty where there is no material plane.
+  /// Surface number of each pixel of one row. All indices must be known; check them first.
+  /// `materials` is empty without a material plane.
   void number(std::span<const std::uint16_t> objects, std::span<const std::uint16_t> materials,
               std::span<std::uint16_t> surfaces) const noexcept;
 
@@ -46,7 +46,7 @@ class SurfaceMap {
   std::uint16_t add(const Material& material, const std::string& part);
 
   std::vector<Surface> surfaces_;
-  std::vector<std::uint16_t> by_object_;  ///< by object index; only known_ ones mean anything
+  std::vector<std::uint16_t> by_object_;  ///< by object index; valid only where known_
   std::vector<std::uint16_t> by_material_;
   std::vector<bool> known_objects_;
   std::vector<bool> known_materials_;

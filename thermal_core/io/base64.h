@@ -5,7 +5,7 @@
 
 namespace thermal {
 
-/// Bytes as text: RFC 4648, section 4, padded.
+/// Encodes bytes as base64: RFC 4648, section 4, padded.
 [[nodiscard]] std::string base64_of(std::string_view bytes);
 
 }  // namespace thermal

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/picture_size.h"
+#include "io/text_file.h"
 #include "labels/categories.h"
 
 namespace thermal {
@@ -35,7 +36,7 @@ struct Row {
   bool noisy = false;
 };
 
-/// Where a row is, for faults.
+/// Position of a row, for messages.
 struct Place {
   std::string file;
   int line = 0;
@@ -45,7 +46,7 @@ struct Place {
   }
 };
 
-/// Without the blanks around it.
+/// Without surrounding blanks.
 std::string_view trimmed(std::string_view cell) {
   cell.remove_prefix(std::min(cell.find_first_not_of(' '), cell.size()));
   return cell.substr(0, cell.find_last_not_of(' ') + 1);
@@ -99,7 +100,7 @@ Row row_of(std::string_view line, const Place& place) {
           .noisy = flag_of(n[9], "noisy", place)};
 }
 
-/// Files of a folder with one of these endings, by their names without it; none if there is no such folder.
+/// Files of a folder with one of these extensions, by their names without it; empty if the folder does not exist.
 std::map<std::string, Path> files_of(const Path& folder, std::initializer_list<std::string_view> endings) {
   std::map<std::string, Path> files;
   if (!std::filesystem::is_directory(folder)) return files;
@@ -111,7 +112,7 @@ std::map<std::string, Path> files_of(const Path& folder, std::initializer_list<s
   return files;
 }
 
-/// Pictures of a video by frame: VIDEO_0000000012.jpg is frame 12. Others are not of the video.
+/// Pictures of a video by frame: VIDEO_0000000012.jpg is frame 12. Other names do not belong to the video.
 std::map<int, Path> pictures_of(const Path& folder, const std::string& video) {
   std::map<int, Path> pictures;
   for (const auto& [stem, file] : files_of(folder / video, {".jpg", ".jpeg", ".png"})) {
@@ -142,7 +143,7 @@ class BirdsaiReader {
 
  private:
   std::vector<Row> rows_of(const Path& file) const {
-    const std::string text = read_file(file);
+    const std::string text = read_text_file(file);
     std::vector<Row> rows;
     std::set<std::pair<int, int>> seen;
     Place place{.file = file.string()};
@@ -153,7 +154,8 @@ class BirdsaiReader {
       rows.push_back(row_of(line, place));
       if (!seen.emplace(rows.back().frame, rows.back().object).second) {
         throw place.fault_of(
-            fmt::format("object {} comes twice in frame {}", rows.back().object, rows.back().frame), "once");
+            fmt::format("object {} appears twice in frame {}", rows.back().object, rows.back().frame),
+            "once");
       }
     }
     return rows;

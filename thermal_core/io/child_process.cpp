@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "io/child_environment.h"
 
 namespace thermal {
 namespace {
@@ -26,16 +27,17 @@ constexpr int kCannotRun = 127;
   throw IoError(fmt::format("cannot {}: {}", doing, std::strerror(errno)));
 }
 
-std::vector<char*> pointers(const std::vector<std::string>& argv) {
+std::vector<char*> pointers(const std::vector<std::string>& texts) {
   std::vector<char*> result;
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): execv takes char* const* and writes nothing
-  for (const std::string& argument : argv) result.push_back(const_cast<char*>(argument.c_str()));
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): execve takes char* const* and writes nothing
+  for (const std::string& text : texts) result.push_back(const_cast<char*>(text.c_str()));
   result.push_back(nullptr);
   return result;
 }
 
 /// Becomes the program. Between fork and exec: nothing but system calls that are safe there.
-[[noreturn]] void become(char* const* argv, int in, int out, int error, int events, int parent) {
+[[noreturn]] void become(char* const* argv, char* const* environment, int in, int out, int error, int events,
+                         int parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(kCannotRun);  // the parent died before the line above
@@ -47,7 +49,7 @@ std::vector<char*> pointers(const std::vector<std::string>& argv) {
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   ::signal(SIGPIPE, SIG_DFL);
-  ::execv(argv[0], argv);
+  ::execve(argv[0], argv, environment);
   ::_exit(kCannotRun);
 }
 
@@ -89,13 +91,15 @@ std::string ExitStatus::in_words() const {
 }
 
 ChildProcess::ChildProcess(const std::vector<std::string>& argv, const Path& log) {
+  const std::vector<std::string> variables = child_environment();
+  const std::vector<char*> environment = pointers(variables);
   const std::vector<char*> arguments = pointers(argv);
   const Pipe pipe;
   const int input = open_high("/dev/null", O_RDONLY);
-  const int output = open_high(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
+  const int output = open_high(log.c_str(), O_WRONLY | O_CREAT | O_APPEND);
   const int parent = ::getpid();
   process_ = ::fork();
-  if (process_ == 0) become(arguments.data(), input, output, output, pipe.write, parent);
+  if (process_ == 0) become(arguments.data(), environment.data(), input, output, output, pipe.write, parent);
   ::close(input);
   ::close(output);
   ::close(pipe.write);
@@ -174,13 +178,15 @@ std::string Output::last_words() const {
 }
 
 Output run_program(const std::vector<std::string>& argv) {
+  const std::vector<std::string> variables = child_environment();
+  const std::vector<char*> environment = pointers(variables);
   const std::vector<char*> arguments = pointers(argv);
   const Pipe out;
   const Pipe error;
   const int input = open_high("/dev/null", O_RDONLY);
   const int parent = ::getpid();
   const int process = ::fork();
-  if (process == 0) become(arguments.data(), input, out.write, error.write, -1, parent);
+  if (process == 0) become(arguments.data(), environment.data(), input, out.write, error.write, -1, parent);
   ::close(input);
   ::close(out.write);
   ::close(error.write);

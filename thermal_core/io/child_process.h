@@ -18,14 +18,14 @@ struct ExitStatus {
   [[nodiscard]] std::string in_words() const;
 };
 
-/// A running program with a channel on which it reports line by line.
+/// A running program with a channel on which it reports line by line. Its environment is child_environment().
 /// It has its own process group and dies with the thread that started it, even if that one is killed.
 class ChildProcess {
  public:
   /// Descriptor on which the program finds the channel's writing end.
   static constexpr int kEventDescriptor = 3;
 
-  /// Starts argv[0] with output and error going to `log`. IoError if it cannot be started.
+  /// Starts argv[0] with output and error appended to `log`. IoError if it cannot be started.
   ChildProcess(const std::vector<std::string>& argv, const Path& log);
   /// Kills the program's group if it still runs.
   ~ChildProcess();
@@ -53,7 +53,7 @@ class ChildProcess {
   std::optional<ExitStatus> status_;
 };
 
-/// Runs a program to its end and returns what it wrote.
+/// Runs a program to its end, in child_environment(), and returns what it wrote.
 struct Output {
   ExitStatus status;
   std::string out;

@@ -15,7 +15,7 @@
 namespace thermal {
 namespace {
 
-/// A label, with what it says of others that may come later in the file.
+/// A label with its references, which may be defined later in the file.
 struct UnresolvedLabel {
   Label label;
   std::int64_t image_id = 0;
@@ -35,7 +35,7 @@ std::string folder_name(const std::string& file) {
   return folder;
 }
 
-/// Reads the lists one entry at a time, and joins them when all are there.
+/// Reads the lists one entry at a time, and links them at the end.
 class CocoReader {
  public:
   explicit CocoReader(const Path& file) : file_(file.string()) {
@@ -77,11 +77,11 @@ class CocoReader {
 
   using Places = std::unordered_map<std::int64_t, std::size_t>;
 
-  /// Notes an id; it must be new.
+  /// Records an id, which must be new.
   static std::int64_t new_id(const JsonEntry& entry, Places& places) {
     const std::int64_t id = entry.integer("id");
     if (const auto [there, fresh] = places.emplace(id, places.size()); !fresh)
-      throw entry.fault_of("id", fmt::format("another id than entry {} has", there->second));
+      throw entry.fault_of("id", fmt::format("an id other than that of entry {}", there->second));
     return id;
   }
 
@@ -134,7 +134,7 @@ class CocoReader {
     return label;
   }
 
-  /// Pictures in the order of their videos and frames; those of no video are a video of their folder.
+  /// Sorts pictures by video and frame; pictures without a video form a video per folder.
   void place_images() {
     std::map<std::string, std::size_t> folders;
     for (std::size_t i = 0; i < images_.size(); ++i) {
@@ -189,7 +189,7 @@ class CocoReader {
                           fmt::format("the id of one of the {}", list)));
   }
 
-  /// A box may reach out of its picture, as those of cut targets do in other people's files, but not lie outside.
+  /// A box may extend beyond its picture, as truncated targets do in many files, but must not lie outside it.
   void check_inside(std::size_t label, const LabelBox& box, const LabelImage& image) const {
     if (image.width_px == 0 || image.height_px == 0) return;
     if (box.x_px < image.width_px && box.y_px < image.height_px && box.x_px + box.width_px >= 0 &&

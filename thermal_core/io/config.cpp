@@ -15,7 +15,7 @@
 namespace thermal {
 namespace {
 
-/// `otherwise` is the model's choice for terms the config says nothing of.
+/// `otherwise` is the model's choice for terms that the config leaves open.
 TermChoices read_terms(const Json& json, TermChoice otherwise) {
   TermChoices choices;
   for (const TermInfo& term : kTerms) {
@@ -55,7 +55,7 @@ void check_ids(const char* list, const std::vector<std::string>& ids, std::vecto
   }
 }
 
-/// There is something to make, and clips and flights can be told apart.
+/// Checks that there is something to make, and that ids are unique.
 void check_flown(const Json& flights, const std::vector<ClipConfig>& clips,
                  std::vector<std::string>& faults) {
   if (clips.empty() && flights.empty())
@@ -97,7 +97,14 @@ Json& step_into(Json& at, const std::string& part, const std::string& assignment
   return value[entry];
 }
 
-/// What is not JSON is a string, which the schema then tells about.
+/// Makes the path of a file that a document names relative to `folder` absolute, if it names one.
+void root_file(Json& document, const char* place, const Path& folder) {
+  const Json::json_pointer file(place);
+  if (!document.contains(file) || !document[file].is_string()) return;  // the schema reports it
+  document[file] = (folder / document[file].get<std::string>()).string();
+}
+
+/// Anything that is not JSON is a string; the schema reports it if it is wrong.
 Json parse_value(const std::string& text) {
   try {
     return parse_json(text, "--set");
@@ -131,7 +138,7 @@ void set_season(Json& document, const Json& season) {
   for (const char* flown : {"clips", "flights"}) {
     if (!document.contains(flown)) continue;
     for (Json& one : document[flown]) {
-      if (one.is_object()) one["season"] = season;  // of others the schema says that they are none
+      if (one.is_object()) one["season"] = season;  // the schema reports entries of other types
     }
   }
 }
@@ -154,17 +161,17 @@ void apply_setting(Json& document, const std::string& assignment) {
 }
 
 void root_files(Json& document, const Path& folder) {
-  const auto root = [&folder](Json& within, const char* place) {
-    const Json::json_pointer file(place);
-    if (!within.contains(file) || !within[file].is_string()) return;  // the schema will tell
-    within[file] = (folder / within[file].get<std::string>()).string();
-  };
-  root(document, "/scene/terrain/heightmap/file");
-  root(document, "/scene/terrain/density_map/file");
+  root_calibration(document, folder);
+  root_file(document, "/scene/terrain/heightmap/file", folder);
+  root_file(document, "/scene/terrain/density_map/file", folder);
   for (const char* flown : {"clips", "flights"}) {
     if (!document.contains(flown)) continue;
-    for (Json& one : document[flown]) root(one, "/flight/waypoints/file");
+    for (Json& one : document[flown]) root_file(one, "/flight/waypoints/file", folder);
   }
+}
+
+void root_calibration(Json& document, const Path& folder) {
+  root_file(document, "/camera/calibration", folder);
 }
 
 Config with_flights_cut(Config config, const Json& clips) {
@@ -180,6 +187,8 @@ Config resolve_config(Json document, const std::string& name, const Path& home) 
   const Json schema = read_json(home / "configs" / "schema" / "config.schema.json");
   apply_preset(document, schema, name, home);
   std::vector<std::string> faults = check_and_fill(document, schema);
+  throw_faults(faults, name);
+  apply_calibration(document, schema, faults);
   throw_faults(faults, name);
   Config config;
   config.name = document["name"];
@@ -198,6 +207,8 @@ Config resolve_config(Json document, const std::string& name, const Path& home) 
   config.vehicle_stopped_s = document["weather"]["vehicle_stopped_s"];
   for (const Json& clip : document["clips"]) config.clips.push_back(read_clip(clip));
   check_flown(document["flights"], config.clips, faults);
+  check_intrinsics(read_intrinsics(document["camera"]), faults);
+  throw_faults(faults, name);
   fill_overscan(document, faults);
   throw_faults(faults, name);
   config.overscan_px = document["render"]["overscan_px"];

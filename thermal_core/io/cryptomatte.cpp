@@ -18,13 +18,13 @@ namespace {
 constexpr std::string_view kHash = "MurmurHash3_32";
 constexpr std::string_view kConversion = "uint32_to_float32";
 
-/// Twice as many as Blender can be asked for; each takes memory for two planes.
+/// Twice as many as Blender can write; each takes memory for two planes.
 constexpr std::size_t kMostRanks = 32;
 
-/// What the metadata of one cryptomatte says, by field: name, hash, conversion, manifest, manif_file.
+/// Metadata of one cryptomatte, by field: name, hash, conversion, manifest, manif_file.
 using Fields = std::map<std::string, std::string>;
 
-/// By the key that holds them together, seven hexadecimal digits of the name's hash or others.
+/// By the key that groups them, usually seven hexadecimal digits of the name's hash.
 std::map<std::string, Fields> fields_in(const ExrHeader& header) {
   std::map<std::string, Fields> by_key;
   for (const auto& [attribute, text] : header.texts) {
@@ -57,7 +57,7 @@ std::uint32_t hash_in(const std::string& name, const nlohmann::json& value) {
                         "a hash of eight hexadecimal digits"));
 }
 
-/// Not by Json, which keeps the order of keys and so takes the square of their number.
+/// Not parsed as Json, which keeps the order of keys and takes quadratic time in their number.
 std::map<std::uint32_t, std::string> names_in(const std::string& manifest) {
   std::map<std::uint32_t, std::string> names;
   if (manifest.empty()) return names;
@@ -70,7 +70,7 @@ std::map<std::uint32_t, std::string> names_in(const std::string& manifest) {
   return names;
 }
 
-/// 0 to 3 for a component of a channel's name by any spelling in use.
+/// 0 to 3 for a component of a channel's name, in any known spelling.
 std::optional<std::size_t> component_of(std::string_view word) {
   static constexpr std::array<std::array<std::string_view, 4>, 4> kSpellings = {
       {{"r", "R", "red", "RED"},
@@ -83,7 +83,7 @@ std::optional<std::size_t> component_of(std::string_view word) {
   return std::nullopt;
 }
 
-/// Place of "<name>NN.<component>" among a cryptomatte's channels.
+/// Position of "<name>NN.<component>" among a cryptomatte's channels.
 std::optional<std::size_t> place_of(std::string_view channel, std::string_view name) {
   if (!channel.starts_with(name) || channel.size() < name.size() + 4) return std::nullopt;
   channel.remove_prefix(name.size());
@@ -93,7 +93,7 @@ std::optional<std::size_t> place_of(std::string_view channel, std::string_view n
   return 4 * *layer + *component;
 }
 
-/// All that lie one behind another; the last layer may have one rank alone.
+/// All ranks without a gap; the last layer may have a single rank.
 std::vector<const ExrChannel*> channels_of(const ExrHeader& header, const std::string& name) {
   std::map<std::size_t, const ExrChannel*> by_place;
   for (const ExrChannel& channel : header.channels) {
@@ -118,7 +118,7 @@ std::vector<const ExrChannel*> channels_of(const ExrHeader& header, const std::s
   return channels;
 }
 
-/// A hash is told by all bits of a float: half has too few of them, and PXR24 keeps 24 of 32.
+/// A hash needs all bits of a float: half has too few, and PXR24 keeps 24 of 32.
 void check_exact(const ExrChannel& hash) {
   static constexpr std::array<std::string_view, 5> kLossy = {"PXR24", "B44", "B44A", "DWAA", "DWAB"};
   if (hash.type != "float") {
@@ -170,7 +170,7 @@ std::string short_name(const std::string& name) { return name.substr(name.rfind(
 DataError no_such(std::span<const Cryptomatte> cryptomattes, const std::string& wanted) {
   std::vector<std::string> names;
   for (const Cryptomatte& each : cryptomattes) names.push_back(each.name);
-  const std::string rule = names.empty() ? "a file with cryptomattes, this one has none"
+  const std::string rule = names.empty() ? "a file with cryptomattes; this one has none"
                                          : "one that the file has: " + list_names(names);
   for (const Cryptomatte& each : cryptomattes) names.push_back(short_name(each.name));
   return DataError(fault("cryptomatte", fmt::format("\"{}\"", wanted), "", rule) +

@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "io/json_entry.h"
 #include "io/json_file.h"
+#include "io/text_file.h"
 
 namespace thermal {
 namespace {
@@ -26,19 +27,20 @@ std::vector<std::string> category_names(const LabelSet& truth) {
   return names;
 }
 
-/// What is wrong with a box's place in its picture; empty if nothing is. Detectors may let boxes reach out, and cut
-/// those outside down to a line of the border: one that touches the picture is in it.
+/// Checks a box's position in its picture; returns the fault, or empty. Detectors may extend boxes beyond the
+/// picture, or clip those outside to a line of the border: a box that touches the picture counts as inside.
 std::string fault_of_place(const LabelBox& box, const LabelImage& image) {
   const auto reaches = [](double end_px) { return std::isfinite(end_px) && end_px >= 0; };
   const bool far = !reaches(box.x_px + box.width_px) || !reaches(box.y_px + box.height_px);
   const bool beyond_right = image.width_px > 0 && box.x_px > image.width_px;
   const bool beyond_bottom = image.height_px > 0 && box.y_px > image.height_px;
   if (!far && !beyond_right && !beyond_bottom) return {};
-  if (image.width_px == 0 || image.height_px == 0) return "a box that is not left of its picture or above it";
+  if (image.width_px == 0 || image.height_px == 0)
+    return "a box that is not to the left of its picture or above it";
   return fmt::format("a box that touches its picture, {} x {} px", image.width_px, image.height_px);
 }
 
-/// Places of pictures and categories by their ids.
+/// Indices of pictures and categories by their ids.
 class Ids {
  public:
   explicit Ids(const LabelSet& truth) : truth_(truth) {
@@ -106,7 +108,7 @@ std::vector<Detection> read_coco_results(const Path& file, const LabelSet& truth
   return detections;
 }
 
-/// A line of YOLO results and where it is, "FILE:LINE".
+/// A line of YOLO results and its position, "FILE:LINE".
 struct YoloLine {
   std::string_view text;
   std::string where;
@@ -162,7 +164,7 @@ Detection detection_of(const YoloLine& line, const LabelSet& truth, std::size_t 
 
 void read_yolo_file(const Path& file, const LabelSet& truth, std::size_t image,
                     std::vector<Detection>& detections) {
-  const std::string text = read_file(file);
+  const std::string text = read_text_file(file);
   int line = 0;
   for (const std::string_view words : split(text, '\n')) {
     ++line;
@@ -172,7 +174,7 @@ void read_yolo_file(const Path& file, const LabelSet& truth, std::size_t image,
   }
 }
 
-/// The .txt files of a folder by name. DataError if there are other things alone: these are no results.
+/// The .txt files of a folder by name. DataError if it holds only other files, which are not results.
 std::vector<Path> text_files(const Path& folder) {
   std::vector<Path> files;
   bool others = false;
@@ -184,12 +186,12 @@ std::vector<Path> text_files(const Path& folder) {
     }
   }
   if (files.empty() && others)
-    throw DataError(folder.string() + ": no .txt files; expected YOLO results, one file a picture");
+    throw DataError(folder.string() + ": no .txt files; expected YOLO results, one file per picture");
   std::sort(files.begin(), files.end());
   return files;
 }
 
-/// Pictures by the names that their results may have: flat_name(), and a picture's own where no other has the same.
+/// Pictures by the names that result files may use: flat_name(), and a picture's own name if it is unique.
 std::map<std::string, std::size_t> pictures_by_name(const LabelSet& truth) {
   std::map<std::string, std::size_t> places;
   std::set<std::string> shared;
@@ -220,7 +222,7 @@ std::vector<Detection> read_yolo_results(const Path& folder, const LabelSet& tru
     const LabelImage& picture = truth.images[image];
     if (picture.width_px == 0 || picture.height_px == 0)
       throw DataError(fmt::format(
-          "{}: the truth does not tell the size of {}; expected it, as YOLO's boxes are in parts of it",
+          "{}: the truth lacks the size of {}; expected it, because YOLO boxes are relative to it",
           file.string(), picture.file));
     read_yolo_file(file, truth, image, detections);
   }

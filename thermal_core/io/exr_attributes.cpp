@@ -15,7 +15,7 @@ struct Sized {
   std::int32_t bytes;
 };
 
-/// Types that have a size; of a negative one, the file's is a multiple.
+/// Types of known size; for a negative value, the size must be a multiple of it.
 constexpr std::array<Sized, 25> kSized = {{{"box2i", 16},
                                            {"box2f", 16},
                                            {"chromaticities", 32},
@@ -42,7 +42,7 @@ constexpr std::array<Sized, 25> kSized = {{{"box2i", 16},
                                            {"v3i", 12},
                                            {"floatvector", -4}}};
 
-/// Attributes that a library takes for what their names say.
+/// Attributes that a library interprets by name.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kTyped = {
     {{"channels", "chlist"},
      {"chunkCount", "int"},
@@ -108,7 +108,7 @@ ExrChannelList read_channel_list(std::string_view bytes, const std::string& what
   while (at < bytes.size() && bytes[at] != '\0') {
     const std::size_t end = bytes.find('\0', at);
     if (end == std::string_view::npos || end + 1 + kBytesAfterName >= bytes.size())
-      throw DataError(what + " ends within a channel; expected a whole list");
+      throw DataError(what + " ends within a channel; expected a complete list");
     const auto type = value_at<std::uint32_t>(bytes, end + 1, what);
     if (type >= kBytesOfType.size())
       throw DataError(fault(what + ": type", std::to_string(type), "", "0 (uint), 1 (half) or 2 (float)"));
@@ -116,9 +116,9 @@ ExrChannelList read_channel_list(std::string_view bytes, const std::string& what
     ++channels.count;
     at = end + 1 + kBytesAfterName;
   }
-  // A library stops at the first empty name, and takes what follows for the next attribute.
+  // A library stops at the first empty name, and reads what follows as the next attribute.
   if (at + 1 != bytes.size())
-    throw DataError(what + " goes on behind its end; expected a zero byte at the end alone");
+    throw DataError(what + " continues after its end; expected a zero byte only at the end");
   return channels;
 }
 

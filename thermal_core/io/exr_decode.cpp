@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kBytesAPixel = 4;
 
-/// An opened file, and what the library said last.
+/// An opened file, and the library's last message.
 class Context {
  public:
   explicit Context(const Path& file) {
@@ -49,7 +49,7 @@ class Context {
   exr_context_t context_ = nullptr;
 };
 
-/// Chunk after chunk of one part into the targets.
+/// Decodes one part into the targets, chunk by chunk.
 class PartDecoder {
  public:
   PartDecoder(const Context& context, int part, std::span<const ChannelTarget> targets)
@@ -99,7 +99,7 @@ class PartDecoder {
     }
   }
 
-  /// A chunk whose first pixel is this one of the data window.
+  /// A chunk, and the first of its pixels in the data window.
   void decode(const exr_chunk_info_t& chunk, std::int64_t x, std::int64_t y) {
     if (started_) {
       context_.check(exr_decoding_update(context_.get(), part_, &chunk, &pipeline_));
@@ -119,7 +119,7 @@ class PartDecoder {
     pipeline_.decompress_fn = inflate;
   }
 
-  /// Tells the library where a chunk's pixels go; channels without a target are not unpacked.
+  /// Sets where the library writes a chunk's pixels; channels without a target are not unpacked.
   void aim(std::int64_t x, std::int64_t y) {
     for (int i = 0; i < pipeline_.channel_count; ++i) {
       exr_coding_channel_info_t& channel = pipeline_.channels[i];
@@ -136,8 +136,8 @@ class PartDecoder {
     }
   }
 
-  /// Called by C, which nothing may be thrown through. The library has set aside room for the bytes, or, where those are
-  /// not compressed, taken what was read for them.
+  /// Called from C, so nothing may be thrown. The library has allocated memory for the bytes or, if they are not
+  /// compressed, uses what was read.
   static exr_result_t inflate(exr_decode_pipeline_t* pipeline) noexcept {
     if (pipeline->unpacked_buffer == pipeline->packed_buffer) return EXR_ERR_SUCCESS;
     if (pipeline->unpacked_alloc_size < pipeline->chunk.unpacked_size) return EXR_ERR_CORRUPT_CHUNK;

@@ -73,9 +73,9 @@ ExrHeader header_of(const Imf::MultiPartInputFile& opened) {
   return header;
 }
 
-/// The file's name, once it is known that a library may open it. What is no file at all might not end.
+/// The file's name, once a library may safely open it. Reading something that is not a regular file might never end.
 std::string checked(const Path& file, const ExrLimits& limits) {
-  if (!std::filesystem::exists(file)) throw IoError("there is no such file");
+  if (!std::filesystem::exists(file)) throw IoError("no such file");
   if (!std::filesystem::is_regular_file(file)) throw IoError("it is not a regular file");
   try {
     check_exr_headers(file, limits);

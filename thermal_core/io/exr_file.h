@@ -15,18 +15,18 @@
 
 namespace thermal {
 
-/// An EXR file that is open. Faults lack the file's name: with_exr_file() adds it.
+/// An open EXR file. Messages lack the file's name; with_exr_file() adds it.
 class ExrFile {
  public:
-  /// IoError if there is no such file, or its headers are not those of flat pixels within the limits.
+  /// IoError if the file does not exist, or its headers are not those of flat pixels within the limits.
   ExrFile(const Path& file, const ExrLimits& limits);
 
-  /// Without texts: most readers have no use for them, and a cryptomatte's are long.
+  /// Without strings: most readers do not use them, and a cryptomatte's are long.
   [[nodiscard]] const ExrHeader& header() const noexcept { return header_; }
-  /// Attributes of type string, of all parts; the first of a name.
+  /// String attributes of all parts; the first of each name.
   [[nodiscard]] std::map<std::string, std::string> texts() const;
 
-  /// As io/exr_pixels.h says.
+  /// See io/exr_pixels.h.
   void decode(const std::vector<ExrTarget>& targets) { thermal::decode(opened_, name_, targets); }
 
  private:
@@ -35,7 +35,7 @@ class ExrFile {
   ExrHeader header_;
 };
 
-/// What `work` makes of an open file: faults of ours and of the library name the file.
+/// The result of `work` on an open file; errors, ours and the library's, name the file.
 template <typename Work>
 auto with_exr_file(const Path& file, const ExrLimits& limits, const Work& work) {
   try {

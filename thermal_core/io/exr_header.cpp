@@ -5,7 +5,7 @@
 namespace thermal {
 namespace {
 
-/// Channel of a pass in a layer, or in the only one that has it.
+/// Channel of a pass in a layer, or in the only layer that has it.
 const ExrChannel* find_pass(const ExrHeader& header, const std::string& layer, PassKind kind,
                             std::string_view axis = "") {
   std::vector<const ExrChannel*> channels;

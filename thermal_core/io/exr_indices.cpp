@@ -45,7 +45,7 @@ template <typename Number>
             fmt::format("{}", *bad), "", rule_for(largest)));
 }
 
-/// Numbers as indices; false if one is none: then its index is another number than it.
+/// Converts numbers to indices; false if one is not an index, which then differs from its number.
 VELDT_CLONES bool convert_floats(const float* in, std::size_t count, float largest, std::uint16_t* out) {
   std::int32_t bad = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -88,9 +88,8 @@ void to_indices(const Plane<Number>& plane, const std::string& channel, int larg
 ExrIndexPlane::ExrIndexPlane(const ExrChannel& channel, IndexPixels& pixels)
     : channel_(channel), pixels_(pixels) {
   if (!is_lossy(channel.compression)) return;
-  throw DataError(
-      fault(channel.full_name() + ": compression", channel.compression, "",
-            "a lossless one (none, RLE, ZIPS, ZIP, PIZ or PXR24): others make other indices of these"));
+  throw DataError(fault(channel.full_name() + ": compression", channel.compression, "",
+                        "a lossless one (none, RLE, ZIPS, ZIP, PIZ or PXR24): others change indices"));
 }
 
 ExrTarget ExrIndexPlane::target() {

@@ -9,18 +9,18 @@
 
 namespace thermal {
 
-/// Reads a plane of indices exactly: of whole numbers as they are, of floats if they are whole. An index must
-/// be no larger than kLargestIndex, and in half floats no larger than 2048: they are exact up to there.
+/// Reads a plane of indices exactly: from uint channels as they are, from floats if they are whole. An index must not
+/// exceed kLargestIndex, nor 2048 in half floats, which are exact up to there.
 class ExrIndexPlane {
  public:
-  /// DataError for a compression that changes pixels. Pixels are decoded into `pixels`, which must outlive this.
+  /// DataError for a lossy compression. Pixels are decoded into `pixels`, which must outlive this object.
   ExrIndexPlane(const ExrChannel& channel, IndexPixels& pixels);
 
-  /// To be decoded; this must stay where it is until then.
+  /// To be decoded; this object must not move before that.
   [[nodiscard]] ExrTarget target();
 
-  /// What was decoded, into a plane whose memory is used again if it has the right size. DataError that names channel and
-  /// pixel of the first number that is no index, and the number.
+  /// The decoded indices, in a plane whose memory is reused if it has the right size. DataError with the channel,
+  /// pixel and value of the first number that is not an index.
   void indices(Plane<std::uint16_t>& out) const;
 
  private:

@@ -17,7 +17,7 @@ std::uint64_t add_bytes(std::uint64_t a, std::uint64_t b) noexcept {
   return ((a & ~kHighBits) + (b & ~kHighBits)) ^ ((a ^ b) & kHighBits);
 }
 
-/// Each byte but the first becomes the sum of all up to it, 128 less for each step; eight at a time.
+/// Replaces each byte but the first by the sum of all bytes up to it, minus 128 per step; eight at a time.
 void sum_differences(std::span<std::byte> bytes) noexcept {
   auto sum = std::to_integer<std::uint64_t>(bytes.front());
   std::size_t i = 1;
@@ -38,7 +38,7 @@ void sum_differences(std::span<std::byte> bytes) noexcept {
   }
 }
 
-/// Even bytes from the first half, odd ones from the second; of an odd number the last is in the first.
+/// Even bytes from the first half, odd ones from the second; with an odd count the last is in the first half.
 void join_halves(std::span<const std::byte> halves, std::byte* out) noexcept {
   const std::size_t pairs = halves.size() / 2;
   const std::byte* const even = halves.data();

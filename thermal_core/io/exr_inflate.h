@@ -9,7 +9,7 @@ struct libdeflate_decompressor;
 
 namespace thermal {
 
-/// Turns chunks of EXR files that are compressed with ZIP or ZIPS into their bytes. Its memory is used again.
+/// Inflates chunks of EXR files compressed with ZIP or ZIPS. Its memory is reused.
 class ExrInflater {
  public:
   ExrInflater();
@@ -17,9 +17,9 @@ class ExrInflater {
   ExrInflater(const ExrInflater&) = delete;
   ExrInflater& operator=(const ExrInflater&) = delete;
 
-  /// Fills `bytes`; false if the chunk does not hold as many, or memory is short.
-  /// Source: Technical Introduction to OpenEXR, ZIP: differences of neighbouring bytes, first all even bytes, then all odd
-  /// ones, deflated.
+  /// Fills `bytes`; false if the chunk does not hold exactly as many, or out of memory.
+  /// Source: Technical Introduction to OpenEXR, ZIP: differences of neighbouring bytes, first all even bytes, then
+  /// all odd ones, deflated.
   [[nodiscard]] bool inflate(std::span<const std::byte> packed, std::span<std::byte> bytes) noexcept;
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// With dots between those words that are not empty.
+/// Joins non-empty words by dots.
 std::string joined(const Words& words) {
   std::string text;
   for (const std::string& word : words) {
@@ -32,8 +32,7 @@ Words words_of(const std::string& name) {
   return words;
 }
 
-/// What a word is as a component: its letter, or nothing. Nuke calls components of layers red, green, blue
-/// and alpha.
+/// The component letter of a word, or empty. Nuke names components of layers red, green, blue and alpha.
 std::string component_in(const std::string& word) {
   static const std::map<std::string_view, std::string> kColours = {
       {"red", "R"}, {"green", "G"}, {"blue", "B"}, {"alpha", "A"}};
@@ -42,7 +41,7 @@ std::string component_in(const std::string& word) {
   return colour == kColours.end() ? "" : colour->second;
 }
 
-/// Takes the component off, if there is more than it.
+/// Removes the component, unless it is the whole name.
 std::string take_component(Words& words) {
   if (words.size() < 2) return "";
   std::string component = component_in(words.back());
@@ -50,7 +49,7 @@ std::string take_component(Words& words) {
   return component;
 }
 
-/// Takes off the name of a view; it is never all there is.
+/// Removes the name of a view, unless it is the whole name.
 std::string take_view(Words& words, const Words& views) {
   const auto is_view = [&](const std::string& word) {
     return std::find(views.begin(), views.end(), word) != views.end();
@@ -73,7 +72,7 @@ std::string without_view(const std::string& part, const std::string& view) {
   return rest;
 }
 
-/// The words of a channel's name, its part's before them unless it has a layer of its own.
+/// The words of a channel's name, preceded by its part's unless it has a layer of its own.
 Words words_with_part(const std::string& channel, const ExrParts::Part& part) {
   Words words = words_of(channel);
   Words named = words;
@@ -93,7 +92,7 @@ struct Parsed {
   std::string component;
   std::string view;
 
-  [[nodiscard]] std::string told(const std::string& end) const {
+  [[nodiscard]] std::string identity(const std::string& end) const {
     return joined({joined(layer), pass, view, end});
   }
 };
@@ -110,17 +109,17 @@ Parsed parse(const ExrChannel& channel, const ExrParts::Part& part, const Words&
   return parsed;
 }
 
-/// "Scene.Z" is parsed as component Z of a pass called Scene. It is none if that is a layer.
+/// "Scene.Z" is parsed as component Z of a pass called Scene, which is wrong if Scene is a layer.
 void settle_lone_depths(std::vector<Parsed>& channels) {
   std::set<std::string> stems;
   for (const Parsed& channel : channels) {
     stems.insert(joined({joined(channel.layer), channel.view}));
-    stems.insert(channel.told(upper_case(channel.component)));
+    stems.insert(channel.identity(upper_case(channel.component)));
   }
   for (Parsed& channel : channels) {
     if (upper_case(channel.component) != "Z" || pass_kind_of(channel.pass)) continue;
-    const bool is_layer = stems.contains(channel.told("")) || stems.contains(channel.told("R"));
-    if (!is_layer || stems.contains(channel.told("X"))) continue;
+    const bool is_layer = stems.contains(channel.identity("")) || stems.contains(channel.identity("R"));
+    if (!is_layer || stems.contains(channel.identity("X"))) continue;
     channel.layer.push_back(channel.pass);
     channel.pass = channel.component;
     channel.component.clear();
@@ -132,7 +131,7 @@ std::string part_name(const ExrParts& file, const ExrChannel& channel) {
   return name.empty() ? fmt::format("part {}", channel.part) : name;
 }
 
-/// Channels of several parts that nothing tells apart yet are in layers of their parts' names.
+/// Channels of several parts with equal names are put in layers of their parts' names.
 void tell_apart(std::vector<ExrChannel>& channels, const ExrParts& file) {
   std::map<std::string, int> uses;
   for (const ExrChannel& channel : channels) ++uses[channel.full_name()];
@@ -141,7 +140,7 @@ void tell_apart(std::vector<ExrChannel>& channels, const ExrParts& file) {
   }
 }
 
-/// Views of the parts, where there are several; names of the parts, where there are several.
+/// Views of the parts, if there are several; names of the parts, if there are several.
 ExrParts telling(ExrParts file) {
   std::set<std::string> views;
   for (const ExrParts::Part& part : file.parts) views.insert(part.view);
@@ -155,18 +154,19 @@ ExrParts telling(ExrParts file) {
 }  // namespace
 
 void name_channels(std::vector<ExrChannel>& channels, const ExrParts& file) {
-  const ExrParts told = telling(file);
+  const ExrParts file_parts = telling(file);
   std::vector<Parsed> parsed;
   parsed.reserve(channels.size());
   for (const ExrChannel& channel : channels)
-    parsed.push_back(parse(channel, told.parts.at(static_cast<std::size_t>(channel.part)), told.views));
+    parsed.push_back(
+        parse(channel, file_parts.parts.at(static_cast<std::size_t>(channel.part)), file_parts.views));
   settle_lone_depths(parsed);
   for (std::size_t i = 0; i < channels.size(); ++i) {
     channels[i].layer = joined({joined(parsed[i].layer), parsed[i].view});
     channels[i].pass = parsed[i].pass;
     channels[i].component = parsed[i].component;
   }
-  tell_apart(channels, told);
+  tell_apart(channels, file_parts);
 }
 
 bool has_bare_name(const ExrChannel& channel) {

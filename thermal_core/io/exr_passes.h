@@ -11,10 +11,10 @@
 
 namespace thermal {
 
-/// Depth of pixels that a file's data window leaves out: what Blender writes where there is nothing but sky.
+/// Depth of pixels outside a file's data window: what Blender writes where there is only sky.
 inline constexpr float kDepthOutsideM = 1e10F;
 
-/// Where the planes of a clip's EXR files are.
+/// Where to find the planes of a clip's EXR files.
 struct ExrLayout {
   std::string layer = {};        ///< empty: the only one
   std::string actor_layer = {};  ///< empty: none
@@ -24,19 +24,19 @@ struct ExrLayout {
   ExrLimits limits = {};
 };
 
-/// The planes of one frame that are needed, and no others, of the size of the file's display window. Size and
-/// limits are checked before any memory is taken. Pixels that the data window leaves out have index 0, normal
-/// 0 and kDepthOutsideM. The actors' layer is looked at if actors are needed: a file with no other object
-/// index than `layer`'s is one of a frame without actor layer, whose plane stays empty.
-/// DataError naming file, channel and pixel if there is no object index or a needed plane is missing, or an
-/// index is negative, fractional, NaN or above 32767 (2048 in half floats), or its compression is lossy;
-/// IoError if the file cannot be read.
+/// Reads the planes of one frame that are needed, and no others, at the size of the file's display window. Size and
+/// limits are checked before memory is allocated. Pixels outside the data window have index 0, normal 0 and
+/// kDepthOutsideM. The actors' layer is read if actors are needed; a file whose only object index is that of `layer`
+/// is a frame without an actor layer, and the plane stays empty.
+/// DataError with file, channel and pixel if there is no object index or a needed plane is missing, or an index is
+/// negative, fractional, NaN or above 32767 (2048 in half floats), or its compression is lossy; IoError if the file
+/// cannot be read.
 [[nodiscard]] Passes read_passes(const Path& file, const ExrLayout& layout, const PassNeeds& needs = {});
 
 /// The same into a buffer's passes.
 void read_passes(const Path& file, const ExrLayout& layout, const PassNeeds& needs, PassBuffer& out);
 
-/// Which planes beside the object index read_passes() would find. The same faults.
+/// Which planes besides the object index read_passes() would find. The same faults.
 [[nodiscard]] PassNeeds planes_in_exr(const Path& file, const ExrLayout& layout);
 
 }  // namespace thermal

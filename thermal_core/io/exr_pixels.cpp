@@ -30,7 +30,7 @@ constexpr std::size_t kBytes = 4;  // of a pixel in any plane here
 int width_of(const Box2i& window) { return window.max.x - window.min.x + 1; }
 int height_of(const Box2i& window) { return window.max.y - window.min.y + 1; }
 
-/// Gives a target's plane its size and every pixel of it `outside`, and returns where its pixels are.
+/// Resizes a target's plane, fills it with `outside`, and returns a pointer to its pixels.
 char* make_room(const ExrTarget& target, const Box2i& display) {
   const auto make = [&](auto& plane) {
     using Pixel = std::remove_cvref_t<decltype(plane.pixels().front())>;
@@ -50,9 +50,9 @@ Imf::PixelType type_of(const ExrTarget& target) {
   return std::holds_alternative<Plane<float>*>(target.plane) ? Imf::FLOAT : Imf::UINT;
 }
 
-/// What of a part is decoded: all it has of the lines or rows of tiles that show.
+/// The rows of a part to decode: whole chunks or rows of tiles that overlap the display window.
 struct Strip {
-  Box2i window;  ///< empty: nothing shows
+  Box2i window;  ///< empty: no overlap
   bool tiled = false;
   int first_row = 0;  ///< of tiles
   int last_row = 0;
@@ -92,20 +92,20 @@ struct Source {
   const Path& name;
 };
 
-/// A channel that is decoded to somewhere.
+/// A channel and its destination.
 struct Job {
   std::string channel;
   Imf::PixelType type;
   char* pixels;  ///< of the display window
 };
 
-/// Where a strip's pixels of a channel go: the first, and how far apart lines are.
+/// Destination of a strip's pixels of a channel: the first pixel, and the line stride.
 struct Place {
   char* first = nullptr;
   std::size_t bytes_a_line = 0;
 };
 
-/// By the library's way for everything.
+/// The slow path: the library's interface for everything.
 void read_strip(Imf::MultiPartInputFile& file, int number, const Strip& strip,
                 const Imf::FrameBuffer& buffer) {
   if (strip.tiled) {
@@ -119,7 +119,7 @@ void read_strip(Imf::MultiPartInputFile& file, int number, const Strip& strip,
   part.readPixels(strip.window.min.y, strip.window.max.y);
 }
 
-/// By the short way for what most files are: all of a part, in a compression that keeps pixels.
+/// The fast path for most files: all of a part, in a lossless compression.
 void read_whole_part(const Source& source, int number, const std::vector<Job>& jobs,
                      const std::vector<Place>& places) {
   std::vector<ChannelTarget> targets;
@@ -132,8 +132,8 @@ void read_whole_part(const Source& source, int number, const std::vector<Job>& j
   decode_part(source.name, number, targets);
 }
 
-/// Whether the C interface that the short way stands on unpacks these channels. Of a part with three or four,
-/// asked for some that are half floats, it writes those too that nobody asked for, to nowhere (3.1.5).
+/// Whether the C interface of the fast path unpacks these channels correctly. For a part with three or four channels,
+/// some of them half floats, it also writes channels without a target, through a null pointer (3.1.5).
 bool can_unpack(const Imf::ChannelList& channels, const std::vector<Job>& jobs) {
   std::size_t count = 0;
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) ++count;
@@ -146,7 +146,7 @@ void read_to(const Source& source, int number, const Strip& strip, const std::ve
              const std::vector<Place>& places) {
   const Imf::Header& header = source.file.header(number);
   if (!source.file.partComplete(number))
-    throw IoError(fmt::format("part {} lacks pixels; expected a file that was written to its end", number));
+    throw IoError(fmt::format("part {} lacks pixels; expected a completely written file", number));
   const bool whole = strip.window == header.dataWindow();
   if (whole && can_decode(header.compression()) && can_unpack(header.channels(), jobs)) {
     read_whole_part(source, number, jobs, places);
@@ -160,7 +160,7 @@ void read_to(const Source& source, int number, const Strip& strip, const std::ve
   read_strip(source.file, number, strip, buffer);
 }
 
-/// Straight into planes of the display window, which holds the strip.
+/// Directly into planes of the display window, which contains the strip.
 void read_into_planes(const Source& source, int number, const Strip& strip, const std::vector<Job>& jobs) {
   const Box2i display = source.file.header(number).displayWindow();
   const std::size_t bytes_a_line = kBytes * static_cast<std::size_t>(width_of(display));
@@ -173,7 +173,7 @@ void read_into_planes(const Source& source, int number, const Strip& strip, cons
 
 using Bits = Plane<std::uint32_t>;
 
-/// Copies what shows of a strip's pixels.
+/// Copies the part of a strip inside the display window.
 void crop(const Bits& strip, const Box2i& window, char* to, const Box2i& display) {
   const Box2i shown = overlap(window, display);
   const auto bytes = kBytes * static_cast<std::size_t>(width_of(shown));
@@ -212,12 +212,13 @@ void read_part(const Source& source, int number, const std::vector<Job>& jobs) {
 }
 
 /// The file may have changed since its channels were listed.
-void check_channel(const Imf::MultiPartInputFile& file, const ExrChannel& told) {
-  const Imf::Channel* channel =
-      told.part < file.parts() ? file.header(told.part).channels().findChannel(told.name) : nullptr;
-  if (channel == nullptr) throw IoError(fmt::format("{} is not in it any more", told.full_name()));
+void check_channel(const Imf::MultiPartInputFile& file, const ExrChannel& expected) {
+  const Imf::Channel* channel = expected.part < file.parts()
+                                    ? file.header(expected.part).channels().findChannel(expected.name)
+                                    : nullptr;
+  if (channel == nullptr) throw IoError(fmt::format("{} is no longer in it", expected.full_name()));
   if (channel->xSampling == 1 && channel->ySampling == 1) return;
-  throw DataError(fault(told.full_name() + ": sampling",
+  throw DataError(fault(expected.full_name() + ": sampling",
                         fmt::format("{} x {}", channel->xSampling, channel->ySampling), "px",
                         "1 x 1 px, a number for every pixel"));
 }
@@ -227,7 +228,8 @@ void check_channel(const Imf::MultiPartInputFile& file, const ExrChannel& told) 
 void decode(Imf::MultiPartInputFile& file, const Path& name, const std::vector<ExrTarget>& targets) {
   for (const ExrTarget& target : targets) check_channel(file, *target.channel);
   std::map<std::pair<int, std::string>, int> uses;
-  std::map<std::pair<int, int>, std::vector<Job>> rounds;  // a channel can go to one place at a time
+  std::map<std::pair<int, int>, std::vector<Job>>
+      rounds;  // a channel can have only one destination at a time
   for (const ExrTarget& target : targets) {
     const ExrChannel& channel = *target.channel;
     const int round = uses[{channel.part, channel.name}]++;

@@ -11,19 +11,19 @@
 
 namespace thermal {
 
-/// One channel to decode, and the plane that gets it: floats, whose bits are kept where the channel has
-/// floats too; or whole numbers, for a channel of those.
+/// One channel to decode and its destination: floats, whose bits are kept if the channel is float too, or whole
+/// numbers, for a uint channel.
 struct ExrTarget {
   const ExrChannel* channel = nullptr;
   std::variant<Plane<float>*, Plane<std::uint32_t>*> plane;
-  float outside = 0;  ///< of pixels of the display window that the data window leaves out; whole numbers: 0
+  float outside = 0;  ///< for pixels of the display window outside the data window; whole numbers: 0
 };
 
-/// Fills planes of the display window's size; memory of those that have it already is used again. Each part is decoded once, straight into them where its data
-/// window does not reach beyond; of lines and tiles those that show. Of tiled parts with several levels: the
-/// finest.
-/// DataError for subsampled channels, IoError for parts that are not whole, both without the file's name;
-/// exceptions of the library.
+/// Fills planes of the display window's size, reusing memory of the right size. Each part is decoded once, directly
+/// into the planes if its data window does not extend beyond them; only lines and tiles in the display window are
+/// decoded. For tiled parts with several levels: the finest.
+/// DataError for subsampled channels, IoError for incomplete parts, both without the file's name; exceptions of the
+/// library.
 void decode(Imf::MultiPartInputFile& file, const Path& name, const std::vector<ExrTarget>& targets);
 
 }  // namespace thermal

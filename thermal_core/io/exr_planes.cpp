@@ -25,7 +25,7 @@ std::string wrong_layer(const std::string& key, const std::string& name,
          did_you_mean(name, layers);
 }
 
-/// The channel that a manifest's `key` names; of several that share a name, the layer's.
+/// The channel that a manifest's `key` names; among several of that name, the layer's.
 const ExrChannel& named(const ExrHeader& header, const std::string& layer, const std::string& key,
                         const std::string& name) {
   std::vector<const ExrChannel*> found;
@@ -47,7 +47,7 @@ const ExrChannel& named(const ExrHeader& header, const std::string& layer, const
       fault(key, quoted(name), "", "one of the channels of that name: " + list_names(candidates)));
 }
 
-/// A pass of several components: what comes before their .X, .Y and .Z.
+/// A pass of several components: the prefix of their .X, .Y and .Z.
 std::string pass_of(const std::string& channel) { return channel.substr(0, channel.rfind('.')); }
 
 std::vector<std::string> passes_in(const ExrHeader& header) {
@@ -60,7 +60,7 @@ std::vector<std::string> passes_in(const ExrHeader& header) {
   return passes;
 }
 
-/// A component of the pass that a manifest names as normals; of several that share a name, the layer's.
+/// A component of the pass that a manifest names as normals; among several of that name, the layer's.
 const ExrChannel& named_normal(const ExrHeader& header, const std::string& layer, const std::string& pass,
                                std::string_view axis) {
   std::vector<const ExrChannel*> found;
@@ -72,10 +72,9 @@ const ExrChannel& named_normal(const ExrHeader& header, const std::string& layer
   if (const ExrChannel* channel = axis_of(found, axis)) return *channel;
   const std::vector<std::string> passes = passes_in(header);
   const bool known = std::find(passes.begin(), passes.end(), pass) != passes.end();
-  throw DataError(
-      fault("channels.normal", quoted(pass), "",
-            fmt::format("what comes before .{} of a channel of the file: {}", axis, list_names(passes))) +
-      (known ? "" : did_you_mean(pass, passes)));
+  throw DataError(fault("channels.normal", quoted(pass), "",
+                        fmt::format("a pass with a channel .{} in the file: {}", axis, list_names(passes))) +
+                  (known ? "" : did_you_mean(pass, passes)));
 }
 
 }  // namespace
@@ -109,7 +108,7 @@ std::vector<std::string> ExrPlanes::index_layers() const {
   return layers;
 }
 
-/// The object index of everything: where no layer is named, the one beside that of actors.
+/// The object index of everything: without a named layer, the one that is not the actors'.
 const ExrChannel& ExrPlanes::find_objects() const {
   std::optional<std::string> layer;
   if (!layout_.layer.empty()) layer = layout_.layer;
@@ -122,8 +121,9 @@ const ExrChannel& ExrPlanes::find_objects() const {
   if (found != nullptr) return *found;
   const std::vector<std::string> layers = index_layers();
   if (layers.empty())
-    throw DataError(fmt::format(
-        "no object index channel; expected one like Scene.IndexOB.X, the file has: {}", names_of(header_)));
+    throw DataError(
+        fmt::format("no object index channel; expected one such as Scene.IndexOB.X; the file has: {}",
+                    names_of(header_)));
   throw DataError(wrong_layer("layer", layout_.layer, layers));
 }
 

@@ -13,24 +13,24 @@ namespace thermal {
 
 struct ExrTarget;
 
-/// Finds the channels of a clip's planes in a file. Planes are looked for in the layer of the object index;
-/// where that has no name, or theirs has none of its own, in the only other that has no object index. All
-/// faults are DataErrors without the file's name.
+/// Finds the channels of a clip's planes in a file. Planes are searched in the layer of the object index; if that
+/// layer has no name, or lacks them, in the only other layer without an object index. All faults are DataErrors
+/// without the file's name.
 class ExrPlanes {
  public:
-  /// DataError if there is no object index, or several and none chosen. Keeps references.
+  /// DataError if there is no object index, or several and none is chosen. Keeps references.
   ExrPlanes(const ExrHeader& header, const ExrLayout& layout);
 
   [[nodiscard]] const ExrChannel& objects() const noexcept { return *objects_; }
   [[nodiscard]] const ExrChannel* materials() const;  ///< null if there is none
   [[nodiscard]] const ExrChannel* depth() const;
   [[nodiscard]] const ExrChannel* normal(std::string_view axis) const;  ///< "X", "Y" or "Z"
-  /// Null for a frame without that layer. That a frame has another one instead is taken for a slip of the
-  /// pen.
+  /// Null for a frame without that layer. DataError if the frame has a different one instead, which is probably a
+  /// typing error.
   [[nodiscard]] const ExrChannel* actors() const;
 
   [[nodiscard]] const ExrChannel& required_depth()
-      const;  ///< DataError that lists the channels if there is none
+      const;  ///< DataError with a list of the channels if there is none
   [[nodiscard]] const ExrChannel& required_normal(std::string_view axis) const;
 
  private:
@@ -47,17 +47,17 @@ class ExrPlanes {
   const ExrLayout& layout_;
   const ExrChannel* named_objects_ = nullptr;  ///< by the layout
   const ExrChannel* objects_ = nullptr;
-  std::string layer_;  ///< in which the other planes are
+  std::string layer_;  ///< layer of the other planes
 };
 
-/// DataError (without the file's name) for a picture of another size than the layout's, if that has one.
+/// DataError (without the file's name) if the picture's size differs from the layout's, if that has one.
 void check_size(const ExrHeader& header, const ExrLayout& layout);
 
-/// Depth and normals to decode into `out`, as far as they are needed; what is not is emptied.
+/// Adds depth and normals to be decoded into `out`, if needed; planes that are not needed are emptied.
 [[nodiscard]] std::vector<ExrTarget> shape_targets(const ExrPlanes& planes, const PassNeeds& needs,
                                                    Passes& out);
 
-/// Whether there are depth and normals; says nothing of actors.
+/// Whether there are depth and normals; ignores actors.
 [[nodiscard]] PassNeeds planes_beside(const ExrPlanes& planes);
 
 }  // namespace thermal

@@ -26,7 +26,7 @@ constexpr std::int32_t kTiledFlag = 0x200;
 constexpr std::int32_t kLongNamesFlag = 0x400;
 constexpr std::int32_t kDeepFlag = 0x800;
 constexpr std::int32_t kMultiPartFlag = 0x1000;
-constexpr std::int64_t kBytesAChunk = 8;  // of the table that says where chunks are
+constexpr std::int64_t kBytesAChunk = 8;  // of the table of chunk offsets
 
 struct Window {
   std::int32_t left = 0;
@@ -38,18 +38,18 @@ struct Window {
   [[nodiscard]] std::int64_t height() const noexcept { return std::int64_t{bottom} - top + 1; }
 };
 
-/// What a part's header says that memory hangs on.
+/// What memory use depends on in a part's header.
 struct PartHeader {
   std::optional<Window> data_window;
   std::optional<Window> display_window;
   std::optional<std::uint8_t> compression;
   std::uint32_t tile_width_px = 0;  ///< 0: scanlines
   std::uint32_t tile_height_px = 0;
-  std::int32_t chunk_count = 0;  ///< 0: not told
+  std::int32_t chunk_count = 0;  ///< 0: unknown
   ExrChannelList channels;
 };
 
-/// Scanlines of a chunk, by number of the compression.
+/// Scanlines per chunk, by number of the compression.
 std::int64_t lines_a_chunk(std::uint8_t compression) {
   constexpr std::array<std::int64_t, 10> kLines = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
   if (compression < kLines.size()) return kLines[compression];
@@ -58,7 +58,7 @@ std::int64_t lines_a_chunk(std::uint8_t compression) {
 
 std::int64_t parts_of(std::int64_t whole, std::int64_t part) { return (whole + part - 1) / part; }
 
-/// Reads values one after another; what reaches past the end is a fault.
+/// Reads values one after another; reading past the end is a fault.
 class Reader {
  public:
   explicit Reader(const Path& file) : in_(file, std::ios::binary) {
@@ -77,7 +77,7 @@ class Reader {
     return read;
   }
 
-  /// A text that ends with a zero byte; empty where that comes first.
+  /// A string that ends with a zero byte; empty if that comes first.
   std::string text(const std::string& what, std::size_t longest) {
     std::string read;
     for (char c = value<char>(what); c != '\0'; c = value<char>(what)) {
@@ -111,8 +111,8 @@ class Reader {
 
   void check_left(std::int64_t count, const std::string& what) const {
     if (count >= 0 && count <= left_) return;
-    throw DataError(fault(what, std::to_string(count), "bytes",
-                          fmt::format("at most the {} that are left of the file", left_)));
+    throw DataError(
+        fault(what, std::to_string(count), "bytes", fmt::format("at most the {} left in the file", left_)));
   }
 
   std::ifstream in_;
@@ -125,7 +125,7 @@ class HeaderScan {
 
   void run() {
     if (in_.left() < 8 || in_.value<std::int32_t>("magic number") != kMagic)
-      throw DataError("not an EXR file (its first bytes are others)");
+      throw DataError("not an EXR file (wrong first bytes)");
     const auto version = in_.value<std::int32_t>("version");
     if ((version & kVersionMask) != kVersion)
       throw DataError(fault("version", std::to_string(version & kVersionMask), "", "2"));
@@ -137,7 +137,7 @@ class HeaderScan {
     for (std::size_t part = 0; part < parts_.size(); ++part) chunks += chunks_of(parts_[part], part);
     if (chunks * kBytesAChunk > in_.left())
       throw DataError(fault("table of chunks", std::to_string(chunks * kBytesAChunk), "bytes",
-                            fmt::format("at most the {} that are left of the file", in_.left())));
+                            fmt::format("at most the {} left in the file", in_.left())));
   }
 
  private:
@@ -156,10 +156,10 @@ class HeaderScan {
             fault("parts", std::to_string(parts_.size()), "", fmt::format("at most {}", limits_.parts)));
       if (!several) break;
     }
-    if (parts_.empty()) throw DataError("has no part; expected one at least");
+    if (parts_.empty()) throw DataError("has no parts; expected at least one");
   }
 
-  /// Nothing where there is no attribute.
+  /// Empty if there is no such attribute.
   std::optional<PartHeader> read_header() {
     std::optional<PartHeader> part;
     while (true) {
@@ -231,7 +231,7 @@ class HeaderScan {
 
   void check_size(std::int64_t width, std::int64_t height, const std::string& what) const {
     const std::string size = fmt::format("{} x {}", width, height);
-    if (width < 1 || height < 1) throw DataError(fault(what, size, "px", "sides of 1 and more"));
+    if (width < 1 || height < 1) throw DataError(fault(what, size, "px", "sides of at least 1"));
     if (width <= limits_.pixels / height) return;
     constexpr double kMillion = 1e6;
     throw DataError(fault(
@@ -240,13 +240,13 @@ class HeaderScan {
         fmt::format("at most {} (see --max-megapixels)", static_cast<double>(limits_.pixels) / kMillion)));
   }
 
-  /// No compression makes less of pixels than a part in 65536 and a few bytes a chunk.
+  /// No compression reduces a part to less than 1/65536 of its pixels plus a few bytes per chunk.
   void check_plausible(std::int64_t bytes, const std::string& where) const {
     constexpr std::int64_t kMostRatio = 65536;
     constexpr std::int64_t kAlwaysFine = 1 << 20;
     if (bytes <= kAlwaysFine || bytes / kMostRatio <= in_.left()) return;
     throw DataError(fault(where + "pixels", std::to_string(bytes), "bytes",
-                          fmt::format("what the {} bytes that are left of the file can hold", in_.left())));
+                          fmt::format("what the {} bytes left in the file can hold", in_.left())));
   }
 
   Reader in_;

@@ -13,10 +13,10 @@ struct ExrLimits {
   int parts = 256;
 };
 
-/// Walks an EXR file's headers without trust, before a library takes memory for what they claim: every length
-/// lies within the file, windows of data and display are neither empty nor inside out nor larger than the
-/// limits, and a file that promises so many chunks is long enough for their table. Reads the headers alone.
-/// DataError (without the file's name) with the part, the attribute, what it says and what was expected.
+/// Checks an EXR file's headers without trusting them, before a library allocates memory for what they claim: every
+/// length is within the file, the data and display windows are neither empty nor inverted nor larger than the limits,
+/// and the file is long enough for the table of chunks it claims. Reads only the headers.
+/// DataError (without the file's name) with the part, the attribute, its value and what was expected.
 /// Source: Technical Introduction to OpenEXR, "OpenEXR File Layout".
 void check_exr_headers(const Path& file, const ExrLimits& limits = {});
 

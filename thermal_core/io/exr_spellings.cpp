@@ -19,7 +19,7 @@ struct Spelling {
   PassKind kind;
 };
 
-/// The better ones first.
+/// Preferred spellings first.
 constexpr std::array<Spelling, 10> kSpellings = {{{"indexob", PassKind::object_index},
                                                   {"objectindex", PassKind::object_index},
                                                   {"objectid", PassKind::object_index},
@@ -47,14 +47,14 @@ const Spelling* spelling_of(std::string_view pass) {
   return found == kSpellings.end() ? nullptr : found;
 }
 
-/// How well a component is one of a vector's, 0 best; nothing if it is not.
+/// How well a component fits one of a vector's, 0 best; empty if it does not.
 std::optional<std::size_t> rank_of_axis(const std::string& letter, std::string_view axis) {
   if (letter == axis) return 0;
   const std::string_view colour = std::string_view("RGB").substr(std::string_view("XYZ").find(axis), 1);
   return letter == colour ? std::optional<std::size_t>(1) : std::nullopt;
 }
 
-/// How well a component holds a plane of one, 0 best.
+/// How well a component fits a plane with a single one, 0 best.
 std::size_t rank_of_single(const std::string& letter, PassKind kind) {
   const std::string_view order = kind == PassKind::depth ? "ZVRX" : "XVR";
   if (letter.empty()) return 0;

@@ -11,8 +11,7 @@ namespace thermal {
 
 enum class PassKind { object_index, material_index, depth, normal };
 
-/// What a pass called so holds, by the spellings in use, whatever their case and with or without spaces, "_"
-/// and "-":
+/// Kind of a pass by its name, in the spellings in use, whatever their case and with or without spaces, "_" and "-":
 /// | kind           | spelt                            | by |
 /// | object index   | IndexOB, Object Index, Object ID | Blender to 4.x, 5.x; others |
 /// | material index | IndexMA, Material Index, Material ID | the same |
@@ -24,19 +23,18 @@ enum class PassKind { object_index, material_index, depth, normal };
 
 [[nodiscard]] std::string upper_case(std::string_view text);
 
-/// The one among these channels of one layer that holds a pass best: by spelling, in the order above, then by
-/// component: for normals the letter asked for or the colour in its place; for others X, V or R (Z for depth)
-/// before any, alpha last. Null if none holds it. `axis` is "X", "Y" or "Z" for normals, else empty.
+/// The channel that fits a pass best among these channels of one layer: by spelling, in the order above, then by
+/// component: for normals the letter requested or the corresponding colour; for others X, V or R (Z for depth) before
+/// any, alpha last. Null if none fits. `axis` is "X", "Y" or "Z" for normals, otherwise empty.
 [[nodiscard]] const ExrChannel* best_of(const std::vector<const ExrChannel*>& channels, PassKind kind,
                                         std::string_view axis = "");
 
-/// The one of these channels that is "X", "Y" or "Z" of a vector, or else the colour that stands for it; null
-/// if none is.
+/// The one of these channels that is "X", "Y" or "Z" of a vector, or the corresponding colour; null if there is none.
 [[nodiscard]] const ExrChannel* axis_of(const std::vector<const ExrChannel*>& channels,
                                         std::string_view axis);
 
-/// best_of() where they must be in one layer; DataError, naming the layers, if several hold it. `choice` is
-/// the key of the manifest that chooses among them.
+/// best_of() for channels of all layers; DataError with the layers' names if several have one. `choice` is the
+/// manifest key that selects one of them.
 [[nodiscard]] const ExrChannel* only_best_of(const std::vector<const ExrChannel*>& channels, PassKind kind,
                                              std::string_view axis, std::string_view choice);
 

@@ -32,7 +32,7 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
   [[nodiscard]] int number() const noexcept { return number_; }
   [[nodiscard]] int release() noexcept { return std::exchange(number_, -1); }
-  /// What the system could not write before it tells now.
+  /// Reports write errors that the system has deferred.
   void close(const Path& file) {
     if (::close(release()) != 0 && errno != EINTR) fail_at("write", file, errno);
   }
@@ -41,7 +41,7 @@ class Descriptor {
   int number_;
 };
 
-/// What to open a file with that is written, and whether it is to survive a power cut.
+/// Flags to open a file for writing, and whether it must survive a power failure.
 struct Writing {
   int flags = 0;
   bool sync = false;
@@ -60,10 +60,10 @@ void write_all(const Path& file, const std::byte* data, std::size_t bytes, const
   out.close(file);
 }
 
-/// What the bytes of a lock file stand for; they are locked, not written. Locks of open files, not of processes:
-/// those would be lost when any other descriptor of the file is closed.
-constexpr off_t kTurnByte = 0;    // whoever holds it changes what all runs write
-constexpr off_t kSharedByte = 1;  // runs that share the folder all hold it, so that none has it all
+/// Meaning of the bytes of a lock file; they are locked, not written. These are locks of open files (OFD), because
+/// locks of processes are lost when any other descriptor of the file is closed.
+constexpr off_t kTurnByte = 0;    // held exclusively to change what all runs write
+constexpr off_t kSharedByte = 1;  // held by runs that share the folder, so that no run can lock it completely
 constexpr off_t kFirstPlace = 2;
 constexpr off_t kToTheEnd = 0;  // as a length
 
@@ -122,8 +122,7 @@ void check_is_file(const Path& file) {
   std::error_code error;
   const Type type = std::filesystem::status(file, error).type();
   if (type == Type::regular) return;
-  if (type == Type::not_found)
-    throw IoError(fmt::format("cannot read {}: there is no such file", file.string()));
+  if (type == Type::not_found) throw IoError(fmt::format("cannot read {}: no such file", file.string()));
   if (error) fail_at("read", file, error.value());
   throw IoError(fmt::format("cannot read {}: it is {}; expected a file", file.string(),
                             type == Type::directory ? "a folder" : "a pipe or a device"));
@@ -134,15 +133,15 @@ void check_is_no_link(const Path& place) {
   const Path target = std::filesystem::read_symlink(place, error);
   if (error) return;
   throw IoError(fault(place.string(), fmt::format("a link to {}", target.string()), "",
-                      "no link, because nothing is written to other places"));
+                      "a path that is not a link; nothing is written to other places"));
 }
 
 void write_file_atomically(const Path& file, std::string_view content) {
   Path temporary = file;
-  temporary += ".tmp";  // always the same, so that what a killed run left is swept away
+  temporary += ".tmp";  // always the same, so that leftovers of a killed run are overwritten
   ::unlink(temporary.c_str());
   try {
-    // Excluded is what is there all the same: a link that was put there meanwhile.
+    // O_EXCL, in case a link has been created meanwhile.
     write_all(temporary, reinterpret_cast<const std::byte*>(content.data()), content.size(),
               {.flags = O_EXCL, .sync = true});
     if (::rename(temporary.c_str(), file.c_str()) != 0) fail_at("rename to", file, errno);
@@ -179,7 +178,7 @@ void sync_folder(const Path& folder) {
 std::int64_t room_left_bytes(const Path& folder) {
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(folder, error);
-  if (error) fail_at("tell the room left in", folder, error.value());
+  if (error) fail_at("get the free disk space of", folder, error.value());
   constexpr auto kMost = static_cast<std::uintmax_t>(std::numeric_limits<std::int64_t>::max());
   return static_cast<std::int64_t>(std::min(space.available, kMost));
 }

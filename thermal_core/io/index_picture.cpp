@@ -25,11 +25,11 @@ Colour colour_of(std::uint32_t number) noexcept {
           static_cast<std::uint8_t>(number)};
 }
 
-std::string told(const Colour& colour) {
+std::string in_words(const Colour& colour) {
   return fmt::format("#{:06x} ({}, {}, {})", number_of(colour), colour[0], colour[1], colour[2]);
 }
 
-/// Adds the file's name to faults found inside it.
+/// Adds the file's name to errors thrown inside.
 template <typename Work>
 auto naming(const Path& file, const Work& work) {
   try {
@@ -51,12 +51,12 @@ std::uint16_t most_alpha(PictureKind kind) noexcept {
                                      : std::numeric_limits<std::uint8_t>::max();
 }
 
-/// What a survey tells apart: the number or the colour's.
+/// The key of a survey: a number or a colour.
 std::uint32_t value_of(const PicturePixel& pixel, PictureKind kind) noexcept {
   return kind == PictureKind::colour ? number_of(pixel.colour) : pixel.grey;
 }
 
-/// Turns rows of pixels into rows of indices.
+/// Converts rows of pixels to rows of indices.
 class IndexRows {
  public:
   using IndexOf = std::unordered_map<std::uint32_t, std::uint16_t>;
@@ -70,12 +70,12 @@ class IndexRows {
     for (std::size_t x = 0; x < row.size(); ++x) out[x] = index_of(row[x], static_cast<int>(x), y);
   }
 
-  /// Colours that are no object's are counted to the end of the picture.
+  /// Colours that match no object are counted to the end of the picture.
   void finish() const {
     if (unknown_pixels_ == 0) return;
     throw DataError(
         fmt::format("colour at pixel ({}, {}) = {} ({} pixels); expected an object's or the sky's{}",
-                    unknown_x_px_, unknown_y_px_, told(colour_of(unknown_)), unknown_pixels_, nearest()));
+                    unknown_x_px_, unknown_y_px_, in_words(colour_of(unknown_)), unknown_pixels_, nearest()));
   }
 
  private:
@@ -83,7 +83,7 @@ class IndexRows {
     if (pixel.alpha == 0) return kSkyIndex;
     if (pixel.alpha != opaque_) {
       throw DataError(fault(fmt::format("alpha at pixel ({}, {})", x, y), fmt::format("{}", pixel.alpha), "",
-                            fmt::format("0 (sky) or {}: a pixel is one object's", opaque_)));
+                            fmt::format("0 (sky) or {}, because a pixel belongs to one object", opaque_)));
     }
     if (index_of_ != nullptr)
       return index_of_colour(kind_ == PictureKind::colour ? number_of(pixel.colour) : pixel.grey * 0x010101U,
@@ -109,7 +109,7 @@ class IndexRows {
     return kSkyIndex;
   }
 
-  /// Least sum of squared differences; of two, the lower colour.
+  /// Least sum of squared differences; of two equal ones, the lower colour.
   [[nodiscard]] std::string nearest() const {
     std::pair<int, std::uint32_t> best = {std::numeric_limits<int>::max(), 0};
     for (const auto& [colour, index] : *index_of_) {
@@ -120,7 +120,7 @@ class IndexRows {
       }
       best = std::min(best, {distance, colour});
     }
-    return fmt::format("; did you mean {}?", told(colour_of(best.second)));
+    return fmt::format("; did you mean {}?", in_words(colour_of(best.second)));
   }
 
   static constexpr std::uint32_t kNoColour = 0xFF000000;
@@ -173,7 +173,7 @@ IndexPictures::IndexPictures(const Manifest& manifest, const ReadLimits& limits)
     const std::string where = fmt::format("objects[{}].colour", i);
     const auto [owner, is_new] = owners.emplace(number_of(*object.colour), where);
     if (!is_new)
-      throw DataError(fault(where, told(*object.colour), "", "another colour than " + owner->second));
+      throw DataError(fault(where, in_words(*object.colour), "", "a colour other than " + owner->second));
     index_of_.emplace(number_of(*object.colour), object.index);
     has_colours_ = true;
   }

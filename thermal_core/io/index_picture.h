@@ -13,19 +13,19 @@
 
 namespace thermal {
 
-/// Whether a file is read as a picture of indices or colours: by its name's end (.png, in any case).
+/// Whether a file is read as a picture of indices or colours: by its extension (.png, in any case).
 [[nodiscard]] bool is_index_picture(const Path& file);
 
 /// Reads pictures of object indices: grey PNGs, whose numbers are the indices, and PNGs of colours or with a palette,
-/// whose colours are those of the manifest's objects. Where objects have colours, grey of up to 8 bits is a colour too,
-/// its three channels being alike. What is wholly transparent is sky. They have no other plane.
+/// whose colours are those of the manifest's objects. If objects have colours, grey of up to 8 bits is read as a
+/// colour with three equal channels. Fully transparent pixels are sky. These pictures have no other planes.
 class IndexPictures {
  public:
-  /// DataError if two objects have one colour, or one that of the sky.
+  /// DataError if two objects have one colour, or an object has the sky's.
   explicit IndexPictures(const Manifest& manifest, const ReadLimits& limits = {});
 
-  /// DataError naming file and pixel for a colour that is no object's, an index above 32767, partial transparency,
-  /// another size than the manifest's, and for planes that are needed and not there; IoError if it can't be read.
+  /// DataError with file and pixel for a colour that matches no object, an index above 32767, partial transparency, a
+  /// size other than the manifest's, and needed planes other than indices; IoError if it cannot be read.
   [[nodiscard]] Passes read(const Path& file, const PassNeeds& needs) const;
 
  private:
@@ -41,25 +41,25 @@ class IndexPictures {
 /// A number or a colour of a picture, and its pixels.
 struct PictureUse {
   int value = 0;    ///< of grey pictures
-  Colour colour{};  ///< of coloured ones
+  Colour colour{};  ///< of coloured pictures
   std::int64_t pixels = 0;
 };
 
-/// What a picture holds.
+/// Contents of a picture.
 struct PictureSurvey {
   PictureKind kind = PictureKind::grey8;
   int width_px = 0;
   int height_px = 0;
   std::vector<PictureUse> uses;         ///< most pixels first, then by value
-  std::int64_t transparent_pixels = 0;  ///< wholly or in part; they are not among `uses`
-  std::int64_t other_pixels = 0;        ///< of further colours than `uses` has room for
+  std::int64_t transparent_pixels = 0;  ///< fully or partly transparent; not counted in `uses`
+  std::int64_t other_pixels = 0;        ///< of further colours beyond the limit of `uses`
 };
 
-/// A survey tells so many numbers or colours apart.
+/// Limit of different numbers or colours in a survey.
 inline constexpr std::size_t kMostPictureUses = 65536;
 
-/// Looks at any picture of a kind that IndexPictures reads. DataError naming the file if it is damaged, of another kind, or
-/// claims more pixels than the limits or its length allow; IoError if it can't be read.
+/// Surveys any picture of a kind that IndexPictures reads. DataError with the file if it is damaged, of another kind,
+/// or claims more pixels than the limits or its length allow; IoError if it cannot be read.
 [[nodiscard]] PictureSurvey survey_picture(const Path& file, const ReadLimits& limits = {});
 
 }  // namespace thermal

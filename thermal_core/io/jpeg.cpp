@@ -18,7 +18,7 @@ namespace {
 /// 8 bits, grey or red, green and blue.
 OIIO::ImageBuf read_picture(const Path& file) {
   if (!std::filesystem::exists(file))
-    throw IoError(fmt::format("cannot read {}: it does not exist", file.string()));
+    throw IoError(fmt::format("cannot read {}: no such file", file.string()));
   OIIO::ImageBuf picture(file.string());
   if (!picture.read(0, 0, true, OIIO::TypeDesc::UINT8))
     throw DataError(fmt::format("{}: damaged: {}", file.string(), picture.geterror()));
@@ -40,7 +40,7 @@ std::string as_jpeg(const Path& picture, int most_px) {
   const OIIO::ImageBuf image = at_most(read_picture(picture), most_px);
   OIIO::ImageSpec spec(image.spec().width, image.spec().height, image.nchannels(), OIIO::TypeDesc::UINT8);
   spec.attribute("CompressionQuality",
-                 82);  // of noisy frames: half of 92's bytes, and boxes' edges are not in it
+                 82);  // for noisy frames: half the bytes of quality 92; boxes are drawn separately
   std::vector<unsigned char> pixels(spec.image_bytes());
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);

@@ -17,7 +17,7 @@ JsonEntry::JsonEntry(const Json& json, const std::string& file, const std::strin
 std::int64_t JsonEntry::integer(const char* key) const {
   const Json& value = at(key);
   if (!value.is_number_integer()) throw fault_of(key, "a whole number");
-  // What JSON has above the largest is unsigned, and would become negative.
+  // JSON integers above this are unsigned, and would become negative.
   if (value.is_number_unsigned() && value.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max())
     throw fault_of(key, "a whole number up to 9223372036854775807");
   return value.get<std::int64_t>();
@@ -32,7 +32,7 @@ int JsonEntry::count(const char* key) const {
 
 std::string JsonEntry::text(const char* key) const {
   const Json& value = at(key);
-  if (!value.is_string() || value.get_ref<const std::string&>().empty()) throw fault_of(key, "a text");
+  if (!value.is_string() || value.get_ref<const std::string&>().empty()) throw fault_of(key, "a string");
   return value.get<std::string>();
 }
 

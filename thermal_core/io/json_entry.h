@@ -10,11 +10,12 @@
 
 namespace thermal {
 
-/// One object of a list in somebody's JSON file, read key by key. What is there but wrong, or asked for and missing,
-/// is a DataError "FILE: LIST[PLACE].KEY = VALUE; expected RULE". A key that is null is not there.
+/// One object of a list in an external JSON file, read key by key. A wrong value, or a missing required key, is a
+/// DataError "FILE: LIST[PLACE].KEY = VALUE; expected RULE". A null value counts as missing.
 class JsonEntry {
  public:
-  /// `list` is empty where the file is the list. All must outlive the entry. DataError if it is no object.
+  /// `list` is empty if the file itself is the list. All arguments must outlive the entry. DataError if it is not an
+  /// object.
   JsonEntry(const Json& json, const std::string& file, const std::string& list, std::size_t place);
 
   [[nodiscard]] bool has(const char* key) const { return json_.contains(key) && !json_[key].is_null(); }
@@ -24,12 +25,12 @@ class JsonEntry {
   [[nodiscard]] int count(const char* key) const;
   /// Not empty.
   [[nodiscard]] std::string text(const char* key) const;
-  /// JSON has no NaN and no infinity, so it is finite.
+  /// Always finite: JSON has no NaN and no infinity.
   [[nodiscard]] double number(const char* key) const;
   [[nodiscard]] std::optional<double> optional_number(const char* key) const;
-  /// COCO writes 0 and 1, others false and true; what is not there is false.
+  /// COCO writes 0 and 1, others false and true; missing is false.
   [[nodiscard]] bool flag(const char* key) const;
-  /// [x, y, width, height] in px, sides not negative.
+  /// [x, y, width, height] in px, width and height not negative.
   [[nodiscard]] LabelBox box(const char* key) const;
 
   [[nodiscard]] DataError fault_of(const char* key, const std::string& rule) const;

@@ -21,8 +21,8 @@ std::string position(std::string_view text, std::size_t byte, const std::string&
   return fmt::format("{}:{}:{}", name, line, before.size() - line_begin + 1);
 }
 
-/// The library's words without its own numbering and position: what follows "syntax error", or else the number.
-/// Python writes NaN and Infinity as they are; the library stops at their first letter.
+/// The library's message without its own numbering and position: what follows "syntax error", or otherwise the
+/// number. Python writes NaN and Infinity unquoted; the library stops at their first letter.
 std::string reason(const std::string& what) {
   const std::size_t begin = what.find("syntax error");
   std::string words = what.substr(begin == std::string::npos ? what.find(']') + 2 : begin);
@@ -30,7 +30,7 @@ std::string reason(const std::string& what) {
   return words + "; expected a finite number: JSON has no NaN and no Infinity, though Python writes them";
 }
 
-/// Watches a parse for keys that come twice in one object, which JSON readers otherwise drop in silence.
+/// Detects keys that are repeated in one object, which JSON readers otherwise drop silently.
 class DuplicateKeys {
  public:
   void see(Json::parse_event_t event, const Json& value) {
@@ -47,13 +47,13 @@ class DuplicateKeys {
   std::string first_;
 };
 
-/// Hands the elements of arrays at the top of a document on, as a parse comes to their ends.
+/// Passes on the elements of top-level arrays as the parser completes them.
 class Elements {
  public:
   explicit Elements(const TakeElement& take) : take_(take) {}
 
-  /// Whether the parse should keep what it has just read.
-  bool see(int depth, Json::parse_event_t event, const Json& value) {
+  /// Whether the parser should keep what it has just read.
+  bool operator()(int depth, Json::parse_event_t event, const Json& value) {
     using Event = Json::parse_event_t;
     if (event == Event::key && depth == 1) key_ = value.get<std::string>();
     if (event == Event::array_start && depth == 0) inside_ = 1;
@@ -74,21 +74,21 @@ class Elements {
   const TakeElement& take_;
   std::string key_;
   std::size_t place_ = 0;
-  int inside_ = 0;  ///< depth of the elements of the array that is open; 0: none is
+  int inside_ = 0;  ///< depth of the elements of the open array; 0: none is open
 };
 
-/// Trees are copied, compared and written by functions that call themselves, and the stack is small. Ours are 8 deep.
+/// Trees are copied, compared and written recursively, and the stack is small. Our own documents are 8 deep.
 void check_depth(int depth, Json::parse_event_t event, const std::string& name) {
   constexpr int kDeepest = 64;
   const bool begins = event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
   if (!begins || depth < kDeepest) return;
   throw ConfigError(
-      fmt::format("{}: lists and objects more than {} deep in each other; expected fewer", name, kDeepest));
+      fmt::format("{}: lists and objects are nested more than {} deep; expected fewer", name, kDeepest));
 }
 
-/// Parses a text or a stream while `keep` watches; faults name the place, which `place_of` a byte tells.
-template <typename Input, typename PlaceOf, typename Keep>
-Json parse_watched(Input&& input, const std::string& name, const PlaceOf& place_of, const Keep& keep) {
+/// Parses a text or a stream with the filter `keep`; errors report the position, for which `whole_text` is called.
+template <typename Input, typename WholeText, typename Keep>
+Json parse_watched(Input&& input, const std::string& name, const WholeText& whole_text, Keep keep) {
   DuplicateKeys duplicates;
   const auto watch = [&](int depth, Json::parse_event_t event, const Json& value) {
     check_depth(depth, event, name);
@@ -100,13 +100,14 @@ Json parse_watched(Input&& input, const std::string& name, const PlaceOf& place_
     if (duplicates.first().empty()) return json;
   } catch (const Json::parse_error& error) {
     // The library counts the offending byte from 1.
-    throw ConfigError(fmt::format("{}: not JSON: {}", place_of(error.byte == 0 ? 0 : error.byte - 1),
+    throw ConfigError(fmt::format("{}: not JSON: {}",
+                                  position(whole_text(), error.byte == 0 ? 0 : error.byte - 1, name),
                                   reason(error.what())));
   } catch (const Json::out_of_range& error) {  // "[json.exception.out_of_range.406] number overflow …"
     throw ConfigError(fmt::format("{}: not JSON: {}", name, reason(error.what())));
   }
   throw ConfigError(
-      fmt::format("{}: key \"{}\" comes twice in one object; expected once", name, duplicates.first()));
+      fmt::format("{}: key \"{}\" appears twice in one object; expected once", name, duplicates.first()));
 }
 
 void collect_differences(const Json& here, const Json& there, const std::string& where,
@@ -143,28 +144,18 @@ void collect_differences(const Json& here, const Json& there, const std::string&
 
 Json parse_json(std::string_view text, const std::string& name) {
   return parse_watched(
-      text, name, [&](std::size_t byte) { return position(text, byte, name); },
-      [](int, Json::parse_event_t, const Json&) { return true; });
+      text, name, [&] { return text; }, [](int, Json::parse_event_t, const Json&) { return true; });
 }
 
 Json parse_json_elements(std::string_view text, const std::string& name, const TakeElement& take) {
-  Elements elements(take);
   return parse_watched(
-      text, name, [&](std::size_t byte) { return position(text, byte, name); },
-      [&](int depth, Json::parse_event_t event, const Json& value) {
-        return elements.see(depth, event, value);
-      });
+      text, name, [&] { return text; }, Elements(take));
 }
 
 Json read_json_elements(const Path& file, const TakeElement& take) {
   std::ifstream in(file, std::ios::binary);
-  const std::string name = file.string();
-  Elements elements(take);
   return parse_watched(
-      in, name, [&](std::size_t byte) { return position(read_file(file), byte, name); },
-      [&](int depth, Json::parse_event_t event, const Json& value) {
-        return elements.see(depth, event, value);
-      });
+      in, file.string(), [&] { return read_file(file); }, Elements(take));
 }
 
 Json read_json(const Path& file) { return parse_json(read_file(file), file.string()); }

@@ -12,28 +12,28 @@
 
 namespace thermal {
 
-/// JSON that keeps its keys in the order they came.
+/// JSON that keeps the order of its keys.
 using Json = nlohmann::ordered_json;
 
-/// ConfigError "NAME:LINE:COLUMN: not JSON: …" for text that is not JSON, has a key twice in one object, or lists and
-/// objects more than 64 deep in each other.
+/// ConfigError "NAME:LINE:COLUMN: not JSON: …" for text that is not JSON, repeats a key in one object, or nests lists
+/// and objects more than 64 deep.
 [[nodiscard]] Json parse_json(std::string_view text, const std::string& name);
 
 /// The same for a file; IoError if it cannot be read.
 [[nodiscard]] Json read_json(const Path& file);
 
-/// What is done with an element of a long array: the array's key in the document, empty where the document itself
-/// is the array, and the element's place.
+/// Called with an element of a long array: the array's key in the document, empty if the document itself is the
+/// array, and the element's index.
 using TakeElement = std::function<void(const std::string& array, std::size_t place, const Json& element)>;
 
-/// A document whose bulk is in arrays at its top: each element of each goes to `take` and is forgotten, so that
-/// memory is that of the text and not of its tree, which takes ten times as much. Returns the rest, arrays empty.
-/// Faults as of parse_json(); those of `take` pass through.
+/// Parses a document dominated by top-level arrays: each element goes to `take` and is discarded, so that memory is
+/// that of the text and not of its tree, which takes ten times as much. Returns the rest, with empty arrays. Faults
+/// as in parse_json(); exceptions of `take` pass through.
 [[nodiscard]] Json parse_json_elements(std::string_view text, const std::string& name,
                                        const TakeElement& take);
 
-/// The same for a file of any length, which is read piece by piece: memory is that of one element. For files of ours:
-/// keys that come twice are not looked for.
+/// The same for a file of any length, read in pieces: memory is that of one element. For our own files: repeated keys
+/// are not detected.
 [[nodiscard]] Json read_json_elements(const Path& file, const TakeElement& take);
 
 /// Indented by two, newline at the end.

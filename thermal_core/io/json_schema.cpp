@@ -48,7 +48,7 @@ std::string key_of(std::string_view where) {
   return key;
 }
 
-/// One document against one schema.
+/// Checks one document against one schema.
 class Checker {
  public:
   explicit Checker(const Json& root) : root_(root) {}
@@ -70,7 +70,7 @@ class Checker {
   [[nodiscard]] std::vector<std::string> faults() && { return std::move(faults_); }
 
  private:
-  /// What a "$ref" refers to, a place in the same schema.
+  /// Resolves a "$ref" to a place in the same schema.
   [[nodiscard]] const Json& meant_by(const Json& schema) const {
     const auto reference = schema.find("$ref");
     if (reference == schema.end()) return schema;
@@ -152,7 +152,8 @@ class Checker {
     const auto pattern = schema["pattern"].get<std::string>();
     const auto compiled = patterns_.try_emplace(pattern, pattern).first;
     if (std::regex_search(value.get<std::string>(), compiled->second)) return;
-    add(value, pattern == "^[A-Za-z0-9_-]+$" ? "letters, digits, _ and - only" : "text like " + pattern);
+    add(value,
+        pattern == "^[A-Za-z0-9_-]+$" ? "letters, digits, _ and - only" : "text that matches " + pattern);
   }
 
   void check_object(Json& value, const Json& schema, const std::string& where) {
@@ -170,17 +171,17 @@ class Checker {
     }
     for (const Json& key : member_or(schema, "required", kNone)) {
       const auto name = key.get<std::string>();
-      if (!value.contains(name)) faults_.push_back(prefix + name + " is missing; expected it to be given");
+      if (!value.contains(name)) faults_.push_back(prefix + name + " is missing; expected a value");
     }
     for (const auto& [key, property] : properties.items()) fill_preset(value, key, property);
     for (const auto& [key, property] : properties.items()) {
       if (value.contains(key) || !property.contains("default")) continue;
       value[key] = property["default"];
-      check_at(value[key], property, prefix + key);  // fills what is inside
+      check_at(value[key], property, prefix + key);  // fills in defaults of what is inside
     }
   }
 
-  /// Some keys stand for several others: "presets" lists, by its values, what those are where they are not given.
+  /// Some keys are shorthand for several others: "presets" lists, for each value, the defaults of those.
   static void fill_preset(Json& value, const std::string& key, const Json& property) {
     const auto presets = property.find("presets");
     if (presets == property.end() || !value.contains(key) || !value[key].is_string()) return;

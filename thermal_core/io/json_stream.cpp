@@ -7,7 +7,7 @@
 namespace thermal {
 namespace {
 
-constexpr int kStep = 2;  // as of to_text()
+constexpr int kStep = 2;  // like to_text()
 
 }  // namespace
 
@@ -44,7 +44,7 @@ void JsonStream::end_array() {
   in_array_ = false;
 }
 
-/// Line breaks of a JSON text are all layout: those in strings are escaped.
+/// All line breaks of a JSON text are layout: those in strings are escaped.
 std::string element_text(const Json& element, JsonLayout layout) {
   if (layout == JsonLayout::compact) return element.dump();
   std::string text;

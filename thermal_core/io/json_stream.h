@@ -10,20 +10,20 @@ namespace thermal {
 
 using TakeText = std::function<void(std::string_view text)>;
 
-/// How a document is laid out: as to_text() does it, or all in one line.
+/// Layout of a document: like to_text(), or all in one line.
 enum class JsonLayout { indented, compact };
 
-/// Writes an object whose last members are arrays, element by element, so that it is never in memory: the same text
-/// as of the whole at once, with a newline at the end.
+/// Writes an object whose last members are arrays, element by element, so that it is never in memory as a whole. The
+/// text is the same as that of the whole document, with a newline at the end.
 class JsonStream {
  public:
   /// `head`: the members before the arrays, at least one.
   JsonStream(const Json& head, JsonLayout layout, TakeText take);
 
-  /// Begins the next array, and ends the one before.
+  /// Starts the next array, and ends the one before.
   void begin_array(const std::string& key);
 
-  /// The next element: its text as element_text() gives it.
+  /// Adds an element: its text as element_text() gives it.
   void add(std::string_view element_text);
 
   /// Ends the document.
@@ -38,7 +38,7 @@ class JsonStream {
   bool empty_ = true;  ///< the array, so far
 };
 
-/// What an element looks like where it stands.
+/// The text of an element at its indentation.
 [[nodiscard]] std::string element_text(const Json& element, JsonLayout layout);
 
 }  // namespace thermal

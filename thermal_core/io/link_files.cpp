@@ -10,7 +10,7 @@
 namespace thermal {
 namespace {
 
-/// Without symbolic links on the way: a hard link to one of them would be a link to what it says.
+/// Resolves symbolic links first: a hard link to a symbolic link would link to the link itself.
 Path real_path(const Path& file) {
   std::error_code error;
   Path real = std::filesystem::canonical(file, error);

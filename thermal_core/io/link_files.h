@@ -4,13 +4,13 @@
 
 namespace thermal {
 
-/// How a file gets a second place.
+/// How to give a file a second location.
 enum class Linking { hard, symlink, copy };
 
-/// Lets `as` be the file that `file` is, in folders that are made where they are missing: a second name of it, a
-/// symbolic link to its absolute path, or a copy. What is linked is the file itself where `file` is a symbolic link.
-/// Falls back to a copy where the file system cannot link: across its border, past its most links. Returns what was
-/// done. IoError naming the file and the system's reason; TryAgainError when the disk is full.
+/// Makes `as` the same file as `file`, creating missing folders: a hard link, a symbolic link to its absolute path,
+/// or a copy. If `file` is a symbolic link, its target is linked. Falls back to a copy where the file system cannot
+/// link: across file systems, past its limit of links. Returns what was done. IoError with the file and the system's
+/// reason; TryAgainError if the disk is full.
 Linking link_file(const Path& file, const Path& as, Linking wanted);
 
 }  // namespace thermal

@@ -5,7 +5,7 @@
 
 namespace thermal {
 
-/// Reads and checks a manifest.json (configs/schema/manifest.schema.json). DataError with a line a fault, each
+/// Reads and checks a manifest.json (configs/schema/manifest.schema.json). DataError with one line per fault, each
 /// starting with the file's name; IoError if it cannot be read.
 [[nodiscard]] Manifest read_manifest(const Path& file, const Path& home);
 

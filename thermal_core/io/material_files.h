@@ -5,8 +5,8 @@
 
 namespace thermal {
 
-/// Every *.json of assets/materials below `home`, the file's name being the material's. ConfigError naming file, key and value if
-/// one is not what configs/schema/material.schema.json says.
+/// Reads every *.json of assets/materials below `home`; the file's name is the material's. ConfigError with file, key
+/// and value if one violates configs/schema/material.schema.json.
 [[nodiscard]] MaterialLibrary read_materials(const Path& home);
 
 }  // namespace thermal

@@ -14,7 +14,7 @@ std::uint32_t scrambled(std::uint32_t block) noexcept {
   return std::rotl(block * 0xCC9E2D51U, 15) * 0x1B873593U;
 }
 
-/// Up to four bytes, lowest first, whatever the machine's order.
+/// Up to four bytes, little-endian on every machine.
 std::uint32_t block_of(std::string_view bytes) noexcept {
   std::uint32_t block = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -45,7 +45,7 @@ std::uint32_t hash_in_float(std::uint32_t hash) noexcept {
 std::uint32_t cryptomatte_hash(std::string_view name) noexcept { return hash_in_float(murmur_hash(name)); }
 
 bool matches_matte(std::string_view pattern, std::string_view name) noexcept {
-  // After a mismatch, the last star takes one letter more: no name needs more than the product of both lengths.
+  // After a mismatch, the last star takes one more letter, so that the time is at most the product of both lengths.
   std::size_t in_pattern = 0;
   std::size_t in_name = 0;
   std::size_t after_star = std::string_view::npos;
@@ -80,14 +80,14 @@ MatteNames::MatteNames(std::span<const ManifestObject> objects) {
   }
 }
 
-/// The same matte twice in one object does no harm.
+/// The same matte listed twice for one object is harmless.
 void MatteNames::add(Matte matte, const std::string& where) {
   const auto check = [&](const auto& found, bool is_new, std::string_view what) {
     const std::size_t other = found->second;
     if (is_new || mattes_[other].index == matte.index) return;
     throw DataError(
         fault(where, fmt::format("\"{}\"", matte.text), "",
-              fmt::format("a {} of its own, {} is \"{}\"", what, where_[other], mattes_[other].text)));
+              fmt::format("a unique {}, but {} is \"{}\"", what, where_[other], mattes_[other].text)));
   };
   const auto [text, new_text] = by_text_.emplace(matte.text, mattes_.size());
   check(text, new_text, "name");
@@ -106,9 +106,8 @@ const MatteNames::Matte* MatteNames::find(std::string_view name) const {
   for (const Matte& matte : mattes_) {
     if (!matte.is_pattern || !matches_matte(matte.text, name)) continue;
     if (found != nullptr && found->index != matte.index) {
-      throw DataError(
-          fmt::format("expected a name of one object, but {}'s \"{}\" and {}'s \"{}\" stand for it",
-                      found->object, found->text, matte.object, matte.text));
+      throw DataError(fmt::format("expected a name of one object, but {}'s \"{}\" and {}'s \"{}\" match it",
+                                  found->object, found->text, matte.object, matte.text));
     }
     if (found == nullptr) found = &matte;
   }

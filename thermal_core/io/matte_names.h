@@ -12,19 +12,19 @@
 
 namespace thermal {
 
-/// The number by which a cryptomatte tells a name: MurmurHash3_x86_32 of its UTF-8 with seed 0, the lowest bit of its
-/// exponent turned over where it would make a float that is zero, denormal, infinite or NaN.
-/// Source: Friedman and Jones, Fully automatic ID mattes with support for motion blur and transparency, SIGGRAPH 2015;
-/// Cryptomatte specification 1.2.0; A. Appleby, MurmurHash3 (public domain).
+/// The hash of a name in a cryptomatte: MurmurHash3_x86_32 of its UTF-8 with seed 0, with the lowest bit of its
+/// exponent flipped where it would make a float that is zero, denormal, infinite or NaN.
+/// Source: Friedman and Jones, Fully automatic ID mattes with support for motion blur and transparency, SIGGRAPH
+/// 2015; Cryptomatte specification 1.2.0; A. Appleby, MurmurHash3 (public domain).
 [[nodiscard]] std::uint32_t cryptomatte_hash(std::string_view name) noexcept;
 
-/// The last step of it: a hash as a float carries it. Blender's manifests have hashes as they were before.
+/// Its last step: a hash as stored in a float. Blender's manifests have hashes from before this step.
 [[nodiscard]] std::uint32_t hash_in_float(std::uint32_t hash) noexcept;
 
-/// Whether a name is what a pattern says, * in it being any letters, also none.
+/// Whether a name matches a pattern, in which * matches any letters, or none.
 [[nodiscard]] bool matches_matte(std::string_view pattern, std::string_view name) noexcept;
 
-/// Which object each matte is of.
+/// Maps mattes to objects.
 class MatteNames {
  public:
   struct Matte {
@@ -34,26 +34,26 @@ class MatteNames {
     std::string object;
   };
 
-  /// An object's mattes are those it lists; without a list, its name as it is. DataError if a text or, of names, a hash
-  /// is two objects'.
+  /// An object's mattes are those it lists; without a list, its name literally. DataError if two objects share a text
+  /// or, of names, a hash.
   explicit MatteNames(std::span<const ManifestObject> objects);
 
-  /// The matte of a name: itself, else the first pattern it is of. Nothing if there is none. DataError, to be read after
-  /// the name, if it is of two objects' patterns.
+  /// The object of a matte's name: an exact match, otherwise the first matching pattern. Empty if there is none.
+  /// DataError, worded to follow the name, if it matches patterns of two objects.
   [[nodiscard]] const Matte* find(std::string_view name) const;
 
-  /// The same for a hash whose name is not known: of the names alone.
+  /// The same for a hash of unknown name: exact names only.
   [[nodiscard]] const Matte* find_hash(std::uint32_t hash) const noexcept;
 
-  /// All texts, as the manifest has them.
+  /// All texts, as in the manifest.
   [[nodiscard]] std::vector<std::string> texts() const;
 
  private:
   void add(Matte matte, const std::string& where);
 
   std::vector<Matte> mattes_;
-  std::vector<std::string> where_;                        ///< of each, in the manifest
-  std::unordered_map<std::string, std::size_t> by_text_;  ///< places in mattes_
+  std::vector<std::string> where_;                        ///< index of each in the manifest
+  std::unordered_map<std::string, std::size_t> by_text_;  ///< indices into mattes_
   std::unordered_map<std::uint32_t, std::size_t> by_hash_;
 };
 

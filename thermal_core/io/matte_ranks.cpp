@@ -19,7 +19,7 @@ struct Share {
   double coverage = 0;
 };
 
-/// Remembers what was asked, and the last of it at hand: neighbours are mostly of one object.
+/// Caches the results, with the last one at hand: neighbouring pixels mostly show the same object.
 class IndexCache {
  public:
   explicit IndexCache(const MatteIndex& index_of) : index_of_(index_of) {}
@@ -35,11 +35,11 @@ class IndexCache {
  private:
   const MatteIndex& index_of_;
   std::unordered_map<std::uint32_t, std::uint16_t> known_;
-  std::uint32_t last_hash_ = 0;  ///< nothing, which is never asked for
+  std::uint32_t last_hash_ = 0;  ///< nothing, which is never looked up
   std::uint16_t last_index_ = 0;
 };
 
-/// Takes the objects of pixel after pixel together.
+/// Combines the objects of each pixel.
 class Ranker {
  public:
   Ranker(const MatteChannels& mattes, const MatteIndex& index_of, Passes& passes)
@@ -129,7 +129,7 @@ MatteSpot spot_matte(const MatteChannels& mattes, std::uint32_t hash) {
     for (std::size_t k = 0; k < mattes.planes.size(); k += 2) {
       const bool covers = mattes.planes[k + 1].pixels()[pixel] > 0;
       if (!covers || std::bit_cast<std::uint32_t>(mattes.planes[k].pixels()[pixel]) != hash) continue;
-      if (spot.pixels++ > 0) break;  // counted once a pixel
+      if (spot.pixels++ > 0) break;  // counted once per pixel
       spot.channel = mattes.names[k];
       spot.x_px = static_cast<int>(pixel % width);
       spot.y_px = static_cast<int>(pixel / width);

@@ -17,7 +17,7 @@ struct MatteChannels {
   std::vector<Plane<float>> planes;
 };
 
-/// Where and how often a hash covers anything.
+/// Where and how often a hash has coverage.
 struct MatteSpot {
   std::uint32_t hash = 0;
   std::string channel;
@@ -26,17 +26,17 @@ struct MatteSpot {
   std::int64_t pixels = 0;
 };
 
-/// Index of a hash's object; asked once for each that covers anything. What it throws passes through.
+/// Index of a hash's object; called once for each hash with coverage. Its exceptions pass through.
 using MatteIndex = std::function<std::uint16_t(std::uint32_t hash)>;
 
-/// Where a hash that covers something first does so, in row-major order and then by rank.
+/// Where a hash first has coverage, in row-major order and then by rank.
 [[nodiscard]] MatteSpot spot_matte(const MatteChannels& mattes, std::uint32_t hash);
 
-/// Fills object_index and ranks, as Passes has them, from a cryptomatte.
-/// Hashes of one object are added up, and a pixel's objects sorted, most coverage first: files may list them otherwise
-/// (Cryptomatte specification, "Alternative ranking"), and Blender 3.4.1 sometimes does. Hash 0 is nothing. Coverages that
-/// add up to more than 1 are scaled to 1. object_index is rank 0's, or sky where what nothing covers is more than that.
-/// DataError with channel and pixel for a coverage that is negative, infinite or NaN.
+/// Fills object_index and ranks, as Passes has them, from a cryptomatte. Hashes of one object are summed, and a
+/// pixel's objects sorted, most coverage first: files may list them otherwise (Cryptomatte specification,
+/// "Alternative ranking"), and Blender 3.4.1 sometimes does. Hash 0 is nothing. Coverages with a sum above 1 are
+/// scaled to 1. object_index is rank 0's, or sky where more is uncovered. DataError with channel and pixel for a
+/// coverage that is negative, infinite or NaN.
 void rank_mattes(const MatteChannels& mattes, const MatteIndex& index_of, Passes& passes);
 
 }  // namespace thermal

@@ -18,7 +18,7 @@
 namespace thermal {
 namespace {
 
-/// A file's headers, and which of its cryptomattes is meant.
+/// A file's headers, and the selected cryptomatte.
 struct Chosen {
   Chosen(const ExrFile& opened, const std::string& wanted, const ExrLayout& layout)
       : header(opened.header()) {
@@ -28,7 +28,7 @@ struct Chosen {
     cryptomatte = &choose_cryptomatte(all, wanted, layout.layer);
   }
 
-  /// Where the other planes are: about the first channel of the cryptomatte, as they are about an index plane.
+  /// Location of the other planes: relative to the first channel of the cryptomatte, as for an index plane.
   [[nodiscard]] ExrLayout layout_about(const ExrLayout& layout) const {
     ExrLayout about = layout;
     about.channels.object_index = cryptomatte->channels.front()->full_name();
@@ -66,26 +66,26 @@ Passes decode(ExrFile& opened, const Chosen& chosen, const ExrLayout& layout, co
   return passes;
 }
 
-/// What the manifest's mattes make of the hashes of one file.
+/// Maps the hashes of one file to the manifest's objects.
 class HashIndices {
  public:
   HashIndices(const MatteNames& names, const Cryptomatte& cryptomatte, const MatteChannels& mattes)
       : names_(names), cryptomatte_(cryptomatte), mattes_(mattes) {}
 
   std::uint16_t of(std::uint32_t hash) const {
-    const auto told = cryptomatte_.names.find(hash);
-    if (told == cryptomatte_.names.end()) {
+    const auto entry = cryptomatte_.names.find(hash);
+    if (entry == cryptomatte_.names.end()) {
       if (const MatteNames::Matte* matte = names_.find_hash(hash)) return matte->index;
       const std::string& why = cryptomatte_.names_fault;
       throw unknown(hash, fmt::format("{:08x}", hash), "the hash of a name",
                     why.empty() ? "" : "; the file's names cannot be read: " + why);
     }
     try {
-      if (const MatteNames::Matte* matte = names_.find(told->second)) return matte->index;
+      if (const MatteNames::Matte* matte = names_.find(entry->second)) return matte->index;
     } catch (const DataError& error) {
-      throw DataError(fmt::format("{}; {}", where(hash, told->second), error.what()));
+      throw DataError(fmt::format("{}; {}", where(hash, entry->second), error.what()));
     }
-    throw unknown(hash, told->second, "a name", did_you_mean(told->second, names_.texts()));
+    throw unknown(hash, entry->second, "a name", did_you_mean(entry->second, names_.texts()));
   }
 
  private:
@@ -121,9 +121,9 @@ std::vector<MatteUse> survey_mattes(const Path& file, const ExrHeader& header, c
   }
   std::vector<MatteUse> uses;
   for (const auto& [hash, count] : pixels) {
-    const auto told = cryptomatte.names.find(hash);
+    const auto entry = cryptomatte.names.find(hash);
     uses.push_back(
-        {.hash = hash, .name = told != cryptomatte.names.end() ? told->second : "", .pixels = count});
+        {.hash = hash, .name = entry != cryptomatte.names.end() ? entry->second : "", .pixels = count});
   }
   std::sort(uses.begin(), uses.end(), [](const MatteUse& a, const MatteUse& b) {
     return std::pair(-a.pixels, a.hash) < std::pair(-b.pixels, b.hash);

@@ -22,7 +22,7 @@ std::size_t digits_before(std::string_view text) noexcept {
 
 }  // namespace
 
-/// Takes a pattern apart.
+/// Parses a pattern.
 struct NamePattern::Reader {
   std::string_view text;
   std::string_view where;
@@ -33,7 +33,7 @@ struct NamePattern::Reader {
   }
 
   void read() {
-    if (text.size() > kLongestName) fail(fmt::format("at most {} letters", kLongestName));
+    if (text.size() > kLongestName) fail(fmt::format("at most {} characters", kLongestName));
     if (text.find('/') != std::string_view::npos) fail("names in one folder, without /");
     for (std::size_t at = 0; at < text.size();) at += read_piece(text.substr(at));
     const auto is_number = [](const Piece& piece) { return piece.kind == Kind::number; };
@@ -93,7 +93,7 @@ NamePattern::Range NamePattern::takes(const Piece& piece, std::string_view rest)
   return {.least = 1, .most = 1, .none = !takes_one};
 }
 
-/// How many letters of name[i, …) piece k takes so that the rest fits: a number as many as it can, stars as few.
+/// How many letters of name[i, …) piece k takes so that the rest matches: numbers are greedy, stars are not.
 std::optional<std::size_t> NamePattern::length_at(const Fits& fits, std::string_view name, std::size_t k,
                                                   std::size_t i) const {
   const Range range = takes(pieces_[k], name.substr(i));
@@ -110,7 +110,7 @@ NamePattern::Fits NamePattern::fits_of(std::string_view name) const {
   fits.back().back() = true;
   for (std::size_t k = pieces_.size(); k-- > 0;) {
     for (std::size_t i = name.size() + 1; i-- > 0;) {
-      // Whether a star's rest fits one letter on is known already: patterns of many stars take no longer than others.
+      // Whether a star's rest matches one letter on is known already, so patterns with many stars are no slower.
       const bool star = pieces_[k].kind == Kind::any_letters;
       fits[k][i] = star ? fits[k + 1][i] || (i < name.size() && fits[k][i + 1])
                         : length_at(fits, name, k, i).has_value();

@@ -8,7 +8,7 @@
 
 namespace thermal {
 
-/// Where in a file's name its number is; none has no digits.
+/// Position of the frame number in a file's name; without a number, no digits.
 struct NumberPlace {
   std::size_t at = 0;
   std::size_t digits = 0;
@@ -16,19 +16,20 @@ struct NumberPlace {
   [[nodiscard]] bool operator==(const NumberPlace&) const = default;
 };
 
-/// A pattern of the names of files in one folder: * stands for any letters, ? for one, and one run of #, or one %d or
-/// %06d, for the frame's number. A number has as many digits as the pattern, filled up with zeros, or more of them with
-/// no zero before them. Every other letter is itself, in its own case.
+/// A pattern for names of files in one folder: * matches any letters, ? one, and one run of #, or one %d or %06d, the
+/// frame's number. A number has as many digits as the pattern, padded with zeros, or more without leading zeros.
+/// Every other letter matches itself, case-sensitively.
 class NamePattern {
  public:
-  /// ConfigError, `where` before it, for what can't be meant: several numbers, another % than these, a folder, over 255 letters.
+  /// ConfigError, starting with `where`, for invalid patterns: several numbers, other % sequences, a folder, over 255
+  /// letters.
   NamePattern(std::string_view text, std::string_view where);
 
-  /// Whether it holds a letter that patterns give a meaning.
+  /// Whether it contains a wildcard or a number.
   [[nodiscard]] static bool has_wildcards(std::string_view name) noexcept;
 
-  /// Nothing for a name that does not match; where a number can begin in several places, the first of them.
-  /// Takes at most the product of both lengths.
+  /// Empty for a name that does not match; if a number can start at several places, the first of them. Takes time of
+  /// at most the product of both lengths.
   [[nodiscard]] std::optional<NumberPlace> match(std::string_view name) const;
 
  private:
@@ -40,13 +41,13 @@ class NamePattern {
   };
   struct Reader;
 
-  /// How many letters of `rest` a piece can take: each number of them from `least` to `most`.
+  /// How many letters of `rest` a piece can take: any number from `least` to `most`.
   struct Range {
     std::size_t least = 0;
     std::size_t most = 0;
     bool none = false;
   };
-  /// [k][i]: the pieces from k on match the name from its letter i on.
+  /// [k][i]: the pieces from k on match the name from letter i on.
   using Fits = std::vector<std::vector<bool>>;
 
   [[nodiscard]] static Range takes(const Piece& piece, std::string_view rest) noexcept;

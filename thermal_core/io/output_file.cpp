@@ -5,10 +5,11 @@
 #include <unistd.h>
 
 namespace thermal {
+
 OutputFile::OutputFile(const Path& file) : file_(file) {
   ::unlink(file.c_str());
   stream_.reset(
-      std::fopen(file.c_str(), "wxe"));  // x: fails on what was put there meanwhile; e: close on exec
+      std::fopen(file.c_str(), "wxe"));  // x: fails if something has been created meanwhile; e: close on exec
   if (!stream_) fail_at("write", file_, errno);
 }
 

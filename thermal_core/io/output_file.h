@@ -10,11 +10,11 @@
 
 namespace thermal {
 
-/// A file that is written piece by piece, and the sum of what went in: nothing of it stays in memory.
-/// All may throw an IoError naming the file and the system's reason, or a TryAgainError when the disk is full.
+/// A file written piece by piece together with its checksum; nothing of it stays in memory. All functions may throw
+/// an IoError with the file and the system's reason, or a TryAgainError if the disk is full.
 class OutputFile {
  public:
-  /// A new file; what was there under the name is removed, and not written through where it is a link.
+  /// Creates a file. An existing file of that name is removed; an existing link is replaced, not followed.
   explicit OutputFile(const Path& file);
   /// Removes the file if it was not closed.
   ~OutputFile();
@@ -26,7 +26,7 @@ class OutputFile {
   /// Ends the file. Returns its SHA-256.
   std::string close();
 
-  /// close(), with the file flushed to disk and renamed to `place`, which is whole or as it was before.
+  /// close(), with the file flushed to disk and renamed to `place`, which is complete or unchanged.
   std::string close_as(const Path& place);
 
  private:

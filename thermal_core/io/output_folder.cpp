@@ -14,7 +14,7 @@ std::error_code rename_with(const Path& from, const Path& to, unsigned flags) {
   return {errno, std::generic_category()};
 }
 
-/// Not every file system can exchange; then there is a moment without either.
+/// Not every file system can exchange; then there is a moment with neither.
 std::error_code rename_after_removal(const Path& from, const Path& to) {
   std::error_code error;
   std::filesystem::remove_all(to, error);

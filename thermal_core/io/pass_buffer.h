@@ -8,14 +8,14 @@
 
 namespace thermal {
 
-/// Pixels of an index channel before they have become indices.
+/// Pixels of an index channel before conversion to indices.
 struct IndexPixels {
   Plane<float> floats;
   Plane<std::uint32_t> wholes;
 };
 
-/// The planes of one frame, and what reading them takes beside. Given to the next reading, its memory is used again, and
-/// nothing else of it: also after one that failed, which leaves it in any state.
+/// The planes of one frame, and scratch memory to read them. Reusing a buffer reuses only its memory, not its
+/// contents: also after a failed read, which leaves it in an unspecified state.
 struct PassBuffer {
   Passes passes;
   std::array<IndexPixels, 3> pixels;  ///< of objects, materials and actors

@@ -10,30 +10,30 @@
 
 namespace thermal {
 
-/// Limits on what a file of passes may claim, checked before memory is taken for it.
+/// Limits on what a file of passes may claim, checked before memory is allocated for it.
 struct ReadLimits {
   std::int64_t pixels = 256'000'000;  ///< of a plane
 };
 
-/// Reads the frames of one clip, whatever its manifest says they are: EXR index planes, an EXR cryptomatte, or pictures
-/// (PNG) of index numbers or of colours.
+/// Reads the frames of one clip in any format that its manifest declares: EXR index planes, an EXR cryptomatte, or
+/// pictures (PNG) of index numbers or of colours.
 class PassReader {
  public:
-  /// DataError if the manifest's cryptomatte or colours cannot be meant.
+  /// DataError if the manifest's cryptomatte or colours are invalid.
   explicit PassReader(const Manifest& manifest, const ReadLimits& limits = {});
   ~PassReader();
   PassReader(PassReader&&) noexcept;
   PassReader& operator=(PassReader&&) noexcept;
 
-  /// The planes of one frame that are needed, and no others; of the size that the manifest's camera, supersample and
-  /// overscan make. DataError naming the file and, where there is one, channel and pixel; IoError if it cannot be read.
-  /// Safe to call from several threads.
+  /// Reads the planes of one frame that are needed, and no others, at the size given by the manifest's camera,
+  /// supersample and overscan. DataError with the file and, where known, channel and pixel; IoError if it cannot be
+  /// read. Safe to call from several threads.
   [[nodiscard]] Passes read(const Path& file, const PassNeeds& needs) const;
 
   /// The same into a buffer's passes.
   void read(const Path& file, const PassNeeds& needs, PassBuffer& out) const;
 
-  /// Which planes beside the object index this file has; reads no pixels. The same faults.
+  /// Which planes besides the object index this file has; reads no pixels. The same faults.
   [[nodiscard]] PassNeeds planes_in(const Path& file) const;
 
  private:

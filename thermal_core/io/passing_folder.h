@@ -4,10 +4,10 @@
 
 namespace thermal {
 
-/// A new folder among the system's temporary files; gone, with all it holds, when this ends.
+/// A new temporary folder; removed with its contents at the end of the object's life.
 class PassingFolder {
  public:
-  /// IoError if none can be made.
+  /// IoError if it cannot be created.
   PassingFolder();
   ~PassingFolder();
   PassingFolder(const PassingFolder&) = delete;

@@ -10,7 +10,7 @@
 namespace thermal {
 namespace {
 
-/// Takes stored rows apart.
+/// Splits stored rows into samples.
 class Pixels {
  public:
   explicit Pixels(const PngFile& file) : header_(file.header()), colours_(file.colours()) {}
@@ -61,7 +61,7 @@ PictureKind kind_of(const PngHeader& header) {
   if (!header.colour) return header.bit_depth == 16 ? PictureKind::grey16 : PictureKind::grey8;
   if (header.bit_depth <= 8) return PictureKind::colour;
   throw DataError(
-      fault("bits a channel", fmt::format("{}", header.bit_depth), "", "8 in a picture of colours"));
+      fault("bits per channel", fmt::format("{}", header.bit_depth), "", "8 in a picture of colours"));
 }
 
 void read_rows(PngFile& file, const TakeRow& take) {

@@ -9,7 +9,7 @@ struct PictureSize {
   int height_px = 0;
 };
 
-/// Size of a picture of any common kind, from its header. IoError naming the file and the library's reason.
+/// Size of a picture of any common format, from its header. IoError with the file and the library's reason.
 [[nodiscard]] PictureSize read_picture_size(const Path& file);
 
 }  // namespace thermal

@@ -8,12 +8,12 @@
 
 namespace thermal {
 
-/// What libpng said when it gave up. Its place is libpng's "error pointer".
+/// libpng's message when it failed. A pointer to it is libpng's "error pointer".
 struct PngFault {
   std::array<char, 128> words{};
 };
 
-/// libpng's error function: keeps its words, and leaves by a jump to png_calls().
+/// libpng's error function: keeps the message, and jumps back to png_calls().
 [[noreturn]] inline void give_up(png_structp png, png_const_charp words) {
   auto& kept = static_cast<PngFault*>(png_get_error_ptr(png))->words;
   std::size_t length = 0;
@@ -25,8 +25,8 @@ struct PngFault {
 /// libpng's warning function: nothing below cli prints.
 inline void say_nothing(png_structp /*png*/, png_const_charp /*words*/) {}
 
-/// Calls libpng; false if it gave up. It jumps over all frames in between, whose objects are not destroyed: `calls`
-/// and what libpng calls back may own nothing when they call libpng, and throw nothing.
+/// Calls libpng; false if it failed. It jumps over all frames in between, whose objects are not destroyed: `calls`
+/// and libpng's callbacks must not own anything when they call libpng, and must not throw.
 template <typename Calls>
 [[nodiscard]] bool png_calls(png_structp png, const Calls& calls) {
   static_assert(std::is_trivially_destructible_v<Calls>);

@@ -17,7 +17,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// The standard's order: the highest byte first.
+/// The standard's byte order: big-endian.
 std::array<std::uint8_t, 4> big_endian(std::uint32_t number) {
   return {static_cast<std::uint8_t>(number >> 24), static_cast<std::uint8_t>(number >> 16),
           static_cast<std::uint8_t>(number >> 8), static_cast<std::uint8_t>(number)};
@@ -47,7 +47,7 @@ void append_head(std::vector<std::byte>& out, int width_px, int height_px, std::
   append_chunk(out, "IHDR", head);
 }
 
-/// Compresses rows that come one by one into chunks of pixels at the end of `out`.
+/// Compresses rows, one after another, into chunks of pixels at the end of `out`.
 class PixelChunks {
  public:
   explicit PixelChunks(std::vector<std::byte>& out) : out_(out) {
@@ -59,7 +59,7 @@ class PixelChunks {
     empty();
   }
 
-  /// The row is only read, though the library's pointer says no such thing.
+  /// The row is only read, although the library's pointer is not const.
   void add(std::span<std::uint8_t> row, bool is_last) {
     stream_.next_in = row.data();
     stream_.avail_in = static_cast<std::uint32_t>(row.size());
@@ -81,7 +81,7 @@ class PixelChunks {
     empty();
   }
 
-  /// Levels 1 and 2 find other repetitions in some one picture of a thousand when they work at another address.
+  /// Levels 1 and 2 find other repetitions in about one picture of a thousand when they work at another address.
   static constexpr std::uint32_t kLevel = 3;
 
   std::vector<std::byte>& out_;
@@ -97,8 +97,8 @@ std::uint16_t as_written(std::uint16_t pixel) {
   return static_cast<std::uint16_t>(pixel << 8 | pixel >> 8);
 }
 
-/// PNG's filter "sub": its number, then what each byte is more than that of the pixel before. A picture's rows are
-/// filtered in the same memory.
+/// PNG's filter "sub": its number, then the difference of each byte to that of the pixel before. All rows of a
+/// picture share the buffer.
 template <typename T>
 class Filter {
  public:
@@ -128,7 +128,7 @@ void encode(const Plane<T>& picture, std::vector<std::byte>& out) {
   assert(picture.size() > 0);
   out.clear();
   append_head(out, picture.width_px(), picture.height_px(), 8 * sizeof(T));
-  const auto pixels = std::make_unique<PixelChunks>(out);  // a megabyte, too much for a stack
+  const auto pixels = std::make_unique<PixelChunks>(out);  // a megabyte, too large for a stack
   Filter<T> filter(static_cast<std::size_t>(picture.width_px()));
   for (int y = 0; y < picture.height_px(); ++y)
     pixels->add(filter(picture.row(y)), y + 1 == picture.height_px());

@@ -57,8 +57,8 @@ class PngFile::Reading {
       png_read_info(png_, info_);
     };
     const bool is_read = png_calls(png_, calls);
-    // libpng knows how long a row is once it has found the head to be one that the standard knows.
-    if (png_get_rowbytes(png_, info_) == 0) throw DataError("no PNG, or its head is damaged");
+    // libpng knows the length of a row once it has accepted the header.
+    if (png_get_rowbytes(png_, info_) == 0) throw DataError("not a PNG file, or its header is damaged");
     if (!is_read) fail();
     const int type = png_get_color_type(png_, info_);
     header_ = {.width_px = png_get_image_width(png_, info_),
@@ -108,9 +108,9 @@ class PngFile::Reading {
   }
 
  private:
-  /// Whatever is wrong is a fault, in chunks that are left out too, and nothing but pixels takes memory by its length.
+  /// Any fault is an error, also in ancillary chunks, and only pixels take memory in proportion to their length.
   void be_strict() {
-    constexpr png_uint_32 kNoLimit = PNG_UINT_31_MAX;  // of sides: whoever opened the file judges the head
+    constexpr png_uint_32 kNoLimit = PNG_UINT_31_MAX;  // of sides: the caller checks the header
     constexpr png_alloc_size_t kMostChunkBytes = 1 << 26;
     constexpr int kAllThatMayBe = -1;
     png_set_read_fn(png_, file_.get(), read_bytes);
@@ -121,7 +121,7 @@ class PngFile::Reading {
     png_set_benign_errors(png_, 0);
   }
 
-  /// Returns how many times libpng goes through the rows.
+  /// Returns the number of passes of libpng over the rows.
   int begin_rows() {
     const auto calls = [this] {
       png_set_packing(png_);
@@ -135,7 +135,7 @@ class PngFile::Reading {
 
   [[noreturn]] void fail() const {
     const std::string_view words = fault_.words.data();
-    if (words == "Out of memory") throw std::bad_alloc();  // png_malloc()'s words
+    if (words == "Out of memory") throw std::bad_alloc();  // png_malloc()'s message
     throw DataError(fmt::format("damaged: {}", words));
   }
 

@@ -20,12 +20,12 @@ std::int64_t PngHeader::raw_bytes() const noexcept {
 }
 
 void check_plausible(const PngHeader& header, std::int64_t most_pixels) {
-  // Deflate makes at best 258 bytes of 2 bits; what is far beyond is no picture but a claim.
+  // Deflate makes at best 258 bytes from 2 bits; a far larger claim is not a real picture.
   constexpr std::int64_t kMostRatio = 1032;
   const std::int64_t width = header.width_px;
   if (width > most_pixels || header.height_px > most_pixels / width) {
     throw DataError(fault("size", fmt::format("{} x {}", header.width_px, header.height_px), "px",
-                          fmt::format("{} pixels at most", most_pixels)));
+                          fmt::format("at most {} pixels", most_pixels)));
   }
   if (header.raw_bytes() / kMostRatio <= header.file_bytes) return;
   throw DataError(fault("pixels", fmt::format("{}", header.raw_bytes()), "bytes",

@@ -5,19 +5,19 @@
 
 namespace thermal {
 
-/// What the head of a PNG claims.
+/// Claims of a PNG's header.
 struct PngHeader {
   std::uint32_t width_px = 0;
   std::uint32_t height_px = 0;
-  int bit_depth = 0;  ///< of a sample, or of the number of a palette's colour
+  int bit_depth = 0;  ///< of a sample, or of a palette index
   bool palette = false;
   bool colour = false;  ///< palettes too
   bool alpha = false;   ///< a channel of it
   std::int64_t file_bytes = 0;
 
-  /// As they are stored: one with a palette.
+  /// As stored: one with a palette.
   [[nodiscard]] std::size_t channels() const noexcept;
-  /// Of all pixels before compression, at most the largest number there is.
+  /// Of all pixels before compression, saturated.
   [[nodiscard]] std::int64_t raw_bytes() const noexcept;
 };
 

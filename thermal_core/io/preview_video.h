@@ -1,10 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
 #include "base/image.h"
-#include "io/files.h"
+#include "io/h264_file.h"
 
 namespace thermal {
 
@@ -15,9 +14,6 @@ class PreviewVideo {
   /// @param frame_rate_hz  > 0
   /// IoError if the file or the encoder cannot be opened, TryAgainError if the disk is full.
   PreviewVideo(const Path& file, double frame_rate_hz, int width_px, int height_px);
-  ~PreviewVideo();
-  PreviewVideo(PreviewVideo&&) noexcept;
-  PreviewVideo& operator=(PreviewVideo&&) noexcept;
 
   /// The next frame, of the size given at first. Faults as of the constructor.
   void add(const Plane<std::uint8_t>& frame);
@@ -26,8 +22,7 @@ class PreviewVideo {
   void close();
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  H264File file_;
 };
 
 }  // namespace thermal

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kDefaultPreset = "airsim_w";
 
-/// Path of the file of assets/`kind` that a key names; ConfigError listing those there are.
+/// Path of the file of assets/`kind` that a key names; ConfigError with the available ones.
 Path find_asset(const Path& folder, const std::string& extension, const std::string& asset,
                 const std::string& where) {
   std::vector<std::string> known;
@@ -28,7 +28,7 @@ Path find_asset(const Path& folder, const std::string& extension, const std::str
                     did_you_mean(asset, known));
 }
 
-/// Adds to an object what it lacks of another, at every depth.
+/// Adds missing members from another object, at every depth.
 void fill_missing(Json& object, const Json& from) {
   for (const auto& [key, value] : from.items()) {
     if (!object.contains(key)) {
@@ -39,7 +39,7 @@ void fill_missing(Json& object, const Json& from) {
   }
 }
 
-/// The preset, checked as part of a config without anything else.
+/// Checks a preset as part of an otherwise empty config.
 Json read_preset(const Path& file, const Json& schema) {
   const Json& keys = schema["properties"];
   const Json rules = {{"type", "object"},
@@ -109,7 +109,7 @@ AgcParameters read_agc(const Json& json) {
 }  // namespace
 
 void apply_preset(Json& document, const Json& schema, const std::string& name, const Path& home) {
-  if (!document.is_object()) return;  // the schema will say so
+  if (!document.is_object()) return;  // the schema reports it
   for (const char* key : {"sensor", "camera"}) {
     if (!document.contains(key)) document[key] = Json::object();
     if (!document[key].is_object()) return;

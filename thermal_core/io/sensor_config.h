@@ -7,12 +7,12 @@
 
 namespace thermal {
 
-/// Fills what a config says nothing of in `camera` and `sensor` from its preset, a file in assets/sensors.
-/// `schema` is that of configs. ConfigError if there is no such preset (starting with `name`) or if it is not what the
-/// schema wants (starting with its file). What is wrong with the document itself is left for the schema to say.
+/// Fills in missing values of `camera` and `sensor` from the config's preset, a file in assets/sensors. `schema` is
+/// that of configs. ConfigError if the preset is unknown (starting with `name`) or violates the schema (starting with
+/// its file). Faults of the document itself are left to the schema check.
 void apply_preset(Json& document, const Json& schema, const std::string& name, const Path& home);
 
-/// The sensor of a resolved config. ConfigError, starting with `name`, if there is no such spectral response.
+/// The sensor of a resolved config. ConfigError, starting with `name`, if the spectral response is unknown.
 [[nodiscard]] SensorParameters read_sensor(const Json& document, const std::string& name, const Path& home);
 
 }  // namespace thermal

@@ -17,14 +17,14 @@ namespace {
 
 constexpr std::size_t kMostDigits = 18;  // fit into 64 bits
 constexpr std::int64_t kMostGapsAFile =
-    10;  // more is a slip: two names out of a recording's time stamps, say
+    10;  // more is probably a mistake: two names with time stamps of a recording, say
 
 struct Numbered {
   FrameName frame;
   std::int64_t number = 0;
 };
 
-/// Runs of digits before a name's ending.
+/// Runs of digits in a name, without its extension.
 std::vector<NumberPlace> runs_of_digits(const std::string& name) {
   const std::string_view stem = std::string_view(name).substr(0, name.rfind('.'));
   std::vector<NumberPlace> runs;
@@ -48,7 +48,7 @@ std::int64_t number_of(const FrameName& frame, const std::string& where) {
   return number_in<std::int64_t>(digits_of(frame)).value_or(0);
 }
 
-/// Takes the run of digits that is so many from each name's end for its number; tells whether they are not all the same.
+/// Takes the run of digits at this position from each name's end as its number; returns whether the numbers differ.
 bool take_run(std::vector<FrameName>& frames, const std::vector<std::vector<NumberPlace>>& runs,
               std::size_t from_end) {
   bool differ = false;
@@ -72,7 +72,7 @@ void find_numbers(std::vector<FrameName>& frames) {
   take_run(frames, runs, 1);
 }
 
-/// Whether the frames have numbers: all of them, or none.
+/// Whether the frames have numbers; an error if only some have.
 bool check_numbered(const std::vector<FrameName>& frames, const std::string& where) {
   const auto has_number = [](const FrameName& frame) { return frame.number.digits > 0; };
   const auto with = std::find_if(frames.begin(), frames.end(), has_number);
@@ -96,7 +96,7 @@ std::vector<Numbered> in_order(std::vector<FrameName> frames, const std::string&
   for (std::size_t i = 1; i < numbered.size(); ++i) {
     if (numbered[i].number != numbered[i - 1].number) continue;
     throw DataError(
-        fmt::format("{}: {} and {} both have number {}; expected one file a number, or a pattern that "
+        fmt::format("{}: {} and {} both have number {}; expected one file per number, or a pattern that "
                     "leaves some out",
                     where, numbered[i - 1].frame.name, numbered[i].frame.name, numbered[i].number));
   }
@@ -121,7 +121,7 @@ void check_gaps(const std::vector<Numbered>& frames, std::int64_t step, const st
       where, files, first, last, step, gaps, kMostGapsAFile * files));
 }
 
-/// The name a frame would have: another one's with its number, in as many digits.
+/// The name a frame would have: another frame's with its number, in as many digits.
 FrameName name_with(FrameName frame, std::int64_t number) {
   const std::string digits = fmt::format("{:0{}}", number, frame.number.digits);
   frame.name.replace(frame.number.at, frame.number.digits, digits);
@@ -200,7 +200,7 @@ std::vector<std::string> files_in(const Path& folder) {
   std::vector<std::string> names;
   for (std::filesystem::directory_iterator entry(folder.empty() ? Path(".") : folder, problem), end;
        entry != end; entry.increment(problem)) {
-    std::error_code gone;  // between the listing and now
+    std::error_code gone;  // removed after the listing
     std::string name = entry->path().filename().string();
     if (entry->is_regular_file(gone) && name.front() != '.') names.push_back(std::move(name));
   }

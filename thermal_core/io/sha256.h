@@ -30,7 +30,7 @@ class Sha256 {
 
 [[nodiscard]] std::string sha256_of(std::span<const std::byte> bytes);
 [[nodiscard]] std::string sha256_of(std::string_view text);
-/// Of a file's content, however large, in little memory. IoError as read_pieces().
+/// Of a file's content, of any size, in constant memory. IoError as read_pieces().
 [[nodiscard]] std::string sha256_of_file(const Path& file);
 
 }  // namespace thermal

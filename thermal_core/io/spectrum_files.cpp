@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "io/text_file.h"
 
 namespace thermal {
 namespace {
@@ -28,7 +29,7 @@ Pair parse_pair(const std::string& line, const std::string& where, std::string_v
 }
 
 std::vector<Pair> read_pairs(const Path& file, std::string_view header) {
-  std::istringstream lines(read_file(file));
+  std::istringstream lines(read_text_file(file));
   std::vector<Pair> pairs;
   bool past_header = false;
   int number = 0;

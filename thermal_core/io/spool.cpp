@@ -23,7 +23,7 @@ Spool::Spool(Path file) : file_(std::move(file)) {
 }
 
 Spool::~Spool() {
-  std::error_code error;  // it is a leftover, at worst
+  std::error_code error;  // at worst it is left over
   if (!file_.empty()) std::filesystem::remove(file_, error);
 }
 
@@ -44,8 +44,7 @@ void Spool::read(const TakeLine& take) {
   (void)out_->close();
   std::ifstream in(file_);
   read_lines(in, take);
-  if (in.bad() || !in.eof())
-    throw IoError(fmt::format("cannot read {}: it was there a moment ago", file_.string()));
+  if (in.bad() || !in.eof()) throw IoError(fmt::format("cannot read {}: it has disappeared", file_.string()));
   std::filesystem::remove(file_);
   file_.clear();
 }

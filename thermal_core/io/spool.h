@@ -9,13 +9,12 @@
 
 namespace thermal {
 
-/// Lines that are put aside one after another, to be read again once: in a file, so that memory does not grow with
-/// them.
+/// Lines written one after another and read back once; kept in a file, so that memory does not grow with them.
 class Spool {
  public:
   using TakeLine = std::function<void(std::string_view line)>;
 
-  /// In `file`, which is there as long as this. Empty: in memory, for few lines.
+  /// In `file`, which exists as long as this object. Empty: in memory, for few lines.
   explicit Spool(Path file = {});
   ~Spool();
   Spool(Spool&&) noexcept = default;
@@ -24,7 +23,8 @@ class Spool {
   /// Faults as of OutputFile.
   void add(std::string_view line);
 
-  /// Every line in order, without its end; then the file is removed. Not twice. IoError if the file cannot be read.
+  /// Returns every line in order, without its end; then the file is removed. Call once. IoError if the file cannot be
+  /// read.
   void read(const TakeLine& take);
 
  private:

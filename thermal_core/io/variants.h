@@ -7,16 +7,15 @@
 
 namespace thermal {
 
-/// One of the datasets that are made of the same passes: what it changes of the config they share.
+/// One of several datasets made from the same passes: its changes to the config they share.
 struct Variant {
   std::string name;   ///< of its folder
-  std::string where;  ///< begins faults: "variants.json: variants[1] (summer_boson)"
-  Json changes;       ///< by key of a config; "season" is that of every clip
+  std::string where;  ///< start of messages: "variants.json: variants[1] (summer_boson)"
+  Json changes;       ///< by key of a config; "season" sets that of every clip
 };
 
-/// Checks a list of variants against configs/schema/variants.schema.json. What a variant changes is checked
-/// when it is part of a config (changed_by, resolve_config).
-/// ConfigError with a line a fault, each starting with `name`.
+/// Checks a list of variants against configs/schema/variants.schema.json. A variant's changes are checked when they
+/// are part of a config (changed_by, resolve_config). ConfigError with one line per fault, each starting with `name`.
 [[nodiscard]] std::vector<Variant> read_variants(Json document, const std::string& name, const Path& home);
 
 /// A config's document with the variant's changes: objects are merged key by key, anything else is replaced.

@@ -6,6 +6,7 @@
 #include <isa-l.h>
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/version.h>
+#include <opencv2/core/utility.hpp>
 #include <openssl/crypto.h>
 
 extern "C" {
@@ -18,6 +19,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
   const int oiio = OIIO::openimageio_version();
   return {{"OpenEXR", OPENEXR_VERSION_STRING},
           {"OpenImageIO", fmt::format("{}.{}.{}", oiio / 10000, oiio / 100 % 100, oiio % 100)},
+          {"OpenCV", cv::getVersionString()},
           {"ISA-L", fmt::format("{}.{}.{}", ISAL_MAJOR_VERSION, ISAL_MINOR_VERSION, ISAL_PATCH_VERSION)},
           {"FFmpeg", av_version_info()},
           {"oneTBB", TBB_runtime_version()},

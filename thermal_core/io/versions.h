@@ -6,7 +6,7 @@
 
 namespace thermal {
 
-/// Libraries the program runs with, and their versions.
+/// Names and versions of the libraries that the program uses.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> library_versions();
 
 }  // namespace thermal

@@ -6,12 +6,12 @@
 
 namespace thermal {
 
-/// What a detector says it saw in one picture.
+/// One detection by a detector in one picture.
 struct Detection {
-  std::size_t image = 0;     ///< place in LabelSet::images
-  std::size_t category = 0;  ///< place in LabelSet::categories
-  LabelBox box;              ///< sides 0 or more; may reach out of the picture
-  double score = 0;          ///< how sure it is; any finite number, higher is surer
+  std::size_t image = 0;     ///< index into LabelSet::images
+  std::size_t category = 0;  ///< index into LabelSet::categories
+  LabelBox box;              ///< sides 0 or more; may extend beyond the picture
+  double score = 0;          ///< confidence; any finite number, higher is more confident
 };
 
 }  // namespace thermal

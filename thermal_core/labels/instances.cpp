@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::size_t kIndices = 32768;
 
-/// Extents of the indices met so far. Where an index's extent is, is kept apart: planes hold few of the indices there
-/// could be, and this is written for every frame.
+/// Extents of the indices found so far, and for each possible index its position among them: planes hold few of the
+/// possible indices, and this is reset for every frame.
 class Survey {
  public:
   Survey() : places_(kIndices, kNone) {}
 
-  /// Counts a run of equal indices, columns [begin, end) of row y; rows come in order.
+  /// Counts a run of equal indices, columns [begin, end) of row y; rows must come in order.
   void add_run(std::uint16_t index, int begin, int end, int y) {
     assert(index < kIndices);
     if (places_[index] == kNone) {
@@ -32,7 +32,7 @@ class Survey {
     use.box.height_px = y - use.box.y_px + 1;
   }
 
-  /// By rising index.
+  /// By ascending index.
   std::vector<IndexUse> finish() && {
     std::sort(uses_.begin(), uses_.end(),
               [](const IndexUse& a, const IndexUse& b) { return a.index < b.index; });
@@ -45,7 +45,7 @@ class Survey {
   std::vector<IndexUse> uses_;
 };
 
-/// Where the run of equal pixels ends that begins at `begin`: four of them at a time.
+/// The end of the run of equal pixels that starts at `begin`; compares four pixels at a time.
 std::size_t run_end(std::span<const std::uint16_t> row, std::size_t begin) noexcept {
   constexpr std::size_t kAtOnce = sizeof(std::uint64_t) / sizeof(std::uint16_t);
   constexpr std::uint64_t kOnes = 0x0001000100010001;
@@ -81,7 +81,7 @@ RunLengths mask_of(const Plane<std::uint16_t>& plane, std::uint16_t index, const
       inside = set;
     }
   }
-  if (inside) {  // the last column's run ends at the foot of the frame
+  if (inside) {  // the last column's run ends at the bottom of the frame
     const std::size_t end = static_cast<std::size_t>(box.x_px + box.width_px) * height;
     counts.push_back(static_cast<std::uint32_t>(end - run_begin));
     run_begin = end;

@@ -21,21 +21,21 @@ struct PixelBox {
   [[nodiscard]] bool operator==(const PixelBox&) const = default;
 };
 
-/// One actor in one frame: exactly the pixels that carry its index, and what is known beside them.
+/// One actor in one frame: the exact set of pixels that carry its index, and what else is known about it.
 struct Instance {
   std::uint16_t index = 0;
-  PixelBox box;               ///< the smallest that holds all its pixels
+  PixelBox box;               ///< bounding box of its pixels
   std::uint32_t area_px = 0;  ///< number of its pixels
-  bool truncated = false;     ///< it touches the border of the frame, hidden parts too where those are known
-  RunLengths mask;            ///< over the whole frame, column-major
-  std::optional<double> covered_px = {};          ///< supersampled frames: its area by the finer pixels
-  std::optional<double> visibility = {};          ///< share of it that neither plants nor ground hide
-  std::optional<LabelBox> whole_box = {};         ///< with what is hidden, and what lies beyond the border
-  std::optional<double> truncated_fraction = {};  ///< share of whole_box beyond the border
+  bool truncated = false;  ///< touches the border of the frame, including hidden parts where those are known
+  RunLengths mask;         ///< over the whole frame, column-major
+  std::optional<double> covered_px = {};          ///< supersampled frames: its area in finer pixels
+  std::optional<double> visibility = {};          ///< fraction of it not hidden by plants or ground
+  std::optional<LabelBox> whole_box = {};         ///< including hidden parts and what lies beyond the border
+  std::optional<double> truncated_fraction = {};  ///< fraction of whole_box beyond the border
   std::optional<double> range_m = {};
   std::optional<double> temperature_k = {};   ///< apparent, of its mean radiance
-  std::optional<double> contrast_k = {};      ///< the same less that of its surroundings
-  std::optional<double> contrast_noise = {};  ///< their radiances' difference over a pixel's noise
+  std::optional<double> contrast_k = {};      ///< the same, minus that of its surroundings
+  std::optional<double> contrast_noise = {};  ///< difference of their radiances / noise of a pixel
 };
 
 /// A set of indices, at most 32767.
@@ -57,19 +57,18 @@ struct IndexUse {
   PixelBox box;
 };
 
-/// Every index of a plane with its extent, by rising index, in one pass over the plane.
-/// Indices are at most 32767.
+/// Every index of a plane with its extent, in ascending order, in one pass over the plane. Indices are at most 32767.
 [[nodiscard]] std::vector<IndexUse> survey_indices(const Plane<std::uint16_t>& index_plane);
 
-/// The use of an index among those of a survey; null if there is none.
+/// The use of an index in a survey; null if absent.
 [[nodiscard]] const IndexUse* find_use(std::span<const IndexUse> uses, std::uint16_t index) noexcept;
 
-/// The actors among `uses`, in that order, with their masks. A pixel outside an actor's box is never read
-/// again, so the cost is one pass over the plane plus the actors' boxes.
+/// The actors among `uses`, in that order, with their masks. Pixels outside an actor's box are not read again, so the
+/// cost is one pass over the plane plus the actors' boxes.
 [[nodiscard]] std::vector<Instance> extract_instances(const Plane<std::uint16_t>& index_plane,
                                                       std::span<const IndexUse> uses, const IndexSet& actors);
 
-/// Whether a box reaches the border of a frame.
+/// Whether a box touches the border of a frame.
 [[nodiscard]] bool touches_border(const PixelBox& box, int width_px, int height_px) noexcept;
 
 }  // namespace thermal

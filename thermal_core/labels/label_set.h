@@ -19,7 +19,7 @@ struct LabelBox {
   [[nodiscard]] bool operator==(const LabelBox&) const = default;
 };
 
-/// How large a target is in its video (Bondi et al. 2018); see assign_size_classes().
+/// Size of a target in its video (Bondi et al. 2018); see assign_size_classes().
 enum class SizeClass { small, medium, large };
 
 [[nodiscard]] std::string size_class_name(SizeClass size) noexcept;
@@ -33,62 +33,62 @@ struct LabelCategory {
   std::string name;
 };
 
-/// A video: a clip of a dataset, a sequence of BIRDSAI. Pictures that belong to none are a video of their own.
+/// A video: a clip of a dataset, or a sequence of BIRDSAI. Pictures without a video form a video of their own.
 struct LabelVideo {
   std::string name;
-  double frame_rate_hz = 0;  ///< 0: not told
+  double frame_rate_hz = 0;  ///< 0: unknown
 };
 
 struct LabelImage {
   std::int64_t id = 0;
   std::string file;  ///< relative to LabelSet::root, "/" between folders
-  int width_px = 0;  ///< 0: not told
+  int width_px = 0;  ///< 0: unknown
   int height_px = 0;
-  std::size_t video = 0;  ///< place in LabelSet::videos
+  std::size_t video = 0;  ///< index into LabelSet::videos
   int frame_index = 0;    ///< in its video, from 0
 };
 
-/// One target in one picture. What is optional is not told by every source.
+/// One target in one picture. Optional members are not given by every source.
 struct Label {
   std::int64_t id = 0;
-  std::size_t image = 0;     ///< place in LabelSet::images
-  std::size_t category = 0;  ///< place in LabelSet::categories
+  std::size_t image = 0;     ///< index into LabelSet::images
+  std::size_t category = 0;  ///< index into LabelSet::categories
   LabelBox box;
-  double area_px = 0;  ///< of the mask, or else of the box
+  double area_px = 0;  ///< of the mask if there is one, otherwise of the box
   bool crowd = false;
-  bool ignore = false;     ///< found or not, it does not count
+  bool ignore = false;     ///< ignored: neither a detection nor a miss counts
   bool noisy = false;      ///< the picture is frozen or disturbed
-  bool truncated = false;  ///< it reaches out of the picture
+  bool truncated = false;  ///< extends beyond the picture
   SizeClass size = SizeClass::medium;
   std::optional<std::int64_t> track_id;  ///< unique within its video
   std::optional<bool> occluded;
-  std::optional<double> visibility;  ///< share of its pixels that nothing hides, 0..1
+  std::optional<double> visibility;  ///< fraction of its pixels that is not hidden, 0..1
   std::optional<double> truncated_fraction;
   std::optional<double> range_m;
   std::optional<double> temperature_k;   ///< apparent
-  std::optional<double> contrast_k;      ///< apparent, against the surroundings
+  std::optional<double> contrast_k;      ///< apparent, minus the surroundings
   std::optional<double> contrast_noise;  ///< the same in standard deviations of a pixel's noise
 };
 
-/// Labels of pictures, wherever they come from: a dataset of ours, BIRDSAI, any COCO file.
-/// Images are in the order of their videos and frames; labels in the order of their images.
+/// Labels of pictures from any source: a Veldt dataset, BIRDSAI, any COCO file. Images are in the order of their
+/// videos and frames; labels in the order of their images.
 struct LabelSet {
   std::string name;
-  std::string root;  ///< folder that image files are relative to
+  std::string root;  ///< folder to which image file names are relative
   std::vector<LabelCategory> categories;
   std::vector<LabelVideo> videos;
   std::vector<LabelImage> images;
   std::vector<Label> labels;
 };
 
-/// Size classes of all tracks, by size_class_of(). A label without a track is a track of its own.
+/// Assigns size classes to all tracks, by size_class_of(). A label without a track is its own track.
 void assign_size_classes(LabelSet& set);
 
-/// A picture's name with its video's and without folders or ending, unique in the set: "winter_000012". Exports
-/// for tools that want all pictures in one folder name files so.
+/// A picture's name prefixed with its video's, without folders and extension, unique in the set: "winter_000012".
+/// Exports for tools that expect all pictures in one folder use it as file name.
 [[nodiscard]] std::string flat_name(const LabelSet& set, const LabelImage& image);
 
-/// Whether a category is people; all others but vehicles are animals.
+/// Whether a category is people; all others except vehicles are animals.
 enum class Kind { animal, human, vehicle };
 [[nodiscard]] Kind kind_of(const std::string& category) noexcept;
 

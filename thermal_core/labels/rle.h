@@ -14,7 +14,7 @@ using RunLengths = std::vector<std::uint32_t>;
 /// in groups of five bits, low group first, a continuation bit above them, offset 48 into ASCII.
 [[nodiscard]] std::string encode_coco_rle(const RunLengths& counts);
 
-/// Inverse of encode_coco_rle. DataError on a string it cannot have made.
+/// Inverse of encode_coco_rle. DataError if it could not have written the string.
 [[nodiscard]] RunLengths decode_coco_rle(std::string_view text);
 
 }  // namespace thermal

@@ -7,13 +7,13 @@
 namespace thermal {
 namespace {
 
-/// Sum over pixels, and how many.
+/// Sum over pixels, and their number.
 struct Sum {
   double value = 0;
   std::size_t pixels = 0;
 };
 
-/// Calls run(x, first y, end y) on what a mask sets, column by column.
+/// Calls run(x, first y, end y) for each run of a mask's pixels, column by column.
 template <typename Run>
 void for_runs(const RunLengths& mask, int height_px, const Run& run) {
   const auto height = static_cast<std::size_t>(height_px);
@@ -21,7 +21,7 @@ void for_runs(const RunLengths& mask, int height_px, const Run& run) {
   for (std::size_t i = 0; i < mask.size(); at += mask[i++]) {
     if (i % 2 == 0) continue;
     const std::size_t end = at + mask[i];
-    for (std::size_t begin = at; begin < end;) {  // a run goes on at the head of the next column
+    for (std::size_t begin = at; begin < end;) {  // a run continues at the top of the next column
       const std::size_t column = begin / height;
       const std::size_t stop = std::min(end, (column + 1) * height);
       run(static_cast<int>(column), static_cast<int>(begin - column * height),
@@ -40,7 +40,7 @@ Sum sum_over(const Plane<float>& picture, const RunLengths& mask) {
   return sum;
 }
 
-/// 1 where no instance is.
+/// 1 where there is no instance.
 Plane<std::uint8_t> free_pixels(const Plane<float>& picture, std::span<const Instance> instances) {
   Plane<std::uint8_t> is_free(picture.width_px(), picture.height_px(), 1);
   for (const Instance& instance : instances) {
@@ -51,7 +51,7 @@ Plane<std::uint8_t> free_pixels(const Plane<float>& picture, std::span<const Ins
   return is_free;
 }
 
-/// A box with so many pixels more on every side, as far as they are in the picture.
+/// A box grown by this many pixels on every side, clipped to the picture.
 PixelBox grown(const PixelBox& box, int by_px, const Plane<float>& picture) {
   const int left = std::max(0, box.x_px - by_px);
   const int top = std::max(0, box.y_px - by_px);
@@ -71,7 +71,7 @@ void add_free(const Plane<float>& picture, const Plane<std::uint8_t>& is_free, c
   }
 }
 
-/// Above, below, left and right of the guarded box.
+/// The parts above, below, left and right of the guarded box.
 Sum sum_around(const Plane<float>& picture, const Plane<std::uint8_t>& is_free, const PixelBox& box) {
   const PixelBox inner = grown(box, kGuardPx, picture);
   const PixelBox outer = grown(box, kGuardPx + ring_px(box), picture);

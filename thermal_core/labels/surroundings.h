@@ -9,16 +9,16 @@
 
 namespace thermal {
 
-/// Mean of a picture over an actor's pixels, and over what surrounds it.
+/// Mean of a picture over an actor's pixels, and over its surroundings.
 struct TargetMeans {
   double target = 0;
-  std::optional<double> ring;  ///< empty where there is no pixel to take it from
+  std::optional<double> ring;  ///< empty without such pixels
 };
 
-/// Means for each instance, in their order. The ring is what lies outside the actor's box grown by kGuardPx on every
-/// side, which leaves room for blur, and inside the box grown by ring_px() more, as far as it is in the picture and
-/// belongs to none of the instances. Masks are of the picture's size. Sums in double precision, in an order that
-/// depends on the labels alone.
+/// Means for each instance, in their order. The ring lies outside the actor's box grown by kGuardPx on every side, a
+/// margin for blur, and inside that box grown by another ring_px(); it excludes pixels outside the picture and pixels
+/// of any instance. Masks have the picture's size. Sums are in double precision, in an order that depends on the
+/// labels alone.
 [[nodiscard]] std::vector<TargetMeans> target_means(const Plane<float>& picture,
                                                     std::span<const Instance> instances);
 

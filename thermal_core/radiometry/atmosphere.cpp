@@ -36,7 +36,7 @@ double fitted_transmittance(const Air& air, double range_m) noexcept {
 }  // namespace
 
 void Air::validate() const {
-  check_range("weather.air_temperature_k", temperature_k, "K", 200, 340);
+  check_range("weather.air_temperature_k", temperature_k, "K", kColdestAirK, kHottestAirK);
   check_range("weather.relative_humidity", relative_humidity, "", 0, 1);
   check_range("weather.cloud_fraction", cloud_fraction, "", 0, 1);
 }

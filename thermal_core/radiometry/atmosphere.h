@@ -2,13 +2,20 @@
 
 namespace thermal {
 
+/// Air temperatures that are accepted [K]: -40 to 50 deg C. Beyond, the vapour pressure's fit ends (-45 to 60 deg C), and
+/// the sky's was not measured; Table 1's temperatures are straight lines through 273 K and 293 K of air, extrapolated.
+/// Humid air ends sooner: above 25 g m^-3 of water (310 K and 60 %, 300 K and 100 %) the path stays what it is there,
+/// and a sky is never more than a blackbody (from 312 K and 60 %, 300 K and 100 %).
+inline constexpr double kColdestAirK = 233;
+inline constexpr double kHottestAirK = 323;
+
 /// The state of the air near the ground.
 struct Air {
   double temperature_k = 293;
   double relative_humidity = 0.7;  ///< 0 to 1
   double cloud_fraction = 0;       ///< 0 clear to 1 overcast
 
-  /// ConfigError unless 200 K to 340 K, and the others from 0 to 1.
+  /// ConfigError unless from kColdestAirK to kHottestAirK, and the others from 0 to 1.
   void validate() const;
 
   [[nodiscard]] bool operator==(const Air&) const = default;

@@ -55,17 +55,9 @@ std::vector<double> joined_knots(const SpectralResponse& response, const Emissiv
 
 }  // namespace
 
-/// Integrals over the band in x = c2 nu / T, with e^-x0 taken out, x0 at the band's long-wave end.
-struct BandRadiance::ScaledIntegral {
-  double nu_per_x;        ///< T / c2 [1/m]
-  double x0;              ///< x at the long-wave end
-  double value = 0;       ///< of nu^3 R e^(x0 - x) / (1 - e^-x) dx
-  double x_weighted = 0;  ///< of the same times x / (1 - e^-x), which makes T dL/dT of L
-
-  [[nodiscard]] double ln_radiance() const noexcept {
-    return -x0 + std::log(kFirstRadiationConstant * nu_per_x) + std::log(value);
-  }
-};
+double BandRadiance::ScaledIntegral::ln_radiance() const noexcept {
+  return -x0 + std::log(kFirstRadiationConstant * nu_per_x) + std::log(value.value());
+}
 
 BandRadiance::BandRadiance(const SpectralResponse& response)
     : BandRadiance(response, EmissivitySpectrum(1)) {}
@@ -98,6 +90,8 @@ void BandRadiance::add_segment(const Segment& segment, double x_stop, ScaledInte
   const double half = used / panels / 2;
   for (double panel = 0; panel < panels; ++panel) {
     const double middle = half * (2 * panel + 1);
+    double value = 0;
+    double x_weighted = 0;
     for (const auto& [node, weight] : kGauss) {
       const double from_begin = middle + half * node;
       const double x = x_begin + from_begin;
@@ -109,24 +103,32 @@ void BandRadiance::add_segment(const Segment& segment, double x_stop, ScaledInte
           segment.response.at(begin_share, end_share) * segment.emissivity.at(begin_share, end_share);
       const double one_less_exp = -std::expm1(-x);
       const double weighted = half * weight * nu * nu * nu * response * std::exp(sum.x0 - x) / one_less_exp;
-      sum.value += weighted;
-      sum.x_weighted += weighted * x / one_less_exp;
+      value += weighted;
+      x_weighted += weighted * x / one_less_exp;
     }
+    sum.value.add(value);  // there may be millions of segments
+    sum.x_weighted.add(x_weighted);
   }
 }
 
-BandRadiance::ScaledIntegral BandRadiance::integrate(double temperature_k) const noexcept {
-  ScaledIntegral sum{};
+BandRadiance::ScaledIntegral BandRadiance::scaled_at(double temperature_k) const noexcept {
+  ScaledIntegral sum;
   sum.nu_per_x = temperature_k / kSecondRadiationConstant;
-  if (segments_.empty()) return sum;  // a surface that emits nothing in the band
-  sum.x0 = segments_.front().begin_per_m / sum.nu_per_x;
-  if (std::isinf(sum.x0)) return sum;
-  const double x_stop = std::max(sum.x0, kPeak) + kCutoff;
-  for (const Segment& segment : segments_) {
-    if (segment.begin_per_m / sum.nu_per_x >= x_stop) break;
-    add_segment(segment, x_stop, sum);
-  }
+  if (!segments_.empty()) sum.x0 = segments_.front().begin_per_m / sum.nu_per_x;
   return sum;
+}
+
+double BandRadiance::x_stop(const ScaledIntegral& sum) noexcept { return std::max(sum.x0, kPeak) + kCutoff; }
+
+BandRadiance::ScaledIntegral BandRadiance::integrate(double temperature_k) const noexcept {
+  ScaledIntegral sum = scaled_at(temperature_k);
+  if (std::isinf(sum.x0)) return sum;
+  const double stop = x_stop(sum);
+  for (const Segment& segment : segments_) {
+    if (segment.begin_per_m / sum.nu_per_x >= stop) break;
+    add_segment(segment, stop, sum);
+  }
+  return sum;  // of zeros for a surface that emits nothing in the band
 }
 
 BandValue BandRadiance::evaluate(double temperature_k) const noexcept {
@@ -140,8 +142,8 @@ BandValue BandRadiance::evaluate(double temperature_k) const noexcept {
   if (std::isinf(sum.x0)) return {0, 0, -kInfinity};
   const double scale = kFirstRadiationConstant * sum.nu_per_x;
   const double half_exp = std::exp(-sum.x0 / 2);  // in two halves: no denormal factor in a normal result
-  return {.radiance_w_m2_sr = half_exp * (scale * sum.value) * half_exp,
-          .derivative_w_m2_sr_k = half_exp * (scale * sum.x_weighted / temperature_k) * half_exp,
+  return {.radiance_w_m2_sr = half_exp * (scale * sum.value.value()) * half_exp,
+          .derivative_w_m2_sr_k = half_exp * (scale * sum.x_weighted.value() / temperature_k) * half_exp,
           .ln_radiance = sum.ln_radiance()};
 }
 
@@ -161,15 +163,21 @@ double BandRadiance::temperature_from_ln(double ln_radiance) const noexcept {
   // Newton in b = 1/T. ln L falls with b and is convex, so steps from below never overshoot; a step from above
   // may pass 0, and then a tenth of b stays below the root's neighbourhood but positive.
   constexpr int kMostSteps = 200;
+  constexpr double kRoundingOnly = 1e-13;
   double b = 1 / 280.0;
+  double last_change = kInfinity;
   for (int step = 0; step < kMostSteps; ++step) {
     const ScaledIntegral sum = integrate(1 / b);
-    const double slope = -(sum.x_weighted / sum.value) / b;
+    const double slope = -sum.condition() / b;
     const double next = b - (sum.ln_radiance() - ln_radiance) / slope;
     const double guarded = next > b / 10 ? next : b / 10;
-    const bool settled = std::abs(guarded - b) <= 4 * std::numeric_limits<double>::epsilon() * b;
+    const double change = std::abs(guarded - b) / b;
+    const bool settled = change <= 4 * std::numeric_limits<double>::epsilon();
+    // Rounding of a large logarithm moves hot bodies by more than that for ever: there a step no longer helps.
+    const bool only_rounding = change < kRoundingOnly && change >= last_change;
     b = guarded;
-    if (settled) break;
+    last_change = change;
+    if (settled || only_rounding) break;
   }
   return 1 / b;
 }

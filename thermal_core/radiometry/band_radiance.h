@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/compensated_sum.h"
 #include "radiometry/emissivity.h"
 #include "radiometry/spectral_response.h"
 
@@ -33,6 +34,13 @@ class BandRadiance {
   /// infinity, derivative the Rayleigh-Jeans limit.
   [[nodiscard]] BandValue evaluate(double temperature_k) const noexcept;
 
+  /// Bound of the relative error of evaluate()'s radiance against the true one of the inputs as they were written:
+  /// temperature, wavelengths and responses may each be a decimal that was rounded to the nearest double.
+  /// <= 0 K and a surface that emits nothing: 0. NaN: NaN. 1 where no double holds the radiance. More than 1 where
+  /// the rounding of the wavelengths is larger than the band is wide. Derived in band_radiance_error.cpp.
+  /// Costs about three evaluations.
+  [[nodiscard]] double relative_error_bound(double temperature_k) const noexcept;
+
   /// Radiance alone [W m^-2 sr^-1].
   [[nodiscard]] double radiance(double temperature_k) const noexcept {
     return evaluate(temperature_k).radiance_w_m2_sr;
@@ -63,9 +71,22 @@ class BandRadiance {
     Line response;
     Line emissivity;
   };
-  struct ScaledIntegral;
+  /// Integrals over the band in x = c2 nu / T, with e^-x0 taken out, x0 at the band's long-wave end.
+  struct ScaledIntegral {
+    double nu_per_x = 0;        ///< T / c2 [1/m]
+    double x0 = 0;              ///< x at the long-wave end
+    CompensatedSum value;       ///< of nu^3 R e^(x0 - x) / (1 - e^-x) dx
+    CompensatedSum x_weighted;  ///< of the same times x / (1 - e^-x), which makes T dL/dT of L
 
+    [[nodiscard]] double ln_radiance() const noexcept;
+    /// T L'/L: how much a relative change of T changes L.
+    [[nodiscard]] double condition() const noexcept { return x_weighted.value() / value.value(); }
+  };
+
+  [[nodiscard]] ScaledIntegral scaled_at(double temperature_k) const noexcept;
   [[nodiscard]] ScaledIntegral integrate(double temperature_k) const noexcept;
+  [[nodiscard]] double wavelength_condition(const ScaledIntegral& sum) const noexcept;
+  [[nodiscard]] static double x_stop(const ScaledIntegral& sum) noexcept;
   static void add_segment(const Segment& segment, double x_stop, ScaledIntegral& sum) noexcept;
 
   std::vector<Segment> segments_;  ///< from the long-wave end up

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -41,6 +42,22 @@ void RadianceTable::measure() {
 
 float RadianceTable::outside(float temperature_k) const noexcept {
   return static_cast<float>(band_.radiance(static_cast<double>(temperature_k)));
+}
+
+double RadianceTable::relative_error_bound(double temperature_k) const noexcept {
+  using Float = std::numeric_limits<float>;
+  if (temperature_k <= 0) return 0;
+  const auto kept_k = static_cast<float>(temperature_k);
+  const auto kept = static_cast<double>(radiance(kept_k));
+  if (kept == 0) return 1;
+  // The ratio's own error is twice the reference's; its bound hardly changes from one float to the next.
+  const double moved =
+      std::abs(band_.radiance(static_cast<double>(kept_k)) / band_.radiance(temperature_k) - 1);
+  const bool is_normal = kept >= static_cast<double>(Float::min());
+  const double rounding =
+      is_normal ? static_cast<double>(Float::epsilon()) / 2 : static_cast<double>(Float::denorm_min()) / kept;
+  const double own = is_inside(kept_k) ? worst_relative_error_ : rounding;
+  return (1 + own) * (1 + moved) - 1 + 4 * band_.relative_error_bound(temperature_k);
 }
 
 void RadianceTable::radiances(std::span<const float> temperature_k,

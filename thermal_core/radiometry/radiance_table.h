@@ -40,6 +40,11 @@ class RadianceTable {
   /// The same relative to the radiance.
   [[nodiscard]] double worst_relative_error() const noexcept { return worst_relative_error_; }
 
+  /// Bound of the relative error of radiance() for a temperature as it is written: that of the table or, outside it, of
+  /// single precision, of rounding the temperature to single precision, and of the reference. 1 where no float holds
+  /// the radiance. Costs about six evaluations of the reference.
+  [[nodiscard]] double relative_error_bound(double temperature_k) const noexcept;
+
   [[nodiscard]] const BandRadiance& reference() const noexcept { return band_; }
 
  private:

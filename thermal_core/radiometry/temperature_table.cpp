@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <utility>
 
 #include "base/clones.h"
@@ -37,12 +39,60 @@ VELDT_CLONES bool find_nodes(const Nodes& nodes, const float* radiances, std::si
 
 }  // namespace
 
-TemperatureTable::TemperatureTable(Inverse inverse, double low_w_m2_sr, double high_w_m2_sr)
+/// Nodes at floats whose last bits are 0: an octave of radiance has 1024, equally spaced within it. Place and share are
+/// bits of the radiance itself, without a logarithm and without rounding.
+class TemperatureTable::HotPart {
+ public:
+  HotPart(float low_w_m2_sr, float high_w_m2_sr)
+      : first_(std::bit_cast<std::uint32_t>(low_w_m2_sr) >> kShareBits),
+        low_w_m2_sr_(low_w_m2_sr),
+        high_w_m2_sr_(high_w_m2_sr) {}
+
+  [[nodiscard]] bool holds(float radiance_w_m2_sr) const noexcept {
+    return radiance_w_m2_sr > low_w_m2_sr_ && radiance_w_m2_sr <= high_w_m2_sr_;  // NaN is not
+  }
+
+  /// Of a radiance it holds.
+  [[nodiscard]] float temperature_k(float radiance_w_m2_sr, const Inverse& inverse) {
+    std::call_once(made_, [&] { make(inverse); });
+    const auto bits = std::bit_cast<std::uint32_t>(radiance_w_m2_sr);
+    const std::uint32_t node = (bits >> kShareBits) - first_;
+    constexpr float kShareOfBit = 1.0F / (1U << kShareBits);
+    const float share = static_cast<float>(bits & ((1U << kShareBits) - 1)) * kShareOfBit;
+    return nodes_k_[node] + share * (nodes_k_[node + 1] - nodes_k_[node]);
+  }
+
+ private:
+  static constexpr int kShareBits = 13;  // of the 23 that a float has within an octave
+
+  void make(const Inverse& inverse) {
+    const std::uint32_t last = (std::bit_cast<std::uint32_t>(high_w_m2_sr_) >> kShareBits) + 1;
+    for (std::uint32_t node = first_; node <= last; ++node) {
+      const auto radiance = std::bit_cast<float>(node << kShareBits);
+      nodes_k_.push_back(static_cast<float>(inverse(static_cast<double>(radiance))));
+    }
+  }
+
+  std::uint32_t first_;
+  float low_w_m2_sr_;
+  float high_w_m2_sr_;
+  std::once_flag made_;
+  std::vector<float> nodes_k_;
+};
+
+TemperatureTable::~TemperatureTable() = default;
+
+TemperatureTable::TemperatureTable(Inverse inverse, double low_w_m2_sr, double high_w_m2_sr,
+                                   double hottest_w_m2_sr)
     : inverse_(std::move(inverse)),
       low_w_m2_sr_(static_cast<float>(low_w_m2_sr)),
       nodes_per_w_m2_sr_(static_cast<float>(kSteps / (high_w_m2_sr - low_w_m2_sr))),
       last_position_(static_cast<float>(kSteps)) {
   assert(0 < low_w_m2_sr && low_w_m2_sr < high_w_m2_sr);
+  if (hottest_w_m2_sr > high_w_m2_sr) {
+    hot_ = std::make_unique<HotPart>(std::nextafter(static_cast<float>(high_w_m2_sr), 0.0F),
+                                     static_cast<float>(hottest_w_m2_sr));
+  }
   const auto radiance_at = [low = static_cast<double>(low_w_m2_sr_),
                             nodes_per_w_m2_sr = static_cast<double>(nodes_per_w_m2_sr_)](double position) {
     return low + position / nodes_per_w_m2_sr;
@@ -85,6 +135,10 @@ void TemperatureTable::temperatures(std::span<const float> radiance_w_m2_sr,
     for (std::size_t i = 0; i < count; ++i) {
       const float position = (radiances[i] - low_w_m2_sr_) * nodes_per_w_m2_sr_;
       if (position >= 0 && position <= last_position_) continue;
+      if (hot_ && hot_->holds(radiances[i])) {
+        temperature_k[first + i] = hot_->temperature_k(radiances[i], inverse_);
+        continue;
+      }
       temperature_k[first + i] = static_cast<float>(inverse_(static_cast<double>(radiances[i])));
     }
   }

@@ -23,7 +23,8 @@ CameraIntrinsics passes_camera(const Manifest& manifest) noexcept {
 }
 
 CameraRays::CameraRays(const CameraIntrinsics& camera)
-    : length_(camera.width_px, camera.height_px), pixel_width_(static_cast<float>(1 / camera.fx_px)) {
+    : length_(camera.width_px, camera.height_px),
+      pixel_width_(static_cast<float>(1 / std::sqrt(camera.fx_px * camera.fy_px))) {
   for (int x = 0; x < camera.width_px; ++x) {
     x_.push_back(static_cast<float>((x + 0.5 - camera.cx_px) / camera.fx_px));
   }

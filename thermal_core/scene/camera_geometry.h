@@ -25,7 +25,7 @@ class CameraRays {
   [[nodiscard]] const std::vector<float>& y() const noexcept { return y_; }
   /// Length of the ray with z = 1: range = depth * length.
   [[nodiscard]] const Plane<float>& length() const noexcept { return length_; }
-  /// Width of a pixel at depth 1.
+  /// Side of a pixel at depth 1; of one that is not square, the mean (geometric) of its sides.
   [[nodiscard]] float pixel_width() const noexcept { return pixel_width_; }
 
  private:

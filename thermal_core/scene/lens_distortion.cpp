@@ -23,8 +23,9 @@ struct Jacobian {
 Jacobian jacobian(const LensDistortion& lens, const LensPoint& point) noexcept {
   const auto [x, y] = point;
   const double r2 = x * x + y * y;
-  const double radial = 1 + r2 * (lens.k1 + r2 * lens.k2);
-  const double slope = 2 * (lens.k1 + 2 * r2 * lens.k2);  // of radial by x, divided by x
+  const double radial = 1 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3));
+  const double slope =
+      2 * (lens.k1 + r2 * (2 * lens.k2 + r2 * (3 * lens.k3)));  // of radial by x, divided by x
   return {.xx = radial + slope * x * x + 2 * lens.p1 * y + 6 * lens.p2 * x,
           .xy = slope * x * y + 2 * lens.p1 * x + 2 * lens.p2 * y,
           .yy = radial + slope * y * y + 6 * lens.p1 * y + 2 * lens.p2 * x};
@@ -32,7 +33,7 @@ Jacobian jacobian(const LensDistortion& lens, const LensPoint& point) noexcept {
 
 /// Whether nothing folds over on the way from the axis to a point of the pinhole's picture.
 bool is_unfolded(const LensDistortion& lens, const LensPoint& point) noexcept {
-  constexpr int kSteps = 32;  // the determinant is a polynomial of degree 8 along the way
+  constexpr int kSteps = 32;  // the determinant is a polynomial of degree 12 along the way
   for (int i = 1; i <= kSteps; ++i) {
     const double share = static_cast<double>(i) / kSteps;
     if (!(jacobian(lens, {share * point.x, share * point.y}).determinant() > 0)) return false;
@@ -41,14 +42,13 @@ bool is_unfolded(const LensDistortion& lens, const LensPoint& point) noexcept {
 }
 
 std::string name_of(const LensDistortion& lens) {
-  return fmt::format("k1 {}, k2 {}, p1 {}, p2 {}", lens.k1, lens.k2, lens.p1, lens.p2);
+  return fmt::format("k1 {}, k2 {}, p1 {}, p2 {}, k3 {}", lens.k1, lens.k2, lens.p1, lens.p2, lens.k3);
 }
 
 /// How far outside the camera's picture a pinhole shows what the lens shows at this place [px]; below 0 inside.
 /// ConfigError if that is nowhere.
 double excess_px(const CameraIntrinsics& camera, const LensDistortion& lens, double u_px, double v_px) {
-  const LensPoint seen =
-      undistort(lens, {(u_px - camera.cx_px) / camera.fx_px, (v_px - camera.cy_px) / camera.fy_px});
+  const LensPoint seen = unproject(camera, lens, {u_px, v_px});
   if (!is_unfolded(lens, seen)) {
     throw ConfigError(fault("camera.distortion", name_of(lens), "",
                             "a distortion that is one to one as far as the corners of the picture"));
@@ -63,7 +63,7 @@ double excess_px(const CameraIntrinsics& camera, const LensDistortion& lens, dou
 LensPoint distort(const LensDistortion& lens, const LensPoint& point) noexcept {
   const auto [x, y] = point;
   const double r2 = x * x + y * y;
-  const double radial = 1 + r2 * (lens.k1 + r2 * lens.k2);
+  const double radial = 1 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3));
   return {.x = x * radial + 2 * lens.p1 * x * y + lens.p2 * (r2 + 2 * x * x),
           .y = y * radial + lens.p1 * (r2 + 2 * y * y) + 2 * lens.p2 * x * y};
 }
@@ -85,6 +85,18 @@ LensPoint undistort(const LensDistortion& lens, const LensPoint& point) noexcept
   }
   constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
   return {.x = kNowhere, .y = kNowhere};
+}
+
+PicturePoint project(const CameraIntrinsics& camera, const LensDistortion& lens,
+                     const LensPoint& point) noexcept {
+  const LensPoint shown = distort(lens, point);
+  return {.u_px = camera.fx_px * shown.x + camera.cx_px, .v_px = camera.fy_px * shown.y + camera.cy_px};
+}
+
+LensPoint unproject(const CameraIntrinsics& camera, const LensDistortion& lens,
+                    const PicturePoint& place) noexcept {
+  return undistort(lens,
+                   {(place.u_px - camera.cx_px) / camera.fx_px, (place.v_px - camera.cy_px) / camera.fy_px});
 }
 
 // If the lens folds nothing over between the axis and the border, what it shows within the picture's border is what

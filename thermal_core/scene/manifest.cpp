@@ -21,7 +21,7 @@ void check_actor(const ManifestObject& object, const std::string& where) {
   if (object.track_id < 1) throw DataError(where + ".track_id is missing; expected one for every actor");
 }
 
-/// A colour must be one object's, and not the sky's.
+/// A colour must identify one object, and differ from the sky's.
 void check_colours(const Manifest& manifest) {
   std::map<Colour, std::string> seen = {{manifest.sky_colour, "sky_colour"}};
   for (std::size_t i = 0; i < manifest.objects.size(); ++i) {
@@ -31,8 +31,8 @@ void check_colours(const Manifest& manifest) {
     const auto [first, fresh] = seen.emplace(*colour, where);
     if (fresh) continue;
     const auto [red, green, blue] = *colour;
-    const std::string told = fmt::format("#{0:02x}{1:02x}{2:02x} ({0}, {1}, {2})", red, green, blue);
-    throw DataError(fault(where, told, "", "another colour than " + first->second));
+    const std::string words = fmt::format("#{0:02x}{1:02x}{2:02x} ({0}, {1}, {2})", red, green, blue);
+    throw DataError(fault(where, words, "", "a colour other than " + first->second));
   }
 }
 
@@ -41,7 +41,7 @@ void check_colours(const Manifest& manifest) {
 void Manifest::validate() const {
   if (!frames.empty() && !sequence.empty()) {
     throw DataError(
-        fault("sequence", fmt::format("\"{}\"", sequence), "", "none beside frames, which lists the files"));
+        fault("sequence", fmt::format("\"{}\"", sequence), "", "none, because frames lists the files"));
   }
   check_colours(*this);
   std::set<int> object_indices;

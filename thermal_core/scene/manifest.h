@@ -8,7 +8,7 @@
 
 namespace thermal {
 
-inline constexpr int kLargestIndex = 32767;  ///< Blender's pass_index ends here
+inline constexpr int kLargestIndex = 32767;  ///< Blender's limit of pass_index
 inline constexpr int kSkyIndex = 0;
 
 /// A pinhole camera in pixels. Continuous pixel coordinates: the top left pixel's centre is (0.5, 0.5).
@@ -25,12 +25,12 @@ enum class ObjectClass { ground, water, plant, actor };
 
 using Colour = std::array<std::uint8_t, 3>;
 
-/// Names of channels that carry no usual name; empty: found by the spellings in use.
+/// Names of channels with unusual names; empty: found by the known spellings.
 struct PassChannels {
   std::string object_index;
   std::string material_index;
   std::string depth;
-  std::string normal;  ///< what comes before .X, .Y and .Z
+  std::string normal;  ///< prefix of .X, .Y and .Z
 };
 
 /// What one object index stands for.
@@ -39,14 +39,14 @@ struct ManifestObject {
   std::uint16_t index = 0;
   std::string name;
   ObjectClass object_class = ObjectClass::ground;
-  std::string material;  ///< where the material plane says nothing
+  std::string material;  ///< where there is no material index
   std::string category;  ///< actors: what is labelled
   std::string species;   ///< actors
   int track_id = 0;      ///< actors
   std::optional<std::array<Corner, 2>>
       bounds_m;                     ///< actors: box in actor axes, x forward, z up from the ground
-  std::optional<Colour> colour;     ///< in pictures whose colours tell objects apart
-  std::vector<std::string> mattes;  ///< names in a cryptomatte, * for any letters; empty: `name`
+  std::optional<Colour> colour;     ///< in pictures that identify objects by colour
+  std::vector<std::string> mattes;  ///< names in a cryptomatte, * matches any letters; empty: `name`
 };
 
 /// What one material index stands for.
@@ -56,7 +56,7 @@ struct ManifestMaterial {
   std::string part;
 };
 
-/// Where an actor stands in one frame.
+/// Position of an actor in one frame.
 struct ActorPose {
   std::uint16_t index = 0;
   std::array<double, 3> position_m{};
@@ -72,29 +72,28 @@ struct ManifestFrame {
   std::vector<ActorPose> actors;
 };
 
-/// What the passes of one clip mean.
+/// Meaning of the passes of one clip.
 struct Manifest {
   std::string clip;
   std::string scene;
   std::uint32_t seed = 1;
   double frame_rate_hz = 9;
   std::string layer;        ///< EXR layer; empty: the only one
-  std::string actor_layer;  ///< EXR layer with the index of actors alone; empty: there is none
+  std::string actor_layer;  ///< EXR layer with the index of actors alone; empty: none
   PassChannels channels;    ///< of `layer`
   std::string
-      cryptomatte;  ///< that tells objects apart instead of an index plane, such as "CryptoObject"; or empty
-  Colour sky_colour{};   ///< in pictures whose colours tell objects apart
-  std::string sequence;  ///< pattern of the frames' names where `frames` does not list them
+      cryptomatte;  ///< cryptomatte that identifies objects in place of an index plane, such as "CryptoObject"; or empty
+  Colour sky_colour{};   ///< in pictures that identify objects by colour
+  std::string sequence;  ///< pattern of the frames' names, used if `frames` does not list them
   CameraIntrinsics camera;
-  int supersample = 1;  ///< the passes have this many pixels for each of the camera's, each way
-  int overscan_px = 0;  ///< and so many of the camera's pixels more on every side
+  int supersample = 1;  ///< pixels of the passes per pixel of the camera, along each axis
+  int overscan_px = 0;  ///< additional camera pixels on every side
   std::vector<ManifestObject> objects;
   std::vector<ManifestMaterial> materials;
   std::vector<ManifestFrame> frames;
 
-  /// DataError if indices or track ids come twice, an actor has no category or track, or an actor in a frame
-  /// is not among the objects; if frames and a sequence are both there; if two objects have one colour, or one the
-  /// sky's.
+  /// DataError if indices or track ids are repeated; an actor has no category or track; an actor in a frame is not
+  /// among the objects; frames and a sequence are both given; or two objects have one colour, or an object the sky's.
   void validate() const;
 };
 

@@ -69,7 +69,7 @@ void MaterialLibrary::add(Material material) {
   material.validate();
   const std::string name = material.name;
   if (!materials_.emplace(name, std::move(material)).second) {
-    throw ConfigError(fmt::format("material {} is there twice; expected one of each name", name));
+    throw ConfigError(fmt::format("material {} is defined twice; expected unique names", name));
   }
 }
 

@@ -11,12 +11,12 @@
 
 namespace thermal {
 
-/// How a region of an actor departs from the actor's mean temperature.
+/// How the temperature of an actor's part differs from the actor's mean.
 struct MaterialPart {
   double excess_factor = 1;      ///< of the mean's excess over the air: 0 is at air temperature
-  double offset_k = 0;           ///< on top of that
-  double cooling_excess_k = 0;   ///< when the engine stops; falls exponentially from then
-  double cooling_time_s = 3600;  ///< in which it falls to 1/e
+  double offset_k = 0;           ///< added to that
+  double cooling_excess_k = 0;   ///< when the engine stops; decays exponentially afterwards
+  double cooling_time_s = 3600;  ///< time of decay to 1/e
 };
 
 /// A fractal field of temperature, fixed to the ground: mean zero.
@@ -25,7 +25,7 @@ struct TemperatureVariation {
   double correlation_length_m = 1;
 };
 
-/// What a surface is made of, as far as a thermal camera can tell.
+/// What a surface is made of, as seen by a thermal camera.
 struct Material {
   std::string name;
   double emissivity = 1;    ///< in band, (0, 1]
@@ -33,8 +33,8 @@ struct Material {
   double summer_k = 293;    ///< night-time temperature, air at 293 K
   bool in_table_1 = false;  ///< one of the twelve rows of Table 1 (Bondi et al. 2018)
 
-  // Only the physical model looks at what follows.
-  std::optional<EmissivitySpectrum> spectrum;  ///< instead of `emissivity`
+  // Only the physical model uses the following.
+  std::optional<EmissivitySpectrum> spectrum;  ///< replaces `emissivity`
   AngularLaw angular = AngularLaw::none;
   TemperatureVariation variation;
   std::map<std::string, MaterialPart> parts;
@@ -45,21 +45,21 @@ struct Material {
   /// Temperature in one of Table 1's nights.
   [[nodiscard]] double temperature_k(Season season) const noexcept;
 
-  /// Temperature [K] at any air temperature: the straight line through both nights of Table 1. The table's own
-  /// oddities stay (soil is warmer than air in winter and cooler in summer).
+  /// Temperature [K] at any air temperature: the straight line through both nights of Table 1, including the table's
+  /// oddities (soil is warmer than air in winter and cooler in summer).
   [[nodiscard]] double temperature_k(double air_k) const noexcept;
 
-  /// Temperature [K] of a part of an actor; of the whole where the part is empty or not listed.
+  /// Temperature [K] of a part of an actor; of the whole actor if `part` is empty or not listed.
   [[nodiscard]] double part_temperature_k(const std::string& part, const Weather& weather) const noexcept;
 };
 
 /// Materials by name.
 class MaterialLibrary {
  public:
-  /// ConfigError if a material is invalid or a name comes twice.
+  /// ConfigError if a material is invalid or a name is repeated.
   void add(Material material);
 
-  /// ConfigError naming `where` and the nearest known name if there is no such material.
+  /// ConfigError with `where` and the nearest known name if the material is unknown.
   [[nodiscard]] const Material& find(const std::string& name, const std::string& where) const;
   [[nodiscard]] std::vector<std::string> names() const;
   [[nodiscard]] const std::map<std::string, Material>& all() const noexcept { return materials_; }

@@ -4,19 +4,19 @@
 
 namespace thermal {
 
-/// Physical contributions to the signal beside the surface's own emission, which is always there.
+/// Physical contributions to the signal besides the surface's own emission, which is always included.
 struct Terms {
   bool variation = false;  ///< fractal temperature field over ground and plants
-  bool parts = false;      ///< regions of an actor at temperatures of their own
+  bool parts = false;      ///< parts of an actor at their own temperatures
   bool sky = false;        ///< reflection of sky and surroundings
-  bool angular = false;    ///< emissivity falling off with the angle of view
+  bool angular = false;    ///< emissivity decreasing with the angle of view
   bool path = false;       ///< air between surface and camera: transmission and emission
-  bool falloff = false;    ///< lens: NUC takes it out of the signal, noise rises by its inverse
+  bool falloff = false;    ///< of the lens: NUC removes it from the signal, and noise grows by its inverse
 
   [[nodiscard]] bool operator==(const Terms&) const = default;
 };
 
-/// What a config says of one term; `automatic` leaves it to the budget.
+/// A config's choice for one term; `automatic` leaves it to the budget.
 enum class TermChoice { off, on, automatic };
 
 [[nodiscard]] constexpr std::string_view choice_name(TermChoice choice) noexcept {
@@ -33,7 +33,7 @@ struct TermChoices {
   TermChoice falloff = TermChoice::off;
 };
 
-/// One row for everything that goes through the terms in order: name, choice, outcome.
+/// One row per term, in order: name, choice, outcome.
 struct TermInfo {
   std::string_view name;
   TermChoice TermChoices::*choice;

@@ -13,13 +13,13 @@
 namespace thermal {
 namespace {
 
-constexpr int kTexels = 256;            // of the finest level, each way
+constexpr int kTexels = 256;            // of the finest level, along each axis
 constexpr float kTexelsPerLength = 16;  // so that the field repeats after 16 correlation lengths
 constexpr int kOctaves = 5;             // lattice spacings of 16, 8, 4, 2 and 1 texels
 constexpr double kRoughness = 0.6;      // amplitude of an octave against the one above it
 constexpr std::uint32_t kStream = 64;
 
-/// Uniform cubic B-spline weights at a share t between two lattice points.
+/// Uniform cubic B-spline weights at a fraction t between two lattice points.
 std::array<double, 4> spline_weights(double t) {
   const double u = 1 - t;
   return {u * u * u / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (3 * u * u * u - 6 * u * u + 4) / 6,
@@ -77,7 +77,7 @@ Plane<float> halved(const Plane<float>& fine) {
   return coarse;
 }
 
-/// Largest whole number not above the value, which an int must hold.
+/// Floor, for values that fit an int.
 inline int floor_to_int(float value) noexcept {
   const auto truncated = static_cast<int>(value);
   return truncated - (static_cast<float>(truncated) > value ? 1 : 0);
@@ -86,7 +86,7 @@ inline int floor_to_int(float value) noexcept {
 /// Step of a stored texel: rounding moves the field by 1.2e-4 standard deviations at most; |texel| < 8 is kept.
 constexpr float kUnit = 1.0F / 4096;
 
-/// A texel and its right neighbour in one word: half the reads.
+/// A texel and its right neighbour in one word, which halves the reads.
 std::int32_t packed(float left, float right) {
   const auto steps = [](float value) {
     constexpr float kLargest = 32767;
@@ -102,11 +102,11 @@ inline float left_of(std::int32_t pair) noexcept {
 
 inline float right_of(std::int32_t pair) noexcept { return static_cast<float>(pair >> 16); }
 
-/// Reads a level's texels at places with straight lines between them. Branch-free, so that it vectorises.
+/// Interpolates a level's texels linearly at places. Branch-free, so that it vectorises.
 VELDT_CLONES void sample_all(const std::int32_t* __restrict texels, const float* __restrict x,
                              const float* __restrict y, const float* __restrict footprint,
                              float* __restrict value, std::size_t count) noexcept {
-  constexpr float kFarthest = 1e5F;  // beyond it, single precision no longer tells texels apart
+  constexpr float kFarthest = 1e5F;  // beyond it, single precision cannot distinguish texels
   constexpr int kAllTexels = 87381;  // of all levels together: 256^2 + 128^2 + … + 1
   constexpr int kBias = 127;         // of a float's exponent
   constexpr int kMantissaBits = 23;

@@ -6,18 +6,17 @@
 
 namespace thermal {
 
-/// A fractal field over the ground: mean 0, variance 1, the same value at the same place in every frame.
-/// Octaves of smooth noise from the correlation length down to a sixteenth of it; each is a function of
-/// (seed, place), the whole repeats after sixteen correlation lengths. What is smaller than a pixel's footprint
-/// is averaged away, so that the picture does not sparkle when the camera moves.
+/// A fractal field over the ground: mean 0, variance 1, with the same value at the same place in every frame. It sums
+/// octaves of smooth noise from the correlation length down to a sixteenth of it; each is a function of (seed,
+/// place), and the field repeats after sixteen correlation lengths. Detail smaller than a pixel's footprint is
+/// averaged out, so that the picture does not flicker when the camera moves.
 class VariationField {
  public:
   explicit VariationField(std::uint32_t seed);
 
-  /// Values at places, each averaged over about a footprint. All in correlation lengths: |x| and |y| below 1e5,
-  /// footprint >= 0. A footprint of sixteen and more gives 0, the mean, and so do places further out, negative
-  /// footprints and NaN.
-  /// All spans are of one length.
+  /// Values at places, each averaged over approximately its footprint. All in correlation lengths: |x| and |y| below
+  /// 1e5, footprint >= 0. A footprint of sixteen or more gives 0, the mean; so do places outside the domain, negative
+  /// footprints and NaN. All spans have one length.
   void sample(std::span<const float> x, std::span<const float> y, std::span<const float> footprint,
               std::span<float> value) const noexcept;
 
@@ -29,7 +28,7 @@ class VariationField {
   }
 
  private:
-  /// Pictures of the field, one after another, each half the size of the one before, down to a single texel.
+  /// Mip levels of the field, each half the size of the one before, down to a single texel.
   std::vector<std::int32_t> texels_;
 };
 

@@ -5,7 +5,7 @@
 
 namespace thermal {
 
-/// What a night does to everything in the scene.
+/// The conditions of a night, for everything in the scene.
 struct Weather {
   Air air;
   double vehicle_stopped_s = 3600;  ///< since engines were switched off

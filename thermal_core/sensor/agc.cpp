@@ -29,7 +29,7 @@ void fit_size(const Plane<T>& like, Plane<std::uint8_t>& picture) {
   picture = Plane<std::uint8_t>(like.width_px(), like.height_px());
 }
 
-/// Smallest and largest count that is not in the tails; low > high if nothing was measured.
+/// Smallest and largest count outside the tails; low > high if nothing was measured.
 std::pair<std::size_t, std::size_t> without_tails(const std::vector<std::uint32_t>& histogram,
                                                   double tail_pixels) {
   std::size_t low = 1;
@@ -59,8 +59,7 @@ Agc::Agc(const AgcParameters& parameters, AgcScene scene)
   }
 }
 
-/// Level k begins at (k - rounding) / 255 of the brightest radiance, where a 16-bit count of that temperature
-/// is rounded to.
+/// Level k starts at (k - rounding) / 255 of the brightest radiance, at the count to which that temperature rounds.
 void Agc::make_radiance_curve(double rounding) {
   for (std::size_t level = 1; level < kLevels; ++level) {
     const double share = (static_cast<double>(level) - rounding) / kLargestLevel;
@@ -106,8 +105,8 @@ void Agc::adapt_percentiles(std::size_t low, std::size_t high) {
   make_linear_curve(low_count_, high_count_);
 }
 
-/// Level at the lower edge of every bin: bins rise by their share of the pixels, none by more than the plateau
-/// or the largest gain. What is left of the 255 levels is shared by both ends, where the largest gain goes on.
+/// Level at the lower edge of every bin: levels rise in proportion to a bin's pixels, limited by the plateau and by
+/// the largest gain. Levels left over are split between both ends, where the largest gain continues.
 std::vector<double> Agc::equalised(std::size_t low, std::size_t high, std::size_t measured) const {
   const std::size_t bins = (kCounts + bin_counts_ - 1) / bin_counts_;
   const std::size_t first = low / bin_counts_;
@@ -169,7 +168,7 @@ void truncate_to_levels(const Plane<float>& radiance_w_m2_sr, double brightest_w
   const auto in = radiance_w_m2_sr.pixels();
   const auto out = ir8.pixels();
   for (std::size_t i = 0; i < in.size(); ++i) {
-    // Divided in double and rounded to single precision, so that what is a whole level does not land below it.
+    // Divided in double and rounded to single precision, so that exact levels are not rounded down.
     const auto level = static_cast<float>(static_cast<double>(in[i]) / w_m2_sr_per_level);
     const float clipped = level > 0.0F ? std::min(level, 255.0F) : 0.0F;  // NaN compares false: 0
     out[i] = static_cast<std::uint8_t>(static_cast<std::uint8_t>(clipped) ^ flip);
@@ -186,7 +185,7 @@ void apply_tone_curve(const ToneCurve& curve, Polarity polarity, const Plane<std
     table[count] = static_cast<std::uint8_t>(level) ^ flip;  // 255 - level, if flipped
   }
   fit_size(ir16, ir8);
-  // Plain pointers: behind a span, every byte written might be the span's own.
+  // Plain pointers: through spans, the compiler must assume that a written byte aliases the span itself.
   const std::uint8_t* const levels = table.data();
   const std::uint16_t* const in = ir16.pixels().data();
   std::uint8_t* const out = ir8.pixels().data();

@@ -12,15 +12,15 @@ namespace thermal {
 
 inline constexpr std::size_t kLevels = 256;
 
-/// How one 8-bit frame was made from its 16-bit frame: thresholds[k] is the smallest 16-bit count that shows as
-/// level k + 1 or more (65535 stands for none but the clipped), so that
+/// How one 8-bit frame was made from its 16-bit frame: thresholds[k] is the smallest 16-bit count shown as level k +
+/// 1 or higher (65535: only clipped pixels), so that
 ///   level = number of thresholds <= count; black-hot shows 255 - level.
-/// Exact in every mode but table_max, whose levels come straight from radiance, as the script's do: there the curve
-/// is within one level.
+/// Exact in every mode except table_max, whose levels are computed from radiance, as in the published script; there
+/// the curve is within one level.
 struct ToneCurve {
   std::array<std::uint16_t, kLevels - 1> thresholds{};
-  double low_k = 0;   ///< linear, percentile: where level 0 begins; plateau: the tail dropped
-  double high_k = 0;  ///< where level 255 ends; likewise
+  double low_k = 0;   ///< linear, percentile: start of level 0; plateau: end of the tail dropped
+  double high_k = 0;  ///< end of level 255; likewise
 
   [[nodiscard]] bool operator==(const ToneCurve&) const = default;
 };
@@ -28,7 +28,7 @@ struct ToneCurve {
 /// In-band radiance [W m^-2 sr^-1] -> temperature [K], exact.
 using TemperatureOf = std::function<double(double radiance_w_m2_sr)>;
 
-/// What the modes need to know of the camera and the clip.
+/// What the modes need from the camera and the clip.
 struct AgcScene {
   double kelvin_per_count = 0.01;
   double frame_rate_hz = 9;
@@ -37,12 +37,12 @@ struct AgcScene {
   TemperatureOf temperature_of;  ///< scene_max, table_max
 };
 
-/// Automatic gain control of one clip: makes each frame's tone curve from its 16-bit counts and those before.
+/// Automatic gain control of one clip: makes each frame's tone curve from its 16-bit counts and earlier frames.
 ///
-/// Counts 0 (nothing measured: NaN, no light) and 65535 (clipped) are shown but say nothing to the adaptive modes.
-/// A frame without any other count keeps the curve of the frame before; a first frame of that kind shows black.
-/// percentile and plateau never show one NETD as more than max_gain_dn_per_netd levels: a bland scene stays bland
-/// about middle grey instead of showing its noise.
+/// Counts 0 (nothing measured: NaN, no light) and 65535 (clipped) are shown, but the adaptive modes ignore them. A
+/// frame without any other count keeps the previous frame's curve; a first frame of that kind is black. percentile
+/// and plateau never spread one NETD over more than max_gain_dn_per_netd levels, so that a scene of low contrast
+/// stays near middle grey instead of showing its noise.
 class Agc {
  public:
   Agc(const AgcParameters& parameters, AgcScene scene);
@@ -62,7 +62,7 @@ class Agc {
 
   AgcParameters parameters_;
   AgcScene scene_;
-  double share_of_new_;  ///< of what a frame asks for, in the curve; the rest is what was
+  double share_of_new_;  ///< weight of a frame's own curve; the rest is the previous curve
   double counts_per_netd_;
   bool adapted_ = false;  ///< a frame has set the curve
   double low_count_ = 0;  ///< percentile

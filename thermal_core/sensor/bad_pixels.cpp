@@ -8,7 +8,7 @@
 namespace thermal {
 namespace {
 
-/// Pixels whose uniform number falls below the share.
+/// Pixels whose uniform number is below the fraction.
 std::vector<std::size_t> chosen(const RandomField& field, double share, std::size_t pixels) {
   std::vector<std::size_t> list;
   if (share <= 0) return list;
@@ -25,7 +25,7 @@ std::vector<std::size_t> chosen(const RandomField& field, double share, std::siz
 BadPixels::BadPixels(const BadPixelParameters& parameters, std::uint32_t seed, std::string_view clip,
                      double frame_rate_hz, int width_px, int height_px)
     : parameters_(parameters), seed_(seed), clip_(hash_name(clip)) {
-  // A telegraph signal that flips at a rate r is in the other state after t with (1 - e^{-2 r t}) / 2.
+  // A telegraph signal that flips at a rate r is in the other state after t with probability (1 - e^{-2 r t}) / 2.
   flip_probability_ = static_cast<float>(-0.5 * std::expm1(-2 * parameters.blinking_hz / frame_rate_hz));
   const std::size_t pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   dead_ = chosen({.seed = seed, .stream = kDeadPixelStream, .clip = clip_, .frame = 0}, parameters.dead_share,
@@ -39,7 +39,7 @@ BadPixels::BadPixels(const BadPixelParameters& parameters, std::uint32_t seed, s
 
 void BadPixels::apply(std::uint32_t frame, float noise_stddev, Plane<float>& signal) {
   blink(frame, noise_stddev * static_cast<float>(parameters_.blinking_ratio), signal);
-  std::vector<float> shown;  // all are computed before any is changed; neighbours that are dead do not count
+  std::vector<float> shown;  // all are computed before any is changed; dead neighbours do not count
   for (const std::size_t pixel : dead_) {
     shown.push_back(parameters_.replace_dead ? living_mean(pixel, signal) : 0.0F);
   }
@@ -64,7 +64,7 @@ float BadPixels::living_mean(std::size_t pixel, const Plane<float>& signal) cons
   const auto y = static_cast<int>(pixel / width);
   float sum = 0;
   int count = 0;
-  for (int reach = 1; reach <= 2 && count == 0; ++reach) {  // sides first, then corners too
+  for (int reach = 1; reach <= 2 && count == 0; ++reach) {  // sides first, then corners as well
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
         const int steps = std::abs(dx) + std::abs(dy);

@@ -9,15 +9,16 @@
 
 namespace thermal {
 
-/// Pixels that do not work, and what the camera does about them. Which they are is a function of (seed, clip).
-/// Dead ones see nothing; the camera knows them and shows the mean of their living neighbours, or 0 if told not
-/// to. Blinking ones (random telegraph noise) jump between two levels at random; the camera does not know them.
+/// Defective pixels, and how the camera corrects them. Which pixels they are is a function of (seed, clip). Dead
+/// pixels measure nothing; the camera knows them and replaces them by the mean of their working neighbours, or shows
+/// 0 if replacement is off. Blinking pixels (random telegraph noise) jump between two levels at random; the camera
+/// does not know them.
 class BadPixels {
  public:
   BadPixels(const BadPixelParameters& parameters, std::uint32_t seed, std::string_view clip,
             double frame_rate_hz, int width_px, int height_px);
 
-  /// Acts on the next frame's signal. `noise_stddev` is the white temporal noise's, in the signal's unit.
+  /// Modifies the next frame's signal. `noise_stddev` is that of the white temporal noise, in the signal's unit.
   void apply(std::uint32_t frame, float noise_stddev, Plane<float>& signal);
 
   [[nodiscard]] const std::vector<std::size_t>& dead() const noexcept { return dead_; }
@@ -35,7 +36,7 @@ class BadPixels {
   std::vector<bool> is_dead_;  ///< empty: none
   std::vector<std::size_t> blinking_;
   std::vector<bool> is_up_;  ///< of the blinking ones
-  bool begun_ = false;       ///< a frame was shown
+  bool begun_ = false;       ///< at least one frame was made
 };
 
 }  // namespace thermal

@@ -9,22 +9,23 @@ namespace thermal {
 /// Weights of a symmetric kernel at distances 0, 1, …, radius. With the mirrored half they sum to 1.
 using HalfKernel = std::vector<float>;
 
-/// A Gaussian of this standard deviation [px], sampled at pixel centres, cut at 4 sigma. sigma_px 0: {1}.
+/// A Gaussian of this standard deviation [px], sampled at pixel centres, truncated at 4 sigma. sigma_px 0: {1}.
 /// Requires sigma_px >= 0 and finite.
 [[nodiscard]] HalfKernel gaussian_kernel(double sigma_px);
 
-/// Rounds weights to float so that their sum stays 1 within 6e-8: the middle takes what rounding leaves.
+/// Rounds weights to float so that their sum stays 1 within 6e-8: the centre weight absorbs the rounding.
 [[nodiscard]] HalfKernel rounded_kernel(const std::vector<double>& half_weights);
 
-/// Convolves pictures with the same kernel across and down. Beyond the border the picture is mirrored (edge pixel
-/// repeated), which keeps the sum of all pixels to rounding. Holds memory that is used again.
+/// Convolves pictures with the same kernel along rows and columns. Pictures are mirrored at the border (edge pixel
+/// repeated), which preserves the sum of all pixels up to rounding. Keeps its buffers for reuse.
+/// Not cv::sepFilter2D(): the order of its sums depends on the processor, and bits must not.
 class Convolution {
  public:
   explicit Convolution(HalfKernel kernel) : kernel_(std::move(kernel)) {}
 
   [[nodiscard]] const HalfKernel& kernel() const noexcept { return kernel_; }
 
-  /// Replaces the picture. NaN spreads as far as the kernel reaches. Same bits whatever the number of threads.
+  /// Convolves in place. NaN spreads over the kernel's radius. The result does not depend on the number of threads.
   void apply(Plane<float>& picture);
 
  private:

@@ -18,7 +18,7 @@ using std::numbers::pi;
 
 constexpr double kLowestHz = 1e-3;
 constexpr double kPolesBelowNyquist = 0.3162;  // the highest pole: half a decade below
-constexpr double kLevelAt = 0.7;               // of Nyquist, where the last zero sets the level
+constexpr double kLevelAt = 0.7;               // Nyquist, where the last zero sets the level
 constexpr std::size_t kBlock = 256;
 
 /// |H|^2 of the filter with these poles and zeros at a frequency in cycles per frame.
@@ -42,7 +42,7 @@ double mean_log_level(const std::vector<double>& poles, const std::vector<double
   return sum / kPoints;
 }
 
-/// The last zero, by bisection: the larger it is, the more the high frequencies are lifted over the low ones.
+/// The last zero, by bisection: the larger it is, the stronger high frequencies are relative to low ones.
 double last_zero(const std::vector<double>& poles, std::vector<double> zeros, double low_cycles,
                  double high_cycles) {
   constexpr double kAtCycles = 0.5 * kLevelAt;
@@ -79,7 +79,7 @@ VELDT_CLONES void step_state(const float* normals, std::size_t count, float pole
   }
 }
 
-/// Cholesky factor of cov(s_i, s_j) = 1 / (1 - p_i p_j), the states' before a step.
+/// Cholesky factor of cov(s_i, s_j) = 1 / (1 - p_i p_j), the states' covariance before a step.
 std::vector<double> stationary_factor(const std::vector<double>& poles) {
   const std::size_t n = poles.size();
   std::vector<double> factor(n * n, 0);

@@ -10,20 +10,19 @@
 
 namespace thermal {
 
-/// The filter that makes 1/f noise of white noise: real poles evenly spread in log frequency from 1e-3 Hz to a
-/// third of Nyquist, a zero between every two of them (Plaszczynski, Fluct. Noise Lett. 7, R1, 2007), and a last
-/// zero that keeps the spectrum's level up to Nyquist, where plain poles and zeros would lift it by 1-2 dB.
-/// Written as parallel first-order processes driven by the same normal: y = direct n + sum residue_k s_k,
-/// s_k <- pole_k s_k + n.
+/// The filter that turns white noise into 1/f noise: real poles evenly spaced in log frequency from 1e-3 Hz to a
+/// third of Nyquist, a zero between every two of them (Plaszczynski, Fluct. Noise Lett. 7, R1, 2007), and a last zero
+/// that keeps the spectrum's level up to Nyquist, where plain poles and zeros would raise it by 1-2 dB. Written as
+/// parallel first-order processes driven by the same normal: y = direct n + sum residue_k s_k, s_k <- pole_k s_k + n.
 struct FlickerFilter {
   std::vector<double> poles;
   std::vector<double> residues;
   double direct = 0;
 
-  /// So scaled that white noise of variance 1 has the spectrum (2 / rate) (1 Hz / f): as strong at 1 Hz as white
-  /// noise of variance 1 is everywhere. Requires frame_rate_hz > 0, poles_per_decade > 0.
-  /// Error of the slope below 0.005, ripple +-0.5 dB at one pole a decade, from 3e-3 Hz to 0.7 of Nyquist and
-  /// +0.8 dB at Nyquist, at rates of 5 Hz and more (measured by `veldt bench --suite sensor`).
+  /// Scaled so that white noise of variance 1 gives the spectrum (2 / rate) (1 Hz / f), which at 1 Hz equals that of
+  /// white noise of variance 1. Requires frame_rate_hz > 0, poles_per_decade > 0. Error of the slope below 0.005,
+  /// ripple +-0.5 dB at one pole per decade, from 3e-3 Hz to 0.7 of Nyquist and +0.8 dB at Nyquist, at rates of 5 Hz
+  /// and more (measured by `veldt bench --suite sensor`).
   [[nodiscard]] static FlickerFilter design(double frame_rate_hz, double poles_per_decade = 1);
 
   /// Power spectral density at a frequency, one-sided [1/Hz]; frequency in (0, rate / 2].
@@ -33,18 +32,18 @@ struct FlickerFilter {
   [[nodiscard]] double variance() const;
 };
 
-/// 1/f noise of every pixel over time. Starts from the stationary distribution, so the first frame is like any
-/// other. A frame is a function of (seed, clip, frame) and of the frames before it.
+/// 1/f noise of every pixel over time. Starts from the stationary distribution, so the first frame is statistically
+/// like any other. A frame is a function of (seed, clip, frame) and of the frames before it.
 class FlickerNoise {
  public:
   FlickerNoise(std::uint32_t seed, std::string_view clip, const FlickerFilter& filter, std::size_t pixels);
 
-  /// The frame that add_next() is first called for, where that is not 0.
+  /// Sets the frame at which add_next() is first called, if it is not 0.
   void begin_at(std::uint32_t frame) noexcept { begins_ = frame; }
 
   /// Steps pixels [first, first + out.size()) to their next frame and adds `stddev` times the noise. `first` is a
-  /// multiple of kRandomBatch. Safe to call from several threads on different pixels; every pixel must be stepped once a
-  /// frame, `frame` rising from that of begin_at().
+  /// multiple of kRandomBatch. Safe to call from several threads on different pixels; every pixel must be stepped
+  /// once per frame, with `frame` increasing from that of begin_at().
   void add_next(std::uint32_t frame, std::size_t first, float stddev, std::span<float> out);
 
  private:

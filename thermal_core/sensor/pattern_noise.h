@@ -12,18 +12,18 @@
 
 namespace thermal {
 
-/// Noise that whole rows, columns or frames share, and noise that stands still: all of NVESD's components but
-/// the temporal noise of single pixels. In units of that noise's standard deviation.
+/// Noise shared by whole rows, columns or frames, and fixed noise: all components of NVESD's model except the
+/// temporal noise of single pixels. In units of that noise's standard deviation.
 ///
-/// What stands still (vh, v, h) is what the last shutter correction left over, drawn anew at every closing. Since
-/// then a second pattern has grown by sqrt(t) / 2 + t / 2, t the share of the shutter's interval that has passed:
-/// a power law plus a linear part, as measured on uncooled cameras (SPIE 12533); the shares are an estimate.
+/// The fixed part (vh, v, h) is the residue of the last shutter correction, drawn anew at every closing. Since then a
+/// second pattern has grown by sqrt(t) / 2 + t / 2, with t the elapsed fraction of the shutter's interval: a power
+/// law plus a linear part, as measured on uncooled cameras (SPIE 12533); the weights are an estimate.
 class PatternNoise {
  public:
   PatternNoise(const NoiseParameters& parameters, std::uint32_t seed, std::string_view clip, int width_px,
                int height_px);
 
-  /// Draws what this frame needs.
+  /// Draws the random numbers of this frame.
   void begin_frame(std::uint32_t frame, double time_s, const ShutterState& shutter);
 
   /// Adds `stddev` times this frame's noise to pixels [first, first + out.size()). Safe to call from several
@@ -42,8 +42,8 @@ class PatternNoise {
   double banding_phase_;  ///< of a turn
   std::optional<std::uint32_t> event_;
   std::vector<float> fixed_;    ///< vh + v + h of this event; empty: none
-  std::vector<float> drift_;    ///< that grows; empty: none
-  float drifted_ = 0;           ///< how far
+  std::vector<float> drift_;    ///< growing pattern; empty: none
+  float drifted_ = 0;           ///< its current amplitude
   std::vector<float> rows_;     ///< of this frame: tv, bands, t
   std::vector<float> columns_;  ///< of this frame: th
 };

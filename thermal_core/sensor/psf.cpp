@@ -50,8 +50,8 @@ double band_diffraction_mtf(const OpticsParameters& optics, const SpectralRespon
   return sum / weights;
 }
 
-/// Least squares over all frequencies is the Fourier series; to make H(0) = 1, what is missing is shared equally
-/// by all taps, which is the nearest such kernel.
+/// Least squares over all frequencies is the Fourier series; to make H(0) = 1, the remainder is shared equally by all
+/// taps, which is the nearest such kernel.
 std::vector<double> fit_kernel(const std::vector<double>& transfer, int radius) {
   std::vector<double> half(static_cast<std::size_t>(radius) + 1, 0);
   const auto count = static_cast<double>(transfer.size());
@@ -76,7 +76,7 @@ double worst_misfit(const HalfKernel& kernel, const std::vector<double>& transfe
   return worst;
 }
 
-/// The smallest kernel whose transfer fits optics_mtf(), less what `supersample` samples a pixel have done already.
+/// The smallest kernel whose transfer fits optics_mtf(), divided by that of `supersample` samples per pixel.
 HalfKernel fitted_kernel(const OpticsParameters& optics, const SpectralResponse& response, int supersample) {
   std::vector<double> transfer;
   for (int k = 0; k < kFrequencies; ++k) {
@@ -85,7 +85,8 @@ HalfKernel fitted_kernel(const OpticsParameters& optics, const SpectralResponse&
                        sampled_footprint_mtf(cycles_per_px, supersample));
   }
   HalfKernel kernel;
-  for (int radius = 1; radius <= kLargestRadius; radius += 2) {  // even ones fit hardly better than one less
+  for (int radius = 1; radius <= kLargestRadius;
+       radius += 2) {  // even ones fit hardly better than the odd one below
     kernel = rounded_kernel(fit_kernel(transfer, radius));
     if (worst_misfit(kernel, transfer) <= kLargestMisfit) break;
   }

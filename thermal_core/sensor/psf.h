@@ -12,18 +12,18 @@ namespace thermal {
 [[nodiscard]] double diffraction_mtf(double cycles_per_mm, double wavelength_um, double f_number) noexcept;
 
 /// Modulation transfer along rows or columns, from the scene to the pixels' signal, at a frequency in cycles per
-/// pixel (0.5: Nyquist). gaussian: exp(-2 pi^2 sigma^2 f^2). physical: diffraction, averaged over the band with
-/// the radiance of 300 K as weight; times sinc(f), a square pixel with no dead border; times a Gaussian.
+/// pixel (0.5: Nyquist). gaussian: exp(-2 pi^2 sigma^2 f^2). physical: diffraction, averaged over the band weighted
+/// by the radiance at 300 K; times sinc(f) for a square pixel with 100 % fill factor; times a Gaussian.
 [[nodiscard]] double optics_mtf(const OpticsParameters& optics, const SpectralResponse& response,
                                 double cycles_per_px);
 
-/// The discrete kernel whose modulation transfer is optics_mtf(). `supersample`: the picture already holds the
-/// means of so many samples across a pixel, and their share of the footprint is left out.
-/// From sigma = 1 px up a sampled Gaussian, true to 0.0072 up to Nyquist. Otherwise least squares over all
-/// frequencies up to Nyquist with H(0) = 1, within 0.015 along rows and columns for lenses up to f/2 at 12 um
-/// (a transfer with a corner at 0 and another at Nyquist takes many taps; at f/3 it is 0.022). The physical
-/// transfer of a round lens is no product of rows and columns: along diagonals the kernel is softer by up to 0.07
-/// (`veldt bench --suite sensor`).
+/// The discrete kernel whose modulation transfer is optics_mtf(). `supersample`: the picture already holds the means
+/// of this many samples across a pixel, whose part of the footprint is left out.
+/// From sigma = 1 px up a sampled Gaussian, accurate to 0.0072 up to Nyquist. Otherwise least squares over all
+/// frequencies up to Nyquist with H(0) = 1, within 0.015 along rows and columns for lenses up to f/2 at 12 um (a
+/// transfer with a corner at 0 and another at Nyquist takes many taps; at f/3 it is 0.022). The physical transfer of
+/// a round lens is not separable into rows and columns: along diagonals the kernel is softer by up to 0.07 (`veldt
+/// bench --suite sensor`).
 [[nodiscard]] HalfKernel psf_kernel(const OpticsParameters& optics, const SpectralResponse& response,
                                     int supersample);
 

@@ -4,21 +4,21 @@
 
 namespace thermal {
 
-/// Which in-band radiance a temperature has.
+/// The model of in-band radiance against temperature.
 enum class RadianceModel {
   exact,  ///< Planck's law with SI 2019 constants and the sensor's response
   script  ///< the 600-point trapezoid of the authors' published script, 8-14 um
 };
 
-/// What spreads a point of the scene over pixels.
+/// How the camera spreads a point of the scene over pixels.
 enum class Psf {
   gaussian,  ///< a plain Gaussian, as in the paper
-  physical   ///< diffraction, the pixel's footprint and a Gaussian for everything else that is not perfect
+  physical   ///< diffraction, the pixel's footprint and a Gaussian for all other imperfections
 };
 
 struct OpticsParameters {
   Psf psf = Psf::gaussian;
-  double blur_sigma_px = 1;           ///< gaussian; 0 leaves the picture sharp
+  double blur_sigma_px = 1;           ///< gaussian; 0: no blur
   double f_number = 1;                ///< focal length / aperture
   double aberration_sigma_px = 0.25;  ///< physical
   double pixel_pitch_um = 17;         ///< the camera's
@@ -26,46 +26,46 @@ struct OpticsParameters {
   [[nodiscard]] bool operator==(const OpticsParameters&) const = default;
 };
 
-/// Noise in the names of NVESD's three-dimensional model (t time, v rows, h columns), each component as a ratio
-/// of its standard deviation to that of the white temporal noise of a pixel (tvh).
+/// Noise in the terms of NVESD's three-dimensional model (t time, v rows, h columns), each component as a ratio of
+/// its standard deviation to that of the white temporal noise of a pixel (tvh).
 struct NoiseParameters {
   double amount = 1;                 ///< factor on all noise; 0: none
-  double flicker_knee_hz = 0;        ///< where the 1/f part of a pixel's spectrum is as strong as the white
+  double flicker_knee_hz = 0;        ///< where the 1/f part of a pixel's spectrum equals the white part
   double fixed_pattern_ratio = 0;    ///< vh; drawn anew whenever the shutter closes
   double row_ratio = 0;              ///< v; likewise
   double column_ratio = 0;           ///< h; likewise
   double temporal_row_ratio = 0;     ///< tv
   double temporal_column_ratio = 0;  ///< th
   double frame_ratio = 0;            ///< t
-  double drift_ratio = 0;            ///< fixed pattern that has grown one shutter interval after the shutter
+  double drift_ratio = 0;            ///< fixed pattern that has grown one shutter interval after a closing
   double first_frame_ratio = 0;      ///< half width of a uniform pattern / standard deviation of the first
                                      ///< frame, as in the paper
   double banding_ratio = 0;          ///< electronic bands along rows, sinusoidal
-  double banding_period_px = 16;     ///< from band to band
-  double banding_hz = 1;             ///< bands that pass a row each second
+  double banding_period_px = 16;     ///< spacing of bands
+  double banding_hz = 1;             ///< bands that pass a row per second
 
   [[nodiscard]] bool operator==(const NoiseParameters&) const = default;
 };
 
-/// The shutter the camera closes to correct its pixels (flat-field correction).
+/// The shutter that the camera closes to correct its pixels (flat-field correction).
 struct ShutterParameters {
   double interval_s = 0;  ///< from closing to closing; 0: never
-  double freeze_s = 0.5;  ///< how long the picture stands still
+  double freeze_s = 0.5;  ///< how long the picture is frozen
 
   [[nodiscard]] bool operator==(const ShutterParameters&) const = default;
 };
 
 struct BadPixelParameters {
-  double dead_share = 0;       ///< of all pixels; dead ones see nothing
-  bool replace_dead = true;    ///< by the mean of their living neighbours, as cameras do
+  double dead_share = 0;       ///< of all pixels; dead pixels measure nothing
+  bool replace_dead = true;    ///< by the mean of their working neighbours, as cameras do
   double blinking_share = 0;   ///< of all pixels; they jump up and back
   double blinking_ratio = 10;  ///< height of the jump / white temporal noise
-  double blinking_hz = 1;      ///< jumps each second
+  double blinking_hz = 1;      ///< jumps per second
 
   [[nodiscard]] bool operator==(const BadPixelParameters&) const = default;
 };
 
-/// What the 8-bit picture makes of apparent temperature.
+/// How the 8-bit picture is made from apparent temperature.
 enum class AgcMode {
   scene_max,   ///< proportional to radiance; 255 is the most radiant material of the clip, as in the paper
   table_max,   ///< the same; 255 is the most radiant row of Table 1; counts are truncated, as in the script
@@ -81,20 +81,20 @@ struct AgcParameters {
   Polarity polarity = Polarity::white_hot;
   double low_k = 263;               ///< linear: count 0
   double high_k = 313;              ///< linear: count 255
-  double tail_percent = 0.05;       ///< percentile, plateau: of the pixels, dropped at either end
-  double plateau_percent = 0.07;    ///< plateau: of the pixels; no bin of the histogram counts for more
-  double max_gain_dn_per_netd = 8;  ///< percentile, plateau: 8-bit counts for one NETD, at most
+  double tail_percent = 0.05;       ///< percentile, plateau: fraction of the pixels dropped at either end
+  double plateau_percent = 0.07;    ///< plateau: fraction of the pixels; larger bins are clipped to it
+  double max_gain_dn_per_netd = 8;  ///< percentile, plateau: largest number of 8-bit counts per NETD
   double damping_s = 0.5;           ///< percentile, plateau: time constant
 
   [[nodiscard]] bool operator==(const AgcParameters&) const = default;
 };
 
-/// A camera's figures, from its lens to its files.
+/// A camera's parameters, from its lens to its files.
 struct SensorParameters {
   SpectralResponse response = SpectralResponse::flat(8, 14);
   RadianceModel radiance = RadianceModel::exact;
   OpticsParameters optics;
-  double time_constant_s = 0;  ///< thermal, of a pixel; 0: none
+  double time_constant_s = 0;  ///< thermal time constant of a pixel; 0: none
   double netd_mk = 40;         ///< white temporal noise of a pixel as a temperature difference at 300 K …
   double netd_f_number = 1;    ///< … behind a lens of this f-number
   NoiseParameters noise;
@@ -103,7 +103,7 @@ struct SensorParameters {
   double kelvin_per_count = 0.01;  ///< step of the 16-bit frames
   AgcParameters agc;
 
-  /// NETD [K] behind the camera's own lens: the light that reaches a pixel falls with the square of the f-number.
+  /// NETD [K] with the camera's own lens: the light that reaches a pixel falls with the square of the f-number.
   [[nodiscard]] double netd_k() const noexcept {
     const double stops = optics.f_number / netd_f_number;
     return 1e-3 * netd_mk * stops * stops;

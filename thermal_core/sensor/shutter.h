@@ -7,24 +7,24 @@
 
 namespace thermal {
 
-/// Where a frame stands between closings of the shutter.
+/// Position of a frame between closings of the shutter.
 struct ShutterState {
   std::uint32_t event = 0;  ///< closings since some time before the clip; frames of one event share a pattern
   double since_intervals =
-      0;                ///< time since the closing as a share of the interval, 0 to 1; 0 without a shutter
-  bool closed = false;  ///< the picture stands still
+      0;                ///< time since the closing as a fraction of the interval, 0 to 1; 0 without a shutter
+  bool closed = false;  ///< the picture is frozen
 };
 
-/// The camera's timer: the shutter closes every interval. A clip begins at a random time of it, a function of
-/// (seed, clip), so that its first frame is like any other.
+/// The camera's timer: the shutter closes every interval. A clip starts at a random phase, a function of (seed,
+/// clip), so that its first frame is statistically like any other.
 class Shutter {
  public:
   Shutter(const ShutterParameters& parameters, std::uint32_t seed, std::string_view clip);
 
-  /// A frame shows the frozen picture if the shutter closed at its time or less than freeze_s before.
+  /// A frame is frozen if the shutter closed at its time or less than freeze_s before.
   [[nodiscard]] ShutterState at(double time_s) const noexcept;
 
-  /// Time since the last closing when the clip begins [s].
+  /// Time from the last closing to the start of the clip [s].
   [[nodiscard]] double begins_s() const noexcept { return begins_s_; }
 
  private:

@@ -4,7 +4,7 @@
 
 namespace thermal {
 
-/// What the sensor's random numbers are for: one stream each. Never reuse a number.
+/// Purposes of the sensor's random numbers: one stream each. Never reuse a number.
 enum SensorStream : std::uint32_t {
   kWhiteStream = 1,
   kFirstFramePatternStream = 2,

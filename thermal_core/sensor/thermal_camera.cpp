@@ -19,7 +19,7 @@
 namespace thermal {
 namespace {
 
-constexpr double kReferenceTemperatureK = 300;  // where a NETD is stated
+constexpr double kReferenceTemperatureK = 300;  // at which a NETD is stated
 constexpr float kLargestCount = 65535;
 constexpr std::size_t kPixelsAChunk = 16384;
 constexpr std::size_t kPixelsABlock = 256;
@@ -100,10 +100,11 @@ std::vector<float> uniform_pattern(std::uint32_t seed, const std::string& clip, 
   return pattern;
 }
 
-/// Mean square of what PatternNoise has drift grow by over a shutter interval, (sqrt(t) / 2 + t / 2)^2 from 0 to 1.
+/// Mean square of the drift's growth over a shutter interval, (sqrt(t) / 2 + t / 2)^2 for t from 0 to 1; see
+/// PatternNoise.
 constexpr double kDriftGrowth2 = 49.0 / 120;
 
-/// Variance of a pixel's noise in units of its white noise's; see ThermalCamera::noise_w_m2_sr().
+/// Variance of a pixel's noise in units of that of its white noise; see ThermalCamera::noise_w_m2_sr().
 double noise_variance(const SensorParameters& parameters, double frame_rate_hz) {
   const NoiseParameters& ratios = parameters.noise;
   double variance = 1;
@@ -131,12 +132,13 @@ std::function<double(double temperature_k)> radiance_of(const SensorParameters& 
 
 std::shared_ptr<const TemperatureTable> apparent_temperatures(const SpectralResponse& response) {
   constexpr double kColdest = 180;
-  constexpr double kHottest = 420;
+  constexpr double kWarmest = 420;
+  constexpr double kHottest = 2000;
   const BandRadiance band(response);
   const double low = band.radiance(kColdest);
-  const double high = band.radiance(kHottest);
+  const double high = band.radiance(kWarmest);
   return std::make_shared<const TemperatureTable>(
-      [band](double radiance) { return band.temperature(radiance); }, low, high);
+      [band](double radiance) { return band.temperature(radiance); }, low, high, band.radiance(kHottest));
 }
 
 ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, float brightest_w_m2_sr,
@@ -216,7 +218,7 @@ void ThermalCamera::show(SensorFrame& frame) const {
   }
 }
 
-/// Radiance onto the detector.
+/// Radiance at the detector.
 void ThermalCamera::take_in(const Plane<float>& radiance_w_m2_sr) {
   assert(radiance_w_m2_sr.size() == signal_.size());
   const auto in = radiance_w_m2_sr.pixels();
@@ -236,7 +238,7 @@ void ThermalCamera::take_in(const Plane<float>& radiance_w_m2_sr) {
   }
 }
 
-/// Every pixel through the detector, in blocks that stay in the fastest cache.
+/// Passes every pixel through the detector, in blocks that stay in the L1 cache.
 void ThermalCamera::expose_signal() {
   const auto signal = signal_.pixels();
   parallel_for(signal.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {

@@ -24,22 +24,25 @@ namespace thermal {
                                                                       const SpectralResponse& response);
 [[nodiscard]] std::function<double(double temperature_k)> radiance_of(const SensorParameters& parameters);
 
-/// Apparent temperature by exact Planck, tabulated for anything a savanna night holds: all that a ThermalCamera with this
-/// response needs. It takes some 16,000 exact inverses, so cameras with one response may share it.
+/// Inverse of exact Planck radiance for a ThermalCamera with this response, tabulated from 180 K to 420 K and, once
+/// something hotter is seen, to 2000 K. Building it takes about 16,000 exact inverses, so cameras with the same response
+/// may share it.
 [[nodiscard]] std::shared_ptr<const TemperatureTable> apparent_temperatures(const SpectralResponse& response);
 
-/// What the camera makes of one frame.
+/// The output of the camera for one frame.
 struct SensorFrame {
-  Plane<std::uint8_t> ir8;    ///< what `curve` makes of ir16; in mode table_max, of radiance
-  Plane<std::uint16_t> ir16;  ///< apparent temperature / kelvin_per_count, rounded; clipped to 0..65535
+  Plane<std::uint8_t> ir8;  ///< `curve` applied to ir16; in mode table_max, to radiance
+  /// Apparent temperature / kelvin_per_count, rounded; clipped to 0..65535. 65535 is the camera's saturation: 655.35 K
+  /// and more at the default of 0.01 K.
+  Plane<std::uint16_t> ir16;
   ToneCurve curve;
   bool shutter_closed = false;  ///< the picture is the last one before the shutter closed
 };
 
-/// One uncooled camera through one clip: optics, thermal lag, noise, bad pixels, both outputs.
-/// Holds all a clip carries from frame to frame; frames must come in order, from the first. Everything starts
-/// stationary: the first frame is like any other. Pixels are a function of (parameters, clip, radiances), the same
-/// whatever the number of threads.
+/// One uncooled camera through one clip: optics, thermal lag, noise, bad pixels, both outputs. Holds all state that a
+/// clip carries from frame to frame; frames must come in order, from the first. All processes start stationary: the
+/// first frame is statistically like any other. Pixels are a function of (parameters, clip, radiances), whatever the
+/// number of threads.
 class ThermalCamera {
  public:
   struct Clip {
@@ -48,11 +51,11 @@ class ThermalCamera {
     double frame_rate_hz = 9;
     int width_px = 0;
     int height_px = 0;
-    Plane<float> noise_gain;  ///< factor on each pixel's noise, as lens fall-off makes it; empty: 1
-    int supersample = 1;      ///< samples across a pixel whose mean the radiance already is
+    Plane<float> noise_gain;  ///< factor on each pixel's noise, from lens fall-off; empty: 1
+    int supersample = 1;      ///< number of samples across a pixel that the radiance already averages
   };
 
-  /// Looks at a radiance plane [W m^-2 sr^-1], which is gone when it returns.
+  /// Receives a radiance plane [W m^-2 sr^-1], valid only during the call.
   using Look = std::function<void(const Plane<float>& radiance_w_m2_sr)>;
 
   /// @param brightest_w_m2_sr  radiance of level 255 in the AGC modes scene_max and table_max, > 0
@@ -60,30 +63,32 @@ class ThermalCamera {
   ThermalCamera(const SensorParameters& parameters, Clip clip, float brightest_w_m2_sr,
                 std::shared_ptr<const TemperatureTable> temperatures = nullptr);
 
-  /// Radiance plane [W m^-2 sr^-1] of the next frame to pictures; `out` is used again if it has the right size.
-  /// NaN and negative radiance count as 0, more than the 16-bit picture can tell as that much: nothing that is not
-  /// finite reaches the optics or what the camera remembers. Count 0 and level 0 stand for no light.
-  /// `look` is shown what the detector would see without lag and noise: the radiance behind the optics, of this
-  /// frame's moment even while the shutter is closed.
+  /// Makes the pictures of the next frame from its radiance plane [W m^-2 sr^-1]; `out` is reused if it has the right
+  /// size. NaN and negative radiance count as 0, and radiance above the range of the 16-bit picture as the top of
+  /// that range: nothing that is not finite reaches the optics or the camera's state. Count 0 and level 0 mean no
+  /// light.
+  /// `look` receives what the detector would measure without lag and noise: the radiance behind the optics at this
+  /// frame's time, even while the shutter is closed.
   void expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const Look& look = {});
 
   /// The same, into a new frame.
   [[nodiscard]] SensorFrame expose(const Plane<float>& radiance_w_m2_sr);
 
-  /// Lets a frame's time pass of which nothing is known: noise of later frames is what it would have been, but what
-  /// remembers earlier frames (lag, 1/f noise, blinking pixels, gain control) stands still, or, where no frame came
-  /// before, starts with the first that does.
+  /// Advances the clock past a frame whose radiance is unknown. The noise of later frames is unaffected; state that
+  /// depends on earlier frames (lag, 1/f noise, blinking pixels, gain control) is not advanced or, before the first
+  /// frame, starts with the first one given.
   void skip() noexcept { ++frame_; }
 
-  /// Apparent temperature [K] of a radiance [W m^-2 sr^-1], as the 16-bit picture tells it before it is rounded.
+  /// Apparent temperature [K] of a radiance [W m^-2 sr^-1], as in the 16-bit picture before rounding.
   [[nodiscard]] double temperature_k(double radiance_w_m2_sr) const;
 
-  /// Standard deviation [W m^-2 sr^-1] of a pixel's noise in the frames exposed so far: of white noise, times
-  /// sqrt(1 + k f + vh^2 + v^2 + h^2 + tv^2 + th^2 + band^2 + g drift^2), plus the paper's pattern in quadrature, times
-  /// the pixel's noise gain. Parts are independent, so variances add: k is the knee of the 1/f noise and f its variance
+  /// Standard deviation [W m^-2 sr^-1] of a pixel's noise in the frames exposed so far: of white noise, times sqrt(1
+  /// + k f + vh^2 + v^2 + h^2 + tv^2 + th^2 + band^2 + g drift^2), plus the paper's pattern in quadrature, times the
+  /// pixel's noise gain. Parts are independent, so variances add: k is the knee of the 1/f noise and f its variance
   /// for a knee at 1 Hz; vh to drift are ratios of NoiseParameters; g is the mean square of the drift's growth over a
-  /// shutter interval, 0 without one; the paper's pattern is uniform, so it is its half width / sqrt(3). Noise that
-  /// whole frames share is not among it: it moves a target and what surrounds it alike. Nor are bad pixels.
+  /// shutter interval, 0 without one; the paper's pattern is uniform, so its standard deviation is its half width /
+  /// sqrt(3). Noise shared by whole frames is excluded, because it shifts a target and its surroundings alike. So are
+  /// bad pixels.
   [[nodiscard]] double noise_w_m2_sr(int x_px, int y_px) const;
 
  private:
@@ -102,14 +107,14 @@ class ThermalCamera {
   float white_w_m2_sr_;    ///< standard deviation of white temporal noise
   float flicker_w_m2_sr_;  ///< of 1/f noise in units of FlickerFilter's
   float saturation_w_m2_sr_;
-  float follow_;  ///< share of a new radiance that a pixel reaches within a frame's time
+  float follow_;  ///< fraction of a new radiance that a pixel reaches within one frame
   Convolution optics_;
   Shutter shutter_;
   PatternNoise pattern_;
   std::optional<FlickerNoise> flicker_;
   BadPixels bad_pixels_;
   Agc agc_;
-  Plane<float> signal_;             ///< radiance as the detector tells it
+  Plane<float> signal_;             ///< radiance as measured by the detector
   std::vector<float> membrane_;     ///< lagging radiance; empty: no lag
   std::vector<float> first_frame_;  ///< the paper's fixed pattern; empty: none
   double first_frame_w_m2_sr_ = 0;  ///< its half width

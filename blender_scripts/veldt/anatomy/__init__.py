@@ -1,1 +1,1 @@
-"""Bodies: their bones, and how they stand and walk."""
+"""Bodies of actors: bones, postures and gait."""

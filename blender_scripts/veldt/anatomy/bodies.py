@@ -1,4 +1,4 @@
-"""Bodies of actors: bones, and what makes them move, as species files say.
+"""Bodies of actors: bones and the way they move, built from species files.
 
 Actor axes: x forward, y left, z up, origin on the ground below the body's middle.
 """
@@ -16,13 +16,13 @@ from ..noise import stream
 from .gait import Leg
 from .skeleton import SIDES, Bone, build_bones, is_in, part_names
 
-_SHARES = {"pitch": 1.0, "roll": 0.4}  # of the ground's slope that a body takes on if its file does not say
-_FOOTING = 0.7  # of the half length and width of a body without legs: where it stands
+_SHARES = {"pitch": 1.0, "roll": 0.4}  # default fraction of the ground's slope that a body follows
+_FOOTING = 0.7  # of the half length and width of a body without legs: where it touches the ground
 
 
 @dataclass(frozen=True)
 class Move:
-    """A bone that swings about an axis (0, 1, 2) of its own: with each stride, or with time if it has a period_s."""
+    """A bone that swings about one of its axes (0, 1, 2): once per stride, or periodically if it has a period_s."""
 
     bone: int
     axis: int
@@ -42,7 +42,7 @@ class Wheel:
 
 @dataclass(frozen=True)
 class Posture:
-    """Angles (bones, 3) the bones are turned by; how deep the body sinks; how high water reaches up a floating one."""
+    """Joint angles (bones, 3), how far the body sinks, and the waterline of a floating body."""
 
     turn_rad: np.ndarray
     sink_m: float
@@ -50,15 +50,16 @@ class Posture:
 
     @property
     def on_feet(self) -> bool:
-        """Whether feet are set on the ground; other legs hang as drawn and turned."""
+        """Whether feet are set on the ground; otherwise legs keep the pose in which they are drawn."""
         return self.sink_m == 0.0 and self.waterline_m is None
 
 
 @dataclass(frozen=True)
 class Body:
-    """A variant of a species at its drawn size; material slots of all meshes count through `parts`.
+    """A variant of a species at its drawn size; material slots of all meshes are indices into `parts`.
 
-    stance: share of a stride a foot is on the ground; pitch, roll: shares of the ground's slope the body takes on.
+    stance: fraction of a stride that a foot is on the ground; pitch, roll: fractions of the ground's slope that the
+    body follows.
     """
 
     parts: tuple[str, ...]
@@ -74,20 +75,20 @@ class Body:
 
     @property
     def contacts_m(self) -> np.ndarray:
-        """Places (n, 2) in actor axes at which the ground bears the body."""
+        """Points (n, 2) in actor axes where the ground supports the body."""
         wheels = [self.bones[wheel.bone].joint_m for wheel in self.wheels]
         places = [leg.toe_m for leg in self.legs] + wheels
-        if not places:  # a model from a file, which has neither: about where its feet may be
+        if not places:  # a model from a file has neither: roughly where its feet are
             return _FOOTING * self.rest().points_m[:, :2]
         return np.array([place[:2] for place in places])
 
     @cached_property
     def reach_m(self) -> np.ndarray:
-        """How far (3,) the body as drawn reaches from its origin, forward or back, to either side, and up."""
+        """How far (3,) the drawn body extends from its origin: forward or back, to either side, and up."""
         return np.abs(self.rest().points_m).max(axis=0)
 
     def rest(self) -> Mesh:
-        """The whole body as drawn, in actor axes."""
+        """The mesh of the whole drawn body in actor axes."""
         return joined([bone.mesh.moved(bone.joint_m) for bone in self.bones])
 
 
@@ -97,7 +98,7 @@ def variant_names(species: str) -> tuple[str, ...]:
 
 
 def draw_variant(species: str, seed: int, name: str, k: int) -> str:
-    """The variant of a group's k-th member, each as often as its share says."""
+    """The variant of a group's k-th member, drawn with the probabilities given by the variants' shares."""
     variants = assets.load("species", species)["variants"]
     shares = np.cumsum([entry["share"] for entry in variants.values()])
     return list(variants)[
@@ -112,7 +113,7 @@ def build_body(species: str, variant: str) -> Body:
 
 
 def body_of(data: dict, variant: str) -> Body:
-    """The body of a variant as a species file's content says."""
+    """The body of a variant from the content of a species file."""
     bones = _on_its_feet(build_bones(data, variant), data)
     place = {bone.name: k for k, bone in enumerate(bones)}
     gait = data.get("gait", {})
@@ -137,14 +138,14 @@ def body_of(data: dict, variant: str) -> Body:
 
 
 def _on_its_feet(bones: tuple[Bone, ...], data: dict) -> tuple[Bone, ...]:
-    """The bones so high that the lowest toe is on the ground, whatever a variant stretches."""
+    """The bones, raised or lowered so that the lowest toe is on the ground, however a variant is stretched."""
     place = {bone.name: bone for bone in bones}
     toes_m = [place[f'{entry["bones"][-1]}.left'].placed(entry["toe_m"])[2] for entry in data.get("legs", [])]
     return tuple(replace(bone, joint_m=bone.joint_m - [0.0, 0.0, min(toes_m, default=0.0)]) for bone in bones)
 
 
 def _leg_pair(entry: dict, bones: tuple[Bone, ...], place: dict[str, int]) -> list[Leg]:
-    """The left leg as drawn, and the right one, its mirror image with its own phase."""
+    """The left leg as drawn, and the right leg: its mirror image with a phase of its own."""
     return [
         Leg(
             bones=tuple(place[f"{bone}.{side}"] for bone in entry["bones"]),
@@ -161,7 +162,7 @@ def _leg_pair(entry: dict, bones: tuple[Bone, ...], place: dict[str, int]) -> li
 
 
 def _moves(entry: dict, place: dict[str, int]) -> list[Move]:
-    """A move of a bone, or of both of a pair: these are mirrored, or half a stride apart where `takes_turns`."""
+    """The move of a bone, or of both bones of a pair: mirrored, or half a stride apart if `takes_turns`."""
     moves = []
     for bone, sign in _bones_named(entry["bone"], place):
         axis = "xyz".index(entry["axis"])
@@ -180,7 +181,7 @@ def _moves(entry: dict, place: dict[str, int]) -> list[Move]:
 
 
 def _postures(data: dict, variant: str, place: dict[str, int]) -> dict[str, Posture]:
-    """All postures of the file; `walk` is what the variant's own angles make of the drawing."""
+    """All postures of the file; `walk` is the drawn pose with the variant's own angles applied."""
     entries = {"walk": {}, "graze": {}} | data.get("postures", {})
     always = data["variants"][variant].get("turn_deg", {})
     return {
@@ -194,7 +195,7 @@ def _postures(data: dict, variant: str, place: dict[str, int]) -> dict[str, Post
 
 
 def _angles_rad(turn_deg: dict, place: dict[str, int]) -> np.ndarray:
-    """Angles (bones, 3) by the bones' names; those of a pair are mirrored."""
+    """Angles (bones, 3) from a map of bone names; the angles of a pair are mirrored."""
     angles = np.zeros((len(place), 3))
     for name, turn in turn_deg.items():
         for bone, sign in _bones_named(name, place):
@@ -203,6 +204,6 @@ def _angles_rad(turn_deg: dict, place: dict[str, int]) -> np.ndarray:
 
 
 def _bones_named(name: str, place: dict[str, int]) -> list[tuple[int, float]]:
-    """A bone in the middle, or a pair with the sign of each side's mirrored angles; nothing a variant lacks."""
+    """A central bone, or a pair with the sign of each side's mirrored angles; empty if the variant lacks the bone."""
     pair = [(place[f"{name}.{side}"], sign) for side, sign in SIDES.items() if f"{name}.{side}" in place]
     return pair or ([(place[name], 1.0)] if name in place else [])

@@ -1,6 +1,6 @@
-"""Where feet are: on one spot of the ground while they bear the body, through the air to the next spot otherwise.
+"""Positions of feet: fixed on the ground during stance, moving through the air to the next footprint otherwise.
 
-Everything hangs on the distance walked, not on time, so feet keep still whenever the body does.
+Everything depends on the distance walked, not on time, so feet stand still whenever the body does.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ Path = Callable[
 
 @dataclass(frozen=True)
 class Leg:
-    """A leg's bones from the hip down, where its foot turns over its toe, and how it takes its turn.
+    """A leg's bones from the hip down, the point about which its foot rolls over the toe, and its timing.
 
-    phase: part of a stride at which it touches down; glide: share of the foot's distance from its place below the body
-    by which the hip follows, as shoulder blades and hips do; heel_rad: how far the heel has risen when the foot leaves.
+    phase: fraction of a stride at which it touches down; glide: fraction of the foot's offset from its place below the
+    body that the hip follows, as shoulder blades and hips do; heel_rad: angle of the heel when the foot lifts off.
     """
 
     bones: tuple[int, int, int]
@@ -41,7 +41,7 @@ class Leg:
 
 @dataclass(frozen=True)
 class Footing:
-    """Feet of one leg at n moments: toe_m (n, 3), the foot's rotation (n, 3, 3), bearing (n,) while on the ground."""
+    """The foot of one leg at n moments: toe_m (n, 3), rotation (n, 3, 3), bearing (n,) true while on the ground."""
 
     toe_m: np.ndarray
     rotation: np.ndarray
@@ -51,7 +51,7 @@ class Footing:
 def stride_m(speed_m_s: float, leg_m: float) -> float:
     """Length of a walking stride: 2.3 legs times the Froude number to the power 0.3 (Alexander 1976, solved for it).
 
-    Speeds are taken as within those of a walk; leg_m is the height of the hip.
+    Speeds are clamped to the range of a walk; leg_m is the height of the hip.
     """
     froude = np.clip(speed_m_s**2 / (_GRAVITY_M_S2 * leg_m), *_WALKING_FROUDE)
     return float(2.3 * leg_m * froude**0.3)
@@ -60,10 +60,10 @@ def stride_m(speed_m_s: float, leg_m: float) -> float:
 def footing(
     leg: Leg, stance: float, stride: float, scale: float, path: Path, ground: Terrain, walked_m, pace
 ) -> Footing:
-    """A leg's foot after walked_m (n,) along a path; `stance` is the share of a stride it is on the ground.
+    """A leg's foot after walked_m (n,) along a path; `stance` is the fraction of a stride that it is on the ground.
 
     Footprint n is where the leg's place below the body is in the middle of the n-th stance. pace (n,), from 0 standing
-    to 1 walking, is how high feet are lifted: who stops in mid-stride puts them down.
+    to 1 walking, scales how high feet are lifted: a walker that stops in mid-stride puts its feet down.
     """
     steps = walked_m / stride - leg.phase
     number = np.floor(steps)
@@ -85,13 +85,13 @@ def footing(
 
 
 def _print(leg: Leg, scale: float, path: Path, middle_m) -> tuple[np.ndarray, np.ndarray]:
-    """Footprints (n, 2) of stances whose middles are at these distances, and their headings (n, 2)."""
+    """Footprints (n, 2) of stances centred on these distances, and their headings (n, 2)."""
     point, heading = path(middle_m)
     return point + scale * (facing(heading) @ leg.toe_m)[:, :2], heading
 
 
 def _on_slope(ground: Terrain, x_m, y_m, heading: np.ndarray) -> np.ndarray:
-    """Rotations (n, 3, 3) of feet that lie flat on the ground."""
+    """Rotations (n, 3, 3) of feet flat on the ground."""
     rises = []
     for along in (heading, left_of(heading)):
         ahead = ground.height_m(x_m + _SOLE_M * along[:, 0], y_m + _SOLE_M * along[:, 1])

@@ -1,6 +1,6 @@
-"""How a body stands at each moment: from the ground below it, the distance it walked and the time.
+"""The pose of a body at each moment, from the ground below it, the distance it has walked and the time.
 
-Legs are found from both ends: hips hang on the body, feet stand on the ground, and the two bones between them bend.
+Legs are solved from both ends: hips move with the body, feet stand on the ground, and the two bones between them bend.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _NORM = 8  # of the legs' needs to be nearer to the ground: about the largest of
 
 @dataclass(frozen=True)
 class Walker:
-    """A body of some size on a path over the ground; phase is its own, of all that moves with time."""
+    """A body of a given scale on a path over the ground; `phase` offsets everything that moves periodically."""
 
     body: Body
     scale: float
@@ -33,10 +33,10 @@ class Walker:
 
 @dataclass(frozen=True)
 class Motion:
-    """What a walker does at n moments.
+    """The motion of a walker at n moments.
 
     walked_m (n,) along its path; time_s (n,); pace (n,) from 0 standing to 1 walking; head_down (n,) from 0 to 1
-    grazing; posture: one of the body's, `walk` also for whoever stands.
+    grazing; posture: one of the body's postures, `walk` for standing animals too.
     """
 
     walked_m: np.ndarray
@@ -48,7 +48,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class Poses:
-    """A body at n moments: vertex v of bone k is at position_m[:, k] + scale * rotation[:, k] @ v in the world."""
+    """A body at n moments: vertex v of bone k has world position position_m[:, k] + scale * rotation[:, k] @ v."""
 
     position_m: np.ndarray
     rotation: np.ndarray
@@ -104,8 +104,8 @@ def feet(walker: Walker, motion: Motion) -> list[Footing]:
 
 
 def _carriage(walker: Walker, motion: Motion):
-    """Where the body's origin is (n, 3), how it is turned (n, 3, 3), and how much (m, n) the ground at each of its
-    contacts differs from the plane it stands on."""
+    """The position (n, 3) and rotation (n, 3, 3) of the body, and the height (m, n) of the ground at each of its
+    contacts above the plane it stands on."""
     body, scale = walker.body, walker.scale
     point, heading = walker.path(motion.walked_m)
     level = facing(heading)
@@ -118,7 +118,7 @@ def _carriage(walker: Walker, motion: Motion):
     mean = height.mean(axis=1)
     residues = (height - (mean[:, None] + pitch[:, None] * x + roll[:, None] * y)).T
     own = about("y", -np.arctan(body.pitch * pitch)) @ about("x", np.arctan(body.roll * roll))
-    # The body turns about the middle of its hips, so that these stay above the feet on a slope.
+    # The body turns about the middle of its hips, which keeps them above the feet on a slope.
     pivot = middle + [
         0.0,
         0.0,
@@ -129,7 +129,7 @@ def _carriage(walker: Walker, motion: Motion):
 
 
 def _bearing_m(walker: Walker, posture: str, x_m, y_m) -> np.ndarray:
-    """Height of what bears a body's soles: the ground, or the water that a floating one reaches down into."""
+    """Height of the surface that supports a body: the ground, or the water for a floating body."""
     waterline_m = walker.body.postures[posture].waterline_m
     ground_m = walker.ground.height_m(x_m, y_m)
     if waterline_m is None:
@@ -138,12 +138,12 @@ def _bearing_m(walker: Walker, posture: str, x_m, y_m) -> np.ndarray:
 
 
 def _slope(height: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """Slopes (n,) of the lines that fit heights (n, m) at places (m,) of mean 0 best; 0 if all are at one place."""
+    """Least-squares slopes (n,) of heights (n, m) at positions (m,) with mean 0; 0 if all positions are equal."""
     return height @ place / max(place @ place, 1e-9) * (place @ place > 1e-6)
 
 
 def _hung(walker: Walker, motion: Motion, origin: np.ndarray, carriage: np.ndarray):
-    """Positions (n, bones, 3) and rotations (n, bones, 3, 3) of bones that hang on their parents as they will."""
+    """Positions (n, bones, 3) and rotations (n, bones, 3, 3) of bones from their joint angles alone."""
     body, scale = walker.body, walker.scale
     own = turned(_angles_rad(walker, motion))
     position = np.empty(own.shape[:2] + (3,))
@@ -160,7 +160,7 @@ def _hung(walker: Walker, motion: Motion, origin: np.ndarray, carriage: np.ndarr
 
 
 def _angles_rad(walker: Walker, motion: Motion) -> np.ndarray:
-    """Angles (n, bones, 3) of all bones in their joints."""
+    """Joint angles (n, bones, 3) of all bones."""
     body = walker.body
     angles = motion.head_down[:, None, None] * body.postures["graze"].turn_rad
     angles = angles + body.postures[motion.posture].turn_rad
@@ -180,7 +180,7 @@ def _angles_rad(walker: Walker, motion: Motion) -> np.ndarray:
 
 
 def _set_legs(walker: Walker, motion: Motion, position: np.ndarray, rotation: np.ndarray) -> None:
-    """Puts the feet where they stand, lowers the body until all legs reach them, and bends knees in between."""
+    """Place the feet, lower the body until every leg reaches its foot, and bend the knees in between."""
     body, scale = walker.body, walker.scale
     ankles, needs = [], []
     for leg, foot in zip(body.legs, feet(walker, motion)):
@@ -203,7 +203,7 @@ def _lengths(body: Body, leg) -> tuple[float, float]:
 
 
 def _need(reach: np.ndarray, longest_m: float) -> np.ndarray:
-    """How far (n,) a hip must come down to be no farther than longest_m from an ankle at `reach` (n, 3) from it."""
+    """How far (n,) a hip must be lowered to be within longest_m of an ankle at offset `reach` (n, 3) from it."""
     level2 = (reach[:, :2] ** 2).sum(axis=1)
     return -reach[:, 2] - np.sqrt(np.maximum(longest_m**2 - level2, (0.2 * longest_m) ** 2))
 
@@ -211,7 +211,7 @@ def _need(reach: np.ndarray, longest_m: float) -> np.ndarray:
 def _bend(
     body: Body, leg, scale: float, ankle: np.ndarray, position: np.ndarray, rotation: np.ndarray
 ) -> None:
-    """Two bones from the hip to the ankle, the knee on the side it is drawn on (law of cosines)."""
+    """Two bones from the hip to the ankle, with the knee bent to the side on which it is drawn (law of cosines)."""
     upper, lower, foot = leg.bones
     hip_rest, knee_rest, ankle_rest = (body.bones[k].joint_m for k in leg.bones)
     thigh, shank = (scale * length for length in _lengths(body, leg))

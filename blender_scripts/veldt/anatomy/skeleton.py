@@ -1,6 +1,7 @@
-"""Bones: rigid segments that turn in joints, built from what a species file lists.
+"""Bones: rigid segments connected by joints, built from the lists of a species file.
 
-A file draws all bones in one pose, standing, in the axes of the whole body; each bone's mesh is kept about its joint.
+A file draws all bones in one standing pose, in the axes of the whole body; each bone's mesh is stored relative to its
+joint.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ SIDES = {"left": 1.0, "right": -1.0}
 
 @dataclass(frozen=True)
 class Bone:
-    """A segment: joint_m (3,) in body axes, its mesh about the joint, the place of its parent or -1.
+    """A segment: joint_m (3,) in body axes, its mesh relative to the joint, the index of its parent or -1.
 
-    stretch: how much larger than drawn its variant has it, about the joint, which was drawn at drawn_m.
+    stretch: scale of this bone in its variant, relative to the drawing, about the joint, which was drawn at drawn_m.
     """
 
     name: str
@@ -32,12 +33,12 @@ class Bone:
     drawn_m: np.ndarray
 
     def placed(self, drawn_m) -> np.ndarray:
-        """Where in body axes a point (3,) of this bone is."""
+        """A point (3,) of this bone in body axes."""
         return self.joint_m + self.stretch * (np.asarray(drawn_m, float) - self.drawn_m)
 
 
 def part_names(data: dict) -> tuple[str, ...]:
-    """Names of a species' parts in the order its file first mentions them, those of all variants alike."""
+    """Names of a species' parts, of all variants, in the order in which its file first mentions them."""
     if "model" in data:
         return models.part_names(data)
     return tuple(dict.fromkeys(shape["part"] for bone in data["bones"].values() for shape in bone["shapes"]))
@@ -49,9 +50,9 @@ def is_in(entry: Mapping, variant: str) -> bool:
 
 
 def build_bones(data: dict, variant: str) -> tuple[Bone, ...]:
-    """A variant's bones, every parent before its children; those drawn once for both sides are there twice.
+    """A variant's bones, every parent before its children; a bone drawn once for both sides appears twice.
 
-    A model from a file is one bone, its mesh here the box it fills.
+    A model from a file is a single bone, whose mesh here is its bounding box.
     """
     if "model" in data:
         return (Bone("model", -1, np.zeros(3), models.box_mesh(data["model"]["size_m"]), 1.0, np.zeros(3)),)
@@ -77,7 +78,7 @@ def _sided(name: str, side: str) -> str:
 
 
 def _parent(entry: dict, side: str, place: dict[str, int]) -> int:
-    """The parent on the same side, or else the one in the middle; -1 for the root."""
+    """The parent on the same side, or else the central one; -1 for the root."""
     if "parent" not in entry:
         return -1
     sided = _sided(entry["parent"], side)

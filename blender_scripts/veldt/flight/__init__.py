@@ -1,1 +1,1 @@
-"""How the camera is carried about and where it looks."""
+"""Flights: where the camera goes and where it looks."""

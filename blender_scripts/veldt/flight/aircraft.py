@@ -1,4 +1,4 @@
-"""What an aircraft can do."""
+"""The performance limits of an aircraft."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 GRAVITY_M_S2 = 9.80665  # standard gravity
-_MOST_ACCELERATION_M_S2 = 3.0  # estimate: how briskly surveys speed up and brake, whatever the bank allows
+_MOST_ACCELERATION_M_S2 = 3.0  # estimate: acceleration and braking on surveys, at any bank angle
 
 MULTIROTOR = "multirotor"
 FIXED_WING = "fixed_wing"
@@ -14,7 +14,7 @@ FIXED_WING = "fixed_wing"
 
 @dataclass(frozen=True)
 class Aircraft:
-    """A multirotor, which stops at corners, or a fixed wing, which cannot; bank_rad: how far it leans, above 0."""
+    """A multirotor, which stops at corners, or a fixed wing, which cannot; bank_rad: largest bank angle, above 0."""
 
     kind: str
     speed_m_s: float
@@ -27,7 +27,7 @@ class Aircraft:
 
     @property
     def acceleration_m_s2(self) -> float:
-        """With which a multirotor starts and brakes: what leaning by bank_rad gives, 3 m/s^2 at most."""
+        """Acceleration and deceleration of a multirotor: that of leaning by bank_rad, at most 3 m/s^2."""
         return min(GRAVITY_M_S2 * math.tan(self.bank_rad), _MOST_ACCELERATION_M_S2)
 
 

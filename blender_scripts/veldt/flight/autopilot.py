@@ -1,4 +1,4 @@
-"""Flies a plan: what it asks for, as well as its aircraft and its gimbal can do it."""
+"""Fly a plan as closely as the aircraft and the gimbal allow."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ from .sway import lagged_angles, sway, tilt_rad, unsteadiness_rad
 from .waypoint_files import read_waypoints
 from .waypoints import Waypoint
 
-_SPARE_S = 10.0  # of the grid past what is asked for, for averages that look ahead
+_SPARE_S = 10.0  # of the grid beyond the requested times, for averages that look ahead
 _ROUNDING_S = 1e-6
-_SAMPLES = 9  # of an area's heights, each way
+_SAMPLES = 9  # of an area's heights, in each direction
 _LEAST_RISE_M = 20.0
-_LEAST_ARM_M = 1.0  # nearer than this, a target is no direction to look in
+_LEAST_ARM_M = 1.0  # nearer than this, a target defines no viewing direction
 
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What a flight is planned in; actors: those it looks at."""
+    """The surroundings in which a flight is planned; actors: those it looks at."""
 
     terrain: Terrain
     actors: Sequence[Actor]
@@ -45,10 +45,10 @@ class Surroundings:
 
 @dataclass(frozen=True)
 class Orders:
-    """What is asked for at n moments.
+    """The commanded state at n moments.
 
-    point_m (n, 2); nose_rad (n,); height_m (n,) above the datum, as soon as it can be climbed to; look_rad (n,) the
-    camera's bearing where it has no target_m (n, 3).
+    point_m (n, 2); nose_rad (n,); height_m (n,) above the datum, reached as fast as the aircraft can climb; look_rad
+    (n,) the camera's bearing where it has no target_m (n, 3).
     """
 
     point_m: np.ndarray
@@ -59,9 +59,9 @@ class Orders:
 
 
 def plan_trajectory(where: str, plan: dict, name: str, until_s: float, around: Surroundings) -> Trajectory:
-    """The trajectory of a flight plan from time 0 to until_s, the same however long. `name` keys its turbulence.
+    """The trajectory of a flight plan from time 0 to until_s, which does not change its values. `name` keys turbulence.
 
-    ConfigError, beginning with `where`, if it cannot be flown, or not so long.
+    ConfigError, beginning with `where`, if it cannot be flown, or ends before until_s.
     """
     source = _source(f"{where}.flight", plan, around)
     if source is not None and until_s > source.duration_s + _ROUNDING_S:
@@ -78,7 +78,7 @@ def plan_trajectory(where: str, plan: dict, name: str, until_s: float, around: S
 
 
 def _source(where: str, plan: dict, around: Surroundings) -> Course | Log | None:
-    """The way a plan leads; None where it hangs on what it looks at."""
+    """The course of a plan; None where it depends on the target."""
     aircraft, terrain = aircraft_of(plan), around.terrain
     nose_turns = plan["gimbal"]["heading"] == "course"
     if plan["pattern"] == "zigzag":
@@ -99,7 +99,7 @@ def _source(where: str, plan: dict, around: Surroundings) -> Course | Log | None
 
 
 def _rise_m(plan: dict, terrain: Terrain) -> float:
-    """About how high above its area's ground a zigzag flies; who flies below it is told so elsewhere."""
+    """Approximate height of a zigzag above its area's ground; flights below the ground are reported elsewhere."""
     if plan["altitude_reference"] == "ground":
         return plan["altitude_m"]
     x0_m, y0_m, x1_m, y1_m = plan["area_m"]
@@ -131,7 +131,7 @@ def _ordered(plan: dict, course: Course, around: Surroundings, time_s: np.ndarra
 
 
 def _span_m(plan: dict, course: Course | None, terrain: Terrain) -> float:
-    """No less than the wanted heights differ by."""
+    """An upper bound for the range of the requested heights."""
     highest_m = abs(plan["altitude_m"])
     if course is not None and np.isfinite(course.duration_s):
         given_m = course.at(np.arange(0.0, course.duration_s + 1.0)).height_m
@@ -140,7 +140,7 @@ def _span_m(plan: dict, course: Course | None, terrain: Terrain) -> float:
 
 
 def _wanted_m(plan: dict, ride: Ride, terrain: Terrain) -> np.ndarray:
-    """The heights above the datum (n,) that are asked for."""
+    """The requested heights (n,) above the datum."""
     height_m = ride.height_m if ride.height_m is not None else np.full(len(ride.point_m), plan["altitude_m"])
     is_agl = ride.is_agl if ride.is_agl is not None else plan["altitude_reference"] == "ground"
     return height_m + np.where(is_agl, terrain.surface_m(*ride.point_m.T), 0.0)
@@ -165,14 +165,14 @@ def _pursued(plan: dict, around: Surroundings, time_s: np.ndarray) -> Orders:
 
 
 def _flown(plan: dict, name: str, orders: Orders, seed: int) -> Poses:
-    """Orders as they are carried out: heights climbed to, gusts, aim and its lag."""
+    """Orders as carried out: climb limits, gusts, aim and gimbal lag."""
     lag_s = plan["gimbal"]["lag_s"]
     height_m = follow_heights(orders.height_m, STEP_S, plan["climb_rate_m_s"])
     offset_m, control_m_s2 = _blown(plan, name, orders.nose_rad, seed)
     position_m = np.column_stack([orders.point_m, height_m]) + offset_m
     bearing_rad, depression_rad = _aim(plan, orders, position_m)
     acceleration_m_s2 = _second_derivative(orders.point_m) + control_m_s2[:, :2]
-    if plan["aircraft"] == FIXED_WING:  # which banks, and speeds up and slows down level
+    if plan["aircraft"] == FIXED_WING:  # which banks, and accelerates without pitching
         acceleration_m_s2 = _across(acceleration_m_s2, orders.nose_rad)
     return Poses(
         position_m,
@@ -183,7 +183,7 @@ def _flown(plan: dict, name: str, orders: Orders, seed: int) -> Poses:
 
 
 def _blown(plan: dict, name: str, nose_rad: np.ndarray, seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """How far gusts push the aircraft (n, 3), and how it accelerates against them (n, 3), in the world's axes."""
+    """Displacement by gusts (n, 3) and the aircraft's acceleration against them (n, 3), in world axes."""
     if plan["turbulence"] == "none":
         return np.zeros((len(nose_rad), 3)), np.zeros((len(nose_rad), 3))
     airspeed_m_s = float(np.hypot(plan["speed_m_s"], WIND_M_S[plan["turbulence"]]))
@@ -193,7 +193,7 @@ def _blown(plan: dict, name: str, nose_rad: np.ndarray, seed: int) -> tuple[np.n
 
 
 def _aim(plan: dict, orders: Orders, position_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Bearings without jumps and depressions (n,) of a perfect gimbal."""
+    """Unwrapped bearings and depressions (n,) of a perfect gimbal."""
     if orders.target_m is None:
         return orders.look_rad, np.full(len(position_m), np.radians(plan["look_angle_deg"]))
     way_m = orders.target_m - position_m
@@ -210,13 +210,13 @@ def _second_derivative(point_m: np.ndarray) -> np.ndarray:
 
 
 def _across(vectors: np.ndarray, nose_rad: np.ndarray) -> np.ndarray:
-    """The parts of vectors (n, 2) at right angles to a nose."""
+    """The components of vectors (n, 2) perpendicular to the nose."""
     left = np.stack([-np.sin(nose_rad), np.cos(nose_rad)], axis=-1)
     return (vectors * left).sum(axis=-1, keepdims=True) * left
 
 
 def _turned(vectors: np.ndarray, angle_rad: np.ndarray) -> np.ndarray:
-    """Vectors (n, 3) turned about the vertical, each by its angle."""
+    """Vectors (n, 3) rotated about the vertical, each by its angle."""
     cos, sin = np.cos(angle_rad), np.sin(angle_rad)
     x, y, z = vectors.T
     return np.stack([cos * x - sin * y, sin * x + cos * y, z], axis=-1)

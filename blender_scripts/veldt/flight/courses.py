@@ -18,18 +18,18 @@ from .waypoints import Waypoint
 
 
 def zigzag_course(plan: dict, aircraft: Aircraft, footprint: Footprint, nose_turns: bool = True) -> Timetable:
-    """Lanes over area_m (`lanes.round_of_lanes`), there and back for ever, from the first lane's beginning on.
+    """Lanes over area_m (`lanes.round_of_lanes`), flown there and back without end from the start of the first lane.
 
-    A fixed wing gets from lane to lane on the shortest way it can turn, at constant speed. A multirotor stops at both
-    ends of a lane and turns on the spot to where it flies next. Without nose_turns the camera looks along heading_deg
-    on all lanes; so does a multirotor's nose then, and it never turns.
+    A fixed wing flies from lane to lane on the shortest path that its turn radius allows, at constant speed. A
+    multirotor stops at both ends of a lane and turns on the spot. Without nose_turns the camera looks along heading_deg
+    on all lanes, and a multirotor keeps its nose in that direction too.
     """
     lanes = round_of_lanes(plan, footprint, nose_turns)
     return _there_and_back(lanes, aircraft, None if nose_turns else math.radians(plan["heading_deg"]))
 
 
 def transect_course(plan: dict, aircraft: Aircraft, nose_turns: bool = True) -> Timetable:
-    """From the first of points_m to the second and back for ever, with turns as a zigzag's.
+    """From the first of points_m to the second and back without end, with the turns of a zigzag.
 
     Without nose_turns a multirotor flies back tail first.
     """
@@ -45,11 +45,11 @@ def waypoint_course(
     height_at: SurfaceAt,
     nose_turns: bool = True,
 ) -> Timetable:
-    """Through waypoints, at least one, in their order, and to an end.
+    """Through waypoints, at least one, in their order, once.
 
-    Between two of them the height changes evenly, above what the second one's is above; height_at(x (n,), y (n,)) gives
-    the height (n,) of ground or water where the first one's is not. A multirotor flies straight and stops at each
-    (`visits`); a fixed wing passes by (`fly_bys`). ConfigError, without its place, where it cannot.
+    Between two waypoints the height changes linearly, in the height reference of the second; height_at(x (n,), y (n,))
+    gives the height (n,) of ground or water to convert the first one's. A multirotor flies straight and stops at each
+    (`visits`); a fixed wing rounds the corners (`fly_bys`). ConfigError, without its place in the config, if it cannot.
     """
     places = merged(waypoints, aircraft.speed_m_s)
     if aircraft.kind == FIXED_WING:
@@ -58,7 +58,7 @@ def waypoint_course(
 
 
 def _there_and_back(lanes: Sequence[Lane], aircraft: Aircraft, nose_rad: float | None) -> Timetable:
-    """`nose_rad`: where a multirotor's nose always points; None: along its course."""
+    """`nose_rad`: fixed direction of a multirotor's nose; None: along its course."""
     if aircraft.kind == FIXED_WING:
         return Timetable(winged_round(lanes, aircraft), repeats=True)
     return Timetable(hovering_round(lanes, aircraft, nose_rad), repeats=True)

@@ -1,8 +1,8 @@
-"""The shortest way from one place and course to another one for who cannot turn more tightly than some radius.
+"""The shortest path between two positions and courses with a minimum turn radius.
 
 L. E. Dubins, "On curves of minimal length with a constraint on average curvature, and with prescribed initial and
-terminal positions and tangents", American Journal of Mathematics 79 (1957): it is one of six words, of left turns L,
-right turns R and straights S: LSL, RSR, LSR, RSL, LRL, RLR.
+terminal positions and tangents", American Journal of Mathematics 79 (1957): it is one of six words of left turns L,
+right turns R and straight lines S: LSL, RSR, LSR, RSL, LRL, RLR.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _WHOLE_TURN = 2.0 * math.pi
 
 @dataclass(frozen=True)
 class Word:
-    """First turn, middle and last turn: angles in rad, but a straight middle in radii. `first` and `last`: L or R."""
+    """First turn, middle and last turn: angles in rad, a straight middle in radii. `first` and `last`: L or R."""
 
     first: str
     last: str
@@ -42,10 +42,10 @@ _SIDE = {"L": 1.0, "R": -1.0}
 
 
 def shortest(start: Point, start_rad: float, end: Point, end_rad: float, radius_m: float) -> list[Piece]:
-    """Pieces of the shortest way; none if it starts where it ends. Of ways equally long, the first in `words`."""
+    """Pieces of the shortest path; empty if start and end coincide. Of paths of equal length, the first in `words`."""
     best: Word | None = None
     for word in words(start, start_rad, end, end_rad, radius_m):
-        # Rounding must not choose between ways that are mirror images of each other.
+        # Rounding must not choose between paths that are mirror images of each other.
         if best is None or word.length < best.length - 1e-9:
             best = word
     assert best is not None, "LSL and RSR always exist"
@@ -53,13 +53,13 @@ def shortest(start: Point, start_rad: float, end: Point, end_rad: float, radius_
 
 
 def words(start: Point, start_rad: float, end: Point, end_rad: float, radius_m: float) -> Iterator[Word]:
-    """All words that lead there: LSL, RSR, LSR, RSL, LRL, RLR, as far as they exist."""
+    """All words that lead there, in the order LSL, RSR, LSR, RSL, LRL, RLR; those that do not exist are left out."""
     cos, sin = math.cos(start_rad), math.sin(start_rad)
     dx, dy = (end[0] - start[0]) / radius_m, (end[1] - start[1]) / radius_m
     x, y, turn = dx * cos + dy * sin, dy * cos - dx * sin, end_rad - start_rad
     nothing = NOTHING_M / radius_m
     for find in (_same_side, _other_side, _three_turns):
-        # A way that starts to the right is the mirror image of one that starts to the left.
+        # A path that starts to the right is the mirror image of one that starts to the left.
         yield from find(x, y, turn, nothing, "L")
         yield from find(x, -y, -turn, nothing, "R")
 
@@ -68,7 +68,7 @@ def _same_side(x: float, y: float, turn: float, nothing: float, first: str) -> I
     """LSL to (x, y) and course `turn` from (0, 0) and course 0; radius 1."""
     cx, cy = x - math.sin(turn), y + math.cos(turn) - 1.0  # between the circles' centres
     straight = math.sqrt(cx * cx + cy * cy)
-    if straight < nothing:  # one circle, on which the straight's direction would be rounding
+    if straight < nothing:  # one circle: the direction of the straight line would be a rounding error
         yield Word(first, first, True, (_positive(turn, nothing), 0.0, 0.0))
         return
     course = math.atan2(cy, cx)
@@ -76,7 +76,7 @@ def _same_side(x: float, y: float, turn: float, nothing: float, first: str) -> I
 
 
 def _other_side(x: float, y: float, turn: float, nothing: float, first: str) -> Iterator[Word]:
-    """LSR: its straight crosses the line between the centres."""
+    """LSR: its straight line crosses the line between the centres."""
     cx, cy = x + math.sin(turn), y - math.cos(turn) - 1.0
     square = cx * cx + cy * cy - 4.0
     if square < -nothing:  # the circles overlap
@@ -89,8 +89,8 @@ def _other_side(x: float, y: float, turn: float, nothing: float, first: str) -> 
 
 
 def _three_turns(x: float, y: float, turn: float, nothing: float, first: str) -> Iterator[Word]:
-    """LRL: the middle circle touches both others. It is on the left of the line between them, for a shorter middle turn
-    than half a circle is never in a shortest way."""
+    """LRL: the middle circle touches both others. It lies left of the line between them, since a shortest path never
+    has a middle turn of less than half a circle."""
     cx, cy = x - math.sin(turn), y + math.cos(turn) - 1.0
     apart = math.sqrt(cx * cx + cy * cy)
     if not nothing < apart <= 4.0:
@@ -102,7 +102,7 @@ def _three_turns(x: float, y: float, turn: float, nothing: float, first: str) ->
 
 
 def _positive(angle_rad: float, nothing: float) -> float:
-    """The angle, 0 to a whole turn; a whole turn but for rounding is none."""
+    """The angle in [0, 2 pi); an angle that differs from 2 pi by rounding only is 0."""
     angle_rad %= _WHOLE_TURN
     return 0.0 if min(angle_rad, _WHOLE_TURN - angle_rad) < nothing else angle_rad
 
@@ -110,7 +110,7 @@ def _positive(angle_rad: float, nothing: float) -> float:
 def _pieces(
     word: Word, start: Point, start_rad: float, end: Point, end_rad: float, radius_m: float
 ) -> list[Piece]:
-    """The word on the map. Both ends are laid out from where they are given, so that rounding gathers between them."""
+    """The pieces of a word on the map. Both ends start at the given positions; rounding collects in the middle."""
     first_rad, middle, last_rad = word.amounts
     opening = _turn(start, start_rad, word.first, first_rad, radius_m)
     closing = _turn(end, end_rad, word.last, -last_rad, radius_m)
@@ -126,7 +126,7 @@ def _pieces(
 
 
 def _turn(point: Point, course_rad: float, side: str, angle_rad: float, radius_m: float) -> Arc:
-    """Turning to a side from a point on."""
+    """An arc to one side, starting at a point."""
     left = _SIDE[side]
     centre = beside(point, course_rad, 0.0, left * radius_m)
     return Arc(centre, radius_m, course_rad - 0.5 * math.pi * left, left * angle_rad)

@@ -1,4 +1,4 @@
-"""Linear filters of values a fixed step apart. No value depends on what comes after it, bit for bit."""
+"""Linear filters of equally spaced values. All are causal: no bit of a result depends on later values."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import math
 
 import numpy as np
 
-_BLOCK = 256  # moments worked through one by one, in all blocks at once
+_BLOCK = 256  # moments computed one by one, in all blocks at once
 
 
 def states(kept: np.ndarray, added: np.ndarray) -> np.ndarray:
-    """s[0] = added[0], s[k] = kept s[k-1] + added[k]: (m, n), as added, which has at least one moment; kept (m, m).
+    """s[0] = added[0], s[k] = kept s[k-1] + added[k]; s and added (m, n), n >= 1; kept (m, m).
 
-    Equal blocks start from nothing, all at once; then each gets what is left of the end of the last one. These are only
-    sums and products of numbers, in an order that the number of moments does not change: the same bits anywhere.
+    Blocks of equal size are computed from zero, all at once; then each receives the decayed final state of the one
+    before it. Only sums and products are used, in an order that does not depend on n: the same bits on every machine.
     """
     moments = added.shape[1]
     block = min(_BLOCK, moments)
@@ -34,7 +34,7 @@ def states(kept: np.ndarray, added: np.ndarray) -> np.ndarray:
 def lag_error(values: np.ndarray, lag_s: float, step_s: float) -> np.ndarray:
     """values - lagged (n, ...) of a first-order lag, lagged' = (values - lagged) / lag_s; lag_s = 0 gives zeros.
 
-    It starts settled on the first value, and is exact where values are linear from one moment to the next: the error
+    It starts settled on the first value, and is exact for values that are linear between moments: the error
     e' = values' - e / lag_s then decays by a = exp(-step / lag) and gains (1 - a) lag / step of each difference.
     """
     if lag_s == 0:
@@ -47,12 +47,12 @@ def lag_error(values: np.ndarray, lag_s: float, step_s: float) -> np.ndarray:
 
 
 def product(matrix: np.ndarray, columns: np.ndarray) -> np.ndarray:
-    """Matrix (m, m) times columns (m, n); a library's product rounds as it likes."""
+    """Matrix (m, m) times columns (m, n), summed in a fixed order; the rounding of a library's product may vary."""
     return sum(matrix[:, k, None] * columns[k] for k in range(len(matrix)))
 
 
 def _ends_before(kept: list[list[float]], added: list[list[float]]) -> np.ndarray:
-    """The state (m, blocks) before each block, from what a block leaves of it and what each block adds."""
+    """The state (m, blocks) before each block, from the decay over a block and what each block adds."""
     state, before = [0.0] * len(kept), []
     for gain in added:
         before.append(state)

@@ -1,4 +1,4 @@
-"""Finds flight plans that a schema takes but nobody can fly."""
+"""Check for flight plans that pass the schema but cannot be flown."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .aircraft import aircraft_of
 from .poses import Flight
 
 _PATTERNS = "zigzag, transect, waypoints, orbit or follow"
-_NEEDED = {  # by pattern: a key it cannot do without, and what it says
+_NEEDED = {  # by pattern: a key it requires, and the meaning of that key
     "zigzag": ("area_m", "[x_min, y_min, x_max, y_max]"),
     "transect": ("points_m", "two points [x, y]"),
     "orbit": ("radius_m", "the distance from the middle"),
@@ -18,9 +18,9 @@ _NEEDED = {  # by pattern: a key it cannot do without, and what it says
 
 
 def check_entry(where: str, entry: dict, targets: Mapping[str, object]) -> None:
-    """A clip or a flight of a config has a plan that makes sense by itself. targets: names there are to look at."""
+    """Check that the plan of a clip or flight makes sense by itself. targets: names that it can look at."""
     if "flight" not in entry:
-        raise ConfigError(f"{where}.flight is missing; expected how to fly: {_PATTERNS}")
+        raise ConfigError(f"{where}.flight is missing; expected a flight plan with a pattern: {_PATTERNS}")
     if "clip_length_s" in entry and entry["clip_length_s"] > entry["duration_s"]:
         raise ConfigError(
             f'{where}.clip_length_s = {entry["clip_length_s"]:g} s; expected at most duration_s ='
@@ -35,7 +35,7 @@ def check_entry(where: str, entry: dict, targets: Mapping[str, object]) -> None:
 
 
 def check_height(where: str, flight: Flight) -> None:
-    """The camera stays above ground and water."""
+    """Check that the camera stays above ground and water."""
     lowest = int(flight.agl_m.argmin())
     if flight.agl_m[lowest] <= 0:
         raise ConfigError(

@@ -1,4 +1,4 @@
-"""Steps of a fixed wing past places: it rounds the corners."""
+"""The course of a fixed wing along waypoints: it rounds the corners."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .pieces import NOTHING_M, Arc, Piece, Point, Straight, beside, distance_m, 
 from .places import Place, SurfaceAt, climb_between
 from .timetables import Leg, Step
 
-_MOST_TURN_DEG = 175.0  # a corner this sharp is cut by 22 radii
+_MOST_TURN_DEG = 175.0  # at a corner this sharp, the arc starts 22 radii before the waypoint
 
 
 @dataclass(frozen=True)
 class _Corner:
-    """An arc that leaves the legs inset_m from the place, turning by turn_rad."""
+    """An arc tangent to both legs at inset_m from the place, turning by turn_rad."""
 
     inset_m: float
     radius_m: float
@@ -26,11 +26,11 @@ class _Corner:
 
 
 def fly_bys(places: Sequence[Place], aircraft: Aircraft, surface_at: SurfaceAt) -> list[Step]:
-    """Past all places but the first and the last on arcs that the legs are tangents of, each leg at its own speed.
+    """Past all places but the first and the last on arcs tangent to the legs, each leg at its own speed.
 
-    The arc's radius is that of the faster leg. A leg, and the way from height to height, goes from the middle of one
-    arc to the middle of the next. ConfigError if there is a single place, a time to hold, a turn of more than 175 deg,
-    or a leg too short for its arcs.
+    The radius of an arc is that of the faster leg. A leg, and the change of height along it, extends from the middle of
+    one arc to the middle of the next. ConfigError for a single place, a hold time, a turn of more than 175 deg, or a
+    leg too short for its arcs.
     """
     _check_places(places)
     courses_rad = [Straight(a.point_m, b.point_m).courses_rad[0] for a, b in zip(places, places[1:])]
@@ -44,7 +44,7 @@ def fly_bys(places: Sequence[Place], aircraft: Aircraft, surface_at: SurfaceAt) 
 
 
 def _corners(places: Sequence[Place], courses_rad: Sequence[float], aircraft: Aircraft) -> list[_Corner]:
-    """One for each place; the first and the last are none."""
+    """A corner for each place; those of the first and the last are empty."""
     none = _Corner(0.0, 0.0, 0.0)
     return [
         none,
@@ -65,7 +65,7 @@ def _corner(before: Place, here: Place, in_rad: float, out_rad: float, aircraft:
 
 
 def _pieces(start: Point, end: Point, course_rad: float, first: _Corner, last: _Corner) -> list[Piece]:
-    """The second half of the first corner's arc, a straight, and the first half of the last one's."""
+    """The second half of the first corner's arc, a straight line, and the first half of the second corner's arc."""
     leaves, enters = beside(start, course_rad, first.inset_m), beside(end, course_rad, -last.inset_m)
     pieces = [
         _half_arc(leaves, course_rad, first, -1.0),
@@ -76,7 +76,7 @@ def _pieces(start: Point, end: Point, course_rad: float, first: _Corner, last: _
 
 
 def _half_arc(touches: Point, course_rad: float, corner: _Corner, begins: float) -> Arc:
-    """Half of a corner's arc, that begins (0) or ends (-1) where it touches the leg."""
+    """Half of a corner's arc, which begins (0) or ends (-1) at its tangent point on the leg."""
     left = math.copysign(1.0, corner.turn_rad)
     centre = beside(touches, course_rad, 0.0, left * corner.radius_m)
     half_rad = 0.5 * corner.turn_rad
@@ -84,7 +84,7 @@ def _half_arc(touches: Point, course_rad: float, corner: _Corner, begins: float)
 
 
 def _steps(pieces: Sequence[Piece], start: Place, end: Place, surface_at: SurfaceAt) -> list[Step]:
-    """The pieces at constant speed, with the climb shared out by their lengths."""
+    """The pieces at constant speed, with the climb distributed by length."""
     start_m, _ = pieces[0].at([0.0])
     climb = climb_between(start, end, tuple(start_m[0]), surface_at)
     rise_per_m = (climb.end_m - climb.start_m) / sum(piece.length_m for piece in pieces)
@@ -111,7 +111,7 @@ def _check_places(places: Sequence[Place]) -> None:
 def _check_leg(start: Place, end: Place, needed_m: float) -> None:
     length_m = distance_m(start.point_m, end.point_m)
     if length_m < needed_m:
-        most_m = math.ceil(10.0 * needed_m) / 10.0  # what is named must be enough
+        most_m = math.ceil(10.0 * needed_m) / 10.0  # rounded up: the stated length is sufficient
         raise ConfigError(
             f"the leg to waypoint {end.number} = {length_m:.1f} m;"
             f" expected at least {most_m:.1f} m for a fixed wing's turns at its ends"

@@ -1,4 +1,4 @@
-"""Places on the Earth as metres of a plane that touches it."""
+"""Geographic positions in metres on a tangent plane of the Earth."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-MOST_AWAY_M = 20_000.0  # from the origin, of flights: farther away, the Earth is round
+MOST_AWAY_M = 20_000.0  # largest distance of a flight from the origin; farther away, curvature matters
 
 # The ellipsoid: NIMA TR8350.2, "Department of Defense World Geodetic System 1984", third edition (2000), table 3.1.
 SEMI_MAJOR_M = 6_378_137.0
@@ -23,11 +23,11 @@ def radii_m(latitude_deg: float) -> tuple[float, float]:
 
 
 def east_north_m(latitude_deg, longitude_deg, origin_deg: tuple[float, float]) -> np.ndarray:
-    """East and north (..., 2) of latitudes and longitudes (...) from an origin (latitude, longitude), either way round.
+    """East and north (..., 2) of latitudes and longitudes (...) from an origin, also across the meridian of 180 deg.
 
-    Differences times the radii of curvature at the origin. At a distance d, that is off the plane that touches the
-    ellipsoid at the origin by up to (0.58 tan |latitude| + 0.005) d^2 / 6370 km: 0.14 m at 2 km and 20 deg of latitude,
-    4 m at 5 km and 60 deg. The origin must be no pole.
+    Differences of angles times the radii of curvature at the origin. At a distance d, the error against the tangent
+    plane of the ellipsoid at the origin is up to (0.58 tan |latitude| + 0.005) d^2 / 6370 km: 0.14 m at 2 km and 20 deg
+    of latitude, 4 m at 5 km and 60 deg. The origin must not be a pole.
     """
     along_m, across_m = radii_m(origin_deg[0])
     north_deg = np.asarray(latitude_deg, float) - origin_deg[0]

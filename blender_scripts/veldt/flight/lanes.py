@@ -20,10 +20,10 @@ class Lane:
 
 
 def check_lane_spacing(where: str, plan: dict, footprint: Footprint) -> None:
-    """Neighbouring lanes leave no gap between what they see."""
+    """Check that neighbouring lanes leave no gap between their footprints."""
     spacing_m = plan.get("lane_spacing_m")
     if spacing_m is not None and spacing_m > footprint.width_m:
-        most_m = math.floor(10.0 * footprint.width_m) / 10.0  # what is named must be allowed
+        most_m = math.floor(10.0 * footprint.width_m) / 10.0  # rounded down: the stated spacing is accepted
         raise ConfigError(
             f"{where}.lane_spacing_m = {spacing_m:g} m; expected at most {most_m:g} m,"
             " the width of ground in the picture"
@@ -31,22 +31,22 @@ def check_lane_spacing(where: str, plan: dict, footprint: Footprint) -> None:
 
 
 def lane_spacing_m(plan: dict, footprint: Footprint) -> float:
-    """As given, or what `overlap` leaves of the ground's width in the picture."""
+    """The given spacing, or the width of ground in the picture less `overlap`."""
     given_m = plan.get("lane_spacing_m")
     return footprint.width_m * (1.0 - plan["overlap"]) if given_m is None else given_m
 
 
 def round_of_lanes(plan: dict, footprint: Footprint, nose_turns: bool) -> list[Lane]:
-    """The lanes over area_m in the order they are flown in: to the last one and back to the second; then it repeats.
+    """The lanes over area_m in the order flown: to the last one and back to the second; then it repeats.
 
-    They lie side by side in the smallest rectangle turned by heading_deg that holds area_m, forth and back in turn. A
-    camera that looks ahead sees the ground below it only later or never: what each lane sees in its nearest row goes
-    from one end of the rectangle to the other if the lane itself is shifted back by near_m against where the camera
-    looks. That is against the course if nose_turns, and against heading_deg on all lanes otherwise.
+    They lie side by side, in alternating directions, in the smallest rectangle rotated by heading_deg that contains
+    area_m. A camera that looks ahead does not see the ground below it, so each lane is shifted back by near_m, against
+    the direction in which the camera looks; its nearest row then sweeps the rectangle from end to end. That direction
+    is the course if nose_turns, and heading_deg on all lanes otherwise.
     """
     half_along_m, half_across_m = half_extents_m(plan)
     spacing_m = lane_spacing_m(plan, footprint)
-    # A turn needs a lane to turn into; and a width that is whole lanes but for rounding gets no lane more.
+    # A turn needs a second lane; and a width that is a whole number of lanes up to rounding gets no extra lane.
     lanes = max(2, math.ceil(2.0 * half_across_m / spacing_m - 1e-9))
     order = [*range(lanes), *range(lanes - 2, 0, -1)]
     return [
@@ -62,7 +62,7 @@ def round_of_lanes(plan: dict, footprint: Footprint, nose_turns: bool) -> list[L
 
 
 def half_extents_m(plan: dict) -> tuple[float, float]:
-    """Half lengths along and across heading_deg of the smallest rectangle so turned that holds area_m."""
+    """Half lengths along and across heading_deg of the smallest rectangle in that direction that contains area_m."""
     x0, y0, x1, y1 = plan["area_m"]
     heading_rad = math.radians(plan["heading_deg"])
     cos, sin = abs(math.cos(heading_rad)), abs(math.sin(heading_rad))
@@ -70,7 +70,7 @@ def half_extents_m(plan: dict) -> tuple[float, float]:
 
 
 def _lane(plan: dict, left_m: float, half_m: float, shift_m: float, goes_back: bool) -> Lane:
-    """left_m beside the area's middle, half_m to both ends, all of it shift_m back against heading_deg."""
+    """A lane left_m beside the middle of the area, half_m to both ends, shifted back by shift_m against heading_deg."""
     x0, y0, x1, y1 = plan["area_m"]
     middle, heading_rad = (0.5 * (x0 + x1), 0.5 * (y0 + y1)), math.radians(plan["heading_deg"])
     rear, front = (beside(middle, heading_rad, end_m - shift_m, left_m) for end_m in (-half_m, half_m))

@@ -1,4 +1,4 @@
-"""How fast something moves along a way: distances from its start as functions of time, 0 to duration_s."""
+"""Laws of motion along a path: distance from the start as a function of time, 0 to duration_s."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Steady:
-    """The same speed all along."""
+    """Constant speed."""
 
     length_m: float
     speed_m_s: float
 
     @property
     def duration_s(self) -> float:
-        """How long it takes."""
+        """Duration of the motion."""
         return self.length_m / self.speed_m_s
 
     def along_m(self, time_s: np.ndarray) -> np.ndarray:
@@ -27,7 +27,7 @@ class Steady:
 
 @dataclass(frozen=True)
 class StopToStop:
-    """From rest to rest: speeding up, at most to speed_m_s, and braking at the same rate."""
+    """From rest to rest: acceleration to at most speed_m_s, and braking at the same rate."""
 
     length_m: float
     speed_m_s: float
@@ -35,12 +35,12 @@ class StopToStop:
 
     @property
     def peak_m_s(self) -> float:
-        """Highest speed: a short way is over before speed_m_s is reached."""
+        """Highest speed; below speed_m_s on a path too short to reach it."""
         return min(self.speed_m_s, math.sqrt(self.acceleration_m_s2 * self.length_m))
 
     @property
     def duration_s(self) -> float:
-        """How long it takes: at the peak's speed, and half of the time spent speeding up and braking on top."""
+        """Duration: that at peak speed, plus half of the time spent accelerating and braking."""
         return self.length_m / self.peak_m_s + self.peak_m_s / self.acceleration_m_s2
 
     def along_m(self, time_s: np.ndarray) -> np.ndarray:
@@ -51,7 +51,7 @@ class StopToStop:
         return np.where(is_early, gained_m, self.length_m - gained_m)
 
     def _from_rest_m(self, time_s: np.ndarray) -> np.ndarray:
-        """Speeding up and going on at the peak's speed."""
+        """Distances while accelerating and then flying at peak speed."""
         ramp_s = np.minimum(time_s, self.peak_m_s / self.acceleration_m_s2)
         return 0.5 * self.acceleration_m_s2 * ramp_s * ramp_s + self.peak_m_s * (time_s - ramp_s)
 

@@ -1,8 +1,8 @@
-"""Tables of logs: .csv files whose first line names the columns.
+"""Flight logs as tables: .csv files whose first line names the columns.
 
-In any order: time_s; x_m and y_m of the scene, or latitude_deg and longitude_deg (WGS 84); z_m above the scene's datum,
-agl_m above its ground, or altitude_m above its ground at home; and of the camera yaw_deg, clockwise from north,
-pitch_deg, above the horizon, -90 straight down, and roll_deg, right side down.
+Columns, in any order: time_s; x_m and y_m in the scene, or latitude_deg and longitude_deg (WGS 84); z_m above the
+scene's datum, agl_m above its ground, or altitude_m above its ground at home; and, for the camera, yaw_deg clockwise
+from north, pitch_deg above the horizon (-90: straight down) and roll_deg, positive with the right side down.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 
 from ..faults import ConfigError, check_known
 
-_RANGES = {  # by column: least, most
+_RANGES = {  # by column: minimum, maximum
     "time_s": (-1e11, 1e11),
     "x_m": (-100_000.0, 100_000.0),
     "y_m": (-100_000.0, 100_000.0),
@@ -34,9 +34,9 @@ _ALWAYS = ("time_s", "yaw_deg", "pitch_deg", "roll_deg")
 
 
 def read_table(text: str, name: str) -> tuple[dict[str, np.ndarray], list[int]]:
-    """Columns (n,) by name, n >= 2, and the number of each line; none of either of a text without lines.
+    """Columns (n,) by name, n >= 2, and the line number of each row; both empty for a text without lines.
 
-    Times increase. ConfigError, beginning with the file's `name`, if the text is no log.
+    Times must increase. ConfigError, beginning with the file's `name`, if the text is not a valid log.
     """
     lines = _lines(text, name)
     if not lines:
@@ -52,7 +52,7 @@ def read_table(text: str, name: str) -> tuple[dict[str, np.ndarray], list[int]]:
 
 
 def _lines(text: str, name: str) -> list[tuple[int, list[str]]]:
-    """Lines that are not empty, each with its number."""
+    """Non-empty lines with their numbers."""
     reader = csv.reader(io.StringIO(text, newline=""))
     try:
         return [(reader.line_num, [field.strip() for field in row]) for row in reader if row]
@@ -63,7 +63,7 @@ def _lines(text: str, name: str) -> list[tuple[int, list[str]]]:
 
 
 def _columns(header: Sequence[str], name: str) -> list[str]:
-    """The columns a header names, if they are those of a log."""
+    """The columns named by a header; ConfigError if they are not those of a log."""
     if all(_number(field) is not None for field in header):
         raise ConfigError(f"{name}: line 1 = {_cut(','.join(header))}; expected the names of the columns")
     for k, column in enumerate(header):
@@ -79,7 +79,7 @@ def _columns(header: Sequence[str], name: str) -> list[str]:
 
 
 def _check_one_of(header: Sequence[str], groups: Sequence[Sequence[str]], name: str) -> None:
-    """A header names all columns of one group, and none of the others."""
+    """Check that a header names all columns of exactly one group."""
     there = [column for group in groups for column in group if column in header]
     if there not in [list(group) for group in groups]:
         found = f"= {', '.join(there)}" if there else "are missing"
@@ -101,7 +101,7 @@ def _values(row: Sequence[str], columns: Sequence[str], where: str) -> list[floa
 
 
 def _number(field: str) -> float | None:
-    """What a field says, if it is a number."""
+    """The value of a field; ConfigError if it is not a number."""
     try:
         return None if "_" in field else float(field)  # Python takes 1_000
     except ValueError:

@@ -1,4 +1,4 @@
-"""Logs of real flights: where a camera was, and where it looked."""
+"""Logs of real flights: position and attitude of a camera over time."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from .texts import read_text
 class Log:
     """A camera at n moments, n >= 2, the first at time 0.
 
-    time_s (n,), increasing; point_m (n, 2); height_m (n,) as reference says: z_m, agl_m or altitude_m; bearing_rad (n,)
-    counter-clockwise from +x, without jumps, depression_rad (n,), roll_rad (n,); home_m [x, y].
+    time_s (n,), increasing; point_m (n, 2); height_m (n,) in the given reference: z_m, agl_m or altitude_m; bearing_rad
+    (n,) counter-clockwise from +x, unwrapped, depression_rad (n,), roll_rad (n,); home_m [x, y].
     """
 
     time_s: np.ndarray
@@ -42,7 +42,7 @@ class Log:
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """position_m (n, 3), bearing_rad, depression_rad and roll_rad (n,) at times (n,), linear between moments.
 
-        Straight down, the bearing is that of the picture's top. Before 0 and after duration_s it is where it was there.
+        Looking straight down, the bearing is that of the picture's top. Times are clamped to 0 and duration_s.
         """
         columns = (*self.point_m.T, self.height_m, self.bearing_rad, self.depression_rad, self.roll_rad)
         x_m, y_m, z_m, *angles_rad = (np.interp(time_s, self.time_s, column) for column in columns)
@@ -54,7 +54,7 @@ class Log:
 
 
 def read_log(file: str, home_m, where: str) -> Log:
-    """The log in a .csv file (`log_tables`); of latitudes and longitudes, the first line's lie at home_m [x, y].
+    """The log in a .csv file (`log_tables`); the latitude and longitude of the first line are mapped to home_m [x, y].
 
     ConfigError if it cannot be read; `where` is its place in the config.
     """
@@ -76,7 +76,7 @@ def read_log(file: str, home_m, where: str) -> Log:
 
 
 def _points(table: dict[str, np.ndarray], numbers: Sequence[int], home_m, name: str) -> np.ndarray:
-    """Places (n, 2) in the scene."""
+    """Positions (n, 2) in the scene."""
     if PLANE[0] in table:
         return np.column_stack([table[column] for column in PLANE])
     latitude_deg, longitude_deg = (table[column] for column in EARTH)

@@ -1,4 +1,4 @@
-"""What ways through the air are made of: straights and arcs."""
+"""The pieces of flight paths: straight lines and arcs."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import numpy as np
 
 Point = tuple[float, float]
 
-NOTHING_M = 1e-9  # a shorter piece is rounding, and so is its direction
+NOTHING_M = 1e-9  # a shorter piece is a rounding error, and so is its direction
 
 
 @dataclass(frozen=True)
 class Straight:
-    """From a point to another one, m."""
+    """A straight line between two points, m."""
 
     start: Point
     end: Point
@@ -26,7 +26,7 @@ class Straight:
 
     @property
     def courses_rad(self) -> tuple[float, float]:
-        """Courses at its start and its end: the same."""
+        """Courses at its start and its end, which are equal."""
         course_rad = math.atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
         return course_rad, course_rad
 
@@ -39,9 +39,9 @@ class Straight:
 
 @dataclass(frozen=True)
 class Arc:
-    """Part of a circle, m: from the direction start_rad, seen from its centre, counter-clockwise by sweep_rad.
+    """Part of a circle, m: counter-clockwise by sweep_rad from the direction start_rad as seen from its centre.
 
-    A sweep below 0 turns clockwise.
+    A negative sweep turns clockwise.
     """
 
     centre: Point
@@ -51,7 +51,7 @@ class Arc:
 
     @property
     def length_m(self) -> float:
-        """Way along the arc."""
+        """Length of the arc."""
         return self.radius_m * abs(self.sweep_rad)
 
     @property
@@ -79,12 +79,12 @@ def distance_m(a: Point, b: Point) -> float:
 
 
 def beside(point: Point, course_rad: float, ahead_m: float, left_m: float = 0.0) -> Point:
-    """The point so far ahead and to the left of one that faces course_rad."""
+    """The point at the given distances ahead and to the left of a point with course_rad."""
     cos, sin = math.cos(course_rad), math.sin(course_rad)
     return point[0] + ahead_m * cos - left_m * sin, point[1] + ahead_m * sin + left_m * cos
 
 
 def turn_rad(course_rad: float, to_rad: float) -> float:
-    """How to turn from a course to another one the shortest way round, left above 0; half a turn is one to the left."""
+    """The smallest turn from one course to another, positive to the left; half a turn goes to the left."""
     turn = math.remainder(to_rad - course_rad, 2.0 * math.pi)
     return turn + 2.0 * math.pi if turn < -math.pi + 1e-9 else turn  # rounding must not choose the side

@@ -22,7 +22,7 @@ def frames_of(entry: dict) -> int:
 
 
 class Pilot:
-    """Flies a config's clips and flights, each when it is first asked for."""
+    """Computes a config's clips and flights, each on first use."""
 
     def __init__(self, config: dict, terrain: Terrain, actors: Sequence[Actor], intrinsics: Intrinsics):
         self._terrain, self._actors = terrain, actors
@@ -53,7 +53,7 @@ class Pilot:
 
 
 def _name(entry: dict) -> str:
-    """What clips of one flight have in common."""
+    """The name shared by all clips of one flight."""
     return entry.get("of_flight", entry["id"])
 
 

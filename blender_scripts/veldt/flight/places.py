@@ -1,4 +1,4 @@
-"""Waypoints as what is flown to: each at another place, with a speed of its own."""
+"""Waypoints merged into distinct places, each with a speed of its own."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SurfaceAt = Callable[
 
 @dataclass(frozen=True)
 class Place:
-    """A waypoint, the `number`-th from 1 on, or several in the same place; speed_m_s is flown from here on."""
+    """A waypoint with its `number`, from 1, or several at the same place; speed_m_s applies from here on."""
 
     number: int
     point_m: Point
@@ -31,14 +31,15 @@ class Place:
 
     @property
     def level(self) -> Climb:
-        """Keeping the height."""
+        """A step at constant height."""
         return Climb(self.height_m, self.height_m, self.is_agl)
 
 
 def merged(waypoints: Sequence[Waypoint], speed_m_s: float) -> list[Place]:
-    """Places of waypoints, flown to at speed_m_s > 0 until one says otherwise.
+    """Places of waypoints, flown to at speed_m_s > 0 until a waypoint changes the speed.
 
-    Successive waypoints less than 1 mm apart are one place: the last one's height and speed, held for all their time.
+    Successive waypoints less than 1 mm apart become one place, with the last one's height and speed and the sum of
+    their hold times.
     """
     places: list[Place] = []
     for k, waypoint in enumerate(waypoints):
@@ -52,7 +53,7 @@ def merged(waypoints: Sequence[Waypoint], speed_m_s: float) -> list[Place]:
 
 
 def climb_between(start: Place, end: Place, start_m: Point, surface_at: SurfaceAt) -> Climb:
-    """From one place's height to the next one's, in the next one's reference; the leg begins over start_m."""
+    """The climb between two places, in the height reference of the second; the leg begins over start_m."""
     if start.is_agl == end.is_agl:
         return Climb(start.height_m, end.height_m, end.is_agl)
     surface_m = float(surface_at(np.array([start_m[0]]), np.array([start_m[1]]))[0])

@@ -1,4 +1,4 @@
-"""Where a camera is and looks, moment by moment."""
+"""Position and attitude of a camera over time."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..geometry.rotations import by_vector, heading_of
 from ..land.terrain import Terrain
 from .logs import Log
 
-STEP_S = 0.02  # between moments all is linear: at 10 m/s^2 that is true to half a millimetre
+STEP_S = 0.02  # linear interpolation between moments: an error of half a millimetre at 10 m/s^2
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Flight:
 class Poses:
     """A camera at n moments: position_m (n, 3), its axis' bearing_rad (n,) from +x and depression_rad (n,).
 
-    lean_rad (n, 3): rotation vectors in the world by which it is off those.
+    lean_rad (n, 3): rotation vectors in world axes of its deviation from these angles.
     """
 
     position_m: np.ndarray
@@ -67,7 +67,7 @@ class LoggedTrajectory:
     terrain: Terrain
 
     def at(self, time_s: np.ndarray) -> Poses:
-        """The poses at times (n,), from 0 to the log's duration; its roll is a turn about the axis."""
+        """The poses at times (n,), from 0 to the log's duration; roll is a rotation about the camera's axis."""
         position_m, bearing_rad, depression_rad, roll_rad = self.log.at(time_s, self.terrain.surface_m)
         forward = look(position_m, heading_of(bearing_rad), depression_rad)[:, :3, 2]
         return Poses(position_m, bearing_rad, depression_rad, roll_rad[:, None] * forward)
@@ -84,6 +84,6 @@ def flight_of(trajectory: Trajectory, time_s: np.ndarray, terrain: Terrain) -> F
 
 
 def _between(values: np.ndarray, before: np.ndarray, share: np.ndarray) -> np.ndarray:
-    """Values (n, …) at places between moments."""
+    """Values (n, …) interpolated between moments."""
     share = share.reshape(share.shape + (1,) * (values.ndim - 1))
     return values[before] + share * (values[before + 1] - values[before])

@@ -1,4 +1,4 @@
-"""Flights about something that moves: beside it, or round it."""
+"""Flights that follow or orbit a moving target."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ import numpy as np
 from ..geometry.rotations import heading_of
 from ..groups.actors import Actor, track
 
-_STEP_S = 0.1  # of targets and of who follows them; nothing of interest happens faster
+_STEP_S = 0.1  # time step of targets and their followers; nothing of interest happens faster
 _MARGIN_S = 12.0  # before and after, for averages
-_TARGET_SIGMA_S = 1.0  # a pilot follows where a target is going, not each of its turns
+_TARGET_SIGMA_S = 1.0  # a pilot follows the general direction of a target, not each of its turns
 _HEADING_SIGMA_S = 3.0
 _EASING_S = 2.0  # over which an aircraft changes its speed
 
 
 @dataclass(frozen=True)
 class Pursuit:
-    """Where an aircraft shall be, point_m (n, 2), and what it looks at, target_m (n, 3)."""
+    """The wanted position of an aircraft, point_m (n, 2), and its target, target_m (n, 3)."""
 
     point_m: np.ndarray
     target_m: np.ndarray
-    bearing_rad: np.ndarray  # (n,) from where it shall be to what it looks at
+    bearing_rad: np.ndarray  # (n,) from the wanted position to the target
 
 
 def follow(plan: dict, actors: Sequence[Actor], time_s: np.ndarray) -> Pursuit:
-    """Beside a target at azimuth_deg, as far as look_angle_deg asks for above level ground, at most at speed_m_s.
+    """Beside a target at azimuth_deg, at the distance that gives look_angle_deg over level ground, up to speed_m_s.
 
     time_s (n,) increases from 0.
     """
@@ -46,7 +46,7 @@ def follow(plan: dict, actors: Sequence[Actor], time_s: np.ndarray) -> Pursuit:
 
 
 def orbit(plan: dict, actors: Sequence[Actor], height_at, time_s: np.ndarray) -> Pursuit:
-    """Round a target or centre_m at radius_m and speed_m_s, from azimuth_deg on."""
+    """Circle a target or centre_m at radius_m and speed_m_s, starting at azimuth_deg."""
     if actors:
         coarse_s = _coarse_times(time_s)
         target_m = _at(time_s, coarse_s, _smoothed_targets(actors, coarse_s)[0])
@@ -60,25 +60,25 @@ def orbit(plan: dict, actors: Sequence[Actor], height_at, time_s: np.ndarray) ->
 
 
 def _coarse_times(time_s: np.ndarray) -> np.ndarray:
-    """From well before 0 to well past the last time; the same moments however far they go."""
+    """Moments from well before 0 to well past the last time; their values do not depend on the last time."""
     first, last = -round(_MARGIN_S / _STEP_S), int(np.ceil((time_s[-1] + _MARGIN_S) / _STEP_S))
     return np.arange(first, last + 1) * _STEP_S
 
 
 def _smoothed_targets(actors: Sequence[Actor], time_s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Middle of the actors' bodies (n, 3) and their common heading (n, 2), without their every turn."""
+    """The smoothed mean position of the actors' bodies (n, 3) and their smoothed mean heading (n, 2)."""
     tracks = [track(actor, time_s) for actor in actors]
     middle_m = np.mean([t.position_m for t in tracks], axis=0)
     middle_m[:, 2] += np.mean([actor.bounds_m[:, 2].mean() for actor in actors])
     heading = _smoothed(np.sum([t.heading for t in tracks], axis=0), _HEADING_SIGMA_S)
     length = np.linalg.norm(heading, axis=1, keepdims=True)
-    # Members that walk in all directions have no common heading; then +x is as good as any.
+    # Members that walk in all directions have no common heading; +x is an arbitrary choice.
     level = np.where(length > 1e-9, heading / np.maximum(length, 1e-9), [1.0, 0.0])
     return _smoothed(middle_m, _TARGET_SIGMA_S), level
 
 
 def _chased(wanted_m: np.ndarray, step_m: float) -> np.ndarray:
-    """Points (n, 2) that follow others no faster than step_m a moment."""
+    """Points (n, 2) that follow others by at most step_m per moment."""
     x_m, y_m = wanted_m[0].tolist()
     chased = []
     for to_x_m, to_y_m in wanted_m.tolist():
@@ -90,7 +90,7 @@ def _chased(wanted_m: np.ndarray, step_m: float) -> np.ndarray:
 
 
 def _smoothed(values: np.ndarray, sigma_s: float) -> np.ndarray:
-    """Values (n, k) averaged by a Gaussian of three sigma; ends are repeated."""
+    """Values (n, k) averaged by a Gaussian truncated at three sigma; the ends are extended by their last values."""
     reach = round(3.0 * sigma_s / _STEP_S)
     taps = np.exp(-0.5 * (np.arange(-reach, reach + 1) * _STEP_S / sigma_s) ** 2)
     return _filtered(values, taps / taps.sum())
@@ -112,7 +112,7 @@ def _continuous_angle(heading: np.ndarray) -> np.ndarray:
 
 
 def _at(time_s: np.ndarray, coarse_s: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Values (m, …) at coarse moments, linearly in between."""
+    """Values (m, …) given at coarse moments, linearly interpolated."""
     if values.ndim == 1:
         return np.interp(time_s, coarse_s, values)
     return np.stack([np.interp(time_s, coarse_s, column) for column in values.T], axis=-1)

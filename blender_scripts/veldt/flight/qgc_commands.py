@@ -1,4 +1,4 @@
-"""What the commands of a mission say: where to fly, how high, how fast and how long to stay.
+"""Interpret the commands of a mission: where to fly, how high, how fast and how long to stay.
 
 Numbers of commands and frames: mavlink.io, common message set, MAV_CMD and MAV_FRAME.
 """
@@ -32,8 +32,8 @@ _NAMES = {
     _VTOL_LAND: "VTOL land",
     SPEED: "change speed",
 }
-# They say nothing about where the aircraft flies: regions of interest, cameras, gimbals and mounts; and then the
-# beginning of a landing, a VTOL's transition, and gates, which lie on the way to the next waypoint.
+# These do not change where the aircraft flies: regions of interest, cameras, gimbals and mounts; then the start of a
+# landing, a VTOL's transition, and gates, which lie on the way to the next waypoint.
 _CAMERA = {
     80,
     *range(195, 199),
@@ -51,15 +51,15 @@ _CAMERA = {
     2501,
 }
 IGNORED = _CAMERA | {189, 3000, 4501}
-ENDS = {_LOITER, _RETURN, LAND, _VTOL_LAND}  # nothing after them is reached
-_SEA, _HOME, _TERRAIN = {0, 5}, {3, 6}, {10, 11}  # frames, by what heights are above
+ENDS = {_LOITER, _RETURN, LAND, _VTOL_LAND}  # nothing after these is reached
+_SEA, _HOME, _TERRAIN = {0, 5}, {3, 6}, {10, 11}  # frames, by height reference
 
 
 @dataclass(frozen=True)
 class Home:
-    """Where a mission begins: latitude and longitude, [x, y] in the scene, and the height of the scene's ground there.
+    """The start of a mission: latitude and longitude, [x, y] in the scene, and the height of the scene's ground there.
 
-    amsl, m above sea level, and hover_speed, m/s, as the file has them, if it has; `where` it has its mission.
+    amsl, m above sea level, and hover_speed, m/s, are those of the file, if given; `where` is the place of the mission.
     """
 
     where: str
@@ -71,7 +71,7 @@ class Home:
 
 
 def check_command(command: Command) -> None:
-    """ConfigError if nothing here knows what a command says."""
+    """Raise ConfigError if a command is not supported."""
     if not is_number(command.number) or command.number not in _NAMES.keys() | IGNORED:
         known = ", ".join(f"{key} ({name})" for key, name in _NAMES.items())
         raise ConfigError(
@@ -80,9 +80,9 @@ def check_command(command: Command) -> None:
 
 
 def changed_speed(command: Command, before_m_s: float | None) -> float | None:
-    """The speed after a change of it; None as long as none was said."""
+    """The speed after a command that may change it; None until one is given."""
     kind, speed_m_s = command.params[:2]
-    if kind in (2, 3) or speed_m_s == -1:  # of climbing or sinking; no change
+    if kind in (2, 3) or speed_m_s == -1:  # of climbing or sinking: ignored
         return before_m_s
     return _param(command, 1, "a speed", 0.1, 100, "m/s")
 
@@ -90,7 +90,7 @@ def changed_speed(command: Command, before_m_s: float | None) -> float | None:
 def waypoint_of(
     command: Command, home: Home, before: Sequence[Waypoint], speed_m_s: float | None
 ) -> Waypoint:
-    """Where a command leads, and how long it stays there; `before`: the waypoints so far, flown at speed_m_s."""
+    """The waypoint of a command, with its hold time; `before`: the waypoints so far, flown at speed_m_s."""
     if command.number in (_TAKE_OFF, _VTOL_TAKE_OFF):
         return Waypoint(home.point_m, *_height(command, home))
     if command.number in (_RETURN, LAND, _VTOL_LAND):
@@ -120,7 +120,7 @@ def _turning_s(command: Command, home: Home, speed_m_s: float | None) -> float:
 
 
 def _last(command: Command, home: Home, before: Sequence[Waypoint]) -> Waypoint:
-    """Where a flight ends: at the height it had."""
+    """The end of a flight, at its last height."""
     if not before:
         raise ConfigError(
             f"{command.where}.command = {shown(command.number)} ({_NAMES[command.number]});"
@@ -128,7 +128,7 @@ def _last(command: Command, home: Home, before: Sequence[Waypoint]) -> Waypoint:
         )
     if command.number == _RETURN:
         point_m = home.point_m
-    elif all(value is None or value == 0 for value in command.params[4:6]):  # it lands where it is
+    elif all(value is None or value == 0 for value in command.params[4:6]):  # lands on the spot
         point_m = before[-1].point_m
     else:
         point_m = _point(command, home)
@@ -148,7 +148,7 @@ def _point(command: Command, home: Home) -> tuple[float, float]:
 
 
 def _height(command: Command, home: Home) -> tuple[float, bool]:
-    """The height of a place, and whether it is above ground."""
+    """The height of a waypoint, and whether it is above ground."""
     if command.agl_m is not None:
         return command.agl_m, True
     if not is_number(command.frame) or command.frame not in _SEA | _HOME | _TERRAIN:

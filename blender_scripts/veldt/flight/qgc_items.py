@@ -1,7 +1,7 @@
-"""The commands of a QGroundControl plan, one after the other.
+"""The commands of a QGroundControl plan, in order.
 
-The format: docs.qgroundcontrol.com, developer guide, "Plan File Format". Surveys and corridor scans hold the commands
-that QGroundControl made of them; structure scans do not.
+The format: docs.qgroundcontrol.com, developer guide, "Plan File Format". Surveys and corridor scans contain the
+commands that QGroundControl generated for them; structure scans do not.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .texts import checked_number, shown
 LAND = 21
 _WAYPOINTS = (16, 82)
 _ABOVE_TERRAIN = (
-    3  # QGroundControl's altitude mode in which it works out heights above sea level from its own map
+    3  # QGroundControl's altitude mode in which it computes heights above sea level from its own terrain data
 )
 _TRANSECTS = ("survey", "CorridorScan")
 _LANDINGS = ("fwLandingPattern", "vtolLandingPattern")
@@ -24,9 +24,9 @@ _KINDS = {dict: "an object", list: "a list", str: "a text"}
 
 @dataclass(frozen=True)
 class Command:
-    """A MAVLink mission command: `where` it stands, its number, its frame and its 7 params, each as the file has it.
+    """A MAVLink mission command: its place in the file, `where`, its number, frame and 7 params, unchanged.
 
-    agl_m: what to fly above ground instead of params[6], which is meant for the hills of another place.
+    agl_m: height above ground to fly instead of params[6], which applies to the terrain of the real place.
     """
 
     where: str
@@ -37,7 +37,7 @@ class Command:
 
 
 def part(holder: dict, key: str, kind: type, where: str):
-    """holder[key] if it is there and of a kind (dict, list or str); else ConfigError, with `where` before the key."""
+    """holder[key] if present and of type `kind` (dict, list or str); else ConfigError, with `where` before the key."""
     if key not in holder:
         raise ConfigError(f"{where}{key} is missing; expected {_KINDS[kind]}")
     if not isinstance(holder[key], kind):
@@ -101,7 +101,7 @@ def _transects(item: dict, place: str) -> Iterator[Command]:
 
 
 def _agl_m(item: dict, mode: str, height: str, place: str) -> float | None:
-    """The height above ground of an item that has one; its frame's heights are above sea level then."""
+    """The height above ground of an item that has one; its params are then heights above sea level."""
     if item.get(mode) != _ABOVE_TERRAIN:
         return None
     return checked_number(item.get(height), f"{place}.{height}", "a height above terrain", -1000, 10_000, "m")

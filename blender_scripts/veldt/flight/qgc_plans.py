@@ -1,4 +1,4 @@
-"""Reads the missions of QGroundControl (.plan files) as waypoints."""
+"""Read missions of QGroundControl (.plan files) as waypoints."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from .waypoints import Waypoint
 
 
 def read_plan(file: str, home_m, ground_m: SurfaceAt, where: str) -> list[Waypoint]:
-    """The waypoints of a .plan, at least one; its planned home lies at home_m [x, y] of the scene, +y to the north.
+    """The waypoints of a .plan, at least one; its planned home is mapped to home_m [x, y] of the scene, +y north.
 
-    Heights relative to home are above the scene's ground there, and so are those above sea level, less home's;
-    ground_m(x (n,), y (n,)) gives its height (n,) above the datum. What QGroundControl set above terrain by its own map
-    is flown above the scene's. A take-off begins over home, at its height. Loitering is holding still: for a day where
-    there is no limit, or as long as turns would take. A return to launch goes back to home and a landing to its place,
-    both at the last height, and there the flight ends. Splines are flown straight. cruiseSpeed and hoverSpeed, by which
-    QGroundControl guesses how long flights take, set no speed.
-    ConfigError if the file is no plan, or has a command that cannot be flown; `where` is its place in the config.
+    Heights relative to home are relative to the scene's ground there; so are heights above sea level, less that of
+    home. ground_m(x (n,), y (n,)) gives the ground's height (n,) above the datum. Heights that QGroundControl computed
+    above its own terrain data are flown above the scene's terrain. A take-off begins over home, at its height.
+    Loitering means hovering: for a day if there is no limit, or for as long as the turns would take. A return to launch
+    flies to home and a landing to its place, both at the last height, and the flight ends there. Splines are flown as
+    straight lines. cruiseSpeed and hoverSpeed, from which QGroundControl estimates durations, do not set a speed.
+    ConfigError if the file is not a plan or has a command that cannot be flown; `where` is its place in the config.
     """
     mission, name = _mission(file, where), f"{Path(file).name}: "
     home = _home(mission, f"{name}mission", home_m, ground_m)
@@ -65,7 +65,7 @@ def _home(mission: dict, where: str, home_m, ground_m: SurfaceAt) -> Home:
     given = part(mission, "plannedHomePosition", list, f"{where}.")
     if len(given) != 3:
         raise ConfigError(f"{place} = {len(given)} values; expected 3: latitude, longitude, altitude")
-    # The plane at a pole has no east.
+    # East is undefined at a pole.
     latitude_deg = checked_number(given[0], f"{place}[0]", "a latitude", -89, 89, "deg")
     longitude_deg = checked_number(given[1], f"{place}[1]", "a longitude", -180, 180, "deg")
     x_m, y_m = map(float, home_m)

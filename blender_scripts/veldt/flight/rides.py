@@ -1,4 +1,4 @@
-"""What an aircraft is asked to do, as a function of time."""
+"""The commands to an aircraft as a function of time."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Ride:
-    """An aircraft's orders at n moments.
+    """The commands to an aircraft at n moments.
 
-    point_m (n, 2); course_rad (n,): where its nose points, counter-clockwise from +x, without jumps of a whole turn;
-    height_m (n,): above ground where is_agl (n,), else above the datum; None: as the flight plan says.
+    point_m (n, 2); course_rad (n,): direction of its nose, counter-clockwise from +x, unwrapped; height_m (n,): above
+    ground where is_agl (n,), else above the datum; None: the height of the flight plan.
     """
 
     point_m: np.ndarray
@@ -23,9 +23,9 @@ class Ride:
 
 
 class Course(Protocol):
-    """A way through the air; pure: any times (n,) from 0 to duration_s, in any order."""
+    """A flight path as a pure function of time: accepts times (n,) from 0 to duration_s in any order."""
 
-    duration_s: float  # infinite if it goes on for ever
+    duration_s: float  # infinite if it repeats
 
     def at(self, time_s: np.ndarray) -> Ride:
-        """The orders at some times."""
+        """The commands at the given times."""

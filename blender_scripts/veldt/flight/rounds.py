@@ -1,4 +1,4 @@
-"""Steps of courses that lead along lanes and back to where they began."""
+"""The steps of closed courses along lanes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .timetables import Leg, Step, spin
 
 
 def winged_round(lanes: Sequence[Lane], aircraft: Aircraft) -> list[Step]:
-    """At constant speed; from each lane's end the shortest way to the next one's start, at last to the first one's."""
+    """At constant speed, with the shortest path from the end of each lane to the start of the next, in a ring."""
     pieces = []
     for lane, after in zip(lanes, _next(lanes)):
         pieces.append(Straight(lane.start, lane.end))
@@ -22,7 +22,7 @@ def winged_round(lanes: Sequence[Lane], aircraft: Aircraft) -> list[Step]:
 
 
 def hovering_round(lanes: Sequence[Lane], aircraft: Aircraft, nose_rad: float | None) -> list[Step]:
-    """From stop to stop; turning on the spot towards where it flies next, or with the nose always at nose_rad."""
+    """From stop to stop, turning on the spot towards the next lane, or with the nose always at nose_rad."""
     corners = [corner for lane in lanes for corner in (lane.start, lane.end)]
     ways = [Straight(a, b) for a, b in zip(corners, _next(corners)) if distance_m(a, b) > NOTHING_M]
     steps: list[Step] = []
@@ -35,5 +35,5 @@ def hovering_round(lanes: Sequence[Lane], aircraft: Aircraft, nose_rad: float | 
 
 
 def _next(things: Sequence) -> list:
-    """What follows each of them in a ring."""
+    """The successor of each item in a ring."""
     return [*things[1:], things[0]]

@@ -1,4 +1,4 @@
-"""Slows an aircraft down where the ground rises or falls faster than it can climb."""
+"""Slow an aircraft down where the ground rises or falls faster than it can climb."""
 
 from __future__ import annotations
 
@@ -6,18 +6,18 @@ import numpy as np
 
 from .heights import moving_average
 
-_USED = 0.9  # of the climb rate, by the planned rise; the rest is for what averages leave out
-_SMOOTHED_S = 0.5  # of the rise that counts
-_REACH_S = 1.0  # before and after a steep place at which it is already slow
+_USED = 0.9  # share of the climb rate for the planned rise; the rest covers what averaging leaves out
+_SMOOTHED_S = 0.5  # of the rise that is considered
+_REACH_S = 1.0  # before and after a steep place, during which it is already slow
 _EASED_S = 2.0  # over which its pace changes
 
 
 def slowed_times(wanted_m: np.ndarray, step_s: float, climb_m_s: float) -> np.ndarray:
-    """At which moment (n,) of its plan an aircraft is that goes no faster than it can climb.
+    """The moment (n,) of its plan that an aircraft has reached if it flies no faster than it can climb.
 
-    wanted_m (n,): heights it shall have at moments step_s apart if it flies as planned, from 0. Its pace is the planned
-    one, or less, so that the heights change by at most climb_m_s, but for steps shorter than half a second. What comes
-    more than three seconds later changes nothing, bit for bit.
+    wanted_m (n,): wanted heights at moments step_s apart, from 0, if it flies as planned. Its pace is at most the
+    planned one, such that the heights change by at most climb_m_s, apart from changes shorter than half a second. No
+    bit of a result depends on heights more than three seconds later.
     """
     level_m = moving_average(wanted_m, round(0.5 * _SMOOTHED_S / step_s))
     rise_m_s = np.abs(np.diff(level_m, append=level_m[-1])) / step_s
@@ -30,7 +30,7 @@ def slowed_times(wanted_m: np.ndarray, step_s: float, climb_m_s: float) -> np.nd
 
 
 def _widened(values: np.ndarray, reach: int) -> np.ndarray:
-    """The largest of the values within so many moments, by doubling."""
+    """The running maximum over the given number of moments, by doubling."""
     padded = np.pad(values, reach, mode="edge")
     width, done = 2 * reach + 1, 1
     while done < width:

@@ -1,4 +1,4 @@
-"""How gusts push an aircraft about that holds its place, how it leans, and what of that its gimbal lets through."""
+"""The response of an aircraft to gusts: its displacement, its tilt, and the part of it that the gimbal lets through."""
 
 from __future__ import annotations
 
@@ -9,25 +9,25 @@ import numpy as np
 from .aircraft import FIXED_WING, GRAVITY_M_S2, MULTIROTOR
 from .filters import lag_error, product, states
 
-_NOTHING = 1e-18  # a smaller share of a sum is lost in rounding
+_NOTHING = 1e-18  # a smaller term of a sum is lost in rounding
 
 
 @dataclass(frozen=True)
 class Hold:
-    """Along one axis: drag takes up a gust within drag_s, and the autopilot steers against offset and speed."""
+    """Dynamics along one axis: drag with time constant drag_s, and an autopilot that acts against offset and speed."""
 
     drag_s: float
     stiffness_per_s2: float
     damping_per_s: float
 
 
-# Along the nose, left, up. Times of drag are estimates: a multirotor leans 30 degrees to fly 17 m/s, and its rotors
-# thrust the more the faster air sinks through them; a wing of 6 kg/m^2 flies 16 m/s, its drag coefficient is 0.05, its
-# side force 0.3 and its lift 4.5 for each rad (2 m / (rho V S C), half of it along the nose).
+# Forward, left, up. Drag time constants are estimates: a multirotor leans 30 degrees to fly 17 m/s, and its rotors
+# gain thrust with the speed of the air sinking through them; a wing of 6 kg/m^2 flies 16 m/s with a drag coefficient of
+# 0.05 and coefficients of side force 0.3 and lift 4.5 per rad (2 m / (rho V S C), half of it forward).
 # A multirotor's gains are PX4's defaults: damping is MPC_XY_VEL_P_ACC 1.8 and MPC_Z_VEL_P_ACC 4, stiffness these times
-# MPC_XY_P 0.95 and MPC_Z_P 1. A wing steers left and right as by PX4's NPFG_PERIOD 10 s and NPFG_DAMPING 0.7, and
-# comes back up or down in FW_T_ALT_TC 5 s, that is (1 / drag + damping) / stiffness; how this is shared out between the
-# gains is an estimate, and so is its hold along the nose, at half the pace of the one sideways.
+# MPC_XY_P 0.95 and MPC_Z_P 1. A wing steers laterally with PX4's NPFG_PERIOD 10 s and NPFG_DAMPING 0.7, and returns to
+# its height in FW_T_ALT_TC 5 s, that is (1 / drag + damping) / stiffness; how this is divided between the gains is an
+# estimate, and so is its forward control, at half the rate of the lateral one.
 _HOLDS = {
     MULTIROTOR: (Hold(3.0, 1.71, 1.8), Hold(3.0, 1.71, 1.8), Hold(1.5, 4.0, 4.0)),
     FIXED_WING: (Hold(6.0, 0.099, 0.44), Hold(2.0, 0.395, 0.88), Hold(0.14, 2.4, 5.0)),
@@ -36,18 +36,18 @@ _HOLDS = {
 
 @dataclass(frozen=True)
 class Sway:
-    """At n moments: offset_m (n, 3) from where the aircraft should be; control_m_s2 (n, 3) by which it steers back."""
+    """At n moments: offset_m (n, 3) from the wanted position; control_m_s2 (n, 3), the acceleration back towards it."""
 
     offset_m: np.ndarray
     control_m_s2: np.ndarray
 
 
 def sway(gusts_m_s: np.ndarray, step_s: float, kind: str) -> Sway:
-    """How gusts (n, 3) along the nose, to the left and up move an aircraft of a kind, in these axes.
+    """The response of a kind of aircraft to gusts (n, 3) forward, left and up, in these axes.
 
-    x'' = (w - x') / drag - damping x' - stiffness x along each axis, from rest in its place at the first moment. Exact
-    for gusts that are linear from one moment to the next, for steps up to 1 s. The mean wind is left out: autopilots
-    learn to lean against it. Standard deviations in m, 60 m above ground:
+    x'' = (w - x') / drag - damping x' - stiffness x along each axis, starting at rest at the wanted position. Exact for
+    gusts that are linear between moments, for steps up to 1 s. The mean wind is left out: autopilots compensate for
+    it. Standard deviations in m, 60 m above ground:
 
                               light                moderate             severe
         multirotor at 8 m/s   0.23, 0.23, 0.11     0.45, 0.44, 0.21     0.67, 0.65, 0.30
@@ -59,21 +59,21 @@ def sway(gusts_m_s: np.ndarray, step_s: float, kind: str) -> Sway:
 
 
 def tilt_rad(acceleration_m_s2: np.ndarray) -> np.ndarray:
-    """Rotation vectors (n, 3) in the world, about level axes, that lean thrust towards level accelerations (n, 2).
+    """Rotation vectors (n, 3) in world axes, about horizontal axes, that tilt thrust towards accelerations (n, 2).
 
-    z x a / g: the angle's tangent instead of the angle, a tenth too much at 30 degrees.
+    z x a / g: the tangent of the angle instead of the angle, a tenth too large at 30 degrees.
     """
     x, y = acceleration_m_s2.T / GRAVITY_M_S2
     return np.stack([-y, x, np.zeros_like(x)], axis=-1)
 
 
 def unsteadiness_rad(leaning_rad: np.ndarray, lag_s: float, step_s: float) -> np.ndarray:
-    """What a gimbal that evens out leaning (n, 3) with a lag lets through of it (n, 3); without a lag, nothing."""
+    """The tilt (n, 3) that remains after a gimbal with a lag compensates for tilt (n, 3); zero without a lag."""
     return lag_error(leaning_rad, lag_s, step_s)
 
 
 def lagged_angles(commanded_rad: np.ndarray, lag_s: float, step_s: float) -> np.ndarray:
-    """Angles (n,) that a gimbal takes up with a lag, the commanded ones (n,) without; these jump by no whole turns."""
+    """Angles (n,) of a gimbal that follows commanded angles (n,), which are unwrapped, with a lag."""
     return commanded_rad - lag_error(commanded_rad, lag_s, step_s)
 
 
@@ -87,7 +87,7 @@ def _held(gusts_m_s: np.ndarray, step_s: float, hold: Hold) -> tuple[np.ndarray,
 
 
 def _transition(step_s: float, hold: Hold) -> np.ndarray:
-    """Offset, speed, gust and the gust's change in a step (4, 4), from those at its beginning: a matrix exponential."""
+    """The transition (4, 4) of offset, speed, gust and the gust's change over one step: a matrix exponential."""
     braked = 1.0 / hold.drag_s + hold.damping_per_s
     rate = np.zeros((4, 4))
     rate[0, 1] = step_s

@@ -1,4 +1,4 @@
-"""Courses made of steps, one after the other: ways flown by a law of motion, and stays on the spot."""
+"""Courses as sequences of steps: pieces flown by a law of motion, and stays on the spot."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .pieces import Piece, Point, turn_rad
 from .rides import Ride
 
 _WHOLE_TURN = 2.0 * math.pi
-_SPIN_RAD_S = math.radians(60.0)  # estimate: how fast a multirotor turns on the spot
+_SPIN_RAD_S = math.radians(60.0)  # estimate: yaw rate of a multirotor on the spot
 
 
 @dataclass(frozen=True)
 class Climb:
-    """Heights in m at a step's start and end, and evenly in between; above ground, or else above the datum."""
+    """Heights in m at a step's start and end, linear in between; above ground, or else above the datum."""
 
     start_m: float
     end_m: float
@@ -27,7 +27,7 @@ class Climb:
 
 @dataclass(frozen=True)
 class Leg:
-    """Flying along a piece; the nose points along it, or always to nose_rad."""
+    """A flight along a piece; the nose points along it, or always to nose_rad."""
 
     piece: Piece
     law: Law
@@ -36,7 +36,7 @@ class Leg:
 
     @property
     def duration_s(self) -> float:
-        """How long it takes."""
+        """Duration of the step."""
         return self.law.duration_s
 
     @property
@@ -45,7 +45,7 @@ class Leg:
         return self.piece.courses_rad if self.nose_rad is None else (self.nose_rad, self.nose_rad)
 
     def at(self, time_s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Points (n, 2), where the nose points (n,), and shares (n,) of the way, at times since its start."""
+        """Points (n, 2), directions of the nose (n,) and fractions (n,) of the length, at times since its start."""
         along_m = self.law.along_m(time_s)
         point_m, course_rad = self.piece.at(along_m)
         if self.nose_rad is not None:
@@ -69,7 +69,7 @@ class Stay:
         return self.nose_rad, self.nose_rad + self.turn_rad
 
     def at(self, time_s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """As Leg's; the share is that of its time."""
+        """As `Leg.at`; the fraction is that of its duration."""
         share = np.asarray(time_s, float) / self.duration_s
         point_m = np.stack([np.full(share.shape, value) for value in self.point_m], axis=-1)
         return point_m, self.nose_rad + share * self.turn_rad, share
@@ -79,17 +79,17 @@ Step = Leg | Stay
 
 
 def spin(point_m: Point, nose_rad: float, to_rad: float, climb: Climb | None = None) -> list[Step]:
-    """Turning on the spot, the shortest way round; no step where the nose points there already."""
+    """A turn on the spot by the smaller angle; no step if the nose already points there."""
     turn = turn_rad(nose_rad, to_rad)
     return [Stay(point_m, abs(turn) / _SPIN_RAD_S, nose_rad, turn, climb)] if abs(turn) > 1e-9 else []
 
 
 class Timetable:
-    """A Course of steps, each of which starts where and as the last one ended.
+    """A Course of steps, each of which starts in the state in which the last one ended.
 
-    With `repeats`, the first step follows on the last one, for ever; otherwise it stays at its end. Each step's noses
-    are moved by whole turns to meet the last step's, and those of a whole round likewise. Either all steps have a
-    climb, or none has.
+    With `repeats`, the first step follows the last one without end; otherwise the course stays at its end. The nose
+    directions of each step, and of each round, are shifted by whole turns so that they are continuous. Either all steps
+    have a climb, or none has.
     """
 
     def __init__(self, steps: Sequence[Step], repeats: bool):
@@ -101,11 +101,11 @@ class Timetable:
 
     @property
     def duration_s(self) -> float:
-        """How long it leads somewhere; infinite with `repeats`."""
+        """Duration of all steps; infinite with `repeats`."""
         return math.inf if self._repeats else self._round_s
 
     def at(self, time_s: np.ndarray) -> Ride:
-        """The orders at any times (n,) >= 0."""
+        """The commands at any times (n,) >= 0."""
         rounds, local_s = self._local(np.asarray(time_s, float))
         number = np.searchsorted(self._starts_s, local_s, side="right") - 1
         point_m, course_rad, share = np.empty((len(number), 2)), np.empty(len(number)), np.empty(len(number))
@@ -116,7 +116,7 @@ class Timetable:
         return Ride(point_m, course_rad, *self._heights(number, share))
 
     def _local(self, time_s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """How many rounds are over, and times within a round."""
+        """The number of completed rounds, and the times within a round."""
         if self._repeats:
             return np.divmod(time_s, self._round_s)
         return np.zeros(len(time_s)), time_s
@@ -131,7 +131,7 @@ class Timetable:
 
 
 def _whole_turns(steps: Sequence[Step]) -> tuple[np.ndarray, float]:
-    """By how many rad, whole turns all, each step's noses are moved; and by how many those of the next round are."""
+    """The shift in rad, a multiple of 2 pi, of each step's nose directions, and that of the next round."""
     turns, last_rad = [], steps[0].courses_rad[0]
     for step in steps:
         first_rad, end_rad = step.courses_rad
@@ -141,7 +141,7 @@ def _whole_turns(steps: Sequence[Step]) -> tuple[np.ndarray, float]:
 
 
 def _grouped(number: np.ndarray):
-    """Each number there is, with the indices at which it is."""
+    """Each distinct number with the indices at which it occurs."""
     order = np.argsort(number, kind="stable")
     there, first = np.unique(number[order], return_index=True)
     return zip(there, np.split(order, first[1:]))

@@ -1,4 +1,4 @@
-"""Steps of a multirotor through places: it stops at each."""
+"""The course of a multirotor through waypoints: it stops at each."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from .timetables import Leg, Stay, Step, spin
 def visits(
     places: Sequence[Place], acceleration_m_s2: float, surface_at: SurfaceAt, nose_turns: bool
 ) -> list[Step]:
-    """From stop to stop, turning on the spot towards the next place, or else with the nose as on the first leg.
+    """From stop to stop, turning on the spot towards the next place, or with the nose kept as on the first leg.
 
-    A single place is hovered over for ever, its nose to +x.
+    Over a single place it hovers without end, its nose towards +x.
     """
     if len(places) == 1:
         return [Stay(places[0].point_m, math.inf, 0.0, climb=places[0].level)]

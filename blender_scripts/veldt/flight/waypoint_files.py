@@ -1,4 +1,4 @@
-"""Flights that files describe: missions of QGroundControl, and logs."""
+"""Flights from files: missions of QGroundControl, and logs."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .waypoints import Waypoint
 
 
 def read_waypoints(file: str, home_m, ground_m: SurfaceAt, where: str) -> list[Waypoint] | Log:
-    """What a .plan (`qgc_plans.read_plan`) or a .csv (`logs.read_log`) says, with its home at home_m [x, y].
+    """The content of a .plan (`qgc_plans.read_plan`) or a .csv (`logs.read_log`), with its home at home_m [x, y].
 
     ConfigError if it cannot be read, naming the file; `where` is its place in the config.
     """

@@ -1,4 +1,4 @@
-"""Points that a flight leads through."""
+"""Points on a flight path."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 class Waypoint:
     """A place to fly to: height_m above ground or above the datum; hold_s to stay there.
 
-    speed_m_s is flown from here on; None leaves the speed as it was.
+    speed_m_s applies from here on; None keeps the speed.
     """
 
     point_m: tuple[float, float]

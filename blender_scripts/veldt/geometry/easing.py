@@ -1,4 +1,4 @@
-"""Passing from one value to another without a kink."""
+"""Smooth transitions between two values."""
 
 from __future__ import annotations
 

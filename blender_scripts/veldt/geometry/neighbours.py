@@ -1,4 +1,4 @@
-"""Which points of the plane are near each other."""
+"""Search for pairs of nearby points in the plane."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import numpy as np
 
 
 def pairs_within(a_m: np.ndarray, b_m: np.ndarray, radius_m: float) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers (i, j), each (n,), of all pairs of a point a_m[i] and a point b_m[j] less than radius_m apart.
+    """Indices (i, j), each (n,), of all pairs of points a_m[i] and b_m[j] less than radius_m apart.
 
-    a_m (k, 2), b_m (l, 2). A point is near itself. The points are sorted into squares of radius_m, so that only nine
-    squares have to be looked through for each.
+    a_m (k, 2), b_m (l, 2). A point is near itself. The points are sorted into squares of side radius_m, so that only
+    nine squares are searched for each.
     """
     cell_a, cell_b = (np.floor(points / radius_m).astype(np.int64) for points in (a_m, b_m))
     order = np.argsort(_key(cell_b), kind="stable")
@@ -27,5 +27,5 @@ def pairs_within(a_m: np.ndarray, b_m: np.ndarray, radius_m: float) -> tuple[np.
 
 
 def _key(cell: np.ndarray) -> np.ndarray:
-    """One number for each square, ascending row by row; unique as long as squares are fewer than 2^31 a side."""
+    """One number for each square, ascending row by row; unique for fewer than 2^31 squares per side."""
     return (cell[:, 0] << np.int64(32)) + cell[:, 1]

@@ -1,8 +1,8 @@
-"""Points at random that keep apart, as dense as a place asks for: Poisson discs that no order of work can change.
+"""Random points with a minimum distance and a given local density, independent of the order of computation.
 
-A lattice gives each cell at most one candidate, at a hashed place with a hashed rank. A candidate stays if none of a
-higher rank is closer than the spacing (Matérn's second hard-core process). So a point depends on the seed and on what
-is near, and on nothing else. How likely a cell has a candidate follows from the density that shall be left.
+Each cell of a lattice has at most one candidate, at a hashed position with a hashed rank. A candidate is kept if no
+candidate of higher rank is closer than the spacing (Matérn's second hard-core process). A point therefore depends only
+on the seed and on its neighbourhood. The probability that a cell has a candidate follows from the wanted density.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from ..noise import lattice_uniform
 from .neighbours import pairs_within
 
-_FULLEST = 0.6  # share of the plane in discs of the spacing; as it nears 1, no number of candidates is enough
+_FULLEST = 0.6  # fraction of the plane in discs of the spacing; near 1, any number of candidates is too small
 
 
 def poisson_points(
@@ -25,10 +25,10 @@ def poisson_points(
     most_per_m2: float,
     per_m2: Callable[[np.ndarray, np.ndarray], np.ndarray],
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers (n, 2) of lattice cells and the points (n, 2) in them, within size_m / 2 of the origin in x and y.
+    """Lattice cells (n, 2) and the points (n, 2) in them, within size_m / 2 of the origin in x and y.
 
-    per_m2(x_m, y_m) is the density wanted there; what exceeds most_per_m2 > 0 is cut off. Points are spacing_m apart,
-    or as far as most_per_m2 allows.
+    per_m2(x_m, y_m) is the wanted density, clipped to most_per_m2 > 0. Points are at least spacing_m apart, or less if
+    most_per_m2 requires it.
     """
     spacing_m = min(spacing_m, np.sqrt(_FULLEST / (np.pi * most_per_m2)))
     cells, points_m, mark = _candidates(seed, name, size_m, spacing_m, _chance(most_per_m2, spacing_m))
@@ -45,7 +45,7 @@ def _candidates(seed: int, name: str, size_m: float, cell_m: float, most: float)
     """Cells (n, 2), points (n, 2) and marks (n,), uniform in [0, most), of cells whose mark is below `most`."""
     reach = (
         int(0.5 * size_m / cell_m) + 2
-    )  # one cell more than the square: what is outside counts at its border
+    )  # one cell beyond the square: candidates outside compete with those at its border
     lines = np.arange(-reach, reach)
     ix, iy = (grid.ravel() for grid in np.meshgrid(lines, lines))
     mark = lattice_uniform(seed, f"{name}/mark", ix, iy)
@@ -57,11 +57,11 @@ def _candidates(seed: int, name: str, size_m: float, cell_m: float, most: float)
 
 
 def _chance(per_m2, spacing_m: float):
-    """Chance p that a cell, of side spacing_m, has a candidate, so that per_m2 points are left.
+    """Probability p that a cell, of side spacing_m, has a candidate, such that per_m2 points remain.
 
-    A candidate of rank t meets no better one with probability (1 - p (1 - t))^(m - 1), where m = pi is the disc's area
-    in cells, one of which is the candidate's own. The mean over t is (1 - (1 - p)^m) / (m p); times p, what is left in
-    a cell. That the disc cuts cells makes it some 2 % too few or too many (measured).
+    A candidate of rank t survives with probability (1 - p (1 - t))^(m - 1), where m = pi is the disc's area in cells,
+    one of which is the candidate's own. The mean over t is (1 - (1 - p)^m) / (m p); times p, it is the expected number
+    of points per cell. Cells that the disc covers partly cause an error of about 2 % (measured).
     """
     filled = np.minimum(np.pi * per_m2 * spacing_m**2, 0.999)
     return 1.0 - (1.0 - filled) ** (1.0 / np.pi)

@@ -1,4 +1,4 @@
-"""Rotation matrices, many at a time. Axes: x forward, y left, z up."""
+"""Arrays of rotation matrices. Axes: x forward, y left, z up."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ def turned(angles_rad: np.ndarray) -> np.ndarray:
 
 
 def heading_of(angle_rad: np.ndarray) -> np.ndarray:
-    """Level unit vectors (..., 2) at angles (...), counter-clockwise from x."""
+    """Horizontal unit vectors (..., 2) at angles (...), counter-clockwise from x."""
     return np.stack([np.cos(angle_rad), np.sin(angle_rad)], axis=-1)
 
 
 def left_of(heading: np.ndarray) -> np.ndarray:
-    """Level vectors (..., 2) at right angles to headings (..., 2), to their left and as long."""
+    """Horizontal vectors (..., 2) perpendicular to headings (..., 2), to their left and of the same length."""
     return np.stack([-heading[..., 1], heading[..., 0]], axis=-1)
 
 
 def facing(heading: np.ndarray) -> np.ndarray:
-    """Level rotations (..., 3, 3) that turn x to unit headings (..., 2)."""
+    """Rotations (..., 3, 3) about z that turn x to unit headings (..., 2)."""
     turn = np.zeros(heading.shape[:-1] + (3, 3))
     turn[..., 0, 0] = turn[..., 1, 1] = heading[..., 0]
     turn[..., 1, 0] = heading[..., 1]
@@ -43,17 +43,17 @@ def facing(heading: np.ndarray) -> np.ndarray:
 
 
 def frame(along: np.ndarray, hinge: np.ndarray) -> np.ndarray:
-    """Rotations (..., 3, 3) whose columns are a unit vector, a unit vector at right angles to it, and their product."""
+    """Rotations (..., 3, 3) whose columns are a unit vector, a perpendicular unit vector, and their cross product."""
     return np.stack([along, hinge, np.cross(along, hinge)], axis=-1)
 
 
 def unit(vectors: np.ndarray) -> np.ndarray:
-    """Vectors (..., 3) of length 1 in the same directions; 0 stays 0."""
+    """Unit vectors (..., 3) in the same directions; zero vectors stay zero."""
     return vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)
 
 
 def applied(rotation: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """Vectors (..., 3), each turned by its rotation (..., 3, 3)."""
+    """Vectors (..., 3), each rotated by its rotation (..., 3, 3)."""
     return (rotation @ np.asarray(vectors, float)[..., None])[..., 0]
 
 

@@ -1,4 +1,4 @@
-"""Triangle meshes of the simple solids that bodies and plants are made of. Lengths in m."""
+"""Triangle meshes of the basic solids of bodies and plants. Lengths in m."""
 
 from __future__ import annotations
 
@@ -7,32 +7,32 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_RING_STEPS = 4  # rings for each given one, on curves through them
-_CAP_RINGS_DEG = {2: (48.0, 89.0), 3: (35.0, 65.0, 89.0)}  # where rings are on a rounded end, from its rim
+_RING_STEPS = 4  # rings per given ring, on curves through them
+_CAP_RINGS_DEG = {2: (48.0, 89.0), 3: (35.0, 65.0, 89.0)}  # positions of rings on a rounded end, from its rim
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """points_m (n, 3); triangles (m, 3), counter-clockwise from outside; slot (m,), each triangle's material slot."""
+    """points_m (n, 3); triangles (m, 3), counter-clockwise seen from outside; slot (m,), material slot of each."""
 
     points_m: np.ndarray
     triangles: np.ndarray
     slot: np.ndarray
 
     def moved(self, by_m) -> Mesh:
-        """The same mesh elsewhere."""
+        """The mesh, translated."""
         return Mesh(self.points_m + np.asarray(by_m, float), self.triangles, self.slot)
 
     def mirrored(self) -> Mesh:
-        """The mirror image in the plane y = 0, its triangles still facing outward."""
+        """The mirror image in the plane y = 0, with triangles that still face outward."""
         return Mesh(self.points_m * [1.0, -1.0, 1.0], self.triangles[:, ::-1], self.slot)
 
     def scaled(self, by: float) -> Mesh:
-        """The same mesh, larger or smaller about the origin."""
+        """The mesh, scaled about the origin."""
         return Mesh(self.points_m * by, self.triangles, self.slot)
 
     def with_slot(self, slot: int) -> Mesh:
-        """The same mesh, all of it in one material slot."""
+        """The mesh with all triangles in one material slot."""
         return Mesh(self.points_m, self.triangles, np.full(len(self.triangles), slot))
 
 
@@ -40,7 +40,7 @@ NOTHING = Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.int64), np.zeros(0, np.int6
 
 
 def joined(meshes: Sequence[Mesh]) -> Mesh:
-    """All meshes as one."""
+    """All meshes joined into one."""
     meshes = [NOTHING, *meshes]
     first = np.cumsum([0] + [len(mesh.points_m) for mesh in meshes])
     return Mesh(
@@ -51,7 +51,7 @@ def joined(meshes: Sequence[Mesh]) -> Mesh:
 
 
 def facets(points_m: np.ndarray, triangles: np.ndarray) -> Mesh:
-    """A mesh of bare triangles in slot 0."""
+    """A mesh of unconnected triangles in slot 0."""
     return Mesh(np.asarray(points_m, float), np.asarray(triangles), np.zeros(len(triangles), np.int64))
 
 
@@ -62,13 +62,13 @@ def tube(
     steps: int = _RING_STEPS,
     caps: int = 3,
 ) -> Mesh:
-    """A smooth tube through elliptic rings, its ends rounded off.
+    """A smooth tube through elliptic rings, with rounded ends.
 
-    rings_m (n, 5), n >= 2: centre x y z, half width across (about y), half height (in the plane x z).
-    sides: of each ring; if left out, more for thicker tubes.
-    roundness: how far the rounded ends stand out, in smaller half axes of the last ring.
-    steps: rings for each given one, on curves through them.
-    caps: rings of each rounded end, 2 or 3.
+    rings_m (n, 5), n >= 2: centre x y z, half width (along y), half height (in the plane x z).
+    sides: number per ring; default: more for thicker tubes.
+    roundness: length of the rounded ends, in smaller half axes of the last ring.
+    steps: rings per given ring, on curves through them.
+    caps: number of rings of each rounded end, 2 or 3.
     """
     sides = sides or _sides_for(rings_m[:, 3:].max())
     rings = _with_caps(_smoothed_rings(np.asarray(rings_m, float), steps), roundness, caps)
@@ -86,7 +86,7 @@ def tube(
 def ellipsoid(
     centre_m, radii_m, yaw_deg: float = 0.0, tilt_deg: float = 0.0, rings: int = 9, sides: int | None = None
 ) -> Mesh:
-    """An ellipsoid with radii along its own x, y, z, tilted about its x axis, then turned about the vertical."""
+    """An ellipsoid with radii along its own x, y, z, tilted about its x axis, then rotated about the vertical."""
     sides = sides or _sides_for(max(radii_m))
     polar = np.pi * (np.arange(rings) + 0.5) / rings
     angle = 2.0 * np.pi * np.arange(sides) / sides
@@ -105,10 +105,10 @@ def ellipsoid(
 def sheet(
     outline_m: np.ndarray, thickness_m: float, centre_m, yaw_deg: float = 0.0, tilt_deg: float = 0.0
 ) -> Mesh:
-    """A thin flap, thickest in its middle, inside a smooth closed outline through points (n, 2) of its own x, z.
+    """A thin flap, thickest in its middle, inside a smooth closed outline through points (n, 2) in its own x, z.
 
-    The outline goes round from x to z and holds (0, 0), which is put at centre_m after tilting about x and turning
-    about the vertical, as an ellipsoid is.
+    The outline runs from x towards z and contains (0, 0), which is moved to centre_m after tilting about x and rotating
+    about the vertical, as for an ellipsoid.
     """
     rim = _smoothed_ring(outline_m)
     layers = [(0.05, 0.5), (0.55, 0.42), (0.9, 0.2), (1.0, 0.0), (0.9, -0.2), (0.55, -0.42), (0.05, -0.5)]
@@ -118,7 +118,7 @@ def sheet(
 
 
 def _sides_for(radius_m: float) -> int:
-    """Enough sides for a round outline: those of a leg are 8, those of an elephant's body 16."""
+    """A number of sides for a round outline: 8 for a leg, 16 for an elephant's body."""
     return int(np.clip(6 + 30 * radius_m, 8, 16))
 
 
@@ -147,7 +147,7 @@ def _smoothed_rings(rings: np.ndarray, steps: int) -> np.ndarray:
 
 
 def _with_caps(rings: np.ndarray, roundness: float, caps: int) -> np.ndarray:
-    """Shrinking rings past each end, the last one nearly a point."""
+    """The rings, with shrinking rings added past each end, the last of which is nearly a point."""
     return np.concatenate(
         [
             _cap(rings[0], rings[0] - rings[1], roundness, caps)[::-1],
@@ -165,7 +165,7 @@ def _cap(ring: np.ndarray, outward: np.ndarray, roundness: float, caps: int) -> 
 
 
 def _ring_axes(centre: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Unit vectors (n, 3) across (level, about +y) and up of each ring, both at right angles to the tube."""
+    """Unit vectors (n, 3) across (horizontal, roughly +y) and up of each ring, both perpendicular to the tube."""
     along = np.gradient(centre, axis=0)
     along /= np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-12)
     across = np.array([0.0, 1.0, 0.0]) - along[:, 1:2] * along
@@ -174,7 +174,7 @@ def _ring_axes(centre: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _tube_triangles(rings: int, sides: int) -> np.ndarray:
-    """Side faces of stacked rings, and a fan that closes each end."""
+    """Side faces between successive rings, and a fan that closes each end."""
     here = np.arange(rings * sides).reshape(rings, sides)
     right = np.roll(here, -1, axis=1)
     a, b, c, d = here[:-1].ravel(), right[:-1].ravel(), right[1:].ravel(), here[1:].ravel()

@@ -1,4 +1,4 @@
-"""Smooth curves that know how long they are."""
+"""Smooth curves parametrised by arc length."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import numpy as np
 
 from .neighbours import pairs_within
 
-_SAMPLES = 64  # of a segment, for its length
+_SAMPLES = 64  # chords per segment, to measure its length
 
 
 class _Curve:
-    """A curve of cubic segments told by the distance walked along it."""
+    """A curve of cubic segments, parametrised by the distance along it."""
 
     def __init__(self, segments: np.ndarray):
         self._segments = segments
@@ -27,11 +27,11 @@ class _Curve:
 
     @property
     def corners_at_m(self) -> np.ndarray:
-        """Distances along the curve of its corners; a loop's first corner is its last one too."""
+        """Distances of the corners along the curve; a loop's first corner appears again as its last."""
         return self._distances_m[::_SAMPLES]
 
     def points_m(self, step_m: float) -> np.ndarray:
-        """Points (n, 2) from the curve's beginning to its end, evenly and at most step_m apart."""
+        """Points (n, 2) from the beginning of the curve to its end, evenly spaced at most step_m apart."""
         return self._walked(np.linspace(0.0, self.length_m, int(np.ceil(self.length_m / step_m)) + 1))[0]
 
     def _walked(self, distance_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -47,11 +47,11 @@ class _Curve:
 
 
 class Loop(_Curve):
-    """A closed curve through `corners_m` (n, 2), n >= 3, told by the distance walked along it.
+    """A closed curve through `corners_m` (n, 2), n >= 3, parametrised by the distance along it.
 
     Each segment is a centripetal Catmull-Rom curve (Yuksel, Schaefer & Keyser 2011): it passes through its corners,
-    has no cusp or loop inside a segment, and its direction is continuous. Distances come from 64 chords a segment:
-    too short by a share of about (turn of a segment in radians / 64)^2 / 24, under 1e-4 for a quarter turn.
+    has no cusp or loop inside a segment, and its direction is continuous. Distances are sums of 64 chords per segment:
+    too short by a fraction of about (turn of a segment in radians / 64)^2 / 24, less than 1e-4 for a quarter turn.
     """
 
     def __init__(self, corners_m):
@@ -59,12 +59,12 @@ class Loop(_Curve):
         super().__init__(_coefficients(*(np.roll(corners, k, axis=0) for k in (1, 0, -1, -2))))
 
     def at(self, distance_m) -> tuple[np.ndarray, np.ndarray]:
-        """Points (..., 2) and unit tangents (..., 2) at distances along the loop, of any sign and size."""
+        """Points (..., 2) and unit tangents (..., 2) at distances along the loop, modulo its length."""
         return self._walked(np.mod(np.asarray(distance_m, float), self.length_m))
 
 
 class Line(_Curve):
-    """An open curve through `corners_m` (n, 2), n >= 2, of the same kind; its ends go on as straight as they can."""
+    """An open curve of the same kind through `corners_m` (n, 2), n >= 2; it is extrapolated with straight ends."""
 
     def __init__(self, corners_m):
         corners = np.asarray(corners_m, float)
@@ -74,13 +74,13 @@ class Line(_Curve):
         super().__init__(_coefficients(*(longer[k : k + count] for k in range(4))))
 
     def at(self, distance_m) -> tuple[np.ndarray, np.ndarray]:
-        """Points (..., 2) and unit tangents (..., 2) at distances along the line; beyond it, those of its ends."""
+        """Points (..., 2) and unit tangents (..., 2) at distances along the line, clamped to its ends."""
         return self._walked(np.clip(np.asarray(distance_m, float), 0.0, self.length_m))
 
 
 @dataclass(frozen=True)
 class Spot:
-    """A place to stay at, as a path that leads nowhere: point_m (2,), heading (2,)."""
+    """A place to stay, with the interface of a path: point_m (2,), heading (2,)."""
 
     point_m: np.ndarray
     heading: np.ndarray
@@ -88,7 +88,7 @@ class Spot:
     length_m = 0.0
 
     def at(self, distance_m) -> tuple[np.ndarray, np.ndarray]:
-        """Point and heading (..., 2), the same at all distances."""
+        """The point and heading (..., 2), which are the same at all distances."""
         shape = np.shape(distance_m) + (2,)
         return np.broadcast_to(self.point_m, shape), np.broadcast_to(self.heading, shape)
 
@@ -96,7 +96,7 @@ class Spot:
 def self_crossing(points_m: np.ndarray) -> np.ndarray | None:
     """A point (x, y) where the polyline through points_m (n, 2) crosses itself, or None.
 
-    A polyline that ends where it begins is closed. Steps along it should be of about the same length.
+    A polyline that ends where it begins is closed. Its segments should be of similar length.
     """
     start, end = points_m[:-1], points_m[1:]
     longest_m = np.linalg.norm(end - start, axis=1).max()
@@ -105,7 +105,7 @@ def self_crossing(points_m: np.ndarray) -> np.ndarray | None:
     closed = np.array_equal(points_m[0], points_m[-1])
     apart = (j > i + 1) & ~(
         closed & (i == 0) & (j == len(start) - 1)
-    )  # neighbours share a point without crossing
+    )  # neighbouring segments share a point without crossing
     i, j = i[apart], j[apart]
     sides = [_side(start[i], end[i], p) * _side(start[i], end[i], q) for p, q in ((start[j], end[j]),)]
     sides += [_side(start[j], end[j], p) * _side(start[j], end[j], q) for p, q in ((start[i], end[i]),)]
@@ -129,5 +129,5 @@ def _coefficients(before: np.ndarray, start: np.ndarray, end: np.ndarray, after:
 
 
 def _knot_step(p: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """Square root of a chord; corners that coincide are kept a hair apart."""
+    """Square root of a chord, with a small lower bound for coincident corners."""
     return np.sqrt(np.maximum(np.linalg.norm(q - p, axis=1, keepdims=True), 1e-9))

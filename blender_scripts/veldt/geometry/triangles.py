@@ -1,4 +1,4 @@
-"""Splitting the triangles of a mesh so that no crack opens between them."""
+"""Split the triangles of a mesh without opening cracks."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ def edges_of(triangles: np.ndarray) -> np.ndarray:
 
 
 def split_edges(triangles: np.ndarray, edges: np.ndarray, first_new: int) -> tuple[np.ndarray, np.ndarray]:
-    """Triangles (k, 3) after putting one new vertex on each of `edges` (e, 2), numbered from `first_new`.
+    """Triangles (k, 3) after adding one vertex on each of `edges` (e, 2), numbered from `first_new`.
 
     Edges are unique pairs, lower vertex first, in ascending order. Triangles with one, two or three such edges become
-    two, three or four, turning the same way; neighbours share the new vertices, so no crack opens. With them comes the
-    number (k,) of the triangle that each was part of.
+    two, three or four with the same orientation; neighbours share the new vertices, so no crack opens. Also returns the
+    index (k,) of the original triangle of each.
     """
     if len(edges) == 0:
         return triangles, np.arange(len(triangles))
@@ -40,9 +40,9 @@ def split_edges(triangles: np.ndarray, edges: np.ndarray, first_new: int) -> tup
 
 
 def _six_points(triangles: np.ndarray, middle: np.ndarray, number: int) -> np.ndarray:
-    """Corners and new vertices (m, 6) of triangles with `number` split edges.
+    """Corners and new vertices (m, 6) of the triangles with `number` split edges.
 
-    Each is turned so that its single split edge, or the first of two that meet, comes first.
+    Each is rotated so that its single split edge, or the first of two adjacent ones, comes first.
     """
     has = middle >= 0
     first = has.argmax(axis=1) if number == 1 else (has.argmin(axis=1) + 1) % 3 if number == 2 else 0
@@ -53,7 +53,7 @@ def _six_points(triangles: np.ndarray, middle: np.ndarray, number: int) -> np.nd
 
 
 def _new_vertices(triangles: np.ndarray, edges: np.ndarray, first_new: int) -> np.ndarray:
-    """For each triangle's edges 0-1, 1-2, 2-0 the number of the new vertex on it, or -1."""
+    """For each triangle's edges 0-1, 1-2, 2-0, the index of the new vertex on it, or -1."""
     wanted = _packed(edges)
     keys = _packed(np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2))
     place = np.minimum(np.searchsorted(wanted, keys), len(wanted) - 1)

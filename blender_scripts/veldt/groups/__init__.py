@@ -1,1 +1,1 @@
-"""Who is in the scene, where, and what they do."""
+"""Groups of actors: who is in the scene, where, and what they do."""

@@ -1,4 +1,4 @@
-"""Where everyone is and how they stand, as pure functions of time."""
+"""Positions and poses of actors as pure functions of time."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from ..geometry.splines import Loop, Spot
 from ..land.terrain import Terrain
 from .behaviours import Draft
 
-_PLACES = 64  # along an actor's path, at which its body's box is taken
-_MOMENTS = 24  # of a stride, at each of the path's steepest places
+_PLACES = 64  # positions along an actor's path at which its bounding box is measured
+_MOMENTS = 24  # steps of a stride, at each of the path's steepest places
 _STEP_M = 1.0
-_UNLIKE_S = 1.7  # between moments at which a body is looked at: no period of what moves with time
-# Pace and lowered head of who walks, stands, or feeds: a neck reaches farthest when half way down.
+_UNLIKE_S = 1.7  # between moments at which a body is measured; not a period of any motion
+# Pace and head_down of walking, standing and feeding: a neck extends farthest when half lowered.
 _WALKING, _STANDING, _FEEDING = (1.0, 0.0), (0.0, 0.0), ((0.0, 0.0), (0.0, 0.5), (0.0, 1.0))
-_MARGIN = 0.015  # of the box's size, for what happens between
+_MARGIN = 0.015  # of the box's size, for motion between the measured moments
 
 
 @dataclass(frozen=True)
 class Actor(Draft):
-    """One animal, person or vehicle in the scene: start_m along its route at time 0, lateral_m to the left of it."""
+    """One animal, person or vehicle: at time 0 it is start_m along its route and lateral_m to the left of it."""
 
     group: str
     index: int
@@ -41,13 +41,13 @@ class Actor(Draft):
         return Walker(self.body, self.scale, stride, self.phase, self.path, self.terrain)
 
     def path(self, walked_m) -> tuple[np.ndarray, np.ndarray]:
-        """Points (n, 2) and headings (n, 2) where it is after distances (n,)."""
+        """Points (n, 2) and headings (n, 2) after distances (n,)."""
         point, heading = self.route.at(walked_m)
         return point + self.lateral_m * left_of(heading), heading
 
     @cached_property
     def bounds_m(self) -> np.ndarray:
-        """Box (2, 3) in actor axes at its own size that holds its body all along its path."""
+        """Box (2, 3) in actor axes, at its own size, that contains its body everywhere along its path."""
         walked_m, pace, head_down = _telling_moments(self)
         time_s = _UNLIKE_S * np.arange(len(walked_m))
         body = pose(self.walker, Motion(walked_m, time_s, pace, head_down, self.posture))
@@ -75,7 +75,7 @@ class Track:
 
 
 def track(actor: Actor, time_s: np.ndarray) -> Track:
-    """Where the actor is at each time (n,), on the ground."""
+    """The actor's track on the ground at times (n,)."""
     xy, heading = actor.path(actor.start_m + actor.schedule.at(time_s).walked_m)
     return Track(np.column_stack([xy, actor.terrain.height_m(xy[:, 0], xy[:, 1])]), heading)
 
@@ -88,9 +88,9 @@ def poses(actor: Actor, time_s: np.ndarray) -> Poses:
 
 
 def _telling_moments(actor: Actor) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Distances walked, paces and lowered heads, (n,) each, that show a body in all it does along its path.
+    """Distances walked, paces and head_down, each (n,), that sample everything a body does along its path.
 
-    For walkers, places all around the path and the strides about its steepest places; at each, all its schedule does.
+    For walkers, points all along the path and strides around its steepest places; at each, every state of its schedule.
     """
     moves, lowers = actor.schedule.mean_m_s > 0, actor.schedule.lowers_head
     states = ([_WALKING] if moves else []) + ([*_FEEDING] if lowers else []) + ([] if moves else [_STANDING])
@@ -103,7 +103,7 @@ def _telling_moments(actor: Actor) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _telling_places(actor: Actor) -> np.ndarray:
-    """Distances (n,) along an actor's path: all around it, and the strides about its steepest places."""
+    """Distances (n,) along an actor's path: all along it, and strides around its steepest places."""
     along_m = np.arange(0.0, actor.route.length_m, _STEP_M)
     point, heading = actor.path(along_m)
     slopes = []
@@ -116,7 +116,7 @@ def _telling_places(actor: Actor) -> np.ndarray:
 
 
 def _seen_from(points_m: np.ndarray, turn: np.ndarray) -> np.ndarray:
-    """Points (n, 3) in the axes of a turned body; sums written out, since BLAS adds in another order now and then."""
+    """Points (n, 3) in the axes of a rotated body; sums are written out because BLAS may change their order."""
     return points_m[:, 0:1] * turn[0] + points_m[:, 1:2] * turn[1] + points_m[:, 2:3] * turn[2]
 
 

@@ -1,4 +1,4 @@
-"""What members of a group are and do, before it is known where: their bodies, sizes and schedules."""
+"""Members of a group before they have a position: bodies, sizes and schedules."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..noise import stream
 from .herds import Room
 from .schedules import Drinking, Schedule, Steady, StopAndGo
 
-# The posture of the body that each behaviour needs, beside standing and walking.
+# The posture that each behaviour needs besides standing and walking.
 POSTURES = {
     "walk": "walk",
     "stand": "walk",
@@ -24,7 +24,7 @@ WALKING = ("walk", "graze")
 
 @dataclass(frozen=True)
 class Draft:
-    """A member without a place: scale relative to its drawn body; phase, 0 to 1, of all that moves with time."""
+    """A member without a position: scale relative to its drawn body; phase, 0 to 1, of all periodic motion."""
 
     name: str
     species: str
@@ -37,18 +37,18 @@ class Draft:
 
     @property
     def body(self) -> Body:
-        """Its body at the drawn size."""
+        """The member's body at its drawn size."""
         return build_body(self.species, self.variant)
 
     @property
     def room(self) -> Room:
-        """The ground it takes, standing as drawn."""
+        """The footprint of the standing body."""
         half_m = self.scale * self.body.reach_m
         return Room(float(half_m[0]), float(half_m[1]), self.schedule.reach_m)
 
 
 def behaviour_of(group: dict) -> str:
-    """What a group of the config does: if it does not say, those on paths walk and the others stand."""
+    """The behaviour of a group of the config; by default, groups on paths walk and others stand."""
     return group.get("behaviour", "walk" if "path" in group else "stand")
 
 

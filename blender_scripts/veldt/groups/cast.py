@@ -1,4 +1,4 @@
-"""Who is in the scene, where, and what they do: the groups of a config as actors on paths and at places."""
+"""Turn the groups of a config into actors on paths and at places."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from .venues import Land, venue
 
 _CORRIDOR_STEP_M = 0.8
 _TIGHTEST = (
-    0.3  # a curve leaves at least this share of a distance along the path at its inside; loops are wider
+    0.3  # least fraction of a distance along the path that remains on the inside of a curve; loops are wider
 )
 
 
 @dataclass(frozen=True)
 class Cast:
-    """All actors, in the order of the config's groups, and the ground that must be left free for them."""
+    """All actors, in the order of the config's groups, and the ground that must stay free for them."""
 
     actors: list[Actor]
     corridors: list[Corridor]
@@ -35,7 +35,7 @@ class Cast:
 
 @dataclass(frozen=True)
 class _Group:
-    """A group of the config, found at `where`, whose members are not in the scene yet."""
+    """A group of the config, at `where`, whose members have no position yet."""
 
     where: str
     entry: dict
@@ -53,8 +53,8 @@ class _Group:
 def plan_cast(groups: Sequence[dict], land: Land, seed: int) -> Cast:
     """All members of all groups, each with its object index.
 
-    Groups at places keep off the paths, and off each other. Those on paths then get the place they begin at, if the
-    config does not give it: first those that meet nobody, so that the others can meet them.
+    Groups at places keep off the paths and off each other. Groups on paths then get their starting points, unless the
+    config gives them: first those without `meets`, so that the others can meet them.
     """
     index = ids.plan_indices([name for entry in groups for name in member_names(entry)])
     drawn = [
@@ -80,7 +80,7 @@ def plan_cast(groups: Sequence[dict], land: Land, seed: int) -> Cast:
 
 
 def _turn(group: _Group) -> int:
-    """Groups are placed by how little choice there is for them."""
+    """The order in which a group is placed: the most constrained groups come first."""
     if not group.is_walking:
         return 1
     return 0 if "start_m" in group.entry else 3 if "meets" in group.entry else 2
@@ -89,7 +89,7 @@ def _turn(group: _Group) -> int:
 def _on_path(
     group: _Group, land: Land, crowds: Mapping[str, Crowd], index: Mapping[str, int], seed: int
 ) -> list[Actor]:
-    """The members along their path, each in its place in the group."""
+    """The members along their path, each at its place in the group."""
     entry, loop = group.entry, land.loops[group.entry["path"]]
     rooms = [draft.room for draft in group.drafts]
     spread_m = entry.get("spread_m", 0.0)
@@ -136,13 +136,13 @@ def _at_place(
     index: Mapping[str, int],
     seed: int,
 ) -> list[Actor]:
-    """The members at spots of their place."""
+    """The members at spots of the group's place."""
     rooms = [draft.room for draft in group.drafts]
     draw, allowed = venue(group.where, group.entry, group.drafts, land, corridors, seed)
     found = find_spots(rooms, draw, allowed, list(crowds.values()), seed, group.name)
     if len(found) < len(rooms):
         raise ConfigError(
-            f"{group.where}.count = {len(rooms)}; expected at most {len(found)}: no room is left for more"
+            f"{group.where}.count = {len(rooms)}; expected at most {len(found)}: there is no space for more"
             f' at place = {group.entry["place"]}, off paths and other groups'
         )
     return [_actor(group, draft, land, index, spot, 0.0, 0.0) for draft, spot in zip(group.drafts, found)]
@@ -186,7 +186,7 @@ def _spot_corridor(actor: Actor) -> Corridor:
 
 
 def _shrink(loop: Loop, spread_m: float) -> float:
-    """The share of a distance along a loop that is left spread_m inside its tightest curve."""
+    """The fraction of a distance along a loop that remains spread_m inside its tightest curve."""
     heading = loop.at(np.arange(0.0, loop.length_m, 1.0))[1]
     turn = np.abs(np.arctan2(*_sin_cos(heading, np.roll(heading, -1, axis=0))))[:-1]
     return float(np.clip(1.0 - spread_m * turn.max(initial=0.0), _TIGHTEST, 1.0))

@@ -1,4 +1,4 @@
-"""Finds groups that make no sense: unknown names, and wishes that contradict each other."""
+"""Check groups for unknown names and contradictory settings."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .behaviours import POSTURES, WALKING, behaviour_of
 
 
 def check_groups(groups: list[dict], paths: Collection[str]) -> None:
-    """Every group is of a species, on a path or at a place, and does what its body can; `paths` are those there are."""
+    """Check that every group has a species, a path or a place, and a behaviour of its species; `paths`: known names."""
     names = [group["name"] for group in groups]
     for k, group in enumerate(groups):
         where = f"scene.groups[{k}]"
@@ -56,11 +56,9 @@ def _check_meeting(where: str, k: int, groups: list[dict], names: list[str]) -> 
     check_known(met, [name for name in names if name != group["name"]], f"{where}.meets", "another group")
     if "path" not in group:
         raise ConfigError(
-            f"{where}.meets is given; expected a path: who stays at a place meets whom comes by"
+            f"{where}.meets is given; expected a path: a group at a place cannot move to meet others"
         )
     if "start_m" in group:
-        raise ConfigError(f"{where}.start_m is given; expected none, since meets asks for one to be found")
+        raise ConfigError(f"{where}.start_m is given; expected none, since meets determines it")
     if "meets" in groups[names.index(met)] and names.index(met) > k:
-        raise ConfigError(
-            f'{where}.meets = "{met}"; expected a group listed before it, or one that meets nobody'
-        )
+        raise ConfigError(f'{where}.meets = "{met}"; expected a group listed before it, or one without meets')

@@ -1,4 +1,4 @@
-"""How the members of a group stand to each other, so that none ever walks into another."""
+"""Formation of the members of a group, such that no member ever walks into another."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from ..noise import stream
 
 _GAP_M = 0.4  # between two bodies side by side
-_UNEVEN = 0.25  # of the spacing, by which members are before or behind their even places
-_DRAWS = 12  # of a place beside the path, before a member falls back
+_UNEVEN = 0.25  # of the spacing: deviation of members from equidistant places
+_DRAWS = 12  # for a place beside the path, before a member falls back
 _BACK_M = 0.5
 
 
 @dataclass(frozen=True)
 class Room:
-    """What a body takes: half its length and width, and how far its own schedule takes it from its place."""
+    """The footprint of a body: half its length and width, and how far its schedule moves it from its place."""
 
     half_length_m: float
     half_width_m: float
@@ -24,7 +24,7 @@ class Room:
 
 @dataclass(frozen=True)
 class Place:
-    """A member's place: along_m before the group's first, as a rule behind it (negative), lateral_m to the left."""
+    """A member's place: along_m ahead of the group's first member, usually negative, and lateral_m to the left."""
 
     along_m: float
     lateral_m: float
@@ -39,11 +39,11 @@ def plan_places(
     name: str,
     shrink: float = 1.0,
 ) -> list[Place]:
-    """Places of a group's members, about spacing_m after each other and up to spread_m beside a path path_m long.
+    """Places of a group's members, about spacing_m apart along, and up to spread_m beside, a path of length path_m.
 
-    A member for whom there is no room drops back until there is. Where the path is a loop, the last must not run into
-    the first: members for whom it is too short get no place. `shrink` is the share of a distance along the path that
-    is left at the inside of its tightest curve.
+    A member that does not fit drops back until it does. On a loop, the last member must not run into the first: members
+    for which the loop is too short get no place. `shrink` is the fraction of a distance along the path that remains on
+    the inside of its tightest curve.
     """
     places: list[Place] = []
     for k, room in enumerate(rooms):
@@ -63,7 +63,7 @@ def plan_places(
 
 
 def _length_m(placed: Sequence[tuple[Room, Place]]) -> float:
-    """Of the path that a group takes up, from its first nose to its last tail."""
+    """Length of the path that a group occupies, from the first nose to the last tail."""
     first = max(place.along_m + room.half_length_m + room.reach_m for room, place in placed)
     last = min(place.along_m - room.half_length_m - room.reach_m for room, place in placed)
     return first - last + _GAP_M
@@ -77,7 +77,7 @@ def _fits(
     places: Sequence[Place],
     shrink: float,
 ) -> bool:
-    """Whether a member here is clear of all that have their places."""
+    """Whether a member at this place is clear of all members already placed."""
     return all(
         shrink * (abs(along_m - p.along_m) - room.reach_m - r.reach_m)
         >= room.half_length_m + r.half_length_m + _GAP_M

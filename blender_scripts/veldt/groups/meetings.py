@@ -1,4 +1,4 @@
-"""Where on their paths groups begin, so that those who shall meet do, and nobody walks through anybody."""
+"""Choose where groups start on their paths, so that intended meetings happen and groups do not collide."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from ..noise import stream
 from .crowds import HORIZON_S, Crowd, clear_until_s, nearest_m
 
-_STARTS = 96  # tried, evenly along the path, in an order drawn from the seed
+_STARTS = 96  # candidates, evenly spaced along the path, tried in an order drawn from the seed
 _GAP_M = 0.5
-_SOON_S = 600.0  # by when those who shall meet have met
+_SOON_S = 600.0  # by when intended meetings have happened
 
 
 def choose_start(
@@ -21,10 +21,10 @@ def choose_start(
     seed: int,
     name: str,
 ) -> float | None:
-    """A distance along a path of length path_m to begin at; None where no start brings a group to those it `meets`.
+    """A starting distance along a path of length path_m; None if no start brings the group to those it `meets`.
 
-    begun_at gives the group, called `name`, that begins there. Of the starts that bring it within_m of each of `meets`
-    in ten minutes, it takes one that keeps it clear of `others` up to HORIZON_S, or else the one that does so longest.
+    begun_at returns the group, called `name`, for a start. Of the starts that bring it to within_m of each of `meets`
+    within ten minutes, chooses one that keeps it clear of `others` until HORIZON_S, or else for as long as possible.
     """
     best_m, longest_s = None, -1.0
     for start_m in _starts(path_m, seed, name):

@@ -1,4 +1,4 @@
-"""Loops to walk on that a config asks for but does not draw: round about a place, off water and steep ground."""
+"""Generate loops to walk on around a point, off water and steep ground, for configs that do not give their corners."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from ..geometry.splines import Loop
 from ..land.terrain import Terrain, slope_deg
 from ..land.ways import SLOPE_STEP_M, plan_loop
 
-ROAD = "road"  # the name of the road's own loop
+ROAD = "road"  # reserved name of the road's loop
 _SHORE_M = 8.0
-_STEEPEST_DEG = 22.0  # estimate: what herds and people on long ways avoid
+_STEEPEST_DEG = 22.0  # estimate: slopes that herds and people avoid on long walks
 _BORDER_M = 20.0
 
 
 def plan_loops(paths: Mapping[str, dict], terrain: Terrain, seed: int) -> dict[str, Loop]:
-    """The loops of `scene.paths` by name: those given by their corners, those drawn, and the road's."""
+    """The loops of `scene.paths` by name: those given by their corners, those generated, and the road's."""
     road = {ROAD: terrain.road.loop} if terrain.road is not None else {}
     return road | {
         name: Loop(path["points_m"]) if "points_m" in path else _drawn(name, path, terrain, seed)
@@ -27,7 +27,7 @@ def plan_loops(paths: Mapping[str, dict], terrain: Terrain, seed: int) -> dict[s
 
 
 def _drawn(name: str, path: dict, terrain: Terrain, seed: int) -> Loop:
-    """The loop of a path that is to be drawn: off water, and off steep ground if that can be had."""
+    """A generated loop: off water, and off steep ground if possible."""
 
     def dry(x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
         inside = np.maximum(np.abs(x_m), np.abs(y_m)) < 0.5 * terrain.size_m - _BORDER_M
@@ -41,6 +41,6 @@ def _drawn(name: str, path: dict, terrain: Terrain, seed: int) -> Loop:
         if loop is not None:
             return loop
     raise ConfigError(
-        f'scene.paths.{name} = {path["radius_m"]:g} m about {path["centre_m"]} m; expected room for a loop there,'
+        f'scene.paths.{name} = {path["radius_m"]:g} m about {path["centre_m"]} m; expected space for a loop there,'
         " within the place and off water"
     )

@@ -1,4 +1,4 @@
-"""When actors walk and when they stand, and what their heads do meanwhile: functions of time alone."""
+"""When actors walk, stand and lower their heads, as functions of time."""
 
 from __future__ import annotations
 
@@ -9,20 +9,18 @@ import numpy as np
 from ..geometry.easing import smooth
 from ..noise import lattice_uniform
 
-_BOUT_S = 24.0  # estimate: a grazer's time from one patch of grass to the next
+_BOUT_S = 24.0  # estimate: period of a grazer, from one patch of grass to the next
 _WALKING = 0.12  # of a bout; estimate
-_JITTER = 0.3  # of a bout's way, by which a grazer is ahead of the herd's mean or behind it at a bout's end
-_PEAK = (
-    1.5  # largest slope of `smooth`: how much faster than in the mean a grazer walks in the middle of its way
-)
+_JITTER = 0.3  # of the distance per bout: largest lead or lag of a grazer against the herd's mean at the end of a bout
+_PEAK = 1.5  # largest slope of `smooth`: peak speed of a grazer over its mean speed while walking
 _RAISING_S = 1.5
-_SIP_S = 32.0  # estimate: a drinker's time from one look around to the next
+_SIP_S = 32.0  # estimate: period of a drinker, from one look around to the next
 _DRINKING = 0.7  # of that time
 
 
 @dataclass(frozen=True)
 class Doing:
-    """What an actor does at n moments: walked_m (n,) since time 0, pace (n,) and head_down (n,), both from 0 to 1."""
+    """The state of an actor at n moments: walked_m (n,) since time 0, pace (n,) and head_down (n,), both 0 to 1."""
 
     walked_m: np.ndarray
     pace: np.ndarray
@@ -31,7 +29,7 @@ class Doing:
 
 @dataclass(frozen=True)
 class Steady:
-    """On and on at one speed; 0 is to stand."""
+    """Walking at constant speed; 0 means standing."""
 
     speed_m_s: float
 
@@ -44,16 +42,17 @@ class Steady:
         return self.speed_m_s
 
     def at(self, time_s: np.ndarray) -> Doing:
-        """What is done at times (n,)."""
+        """The state at times (n,)."""
         walked_m = self.speed_m_s * np.asarray(time_s, float)
         return Doing(walked_m, np.full(len(walked_m), float(self.speed_m_s > 0)), np.zeros(len(walked_m)))
 
 
 @dataclass(frozen=True)
 class StopAndGo:
-    """A grazer's: most of each bout it stands and feeds, then it walks on, at most speed_m_s fast, and feeds again.
+    """A grazer's schedule: in each bout it stands and feeds, then walks on at up to speed_m_s.
 
-    All of a herd have one mean speed, so that it stays together; who is ahead, and when, hangs on seed, name, number.
+    All members of a herd have the same mean speed, so that it stays together; which member is ahead, and
+    when, depends on the seed, the name and the member's number.
     """
 
     seed: int
@@ -70,11 +69,11 @@ class StopAndGo:
 
     @property
     def reach_m(self) -> float:
-        """How far at most it is ahead of a walker of its mean speed, or behind."""
+        """Largest lead or lag against a walker of constant mean speed."""
         return (1.0 + _JITTER) * self.mean_m_s * _BOUT_S
 
     def at(self, time_s: np.ndarray) -> Doing:
-        """What is done at times (n,)."""
+        """The state at times (n,)."""
         phase = self._draw("phase", np.zeros(1))
         bouts = np.asarray(time_s, float) / _BOUT_S + phase
         number = np.floor(bouts)
@@ -82,7 +81,7 @@ class StopAndGo:
         lasts = _PEAK * _WALKING * (end - begin)
         starts = 0.3 + 0.4 * self._draw("start", number) - 0.5 * lasts
         done = (bouts - number - starts) / lasts
-        raising = _RAISING_S / _BOUT_S / lasts  # in shares of the walk
+        raising = _RAISING_S / _BOUT_S / lasts  # as a fraction of the walk
         walked = begin + (end - begin) * smooth(done) - phase
         return Doing(
             walked_m=walked * self.mean_m_s * _BOUT_S,
@@ -91,7 +90,7 @@ class StopAndGo:
         )
 
     def _way_bouts(self, number: np.ndarray) -> np.ndarray:
-        """Way at the end of bouts, in ways of a mean bout."""
+        """Distance covered at the end of bouts, in distances of a mean bout."""
         return number + _JITTER * (2.0 * self._draw("way", number) - 1.0)
 
     def _draw(self, what: str, number: np.ndarray) -> np.ndarray:
@@ -100,7 +99,7 @@ class StopAndGo:
 
 @dataclass(frozen=True)
 class Drinking:
-    """Stands where it is; its head goes down to the water and comes up again, `phase` (0 to 1) of a turn late."""
+    """A drinker's schedule: standing, it lowers its head to the water and raises it, delayed by `phase` (0 to 1)."""
 
     phase: float
 
@@ -109,7 +108,7 @@ class Drinking:
     lowers_head = True
 
     def at(self, time_s: np.ndarray) -> Doing:
-        """What is done at times (n,)."""
+        """The state at times (n,)."""
         turn = np.mod(np.asarray(time_s, float) / _SIP_S + self.phase, 1.0) / _DRINKING
         still = np.zeros(len(turn))
         return Doing(still, still, _plateau(turn, 0.0, _RAISING_S / _SIP_S))
@@ -119,5 +118,5 @@ Schedule = Steady | StopAndGo | Drinking
 
 
 def _plateau(share: np.ndarray, start: float | np.ndarray, rise: float | np.ndarray) -> np.ndarray:
-    """From 0 at `start` up to 1 over `rise`, and in mirror image down to 0 at 1 - start."""
+    """Rises from 0 at `start` to 1 over `rise`, and falls symmetrically to 0 at 1 - start."""
     return smooth((share - start) / rise) * smooth((1.0 - start - share) / rise)

@@ -1,4 +1,4 @@
-"""Places for those who stay where they are: by the water, in it, about a point, beside the road."""
+"""Spots for stationary actors: at the shore, in the water, around a point, beside the road."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from .herds import Room
 
 _TRIES = 400  # of places, for each member
 _GAP_M = 0.5
-_TURN_RAD = np.radians(35.0)  # by which an animal at the water may stand askew
+_TURN_RAD = np.radians(35.0)  # largest deviation of an animal at the water from facing it
 _MARCH_M = 0.25
-_ARC = 0.35  # of a shore, from end to end, is where a group gathers at the water
+_ARC = 0.35  # stretch of shore, from end to end, along which a group gathers
 _MARGIN_M = 1.0
-_ROOM_FACTOR = 3.0  # widths a body has about it where a group's spread is not given
+_ROOM_FACTOR = 3.0  # size of a group's area relative to its bodies if its spread is not given
 
 
 Draw = Callable[[np.random.Generator, Room], Spot]
@@ -31,9 +31,9 @@ Allowed = Callable[[np.ndarray], bool]  # centres (k, 2) of the discs that cover
 def find_spots(
     rooms: Sequence[Room], draw: Draw, allowed: Allowed, standing: Sequence[Crowd], seed: int, name: str
 ) -> list[Spot]:
-    """A spot for each body, none on another, on those of `standing`, who are there already, or where it is not allowed.
+    """A spot for each body that is allowed and overlaps neither another body nor those of `standing`.
 
-    Fewer than asked for if no room is left.
+    Returns fewer spots if there is no space for all.
     """
     spots: list[Spot] = []
     taken_m = np.concatenate([np.zeros((0, 2)), *(crowd.centre_m[0] for crowd in standing)])
@@ -56,7 +56,7 @@ def find_spots(
 
 
 def about(centre_m, rooms: Sequence[Room], spread_m: float | None) -> Draw:
-    """Anywhere within spread_m of a point, facing anywhere; all but given, there is room for a loose group."""
+    """Anywhere within spread_m of a point, in any direction; the default leaves space for a loose group."""
     if spread_m is None:
         spread_m = _ROOM_FACTOR * float(np.sqrt(sum(room.half_length_m**2 for room in rooms)))
 
@@ -68,7 +68,7 @@ def about(centre_m, rooms: Sequence[Room], spread_m: float | None) -> Draw:
 
 
 def at_shore(water: Water, seed: int, name: str) -> Draw:
-    """Along a stretch of the shore, mouth at the water."""
+    """Along a stretch of the shore, with the mouth at the water."""
     middle = 2.0 * np.pi * stream(seed, f"shore/{name}").uniform()
 
     def draw(rng: np.random.Generator, room: Room) -> Spot:
@@ -82,12 +82,12 @@ def at_shore(water: Water, seed: int, name: str) -> Draw:
 
 
 def in_water(water: Water) -> Draw:
-    """Anywhere in the water, facing anywhere."""
+    """Anywhere in the water, in any direction."""
     return about(water.basin.centre_m, [], water.basin.radius_m)
 
 
 def along(line: Line, aside_m: float) -> Draw:
-    """Anywhere along a line, aside_m to its left, facing as it goes."""
+    """Anywhere along a line, aside_m to its left, facing along it."""
 
     def draw(rng: np.random.Generator, _: Room) -> Spot:
         point, heading = line.at(line.length_m * rng.uniform(0.1, 0.9))
@@ -97,7 +97,7 @@ def along(line: Line, aside_m: float) -> Draw:
 
 
 def on_land(terrain: Terrain, corridors: Sequence[Corridor]) -> Allowed:
-    """Dry, within the place, and off where others walk."""
+    """Whether a spot is dry, within the place, and off the paths of others."""
 
     def allowed(at_m: np.ndarray) -> bool:
         return bool(
@@ -110,7 +110,7 @@ def on_land(terrain: Terrain, corridors: Sequence[Corridor]) -> Allowed:
 
 
 def afloat(terrain: Terrain, depth_m: float) -> Allowed:
-    """In the water, and out of one's depth."""
+    """Whether a spot is in water deep enough to float."""
 
     def allowed(at_m: np.ndarray) -> bool:
         return bool((terrain.surface_m(*at_m.T) - terrain.height_m(*at_m.T) >= depth_m).all())
@@ -124,7 +124,7 @@ def _direction(rng: np.random.Generator) -> np.ndarray:
 
 
 def _shoreline_m(water: Water, outward: np.ndarray) -> float:
-    """How far from the water's middle the shore is in a direction; the farthest, if it is crossed more than once."""
+    """Distance of the shore from the middle of the water in a direction; the largest if there are several."""
     away_m = np.arange(0.0, water.basin.disc_radius_m + _MARCH_M, _MARCH_M)
     wet = water.basin.shore_m(*(water.basin.centre_m + away_m[:, None] * outward).T) < 0
     return float(away_m[wet][-1]) if wet.any() else 0.0

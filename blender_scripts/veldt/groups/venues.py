@@ -1,4 +1,4 @@
-"""What a group's `place` means: where its members may be drawn, and where not."""
+"""Interpret a group's `place`: where its members may be placed."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PLACES = ("water", "shore", "pan", "pan_shore", "road")
 
 @dataclass(frozen=True)
 class Land:
-    """Where actors are: the ground, and the loops they walk by name."""
+    """The ground, and the loops that actors walk, by name."""
 
     terrain: Terrain
     loops: Mapping[str, Loop]
@@ -29,7 +29,7 @@ class Land:
 def venue(
     where: str, group: dict, drafts: Sequence[Draft], land: Land, corridors: Sequence[Corridor], seed: int
 ) -> tuple[spots.Draw, spots.Allowed]:
-    """How to draw spots at a group's place, and which of them will do; `where` is the group's in the config."""
+    """Functions that draw spots at a group's place and test them; `where` is the group's place in the config."""
     place, rooms = group["place"], [draft.room for draft in drafts]
     floats = behaviour_of(group) == "float"
     if not isinstance(place, str):

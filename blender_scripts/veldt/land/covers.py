@@ -1,4 +1,4 @@
-"""What the ground is covered by: dry soil, and on it grass, wet margins, rock and the road."""
+"""Ground covers: dry soil, and on it grass, wet margins, rock and the road."""
 
 from __future__ import annotations
 
@@ -13,27 +13,27 @@ from .terrain import Terrain, grid_axis
 SOIL = "soil"
 
 _GRASS_OCTAVES = 5
-_BARE_MARGIN_M = 5.0  # round the water, where nothing grows
-_WET_MARGIN_M = 2.5  # and as far as that the soil is wet; both estimates
+_BARE_MARGIN_M = 5.0  # bare margin around the water
+_WET_MARGIN_M = 2.5  # wet part of it; both are estimates
 _WET_RAGGED_M = 1.5
 _OUTCROP_M = 14.0  # size of outcrops
-_OUTCROPS = 0.85  # higher leaves less rock on the crag
+_OUTCROPS = 0.85  # higher values leave less rock on the crag
 
-_FAR_M = -100.0  # instead of infinitely far from the road: between two points a border must have a place
+_FAR_M = -100.0  # instead of infinity off the road, so that borders can be interpolated between two points
 
 Value = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True)
 class Layer:
-    """A material, where `value` (x_m, y_m) is positive; it is continuous, and zero on the borders."""
+    """A material that lies where `value` (x_m, y_m), which is continuous, is positive."""
 
     material: str
     value: Value
 
 
 def plan_covers(terrain: Terrain, settings: dict, seed: int) -> list[Layer]:
-    """What lies on the dry soil of a terrain; where two would lie, the one listed first does."""
+    """The layers on the dry soil of a terrain; where they overlap, the first one wins."""
     layers = []
     if terrain.road is not None:
         layers.append(Layer("road", lambda x_m, y_m: np.maximum(-terrain.road_m(x_m, y_m), _FAR_M)))
@@ -56,7 +56,7 @@ def _rockiness(terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:
 
 
 def _plan_grass(terrain: Terrain, settings: dict, seed: int) -> Value | None:
-    """Patches that cover grass_fraction of the grid's dry ground, as far as the bare margin of the water lets them."""
+    """Patches that cover grass_fraction of the grid's dry ground, except where the margin of the water is bare."""
     axis_m = grid_axis(terrain.size_m, terrain.heights_m.shape[0] - 1)
     x_m, y_m = np.meshgrid(axis_m, axis_m)
     patch_m = settings["grass_patch_m"]

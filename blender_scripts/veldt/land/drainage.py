@@ -1,4 +1,4 @@
-"""Where rain water runs: a network of gullies over a grid, cut into the land."""
+"""Drainage: a network of gullies on a grid, cut into the land."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from ..geometry.splines import Line
 from ..noise import lattice_uniform
 
 _LEAST_CELL_M = 16.0
-_MOST_LINES = 160  # nodes a side
-_JITTER = 0.35  # of a cell: water does not run along a grid
-_HEAD_M2 = 9000.0  # of land gather the water of the smallest gully
-_FULL_M2 = 250000.0  # of land make a gully as deep as they get
+_MOST_LINES = 160  # nodes per side
+_JITTER = 0.35  # of a cell: displacement of nodes, so that gullies do not follow the grid
+_HEAD_M2 = 9000.0  # of land drain into the smallest gully
+_FULL_M2 = 250000.0  # of land drain into a gully of full depth
 _SAMPLE_M = 3.0
-_SIDE_REACH = 1.8  # half widths of a gully beyond which land is left alone
+_SIDE_REACH = 1.8  # half widths of a gully beyond which land is unchanged
 _BLEND_M = 0.4
-_FALL = 1e-3  # per metre: even across a hollow that is full, water runs
+_FALL = 1e-3  # slope per metre across filled hollows, so that water flows
 _NEIGHBOURS = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if (dx, dy) != (0, 0)]
 
 
 @dataclass(frozen=True)
 class Drainage:
-    """Flow over a coarse grid of nodes: where each node's water goes, the height it stands at, the land above it.
+    """Flow over a coarse grid of nodes.
 
-    points_m (n, 2), level_m (n,) of the land with its hollows filled up, area_m2 (n,), receiver (n,), itself where
-    water leaves, order (n,) in which water is reached from its outlets.
+    points_m (n, 2); level_m (n,), height of the land with its hollows filled; area_m2 (n,), drainage area; receiver
+    (n,), the node that water flows to, itself at outlets; order (n,) of visits from the outlets upstream.
     """
 
     lines: int
@@ -37,14 +37,14 @@ class Drainage:
     receiver: np.ndarray
 
     def wetness(self) -> np.ndarray:
-        """How much water comes by each node [row of y, column of x]: 0 on divides, 1 in the largest gullies."""
+        """Relative flow through each node [row of y, column of x]: 0 on divides, 1 in the largest gullies."""
         own_m2 = self.area_m2.min()
         wet = np.log(self.area_m2 / own_m2) / np.log(max(_FULL_M2 / own_m2, 2.0))
         return np.clip(wet, 0.0, 1.0).reshape(self.lines, self.lines)
 
 
 def plan_drainage(land_m: np.ndarray, size_m: float, is_sink: np.ndarray, seed: int) -> Drainage:
-    """How water runs over land_m, a square grid [row of y, column of x] of size_m; it leaves at borders and sinks."""
+    """Drainage of land_m, a square grid [row of y, column of x] of side size_m, to its borders and to sinks."""
     lines = int(np.clip(size_m / _LEAST_CELL_M, 2, min(_MOST_LINES, land_m.shape[0] - 1))) + 1
     row, column, points_m = _nodes(lines, land_m.shape[0], size_m, seed)
     outlet = is_sink[row, column].reshape(lines, lines)
@@ -58,7 +58,7 @@ def plan_drainage(land_m: np.ndarray, size_m: float, is_sink: np.ndarray, seed: 
 
 
 def carve(land_m: np.ndarray, size_m: float, drainage: Drainage, depth_m: float) -> np.ndarray:
-    """The land with gullies up to depth_m deep along the larger flows."""
+    """The land with gullies of up to depth_m carved along the larger flows."""
     cell_m = size_m / (land_m.shape[0] - 1)
     samples = [_sampled(drainage, course, depth_m) for course in _courses(drainage)]
     if not samples:
@@ -78,7 +78,7 @@ def carve(land_m: np.ndarray, size_m: float, drainage: Drainage, depth_m: float)
 
 
 def _nodes(lines: int, grid_lines: int, size_m: float, seed: int):
-    """Rows and columns of the land's grid, and points, of nodes a little off a coarser grid."""
+    """Rows and columns in the land's grid, and points, of nodes jittered about a coarser grid."""
     iy, ix = (index.ravel() for index in np.indices((lines, lines)))
     inner = ((ix > 0) & (ix < lines - 1)) & ((iy > 0) & (iy < lines - 1))
     place = []
@@ -127,7 +127,7 @@ def _courses(drainage: Drainage) -> list[list[int]]:
 
 
 def _sampled(drainage: Drainage, course: list[int], depth_m: float):
-    """Points (n, 2), heights of the bed (n,) and depths (n,) all along a gully."""
+    """Points (n, 2), bed heights (n,) and depths (n,) along a gully."""
     line = Line(drainage.points_m[course])
     depths_m = depth_m * np.clip(drainage.area_m2[course] / _FULL_M2, 0.02, 1.0) ** 0.35
     along_m = np.linspace(0.0, line.length_m, int(line.length_m / _SAMPLE_M) + 2)
@@ -137,6 +137,6 @@ def _sampled(drainage: Drainage, course: list[int], depth_m: float):
 
 
 def _soft_minimum(a_m: np.ndarray, b_m: np.ndarray) -> np.ndarray:
-    """The lower of two heights, with the edge between them rounded over _BLEND_M; never above either."""
+    """A smooth minimum of two heights, blended over _BLEND_M; never above either."""
     near = np.clip(1.0 - np.abs(a_m - b_m) / _BLEND_M, 0.0, 1.0)
     return np.minimum(a_m, b_m) - 0.25 * _BLEND_M * near * near

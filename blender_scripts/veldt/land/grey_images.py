@@ -1,6 +1,7 @@
-"""Reads the user's maps of heights and of density: grey PNG files of 8 or 16 bits, and OpenEXR files.
+"""Read the user's height and density maps: grey PNG files of 8 or 16 bits, and OpenEXR files.
 
-PNG is read here, since Blender's Python need have no image library; EXR through OpenImageIO, which has to be there.
+PNG is decoded here because Blender's Python may lack an image library; EXR is read through OpenImageIO, which must be
+installed.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ _MOST_PIXELS = 20_000 * 20_000
 
 
 def read_grey(path: Path, where: str) -> np.ndarray:
-    """Values [row from the top, column] of an image: 0 to 1 of a PNG file, as they are of an EXR's first channel.
+    """Values [row from the top, column] of an image: 0 to 1 for a PNG file, unchanged for the first channel of an EXR.
 
-    ConfigError, naming `where` and the file, if it cannot be read, has no grey or has values that are not finite.
+    ConfigError, naming `where` and the file, if it cannot be read, is not grey or has values that are not finite.
     """
     try:
         content = Path(path).read_bytes()
@@ -43,7 +44,7 @@ def read_grey(path: Path, where: str) -> np.ndarray:
 
 
 def sample(values: np.ndarray, size_m: float, x_m, y_m) -> np.ndarray:
-    """Values between pixels, bilinear: corner pixels lie on the corners of the place, the top row to the north."""
+    """Values interpolated bilinearly: corner pixels lie on the corners of the place, with the top row in the north."""
     rows, columns = values.shape
     u, column = _split((np.asarray(x_m, float) / size_m + 0.5) * (columns - 1), columns)
     v, row = _split((0.5 - np.asarray(y_m, float) / size_m) * (rows - 1), rows)
@@ -53,7 +54,7 @@ def sample(values: np.ndarray, size_m: float, x_m, y_m) -> np.ndarray:
 
 
 def _split(place: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Share and number of the pixel that a place is past, kept within the image."""
+    """Fraction beyond the pixel before a position, and the index of that pixel, clamped to the image."""
     place = np.clip(place, 0.0, count - 1.0)
     number = np.minimum(place.astype(np.int64), count - 2)
     return place - number, number
@@ -88,7 +89,7 @@ def _png(content: bytes) -> np.ndarray:
 
 
 def _unfiltered(filters: np.ndarray, lines: np.ndarray, step: int) -> np.ndarray:
-    """Bytes (rows, stride) once each row's prediction from the left and from above is added back."""
+    """Bytes (rows, stride) with each row's prediction from the left and from above added back."""
     pixels = np.zeros(lines.shape, np.uint8)
     above = np.zeros(lines.shape[1], np.uint8)
     for row, (kind, line) in enumerate(zip(filters, lines)):
@@ -107,12 +108,12 @@ def _unfiltered(filters: np.ndarray, lines: np.ndarray, step: int) -> np.ndarray
 
 
 def _summed(line: np.ndarray, step: int) -> np.ndarray:
-    """Each byte plus the one before it, within each of the `step` bytes of a pixel."""
+    """Running sums of bytes modulo 256, separately for each of the `step` bytes of a pixel."""
     return np.add.accumulate(line.reshape(-1, step), axis=0, dtype=np.uint8).reshape(-1)
 
 
 def _predicted(kind: int, line: np.ndarray, above: np.ndarray, step: int) -> np.ndarray:
-    """A row predicted from both sides: by their mean (3), or by Paeth's rule (4)."""
+    """A row predicted from its left and upper neighbours: by their mean (3), or by Paeth's rule (4)."""
     out, up = bytearray(line.tobytes()), bytes(step) + above.tobytes()
     for k in range(len(out)):
         left = out[k - step] if k >= step else 0
@@ -136,7 +137,7 @@ def _exr(path: Path) -> np.ndarray:
         import OpenImageIO as oiio  # pylint: disable=import-outside-toplevel
     except ImportError as error:
         raise ValueError(
-            "it is no PNG; for EXR, Python's OpenImageIO is needed: python3-openimageio"
+            "it is not a PNG; reading EXR needs Python's OpenImageIO (package python3-openimageio)"
         ) from error
     image = oiio.ImageInput.open(str(path))
     if image is None:

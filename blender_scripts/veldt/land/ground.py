@@ -1,4 +1,4 @@
-"""The ground's mesh: fine where the road needs it, and cut along the borders of what covers it."""
+"""The ground's mesh, refined near the road and cut along the borders of its covers."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from .roads import SHOULDER_M
 from .terrain import Terrain, grid_axis
 
 _BORDER_EDGE_M = 0.8  # triangles at a border are halved until their edges are about this short
-_COARSE = 1.5  # times that is still short: the diagonal of a square of 0.8 m is
-# Of triangles on the road and on its shoulders. A track's cross-section bends by 1.25 / m at most: the middle of an
-# edge of 0.36 m lies off it by 1.25 x 0.36^2 / 8 = 2 cm.
+_COARSE = 1.5  # tolerance on that length: the diagonal of a square of 0.8 m passes
+# Largest edge on the road and its shoulders. The curvature of a track's cross-section is at most 1.25 / m: the middle
+# of an edge of 0.36 m is off by 1.25 x 0.36^2 / 8 = 2 cm.
 _ROAD_EDGE_M, _SHOULDER_EDGE_M = 0.36, 0.8
 
 
 @dataclass(frozen=True)
 class GroundMesh:
-    """points_m (n, 3); triangles (m, 3) counter-clockwise from above; cover (m,), places in `materials`."""
+    """points_m (n, 3); triangles (m, 3) counter-clockwise from above; cover (m,), indices into `materials`."""
 
     points_m: np.ndarray
     triangles: np.ndarray
@@ -30,9 +30,9 @@ class GroundMesh:
 
 
 def build_ground(terrain: Terrain, layers: Sequence[Layer], bare: str) -> GroundMesh:
-    """The terrain's mesh, cut along the borders of layers; what lies under none of them is `bare`.
+    """The terrain's mesh, cut along the borders of layers; ground outside all layers is `bare`.
 
-    Its shape is that of `Terrain.height_m`, exactly but for the road, where triangles are flat and the tracks are not.
+    Its shape is exactly that of `Terrain.height_m`, except on the road, where flat triangles approximate the tracks.
     """
     points, triangles = _grid_mesh(terrain)
     points, triangles = _with_road(terrain, points, triangles)
@@ -43,7 +43,7 @@ def build_ground(terrain: Terrain, layers: Sequence[Layer], bare: str) -> Ground
 
 
 def _grid_mesh(terrain: Terrain) -> tuple[np.ndarray, np.ndarray]:
-    """Two triangles a cell, split along the diagonal that `Terrain.height_m` interpolates across."""
+    """Two triangles per cell, split along the diagonal that `Terrain.height_m` uses for interpolation."""
     lines = terrain.heights_m.shape[0]
     axis_m = grid_axis(terrain.size_m, lines - 1)
     x_m, y_m = np.meshgrid(axis_m, axis_m)
@@ -56,7 +56,7 @@ def _grid_mesh(terrain: Terrain) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _with_road(terrain: Terrain, points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The mesh with triangles on and beside the road halved until they are small enough for it."""
+    """The mesh with triangles on and beside the road halved until they are small enough."""
     if terrain.road is None:
         return points, triangles
     off_m = terrain.road_m(points[:, 0], points[:, 1])
@@ -72,7 +72,7 @@ def _with_road(terrain: Terrain, points: np.ndarray, triangles: np.ndarray) -> t
 
 
 def _coarse_on_road(points: np.ndarray, triangles: np.ndarray, off_m: np.ndarray) -> np.ndarray:
-    """Numbers of triangles that are too large for where they are; off_m (n,) is each point's distance to the road."""
+    """Indices of triangles near the road that are too large; off_m (n,) is the distance of each point to the road."""
     nearest_m = off_m[triangles].min(axis=1)
     about = np.flatnonzero(np.isfinite(nearest_m))
     edge_m, nearest_m = _longest_m(points, triangles[about]), nearest_m[about]
@@ -84,7 +84,7 @@ def _coarse_on_road(points: np.ndarray, triangles: np.ndarray, off_m: np.ndarray
 def _laid(
     terrain: Terrain, layer: Layer, number: int, points: np.ndarray, triangles: np.ndarray, cover: np.ndarray
 ):
-    """Points, triangles and covers once a layer lies, as `number`, where nothing lies yet."""
+    """Points, triangles and covers after adding a layer, as `number`, on bare ground."""
     values = layer.value(points[:, 0], points[:, 1])
     for _ in range(max(0, round(np.log2(terrain.cell_m / _BORDER_EDGE_M)))):
         cut = triangles[_is_cut(values, triangles, cover)]
@@ -98,7 +98,7 @@ def _laid(
     triangles, parent = split_edges(triangles, edges, len(points))
     points = np.concatenate([points, _crossings(points, values, edges)])
     values, cover = np.concatenate([values, np.zeros(len(edges))]), cover[parent]
-    # No bare triangle has corners on both sides any more, so its highest value tells.
+    # No bare triangle has corners on both sides any more, so its highest value decides.
     return points, triangles, np.where((cover == 0) & (values[triangles].max(axis=1) > 0), number, cover)
 
 
@@ -115,12 +115,12 @@ def _longest_m(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 
 
 def _on_ground(terrain: Terrain, points: np.ndarray) -> np.ndarray:
-    """The same points (n, 3) at the ground's height."""
+    """The points (n, 3) moved to the ground's height."""
     return np.column_stack([points[:, :2], terrain.height_m(points[:, 0], points[:, 1])])
 
 
 def _crossings(points: np.ndarray, values: np.ndarray, edges: np.ndarray) -> np.ndarray:
-    """Where the border crosses each edge, kept off its ends so that no triangle loses its area."""
+    """Where the border crosses each edge, kept away from its ends so that no triangle degenerates."""
     start, end = values[edges[:, 0]], values[edges[:, 1]]
     share = np.clip(start / (start - end), 0.02, 0.98)[:, None]
     return points[edges[:, 0]] * (1 - share) + points[edges[:, 1]] * share

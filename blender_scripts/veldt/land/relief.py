@@ -1,4 +1,4 @@
-"""Land before water comes to it: hills, hollows and crags, as functions of the place."""
+"""Dry relief: hills, hollows and crags, as functions of position."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ _HILL_OCTAVES = 5
 _HOLLOW_LATTICE_M = 150.0
 _HOLLOW_RADII_M = (12.0, 32.0)
 _CRAG_WAVELENGTH_M = 1100.0
-_CRAG_BORDER = 0.1  # of the noise, over which plain turns into crag: some 50 m
-_RAGGED = 0.8  # of the clear distance: the crag's foot is no arc about the middle
+_CRAG_BORDER = 0.1  # of the noise, over which plain turns into crag: about 50 m
+_RAGGED = 0.8  # of the clear distance: irregularity of the crag's foot
 _RIDGE_WAVELENGTH_M = 95.0
 _STAIRS = 3  # ledges between the foot of a crag and its crest
 
@@ -27,13 +27,13 @@ def hills_m(settings: dict, seed: int, x_m, y_m) -> np.ndarray:
 
 
 def hollows_m(depth_m: float, seed: int, x_m, y_m) -> np.ndarray:
-    """Dry hollows up to depth_m deep, at most one a lattice cell: where rain stands for a day and animals wallow."""
+    """Dry hollows up to depth_m deep, at most one per lattice cell: shallow depressions and wallows."""
     ix, iy = np.floor(x_m / _HOLLOW_LATTICE_M), np.floor(y_m / _HOLLOW_LATTICE_M)
 
     def draw(what: str, low: float, high: float) -> np.ndarray:
         return low + (high - low) * lattice_uniform(seed, f"hollow/{what}", ix, iy)
 
-    # A hollow keeps inside its cell: its centre is at least the largest radius from the border.
+    # A hollow stays inside its cell: its centre is at least the largest radius from the border.
     margin = _HOLLOW_RADII_M[1] / _HOLLOW_LATTICE_M
     dx_m = x_m - _HOLLOW_LATTICE_M * (ix + draw("x", margin, 1.0 - margin))
     dy_m = y_m - _HOLLOW_LATTICE_M * (iy + draw("y", margin, 1.0 - margin))
@@ -43,7 +43,7 @@ def hollows_m(depth_m: float, seed: int, x_m, y_m) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Crag:
-    """The craggy part of a place: where its noise is above `threshold`."""
+    """The craggy part of a place: where a noise is above `threshold`."""
 
     seed: int
     relief_m: float
@@ -51,11 +51,11 @@ class Crag:
     threshold: float
 
     def share(self, x_m, y_m) -> np.ndarray:
-        """How much of a place is crag: 0 on the plain, 1 well inside."""
+        """Share of crag at a position: 0 on the plain, 1 well inside."""
         return smooth(0.5 + (_cragginess(self.seed, self.clear_m, x_m, y_m) - self.threshold) / _CRAG_BORDER)
 
     def height_m(self, x_m, y_m) -> np.ndarray:
-        """How much it stands above the hills: ridges that fall off in ledges."""
+        """Height above the hills: ridges that fall off in ledges."""
         share = self.share(x_m, y_m)
         inside = share > 0
         x_m, y_m = np.broadcast_to(x_m, share.shape)[inside], np.broadcast_to(y_m, share.shape)[inside]
@@ -88,7 +88,7 @@ def _cragginess(seed: int, clear_m: float, x_m, y_m) -> np.ndarray:
 
 
 def _ledges(height: np.ndarray) -> np.ndarray:
-    """Heights 0..1 drawn towards a few levels: level treads and steep risers."""
+    """Heights 0..1 quantised smoothly to a few levels: flat treads and steep risers."""
     step = np.floor(height * _STAIRS)
     riser = smooth(2.5 * (height * _STAIRS - step) - 0.75)
     return (0.3 * height * _STAIRS + 0.7 * (step + riser)) / _STAIRS

@@ -1,4 +1,4 @@
-"""Where the road runs: a loop through the place off water and steep ground, and a fork that leads out of it."""
+"""The course of the road: a loop through the place, off water and steep ground, and a fork that leads out of it."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from .roads import Road, lay_road
 from .terrain import Terrain, slope_deg
 from .ways import CORNERS, SLOPE_STEP_M, Passable, plan_loop
 
-_RADII = 0.3, 0.26, 0.34, 0.22  # of the place's side; the first on which the ground lets a loop be
+_RADII = 0.3, 0.26, 0.34, 0.22  # radii to try, of the place's side; the first with a passable loop is used
 _WANDER = 0.22
 _SHORE_M = 25.0
-_STEEPEST_DEG = 14.0  # estimate: of a track that a lorry drives
+_STEEPEST_DEG = 14.0  # estimate: steepest slope that a lorry can drive
 _MOST_CRAG = 0.3
 _BORDER_M = 15.0
-_BEND_RAD = np.radians(25.0)  # by which each stretch of the spur turns against the last one at most
+_BEND_RAD = np.radians(25.0)  # largest turn between successive segments of the spur
 _STRETCHES = 4
 _CHECK_M = 4.0
 
 
 def plan_road(settings: dict, terrain: Terrain, seed: int) -> Road | None:
-    """The road of `scene.terrain.road` over a terrain; None if it has none, or if no ground is fit for one."""
+    """The road of `scene.terrain.road` over a terrain; None if there is none, or if no ground is suitable."""
     if settings["width_m"] <= 0:
         return None
     passable = _fit_ground(terrain)
@@ -52,7 +52,7 @@ def _plan_loop(size_m: float, passable: Passable, seed: int) -> Loop | None:
 
 
 def _plan_spur(loop: Loop, terrain: Terrain, passable: Passable, seed: int) -> Line | None:
-    """A way from one of the loop's corners out towards the border; the first that is passable all along."""
+    """A road from one of the loop's corners out towards the border: the first that is passable all along."""
     rng = stream(seed, "road/spur")
     for corner in rng.permutation(CORNERS):
         at_m = loop.corners_at_m[corner % (len(loop.corners_at_m) - 1)]

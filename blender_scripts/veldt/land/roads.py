@@ -1,4 +1,4 @@
-"""A dirt road: a loop with a fork, cut into the ground, level across but for its two wheel tracks."""
+"""A dirt road: a loop with a fork, cut into the ground, with a level cross-section and two wheel tracks."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from ..geometry.easing import smooth
 from ..geometry.neighbours import pairs_within
 from ..geometry.splines import Line, Loop
 
-SHOULDER_M = 2.5  # beside the road, over which it goes over into the land
-TRACK_M = 0.75  # of each wheel track from the middle: the gauge of a lorry is about 1.5 m; estimate
+SHOULDER_M = 2.5  # width of the shoulder that blends the road into the land
+TRACK_M = 0.75  # distance of each wheel track from the middle: a lorry's gauge is about 1.5 m; estimate
 _CUT_M = 0.12  # below the land; estimate
 _TRACK_DEPTH_M = 0.05  # estimate
 _TRACK_SIGMA_M = 0.2
-_STEP_M = 2.0  # a chord of it lies 2 cm off the tightest curve, of 30 m
-_SMOOTHING_M = 12.0  # along the road: wheels do not follow every bump
-_JOINING_M = 25.0  # along the spur, over which it comes from the loop's height to its own
+_STEP_M = 2.0  # a chord of this length is 2 cm off the tightest curve, of radius 30 m
+_SMOOTHING_M = 12.0  # smoothing along the road, which does not follow every bump
+_JOINING_M = 25.0  # length along the spur over which its height departs from the loop's
 _RASTER_M = 8.0
 
 Heights = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -27,9 +27,9 @@ Heights = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 @dataclass(frozen=True)
 class Road:
-    """A road width_m wide along a loop and, where it forks, a spur; bed_m, the heights of points_m of each of them.
+    """A road width_m wide along a loop and, where it forks, a spur; bed_m: heights at points_m of each of them.
 
-    Up to reach_m from its middle line it tells how far it is.
+    Distances to the road are known up to reach_m from its centre line.
     """
 
     loop: Loop
@@ -46,7 +46,7 @@ class Road:
         return (self.loop,) if self.spur is None else (self.loop, self.spur)
 
     def distance_m(self, x_m, y_m) -> np.ndarray:
-        """Distance (n,) to the road's border, negative on it; infinite more than reach_m from its middle."""
+        """Distance (n,) to the road's border, negative on it; infinite beyond reach_m from its centre line."""
         distance = np.full(np.shape(x_m), np.inf)
         flat = distance.reshape(-1)
         for line in range(len(self.lines)):
@@ -55,7 +55,7 @@ class Road:
         return distance
 
     def cut(self, height_m: np.ndarray, x_m, y_m) -> np.ndarray:
-        """Heights (n,) of the land once the road is cut into it; where it forks, both ways pass into each other."""
+        """Heights (n,) of the land with the road cut into it; at the fork, both branches blend into each other."""
         height = np.array(height_m, float)
         flat = height.reshape(-1)
         most, total, weighted = (np.zeros(len(flat)) for _ in range(3))
@@ -70,7 +70,7 @@ class Road:
         return height
 
     def _nearest(self, line: int, x_m, y_m) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Which places, counted row by row, are within reach_m of a line (k,), how far, and how high its bed is."""
+        """Flat indices (k,) of positions within reach_m of a line, their distances, and the heights of its bed."""
         x_m, y_m = (np.asarray(v, float).ravel() for v in np.broadcast_arrays(x_m, y_m))
         near = np.flatnonzero(self._is_about(x_m, y_m))
         places = np.column_stack([x_m[near], y_m[near]])
@@ -86,7 +86,7 @@ class Road:
 
     @cached_property
     def _segments(self) -> list[tuple[np.ndarray, ...]]:
-        """Of each line: where segments start (k, 2), their vectors (k, 2), and the bed's heights at both ends (k,)."""
+        """For each line: starts of its segments (k, 2), their vectors (k, 2), and bed heights at both ends (k,)."""
         return [
             (points[:-1], np.diff(points, axis=0), bed[:-1], bed[1:])
             for points, bed in zip(self.points_m, self.bed_m)
@@ -94,7 +94,7 @@ class Road:
 
     @cached_property
     def _raster(self) -> np.ndarray:
-        """Squares of _RASTER_M [row, column] that a point within reach_m of the road may be in."""
+        """Mask of the squares of _RASTER_M [row, column] that may contain a point within reach_m of the road."""
         cells = int(np.ceil(self.size_m / _RASTER_M))
         marked = np.zeros((cells, cells), bool)
         points = np.concatenate(self.points_m)
@@ -107,7 +107,7 @@ class Road:
         return marked
 
     def _square(self, x_m, y_m) -> tuple[np.ndarray, np.ndarray]:
-        """Column and row of the square that places are in; those outside the place are in its border's."""
+        """Column and row of the square of each position; positions outside the place are clamped to its border."""
         last = int(np.ceil(self.size_m / _RASTER_M)) - 1
         column, row = (
             np.clip(((v + 0.5 * self.size_m) / _RASTER_M).astype(np.int64), 0, last) for v in (x_m, y_m)
@@ -122,9 +122,10 @@ class Road:
 def lay_road(
     loop: Loop, spur: Line | None, width_m: float, size_m: float, cell_m: float, land_m: Heights
 ) -> Road:
-    """A road along lines over land of these heights (x_m, y_m), which it follows smoothly.
+    """A road along lines over land with heights (x_m, y_m), which it follows smoothly.
 
-    It reaches so far beyond its shoulders that it meets a corner of each triangle, of cells of cell_m, that it crosses.
+    Its reach extends beyond its shoulders far enough to include a corner of each triangle, of cells of cell_m, that it
+    crosses.
     """
     reach_m = 0.5 * width_m + SHOULDER_M + 1.5 * cell_m
     points = loop.points_m(_STEP_M)
@@ -140,7 +141,7 @@ def lay_road(
 
 
 def _least_of_each(number: np.ndarray, value: np.ndarray) -> np.ndarray:
-    """Places (k,) of the least value, the first if there are several, of each number there is, ascending."""
+    """Positions (k,) of the smallest value, the first if several, for each distinct number, ascending."""
     order = np.argsort(number, kind="stable")
     _, first, count = np.unique(number[order], return_index=True, return_counts=True)
     if len(first) == 0:
@@ -152,7 +153,7 @@ def _least_of_each(number: np.ndarray, value: np.ndarray) -> np.ndarray:
 
 
 def _tracks_m(off_m: np.ndarray) -> np.ndarray:
-    """How deep wheels have worn the road at distances from its middle."""
+    """Depth of the wheel tracks at distances from the centre line."""
     return _TRACK_DEPTH_M * np.exp(-0.5 * ((off_m - TRACK_M) / _TRACK_SIGMA_M) ** 2)
 
 

@@ -1,6 +1,6 @@
-"""The ground's shape: hills, hollows, gullies and a crag on a square grid, still water, and a road cut in.
+"""The terrain: hills, hollows, gullies and a crag on a square grid, still water, and a road cut in.
 
-Axes: x east, y north, z up, metres, origin in the middle of the place at height 0 of the datum.
+Axes: x east, y north, z up, in metres, with the origin in the middle of the place at height 0 of the datum.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from .relief import Crag, hills_m, hollows_m, plan_crag
 from .roads import Road
 from .waters import REACH, Basin, Water, lay_water, nearest_shore_m, surface_m
 
-_SMOOTHING_M = 40.0  # that says what land is high, and what low
-_PAN_APART = 5.0  # radii of both waters that the pan is from the middle, at least
+_SMOOTHING_M = 40.0  # smoothing that separates high land from low land
+_PAN_APART = 5.0  # least distance of the pan from the middle, in radii of both waters
 _PAN_GRID_M = 25.0
 _SLOPE_STEP_M = 1.0
 
 
 @dataclass(frozen=True)
 class Terrain:
-    """Heights on a square grid, [row of y, column of x], from -size/2 to size/2; between them the mesh's triangles.
+    """Heights on a square grid, [row of y, column of x], from -size/2 to size/2, interpolated on the mesh's triangles.
 
-    The road is finer than the grid, and cut in afterwards: along it heights are its own.
+    The road is finer than the grid and cut in afterwards; on it, heights are those of the road.
     """
 
     seed: int
@@ -39,31 +39,31 @@ class Terrain:
     road: Road | None = None
 
     def height_m(self, x_m, y_m) -> np.ndarray:
-        """Height of the ground at (x, y); past the border the border's height goes on.
+        """Height of the ground at (x, y); positions beyond the border are clamped to it.
 
-        Exactly that of the ground's mesh, and within 3 cm on the road.
+        Exactly the height of the ground's mesh, and within 3 cm of it on the road.
         """
         height = self._triangle_height(self.heights_m, x_m, y_m)
         return height if self.road is None else self.road.cut(height, x_m, y_m)
 
     def surface_m(self, x_m, y_m) -> np.ndarray:
-        """Height of ground or water, whichever is on top."""
+        """Height of ground or water, whichever is higher."""
         return surface_m(self.height_m(x_m, y_m), self.waters, x_m, y_m)
 
     def smooth_surface_m(self, x_m, y_m) -> np.ndarray:
-        """Surface smoothed by a Gaussian of 40 m: what of it is low land, and what high."""
+        """The surface smoothed by a Gaussian of 40 m, which separates low land from high land."""
         return self._triangle_height(self.smooth_m, x_m, y_m)
 
     def shore_m(self, x_m, y_m) -> np.ndarray:
-        """About the distance to the nearest shoreline, negative in the water; infinite where there is none."""
+        """Approximate distance to the nearest shoreline, negative in the water; infinite if there is no water."""
         return nearest_shore_m(self.waters, x_m, y_m)
 
     def road_m(self, x_m, y_m) -> np.ndarray:
-        """Distance (n,) to the road's border, negative on it; infinite well off it, and where there is none."""
+        """Distance (n,) to the road's border, negative on it; infinite far from it, or if there is no road."""
         return np.full(np.shape(x_m), np.inf) if self.road is None else self.road.distance_m(x_m, y_m)
 
     def with_road(self, road: Road | None) -> Terrain:
-        """The same ground with a road cut in."""
+        """The terrain with a road cut in."""
         return replace(self, road=road)
 
     def _triangle_height(self, heights_m: np.ndarray, x_m, y_m) -> np.ndarray:
@@ -78,7 +78,7 @@ class Terrain:
 
 
 def build_terrain(settings: dict, seed: int) -> Terrain:
-    """The terrain of `scene.terrain`, without its road; cells are stretched a little so that a whole number fits."""
+    """The terrain of `scene.terrain`, without its road; cells are stretched slightly so that a whole number fits."""
     size_m = settings["size_m"]
     cells = max(1, round(size_m / settings["cell_m"]))
     x_m, y_m = np.meshgrid(grid_axis(size_m, cells), grid_axis(size_m, cells))
@@ -101,21 +101,21 @@ def grid_axis(size_m: float, cells: int) -> np.ndarray:
 
 
 def slope_deg(terrain: Terrain, x_m, y_m, step: float = _SLOPE_STEP_M) -> np.ndarray:
-    """How steep the ground is at a place, between `step` metres before and behind it."""
+    """Slope of the ground at a position, from central differences over `step` metres to each side."""
     dx = terrain.height_m(x_m + step, y_m) - terrain.height_m(x_m - step, y_m)
     dy = terrain.height_m(x_m, y_m + step) - terrain.height_m(x_m, y_m - step)
     return np.degrees(np.arctan(np.sqrt(dx * dx + dy * dy) / (2.0 * step)))
 
 
 def _cell(along_m: np.ndarray, size_m: float, cells: int) -> tuple[np.ndarray, np.ndarray]:
-    """Cell number and place in it, 0..1, clamped to the grid."""
+    """Cell index and position in the cell, 0..1, clamped to the grid."""
     place = np.clip((along_m / size_m + 0.5) * cells, 0.0, cells)
     cell = np.minimum(place.astype(np.int64), cells - 1)
     return cell, place - cell
 
 
 def _land(settings: dict, seed: int, x_m, y_m) -> tuple[Crag | None, np.ndarray]:
-    """Where the crag is, and the land's heights before water comes to it: the user's map, or drawn from the seed."""
+    """The crag, and the land's heights before water is added: from the user's map or from the seed."""
     if "heightmap" in settings:
         given = settings["heightmap"]
         share = read_grey(given["file"], "scene.terrain.heightmap.file")
@@ -127,7 +127,7 @@ def _land(settings: dict, seed: int, x_m, y_m) -> tuple[Crag | None, np.ndarray]
 
 
 def _plan_basins(settings: dict, seed: int, land_m: np.ndarray, x_m, y_m) -> list[Basin]:
-    """The water hole in the middle, and the pan; land_m is infinite where no pan may be."""
+    """The water hole in the middle, and the pan; land_m is infinite where a pan is not allowed."""
     radius_m, pan_m = settings["water_radius_m"], settings["pan_radius_m"]
     basins = [Basin(seed, "shore", (0.0, 0.0), radius_m)] if radius_m > 0 else []
     if pan_m > 0:
@@ -137,7 +137,7 @@ def _plan_basins(settings: dict, seed: int, land_m: np.ndarray, x_m, y_m) -> lis
 
 
 def _lowest_place(settings: dict, land_m: np.ndarray, x_m, y_m) -> tuple[float, float] | None:
-    """Where a pan gathers: low ground, well inside the place and well away from the middle."""
+    """The place of the pan: low ground, well inside the place and well away from the middle."""
     reach_m = REACH * settings["pan_radius_m"]
     step = max(1, round(_PAN_GRID_M / (x_m[0, 1] - x_m[0, 0])))
     x_m, y_m, land_m = (grid[::step, ::step] for grid in (x_m, y_m, land_m))
@@ -152,7 +152,7 @@ def _lowest_place(settings: dict, land_m: np.ndarray, x_m, y_m) -> tuple[float, 
 
 
 def _drained(settings: dict, seed: int, land_m: np.ndarray, basins: Sequence[Basin], x_m, y_m) -> np.ndarray:
-    """The land with gullies that lead to the waters and the borders."""
+    """The land with gullies that drain to the waters and the borders."""
     if settings["gully_depth_m"] <= 0:
         return land_m
     is_sink = np.zeros(land_m.shape, bool)
@@ -167,7 +167,7 @@ def _drained(settings: dict, seed: int, land_m: np.ndarray, basins: Sequence[Bas
 
 
 def _smoothed(heights_m: np.ndarray, sigma_cells: float) -> np.ndarray:
-    """Separable Gaussian, truncated at 3 sigma or the grid's own size, borders extended."""
+    """Separable Gaussian filter, truncated at 3 sigma or the size of the grid, with borders extended."""
     reach = min(int(3 * sigma_cells) + 1, heights_m.shape[0])
     taps = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma_cells) ** 2)
     taps /= taps.sum()

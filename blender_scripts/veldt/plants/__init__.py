@@ -1,1 +1,1 @@
-"""What grows and stands about: where, and how it looks."""
+"""Plants, and other objects that stand or lie about: placement and shapes."""

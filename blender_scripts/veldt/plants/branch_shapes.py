@@ -1,4 +1,4 @@
-"""Wood: tapered limbs along curved lines, and how they fork. Lengths in m."""
+"""Wood: tapered limbs along curved lines, and forks. Lengths in m."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from ..geometry.shapes import Mesh, facets
 
-GOLDEN_ANGLE_RAD = 2.399963  # neighbours in turn never stand above each other
+GOLDEN_ANGLE_RAD = 2.399963  # successive directions are never above each other
 
 
 def limb(path_m: np.ndarray, radii_m: Sequence[float], sides: int, closed: bool = False) -> Mesh:
@@ -26,7 +26,7 @@ def limb(path_m: np.ndarray, radii_m: Sequence[float], sides: int, closed: bool 
 
 
 def loft_triangles(rings: int, sides: int) -> np.ndarray:
-    """Triangles (m, 3) between rings that go round counter-clockwise as seen from the last one."""
+    """Triangles (m, 3) between rings that run counter-clockwise as seen from the last one."""
     here = np.arange(rings * sides).reshape(rings, sides)
     right = np.roll(here, -1, axis=1)
     a, b, c, d = here[:-1].ravel(), right[:-1].ravel(), right[1:].ravel(), here[1:].ravel()
@@ -40,7 +40,7 @@ def curve(start, knee, end, steps: int) -> np.ndarray:
 
 
 def twigs(tips_m: np.ndarray, limbs_m: Sequence[np.ndarray], radius_m: float) -> list[Mesh]:
-    """A thin three-sided twig to each tip, from the middle or the end of the limb whose end is nearest."""
+    """A thin three-sided twig to each tip, from the middle or the end of the limb with the nearest end."""
     ends = np.array([path[-1] for path in limbs_m])
     meshes = []
     for k, tip in enumerate(tips_m):
@@ -59,11 +59,11 @@ def directions(rng: np.random.Generator, count: int) -> np.ndarray:
 
 
 def _ring_axes(path_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Unit vectors (n, 3) across each point of a line, that make a right-handed frame with its direction."""
+    """Unit vectors (n, 3) across a line at each point, which form a right-handed frame with its direction."""
     along = np.gradient(path_m, axis=0)
     along /= np.linalg.norm(along, axis=1, keepdims=True)
     chord = np.abs(path_m[-1] - path_m[0])
-    aside = np.eye(3)[np.argmin(chord)]  # the axis the line runs least along
+    aside = np.eye(3)[np.argmin(chord)]  # the axis least aligned with the line
     u = aside - (along @ aside)[:, None] * along
     u /= np.maximum(np.linalg.norm(u, axis=1, keepdims=True), 1e-9)
     return u, np.cross(along, u)

@@ -1,4 +1,4 @@
-"""Which parts of the place are open plain, which are mid and which dense with plants."""
+"""Vegetation density: which parts of the place are open plain, which are mid and which are dense."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from ..land.terrain import Terrain
 from ..noise import fractal_noise
 
 _OCTAVES = 3
-_LOWLAND = 0.6  # how much lusher the lowest ground is than the highest, against the noise's about +-1
-_BORDER = 0.12  # of lushness, over which one area gives way to the next
+_LOWLAND = 0.6  # difference in lushness between lowest and highest ground; the noise is about +-1
+_BORDER = 0.12  # of lushness, over which one area blends into the next
 _GRID_M = 20.0
-_MAP_BORDERS = 0.25, 0.75, 0.25  # mid from, dense from, width: black is open, grey mid, white dense
+_MAP_BORDERS = 0.25, 0.75, 0.25  # start of mid, start of dense, width: black is open, grey mid, white dense
 
 
 Lush = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -24,7 +24,7 @@ Lush = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 @dataclass(frozen=True)
 class DensityMap:
-    """Three areas with soft borders: the lusher a place, `lush` (x_m, y_m), the denser it is grown."""
+    """Three areas with soft borders, defined by lushness, `lush` (x_m, y_m)."""
 
     lush: Lush
     mid_from: float
@@ -32,17 +32,17 @@ class DensityMap:
     border: float
 
     def shares(self, x_m, y_m) -> np.ndarray:
-        """How much (n, 3) of each place (n,) is open, mid and dense; in sum 1."""
+        """Shares (n, 3) of open, mid and dense at each position (n,); they sum to 1."""
         lush = self.lush(x_m, y_m)
         dense, not_open = (_rise((lush - least) / self.border) for least in (self.dense_from, self.mid_from))
-        # Where two borders run into each other, dense wins.
+        # Where two borders overlap, dense wins.
         return np.stack(
             [1.0 - np.maximum(not_open, dense), np.maximum(not_open - dense, 0.0), dense], axis=-1
         )
 
 
 def plan_density(terrain: Terrain, settings: dict, seed: int) -> DensityMap:
-    """The areas of a place: those of the user's map, or a third of the place each, by its seed and its hills."""
+    """The areas of a place: from the user's map, or a third of the place each, from its seed and its hills."""
     if "density_map" in settings:
         values = read_grey(settings["density_map"]["file"], "scene.terrain.density_map.file")
         return DensityMap(lambda x_m, y_m: sample(values, terrain.size_m, x_m, y_m), *_MAP_BORDERS)
@@ -59,12 +59,12 @@ def plan_density(terrain: Terrain, settings: dict, seed: int) -> DensityMap:
 
 
 def _lushness(seed: int, terrain: Terrain, wavelength_m: float, x_m, y_m) -> np.ndarray:
-    """Water gathers in low ground; the rest is up to chance."""
+    """Lushness: higher on low ground, where water gathers, plus noise."""
     low_m, high_m = terrain.smooth_m.min(), terrain.smooth_m.max()
     height = (terrain.smooth_surface_m(x_m, y_m) - low_m) / max(high_m - low_m, 1e-9)
     return fractal_noise(seed, "areas", x_m, y_m, wavelength_m, _OCTAVES) - _LOWLAND * height
 
 
 def _rise(above: np.ndarray) -> np.ndarray:
-    """From 0 to 1 across a border, smoothly; `above` is in widths of the border."""
+    """A smooth step from 0 to 1 across a border; `above` is in widths of the border."""
     return smooth(0.5 + above)

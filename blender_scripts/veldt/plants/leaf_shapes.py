@@ -1,4 +1,4 @@
-"""Leaves as real facets with daylight between them: sprays of small leaves, and blades of grass. Lengths in m."""
+"""Leaves as separate facets with gaps between them: sprays of small leaves, and blades of grass. Lengths in m."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _SPRAY_CORNERS = 3
 def clumped_sprays(
     clumps_m: np.ndarray, reach_m: np.ndarray, count: int, leaf_m: float, rng: np.random.Generator
 ) -> Mesh:
-    """`count` sprays, each some leaf_m in radius, scattered through flattened balls of half axes reach_m (3,)."""
+    """`count` sprays, each of radius about leaf_m, scattered in flattened balls with half axes reach_m (3,)."""
     clump = np.arange(count) % len(clumps_m)
     out = rng.uniform(0.2, 1.0, count)[:, None] ** 0.6
     centres = clumps_m[clump] + directions(rng, count) * out * reach_m
@@ -23,7 +23,7 @@ def clumped_sprays(
 
 
 def blades(roots_m: np.ndarray, tips_m: np.ndarray, widths_m: np.ndarray, rng: np.random.Generator) -> Mesh:
-    """Grass: from each root (n, 3) a pointed strip that rises steeply and bends over to its tip."""
+    """Grass: from each root (n, 3), a pointed strip that rises steeply and bends over at its tip."""
     knee = roots_m + (tips_m - roots_m) * [0.45, 0.45, 0.78]
     across = directions(rng, len(roots_m)) * [1.0, 1.0, 0.0]
     across *= (0.5 * widths_m / np.maximum(np.linalg.norm(across, axis=1), 1e-9))[:, None]

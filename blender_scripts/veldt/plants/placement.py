@@ -1,4 +1,4 @@
-"""Where plants and what else stands about are: as dense as the area asks for, off water, road and the actors' paths."""
+"""Placement of plants and other objects with the density of each area, off water, the road and the actors' paths."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from ..land.terrain import Terrain, slope_deg
 from ..noise import fractal_noise, lattice_uniform
 
 AREAS = 3  # open, mid, dense
-_PATCHINESS = 0.6  # how much richer and poorer than the mean the patches of a species are
-_MOST_TAKEN = 0.5  # of a place by the feet of other species
+_PATCHINESS = 0.6  # relative variation of a species' density between patches
+_MOST_TAKEN = 0.5  # largest share of a place taken by the footprints of other species
 _SHORE_M = 1.5
 _M2_PER_HA = 1e4
 
@@ -32,18 +32,18 @@ class Planting:
 
 @dataclass(frozen=True)
 class Corridor:
-    """A walked line, points_m (n, 2) at most a metre apart, and how far from it the bodies of walkers come."""
+    """A walked line, points_m (n, 2) at most a metre apart, and how far from it the walkers' bodies extend."""
 
     points_m: np.ndarray
     half_width_m: float
 
     def is_clear(self, points_m: np.ndarray, by_m: float) -> bool:
-        """Whether all points (n, 2) are by_m or more away from walkers."""
+        """Mask of points (n, 2) that are at least by_m away from walkers."""
         return len(pairs_within(points_m, self.points_m, by_m + self.half_width_m)[0]) == 0
 
 
 def _even_shares(x_m: np.ndarray, _) -> np.ndarray:
-    """A place that is a third of each area all over."""
+    """Shares of a place that is a third of each area everywhere."""
     return np.full((len(x_m), AREAS), 1.0 / AREAS)
 
 
@@ -53,10 +53,10 @@ def _no_road(x_m: np.ndarray, _) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Site:
-    """What plants meet: the ground, its areas and what must stay free.
+    """The site for plants: the ground, its areas, and what must stay free.
 
-    shares(x_m, y_m) gives (n, 3), how much of a place is open, mid and dense, in sum 1; road_m(x_m, y_m) the distance
-    (n,) to the road's border, negative on it.
+    shares(x_m, y_m) gives the shares (n, 3) of open, mid and dense, which sum to 1; road_m(x_m, y_m) the distance (n,)
+    to the road's border, negative on it.
     """
 
     terrain: Terrain
@@ -67,7 +67,7 @@ class Site:
 
 @dataclass(frozen=True)
 class _Species:
-    """A species and how many of it a square metre of each area (3,) shall have."""
+    """A species and its wanted number per square metre in each area (3,)."""
 
     name: str
     data: dict
@@ -75,15 +75,15 @@ class _Species:
 
 
 def by_area(per_ha: float | Sequence[float]) -> list[float]:
-    """How many a hectare the open, the mid and the dense areas get; one number is for all three."""
+    """Number per hectare in the open, mid and dense areas; a single number applies to all three."""
     return list(per_ha) if isinstance(per_ha, Sequence) else [per_ha] * AREAS
 
 
 def place_plants(plants: Mapping[str, dict], site: Site, seed: int) -> dict[str, Planting]:
-    """Plants of all species of `scene.plants`, by name in alphabetic order.
+    """Plants of all species of `scene.plants`, by name in alphabetical order.
 
-    The widest feet are placed first and the others keep off them, and are made denser by what they lose so. What is
-    not free of water, road and walkers is taken away last: a new path moves no plant.
+    The species with the widest footprint is placed first; the others keep off it, and their density is raised to make
+    up for the loss. Plants in the way of water, road and walkers are removed last, so that a new path moves no plant.
     """
     kinds = [
         _Species(name, assets.load("plants", name), np.array(by_area(wanted["per_ha"]), float) / _M2_PER_HA)
@@ -100,7 +100,7 @@ def place_plants(plants: Mapping[str, dict], site: Site, seed: int) -> dict[str,
 
 
 def _spaced(kind: _Species, standing: Sequence[tuple[_Species, np.ndarray]], site: Site, seed: int):
-    """Lattice cells (n, 2) and points (n, 2) of plants that keep off each other and off what stands already."""
+    """Lattice cells (n, 2) and points (n, 2) of plants that keep off each other and off plants already placed."""
 
     def wanted(x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
         shares = site.shares(x_m, y_m)
@@ -110,7 +110,7 @@ def _spaced(kind: _Species, standing: Sequence[tuple[_Species, np.ndarray]], sit
             free *= 1.0 - np.minimum(taken, _MOST_TAKEN)
         return shares @ kind.per_m2 * _liking(kind, site.terrain, seed, x_m, y_m) / free
 
-    most_per_m2 = kind.per_m2.max() * (1.0 + _PATCHINESS) * 1.2  # 1.2: about what others take in a dense area
+    most_per_m2 = kind.per_m2.max() * (1.0 + _PATCHINESS) * 1.2  # 1.2: for losses to others in dense areas
     cells, points_m = poisson_points(
         seed, kind.name, site.terrain.size_m, kind.data["spacing_m"], most_per_m2, wanted
     )
@@ -122,12 +122,12 @@ def _spaced(kind: _Species, standing: Sequence[tuple[_Species, np.ndarray]], sit
 
 
 def _apart_m(one: _Species, other: _Species) -> float:
-    """How far apart plants of two species stand: their feet do not touch."""
+    """Minimum distance between plants of two species, such that their footprints do not overlap."""
     return one.data["foot_m"] + other.data["foot_m"]
 
 
 def _liking(kind: _Species, terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:
-    """How much denser than its area's mean a species is at a place: it grows in patches, and less on slopes."""
+    """Density of a species relative to its area's mean: it grows in patches, and less on slopes."""
     patches = fractal_noise(seed, f"{kind.name}/patches", x_m, y_m, kind.data["patch_m"], octaves=2)
     rich = 1.0 + np.clip(2.0 * patches, -_PATCHINESS, _PATCHINESS)
     gentle, steep = kind.data["slope_deg"]
@@ -135,7 +135,7 @@ def _liking(kind: _Species, terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray
 
 
 def _is_free(points_m: np.ndarray, data: dict, site: Site) -> np.ndarray:
-    """Which points (n, 2) are on dry ground, off the road and clear of every walker."""
+    """Mask of points (n, 2) on dry ground, off the road and clear of all walkers."""
     x_m, y_m = points_m.T
     free = site.terrain.shore_m(x_m, y_m) > _SHORE_M + data["foot_m"]
     free &= site.road_m(x_m, y_m) > data["foot_m"]
@@ -148,7 +148,7 @@ def _is_free(points_m: np.ndarray, data: dict, site: Site) -> np.ndarray:
 def _planting(
     kind: _Species, cells: np.ndarray, points_m: np.ndarray, terrain: Terrain, seed: int
 ) -> Planting:
-    """The plants at these points; how each looks is a function of its cell."""
+    """The plants at these points; the appearance of each is a function of its cell."""
     low, high = kind.data["scale_range"]
     variant = kind.data["variants"] * lattice_uniform(seed, f"{kind.name}/variant", *cells.T)
     return Planting(

@@ -1,4 +1,4 @@
-"""Meshes of what stands about, by the form its file in `assets/plants` names."""
+"""Meshes of plants and other objects, by the form named in their file in `assets/plants`."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FORMS = {
 
 
 def plant_parts(data: dict) -> tuple[str, ...]:
-    """Parts of a plant's meshes by slot: just the whole of it, unless a model from a file has more."""
+    """Parts of a plant's meshes by slot: a single unnamed part, unless a model from a file has several."""
     return models.part_names(data) if "model" in data else ("",)
 
 
@@ -40,7 +40,7 @@ def build_variants(name: str, data: dict, seed: int) -> list[Mesh]:
 
 
 def _fitted(mesh: Mesh, data: dict) -> Mesh:
-    """The mesh stretched so that it is just height_m high and crown_diameter_m across at its widest, z = 0 kept."""
+    """The mesh scaled to be exactly height_m high and crown_diameter_m across at its widest, keeping z = 0."""
     points = mesh.points_m
     across_m = np.ptp(points[:, :2], axis=0).max()
     stretch = np.array([*[data["crown_diameter_m"] / across_m] * 2, data["height_m"] / points[:, 2].max()])

@@ -1,4 +1,4 @@
-"""What stands and lies about besides plants: termite mounds, rocks, fallen logs. Lengths in m."""
+"""Objects other than plants: termite mounds, rocks, fallen logs. Lengths in m."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def mound(data: dict, rng: np.random.Generator) -> Mesh:
 
 
 def rock(data: dict, rng: np.random.Generator) -> Mesh:
-    """A boulder: a ball cut flat on many sides, sunk into the ground by a quarter of its height."""
+    """A boulder: a ball with many flat cuts, a quarter of its height below the ground."""
     rings, sides = 7, 10
     polar = np.pi * (np.arange(rings) + 0.02) / (rings - 0.96)
     angle = 2.0 * np.pi * np.arange(sides) / sides
@@ -37,7 +37,7 @@ def rock(data: dict, rng: np.random.Generator) -> Mesh:
     facing = np.maximum(ray @ cuts.T, 1e-3)
     reach = np.minimum((depth / facing).min(axis=1), 1.0)
     half = 0.5 * np.array([data["crown_diameter_m"], data["crown_diameter_m"] * rng.uniform(0.6, 0.9), 0.0])
-    half[2] = data["height_m"] / 1.5  # three quarters of its full height stand out
+    half[2] = data["height_m"] / 1.5  # three quarters of its full height are above ground
     points = ray * reach[:, None] * half + [0.0, 0.0, 0.5 * half[2]]
     return facets(points, loft_triangles(rings, sides))
 

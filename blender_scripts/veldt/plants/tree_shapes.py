@@ -1,4 +1,4 @@
-"""Trees, bushes and grass by form: wood first, then leaves where its twigs end. Lengths in m."""
+"""Trees, bushes and grass by form: wood, and leaves at the ends of its twigs. Lengths in m."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ..geometry.shapes import Mesh, facets, joined
 from .branch_shapes import GOLDEN_ANGLE_RAD, curve, directions, limb, loft_triangles, twigs
 from .leaf_shapes import blades, clumped_sprays
 
-_ROOT_M = -0.3  # trunks reach so far into the ground, which may slope
+_ROOT_M = -0.3  # depth of trunks below the ground, which may slope
 
 
 def umbrella(data: dict, rng: np.random.Generator) -> Mesh:
@@ -41,7 +41,7 @@ def many_stemmed(data: dict, rng: np.random.Generator) -> Mesh:
 
 
 def bush(data: dict, rng: np.random.Generator) -> Mesh:
-    """A stem to each leafy clump, all from about one root."""
+    """A stem to each leafy clump, all from nearly one root."""
     clumps = _on_dome(data, rng)
     radius = data["trunk_radius_m"]
     wood = [limb([[*0.1 * tip[:2], -0.1], tip], [radius, 0.4 * radius], 3) for tip in clumps]
@@ -78,9 +78,9 @@ def tussock(data: dict, rng: np.random.Generator) -> Mesh:
 
 
 def _on_disc(data: dict, rng: np.random.Generator) -> np.ndarray:
-    """Middles (n, 3) of leafy pads, spread evenly over a level disc and shaken, a little lower at its rim."""
+    """Centres (n, 3) of leafy pads, spread evenly over a horizontal disc with jitter, slightly lower at its rim."""
     count = data["clumps"]
-    # A third of them end up on the rim: it is the last three alone that would make a triangle of the crown.
+    # A third of them lie on the rim: with only the last three there, the crown would be a triangle.
     out = np.minimum(1.2 * np.sqrt((np.arange(count) + 0.5) / count), 1.0) * rng.uniform(0.88, 1.06, count)
     angle = GOLDEN_ANGLE_RAD * np.arange(count) + rng.uniform(-0.25, 0.25, count)
     reach = 0.5 * data["crown_diameter_m"] - _clump_reach(data)
@@ -89,10 +89,10 @@ def _on_disc(data: dict, rng: np.random.Generator) -> np.ndarray:
 
 
 def _on_dome(data: dict, rng: np.random.Generator) -> np.ndarray:
-    """Middles (n, 3) of leafy clumps on and in an ellipsoid that ends crown_thickness_m below the top."""
+    """Centres (n, 3) of leafy clumps on and in an ellipsoid that ends crown_thickness_m below the top."""
     count = data["clumps"]
     ray = directions(rng, count)
-    # The golden angle instead of chance keeps the clumps apart; heights go from low to high and back again.
+    # The golden angle, unlike random angles, keeps the clumps apart; heights go from low to high and back.
     angle = GOLDEN_ANGLE_RAD * np.arange(count)
     up = np.linspace(-0.75, 0.95, count)
     ring = np.sqrt(1.0 - up * up)
@@ -103,7 +103,7 @@ def _on_dome(data: dict, rng: np.random.Generator) -> np.ndarray:
 
 
 def _clump_reach(data: dict) -> float:
-    """Clumps overlap by about half, and still leave gaps."""
+    """Radius of clumps: they overlap by about half and still leave gaps."""
     return 0.6 * data["crown_diameter_m"] / np.sqrt(data["clumps"])
 
 
@@ -127,7 +127,7 @@ def _barrel(radius_m: float, shoulder_m: float, rng: np.random.Generator) -> Mes
 
 
 def _forking(start, heading, length_m, radius_m, order: int, rng: np.random.Generator) -> list[Mesh]:
-    """A crooked limb, and from its end `order` - 1 times shorter and thinner ones."""
+    """A crooked limb and, recursively, `order` - 1 generations of shorter and thinner ones from its end."""
     heading = heading / np.linalg.norm(heading)
     end = start + heading * length_m
     knee = start + 0.5 * (end - start) + directions(rng, 1)[0] * 0.16 * length_m

@@ -1,21 +1,22 @@
-"""Which part of the place a camera may see: circles of ground, frame by frame."""
+"""The part of the place that a camera may see: circles of ground, frame by frame."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from ..camera import Intrinsics
+from ..camera import Intrinsics, edge_tangents
 
-_GROWTH = 1.25  # a larger one asks for more plants in each frame, a smaller one for new ones more often
-_LEAST_FALL = 0.05  # of a ray's length; flatter rays are taken to see everything
+_GROWTH = 1.25  # a larger value means more plants in each frame, a smaller one more frequent updates
+_LEAST_FALL = 0.05  # vertical share of a ray's length; flatter rays are assumed to see everything
 
 
 def circles_seen(
     intrinsics: Intrinsics, camera_to_world: np.ndarray, low_m: float, high_m: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Centres (n, 2) and radii (n,) of circles above or below whatever poses (n, 4, 4) see between two heights.
+    """Centres (n, 2) and radii (n,) of circles that contain the plan view of all that poses (n, 4, 4) see between two
+    heights.
 
-    A radius is infinite if the picture reaches up to the horizon, or nearly.
+    A radius is infinite if the picture reaches the horizon, or nearly.
     """
     rays = _corner_rays(intrinsics, camera_to_world)
     fall = -rays[..., 2] / np.linalg.norm(rays, axis=-1)
@@ -32,9 +33,9 @@ def circles_seen(
 
 
 def held_circles(centres_m: np.ndarray, radii_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Circles (n, 2) and (n,) that hold those given, of which one serves as many frames in a row as it can.
+    """Circles (n, 2) and (n,) that contain the given ones, each kept for as many consecutive frames as possible.
 
-    One serves while it need not be more than _GROWTH times as large as the smallest of those it holds.
+    A circle is kept while it is at most _GROWTH times as large as the smallest one it contains.
     """
     centres_held_m, radii_held_m = np.empty_like(centres_m), np.empty_like(radii_m)
     first = 0
@@ -55,20 +56,20 @@ def _around(centres_m: np.ndarray, radii_m: np.ndarray) -> tuple[np.ndarray, flo
 def spheres_seen(
     intrinsics: Intrinsics, camera_to_world: np.ndarray, centres_m: np.ndarray, radius_m: float
 ) -> np.ndarray:
-    """In which of poses (n, 4, 4) a sphere, then at centres (n, 3), may reach into the picture: bool (n,).
+    """Mask (n,) of the poses (n, 4, 4) in which a sphere, at centres (n, 3), may be in the picture.
 
-    False only where it lies wholly outside one side of the picture or behind the camera.
+    False only where it is entirely beyond one side of the picture or behind the camera.
     """
     local = np.einsum("nij,ni->nj", camera_to_world[:, :3, :3], centres_m - camera_to_world[:, :3, 3])
-    x, y = np.array(intrinsics.centre_px) / intrinsics.f_px
     seen = local[:, 2] > -radius_m
-    for across, half in ((local[:, 0], x), (local[:, 1], y)):
-        seen &= np.abs(across) - half * local[:, 2] < radius_m * np.hypot(1.0, half)
+    for side, tangents in zip((-1.0, 1.0), edge_tangents(intrinsics)):
+        for across, edge in zip(local[:, :2].T, tangents):
+            seen &= side * across - edge * local[:, 2] < radius_m * np.hypot(1.0, edge)
     return seen
 
 
 def _corner_rays(intrinsics: Intrinsics, camera_to_world: np.ndarray) -> np.ndarray:
-    """Directions (n, 4, 3) in the world through the corners of the picture."""
-    x, y = np.array(intrinsics.centre_px) / intrinsics.f_px
-    corners = np.array([[-x, -y, 1.0], [x, -y, 1.0], [x, y, 1.0], [-x, y, 1.0]])
+    """World directions (n, 4, 3) through the corners of the picture."""
+    (left, top), (right, bottom) = edge_tangents(intrinsics)
+    corners = np.array([[-left, -top, 1.0], [right, -top, 1.0], [right, bottom, 1.0], [-left, bottom, 1.0]])
     return corners @ camera_to_world[:, :3, :3].transpose(0, 2, 1)

@@ -1,1 +1,1 @@
-"""What a map and stills of a place show."""
+"""Plans of the preview: a map of a place and colour stills."""

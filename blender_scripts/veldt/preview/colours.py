@@ -1,10 +1,10 @@
-"""What surfaces look like by day, for pictures that people look at; cameras of datasets see none of it."""
+"""Daylight colours of surfaces, used in previews only; they do not affect datasets."""
 
 from __future__ import annotations
 
 from .. import assets
 
-UNKNOWN = "#8a8078"  # of a material that says nothing: a stony grey
+UNKNOWN = "#8a8078"  # default of a material: a stony grey
 SKY = "#a9c8e8"
 _PALETTE = (
     "#e6194b",
@@ -29,7 +29,7 @@ def surface_colour(material: str, part: str = "") -> str:
 
 
 def signal_colours(names: list[str]) -> dict[str, str]:
-    """Colours, #rrggbb, that tell names apart on a map; over again after the twelfth."""
+    """Colours, #rrggbb, that distinguish names on a map; they repeat after the twelfth."""
     return {name: _PALETTE[k % len(_PALETTE)] for k, name in enumerate(dict.fromkeys(names))}
 
 
@@ -40,7 +40,7 @@ def linear(colour: str) -> tuple[float, float, float]:
 
 
 def mixed(below: str, above: str, opacity: float) -> str:
-    """About the colour of one colour seen through another."""
+    """The approximate result of one colour seen through another."""
     pairs = zip(_bytes(below), _bytes(above))
     return "#" + "".join(f"{round((1.0 - opacity) * a + opacity * b):02x}" for a, b in pairs)
 

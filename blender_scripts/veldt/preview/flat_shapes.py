@@ -30,7 +30,7 @@ def band(points_m: np.ndarray, width_m: float) -> Mesh:
 
 
 def disc(centre_m, radius_m: float) -> Mesh:
-    """A disc round a point (x, y)."""
+    """A disc around a point (x, y)."""
     angle = 2.0 * np.pi * np.arange(_DISC_CORNERS) / _DISC_CORNERS
     rim = np.asarray(centre_m) + radius_m * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     fan = [[0, k, k + 1] for k in range(1, _DISC_CORNERS - 1)]
@@ -60,7 +60,7 @@ def boxes(lower_m: np.ndarray, upper_m: np.ndarray) -> Mesh:
 
 
 def filled(cells: np.ndarray, origin_m: float, side_m: float) -> Mesh:
-    """The cells of a grid [row of y, column of x] that are true, each row's runs as one box.
+    """Boxes for the true cells of a grid [row of y, column of x], one for each run in a row.
 
     The grid begins at origin_m in x and y.
     """

@@ -1,4 +1,4 @@
-"""The ground of a place as a picture from above: shaded relief, water, road, and how densely it is grown."""
+"""A picture of a place's ground from above: shaded relief, water, road and vegetation density."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..plants.density import DensityMap
 from .colours import surface_colour
 
 _OPEN, _MID, _DENSE = (226, 213, 176), (196, 197, 150), (146, 164, 116)
-_STEEPER = 3.0  # savannas are so flat that their true slopes would show nothing
+_STEEPER = 3.0  # exaggeration of relief: the true slopes of a savanna are too flat to see
 _LIGHT = np.array([-0.5, 0.5, 0.70710678])  # from the north-west, 45 degrees high
 _LEAST_MARGIN_M, _MARGIN = 15.0, 0.12
 
@@ -26,12 +26,12 @@ class Window:
 
 
 def whole_place(terrain: Terrain) -> Window:
-    """The window that is just the place."""
+    """The window that covers exactly the place."""
     return Window(-0.5 * terrain.size_m, -0.5 * terrain.size_m, terrain.size_m)
 
 
 def window_round(points_m: np.ndarray) -> Window:
-    """A window that holds points (n, 2) and some ground round them."""
+    """A window that contains points (n, 2) and some ground around them."""
     low, high = points_m.min(axis=0), points_m.max(axis=0)
     reach_m = 0.5 * float((high - low).max())
     reach_m += max(_LEAST_MARGIN_M, _MARGIN * reach_m)
@@ -40,7 +40,7 @@ def window_round(points_m: np.ndarray) -> Window:
 
 
 def draw_ground(terrain: Terrain, areas: DensityMap, window: Window, side_px: int) -> np.ndarray:
-    """Colours (side_px, side_px, 3), 8 bits, north on top; a pixel shows the place below its middle."""
+    """Colours (side_px, side_px, 3), 8 bits, north up, sampled at the centres of pixels."""
     along_m = (np.arange(side_px) + 0.5) / side_px * window.side_m
     x_m, y_m = (grid.ravel() for grid in np.meshgrid(window.west_m + along_m, window.south_m + along_m[::-1]))
     colour = areas.shares(x_m, y_m) @ np.array([_OPEN, _MID, _DENSE], float)
@@ -53,14 +53,14 @@ def draw_ground(terrain: Terrain, areas: DensityMap, window: Window, side_px: in
 
 
 def _blended(below: np.ndarray, above: str, share: np.ndarray) -> np.ndarray:
-    """Colours (n, 3) under a colour #rrggbb that lies on a share (n,) of each."""
+    """Colours (n, 3) blended with a colour #rrggbb of opacities (n,)."""
     rgb = np.array([int(above[k : k + 2], 16) for k in (1, 3, 5)], float)
     share = np.asarray(share, float)[:, None]
     return below + share * (rgb - below)
 
 
 def _shade(terrain: Terrain, x_m: np.ndarray, y_m: np.ndarray, pixel_m: float) -> np.ndarray:
-    """How bright (n,) relief is in light from the side, 1 where it is level; over at least a cell, so none shows."""
+    """Brightness (n,) of relief lit from the side, 1 on level ground; slopes span at least a cell to hide the grid."""
     step = max(pixel_m, terrain.cell_m)
     east, north = (
         _STEEPER

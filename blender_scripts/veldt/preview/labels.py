@@ -1,4 +1,4 @@
-"""Where the words of a map go, so that they hide neither each other nor what they name."""
+"""Placement of a map's labels such that they hide neither each other nor what they name."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_LETTER = 0.53  # of its size, the mean width of a letter in Blender's font; some above what was measured
-_PAD = 0.25  # of a letter's size, between the words and the border of their plate
+_LETTER = 0.53  # mean width of a letter in Blender's font, of its size; slightly more than measured
+_PAD = 0.25  # of a letter's size, between the text and the border of its plate
 _RINGS = (1.0, 2.2, 3.6, 5.2, 7.0)  # sizes from the anchor
 _DIRECTIONS = 12
 
 
 @dataclass(frozen=True)
 class Label:
-    """Words of a size, from x_m on, their middle at height y_m."""
+    """A text of the given size that starts at x_m, centred vertically on y_m."""
 
     text: str
     x_m: float
@@ -24,7 +24,7 @@ class Label:
 
     @property
     def plate_m(self) -> tuple[float, float, float, float]:
-        """x0, y0, x1, y1 of a plate that holds the words."""
+        """x0, y0, x1, y1 of a plate around the text."""
         pad = _PAD * self.size_m
         half = 0.5 * self.size_m + 0.4 * pad
         width = _LETTER * self.size_m * len(self.text)
@@ -33,7 +33,7 @@ class Label:
 
 @dataclass(frozen=True)
 class Anchor:
-    """What a label names: a place (x, y), and how far off it the label must stay."""
+    """What a label names: a position (x, y), and the distance that the label keeps from it."""
 
     text: str
     point_m: tuple[float, float]
@@ -43,9 +43,9 @@ class Anchor:
 def place_labels(
     anchors: Sequence[Anchor], taken_m: Sequence[tuple], bounds_m: tuple, size_m: float
 ) -> list[Label]:
-    """A label near each anchor, within bounds (x0, y0, x1, y1), off boxes that are taken and off each other.
+    """A label near each anchor, within bounds (x0, y0, x1, y1), clear of occupied boxes and of each other.
 
-    Where there is no room it takes the place where it hides least.
+    If there is no such position, chooses the one that hides least.
     """
     taken = [np.asarray(box, float) for box in taken_m]
     labels = []
@@ -58,7 +58,7 @@ def place_labels(
 
 
 def _choices(anchor: Anchor, size_m: float):
-    """Labels round an anchor, the nearest first."""
+    """Candidate labels around an anchor, nearest first."""
     width = Label(anchor.text, 0.0, 0.0, size_m).plate_m[2]
     for ring in _RINGS:
         for k in range(_DIRECTIONS):
@@ -69,7 +69,7 @@ def _choices(anchor: Anchor, size_m: float):
 
 
 def _hidden_m2(plate: tuple, taken: list[np.ndarray], bounds: tuple) -> float:
-    """How much of what is taken a plate would hide, and how much of it would stick out of bounds."""
+    """The area of occupied boxes that a plate would hide, plus its area out of bounds."""
     x0, y0, x1, y1 = plate
     inside = max(min(x1, bounds[2]) - max(x0, bounds[0]), 0.0) * max(
         min(y1, bounds[3]) - max(y0, bounds[1]), 0.0

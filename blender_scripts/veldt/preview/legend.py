@@ -1,4 +1,4 @@
-"""The column beside a map that says what its colours mean, how large the place is and where north is."""
+"""The column beside a map with its legend, scale bar and north arrow."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .labels import Label
 
 AREA_TINTS = {"open": "#ffe9a0", "dense": "#0b4a20"}  # mid areas are left as they are
 AREA_OPACITY = 0.22
-LEGEND_WIDTH, MARGIN = 0.3, 0.02  # shares of the place's side, as all below
+LEGEND_WIDTH, MARGIN = 0.3, 0.02  # shares of the place's side, like all below
 _INK, _PAPER = "#101010", "#f4f1ea"
 _SURFACES = ("soil", "grass", "wet_soil", "rock", "road", "water")
 _LEFT, _ROW, _LETTERS = 0.03, 0.026, 0.0145
@@ -25,7 +25,7 @@ _FOOT = 0.12  # for the scale bar and the arrow
 
 @dataclass(frozen=True)
 class FlatLayer:
-    """Flat shapes of one colour, #rrggbb; an opacity below 1 lets what is under them through."""
+    """Flat shapes of one colour, #rrggbb, and its opacity."""
 
     name: str
     colour: str
@@ -35,7 +35,7 @@ class FlatLayer:
 
 @dataclass(frozen=True)
 class Legend:
-    """The legend's shapes and words."""
+    """The legend's shapes and labels."""
 
     layers: list[FlatLayer]
     labels: list[Label]
@@ -43,14 +43,14 @@ class Legend:
 
 @dataclass(frozen=True)
 class _Row:
-    """A line of the legend: words, behind a swatch if there is a colour; a heading without."""
+    """A line of the legend: a text after a colour swatch; without a colour, a heading."""
 
     text: str
     colour: str | None = None
 
 
 def plan_legend(world: World, actor_colours: dict[str, str], time_s: float) -> Legend:
-    """The legend of a world's map, right of the place."""
+    """The legend of a world's map, to the right of the place."""
     side = world.terrain.size_m
     rows = _rows(world, actor_colours, time_s)
     pitch = side * min(_ROW, (1.0 - _FOOT) / len(rows))
@@ -93,7 +93,7 @@ def _section(title: str, entries: list[tuple[str, str]]) -> list[_Row]:
 
 
 def _areas() -> list[tuple[str, str]]:
-    """The areas in about the colours that their tints give to soil and grass."""
+    """The areas in approximately the colours that their tints give to soil and grass."""
     bare = mixed(surface_colour("soil"), surface_colour("grass"), 0.5)
     tinted = {name: mixed(bare, tint, AREA_OPACITY) for name, tint in AREA_TINTS.items()}
     return [("open", tinted["open"]), ("mid", bare), ("dense", tinted["dense"])]
@@ -112,7 +112,7 @@ def _swatch(left: float, middle: float, letters: float) -> Mesh:
 
 
 def _frame(side: float) -> Mesh:
-    """All of the sheet that is not the place."""
+    """The part of the sheet outside the place."""
     half, edge = 0.5 * side, (0.5 + MARGIN) * side
     right = edge + LEGEND_WIDTH * side
     return joined(
@@ -126,7 +126,7 @@ def _frame(side: float) -> Mesh:
 
 
 def _foot(side: float, left: float, letters: float) -> tuple[FlatLayer, list[Label]]:
-    """A scale bar of a round length, and an arrow to the north."""
+    """A scale bar of a round length, and a north arrow."""
     length = round_length_m(0.15 * side)
     low = (-0.5 + 0.02) * side
     bar = box(left, low, left + length, low + 0.004 * side)
@@ -142,6 +142,6 @@ def _foot(side: float, left: float, letters: float) -> tuple[FlatLayer, list[Lab
 
 
 def round_length_m(most_m: float) -> float:
-    """The longest of 1, 2, 5, 10, 20 … and of tenths of these that is at most this."""
+    """The largest of 1, 2, 5, 10, 20 … and their tenths that is at most the given length."""
     power = 10.0 ** np.floor(np.log10(most_m))
     return float(max(factor * power for factor in (1, 2, 5) if factor * power <= most_m * (1 + 1e-9)))

@@ -1,4 +1,4 @@
-"""What a map of a place shows above the ground itself: areas, paths, groups, names and a legend. Flat, in metres."""
+"""The layers of a map above the ground: areas, paths, groups, names and a legend. Flat shapes, in metres."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _PATH_STEP = 0.002
 
 @dataclass(frozen=True)
 class MapSheet:
-    """A picture of width_m x height_m round centre_m (x, y): layers from below to above, the words on top."""
+    """A picture of width_m x height_m around centre_m (x, y): layers from bottom to top, with labels on top."""
 
     width_m: float
     height_m: float
@@ -37,7 +37,7 @@ class MapSheet:
 
 
 def plan_map(world: World, time_s: float) -> MapSheet:
-    """The map of a world, its actors where they are at a time."""
+    """The map of a world, with its actors at a given time."""
     side = world.terrain.size_m
     groups = _groups(world.actors)
     colours = signal_colours([actor.species for actor in world.actors])
@@ -70,7 +70,7 @@ def _groups(actors: list[Actor]) -> dict[str, list[Actor]]:
 
 
 def _places(members: list[Actor], time_s: float) -> np.ndarray:
-    """Where the members of a group are (n, 2)."""
+    """Positions (n, 2) of the members of a group."""
     now = np.array([time_s])
     return np.array([track(actor, now).position_m[0, :2] for actor in members])
 
@@ -83,7 +83,7 @@ def _courses(world: World, groups: dict[str, list[Actor]]) -> dict[str, tuple[np
     for entry in scene["groups"]:
         if "path" in entry:
             first = groups[entry["name"]][0]
-            loops.setdefault(entry["path"], first.route)  # the road's is in no config
+            loops.setdefault(entry["path"], first.route)  # the road's loop is not in the config
             walkers.setdefault(entry["path"], first.species)
     return {
         name: (loop.points_m(_PATH_STEP * world.terrain.size_m), walkers.get(name))
@@ -106,7 +106,7 @@ def _tints(world: World) -> list[FlatLayer]:
 
 
 def _path_layers(courses: dict, colours: dict[str, str], side: float) -> list[FlatLayer]:
-    """Paths in the colour of who walks on them, on a pale casing, and the place's border."""
+    """Paths in the colour of their walkers, on a pale casing, and the place's border."""
     half = 0.5 * side
     corners = np.array([[-half, -half], [half, -half], [half, half], [-half, half], [-half, -half]])
     casing = [band(points_m, _CASING * side) for points_m, _ in courses.values()]
@@ -121,7 +121,7 @@ def _path_layers(courses: dict, colours: dict[str, str], side: float) -> list[Fl
 
 
 def _dots(places_m: np.ndarray, colour: str, side: float) -> tuple[FlatLayer, FlatLayer]:
-    """A dot a member, the first one's larger, on dark rims."""
+    """A dot for each member, larger for the first one, with a dark rim."""
     radii_m = [side * (_FIRST if k == 0 else _MEMBER) for k in range(len(places_m))]
     rims = [disc(place, radius_m + _RIM * side) for place, radius_m in zip(places_m, radii_m)]
     dots = [disc(place, radius_m) for place, radius_m in zip(places_m, radii_m)]
@@ -129,7 +129,7 @@ def _dots(places_m: np.ndarray, colour: str, side: float) -> tuple[FlatLayer, Fl
 
 
 def _words(places: dict, courses: dict, side: float) -> tuple[list[Label], list[FlatLayer]]:
-    """Names of groups and paths, and the plates and leaders below them."""
+    """Names of groups and paths, with the plates and leader lines below them."""
     clear_m = (_FIRST + _RIM) * side
     dots = [(*(place - clear_m), *(place + clear_m)) for members in places.values() for place in members]
     groups = [Anchor(name, tuple(members[0]), clear_m) for name, members in places.items()]
@@ -147,13 +147,13 @@ def _words(places: dict, courses: dict, side: float) -> tuple[list[Label], list[
 
 
 def _far_from(points_m: np.ndarray, places: dict) -> np.ndarray:
-    """The point of a path that is farthest from all groups; where there are none, its first."""
+    """The point of a path that is farthest from all groups; its first point if there are none."""
     taken = np.concatenate([np.full((1, 2), np.inf), *places.values()])
     return points_m[np.linalg.norm(points_m[:, None] - taken, axis=-1).min(axis=1).argmax()]
 
 
 def _leader(anchor: Anchor, label: Label, side: float) -> Mesh:
-    """A line from the rim of what is named to the nearest point of its plate."""
+    """A line from the rim of the named object to the nearest point of its plate."""
     x0, y0, x1, y1 = label.plate_m
     point = np.array(anchor.point_m)
     end = np.clip(point, [x0, y0], [x1, y1])

@@ -1,4 +1,4 @@
-"""Where a camera stands for colour stills of a place: over it, and beside some of who lives in it."""
+"""Camera poses for colour stills of a place: an overview, and close-ups of some of its actors."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import assets
-from ..camera import Intrinsics, look
+from ..camera import centred, look
 from ..groups.actors import Actor, track
 from ..world import World
 
-INTRINSICS = Intrinsics(960, 540, 480 / np.tan(np.radians(25.0)))  # 50 deg wide
+INTRINSICS = centred(960, 540, 480 / np.tan(np.radians(25.0)))  # 50 deg wide
 _CLOSE_VIEWS = 4
 _OVERVIEW_M = 122.0
 _EYE_M = 1.7
 _NEAREST_M, _FARTHEST_M = 5.0, 15.0
-_ROOM = 2.0  # of a body's size that fits into the picture
+_ROOM = 2.0  # picture size relative to the body's size
 _AZIMUTHS_DEG = (90, -90, 70, -70, 110, -110, 45, -45, 135, -135, 20, -20, 160, -160)
 _SIGHT_STEPS = 12
-_BODY_M = 2.5  # how near the line of sight another actor is in the way
+_BODY_M = 2.5  # distance from the line of sight within which another actor is in the way
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ def plan_stills(world: World, time_s: float) -> list[Still]:
 
 
 def _overview(world: World, time_s: float) -> np.ndarray:
-    """Over where most actors are together, or over the middle, looking towards the middle or past it to the north."""
+    """A view of the largest group of actors, towards the middle of the place, or of the middle, to the north."""
     at_m = _busiest(world, time_s)
     distance_m = np.linalg.norm(at_m)
     bearing = -at_m / distance_m if distance_m > 1.0 else np.array([0.0, 1.0])
@@ -53,7 +53,7 @@ def _overview(world: World, time_s: float) -> np.ndarray:
 
 
 def _busiest(world: World, time_s: float) -> np.ndarray:
-    """The place (x, y) of the actor with most others near it."""
+    """The position (x, y) of the actor with most others near it."""
     if not world.actors:
         return np.zeros(2)
     places_m = np.array([_place(actor, time_s)[0][:2] for actor in world.actors])
@@ -68,14 +68,18 @@ def _place(actor: Actor, time_s: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _close(world: World, actor: Actor, time_s: float) -> np.ndarray:
-    """At eye height beside an actor, where least is in the way."""
+    """At eye height beside an actor, on the side with the fewest obstacles."""
     foot_m, heading = _place(actor, time_s)
     size_m = np.diff(actor.bounds_m, axis=0)[0]
     target_m = foot_m + [0.0, 0.0, actor.bounds_m[:, 2].mean()]
     target_m[2] = max(
         target_m[2], world.terrain.surface_m(*target_m[:2])
-    )  # of those afloat, what is to be seen
-    fits_m = _ROOM * INTRINSICS.f_px * max(size_m[0] / INTRINSICS.width_px, size_m[2] / INTRINSICS.height_px)
+    )  # of floating bodies, the visible part
+    fits_m = (
+        _ROOM
+        * INTRINSICS.focal_px[0]
+        * max(size_m[0] / INTRINSICS.width_px, size_m[2] / INTRINSICS.height_px)
+    )
     distance_m = np.clip(fits_m, _NEAREST_M, _FARTHEST_M)
     eyes = [_eye(world, target_m, heading, azimuth, distance_m) for azimuth in _AZIMUTHS_DEG]
     others = [other for other in world.actors if other is not actor]
@@ -93,7 +97,7 @@ def _eye(
 
 
 def _hindrances(world: World, eye_m: np.ndarray, target_m: np.ndarray, others_m: np.ndarray) -> float:
-    """How much stands between eye and target: plants, other actors, or ground; off the place is worst of all."""
+    """Number of obstacles between eye and target: plants, other actors, ground; a position off the place is worst."""
     half_m = 0.5 * world.terrain.size_m
     line = eye_m + np.linspace(0.0, 0.9, _SIGHT_STEPS)[:, None] * (target_m - eye_m)
     under_m = world.terrain.surface_m(line[:, 0], line[:, 1])
@@ -103,7 +107,7 @@ def _hindrances(world: World, eye_m: np.ndarray, target_m: np.ndarray, others_m:
 
 
 def _plants_near(world: World, line_m: np.ndarray) -> int:
-    """How many plants reach into a line of sight (n, 3)."""
+    """Number of plants that intersect a line of sight (n, 3)."""
     count = 0
     for name, planting in world.plantings.items():
         reach_m = 0.5 * assets.load("plants", name).get("crown_diameter_m", 1.0) * planting.scale
@@ -120,7 +124,7 @@ def _apart_m(points_m: np.ndarray, line_m: np.ndarray) -> np.ndarray:
 
 
 def _pose(eye_m: np.ndarray, target_m: np.ndarray) -> np.ndarray:
-    """A camera at one point that looks at another."""
+    """The pose of a camera at one point that looks at another."""
     way = target_m - eye_m
     level_m = np.linalg.norm(way[:2])
     depression_rad = np.arctan2([-way[2]], [level_m])

@@ -14,8 +14,8 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Formulas of a dozen operations on numbers of order 1 to 10, exponents up to 20 that magnify a rounding by
-// as much: (12 + 20) eps / 2 = 4e-15 relative.
+// Formulas of a dozen operations on numbers of order 1 to 10, with exponents up to 20 that magnify a rounding by the
+// same factor: (12 + 20) eps / 2 = 4e-15 relative.
 constexpr double kRounding = 4e-15;
 
 constexpr Air kWinter = {273, 0.6, 0};
@@ -25,7 +25,7 @@ constexpr Air kTropics = {308, 0.9, 0};  // 35 g m^-3 of water, were it not clam
 
 }  // namespace
 
-TEST_CASE("Vapour, water content and sky agree with the published formulas computed elsewhere") {
+TEST_CASE("Vapour, water content and sky agree with independently computed published formulas") {
   const auto rows = read_golden("air_and_sky.csv");
   CHECK(rows.size() == 21);
   for (const GoldenRow& row : rows) {
@@ -39,7 +39,7 @@ TEST_CASE("Vapour, water content and sky agree with the published formulas compu
   }
 }
 
-TEST_CASE("So does the transmittance of paths of 0 to 1500 m") {
+TEST_CASE("Transmittance of paths of 0 to 1500 m agrees with them too") {
   const auto rows = read_golden("path_transmittance.csv");
   CHECK(rows.size() == 77);
   for (const GoldenRow& row : rows) {
@@ -50,7 +50,7 @@ TEST_CASE("So does the transmittance of paths of 0 to 1500 m") {
   }
 }
 
-TEST_CASE("A path has no length below 0 and none above 1000 m") {
+TEST_CASE("Path length is clamped to 0 to 1000 m") {
   for (const Air& air : {kWinter, kSummer, kDry, kTropics}) {
     CHECK(path_transmittance(air, 0) == 1);
     CHECK(path_transmittance(air, -5) == 1);
@@ -62,12 +62,12 @@ TEST_CASE("A path has no length below 0 and none above 1000 m") {
   }
 }
 
-TEST_CASE("More water than the fit was made for changes nothing") {
+TEST_CASE("Water content above the fit's range changes nothing") {
   CHECK(path_water_g_m3(kTropics) == 25);
   CHECK(path_transmittance(kTropics, 500) == path_transmittance({318, 1, 0}, 500));
 }
 
-TEST_CASE("Transmittance falls with range, from 1, without a jump, and stays in [0, 1]") {
+TEST_CASE("Transmittance falls with range from 1, without a jump, and stays in [0, 1]") {
   for (const Air& air : {kWinter, kSummer, kDry, kTropics}) {
     double before = 1;
     for (int step = 1; step <= 10000; ++step) {
@@ -83,22 +83,21 @@ TEST_CASE("Transmittance falls with range, from 1, without a jump, and stays in 
   }
 }
 
-TEST_CASE("Where Beer's law hands over to the fit, at 30 m, they agree") {
+TEST_CASE("Beer's law and the fit agree where they meet, at 30 m") {
   for (const Air& air : {kWinter, kSummer, kDry, kTropics}) {
-    // Slopes are below 0.01 a metre; 1e-9 m on either side are 2e-11 apart at most, and rounding is far
-    // below.
+    // Slopes are below 0.01 per metre, so 1e-9 m to either side differ by at most 2e-11, and rounding is far smaller.
     const double step = path_transmittance(air, 30 - 1e-9) - path_transmittance(air, 30 + 1e-9);
     CHECK(std::abs(step) < 2e-11);
   }
 }
 
-TEST_CASE("The more water in the air, the less it lets through") {
+TEST_CASE("Transmittance falls with the air's water content") {
   CHECK(path_transmittance(kDry, 100) > path_transmittance(kWinter, 100));
   CHECK(path_transmittance(kWinter, 100) > path_transmittance(kSummer, 100));
   CHECK(path_transmittance(kSummer, 100) > path_transmittance(kTropics, 100));
 }
 
-TEST_CASE("The sky: darkest at the zenith, brighter over the hemisphere, under clouds nearly black") {
+TEST_CASE("The sky is darkest at the zenith, brighter over the hemisphere, and nearly black under clouds") {
   for (const Air& air : {kWinter, kSummer, kDry}) {
     CHECK(clear_zenith_emissivity(air) < clear_sky_emissivity(air));
     CHECK(clear_sky_emissivity(air) < 1);
@@ -113,18 +112,18 @@ TEST_CASE("The sky: darkest at the zenith, brighter over the hemisphere, under c
   CHECK(clear_zenith_emissivity(kDry) == 0.24);
 }
 
-TEST_CASE("Humid heat closes the sky's window, and it is never more than a blackbody") {
+TEST_CASE("Humid heat closes the sky's window, and its emissivity never exceeds 1") {
   const Air jungle = {318, 1, 0};
   CHECK(clear_zenith_emissivity(jungle) == 1);
   CHECK_THAT(clear_sky_emissivity(jungle), WithinAbs(1, kRounding));
 }
 
-TEST_CASE("Air that cannot be is a fault") {
+TEST_CASE("Impossible air is an error") {
   const auto fault_of = [](const Air& air) { return message_of<ConfigError>([&] { air.validate(); }); };
-  CHECK(fault_of({199, 0.5, 0}) == "weather.air_temperature_k = 199 K; expected 200 to 340 K");
-  CHECK(fault_of({kNaN, 0.5, 0}) == "weather.air_temperature_k = nan K; expected 200 to 340 K");
+  CHECK(fault_of({232, 0.5, 0}) == "weather.air_temperature_k = 232 K; expected 233 to 323 K");
+  CHECK(fault_of({kNaN, 0.5, 0}) == "weather.air_temperature_k = nan K; expected 233 to 323 K");
   CHECK(fault_of({273, 1.5, 0}) == "weather.relative_humidity = 1.5; expected 0 to 1");
   CHECK(fault_of({273, 0.5, -0.1}) == "weather.cloud_fraction = -0.1; expected 0 to 1");
-  CHECK_NOTHROW(Air{200, 0, 1}.validate());
-  CHECK_NOTHROW(Air{340, 1, 0}.validate());
+  CHECK_NOTHROW(Air{233, 0, 1}.validate());
+  CHECK_NOTHROW(Air{323, 1, 0}.validate());
 }

@@ -6,12 +6,12 @@ using namespace thermal;
 namespace {
 
 constexpr int kSide = 32;
-// Powers of two everywhere: the places that pixels show are exact in single precision.
+// Powers of two everywhere, so that the places of pixels are exact in single precision.
 constexpr double kDepthM = 16;
 constexpr double kFocalPx = 32;
 constexpr double kPixelM = kDepthM / kFocalPx;
 
-/// A camera that looks straight down on soil from a place, turned by quarters of a circle about its axis.
+/// A camera that looks straight down on soil from a place, rotated about its axis by multiples of 90 degrees.
 Plane<float> picture_from(double x_m, double y_m, int quarters) {
   constexpr std::array<std::array<double, 2>, 4> kTurns = {
       {{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};  // cosine, sine
@@ -29,13 +29,13 @@ Plane<float> picture_from(double x_m, double y_m, int quarters) {
 
 TEST_CASE("The same place on the ground has the same temperature in every frame, to the bit") {
   const Plane<float> here = picture_from(100, -40, 0);
-  SECTION("from a camera that has moved by 5 pixels to the right and 3 up") {
+  SECTION("from a camera that moved 5 pixels right and 3 up") {
     const Plane<float> there = picture_from(100 + 5 * kPixelM, -40 + 3 * kPixelM, 0);
     for (int y = 0; y + 3 < kSide; ++y) {
       for (int x = 5; x < kSide; ++x) REQUIRE(there.at(x - 5, y + 3) == here.at(x, y));
     }
   }
-  SECTION("from one that has turned by a right angle") {
+  SECTION("from a camera that turned by a right angle") {
     const Plane<float> turned = picture_from(100, -40, 1);
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) REQUIRE(turned.at(kSide - 1 - y, x) == here.at(x, y));
@@ -43,7 +43,7 @@ TEST_CASE("The same place on the ground has the same temperature in every frame,
   }
 }
 
-TEST_CASE("Another place has another temperature, and another seed another field") {
+TEST_CASE("Another place has another temperature, and another seed gives another field") {
   const Plane<float> here = picture_from(100, -40, 0);
   CHECK(here.at(0, 0) != here.at(kSide - 1, kSide - 1));
   CHECK(picture_from(60, -40, 0) != here);

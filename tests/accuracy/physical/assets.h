@@ -7,7 +7,7 @@
 #include "radiometry/emissivity.h"
 #include "radiometry/spectral_response.h"
 
-/// The materials that come with the program.
+/// The materials in assets.
 inline const thermal::MaterialLibrary& materials() {
   static const thermal::MaterialLibrary kLibrary = thermal::read_materials(VELDT_SOURCE_DIR);
   return kLibrary;
@@ -15,12 +15,12 @@ inline const thermal::MaterialLibrary& materials() {
 
 inline const thermal::Material& material(const std::string& name) { return materials().find(name, "test"); }
 
-/// A response curve that comes with the program.
+/// A response curve in assets.
 inline thermal::SpectralResponse response(const std::string& name) {
   return thermal::read_response(std::string(VELDT_SOURCE_DIR) + "/assets/responses/" + name + ".csv");
 }
 
-/// Dark below 9.4 um and bright above, as quartz sand is: a step a tenth of a micrometre wide.
+/// Dark below 9.4 um and bright above, like quartz sand: a step a tenth of a micrometre wide.
 inline thermal::EmissivitySpectrum quartz() {
   return thermal::EmissivitySpectrum({{7, 0.75}, {9.35, 0.75}, {9.45, 0.97}, {16, 0.97}});
 }

@@ -11,7 +11,7 @@ using namespace thermal;
 
 namespace {
 
-/// What is promised of the reference: this much relative error for each unit of the problem's condition.
+/// The stated bound of the reference: relative error per unit of the problem's condition.
 constexpr double kPromise = 2e-15;
 
 /// One of 200 in-band radiances computed with 60 digits: 1 K to 1e6 K, bands from 1 pm to 100 um wide.
@@ -23,10 +23,10 @@ struct Point {
   double derivative;
   double ln_radiance;
 
-  /// How much the relative error of an input is magnified: T L'/L. A rounding of T, of c2 or of every
-  /// wavelength together all move x = c2 / (wavelength T) alike, and L by this many times as much. Never
-  /// below 1; it is the x of the band's long-wave end where that is large, 1030 at 1 K and 14 um. Taken from
-  /// the logarithm, so that it is known where L is no double any more.
+  /// Condition, the factor by which the relative error of an input is magnified: T L'/L. A rounding of T, of c2 or of
+  /// all wavelengths together changes x = c2 / (wavelength T) alike, and L by this factor. Never below 1; where
+  /// large, it is the x of the band's long-wave end, 1030 at 1 K and 14 um. Computed from the logarithm, so that it
+  /// is known where L underflows.
   [[nodiscard]] double condition() const {
     const double x_end = kSecondRadiationConstant * 1e6 / (end_um * temperature_k);
     return std::isnormal(radiance) ? temperature_k * (derivative / radiance) : x_end + 4;
@@ -63,10 +63,10 @@ std::vector<Point> points() {
 
 }  // namespace
 
-TEST_CASE("Radiances of bands of any shape, width and temperature keep to the promise") {
+TEST_CASE("Radiances of bands of any shape, width and temperature keep to the stated error") {
   int tested = 0;
   for (const Point& point : points()) {
-    if (!std::isnormal(point.radiance)) continue;  // too small for a double: the next test but one
+    if (!std::isnormal(point.radiance)) continue;  // too small for a double: the test after the next
     CAPTURE(point.temperature_k, point.end_um, point.condition());
     CHECK_THAT(point.band.radiance(point.temperature_k),
                WithinRel(point.radiance, kPromise * point.condition()));
@@ -75,7 +75,7 @@ TEST_CASE("Radiances of bands of any shape, width and temperature keep to the pr
   CHECK(tested == 178);
 }
 
-TEST_CASE("So do their derivatives, whose condition is larger by at most one") {
+TEST_CASE("Derivatives do too, with a condition larger by at most one") {
   for (const Point& point : points()) {
     if (!std::isnormal(point.radiance) || !std::isnormal(point.derivative)) continue;
     CAPTURE(point.temperature_k, point.end_um, point.condition());
@@ -84,7 +84,7 @@ TEST_CASE("So do their derivatives, whose condition is larger by at most one") {
   }
 }
 
-TEST_CASE("Logarithms are right for all 200, wherever the radiance itself has vanished") {
+TEST_CASE("Logarithms are accurate for all 200 points, also where the radiance underflows") {
   const std::vector<Point> all = points();
   CHECK(all.size() == 200);
   for (const Point& point : all) {

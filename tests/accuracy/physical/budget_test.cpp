@@ -15,7 +15,7 @@ const SpectralResponse kBand = SpectralResponse::flat(8, 14);
 const Weather kWinter = weather_of(Season::winter);
 const Weather kSummer = weather_of(Season::summer);
 
-/// One night's figures for a material [mK].
+/// One night's values for a material [mK].
 struct Shifts {
   double sky;
   double path_61m;
@@ -28,8 +28,8 @@ struct PublishedRow {
   Shifts summer;
 };
 
-/// Computed in 60-digit arithmetic from the formulas of atmosphere.h, printed to whole mK: diffuse level
-/// surfaces, air at 273 K and 60 % in winter, 293 K and 70 % in summer, flat 8 to 14 um.
+/// Computed with 60 digits from the formulas of atmosphere.h, rounded to whole mK: diffuse level surfaces, air at 273
+/// K and 60 % in winter, 293 K and 70 % in summer, flat 8 to 14 um.
 constexpr PublishedRow kPublished[] = {{"soil", {1601, -47, -66}, {3284, 417, 603}},
                                        {"grass", {806, 47, 66}, {1497, 67, 97}},
                                        {"human", {232, -508, -716}, {490, -413, -597}},
@@ -59,7 +59,7 @@ Material made_of(const std::string& name, double emissivity) {
 constexpr TermChoice kAuto = TermChoice::automatic;
 constexpr TermChoices kAllAuto = {kAuto, kAuto, kAuto, kAuto, kAuto, kAuto};
 
-/// Soil, grass and a person seen straight down from a distance in a winter's night.
+/// Soil, grass and a person seen from straight above at a distance in a winter night.
 SceneOutline savanna_from(double range_m) {
   SceneOutline outline;
   outline.covers = {
@@ -77,14 +77,14 @@ const TermEffect& effect(const Budget& budget, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("Shifts of apparent temperature are the published ones, in every row, to the printed mK") {
+TEST_CASE("Shifts of apparent temperature match the published ones, in every row, to the printed mK") {
   for (const PublishedRow& row : kPublished) {
     check_night(material(row.material), kWinter, row.winter);
     check_night(material(row.material), kSummer, row.summer);
   }
 }
 
-TEST_CASE("There is a line in the budget for each term, in their order") {
+TEST_CASE("The budget has one line per term, in order") {
   const Budget budget = weigh_terms(savanna_from(61), kAllAuto);
   REQUIRE(budget.effects.size() == std::size(kTerms));
   for (std::size_t i = 0; i < std::size(kTerms); ++i) {
@@ -94,15 +94,14 @@ TEST_CASE("There is a line in the budget for each term, in their order") {
 }
 
 TEST_CASE("The air is dropped for a tripod 5 m away and kept for a drone at 61 m") {
-  // Three materials: the spread from the 5th to the 95th percentile is between the most different of them. At
-  // 61 m that is grass against person, 47 + 508 mK by the table above, on top of the sky's reflection as
-  // there.
+  // Three materials: the spread from the 5th to the 95th percentile is between the most different of them. At 61 m
+  // that is grass against person, 47 + 508 mK by the table above, on top of the sky's reflection there.
   const Budget drone = weigh_terms(savanna_from(61), kAllAuto);
   CHECK(drone.kept.path);
   CHECK_THAT(1e3 * effect(drone, "path").spread_k, WithinAbs(47 + 508, 1));
   CHECK_THAT(1e3 * effect(drone, "path").actor_shift_k, WithinAbs(508, 0.5));
 
-  // A shot of ground alone: soil and grass differ by 94 mK at 61 m, and by a tenth of that at 5 m.
+  // A view of ground alone: soil and grass differ by 94 mK at 61 m, and by a tenth of that at 5 m.
   SceneOutline ground = savanna_from(5);
   ground.covers.pop_back();
   const Budget tripod = weigh_terms(ground, kAllAuto);
@@ -112,7 +111,7 @@ TEST_CASE("The air is dropped for a tripod 5 m away and kept for a drone at 61 m
   CHECK(weigh_terms(ground, kAllAuto).kept.path);
 }
 
-TEST_CASE("Blackbodies reflect no sky, others do") {
+TEST_CASE("Other surfaces reflect sky, blackbodies do not") {
   const Material black = made_of("soot", 1);
   const Material other = made_of("lamp black", 1);
   const Material grey = made_of("rock", 0.9);
@@ -126,7 +125,7 @@ TEST_CASE("Blackbodies reflect no sky, others do") {
   CHECK(weigh_terms(outline, kAllAuto).kept.sky);
 }
 
-TEST_CASE("What shifts everything alike is dropped: contrast is what a detector sees") {
+TEST_CASE("A uniform shift is dropped, because a detector sees contrast") {
   SceneOutline outline = savanna_from(61);
   outline.covers = {{&material("truck"), 1, false}};
   const Budget budget = weigh_terms(outline, kAllAuto);
@@ -135,7 +134,7 @@ TEST_CASE("What shifts everything alike is dropped: contrast is what a detector 
   CHECK_FALSE(budget.kept.path);
 }
 
-TEST_CASE("On and off go before the rule") {
+TEST_CASE("On and off override the rule") {
   TermChoices choices = kAllAuto;
   choices.path = TermChoice::off;
   choices.falloff = TermChoice::on;
@@ -143,35 +142,35 @@ TEST_CASE("On and off go before the rule") {
   CHECK_FALSE(budget.kept.path);
   CHECK(budget.kept.falloff);
   CHECK(effect(budget, "path").choice == TermChoice::off);
-  CHECK(effect(budget, "falloff").spread_k == 0);  // one look alone: nothing differs
+  CHECK(effect(budget, "falloff").spread_k == 0);  // a single direction: nothing differs
   const Budget none = weigh_terms(savanna_from(61), TermChoices());
   CHECK(none.kept == Terms());
 }
 
-TEST_CASE("A term that cannot be had is dropped, told, and counted among what is dropped") {
+TEST_CASE("An impossible term is dropped, reported, and counted among the dropped terms") {
   SceneOutline outline = savanna_from(61);
-  outline.impossible = {{"path", "clip one: there is no depth"}};
+  outline.impossible = {{"path", "clip one: no depth"}};
   const Budget budget = weigh_terms(outline, kAllAuto);
   CHECK_FALSE(budget.kept.path);
-  CHECK(effect(budget, "path").impossible == "clip one: there is no depth");
+  CHECK(effect(budget, "path").impossible == "clip one: no depth");
   CHECK(effect(budget, "sky").impossible.empty());
   CHECK(budget.kept.sky);
   CHECK_THAT(budget.dropped_k - weigh_terms(savanna_from(61), kAllAuto).dropped_k,
              WithinRel(effect(budget, "path").spread_k, 1e-12));  // a sum of six in another order
 }
 
-TEST_CASE("Asked for, it is a fault; switched off, it is none") {
+TEST_CASE("An impossible term is an error if switched on, and none if switched off") {
   SceneOutline outline = savanna_from(61);
-  outline.impossible = {{"path", "clip one: there is no depth"}};
+  outline.impossible = {{"path", "clip one: no depth"}};
   TermChoices choices = kAllAuto;
   choices.path = TermChoice::on;
   CHECK(message_of<ConfigError>([&] { (void)weigh_terms(outline, choices); }) ==
-        "terms.path = on; expected off or auto, because clip one: there is no depth");
+        "terms.path = on; expected off or auto, because clip one: no depth");
   choices.path = TermChoice::off;
   CHECK_NOTHROW(weigh_terms(outline, choices));
 }
 
-TEST_CASE("Where nobody knows where a camera looks, what depends on it weighs nothing") {
+TEST_CASE("With unknown viewing directions, terms that depend on them have no effect") {
   SceneOutline outline = savanna_from(61);
   outline.nights[0].looks.clear();
   const Budget budget = weigh_terms(outline, kAllAuto);
@@ -182,7 +181,7 @@ TEST_CASE("Where nobody knows where a camera looks, what depends on it weighs no
   CHECK(budget.kept.parts);
 }
 
-TEST_CASE("The sum of what was dropped is the sum of the dropped lines") {
+TEST_CASE("The total of what was dropped is the sum of the dropped lines") {
   for (const double range_m : {5.0, 61.0}) {
     TermChoices choices = kAllAuto;
     choices.sky = TermChoice::off;
@@ -194,7 +193,7 @@ TEST_CASE("The sum of what was dropped is the sum of the dropped lines") {
   }
 }
 
-TEST_CASE("A term is kept where its spread is more than a third of the NETD") {
+TEST_CASE("A term is kept if its spread exceeds a third of the NETD") {
   SceneOutline outline = savanna_from(61);
   const double spread_k = effect(weigh_terms(outline, kAllAuto), "path").spread_k;
   outline.netd_k = 3 * spread_k * 0.999;
@@ -203,7 +202,7 @@ TEST_CASE("A term is kept where its spread is more than a third of the NETD") {
   CHECK_FALSE(weigh_terms(outline, kAllAuto).kept.path);
 }
 
-TEST_CASE("Of several nights the one that matters most decides, for all: never frame by frame") {
+TEST_CASE("The worst of several nights decides for all frames") {
   SceneOutline outline = savanna_from(5);
   outline.covers.pop_back();
   const double near_k = effect(weigh_terms(outline, kAllAuto), "path").spread_k;
@@ -215,7 +214,7 @@ TEST_CASE("Of several nights the one that matters most decides, for all: never f
   CHECK(both.kept.path);
 }
 
-TEST_CASE("Angles matter to water that is seen at several, not to plants") {
+TEST_CASE("Angles matter for water seen at several angles, not for plants") {
   SceneOutline outline;
   outline.nights = {{kWinter, {{61, 1, 1}, {80, 0.7, 1}, {120, 0.4, 1}}}};
   outline.covers = {{&material("water"), 1, false}};
@@ -224,11 +223,11 @@ TEST_CASE("Angles matter to water that is seen at several, not to plants") {
   CHECK(effect(weigh_terms(outline, kAllAuto), "angular").spread_k == 0);
 }
 
-TEST_CASE("Fall-off is weighed as what it does to noise: cos^-4 of the NETD towards the corners") {
+TEST_CASE("Fall-off is measured by its effect on noise: cos^-4 of the NETD towards the corners") {
   SceneOutline outline = savanna_from(61);
   outline.nights[0].looks = {{61, 1, 1}, {64, 0.95, std::cos(22.5 * 3.14159265358979 / 180)}};
   const Budget budget = weigh_terms(outline, kAllAuto);
-  // cos^4 of 22.5 deg is .729 to the digits given: noise is 1 / .729 - 1 = .372 of the NETD higher.
+  // cos^4 of 22.5 deg is .729 to the printed digits: noise is 1 / .729 - 1 = .372 of the NETD higher.
   CHECK_THAT(effect(budget, "falloff").spread_k / outline.netd_k, WithinAbs(0.372, 0.001));
   CHECK(budget.kept.falloff);
 }
@@ -237,13 +236,13 @@ TEST_CASE("Variation spreads by 3.3 standard deviations, as a normal distributio
   SceneOutline outline;
   outline.nights = {{kWinter, {{61, 1, 1}}}};
   outline.covers = {{&material("soil"), 1, false}};
-  // Of ten equal shares the lowest and the highest hold 5 % at their middles: 2 * 1.645 standard deviations.
+  // Of ten equal weights the lowest and the highest hold 5 % at their middles: 2 * 1.645 standard deviations.
   const double stddev_k = material("soil").variation.stddev_k;
   CHECK_THAT(effect(weigh_terms(outline, kAllAuto), "variation").spread_k,
              WithinRel(2 * 1.645 * stddev_k, 1e-3));
 }
 
-TEST_CASE("Parts are weighed over actors alone") {
+TEST_CASE("Parts are measured over actors only") {
   const Budget budget = weigh_terms(savanna_from(61), kAllAuto);
   // A face at 1.45 times the person's excess of 19 K over the air, against a pack at .15: more than 20 K
   // apart.

@@ -20,7 +20,7 @@ constexpr float kDenormal = std::numeric_limits<float>::denorm_min();
 constexpr std::array<float, 3> kUp = {0, 0, 1};
 constexpr double kFloatRounding = 6e-8;  // half of a float's eps
 
-/// The same objects, seen straight down by a camera of any size.
+/// The same objects, seen from straight above by a camera of any size.
 Manifest looking_down(int width, int height) {
   Manifest result = chain_scene::manifest();
   result.camera = {width, height, chain_scene::kFocalPx, chain_scene::kFocalPx, width / 2.0, height / 2.0};
@@ -57,7 +57,7 @@ const std::array<float, 3> kBadNormals[] = {
 
 }  // namespace
 
-TEST_CASE("Whatever depth and normal hold, radiance is a positive finite number") {
+TEST_CASE("Radiance is a positive finite number whatever depth and normal hold") {
   const OnePixel pixel(kAllTerms);
   for (const float depth_m : kBadDepths) {
     for (const auto& normal : kBadNormals) {
@@ -71,9 +71,9 @@ TEST_CASE("Whatever depth and normal hold, radiance is a positive finite number"
   }
 }
 
-TEST_CASE("Depth that is nowhere leaves ground at its mean temperature") {
+TEST_CASE("Invalid depth leaves ground at its mean temperature") {
   const OnePixel varied({.variation = true});
-  // The one through the radiance table, the other straight from the reference: both round to a float.
+  // One through the radiance table, the other directly from the reference: both round to a float.
   const auto mean = static_cast<double>(OnePixel({}).radiance(chain_scene::kSoil, 61));
   CHECK_THAT(static_cast<double>(varied.radiance(chain_scene::kSoil, 61)), !WithinRel(mean, 1e-4));
   const RadianceTable table(
@@ -85,7 +85,7 @@ TEST_CASE("Depth that is nowhere leaves ground at its mean temperature") {
   }
 }
 
-TEST_CASE("A range beyond the path model counts as 1000 m, none as no air at all") {
+TEST_CASE("A range beyond the path model counts as 1000 m, zero range as no air") {
   const OnePixel pixel({.path = true});
   const float farthest = pixel.radiance(chain_scene::kHuman, 1000);
   for (const float depth_m : {1001.0F, 1e9F, 1e10F, kInfinity, kNaN}) {
@@ -98,7 +98,7 @@ TEST_CASE("A range beyond the path model counts as 1000 m, none as no air at all
   CHECK(farthest < airless);
 }
 
-TEST_CASE("The sky keeps its radiance, whatever stands in the other planes") {
+TEST_CASE("The sky keeps its radiance whatever the other planes hold") {
   const OnePixel pixel(kAllTerms);
   const float sky = pixel.radiance(chain_scene::kSky, 1e10F);
   for (const float depth_m : kBadDepths) {
@@ -110,7 +110,7 @@ TEST_CASE("The sky keeps its radiance, whatever stands in the other planes") {
   CHECK_THAT(static_cast<double>(sky), WithinRel(expected, kFloatRounding));
 }
 
-TEST_CASE("A normal that is none counts as facing sky and camera squarely") {
+TEST_CASE("An invalid normal counts as facing sky and camera squarely") {
   const OnePixel pixel({.sky = true, .angular = true});
   for (std::uint16_t object = chain_scene::kSoil; object < chain_scene::kObjects; ++object) {
     const float squarely = pixel.radiance(object, 61);
@@ -121,7 +121,7 @@ TEST_CASE("A normal that is none counts as facing sky and camera squarely") {
   }
 }
 
-TEST_CASE("A normal that faces away from the camera is turned round") {
+TEST_CASE("A normal that faces away from the camera is flipped") {
   const OnePixel pixel(kAllTerms);
   const float s = 0.70710678F;
   for (const auto& normal : {kUp, std::array<float, 3>{s, 0, s}, std::array<float, 3>{0.6F, 0.48F, 0.64F}}) {
@@ -132,7 +132,7 @@ TEST_CASE("A normal that faces away from the camera is turned round") {
   }
 }
 
-TEST_CASE("Frames may be a pixel, a row or a column, and all sky") {
+TEST_CASE("Frames may be a single pixel, row or column, and all sky") {
   for (const auto& [width, height] :
        {std::pair{1, 1}, std::pair{333, 1}, std::pair{1, 333}, std::pair{48, 40}}) {
     const Plane<float> ground = chain_scene::radiance(
@@ -147,13 +147,13 @@ TEST_CASE("Frames may be a pixel, a row or a column, and all sky") {
   }
 }
 
-TEST_CASE("Where everything is black and as warm as the air, air and sky change nothing") {
+TEST_CASE("If everything is black and at air temperature, air and sky change nothing") {
   MaterialLibrary library;
   for (const char* name : {"sky", "soil", "grass", "water", "sand", "human", "truck"}) {
     Material black;
     black.name = name;
     black.emissivity = 1;
-    library.add(black);  // 273 K and 293 K in the two nights: as the air
+    library.add(black);  // 273 K and 293 K in the two nights, like the air
   }
   PhysicsSettings settings = chain_scene::settings(kAllTerms);
   const Manifest manifest = looking_down(48, 40);
@@ -167,7 +167,7 @@ TEST_CASE("Where everything is black and as warm as the air, air and sky change 
   }
 }
 
-TEST_CASE("Ground that would vary beyond its table of radiance is a fault, not a wrong number") {
+TEST_CASE("Ground that could vary beyond its radiance table is an error, not a wrong number") {
   MaterialLibrary library;
   for (const auto& [name, one] : chain_scene::library().all()) {
     Material changed = one;
@@ -179,10 +179,10 @@ TEST_CASE("Ground that would vary beyond its table of radiance is a fault, not a
   };
   CHECK(message_of<ConfigError>([&] { (void)make({.variation = true}); }) ==
         "material soil: variation about 900.0 K by up to 6.0 K; expected within 180 K to 436 K");
-  CHECK_NOTHROW(make({.sky = true, .path = true}));  // without variation the reference is asked, once
+  CHECK_NOTHROW(make({.sky = true, .path = true}));  // without variation the reference is called, once
 }
 
-TEST_CASE("The air is right at every range and in every weather, to the rounding of floats") {
+TEST_CASE("The air is correct at every range and in every weather, to float rounding") {
   constexpr int kPixels = 512;
   Passes passes = uniform_passes(kPixels, 1, chain_scene::kHuman, 0, kUp);
   for (int x = 0; x < kPixels; ++x)
@@ -203,7 +203,7 @@ TEST_CASE("The air is right at every range and in every weather, to the rounding
       const double range_m = static_cast<double>(passes.depth_m.at(x, 0) * rays.length().at(x, 0));
       const double through = path_transmittance(air, range_m);
       CAPTURE(air.temperature_k, air.relative_humidity, range_m);
-      // Surface and air differ by less than 30 %: what the path takes is right to 2e-7, two roundings;
+      // Surface and air differ by less than 30 %: the absorption of the path is accurate to 2e-7, two roundings;
       // result, one.
       REQUIRE_THAT(static_cast<double>(plane.at(x, 0)),
                    WithinRel(through * emitted + (1 - through) * of_air, 4 * kFloatRounding));

@@ -10,8 +10,8 @@
 #include "accuracy/physical/assets.h"
 #include "imaging/scene_radiance.h"
 
-/// A small made-up picture with everything in it that the terms act on: ground of several kinds, still water,
-/// a person with a face, a truck with a warm hood, sky, at ranges and angles that follow no pattern.
+/// A small synthetic picture with everything that the terms act on: ground of several kinds, still water, a person
+/// with a face, a truck with a warm hood, sky, at irregular ranges and angles.
 namespace chain_scene {
 
 inline constexpr int kWidth = 48;
@@ -21,7 +21,7 @@ inline constexpr double kFocalPx = 60;
 enum Object : std::uint16_t { kSky, kSoil, kGrass, kWater, kSand, kHuman, kTruck, kObjects };
 enum Part : std::uint16_t { kNoPart, kFace, kHood };
 
-/// Materials that come with the program, and sand that is dark below 9.4 um and varies in temperature.
+/// Materials from assets, and sand that is dark below 9.4 um and varies in temperature.
 inline const thermal::MaterialLibrary& library() {
   static const thermal::MaterialLibrary kAll = [] {
     thermal::MaterialLibrary result;
@@ -72,7 +72,7 @@ inline thermal::Manifest manifest() {
   return result;
 }
 
-/// Passes of one colour: one object, at a depth, with a normal.
+/// Uniform passes: one object, at a depth, with a normal.
 inline thermal::Passes uniform_passes(int width, int height, std::uint16_t object, float depth_m,
                                       std::array<float, 3> normal) {
   thermal::Passes passes;
@@ -82,11 +82,11 @@ inline thermal::Passes uniform_passes(int width, int height, std::uint16_t objec
   return passes;
 }
 
-/// The made-up picture: every pixel drawn by itself.
+/// The synthetic picture: every pixel drawn independently.
 inline thermal::Passes passes() {
   thermal::Passes result = uniform_passes(kWidth, kHeight, kSky, 1e10F, {0, 0, 0});
   result.material_index = {kWidth, kHeight, kNoPart};
-  std::mt19937 generator(20);  // the standard fixes its numbers
+  std::mt19937 generator(20);  // the standard specifies its numbers
   const auto draw = [&generator] { return static_cast<double>(generator()) / 4294967296.0; };
   for (std::size_t i = 0; i < result.object_index.size(); ++i) {
     const auto index = static_cast<std::uint16_t>(draw() * static_cast<int>(kObjects));

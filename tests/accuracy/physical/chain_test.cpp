@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFloatRounding = 6e-8;  // half of a float's eps
 
-/// The chain a second time, pixel by pixel in double precision, from the formulas alone.
+/// The chain again, pixel by pixel in double precision, from the formulas alone.
 class ExactChain {
  public:
   explicit ExactChain(const Terms& terms)
@@ -44,13 +44,13 @@ class ExactChain {
     return through * result + (1 - through) * air_radiance();
   }
 
-  /// A difference of radiances as one of temperatures, at that of the air [mK].
+  /// A difference of radiances as a difference of temperatures at air temperature [mK].
   [[nodiscard]] double as_mk(double difference) const {
     return 1e3 * difference / blackbody_.evaluate(settings_.weather.air.temperature_k).derivative_w_m2_sr_k;
   }
 
-  /// The most a rounding to single precision changes anything in the picture by: nothing is brighter than the
-  /// hood, 32 K above the air.
+  /// Largest effect of one rounding to single precision in the picture: nothing is brighter than the hood, 32 K above
+  /// the air.
   [[nodiscard]] double rounding_mk() const { return as_mk(kFloatRounding * blackbody_.radiance(315)); }
 
  private:
@@ -105,11 +105,12 @@ class ExactChain {
   }
   [[nodiscard]] double cosine(int x, int y) const { return std::abs(along_ray(x, y)); }
 
-  /// What the surface reflects, against a blackbody at air temperature.
+  /// Reflected radiance, relative to a blackbody at air temperature.
   [[nodiscard]] double surroundings(const Material& surface, int x, int y) const {
     const Air& air = settings_.weather.air;
     if (surface.angular == AngularLaw::water) {
-      // The sky towards the horizon: the zenith's, through a path longer by the secant; to 3 deg above it.
+      // The sky towards the horizon: the zenith's, through a path longer by the secant; down to 3 deg above the
+      // horizon.
       return 1 - std::pow(1 - zenith_emissivity(air), 1 / std::max(cosine(x, y), 0.05));
     }
     const double up = along_ray(x, y) > 0 ? -normal(x, y, 2) : normal(x, y, 2);
@@ -126,7 +127,7 @@ class ExactChain {
   std::map<std::string, BandRadiance> bands_;
 };
 
-/// Largest departure of the chain from the exact one over the picture [mK].
+/// Largest error of the chain over the picture [mK].
 double worst_mk(const ExactChain& exact, const Plane<float>& plane) {
   double worst = 0;
   for (int y = 0; y < plane.height_px(); ++y) {
@@ -138,15 +139,15 @@ double worst_mk(const ExactChain& exact, const Plane<float>& plane) {
   return worst;
 }
 
-/// Terms, and how many roundings to single precision there are on a pixel's way through them.
+/// Terms, and the number of roundings to single precision on a pixel's way through them.
 struct Chosen {
   const char* name = "";
   Terms terms;
   int roundings = 0;
 };
 
-// One for what a surface emits, two for a product added, and four for what depends on an angle or a range:
-// direction, length, the function's table or polynomial, and its reading, which are made to err by no more.
+// One for what a surface emits, two for a product added, and four for what depends on an angle or a range: direction,
+// length, the function's table or polynomial, and its evaluation, whose errors are no larger.
 constexpr Chosen kChosen[] = {{"emission alone", {}, 1},
                               {"parts", {.parts = true}, 1},
                               {"sky", {.sky = true}, 1 + 2 + 4},
@@ -157,9 +158,8 @@ constexpr Chosen kChosen[] = {{"emission alone", {}, 1},
                               {"variation", {.variation = true}, 1},
                               {"all", chain_scene::kAllTerms, 1 + 3 * (2 + 4)}};
 
-/// What single precision makes of the temperature field [mK]: places are below 35 correlation lengths and
-/// rounded three times, the field is no steeper than 15 a length, soil's stddev is 1 K; and the radiance
-/// table's own error.
+/// Effect of single precision on the temperature field [mK]: positions are below 35 correlation lengths and rounded
+/// three times, the field's slope is at most 15 per length, soil's stddev is 1 K; and the radiance table's own error.
 double variation_bound_mk() {
   const RadianceTable table(BandRadiance(response("vox_germanium"), quartz()));
   return 1e3 * (3 * kFloatRounding * 35 * 15 * 1 + table.worst_error_k());
@@ -167,7 +167,7 @@ double variation_bound_mk() {
 
 using IsTouched = bool (*)(std::uint16_t object, std::uint16_t part);
 
-/// A term, and the pixels that it has anything to do with.
+/// A term, and the pixels it affects.
 struct Dropped {
   const char* name;
   bool Terms::*term;
@@ -193,7 +193,7 @@ PassNeeds needs(const Terms& terms) {
 
 }  // namespace
 
-TEST_CASE("Each term alone, and all of them, agree with double precision to the rounding of floats") {
+TEST_CASE("Each term alone, and all of them, agree with double precision to float rounding") {
   for (const auto& [name, terms, roundings] : kChosen) {
     const ExactChain exact(terms);
     const double worst = worst_mk(exact, chain_scene::radiance(terms));
@@ -204,7 +204,7 @@ TEST_CASE("Each term alone, and all of them, agree with double precision to the 
   }
 }
 
-TEST_CASE("A term that is dropped leaves every pixel it has nothing to do with as it was, to the bit") {
+TEST_CASE("A dropped term leaves every pixel it does not affect unchanged, to the bit") {
   const Passes passes = chain_scene::passes();
   const Plane<float> all = chain_scene::radiance(chain_scene::kAllTerms);
   for (const auto& [name, term, touches] : kDropped) {
@@ -223,7 +223,7 @@ TEST_CASE("A term that is dropped leaves every pixel it has nothing to do with a
   }
 }
 
-TEST_CASE("It asks for the planes that its terms read, and no others") {
+TEST_CASE("The chain requests the planes that its terms read, and no others") {
   const auto check = [](const Terms& terms, bool depth, bool normals) {
     CHECK(needs(terms).depth == depth);
     CHECK(needs(terms).normals == normals);
@@ -237,14 +237,14 @@ TEST_CASE("It asks for the planes that its terms read, and no others") {
   check(chain_scene::kAllTerms, true, true);
 }
 
-TEST_CASE("Planes that are not asked for may be missing") {
+TEST_CASE("Planes that are not requested may be missing") {
   Passes bare;
   bare.object_index = chain_scene::passes().object_index;
   bare.material_index = chain_scene::passes().material_index;
   CHECK(chain_scene::radiance({.parts = true}, bare) == chain_scene::radiance({.parts = true}));
 }
 
-TEST_CASE("Any number of threads gives the same bits") {
+TEST_CASE("The number of threads does not change any bit") {
   const auto with_threads = [](int threads) {
     const ThreadLimit limit(threads);
     return chain_scene::radiance(chain_scene::kAllTerms);
@@ -254,7 +254,7 @@ TEST_CASE("Any number of threads gives the same bits") {
   CHECK(with_threads(5) == alone);
 }
 
-TEST_CASE("Terms that look from somewhere need a pose in every frame") {
+TEST_CASE("Terms that need a viewpoint need a pose in every frame") {
   Manifest poseless = chain_scene::manifest();
   poseless.frames.push_back({});
   const auto fault_of = [&](const Terms& terms) {

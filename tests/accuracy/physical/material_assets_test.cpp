@@ -11,7 +11,7 @@ using namespace thermal;
 
 namespace {
 
-/// A folder with this program's materials, one more among them: "odd".
+/// A folder with the materials in assets and another one: "odd".
 class Home {
  public:
   explicit Home(const std::string& odd_material) {
@@ -31,7 +31,7 @@ class Home {
 
   [[nodiscard]] MaterialLibrary read() const { return read_materials(folder_.path()); }
 
-  /// What is wrong with it; "ODD" stands for the file's full name without ending.
+  /// The error message; "ODD" stands for the file's full name without extension.
   [[nodiscard]] std::string fault() const {
     const std::string full = (folder_ / "assets/materials/odd").string();
     std::string message = message_of<ConfigError>([&] { (void)read(); });
@@ -43,14 +43,14 @@ class Home {
   TemporaryFolder folder_;
 };
 
-/// A material with some keys more than it needs.
+/// A material with a few optional keys.
 std::string with(const std::string& keys) {
   return R"({"emissivity": 0.9, "winter_k": 273, "summer_k": 293, "source": "a test", )" + keys + "}";
 }
 
 }  // namespace
 
-TEST_CASE("Every material, and every part of one, says where its figures are from") {
+TEST_CASE("Every material and every part states the source of its figures") {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(VELDT_SOURCE_DIR "/assets/materials")) {
     if (entry.path().extension() != ".json") continue;
@@ -68,7 +68,7 @@ TEST_CASE("Every material, and every part of one, says where its figures are fro
   CHECK(files >= 16);
 }
 
-TEST_CASE("Ground and plants vary by as much as is found in the field, animals not at all") {
+TEST_CASE("Ground and plants vary as much as measured in the field, animals not at all") {
   const auto stddev_k = [](const char* name) { return material(name).variation.stddev_k; };
   CHECK((stddev_k("soil") >= 0.5 && stddev_k("soil") <= 1.5));
   CHECK((stddev_k("grass") >= 0.5 && stddev_k("grass") <= 1));
@@ -79,7 +79,7 @@ TEST_CASE("Ground and plants vary by as much as is found in the field, animals n
   CHECK(material("grass").angular == AngularLaw::none);
 }
 
-TEST_CASE("A spectrum stands in a CSV beside its material") {
+TEST_CASE("A spectrum is read from a CSV beside its material") {
   const Home home(with(R"("spectrum": "odd.csv")"));
   home.add_spectrum("wavelength_um,emissivity\n7,0.75\n9.35,0.75\n9.45,0.97\n15,0.97\n");
   const MaterialLibrary library = home.read();
@@ -89,7 +89,7 @@ TEST_CASE("A spectrum stands in a CSV beside its material") {
   CHECK(spectrum->at(12) == 0.97);
 }
 
-TEST_CASE("A spectrum with a fault in it is named with its line or rule") {
+TEST_CASE("A faulty spectrum is reported with its line or rule") {
   const Home home(with(R"("spectrum": "odd.csv")"));
   home.add_spectrum("wavelength_um,emissivity\n7,0.75\n9,1.5\n");
   CHECK(home.fault() == "ODD.csv: emissivity at 9 um = 1.5; expected from 0 to 1");
@@ -101,13 +101,13 @@ TEST_CASE("A spectrum with a fault in it is named with its line or rule") {
         R"(ODD.csv:1 = "wavelength_um,response"; expected the header wavelength_um,emissivity)");
 }
 
-TEST_CASE("A material with a fault in it is named with its file and key") {
+TEST_CASE("A faulty material is reported with its file and key") {
   const auto fault = [](const std::string& keys) { return Home(with(keys)).fault(); };
   CHECK(fault(R"("angular": "ice")") == R"(ODD.json: angular = "ice"; expected one of none, water, soil)");
   CHECK(fault(R"("variation": {"stddev_k": -1})") ==
         "ODD.json: variation.stddev_k = -1 K; expected at least 0 and at most 50 K");
   CHECK(fault(R"("parts": {"ear": {"offset_k": 1}})") ==
-        "ODD.json: parts.ear.source is missing; expected it to be given");
+        "ODD.json: parts.ear.source is missing; expected a value");
   CHECK(fault(R"("parts": {"ear": {"source": "a test", "cooling_time_s": 0}})") ==
         "ODD.json: parts.ear.cooling_time_s = 0 s; expected more than 0 and at most 1000000 s");
   CHECK(fault(R"("emisivity": 0.9)") ==

@@ -9,7 +9,7 @@ using namespace thermal;
 
 namespace {
 
-/// The smallest config of the physical model, with some keys set as `--set` does.
+/// A minimal config of the physical model, with some keys set as by `--set`.
 Config config_with(const std::vector<std::string>& settings) {
   Json document = parse_json(R"({"name": "test", "sensor": {"model": "physical", "netd_mk": 40},
                                  "clips": [{"id": "a", "season": "winter", "frames": 1}]})",
@@ -38,7 +38,7 @@ TEST_CASE("The physical model leaves every term to the budget, the published one
   CHECK(choices(published) == std::vector(std::size(kTerms), TermChoice::off));
 }
 
-TEST_CASE("A choice stands against the model's") {
+TEST_CASE("A term's setting overrides the model's") {
   for (const char* model : {"physical", "published"}) {
     const Config config = config_with(
         {std::string("sensor.model=") + model, "terms.sky=on", "terms.path=off", "terms.parts=auto"});
@@ -67,7 +67,7 @@ TEST_CASE("Without weather in the config, a clip's air is its season's") {
   CHECK(summer.air.relative_humidity == 0.7);
 }
 
-TEST_CASE("What the config says of the weather goes before the season, value by value") {
+TEST_CASE("Weather in the config overrides the season's, value by value") {
   const Config config = config_with({"weather.air_temperature_k=281.5", "weather.cloud_fraction=0.5"});
   for (const Season season : {Season::winter, Season::summer}) {
     const Weather weather = weather_of(config, season);
@@ -78,16 +78,19 @@ TEST_CASE("What the config says of the weather goes before the season, value by 
   CHECK(weather_of(config_with({"weather.vehicle_stopped_s=60"}), Season::winter).vehicle_stopped_s == 60);
 }
 
-TEST_CASE("Weather that cannot be is a fault") {
-  CHECK(fault_of("weather.air_temperature_k=150") ==
-        "test.json: weather.air_temperature_k = 150 K; expected at least 200 and at most 340 K");
+TEST_CASE("Impossible weather is an error") {
+  const std::string air_rule = "; expected at least 233 and at most 323 K";
+  CHECK(fault_of("weather.air_temperature_k=200") ==
+        "test.json: weather.air_temperature_k = 200 K" + air_rule);
+  CHECK(fault_of("weather.air_temperature_k=340") ==
+        "test.json: weather.air_temperature_k = 340 K" + air_rule);
   CHECK(fault_of("weather.relative_humidity=60") ==
         "test.json: weather.relative_humidity = 60; expected at least 0 and at most 1");
   CHECK(fault_of("weather.cloud_fraction=-1") ==
         "test.json: weather.cloud_fraction = -1; expected at least 0 and at most 1");
 }
 
-TEST_CASE("The response is a file that comes with the program") {
+TEST_CASE("The response is one of the files in assets") {
   const Config config = config_with({"sensor.response=vox_germanium"});
   CHECK(config.sensor.response.begin_um() == 7);
   CHECK(config.sensor.response.end_um() == 15);

@@ -28,7 +28,7 @@ std::vector<NamedBand> bands() {
           {"quartz through VOx behind germanium", BandRadiance(response("vox_germanium"), quartz())}};
 }
 
-/// Temperatures that fall on no pattern of nodes: multiples of the golden ratio.
+/// Temperatures unrelated to the nodes: multiples of the golden ratio.
 std::vector<float> scattered_temperatures(int count, double coldest_k, double hottest_k) {
   std::vector<float> result;
   for (int i = 0; i < count; ++i) {
@@ -68,7 +68,7 @@ TEST_CASE("A table errs by less than 0.05 mK over 200 K to 400 K") {
   }
 }
 
-TEST_CASE("Nowhere in its domain does it err by more than it says of itself") {
+TEST_CASE("Nowhere in its domain does the error exceed the stated one") {
   for (const auto& [name, band] : bands()) {
     const RadianceTable table(band);
     const WorstError worst = worst_error(table, static_cast<double>(RadianceTable::kColdest),
@@ -90,7 +90,7 @@ TEST_CASE("Outside its domain a table gives the reference's radiance, rounded") 
   }
 }
 
-TEST_CASE("No temperature makes it fail: nothing below 0 K, NaN for NaN, infinity for infinity") {
+TEST_CASE("It handles every temperature: 0 below 0 K, NaN for NaN, infinity for infinity") {
   const RadianceTable table(BandRadiance(response("flat_8_14um")));
   for (const float nothing : {0.0F, -0.0F, -5.0F, -kInfinity, std::numeric_limits<float>::denorm_min()}) {
     CHECK(table.radiance(nothing) == 0);
@@ -99,7 +99,7 @@ TEST_CASE("No temperature makes it fail: nothing below 0 K, NaN for NaN, infinit
   CHECK(table.radiance(kInfinity) == kInfinity);
 }
 
-TEST_CASE("A plane with all of these in it comes out as its pixels one by one") {
+TEST_CASE("A plane with all of these in it gives the same as single pixels") {
   const RadianceTable table(BandRadiance(response("flat_8_14um")));
   std::vector<float> plane = scattered_temperatures(1000, 200, 400);
   plane[3] = kNaN;
@@ -114,7 +114,7 @@ TEST_CASE("A plane with all of these in it comes out as its pixels one by one") 
   CHECK(plane == expected);
 }
 
-TEST_CASE("Back through a temperature table, temperatures return within both tables' errors") {
+TEST_CASE("Converted back through a temperature table, temperatures return within both tables' errors") {
   const SpectralResponse flat = response("flat_8_14um");
   for (const BandRadiance& band : {BandRadiance(flat), BandRadiance(flat, quartz())}) {
     const RadianceTable forward(band);
@@ -129,7 +129,7 @@ TEST_CASE("Back through a temperature table, temperatures return within both tab
     for (std::size_t i = 0; i < back_k.size(); ++i) {
       worst_k = std::max(worst_k, std::abs(static_cast<double>(back_k[i] - temperature_k[i])));
     }
-    // A place among the nodes is a difference and a product of floats, rounded by 3e-8 of the whole span of
+    // A position among the nodes is a difference and a product of floats, rounded by 3e-8 of the whole span of
     // radiance three times: the slope dT/dL is steepest at 200 K. The result is a float of at most 400 K.
     const double span = band.radiance(400) - band.radiance(200);
     const double place_k = 3 * kFloatRounding * span / band.evaluate(200).derivative_w_m2_sr_k;
@@ -140,13 +140,13 @@ TEST_CASE("Back through a temperature table, temperatures return within both tab
   }
 }
 
-TEST_CASE("A table a material removes the grey-band error, which is 12 mK a kelvin for quartz") {
+TEST_CASE("A table per material removes the grey-band error, which is 12 mK per kelvin for quartz") {
   const BandRadiance blackbody(response("flat_8_14um"));
   const BandRadiance surface(response("flat_8_14um"), quartz());
   const double grey_emissivity = surface.radiance(300) / blackbody.radiance(300);
-  // Treated as grey, from what it sends out at 301 K one would conclude to another temperature.
+  // If it were treated as grey, its radiance at 301 K would give another temperature.
   const double concluded_k = blackbody.temperature(surface.radiance(301) / grey_emissivity);
-  CHECK_THAT(std::abs(concluded_k - 301) * 1e3, WithinAbs(12, 0.5));  // to the digits given
+  CHECK_THAT(std::abs(concluded_k - 301) * 1e3, WithinAbs(12, 0.5));  // to the printed digits
   const RadianceTable table(surface);
   CHECK_THAT(surface.temperature(static_cast<double>(table.radiance(301))), WithinAbs(301, 5e-5));
 }

@@ -57,7 +57,7 @@ Passes person_over(int rows) {
 
 }  // namespace
 
-TEST_CASE("Means of blocks are means, exactly where their sums are") {
+TEST_CASE("Means of blocks are exact where their sums are") {
   const Plane<float> fine = plane_of<float>(4, {1, 2, 10, 20,  //
                                                 3, 4, 30, 40});
   CHECK(block_means(fine, 2) == plane_of<float>(2, {2.5F, 25}));
@@ -72,7 +72,7 @@ TEST_CASE("A NaN spreads to its block and no further") {
   CHECK(means.at(1, 0) == 1);
 }
 
-TEST_CASE("Means of many are right to the rounding of floats") {
+TEST_CASE("Means of many values are accurate to float rounding") {
   Plane<float> fine(8, 8);
   double sum = 0;
   for (std::size_t i = 0; i < fine.size(); ++i) {
@@ -86,19 +86,19 @@ TEST_CASE("Means of many are right to the rounding of floats") {
 TEST_CASE("A pixel is labelled as the actor that covers at least half of it") {
   CHECK(label_of(2, {kAnna, kAnna, 1, 1}) == kAnna);  // exactly half
   CHECK(label_of(2, {kAnna, 1, 1, 1}) == 0);
-  CHECK(label_of(2, {kAnna, kBen, 1, 1}) == 0);                            // half of actors, but of no one
-  CHECK(label_of(2, {1, 1, 1, 1}) == 0);                                   // 1 is no actor
+  CHECK(label_of(2, {kAnna, kBen, 1, 1}) == 0);  // half covered, but not by one actor
+  CHECK(label_of(2, {1, 1, 1, 1}) == 0);         // 1 is not an actor
   CHECK(label_of(3, {kBen, kBen, kBen, kBen, kBen, 1, 1, 1, 1}) == kBen);  // 5 of 9
   CHECK(label_of(3, {kBen, kBen, kBen, kBen, 1, 1, 1, 1, 1}) == 0);        // 4 of 9
   CHECK(label_of(1, {kBen}) == kBen);
 }
 
-TEST_CASE("Of two actors with half each, the lower index") {
+TEST_CASE("Of two actors with half each, the lower index wins") {
   CHECK(label_of(2, {kBen, kBen, kAnna, kAnna}) == kAnna);
   CHECK(label_of(2, {kAnna, kBen, kBen, kAnna}) == kAnna);
 }
 
-TEST_CASE("Blocks are labelled where they are") {
+TEST_CASE("Labels of blocks are at the right places") {
   const Plane<std::uint16_t> fine = plane_of<std::uint16_t>(4, {1, 1, kBen, kBen,    //
                                                                 1, 1, kBen, 1,       //
                                                                 kAnna, kAnna, 0, 0,  //
@@ -113,7 +113,7 @@ TEST_CASE(
   const auto soil = static_cast<double>(mixed.at(1, 0));
   const auto person = static_cast<double>(convert(8, person_over(8)).radiance_w_m2_sr.at(0, 0));
   CHECK_THAT(static_cast<double>(mixed.at(0, 0)), WithinRel((soil + person) / 2, 64 * 6e-8));
-  // At the mean of both temperatures it would be darker: radiance is convex in temperature.
+  // Radiance is convex in temperature, so the mean temperature would give less.
   const PhysicsSettings settings = chain_scene::settings({});
   const BandRadiance blackbody(settings.response);
   const double of_mean_k =
@@ -121,7 +121,7 @@ TEST_CASE(
   CHECK(static_cast<double>(mixed.at(0, 0)) > of_mean_k * (1 + 1e-4));
 }
 
-TEST_CASE("A person of an eighth of a pixel warms it by an eighth") {
+TEST_CASE("A person covering an eighth of a pixel warms it by an eighth") {
   const Plane<float> mixed = convert(8, person_over(1)).radiance_w_m2_sr;
   const auto soil = static_cast<double>(mixed.at(1, 0));
   const auto person = static_cast<double>(convert(8, person_over(8)).radiance_w_m2_sr.at(0, 0));
@@ -136,8 +136,8 @@ TEST_CASE("Labels of a supersampled frame are in the camera's pixels, by half") 
   CHECK(frame.instances[0].area_px == 1);
 }
 
-TEST_CASE("Every sub-pixel has its own air and angle before the mean is taken") {
-  // Half at 30 m, half at 300 m: the mean of what either range gives, not what the mean range gives.
+TEST_CASE("Every sub-pixel has its own air and angle before averaging") {
+  // Half at 30 m, half at 300 m: the mean of both results, not the result of the mean range.
   const Terms path = {.path = true};
   Passes passes = chain_scene::uniform_passes(16, 8, chain_scene::kHuman, 30, {0, 0, 1});
   const auto near = static_cast<double>(convert(8, passes, path).radiance_w_m2_sr.at(0, 0));

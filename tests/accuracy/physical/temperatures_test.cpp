@@ -29,7 +29,7 @@ Weather air_at(double temperature_k) {
 
 }  // namespace
 
-TEST_CASE("The materials of Table 1 are at its temperatures when the air is at 273 K or 293 K, to the bit") {
+TEST_CASE("The materials of Table 1 have its temperatures in air of 273 K and 293 K, to the bit") {
   for (const TableRow& row : kTable1) {
     CAPTURE(row.material);
     const Material& one = material(row.material);
@@ -42,18 +42,18 @@ TEST_CASE("The materials of Table 1 are at its temperatures when the air is at 2
   }
 }
 
-TEST_CASE("No material but those twelve claims to be in Table 1") {
+TEST_CASE("No other material claims to be in Table 1") {
   std::size_t claimed = 0;
   for (const auto& [name, one] : materials().all()) claimed += one.in_table_1 ? 1 : 0;
   CHECK(claimed == std::size(kTable1));
 }
 
-TEST_CASE("Between and beyond, temperature rises in a straight line with that of the air") {
+TEST_CASE("Temperature is linear in air temperature, between and beyond both nights") {
   for (const TableRow& row : kTable1) {
     CAPTURE(row.material);
     const double per_kelvin = (row.summer_k - row.winter_k) / 20;
     for (const double air_k : {253.0, 268.5, 283.0, 303.25}) {
-      // Three operations on numbers of 300 K.
+      // Three operations on numbers near 300 K.
       CHECK_THAT(
           material(row.material).temperature_k(air_k),
           WithinRel(row.winter_k + per_kelvin * (air_k - 273), 4 * std::numeric_limits<double>::epsilon()));
@@ -79,7 +79,7 @@ TEST_CASE("A part takes a share of the actor's excess over the air, and an offse
   actor.winter_k = 290;
   actor.summer_k = 300;
   actor.parts["ear"] = {.excess_factor = 0.25, .offset_k = 0.5};
-  // In air at 283 K the whole is at 295 K, 12 K above it.
+  // In air at 283 K the whole actor is at 295 K, 12 K above it.
   CHECK(actor.part_temperature_k("ear", air_at(283)) == 283 + 3 + 0.5);
   CHECK(actor.part_temperature_k("", air_at(283)) == 295);
   CHECK(actor.part_temperature_k("trunk", air_at(283)) == 295);

@@ -1,4 +1,4 @@
-"""`budget` prints what each physical term does to a config's pictures, and which ones it keeps."""
+"""`budget` prints the effect of each physical term on a config's pictures, and which terms it keeps."""
 
 import pytest
 
@@ -20,7 +20,7 @@ def _budget(veldt, change=_physical):
     return {line["term"]: line for line in report["terms"]}, report["dropped_mk"]
 
 
-def test_json_has_a_line_a_term_with_units_in_its_keys(veldt):
+def test_json_has_an_entry_per_term_with_units_in_its_keys(veldt):
     lines, _ = _budget(veldt)
     assert list(lines) == TERMS
     for line in lines.values():
@@ -61,7 +61,7 @@ def test_a_tripod_five_metres_up_needs_no_air(veldt):
     assert lines["sky"]["kept"]
 
 
-def test_on_and_off_go_before_the_rule(veldt):
+def test_on_and_off_take_precedence_over_the_rule(veldt):
     def decided(config):
         _physical(config)
         config["terms"] = {"path": "off", "falloff": "on"}
@@ -103,7 +103,7 @@ def test_the_plain_table_holds_the_same_figures_and_marks_what_is_kept(veldt):
     for term, line in lines.items():
         kept = "kept" if line["kept"] else "dropped"
         assert rows[term] == ["auto", f"{line['spread_mk']:.1f}", f"{line['actor_shift_mk']:.1f}", kept]
-    assert f"dropped in all: {dropped_mk:.1f} mK" in text
+    assert f"dropped in total: {dropped_mk:.1f} mK" in text
 
 
 def test_the_plain_table_shows_each_material_in_each_night(veldt):

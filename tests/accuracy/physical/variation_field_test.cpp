@@ -12,11 +12,11 @@ namespace {
 constexpr float kTexel = 1.0F / 16;  // the field's grain, in correlation lengths; it repeats after 16 of them
 constexpr int kTexels = 256;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr double kStored = 1.0 / 4096;                // step of the values a field keeps
-constexpr double kRoundingStddev = kStored / 3.4641;  // of rounding to it: a step over the root of 12
+constexpr double kStored = 1.0 / 4096;                // quantisation step of the field's values
+constexpr double kRoundingStddev = kStored / 3.4641;  // rounding error: a step / sqrt(12)
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Values on the field's own grid, where reading it interpolates nothing.
+/// Values on the field's own grid, where reading does not interpolate.
 std::vector<double> grid_of(const VariationField& field, float footprint, float offset = 0) {
   std::vector<double> values;
   for (int y = 0; y < kTexels; ++y) {
@@ -42,7 +42,7 @@ double variance(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Mean product of values a distance apart, both ways, over a field of mean 0 and variance 1.
+/// Mean product of values at a distance, along both axes, over a field of mean 0 and variance 1.
 double correlation(const VariationField& field, int lag_texels) {
   const std::vector<double> values = grid_of(field, 0);
   const auto at = [&](int x, int y) {
@@ -60,17 +60,16 @@ double correlation(const VariationField& field, int lag_texels) {
 TEST_CASE("The field has mean 0 and variance 1") {
   for (const std::uint32_t seed : {1U, 2U, 77U}) {
     const std::vector<double> values = grid_of(VariationField(seed), 0);
-    // Stored values are rounded to kStored. Such errors average out as the root of their number; five times that.
+    // Stored values are rounded to kStored. Such errors average out with the root of their number; five times that.
     const double bound = 5 * kRoundingStddev / kTexels;
     CHECK_THAT(mean(values), WithinAbs(0, bound));
     CHECK_THAT(variance(values), WithinAbs(1, 2 * bound));
   }
 }
 
-TEST_CASE("A correlation length away, a third of it is left") {
-  // An octave of B-spline noise of lattice spacing h is correlated as the B-spline of degree 7: 1191/2416 at
-  // h, 120/2416 at 2 h, next to nothing from 3 h on. Octaves of h = 1, 1/2, 1/4 ... carry variances 1, .36,
-  // .36^2 ...
+TEST_CASE("At a correlation length, the correlation is a third") {
+  // An octave of B-spline noise of lattice spacing h has the correlation of a B-spline of degree 7: 1191/2416 at h,
+  // 120/2416 at 2 h, almost nothing from 3 h on. Octaves of h = 1, 1/2, 1/4 ... carry variances 1, .36, .36^2 ...
   const double octaves = 1 + .36 + std::pow(.36, 2) + std::pow(.36, 3) + std::pow(.36, 4);
   const double expected = (1191 + .36 * 120) / 2416 / octaves;  // .328
   constexpr int kFields = 24;
@@ -78,14 +77,13 @@ TEST_CASE("A correlation length away, a third of it is left") {
   for (std::uint32_t seed = 1; seed <= kFields; ++seed)
     found.push_back(correlation(VariationField(seed), 16));
   // Each field has 256 cells of the coarsest octave, and its correlation scatters; the mean of 24 scatters by
-  // the root of 24 less. Five of these. Taking out each field's own mean costs 1/256/.23/1.55 * .67 = .007 on
-  // top.
+  // sqrt(24) less. Five of these. Removing each field's own mean costs 1/256/.23/1.55 * .67 = .007 on top.
   const double bound = 5 * std::sqrt(variance(found) / (kFields - 1)) + 0.007;
   CHECK(bound < 0.08);
   CHECK_THAT(mean(found), WithinAbs(expected, bound));
 }
 
-TEST_CASE("A larger footprint leaves less of it, and sixteen lengths nothing") {
+TEST_CASE("A larger footprint reduces the field, and sixteen lengths remove it") {
   const VariationField field(5);
   double before = 1 + 1e-6;
   for (float footprint = kTexel; footprint < 16; footprint *= 2) {
@@ -103,9 +101,9 @@ TEST_CASE("A larger footprint leaves less of it, and sixteen lengths nothing") {
 
 TEST_CASE("The mean stays 0 under every footprint: a far picture is no warmer than a near one") {
   const VariationField field(5);
-  int texels = kTexels;  // each way, in the picture that a footprint is read from
+  int texels = kTexels;  // along each axis, in the level that a footprint is read from
   for (float footprint = kTexel; footprint < 16; footprint *= 2) {
-    // What rounding leaves of few values is at most half a step; of many, five times the root of their number.
+    // Rounding of a few values leaves at most half a step; of many, five times the root of their number.
     const double bound = std::min(kStored / 2, 5 * kRoundingStddev / texels);
     CAPTURE(footprint, texels);
     CHECK_THAT(mean(grid_of(field, footprint)), WithinAbs(0, bound));
@@ -113,10 +111,11 @@ TEST_CASE("The mean stays 0 under every footprint: a far picture is no warmer th
   }
 }
 
-TEST_CASE("It runs on without a jump, below 0 and past where it repeats") {
+TEST_CASE("The field continues without a jump, below 0 and past its period") {
   const VariationField field(9);
-  // Between texels it is straight: no step of a hundredth of a texel is more than a hundredth of the largest
-  // difference between neighbours, and rounding: a place near 17 is a float good to 1e-6, a value to 4e-7.
+  // Between texels the field is linear: a step of a hundredth of a texel changes it by at most a hundredth of the
+  // largest difference between neighbours, plus rounding: a position near 17 is a float accurate to 1e-6, a value to
+  // 4e-7.
   const std::vector<double> values = grid_of(field, 0);
   double steepest = 0;
   for (std::size_t i = 0; i + 1 < values.size(); ++i)
@@ -151,7 +150,7 @@ TEST_CASE("The same seed gives the same field, another seed another") {
   CHECK(std::abs(product) < 5.0 / 16);
 }
 
-TEST_CASE("Places that are nowhere are at the mean") {
+TEST_CASE("Invalid places are at the mean") {
   const VariationField field(5);
   for (const float bad : {kNaN, kInfinity, -kInfinity, 1e5F, -1e30F}) {
     CHECK(field.sample(bad, 1, 0) == 0);
@@ -160,7 +159,7 @@ TEST_CASE("Places that are nowhere are at the mean") {
   CHECK(field.sample(99'999, -99'999, 0) != 0);
 }
 
-TEST_CASE("Many places at once give what each gives alone") {
+TEST_CASE("Many places at once give the same as each alone") {
   const VariationField field(5);
   std::vector<float> x;
   std::vector<float> y;

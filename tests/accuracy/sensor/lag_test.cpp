@@ -11,7 +11,7 @@ namespace {
 constexpr int kFrames = 12;
 constexpr double kWithin = 1e-6;  // of the larger of the two levels
 
-/// The smallest radiance near 300 K that a camera without lag shows as one count more than the next smaller float.
+/// The smallest radiance near 300 K that a camera without lag shows one count higher than the next smaller float.
 struct Boundary {
   float radiance_w_m2_sr;
   std::uint16_t count;
@@ -46,13 +46,13 @@ Step step_to(double target, double ratio, double left) {
 
 }  // namespace
 
-TEST_CASE("A pixel follows a step as the exponential does, to 1e-6 of the larger level") {
+TEST_CASE("A pixel follows a step exponentially, to 1e-6 of the larger level") {
   const double frame_rate_hz = GENERATE(9.0, 30.0, 60.0);
   const double time_constant_s = GENERATE(0.008, 0.012, 0.05);
   const double ratio = GENERATE(0.5, 2.0);  // up, down
   CAPTURE(frame_rate_hz, time_constant_s, ratio);
-  // A 16-bit count is far coarser than 1e-6, but where one count becomes the next is sharp. Pixel n is made to
-  // reach that place in frame n: in row 0 from 1e-6 below it, in row 1 from 1e-6 above.
+  // A 16-bit count is far coarser than 1e-6, but the transition from one count to the next is sharp. Pixel n is made
+  // to reach that transition in frame n: in row 0 from 1e-6 below it, in row 1 from 1e-6 above.
   static const Boundary place = find_boundary();
   Plane<float> before(kFrames, 2);
   Plane<float> after(kFrames, 2);

@@ -10,18 +10,18 @@ using namespace thermal;
 
 namespace {
 
-constexpr double kSlope = 1.0 / 32;  // px the edge moves from row to row
+constexpr double kSlope = 1.0 / 32;  // px by which the edge moves from row to row
 constexpr int kWidth = 64;
 constexpr int kHeight = 96;      // three times through every phase of the edge
 constexpr int kBinsAPixel = 32;  // of the edge's profile
 const SpectralResponse kBand = SpectralResponse::flat(8, 14);
 
-/// How far a point lies beyond the edge, along the edge's normal [px].
+/// Distance of a point beyond the edge, along the edge's normal [px].
 double beyond_px(double x, double y) {
   return (x - kWidth / 2.0 - kSlope * (y - kHeight / 2.0) - 1e-3) / std::hypot(1, kSlope);
 }
 
-/// Picture of a slanted edge, 0 beside 1: each pixel the mean of s x s points, as a supersampled scene is.
+/// Picture of a slanted edge between 0 and 1: each pixel is the mean of s x s points, as in a supersampled scene.
 Plane<float> edge(int supersample) {
   Plane<float> picture(kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y) {
@@ -46,7 +46,7 @@ Plane<float> turned(const Plane<float>& picture) {
   return result;
 }
 
-/// Oversampled profile across the edge, from the rows that lie clear of the picture's top and bottom.
+/// Oversampled profile across the edge, from the rows in which it is away from the picture's top and bottom.
 std::vector<double> profile(const Plane<float>& picture) {
   constexpr int kReach = 24;  // px on either side
   std::vector<double> sums(2 * kReach * kBinsAPixel);
@@ -65,8 +65,8 @@ std::vector<double> profile(const Plane<float>& picture) {
   return sums;
 }
 
-/// Modulation transfer of the edge: the modulus of the transform of its profile's differences, each of which is
-/// the mean over a bin; sinc undoes that (ISO 12233, Burns 2000).
+/// Modulation transfer of the edge: the modulus of the Fourier transform of its profile's differences, each of which
+/// is the mean over a bin; sinc corrects for that (ISO 12233, Burns 2000).
 double measured_mtf(const std::vector<double>& profile, double cycles_per_px) {
   double real = 0;
   double imaginary = 0;

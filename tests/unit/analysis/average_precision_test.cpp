@@ -26,7 +26,7 @@ TEST_CASE("Average precision is the area under precision over recall at 101 reca
   CHECK(average_precision({false, false}, 3) == 0);
   // Precision 1, 1/2, 2/3 at recall 1/2, 1/2, 1: up to 0.5, which is 51 of the recalls, it is 1, then 2/3.
   CHECK_THAT(average_precision({true, false, true}, 2), WithinRel((51 + 50 * 2. / 3) / 101, kSumming));
-  // Found last: made to fall with recall, precision is 1/3 all along.
+  // Matched last: made non-increasing in recall, precision is 1/3 throughout.
   CHECK_THAT(average_precision({false, false, true}, 1), WithinRel(1. / 3, kSumming));
   // Recall ends at 1/4: 26 of the recalls were reached.
   CHECK_THAT(average_precision({true, false, false}, 4), WithinRel(26. / 101, kSumming));
@@ -50,7 +50,7 @@ TEST_CASE("The mean over IoU steps falls with the overlap") {
   CHECK(precision.at_50_to_95 == 0.4);
 }
 
-TEST_CASE("Scores rank over all pictures; equal ones in the order of the pictures") {
+TEST_CASE("Scores are ranked over all pictures; equal ones in the order of the pictures") {
   const std::vector<Target> targets = {{.box = kBox}};
   const std::vector<Detection> wrong = {detection(0.5)};
   const std::vector<Detection> right = {detection(0.5)};
@@ -67,7 +67,7 @@ TEST_CASE("Scores rank over all pictures; equal ones in the order of the picture
   CHECK(average_precision_of(surest_last).at_50 == 1);
 }
 
-TEST_CASE("The surest hundred detections of a picture count") {
+TEST_CASE("The hundred detections of highest score per picture count") {
   const std::vector<Target> targets = {{.box = kBox}};
   for (const std::size_t wrong : {99U, 100U}) {
     std::vector<Detection> detections(wrong, detection(0.9, {100, 100, 5, 5}));
@@ -77,7 +77,7 @@ TEST_CASE("The surest hundred detections of a picture count") {
   }
 }
 
-TEST_CASE("Ignored targets and what finds them leave no trace") {
+TEST_CASE("Ignored targets and their detections leave no trace") {
   const std::vector<Target> targets = {{.box = kBox}, {.box = {50, 50, 10, 10}, .ignored = true}};
   const std::vector<Detection> detections = {detection(0.9, {50, 50, 10, 10}), detection(0.8)};
   const std::vector<Encounter> encounters = {{.detections = detections, .targets = targets}};

@@ -43,20 +43,20 @@ TEST_CASE("a solution is completed with the best levels for its frames") {
   CHECK(solution.labels_of(two_videos(), 0) == ClassCounts{5, 0, 0, 0, 0, 0});
   CHECK(solution.labels_of(two_videos(), 1) == ClassCounts{2, 0, 0, 2, 0, 0});
   CHECK(solution.most == ClassCounts{5, 0, 0, 2, 0, 0});
-  // The second video's animals are used up, so that the least is the first one's.
+  // The second video's animals are exhausted, so that the least is the first one's.
   CHECK(solution.least == ClassCounts{5, 0, 0, 2, 0, 0});
   CHECK(solution.used_up[1][0]);
   CHECK(solution.objective == 0);
 }
 
-TEST_CASE("where every video is used up, the least is the most that one has") {
+TEST_CASE("where every video is exhausted, the least is the most of any") {
   const BalanceSolution solution = complete_solution(two_videos(), {{4, 2}, {2, 1}});
   CHECK(solution.most == ClassCounts{10, 0, 0, 4, 0, 0});
   CHECK(solution.least == solution.most);
   CHECK(solution.objective == 0);
 }
 
-TEST_CASE("each constraint that a solution breaks is told") {
+TEST_CASE("each violated constraint is reported") {
   BalanceSolution solution = valid_solution();
   using Faults = std::vector<std::string>;
   SECTION("more frames than there are") {
@@ -72,7 +72,7 @@ TEST_CASE("each constraint that a solution breaks is told") {
     solution.objective = -1;
     CHECK(faults_of(solution) == Faults{"one: u of small_animal = 4; expected at least 5, its labels"});
   }
-  SECTION("v of a video with more to give") {
+  SECTION("v of a video with labels left") {
     solution.least[0] = 6;
     solution.objective = -1;
     CHECK(faults_of(solution) == Faults{"one: v of small_animal = 6; expected at most 5"});
@@ -85,14 +85,14 @@ TEST_CASE("each constraint that a solution breaks is told") {
                                         "two: v of small_animal = 11; expected at most 10",
                                         "small_animal = 12 labels; expected 5 to 8"});
   }
-  SECTION("w that is 0 for no reason") {
+  SECTION("w that is 0 although all labels are selected") {
     solution.used_up[1][0] = false;
     CHECK(faults_of(solution) == Faults{"two: v of small_animal = 5; expected at most 2"});
   }
-  SECTION("w that is 1 for no reason") {
+  SECTION("w that is 1 although not all labels are selected") {
     solution.used_up[0][0] = true;
     CHECK(faults_of(solution) ==
-          Faults{"one: w of small_animal = 1; expected 0, because 5 of 10 labels are taken"});
+          Faults{"one: w of small_animal = 1; expected 0, because 5 of 10 labels are selected"});
   }
   SECTION("too few labels") {
     solution = complete_solution(two_videos(), {{2, 0}, {2, 0}});
@@ -108,40 +108,39 @@ TEST_CASE("each constraint that a solution breaks is told") {
   }
   SECTION("another program") {
     solution.taken.pop_back();
-    CHECK(faults_of(solution) == Faults{"the solution is of another program"});
+    CHECK(faults_of(solution) == Faults{"the solution belongs to another program"});
   }
 }
 
-TEST_CASE("bounds that cannot be met are told with the nearest that can") {
+TEST_CASE("bounds that cannot be met are reported with the nearest feasible ones") {
   BalanceProgram program = two_videos();
   const auto message = [&] { return message_of<ConfigError>([&] { (void)balance(program, {}); }); };
   SECTION("more than there are") {
     program.bounds[3] = {.at_least = 500, .at_most = 800};
-    CHECK(message() == "per-class small_poacher: at least 500 asked for, 4 are there");
+    CHECK(message() == "per-class small_poacher: at least 500 requested, 4 available");
   }
   SECTION("more than the other bounds leave") {
     program.videos = {video_of("herded", {frames_of({3, 0, 0, 1}, 2), frames_of({0, 0, 0, 2}, 1)})};
     program.bounds[0] = {};
     program.bounds[3] = {.at_least = 4, .at_most = 4};
-    CHECK(
-        message() ==
-        "per-class small_poacher: at least 4 asked for, at most 2 can be had together with the other bounds");
+    CHECK(message() ==
+          "per-class small_poacher: at least 4 requested, at most 2 possible with the other bounds");
   }
   SECTION("no sum in between") {
     program.videos = {video_of("herd", {frames_of({5}, 9)})};
     program.bounds = {};
     program.bounds[0] = {.at_least = 11, .at_most = 13};
     CHECK(message() ==
-          "per-class small_animal: at least 11 asked for, at most 10 can be had together with the other "
+          "per-class small_animal: at least 11 requested, at most 10 possible with the other "
           "bounds");
     program.bounds[0] = {.at_least = 12, .at_most = 14};
     CHECK(message() ==
-          "per-class small_animal: at most 14 asked for, at least 15 can be had together with the other "
+          "per-class small_animal: at most 14 requested, at least 15 possible with the other "
           "bounds");
   }
 }
 
-TEST_CASE("options that cannot be meant are told") {
+TEST_CASE("invalid options are reported") {
   const auto message = [](const BalanceOptions& options) {
     return message_of<ConfigError>([&] { (void)balance(two_videos(), options); });
   };

@@ -25,7 +25,7 @@ FrameType frames_of(const ClassCounts& labels, int count) {
   return type;
 }
 
-/// Random numbers by their place: any instance can be made again from its number.
+/// Random numbers by index: any instance can be regenerated from its number.
 class Dice {
  public:
   explicit Dice(std::uint32_t instance) : instance_(instance) {}
@@ -40,7 +40,7 @@ class Dice {
   std::uint32_t count_ = 0;
 };
 
-/// How large random programs are.
+/// Size of random programs.
 struct Size {
   std::int64_t videos = 3;
   std::int64_t types = 3;
@@ -60,7 +60,7 @@ BalanceVideo random_video(Dice& dice, const Size& size, std::int64_t number, std
   return video;
 }
 
-/// Around what a random selection has, or, one time in five, anywhere.
+/// Around the counts of a random selection or, one time in five, anywhere.
 ClassBounds random_bounds(Dice& dice, std::int64_t some, std::int64_t there) {
   const bool anywhere = dice.roll(5) == 0;
   const std::int64_t low = anywhere ? dice.roll(there + 2) : some - dice.roll(4);
@@ -68,8 +68,8 @@ ClassBounds random_bounds(Dice& dice, std::int64_t some, std::int64_t there) {
   return {.at_least = std::max<std::int64_t>(0, low), .at_most = high};
 }
 
-/// Up to so many videos of so many frame types of so many frames: few enough to try all. Classes share frames, videos
-/// are used up, and bounds are anything from free to impossible.
+/// Up to this many videos, frame types and frames: few enough to try all selections. Classes share frames, videos are
+/// exhausted, and bounds range from free to impossible.
 BalanceProgram random_program(std::uint32_t instance, const Size& size = {}) {
   Dice dice(instance);
   BalanceProgram program;
@@ -93,14 +93,14 @@ BalanceProgram random_program(std::uint32_t instance, const Size& size = {}) {
   return program;
 }
 
-/// What trying every selection finds.
+/// The result of trying every selection.
 struct Tried {
-  std::optional<std::int64_t> objective;  ///< the least; none where no selection is within the bounds
+  std::optional<std::int64_t> objective;  ///< the minimum; empty if no selection is within the bounds
   std::int64_t missed_by = std::numeric_limits<std::int64_t>::max();
 };
 
-/// The objective of a selection, written down anew from the program's text: u is the largest s; v is the smallest s
-/// where not all labels are taken, or the most labels that any video has where all are taken everywhere.
+/// The objective of a selection, reimplemented from the program's definition: u is the largest s; v is the smallest s
+/// of videos with labels left, or the most labels of any video if none has any left.
 std::int64_t objective_of(const BalanceProgram& program, const Frames& taken) {
   std::int64_t objective = 0;
   for (std::size_t k = 0; k < kBalanceClasses; ++k) {
@@ -132,7 +132,7 @@ std::int64_t missed_by(const BalanceProgram& program, const Frames& taken) {
   return missed;
 }
 
-/// Counts up by one frame; false past the last selection.
+/// Increments by one frame; false past the last selection.
 bool next(const BalanceProgram& program, Frames& taken) {
   for (std::size_t i = 0; i < taken.size(); ++i) {
     for (std::size_t j = 0; j < taken[i].size(); ++j) {
@@ -159,7 +159,7 @@ Tried try_all(const BalanceProgram& program) {
 
 }  // namespace
 
-TEST_CASE("the best there is, as trying everything finds it") {
+TEST_CASE("the optimum is the one found by trying everything") {
   int zero = 0;
   int above_zero = 0;
   for (std::uint32_t instance = 0; instance < 400; ++instance) {
@@ -179,7 +179,7 @@ TEST_CASE("the best there is, as trying everything finds it") {
   CHECK(above_zero > 60);
 }
 
-TEST_CASE("the same of more videos, which are rounded a few at a time") {
+TEST_CASE("the same with more videos, which are rounded a few at a time") {
   int found = 0;
   for (std::uint32_t instance = 0; instance < 60; ++instance) {
     CAPTURE(instance);
@@ -195,7 +195,7 @@ TEST_CASE("the same of more videos, which are rounded a few at a time") {
   CHECK(found > 20);
 }
 
-TEST_CASE("a gap that was allowed is kept, and told truly") {
+TEST_CASE("the accepted gap is met, and the gap is reported correctly") {
   for (std::uint32_t instance = 0; instance < 100; ++instance) {
     CAPTURE(instance);
     const BalanceProgram program = random_program(instance);
@@ -210,7 +210,7 @@ TEST_CASE("a gap that was allowed is kept, and told truly") {
   }
 }
 
-TEST_CASE("bounds that cannot be met are found out, and so are the nearest that can") {
+TEST_CASE("bounds that cannot be met are detected, and so are the nearest feasible ones") {
   int infeasible = 0;
   for (std::uint32_t instance = 0; instance < 400; ++instance) {
     CAPTURE(instance);

@@ -13,7 +13,7 @@ namespace {
 constexpr LabelBox kSmall{0, 0, 10, 10};        // 100 px
 constexpr LabelBox kMedium{100, 0, 20, 20};     // 400 px
 constexpr LabelBox kLarge{200, 0, 50, 50};      // 2500 px
-constexpr LabelBox kNowhere{400, 400, 10, 10};  // where no target is; small
+constexpr LabelBox kNowhere{400, 400, 10, 10};  // away from all targets; small
 constexpr double kSumming = 1.2e-14;            // 101 terms are added, each sum rounded by half of 2.2e-16
 
 enum Category : std::size_t { human, elephant };
@@ -39,7 +39,7 @@ LabelSet two_clips() {
   return truth;
 }
 
-/// What a perfect detector says.
+/// The output of a perfect detector.
 std::vector<Detection> answers(const LabelSet& truth) {
   std::vector<Detection> detections;
   for (const Label& label : truth.labels) detections.push_back({label.image, label.category, label.box, 0.9});
@@ -52,7 +52,7 @@ Counts large_of(const SizeCounts& counts) { return counts[2]; }
 
 }  // namespace
 
-TEST_CASE("The truth given back is found, all of it and nothing else") {
+TEST_CASE("The truth as detections is found completely, and nothing else") {
   const LabelSet truth = two_clips();
   const Evaluation evaluation = evaluate(truth, answers(truth), {});
   for (const std::size_t video : {0U, 1U}) {
@@ -80,7 +80,7 @@ TEST_CASE("A dropped box is missed") {
   CHECK_THAT(*evaluation.mean_average_precision.at_50_to_95, WithinRel((76. / 101 + 1) / 2, kSumming));
 }
 
-TEST_CASE("A shifted box is found up to the IoU it has") {
+TEST_CASE("A shifted box is found up to its IoU") {
   const LabelSet truth = two_clips();
   std::vector<Detection> detections = answers(truth);
   for (Detection& detection : detections) detection.box.x_px += detection.box.width_px / 4;  // IoU 3 / 5
@@ -92,7 +92,7 @@ TEST_CASE("A shifted box is found up to the IoU it has") {
   CHECK_THAT(*evaluate(truth, detections, {}).mean_average_precision.at_50_to_95, WithinRel(0.3, kSumming));
 }
 
-TEST_CASE("Of two detections on one target, one finds nothing") {
+TEST_CASE("Of two detections on one target, only one matches") {
   const LabelSet truth = two_clips();
   std::vector<Detection> detections = answers(truth);
   detections.push_back(detections[0]);
@@ -100,11 +100,11 @@ TEST_CASE("Of two detections on one target, one finds nothing") {
   CHECK(small_of(evaluation.of_video(0)) == Counts{2, 1, 0});
   CHECK(small_of(evaluation.of_video(0)).precision() == 2. / 3);
   // All scores are equal, so the twin, of the first picture, is the second of five: precision 1, 1/2, 2/3, 3/4, 4/5.
-  // Made to fall with recall it is 1 at the 26 recalls up to 1/4, then 4/5.
+  // Made non-increasing in recall it is 1 at the 26 recalls up to 1/4, then 4/5.
   CHECK_THAT(*evaluation.average_precision[human].at_50, WithinRel((26 + 75 * 0.8) / 101, kSumming));
 }
 
-TEST_CASE("A detection of another category finds nothing") {
+TEST_CASE("A detection of another category does not match") {
   const LabelSet truth = two_clips();
   const std::vector<Detection> detections = {{0, elephant, kSmall, 0.9}};
   const Evaluation evaluation = evaluate(truth, detections, {});
@@ -113,7 +113,7 @@ TEST_CASE("A detection of another category finds nothing") {
   CHECK(small_of(evaluation.of_video(0)) == Counts{0, 1, 2});
 }
 
-TEST_CASE("A detection in another picture finds nothing") {
+TEST_CASE("A detection in another picture does not match") {
   LabelSet truth = two_clips();
   truth.labels.erase(truth.labels.begin());
   const std::vector<Detection> detections = {{0, human, kSmall, 0.9}};
@@ -122,7 +122,7 @@ TEST_CASE("A detection in another picture finds nothing") {
   CHECK(small_of(evaluation.of_video(1)) == Counts{0, 0, 2});
 }
 
-TEST_CASE("Found targets have their track's size class, wrong detections that of their own box") {
+TEST_CASE("Matched targets have their track's size class, wrong detections that of their own box") {
   LabelSet truth = two_clips();
   for (Label& label : truth.labels) label.track_id = label.category == human ? 1 : 2;
   assign_size_classes(truth);  // elephants of 400 and 2500 px, one track: 1450 px, medium
@@ -137,7 +137,7 @@ TEST_CASE("Found targets have their track's size class, wrong detections that of
   CHECK(large_of(counts) == Counts{0, 1, 0});
 }
 
-TEST_CASE("Detections below the score count in average precision alone") {
+TEST_CASE("Detections below the score count only in average precision") {
   const LabelSet truth = two_clips();
   std::vector<Detection> detections = answers(truth);
   for (Detection& detection : detections) detection.score = detection.category == human ? 0.5 : 0.49;
@@ -159,7 +159,7 @@ TEST_CASE("Scores may be any finite numbers") {
   CHECK(total(evaluate(truth, detections, {.score = 2}).overall()) == Counts{12, 0, 0});
 }
 
-TEST_CASE("Ignored targets and detections on them count neither way") {
+TEST_CASE("Ignored targets and detections on them are not counted") {
   LabelSet truth = two_clips();
   truth.labels[0].ignore = true;
   const Evaluation evaluation = evaluate(truth, answers(truth), {});
@@ -176,7 +176,7 @@ TEST_CASE("Ignored targets and detections on them count neither way") {
   CHECK(counted.ignored_targets == 0);
 }
 
-TEST_CASE("A second detection on an ignored target counts, on a crowd it does not") {
+TEST_CASE("A second detection on an ignored target counts, one on a crowd does not") {
   LabelSet truth = two_clips();
   std::vector<Detection> detections = answers(truth);
   detections.push_back(detections[0]);
@@ -191,7 +191,7 @@ TEST_CASE("A second detection on an ignored target counts, on a crowd it does no
   }
 }
 
-TEST_CASE("Without detections all is missed, and precision is not defined") {
+TEST_CASE("Without detections everything is missed, and precision is undefined") {
   const LabelSet truth = two_clips();
   const Evaluation evaluation = evaluate(truth, {}, {});
   CHECK(total(evaluation.overall()) == Counts{0, 0, 12});
@@ -200,7 +200,7 @@ TEST_CASE("Without detections all is missed, and precision is not defined") {
   CHECK(evaluation.mean_average_precision.at_50 == 0);
 }
 
-TEST_CASE("Without targets there is no recall and no average precision") {
+TEST_CASE("Without targets, recall and average precision are undefined") {
   LabelSet truth = two_clips();
   truth.labels.clear();
   const std::vector<Detection> detections = {{0, human, kSmall, 0.9}};
@@ -224,7 +224,7 @@ TEST_CASE("The order of detections with different scores does not matter") {
   CHECK(forth.mean_average_precision.at_50_to_95 == back.mean_average_precision.at_50_to_95);
 }
 
-TEST_CASE("Options out of their range are named") {
+TEST_CASE("Options out of range are reported") {
   const auto fault_of = [](const EvaluateOptions& options) {
     return message_of<ConfigError>([&] { options.validate(); });
   };

@@ -14,7 +14,7 @@ struct Night {
     set.categories = {{1, "elephant"}, {2, "human"}, {3, "vehicle"}, {4, "poacher"}};
     set.videos = {{.name = "night"}};
   }
-  /// Frames are listed in any order.
+  /// The order of frames is arbitrary.
   void add_frame(int frame, const std::vector<Label>& labels) {
     LabelImage image;
     image.frame_index = frame;
@@ -41,7 +41,7 @@ const Label kVehicle = label_of(2, SizeClass::large);
 
 }  // namespace
 
-TEST_CASE("frames with the same counts are of one type") {
+TEST_CASE("frames with the same counts have one type") {
   Night night;
   night.add_frame(7, {kSmallElephant, kMediumHuman});
   night.add_frame(2, {kMediumHuman, kSmallElephant});
@@ -59,7 +59,7 @@ TEST_CASE("frames with the same counts are of one type") {
   CHECK(videos[0].unlabelled == 0);
 }
 
-TEST_CASE("what is ignored, a crowd or a vehicle is not counted") {
+TEST_CASE("ignored labels, crowds and vehicles are not counted") {
   Night night;
   Label ignored = kSmallElephant;
   ignored.ignore = true;
@@ -76,7 +76,7 @@ TEST_CASE("what is ignored, a crowd or a vehicle is not counted") {
   CHECK(video.available() == ClassCounts{1});
 }
 
-TEST_CASE("videos without frames are there") {
+TEST_CASE("videos without frames are kept") {
   LabelSet set;
   set.videos = {{.name = "one"}, {.name = "two"}};
   const std::vector<BalanceVideo> videos = frame_types(set);

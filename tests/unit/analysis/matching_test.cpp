@@ -17,7 +17,7 @@ constexpr Target kIgnored{.box = kBox, .ignored = true};
 /// kBox moved right: its overlap with kBox is (10 - by) / (10 + by).
 LabelBox moved(double by_px) { return {by_px, 0, 10, 10}; }
 
-/// What detections find, given by falling score.
+/// Matches of detections given by falling score.
 Found found(const std::vector<LabelBox>& boxes, const std::vector<Target>& targets, double iou = 0.5) {
   std::vector<Detection> detections;
   for (const LabelBox& box : boxes) detections.push_back({0, 0, box, 0.5});
@@ -41,7 +41,7 @@ TEST_CASE("Overlap is intersection over union") {
   CHECK(overlap({-5, -5, 10, 10}, kTarget) == 25. / 175);
 }
 
-TEST_CASE("Overlap with a crowd is the share of the detection inside") {
+TEST_CASE("Overlap with a crowd is the fraction of the detection inside") {
   CHECK(overlap(moved(5), kCrowd) == 0.5);
   CHECK(overlap({2, 3, 4, 5}, kCrowd) == 1);
   CHECK(overlap({-10, 0, 40, 10}, kCrowd) == 0.25);
@@ -55,9 +55,9 @@ TEST_CASE("Boxes that touch, lie apart or have no area do not overlap") {
   CHECK(overlap({5, 5, 0, 0}, Target{.box = {5, 5, 0, 0}}) == 0);
 }
 
-TEST_CASE("A target is found once, by the surest detection that overlaps it enough") {
+TEST_CASE("A target is matched once, by the best detection that overlaps it enough") {
   CHECK(found({kBox, kBox}, {kTarget}) == Found{0, kNoTarget});
-  CHECK(found({moved(3), kBox}, {kTarget}) == Found{0, kNoTarget});  // 7 / 13, but surer
+  CHECK(found({moved(3), kBox}, {kTarget}) == Found{0, kNoTarget});  // 7 / 13, but with a higher score
   CHECK(found({moved(4), kBox}, {kTarget}) == Found{kNoTarget, 0});  // 6 / 14 is too little
   CHECK(found({moved(4)}, {kTarget}, 6. / 14) == Found{0});          // just enough
 }
@@ -68,18 +68,18 @@ TEST_CASE("A detection takes the target it overlaps most; of equal ones, the las
   CHECK(found({moved(1), moved(1)}, {kTarget, right}) == Found{1, 0});  // 9 / 11 with both
 }
 
-TEST_CASE("Targets that count go before ignored ones, which are found once") {
+TEST_CASE("Targets that count take precedence over ignored ones, which are matched once") {
   CHECK(found({kBox, kBox, kBox}, {kTarget, kIgnored}) == Found{0, 1, kNoTarget});
   const Target far{.box = moved(3)};
   CHECK(found({kBox}, {far, kIgnored}) == Found{0});  // 7 / 13 that counts beats 1 that does not
 }
 
-TEST_CASE("A crowd is found by any number of detections") {
+TEST_CASE("A crowd matches any number of detections") {
   CHECK(found({kBox, moved(5), {1, 1, 2, 2}}, {kCrowd}) == Found{0, 0, 0});
   CHECK(found({moved(6)}, {kCrowd}) == Found{kNoTarget});  // 0.4 of it is inside
 }
 
-TEST_CASE("An IoU of 1 is reached by the target's own box, however it was rounded") {
+TEST_CASE("A target's own box reaches an IoU of 1, however it was rounded") {
   CHECK(found({kBox}, {kTarget}, 1) == Found{0});
   const Target rounded{.box = {0.2, 0, 0.5, 1}};  // 0.2 + 0.5 - 0.2 is 0.49999999999999994
   CHECK(overlap(rounded.box, rounded) < 1);
@@ -87,14 +87,14 @@ TEST_CASE("An IoU of 1 is reached by the target's own box, however it was rounde
   CHECK(found({moved(1e-6)}, {kTarget}, 1) == Found{kNoTarget});
 }
 
-TEST_CASE("Boxes whose area cannot be held are not found, and hide no other") {
+TEST_CASE("Boxes whose area overflows do not match, and hide no others") {
   for (const double side_px : {1e-170, 1e200}) {
     const Target strange{.box = {0, 0, side_px, side_px}};
     CHECK(found({strange.box, kBox}, {kTarget, strange}) == Found{kNoTarget, 0});
   }
 }
 
-TEST_CASE("Without targets or detections nothing is found") {
+TEST_CASE("Without targets or detections nothing matches") {
   CHECK(found({kBox, kBox}, {}) == Found{kNoTarget, kNoTarget});
   CHECK(found({}, {kTarget}).empty());
 }
@@ -119,7 +119,7 @@ TEST_CASE("Encounters are sorted by category, then by the pictures' ids") {
                       {0, 1, 1, 0}, {0, 2, 0, 1}, {0, 0, 3, 2}, {1, 1, 1, 0}, {1, 0, 0, 1}});
 
   const Encounter& both = encounters.all()[2];
-  CHECK(both.detections[0].score == 0.9);  // as given: the one without a box first
+  CHECK(both.detections[0].score == 0.9);  // in the order given: the one without a box first
   CHECK(both.detections[0].box == LabelBox{});
   CHECK(both.detections[1].box == kBox);
   CHECK(both.detections[2].score == 0.1);
@@ -133,7 +133,7 @@ TEST_CASE("Encounters are sorted by category, then by the pictures' ids") {
   CHECK_FALSE(counted.all()[2].targets[0].ignored);
 }
 
-TEST_CASE("Crowds are ignored even if targets marked to be ignored count") {
+TEST_CASE("Crowds are ignored even if ignored targets count") {
   LabelSet truth;
   truth.images.resize(1);
   truth.labels = {label(0, 0)};

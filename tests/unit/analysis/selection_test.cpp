@@ -19,7 +19,7 @@ std::vector<int> frames_to(int count) {
 
 }  // namespace
 
-TEST_CASE("so many frames are chosen, ascending, of those that are there") {
+TEST_CASE("the requested number of frames is selected, ascending, from the available ones") {
   const std::vector<int> frames = {3, 5, 8, 9, 21};
   CHECK(choose_frames(frames, 0, 1, "night").empty());
   CHECK(choose_frames(frames, 5, 1, "night") == frames);
@@ -47,7 +47,7 @@ TEST_CASE("every frame has the same chance") {
     for (const int frame : choose_frames(frames_to(kFrames), 5, seed, "night"))
       ++times[static_cast<std::size_t>(frame)];
   }
-  // Each count is binomial with p = 1/4: 4.5 sigma of 20 counts is passed by chance once in 7000 choices of seeds.
+  // Each count is binomial with p = 1/4: 4.5 sigma of 20 counts is exceeded by chance once in 7000 choices of seeds.
   const double sigma = std::sqrt(kTimes * 0.25 * 0.75);
   for (const int count : times) CHECK(std::abs(count - kTimes / 4) < 4.5 * sigma);
 }

@@ -6,22 +6,22 @@
 
 using namespace thermal;
 
-TEST_CASE("A fault says where, what, in which unit, and what was expected") {
+TEST_CASE("A message states where, what, in which unit, and what was expected") {
   CHECK(fault("camera.height_m", "-3", "m", "at least 0 m") ==
         "camera.height_m = -3 m; expected at least 0 m");
 }
 
-TEST_CASE("A fault without a unit has no gap for it") {
+TEST_CASE("A message without a unit has no gap for it") {
   CHECK(fault("--shard", "3/2", "", "I/N with I below N") == "--shard = 3/2; expected I/N with I below N");
 }
 
-TEST_CASE("Every fault a person can act on is an Error, and no kind is mistaken for another") {
+TEST_CASE("Every user-facing fault is an Error, and its kinds are distinct") {
   STATIC_REQUIRE(std::is_base_of_v<Error, ConfigError>);
   STATIC_REQUIRE(std::is_base_of_v<Error, DataError>);
   STATIC_REQUIRE(std::is_base_of_v<Error, IoError>);
   STATIC_REQUIRE(std::is_base_of_v<Error, TryAgainError>);
   STATIC_REQUIRE(std::is_base_of_v<Error, Cancelled>);
-  // The exit code hangs on the kind: a full disk (75) must not be caught as a broken file (1).
+  // The exit code depends on the kind: a full disk (75) must not be caught as a broken file (1).
   STATIC_REQUIRE_FALSE(std::is_base_of_v<IoError, TryAgainError>);
   CHECK(std::string(Cancelled().what()) == "stopped on request");
 }

@@ -33,7 +33,7 @@ TEST_CASE("Planes are equal when size and pixels are") {
   CHECK_FALSE(plane == same);
 }
 
-TEST_CASE("A plane made of nothing is empty") {
+TEST_CASE("A plane without pixels is empty") {
   CHECK(Plane<float>().empty());
   CHECK(Plane<float>(0, 5).empty());
   CHECK_FALSE(Plane<float>(1, 1).empty());

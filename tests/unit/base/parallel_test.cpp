@@ -15,7 +15,7 @@ using namespace thermal;
 
 namespace {
 
-/// Threads seen at work by chunks that take long enough for others to join in.
+/// Number of threads at work on chunks that take long enough for others to join in.
 std::set<std::thread::id> threads_at_work() {
   std::set<std::thread::id> threads;
   std::mutex mutex;
@@ -69,7 +69,7 @@ TEST_CASE("A limit bounds the threads at work, and ends with its scope") {
   if (std::thread::hardware_concurrency() > 1) CHECK(threads_at_work().size() > 1);
 }
 
-TEST_CASE("A fault in a chunk reaches the caller") {
+TEST_CASE("An exception in a chunk reaches the caller") {
   const auto work = [](std::size_t begin, std::size_t) {
     if (begin == 50) throw std::runtime_error("chunk 50");
   };

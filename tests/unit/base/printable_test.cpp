@@ -4,20 +4,20 @@
 
 using namespace thermal;
 
-TEST_CASE("What can be shown is shown as it is") {
+TEST_CASE("Printable text is unchanged") {
   for (const char* text : {"", "one/000001.exr", "~", "\u00a0", "\u00b5m", "\u07ff", "\u0800", "\ud7ff",
                            "\ue000", "\uffff", "\U00010000", "\U0010ffff"})
     CHECK(printable(text) == text);
 }
 
-TEST_CASE("Controls are named, and line breaks make no line") {
+TEST_CASE("Control characters are escaped, and line breaks removed") {
   CHECK(printable("a\x1b[2Jb\tc\rd\x7f") == "a\\x1b[2Jb\\x09c\\x0dd\\x7f");
   CHECK(printable(std::string_view("a\0b", 3)) == "a\\x00b");
   CHECK(printable("damaged\nat its end\n\n") == "damaged; at its end");
-  CHECK(printable("\xc2\x9b") == "\\xc2\\x9b");  // U+009B begins commands to terminals
+  CHECK(printable("\xc2\x9b") == "\\xc2\\x9b");  // U+009B starts terminal commands
 }
 
-TEST_CASE("Bytes that are no UTF-8 are named one by one") {
+TEST_CASE("Bytes that are not UTF-8 are escaped one by one") {
   CHECK(printable("\xff") == "\\xff");
   CHECK(printable("a\x80z") == "a\\x80z");
   CHECK(printable("\xc0\xaf") == "\\xc0\\xaf");                    // overlong

@@ -23,7 +23,7 @@ std::vector<float> filled(Fill fill, const RandomField& field, std::size_t first
   return values;
 }
 
-/// The word a value of a field is made of: where a random number is used is what it depends on.
+/// The word from which a value of a field is made: a random number depends on where it is used.
 std::uint32_t word_of(const RandomField& field, std::size_t at) {
   const std::size_t batch = at / kRandomBatch;
   const std::size_t word = at % kRandomBatch / 16;
@@ -94,10 +94,10 @@ TEST_CASE("Random numbers are the same bits on every machine") {
   for (const float value : filled(fill_normal, kField, 0, kPixels)) {
     hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x100000001B3;
   }
-  CHECK(hash == 0x13E09ABDC1C50DB4);  // of GCC 12, x86-64; +, -, *, sqrt round alike everywhere
+  CHECK(hash == 0x13E09ABDC1C50DB4);  // of GCC 12, x86-64; +, -, *, sqrt round the same everywhere
 }
 
-TEST_CASE("Each part of its name gives a field numbers of its own") {
+TEST_CASE("Each part of a field's key changes its numbers") {
   const auto fill = GENERATE(fill_uniform, fill_normal);
   const std::vector<float> values = filled(fill, kField, 0, kPixels);
   RandomField other = kField;
@@ -122,7 +122,7 @@ TEST_CASE("A part of a field, of any length, equals that part of the whole") {
   CHECK(std::equal(part.begin(), part.end(), whole.begin() + static_cast<std::ptrdiff_t>(first)));
 }
 
-TEST_CASE("Normal numbers stay within what 31 bits can give") {
+TEST_CASE("Normal numbers stay within the range of 31 bits") {
   // The smallest u is 2^-31, so that the largest value is sqrt(2 * 31 ln 2) = 6.56.
   const double largest = std::sqrt(2 * 31 * std::numbers::ln2);
   CHECK_THAT(largest, WithinAbs(6.56, 0.005));
@@ -130,5 +130,5 @@ TEST_CASE("Normal numbers stay within what 31 bits can give") {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   CHECK(static_cast<double>(*low) >= -largest);
   CHECK(static_cast<double>(*high) <= largest);
-  CHECK(static_cast<double>(*high) > 4);  // one in 32 thousand is beyond 4: of a million, surely one
+  CHECK(static_cast<double>(*high) > 4);  // one in 32 thousand exceeds 4: among a million, certainly one
 }

@@ -12,21 +12,21 @@ const std::vector<std::string> kSpecies = {"elephant", "human", "lion", "rhinoce
 
 }  // namespace
 
-TEST_CASE("A near miss is one or two slips away") {
+TEST_CASE("A near miss is one or two edits away") {
   CHECK(near_miss("zebr", kSpecies) == "zebra");             // a letter left out
   CHECK(near_miss("zeebra", kSpecies) == "zebra");           // one too many
   CHECK(near_miss("zepra", kSpecies) == "zebra");            // a wrong one
   CHECK(near_miss("zerba", kSpecies) == "zebra");            // neighbours swapped
-  CHECK(near_miss("elefant", kSpecies) == "elephant");       // two slips
+  CHECK(near_miss("elefant", kSpecies) == "elephant");       // two edits
   CHECK(near_miss("rihnocreos", kSpecies) == "rhinoceros");  // two swaps
 }
 
-TEST_CASE("A swap of neighbours counts as one slip, not two") {
-  // "ingot_ms" is two replacements away; were a swap two slips, it would win as the first of equals.
+TEST_CASE("A swap of neighbours counts as one edit, not two") {
+  // "ingot_ms" is two replacements away; if a swap were two edits, it would win as the first of equals.
   CHECK(near_miss("ingot_km", std::vector<std::string>{"ingot_ms", "ingto_km"}) == "ingto_km");
 }
 
-TEST_CASE("What is far away is no near miss") {
+TEST_CASE("A distant word is not a near miss") {
   CHECK(near_miss("giraffe", kSpecies).empty());
   CHECK(near_miss("", kSpecies).empty());
   CHECK(near_miss("zebra", std::vector<std::string>{}).empty());
@@ -37,7 +37,7 @@ TEST_CASE("A short word must keep more than half its letters") {
   CHECK(near_miss("loan", kSpecies).empty());    // two of four
 }
 
-TEST_CASE("The nearest wins, and of equals the first") {
+TEST_CASE("The nearest wins, and among equals the first") {
   CHECK(near_miss("shrubb", std::vector<std::string>{"scrub", "shrub"}) == "shrub");
   CHECK(near_miss("path_x", std::vector<std::string>{"path_a", "path_b"}) == "path_a");
 }

@@ -17,7 +17,7 @@ ManifestObject actor(std::uint16_t index, const std::string& category, int track
   return object;
 }
 
-/// Three frames of 10 x 8 px with a person (index 3) and an animal Veldt does not know (index 4).
+/// Three frames of 10 x 8 px with a person (index 3) and an unknown animal (index 4).
 Manifest manifest() {
   Manifest result;
   result.clip = "night_1";
@@ -29,13 +29,13 @@ Manifest manifest() {
   return result;
 }
 
-/// An instance whose box has these sides; the pixels are not looked at.
+/// An instance whose box has these sides; its pixels are not read.
 Instance instance(std::uint16_t index, int width_px, int height_px) {
   return {
       .index = index, .box = {1, 2, width_px, height_px}, .area_px = 5, .truncated = true, .mask = {19, 1}};
 }
 
-/// One of which everything is known.
+/// One with all optional properties.
 Instance known_instance() {
   Instance known = instance(3, 4, 5);
   known.covered_px = 5.22222222;
@@ -59,7 +59,7 @@ Json document_of(ClipAnnotations& annotations) { return Json::parse(text_of(anno
 
 Json document_of(const std::vector<std::vector<Instance>>& frames) {
   const Manifest used = manifest();
-  ClipAnnotations annotations(used, {.k1 = -0.5, .k2 = 0.25, .p1 = 0.125});
+  ClipAnnotations annotations(used, {.k1 = -0.5, .k2 = 0.25, .p1 = 0.125, .k3 = 2});
   for (std::size_t i = 0; i < frames.size(); ++i) annotations.add_frame(static_cast<int>(i), frames[i]);
   return document_of(annotations);
 }
@@ -74,7 +74,7 @@ std::string size_class_of(const std::vector<std::pair<int, int>>& boxes) {
 
 }  // namespace
 
-TEST_CASE("An annotation has COCO's fields, and video's") {
+TEST_CASE("An annotation has the fields of COCO and of video datasets") {
   const Json document = document_of({{instance(3, 4, 5)}});
   CHECK(document["annotations"][0].dump() ==
         R"({"id":1,"image_id":1,"category_id":1,"bbox":[1.0,2.0,4.0,5.0],"area":5,)"
@@ -86,10 +86,10 @@ TEST_CASE("An annotation has COCO's fields, and video's") {
   CHECK(
       document["videos"][0].dump() ==
       R"({"id":1,"name":"night_1","width":10,"height":8,"frame_rate_hz":5.0,"frames":1,)"
-      R"("camera":{"fx_px":11.5,"fy_px":12.5,"cx_px":5.0,"cy_px":4.0,"k1":-0.5,"k2":0.25,"p1":0.125,"p2":0.0}})");
+      R"("camera":{"fx_px":11.5,"fy_px":12.5,"cx_px":5.0,"cy_px":4.0,"k1":-0.5,"k2":0.25,"p1":0.125,"p2":0.0,"k3":2.0}})");
 }
 
-TEST_CASE("What more is known of a target follows, rounded") {
+TEST_CASE("Optional properties of a target follow, rounded") {
   CHECK(document_of({{known_instance()}})["annotations"][0].dump() ==
         R"({"id":1,"image_id":1,"category_id":1,"bbox":[1.0,2.0,4.0,5.0],"area":5,)"
         R"("segmentation":{"size":[8,10],"counts":"c01"},"iscrowd":0,"track_id":21,)"
@@ -98,23 +98,23 @@ TEST_CASE("What more is known of a target follows, rounded") {
         R"("contrast_k":0.0,"contrast_noise":-2.5,"noisy":false,"ignore":false,"size_class":"small"})");
 }
 
-TEST_CASE("What counts as occluded, and what is ignored, is the config's to say") {
-  const auto told = [](const LabelParameters& parameters) {
+TEST_CASE("The config decides what counts as occluded and what is ignored") {
+  const auto flags = [](const LabelParameters& parameters) {
     const Manifest used = manifest();
     ClipAnnotations annotations(used, {}, parameters);
     annotations.add_frame(0, {known_instance()});
     const Json label = document_of(annotations)["annotations"][0];
     return std::pair<bool, bool>{label["occluded"], label["ignore"]};
   };
-  CHECK(told({}) == std::pair(true, false));
-  CHECK(told({.occluded_below_visibility = 0.1}) == std::pair(false, false));
-  CHECK(told({.ignore_below_visibility = 0.5}) == std::pair(true, true));
-  CHECK(told({.ignore_below_area_px = 5}) == std::pair(true, false));
-  CHECK(told({.ignore_below_area_px = 5.5}) == std::pair(true, true));
-  CHECK_THROWS_AS(told({.ignore_below_visibility = 2}), ConfigError);
+  CHECK(flags({}) == std::pair(true, false));
+  CHECK(flags({.occluded_below_visibility = 0.1}) == std::pair(false, false));
+  CHECK(flags({.ignore_below_visibility = 0.5}) == std::pair(true, true));
+  CHECK(flags({.ignore_below_area_px = 5}) == std::pair(true, false));
+  CHECK(flags({.ignore_below_area_px = 5.5}) == std::pair(true, true));
+  CHECK_THROWS_AS(flags({.ignore_below_visibility = 2}), ConfigError);
 }
 
-TEST_CASE("A track keeps its id when it is hidden, and when it comes back") {
+TEST_CASE("A track keeps its id when it is hidden and when it returns") {
   const Json document = document_of({{instance(3, 4, 5), instance(4, 1, 1)}, {}, {instance(3, 4, 5)}});
   REQUIRE(document["annotations"].size() == 3);
   CHECK(document["annotations"][0]["track_id"] == 21);
@@ -139,7 +139,7 @@ TEST_CASE("Categories are those of the clip's actors, by id") {
 }
 
 // Bondi et al., COMPASS 2018: small below 200 px, large above 2000 px, by the mean over the video.
-TEST_CASE("A track's size class goes by its mean box area") {
+TEST_CASE("A track's size class depends on its mean box area") {
   CHECK(size_class_of({{199, 1}}) == "small");
   CHECK(size_class_of({{20, 10}}) == "medium");
   CHECK(size_class_of({{50, 40}}) == "medium");
@@ -147,7 +147,7 @@ TEST_CASE("A track's size class goes by its mean box area") {
   CHECK(size_class_of({{10, 10}, {30, 10}}) == "medium");  // 100 and 300
 }
 
-TEST_CASE("The document is laid out as every other of ours") {
+TEST_CASE("The document is laid out like all others") {
   const Manifest used = manifest();
   ClipAnnotations annotations(used);
   annotations.add_frame(0, {instance(3, 4, 5), known_instance()});
@@ -159,7 +159,7 @@ TEST_CASE("The document is laid out as every other of ours") {
   CHECK(text_of(empty) == to_text(Json::parse(text_of(empty))));
 }
 
-TEST_CASE("Labels that wait in a file are those that wait in memory, and the file is gone") {
+TEST_CASE("Labels in a spool file are the same as in memory, and the file is removed") {
   const TemporaryFolder folder;
   const Manifest used = manifest();
   ClipAnnotations in_file(used, {}, {}, folder / "spool");

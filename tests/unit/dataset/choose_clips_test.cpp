@@ -26,18 +26,18 @@ TEST_CASE("Without a choice all clips are made, in the config's order") {
   CHECK(chosen({"d", "a"}, {}) == "ad");
 }
 
-TEST_CASE("Shards take turns, and together they take every clip once") {
+TEST_CASE("Shards alternate, and together they make every clip once") {
   CHECK(chosen({}, {0, 2}) == "ace");
   CHECK(chosen({}, {1, 2}) == "bd");
   CHECK(chosen({}, {6, 7}).empty());
 }
 
-TEST_CASE("A clip belongs to one shard whatever else is asked for") {
+TEST_CASE("A clip belongs to one shard whatever else is requested") {
   CHECK(chosen({"b", "c"}, {0, 2}) == "c");
   CHECK(chosen({"b", "c"}, {1, 2}) == "b");
 }
 
-TEST_CASE("A clip the config lacks is a fault") {
+TEST_CASE("An unknown clip is an error") {
   CHECK(message_of<ConfigError>([] { (void)chosen({"f"}, {}); }) ==
         "--clips = \"f\"; expected one of a, b, c, d, e");
 }

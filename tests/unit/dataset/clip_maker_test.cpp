@@ -25,7 +25,7 @@ struct Workplace {
   [[nodiscard]] ClipPasses rendered() const {
     return {.manifest = read_manifest(passes / "manifest.json", VELDT_SOURCE_DIR), .folder = passes};
   }
-  /// For a dataset in another folder than `layout` if it is named.
+  /// For a dataset in a folder other than `layout`, if one is given.
   [[nodiscard]] ClipTask task(const std::string& dataset = "dataset") const {
     ClipTask task;
     task.clip.id = "a";
@@ -40,7 +40,7 @@ struct Workplace {
   [[nodiscard]] std::vector<ClipRecord> make_all(const std::vector<ClipTask>& tasks) const {
     return make_clips(rendered(), tasks, read_materials(VELDT_SOURCE_DIR), {});
   }
-  /// The same, going on without bad frames.
+  /// The same, skipping bad frames.
   [[nodiscard]] std::vector<ClipRecord> make_without_bad(const std::vector<ClipTask>& tasks,
                                                          const ClipHooks& hooks = {}) const {
     ClipPasses lenient = rendered();
@@ -49,7 +49,7 @@ struct Workplace {
   }
   [[nodiscard]] Path frame(int number) const { return passes / tiny_clip::file_name(number); }
   void remove(int number) const { std::filesystem::remove(frame(number)); }
-  /// Puts an index into a frame that the manifest lacks.
+  /// Writes an index into a frame that the manifest lacks.
   void put_unknown_index(int number) const {
     ExrChannels planes = tiny_clip::planes(number);
     planes.at("Scene.IndexOB.X")[41] = 99;
@@ -65,7 +65,8 @@ constexpr const char* kUnknownIndex =
 
 }  // namespace
 
-TEST_CASE("A clip has its pictures, labels, frame records and preview, and a record with the sum of each") {
+TEST_CASE(
+    "A clip has its pictures, labels, frame records and preview, and a record with the checksum of each") {
   const Workplace place;
   const ClipRecord record = place.make();
   CHECK(record.clip == "a");
@@ -105,7 +106,7 @@ TEST_CASE("A clip made twice has the same pixels, with one thread or two") {
   }
 }
 
-TEST_CASE("A clip's pixels are its own: another seed or another id makes others") {
+TEST_CASE("Another seed or another id gives other pixels") {
   const Workplace place;
   const ClipRecord record = place.make();
   ClipTask other_seed = place.task();
@@ -116,7 +117,7 @@ TEST_CASE("A clip's pixels are its own: another seed or another id makes others"
   CHECK(place.make(other_id).pixels_sha256 != record.pixels_sha256);
 }
 
-TEST_CASE("Whoever asked is told of every frame") {
+TEST_CASE("Every frame is reported through the hooks") {
   int waited = 0;
   int done = 0;
   ClipHooks hooks;
@@ -127,7 +128,7 @@ TEST_CASE("Whoever asked is told of every frame") {
   CHECK(done == 3);
 }
 
-TEST_CASE("A clip that is cancelled is not there") {
+TEST_CASE("A cancelled clip does not exist") {
   const Workplace place;
   ClipHooks hooks;
   int asked = 0;
@@ -136,41 +137,41 @@ TEST_CASE("A clip that is cancelled is not there") {
   CHECK_FALSE(place.has_anything_of_the_clip());
 }
 
-TEST_CASE("A clip with a frame missing is not there, and the file is named") {
+TEST_CASE("A clip with a missing frame does not exist, and the file is named") {
   const Workplace place;
   place.remove(2);
   CHECK(message_of<IoError>([&] { (void)place.make(); }) ==
-        fmt::format("cannot read {}: there is no such file", place.frame(2).string()));
+        fmt::format("cannot read {}: no such file", place.frame(2).string()));
   CHECK_FALSE(place.has_anything_of_the_clip());
 }
 
-TEST_CASE("A frame with an index the manifest lacks is named") {
+TEST_CASE("A frame with an index missing from the manifest is named") {
   const Workplace place;
   place.put_unknown_index(1);
   CHECK(message_of<DataError>([&] { (void)place.make(); }) ==
         fmt::format("{}: {}", place.frame(1).string(), kUnknownIndex));
 }
 
-TEST_CASE("Of several bad frames the first is named, whichever is found first") {
+TEST_CASE("The first of several bad frames is named, whichever is found first") {
   const Workplace place;
-  place.put_unknown_index(0);  // takes longer to find than that a file is missing
+  place.put_unknown_index(0);  // takes longer to detect than a missing file
   place.remove(1);
   for (int time = 0; time < 20; ++time)
     CHECK(message_of<DataError>([&] { (void)place.make(); }).starts_with(place.frame(0).string()));
 }
 
-TEST_CASE("A clip goes without its bad frames: their numbers stay free, and its record names them") {
+TEST_CASE("A clip skips its bad frames: their numbers stay unused, and its record lists them") {
   const Workplace place;
   place.remove(1);
-  std::vector<SkippedFrame> told;
+  std::vector<SkippedFrame> reported;
   int done = 0;
   ClipHooks hooks;
-  hooks.frame_skipped = [&](const SkippedFrame& frame) { told.push_back(frame); };
+  hooks.frame_skipped = [&](const SkippedFrame& frame) { reported.push_back(frame); };
   hooks.frame_done = [&] { ++done; };
   const ClipRecord record = place.make_without_bad({place.task()}, hooks).front();
-  const SkippedFrame missing = {.frame_index = 1, .file = "000001.exr", .reason = "there is no such file"};
+  const SkippedFrame missing = {.frame_index = 1, .file = "000001.exr", .reason = "no such file"};
   CHECK(record.skipped == std::vector{missing});
-  CHECK(told == record.skipped);
+  CHECK(reported == record.skipped);
   CHECK(done == 3);
   CHECK(record.frames == 2);
   CHECK(record.files.size() == 2 * 2 + 3);
@@ -183,7 +184,7 @@ TEST_CASE("A clip goes without its bad frames: their numbers stay free, and its 
   CHECK(read_clip_record(place.layout.clip("a") / "clip.json").skipped == record.skipped);
 }
 
-TEST_CASE("Pictures of the other frames do not hang on the threads, nor on why one is skipped") {
+TEST_CASE("Pictures of the other frames do not depend on threads, nor on why one is skipped") {
   const auto record_with = [](int threads, bool missing) {
     const ThreadLimit limit(threads);
     const Workplace place;
@@ -197,7 +198,7 @@ TEST_CASE("Pictures of the other frames do not hang on the threads, nor on why o
   CHECK(twice.files.at("labels.json") == once.files.at("labels.json"));
   CHECK(unknown.pixels_sha256 == once.pixels_sha256);
   CHECK(unknown.skipped.front().reason == kUnknownIndex);
-  // Without memory from frame to frame, those before and after are what they are with it.
+  // Without state between frames, those before and after are unchanged.
   CHECK(once.files.at("ir16/000002.png") == Workplace().make().files.at("ir16/000002.png"));
 }
 
@@ -211,16 +212,16 @@ TEST_CASE("A bad frame is skipped in all tasks") {
   }
 }
 
-TEST_CASE("A clip without any good frame is not there; the first is named, and how many more") {
+TEST_CASE("A clip without any good frame does not exist; the first is named, and the number of others") {
   const Workplace place;
   for (int frame = 0; frame < tiny_clip::kFrames; ++frame) place.remove(frame);
   CHECK(message_of<DataError>([&] { (void)place.make_without_bad({place.task()}); }) ==
-        fmt::format("cannot read {}: there is no such file; nor can its 2 other frames be converted",
+        fmt::format("cannot read {}: no such file; its 2 other frames cannot be converted either",
                     place.frame(0).string()));
   CHECK_FALSE(place.has_anything_of_the_clip());
 }
 
-TEST_CASE("What is no fault of a frame is not skipped") {
+TEST_CASE("Faults that are not a frame's are not skipped") {
   const Workplace place;
   ClipHooks hooks;
   hooks.wait_for_frame = [](int) { throw TryAgainError("no room"); };
@@ -234,7 +235,7 @@ TEST_CASE("What is no fault of a frame is not skipped") {
   CHECK_FALSE(place.has_anything_of_the_clip());
 }
 
-TEST_CASE("A picture larger than the limit is refused before anything of that size is made") {
+TEST_CASE("A picture larger than the limit is refused before memory of that size is allocated") {
   const Workplace place;
   ClipPasses passes = place.rendered();
   passes.manifest.camera.width_px = 100'000;
@@ -248,7 +249,7 @@ TEST_CASE("A picture larger than the limit is refused before anything of that si
   CHECK_FALSE(place.has_anything_of_the_clip());
 }
 
-TEST_CASE("What an earlier run left half done is swept away") {
+TEST_CASE("Leftovers of an earlier run are removed") {
   const Workplace place;
   make_folder(place.layout.unfinished_clip("a") / "ir8");
   write_file(place.layout.unfinished_clip("a") / "ir8/000099.png", {});
@@ -259,8 +260,8 @@ TEST_CASE("What an earlier run left half done is swept away") {
 
 namespace {
 
-/// Tasks of three datasets that differ in all a variant may: season, seed, sensor. The first and the third differ in
-/// the sensor alone.
+/// Tasks of three datasets that differ in everything a variant may change: season, seed, sensor. The first and the
+/// third differ only in the sensor.
 std::vector<ClipTask> three_tasks(const Workplace& place) {
   std::vector<ClipTask> tasks = {place.task("one"), place.task("two"), place.task("three")};
   tasks[1].clip.season = Season::summer;
@@ -272,7 +273,7 @@ std::vector<ClipTask> three_tasks(const Workplace& place) {
 
 }  // namespace
 
-TEST_CASE("Tasks made together come out as each does alone, file by file, with one thread or two") {
+TEST_CASE("Tasks made together give the same files as each alone, with one thread or two") {
   const Workplace together;
   const Workplace alone;
   const std::vector<ClipTask> tasks = three_tasks(together);
@@ -296,7 +297,7 @@ TEST_CASE("Tasks made together come out as each does alone, file by file, with o
   CHECK(records[0].pixels_sha256 != records[2].pixels_sha256);
 }
 
-TEST_CASE("A frame is waited for and told of once, however many tasks there are") {
+TEST_CASE("A frame is waited for and reported once, however many tasks there are") {
   const Workplace place;
   int waited = 0;
   int done = 0;
@@ -308,7 +309,7 @@ TEST_CASE("A frame is waited for and told of once, however many tasks there are"
   CHECK(done == 3);
 }
 
-TEST_CASE("With a frame missing no task has its clip") {
+TEST_CASE("With a missing frame no task has its clip") {
   const Workplace place;
   std::filesystem::remove(place.passes / tiny_clip::file_name(2));
   const std::vector<ClipTask> tasks = three_tasks(place);
@@ -316,7 +317,7 @@ TEST_CASE("With a frame missing no task has its clip") {
   for (const ClipTask& task : tasks) CHECK_FALSE(std::filesystem::exists(task.layout.clip("a")));
 }
 
-TEST_CASE("What a task asks of passes that cannot give it is told with its variant") {
+TEST_CASE("An impossible request of a task is reported with its variant") {
   const Workplace place;
   std::vector<ClipTask> tasks = three_tasks(place);
   tasks[1].variant = "list.json: variants[1] (barrel)";

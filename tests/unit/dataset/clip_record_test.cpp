@@ -8,7 +8,7 @@
 
 using namespace thermal;
 
-TEST_CASE("A record survives its file") {
+TEST_CASE("A record survives writing and reading") {
   const ClipRecord record = {.clip = "a",
                              .season = "summer",
                              .seed = 4294967295,
@@ -23,11 +23,11 @@ TEST_CASE("A record survives its file") {
   CHECK(read.seed == 4294967295);
 }
 
-TEST_CASE("A file that is no record is the data's fault, and is named") {
+TEST_CASE("An invalid record is a DataError with the file") {
   const TemporaryFolder folder;
   const Path empty = folder.file("empty.json", "{}");
   CHECK_THAT(message_of<DataError>([&] { (void)read_clip_record(empty); }),
-             StartsWith(empty.string() + ": not the record of a clip: "));
+             StartsWith(empty.string() + ": not a clip record: "));
   const Path cut = folder.file("cut.json", "{\"clip\": \"a\"");
   CHECK_THAT(message_of<DataError>([&] { (void)read_clip_record(cut); }),
              StartsWith(cut.string() + ":1:13: not JSON"));

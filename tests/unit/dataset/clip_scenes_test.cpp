@@ -27,7 +27,7 @@ std::size_t scenes_of(const std::vector<ClipTask>& tasks) {
   return clip.scenes.size();
 }
 
-/// Tasks that are the same before the sensor, which differs in all it may.
+/// Tasks that are the same before the sensor, which differs in everything possible.
 std::vector<ClipTask> tasks_of_one_scene() {
   std::vector<ClipTask> tasks(3);
   tasks[1].seed = 7;
@@ -71,10 +71,10 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("Scenes are alike for nothing but all their settings: lens and terms too") {
+TEST_CASE("Scenes are shared only if all their settings are equal, including lens and terms") {
   const SceneSettings settings = scene_settings(Season::winter, {}, PhysicsSettings());
-  for (double LensDistortion::*part :
-       {&LensDistortion::k1, &LensDistortion::k2, &LensDistortion::p1, &LensDistortion::p2}) {
+  for (double LensDistortion::*part : {&LensDistortion::k1, &LensDistortion::k2, &LensDistortion::p1,
+                                       &LensDistortion::p2, &LensDistortion::k3}) {
     SceneSettings bent = settings;
     bent.lens.*part = 0.01;
     CHECK_FALSE(bent == settings);
@@ -88,7 +88,7 @@ TEST_CASE("Scenes are alike for nothing but all their settings: lens and terms t
   }
 }
 
-TEST_CASE("A frame of a scene is converted once, whoever shares it") {
+TEST_CASE("A frame of a scene is converted once, whichever tasks share it") {
   Clip clip;
   ClipScenes& scenes = clip.scenes;
   for (const ClipTask& task : tasks_of_one_scene()) CHECK(scenes.add(task) == 0);

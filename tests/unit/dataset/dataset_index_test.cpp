@@ -16,13 +16,13 @@ Config two_clips() {
   return config;
 }
 
-/// A dataset of two clips, without their pictures: what it tells of them is made up here.
+/// A dataset of two clips without pictures; their records are synthetic.
 struct Place {
   TemporaryFolder folder;
   Layout layout{folder.path()};
   Config config = two_clips();
 
-  /// Puts a whole clip of two frames into the folder.
+  /// Writes a complete clip of two frames into the folder.
   [[nodiscard]] ClipRecord finish(const std::string& id) const {
     ClipRecord record;
     record.clip = id;
@@ -43,27 +43,27 @@ struct Place {
   }
 
   [[nodiscard]] DatasetIndex open() const { return open_dataset(layout, config); }
-  [[nodiscard]] Json told() const { return read_json(layout.dataset_json()); }
+  [[nodiscard]] Json document() const { return read_json(layout.dataset_json()); }
   [[nodiscard]] std::size_t joined() const { return read_json(layout.annotations_json())["videos"].size(); }
 };
 
 }  // namespace
 
-TEST_CASE("As a run goes on, dataset.json tells of each clip and makes no promise for the annotations") {
+TEST_CASE("During a run, dataset.json lists each clip and has no checksum of the annotations") {
   const Place place;
   DatasetIndex index = place.open();
   CHECK_FALSE(index.recorded);
   index.add("a", place.finish("a"));
   write_progress(place.layout, index);
-  CHECK(place.told()["status"] == "unfinished");
-  CHECK(place.told()["frames"] == 2);
-  CHECK(place.told()["clips"][0]["status"] == "done");
-  CHECK(place.told()["clips"][1]["status"] == "pending");
-  CHECK_FALSE(place.told().contains("annotations_sha256"));
+  CHECK(place.document()["status"] == "unfinished");
+  CHECK(place.document()["frames"] == 2);
+  CHECK(place.document()["clips"][0]["status"] == "done");
+  CHECK(place.document()["clips"][1]["status"] == "pending");
+  CHECK_FALSE(place.document().contains("annotations_sha256"));
   CHECK_FALSE(std::filesystem::exists(place.layout.annotations_json()));
 }
 
-TEST_CASE("A run that was killed before it joined the labels is found out, whatever annotations lie there") {
+TEST_CASE("A run that was killed before it joined the labels is detected, whatever annotations exist") {
   const Place place;
   DatasetIndex index = place.open();
   index.add("a", place.finish("a"));
@@ -80,21 +80,21 @@ TEST_CASE("A run that was killed before it joined the labels is found out, whate
   CHECK(place.open().recorded);
 }
 
-TEST_CASE("At the end dataset.json is as if all had been made in one go") {
+TEST_CASE("At the end dataset.json is the same as after a single run") {
   const Place place;
   DatasetIndex index = place.open();
   index.add("a", place.finish("a"));
   index.add("b", place.finish("b"));
   write_dataset(place.layout, index);
-  const Json once = place.told();
+  const Json once = place.document();
   write_dataset(place.layout, place.open());
-  CHECK(place.told() == once);
+  CHECK(place.document() == once);
   CHECK(once["status"] == "complete");
   CHECK(once["frames"] == 4);
   CHECK(once["annotations"] == 2);
 }
 
-TEST_CASE("After a fault what is whole is told, and one more fault is not") {
+TEST_CASE("After a fault complete clips are recorded, and another fault is not reported") {
   const Place place;
   DatasetIndex index = place.open();
   index.add("a", place.finish("a"));
@@ -105,7 +105,7 @@ TEST_CASE("After a fault what is whole is told, and one more fault is not") {
   write_dataset_after_fault(place.layout, index);
 }
 
-TEST_CASE("What other runs have made and failed at meanwhile is taken in, and of one's own clips nothing") {
+TEST_CASE("Clips made or failed by other runs meanwhile are added, but none of this run's own") {
   const Place place;
   DatasetIndex index = place.open();
   write_progress(place.layout, index);
@@ -124,12 +124,12 @@ TEST_CASE("What other runs have made and failed at meanwhile is taken in, and of
   CHECK(index.failed.empty());
 }
 
-TEST_CASE("A clip that failed is told of until it is whole") {
+TEST_CASE("A failed clip is listed until it is complete") {
   const Place place;
   DatasetIndex index = place.open();
   index.failed["a"] = "no light";
   write_progress(place.layout, index);
-  CHECK(place.told()["clips"][0] == Json{{"id", "a"}, {"status", "failed"}, {"reason", "no light"}});
+  CHECK(place.document()["clips"][0] == Json{{"id", "a"}, {"status", "failed"}, {"reason", "no light"}});
   CHECK(place.open().failed.contains("a"));
   (void)place.finish("a");
   CHECK(place.open().failed.empty());

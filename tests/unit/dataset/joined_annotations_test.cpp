@@ -9,7 +9,7 @@ using namespace thermal;
 
 namespace {
 
-/// Labels of a clip that has these frames, one target in each; the number of a clip's category is its own.
+/// Labels of a clip with these frames, one target in each; the number of a clip's category is the clip's own.
 Json document_of(const std::vector<int>& frames, int category = 1, const std::string& name = "human") {
   Json document = {{"info", {{"description", "clip"}}},
                    {"categories", Json::array({{{"id", category}, {"name", name}}})},
@@ -45,7 +45,7 @@ Json joined(const std::vector<Json>& documents) { return Json::parse(joined_text
 
 }  // namespace
 
-TEST_CASE("Joined documents have ids that run on and files below the dataset's folder") {
+TEST_CASE("Joined documents have consecutive ids and files relative to the dataset's folder") {
   const Json document = joined({document_of({0, 1}), document_of({0, 1})});
   CHECK(document["info"].dump() == R"({"description":"nights","version":"1"})");
   REQUIRE(document["videos"].size() == 2);
@@ -73,7 +73,7 @@ TEST_CASE(
   CHECK(labelled == images);
 }
 
-TEST_CASE("Joined labels keep all they had, in one line") {
+TEST_CASE("Joined labels keep all their properties, on one line") {
   const std::string text = joined_text({document_of({0}), document_of({0})});
   CHECK(text.ends_with(R"({"id":2,"image_id":2,"category_id":1,"area":5,"size_class":"small"}]})"
                        "\n"));
@@ -84,21 +84,21 @@ TEST_CASE("Joined labels keep all they had, in one line") {
       "\n");
 }
 
-TEST_CASE("A category keeps its name when clips that number it differently are joined") {
+TEST_CASE("A category keeps its name when clips number it differently") {
   const Json document = joined({document_of({0}, 11, "antelope"), document_of({0}, 11, "aardvark")});
   CHECK(document["categories"].dump() == R"([{"id":11,"name":"aardvark"},{"id":12,"name":"antelope"}])");
   CHECK(document["annotations"][0]["category_id"] == 12);
   CHECK(document["annotations"][1]["category_id"] == 11);
 }
 
-TEST_CASE("Images may come before what they belong to") {
+TEST_CASE("Images may precede what they refer to") {
   Json turned = Json::object();
   const Json usual = document_of({0});
   for (const char* key : {"images", "annotations", "videos", "categories"}) turned[key] = usual[key];
   CHECK(joined({turned, usual}) == joined({usual, usual}));
 }
 
-TEST_CASE("Labels of clips become a file with its sum, and nothing is left beside it") {
+TEST_CASE("Labels of clips become a file with a checksum, and no other file is left") {
   const TemporaryFolder folder;
   const Layout layout{folder.path()};
   make_folder(layout.clip("a"));
@@ -110,7 +110,7 @@ TEST_CASE("Labels of clips become a file with its sum, and nothing is left besid
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 2);
 }
 
-TEST_CASE("Labels that are damaged or gone are named, and what was there before stays") {
+TEST_CASE("Damaged or missing labels are named, and the existing file stays") {
   const TemporaryFolder folder;
   const Layout layout{folder.path()};
   make_folder(layout.clip("a"));

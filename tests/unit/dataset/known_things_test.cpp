@@ -23,7 +23,7 @@ TEST_CASE("words of a name") {
   CHECK(thermal::words_of("").empty());
 }
 
-TEST_CASE("what things are, by their names") {
+TEST_CASE("things are recognised by their names") {
   const thermal::KnownThings known(VELDT_SOURCE_DIR);
   CHECK(known.find("Elephant.001") == thing(ObjectClass::actor, "elephant", "elephant", "elephant"));
   CHECK(known.find("two zebras") == thing(ObjectClass::actor, "zebra", "zebra", "zebra"));
@@ -38,7 +38,7 @@ TEST_CASE("what things are, by their names") {
   CHECK_FALSE(known.find("").has_value());
 }
 
-TEST_CASE("two words go before one, and the first before the second") {
+TEST_CASE("two words take precedence over one, and the first over the second") {
   const thermal::KnownThings known(VELDT_SOURCE_DIR);
   CHECK(known.find("Elephant Grass 3") == thing(ObjectClass::plant, "elephant_grass"));
   CHECK(known.find("dry termite mound") == thing(ObjectClass::plant, "termite_mound"));

@@ -43,22 +43,21 @@ TEST_CASE("A finished dataset's labels have its name and size classes") {
   CHECK(set.labels[0].size == SizeClass::small);
 }
 
-TEST_CASE("A dataset of which clips are not made is refused, or taken as it is") {
+TEST_CASE("A dataset with missing clips is refused, or read as it is") {
   const TemporaryFolder folder;
   write_dataset(folder, "pending", kSummed);
   CHECK(fault_of(folder.path()) ==
-        " is unfinished: 1 of 2 clips are not made: b; expected all of them, or --unfinished to go without");
+        " is unfinished: 1 of 2 clips are missing: b; expected all of them, or --unfinished to accept this");
   CHECK(read_labels(folder.path(), true).labels.size() == 1);
 }
 
-TEST_CASE("A dataset whose labels were not joined yet is refused") {
+TEST_CASE("A dataset whose labels are not joined yet is refused") {
   const TemporaryFolder folder;
   write_dataset(folder, "done", "");
   for (const bool unfinished_too : {false, true}) {
-    CHECK(
-        fault_of(folder.path(), unfinished_too) ==
-        ": annotations.json may lack clips (a run has not ended, or was killed); expected the end of a run: "
-        "start the same command again");
+    CHECK(fault_of(folder.path(), unfinished_too) ==
+          ": annotations.json may lack clips (a run has not ended, or was killed); expected a finished run: "
+          "run the same command again");
   }
 }
 
@@ -72,7 +71,7 @@ TEST_CASE("A COCO file and a BIRDSAI folder are labels, too") {
   CHECK(set.labels.at(0).size == SizeClass::large);
 }
 
-TEST_CASE("What has no labels is told") {
+TEST_CASE("A source without labels is reported") {
   const TemporaryFolder folder;
   CHECK(
       fault_of(folder.path()) ==
@@ -80,7 +79,7 @@ TEST_CASE("What has no labels is told") {
       "COCO file (.json)");
   CHECK(fault_of(folder / "nothing") == " does not exist");
   (void)folder.file("dataset.json", "{}");
-  CHECK(fault_of(folder.path()) == "/dataset.json is not of a Veldt dataset");
+  CHECK(fault_of(folder.path()) == "/dataset.json does not belong to a Veldt dataset");
   (void)folder.file("dataset.json", R"({"format": "veldt-dataset"})");
   CHECK_THAT(fault_of(folder.path()), StartsWith(": annotations.json may lack clips"));
   (void)folder.file("dataset.json", R"({"format": "veldt-dataset", "annotations_sha256": "0"})");

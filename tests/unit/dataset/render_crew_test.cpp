@@ -13,7 +13,7 @@ namespace {
 
 using Hands = std::vector<std::vector<std::string>>;
 
-/// A Blender that says its scene is built, and waits.
+/// A Blender that reports its scene as built, and waits.
 std::vector<RenderJob::Task> idle_tasks(const TemporaryFolder& folder, const Hands& hands) {
   const Path program =
       folder.file("blender", "#!/bin/sh\necho '{\"event\": \"scene_built\"}' >&3; exec sleep 60\n");
@@ -34,7 +34,7 @@ std::vector<RenderJob::Task> idle_tasks(const TemporaryFolder& folder, const Han
 
 }  // namespace
 
-TEST_CASE("Clips are dealt out in turns, and nobody is left without") {
+TEST_CASE("Clips are distributed in turns, and every Blender gets one") {
   const std::vector<std::string> clips = {"a", "b", "c", "d", "e"};
   CHECK(deal_clips(clips, 1) == Hands{clips});
   CHECK(deal_clips(clips, 2) == Hands{{"a", "c", "e"}, {"b", "d"}});
@@ -42,8 +42,8 @@ TEST_CASE("Clips are dealt out in turns, and nobody is left without") {
   CHECK(deal_clips({}, 3).empty());
 }
 
-TEST_CASE("Blenders share the threads, and each has one") {
-  CHECK(threads_each(0, 8, 1) == 0);  // Blender takes all cores by itself
+TEST_CASE("Blender processes share the threads, and each has at least one") {
+  CHECK(threads_each(0, 8, 1) == 0);  // a single Blender may take all cores
   CHECK(threads_each(3, 8, 1) == 3);
   CHECK(threads_each(0, 8, 2) == 4);
   CHECK(threads_each(0, 8, 3) == 2);
@@ -51,7 +51,7 @@ TEST_CASE("Blenders share the threads, and each has one") {
   CHECK(threads_each(2, 8, 4) == 1);
 }
 
-TEST_CASE("A fault of one ends all, and is the one that is told") {
+TEST_CASE("An exception in one task stops all, and is the one that is thrown") {
   const TemporaryFolder folder;
   std::atomic<int> stopped = 0;
   const ClipWork work = [&](const std::string& clip, RenderJob& job, const std::function<bool()>& cancelled) {
@@ -69,7 +69,7 @@ TEST_CASE("A fault of one ends all, and is the one that is told") {
   CHECK(stopped == 2);
 }
 
-TEST_CASE("Asked to stop, all do") {
+TEST_CASE("All tasks stop on request") {
   const TemporaryFolder folder;
   const ClipWork work = [](const std::string& clip, RenderJob& job, const std::function<bool()>& cancelled) {
     job.wait_for_frame(clip, 0, cancelled);

@@ -23,14 +23,14 @@ std::string fault_of(std::int64_t left_bytes, std::int64_t needed_bytes) {
 
 }  // namespace
 
-TEST_CASE("Before there is a frame a clip needs the worst: 40 bytes a pixel of passes, 4 of pictures") {
+TEST_CASE("Before the first frame a clip needs the worst case: 40 bytes per pixel of passes, 4 of pictures") {
   const ClipConfig clip = {.id = "down", .frames = 10};
   CHECK(room_for(small_pictures(1), clip, true).needed_bytes() == 10 * (40 * 110 * 60 + 4 * 100 * 50));
   CHECK(room_for(small_pictures(3), clip, true).needed_bytes() == 10 * (40 * 330 * 180 + 4 * 100 * 50));
   CHECK(room_for(small_pictures(1), clip, false).needed_bytes() == 10 * 40 * 110 * 60);
 }
 
-TEST_CASE("What is there tells of what is to come") {
+TEST_CASE("Existing files predict the size of the others") {
   ClipRoom room = {.frames = 10, .passes = {.worst_bytes = 1000}, .pictures = {.worst_bytes = 500}};
   CHECK(room.needed_bytes() == 15000);
   room.passes.add(100);
@@ -43,20 +43,20 @@ TEST_CASE("What is there tells of what is to come") {
   CHECK(room.needed_bytes() == 0);
 }
 
-TEST_CASE("A clip of a terabyte is counted") {
+TEST_CASE("A clip of a terabyte does not overflow") {
   const ClipRoom room = {.frames = 1'000'000, .passes = {.worst_bytes = 40'000'000}, .pictures = {}};
   CHECK(room.needed_bytes() == 40'000'000'000'000);
 }
 
-TEST_CASE("Twice what is needed is enough, and less is not") {
+TEST_CASE("Twice the needed space is enough, and less is not") {
   CHECK_NOTHROW(check_room(170'000'000, 85'000'000, "out", "clip down"));
   CHECK_NOTHROW(check_room(0, 0, "out", "clip down"));
   CHECK(fault_of(120'000'000, 85'000'000) ==
-        "out = 120 MB left; expected at least 2 x 85 MB, what clip down still needs");
+        "out = 120 MB left; expected at least 2 x the 85 MB that clip down still needs");
   CHECK(fault_of(169'999'999, 85'000'000).starts_with("out = 170 MB left"));
 }
 
-TEST_CASE("Bytes are told in units of a thousand, with two digits or more") {
+TEST_CASE("Bytes are printed in units of a thousand, with two digits or more") {
   CHECK(bytes_in_words(0) == "0 kB");
   CHECK(bytes_in_words(1499) == "1 kB");
   CHECK(bytes_in_words(999'000) == "999 kB");

@@ -23,7 +23,7 @@ Selection two_datasets() {
   return selection;
 }
 
-/// The fault that reading this text gives, after the file's name.
+/// The error for this text, without the file's name.
 std::string fault_of(const std::string& text) {
   const TemporaryFolder folder;
   const Path file = folder.file("s.json", text);
@@ -64,7 +64,7 @@ TEST_CASE("a selection is read as it was written") {
   CHECK(read.datasets[0].videos[1].frames.empty());
 }
 
-TEST_CASE("the frames are all that somebody who writes a selection has to give") {
+TEST_CASE("a selection written by hand needs only the frames") {
   const TemporaryFolder folder;
   const Path file = folder.file("s.json", with_videos(R"({"name": "one", "frames": [1, 3]})"));
   const Selection read = read_selection(file);
@@ -72,13 +72,13 @@ TEST_CASE("the frames are all that somebody who writes a selection has to give")
   CHECK(read.datasets[0].videos[0].frames == std::vector<int>{1, 3});
 }
 
-TEST_CASE("what is no selection is told") {
+TEST_CASE("an invalid selection is reported") {
   CHECK(fault_of("{").starts_with("1:2: not JSON: "));
   CHECK(fault_of(R"({"format": "coco"})") == " format = \"coco\"; expected veldt-selection");
   CHECK(fault_of(R"({"format": "veldt-selection", "version": 2, "datasets": []})") ==
         " version = 2; expected 1");
   CHECK(fault_of(R"({"format": "veldt-selection", "version": 1})") ==
-        " datasets is missing; expected it to be given");
+        " datasets is missing; expected a value");
   CHECK(fault_of(with_videos(R"({"name": "one", "frames": [1.5]})")) ==
         " datasets[0].videos[0].frames[0] = 1.5; expected a whole number");
   CHECK(fault_of(with_videos(R"({"name": "one", "frames": [-1]})")) ==
@@ -86,12 +86,12 @@ TEST_CASE("what is no selection is told") {
   CHECK(fault_of(with_videos(R"({"name": "one", "frames": [1, 4, 4]})")) ==
         " datasets[0].videos[0].frames[2] = 4; expected more than 4, the frame before it");
   CHECK(fault_of(with_videos(R"({"name": "one", "frames": []}, {"name": "one", "frames": []})")) ==
-        " datasets[0].videos[1].name = \"one\"; expected a name that no other video of the dataset has");
+        " datasets[0].videos[1].name = \"one\"; expected a name unique among the videos of the dataset");
   CHECK(fault_of(with_videos(R"({"name": "one", "frame": []})"))
             .starts_with(" datasets[0].videos[0].frame is not a known key; expected one of name, frames"));
 }
 
-TEST_CASE("a dataset finds its part by its path, or else by its name") {
+TEST_CASE("a dataset finds its part by path, otherwise by name") {
   const TemporaryFolder folder;
   Selection selection = two_datasets();
   const auto part_of = [&](const Path& path, const std::string& name) {
@@ -104,8 +104,7 @@ TEST_CASE("a dataset finds its part by its path, or else by its name") {
     return message_of<DataError>([&] { (void)part_of(path, name); });
   };
   CHECK(fault("sets/c", "c") ==
-        "s.json: nothing in it is about sets/c; expected one of sets/a, sets/b; did you mean \"sets/a\"?");
+        "s.json: no entry for sets/c; expected one of sets/a, sets/b; did you mean \"sets/a\"?");
   selection.datasets[0].name = selection.datasets[1].name;
-  CHECK(fault("elsewhere/b", "b") ==
-        "s.json: nothing in it is about elsewhere/b; expected one of sets/a, sets/b");
+  CHECK(fault("elsewhere/b", "b") == "s.json: no entry for elsewhere/b; expected one of sets/a, sets/b");
 }

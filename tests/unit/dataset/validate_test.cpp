@@ -42,7 +42,7 @@ void append(const Path& file, const std::string& text) { std::ofstream(file, std
 
 }  // namespace
 
-TEST_CASE("A whole dataset has no faults, and every file was looked at") {
+TEST_CASE("A complete dataset has no faults, and every file is checked") {
   const Dataset dataset;
   const DatasetCheck check = validate_dataset(dataset.root);
   CHECK(check.faults.empty());
@@ -51,10 +51,10 @@ TEST_CASE("A whole dataset has no faults, and every file was looked at") {
   CHECK(check.files == 2 * (6 + 4) + 1);
 }
 
-TEST_CASE("What is wrong with a file is told with its name") {
+TEST_CASE("The fault of a file is reported with its name") {
   const Dataset dataset;
   const Path clip = dataset.root / "clips" / "b";
-  SECTION("a frame is gone") {
+  SECTION("a frame is missing") {
     std::filesystem::remove(clip / "ir8/000001.png");
     CHECK(dataset.faults() == Faults{(clip / "ir8/000001.png").string() + ": missing"});
   }
@@ -73,7 +73,7 @@ TEST_CASE("What is wrong with a file is told with its name") {
                                std::filesystem::copy_options::overwrite_existing);
     CHECK(dataset.faults() == Faults{(clip / "ir8/000002.png").string() + ": changed since it was written"});
   }
-  SECTION("a frame is no picture any more") {
+  SECTION("a frame is no longer a picture") {
     std::filesystem::resize_file(clip / "ir8/000000.png", 5);
     CHECK(dataset.faults() == Faults{(clip / "ir8/000000.png").string() + ": changed since it was written"});
   }
@@ -90,13 +90,13 @@ TEST_CASE("What is wrong with a file is told with its name") {
     CHECK(dataset.faults() == Faults{(clip / "frames.jsonl").string() + ": changed since it was written",
                                      (clip / "preview.mp4").string() + ": changed since it was written"});
   }
-  SECTION("a clip's record is gone") {
+  SECTION("a clip's record is missing") {
     std::filesystem::remove(clip / "clip.json");
     CHECK(dataset.faults() == Faults{(clip / "clip.json").string() + ": missing"});
   }
 }
 
-TEST_CASE("Annotations that no run has finished are named") {
+TEST_CASE("Annotations of an unfinished run are named") {
   const Dataset dataset;
   Json index = read_json(dataset.root / "dataset.json");
   index.erase("annotations_sha256");
@@ -111,5 +111,5 @@ TEST_CASE("A folder without a dataset cannot be checked") {
         "cannot read " + (folder / "dataset.json").string() + ": No such file or directory");
   const Path other = folder.file("dataset.json", "{}");
   CHECK(message_of<IoError>([&] { (void)validate_dataset(folder.path()); }) ==
-        other.string() + " is not of a Veldt dataset");
+        other.string() + " does not belong to a Veldt dataset");
 }

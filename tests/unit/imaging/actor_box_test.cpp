@@ -9,14 +9,14 @@ using namespace thermal;
 
 namespace {
 
-/// 100 x 80 px, a tangent of 1 is 100 px.
+/// 100 x 80 px; a tangent of 1 is 100 px.
 const CameraIntrinsics kCamera = {
     .width_px = 100, .height_px = 80, .fx_px = 100, .fy_px = 100, .cx_px = 50, .cy_px = 40};
 
 /// 20 m up at (5, 7), looking straight down: right is +x, down in the picture is -y.
 const std::array<double, 16> kDown = {1, 0, 0, 5, 0, -1, 0, 7, 0, 0, -1, 20, 0, 0, 0, 1};
 
-/// 2 m long, 1.5 m wide and 4 m high, more of it ahead and to the left than behind and to the right.
+/// 2 m long, 1.5 m wide and 4 m high, more of it in front and to the left than behind and to the right.
 ManifestObject animal() {
   ManifestObject actor;
   actor.bounds_m = {{{-0.5, -0.5, 0}, {1.5, 1, 4}}};
@@ -38,9 +38,9 @@ void check_box(const std::optional<LabelBox>& box, const LabelBox& expected) {
 
 }  // namespace
 
-TEST_CASE("A box below the camera lies where its nearest face does, and its middle so far away") {
+TEST_CASE("A box below the camera is projected by its nearest face, and its centre has the right distance") {
   const SeenBox box = seen({.position_m = {5, 7, 0}, .heading_rad = 0});
-  // The top is 16 m away: -0.5 m to 1.5 m at 100 / 16 px a metre.
+  // The top is 16 m away: -0.5 m to 1.5 m at 100 / 16 px per metre.
   check_box(box.box_px, {.x_px = 50 - 3.125, .y_px = 40 - 6.25, .width_px = 12.5, .height_px = 9.375});
   CHECK_THAT(box.range_m, WithinAbs(std::hypot(0.5, 0.25, 18), 1e-12));
 }
@@ -50,15 +50,15 @@ TEST_CASE("It turns with the actor") {
   check_box(box.box_px, {.x_px = 50 - 6.25, .y_px = 40 - 9.375, .width_px = 9.375, .height_px = 12.5});
 }
 
-TEST_CASE("It may lie outside of the picture") {
+TEST_CASE("It may be outside the picture") {
   const SeenBox box = seen({.position_m = {25, 7, 0}, .heading_rad = 0});
   // From 19.5 m at a depth of 20 m to 21.5 m at 16 m.
   CHECK_THAT(box.box_px->x_px, WithinAbs(50 + 97.5, 1e-9));
   CHECK_THAT(box.box_px->x_px + box.box_px->width_px, WithinAbs(50 + 134.375, 1e-9));
 }
 
-TEST_CASE("What is beside and behind the camera is cut off before it") {
-  // Level with the camera's plane, ahead of it from 0.5 m behind to 1.5 m before: looking along +x, right is -y.
+TEST_CASE("Parts beside and behind the camera are clipped in front of it") {
+  // Level with the camera's plane, from 0.5 m behind to 1.5 m in front of it: looking along +x, right is -y.
   const std::array<double, 16> along = {0, 0, 1, 0, -1, 0, 0, 0, 0, -1, 0, 2, 0, 0, 0, 1};
   const SeenBox box = seen({.position_m = {0, 0, 0}, .heading_rad = 0}, {}, along);
   // At 0.05 m, a metre to the left, half of one to the right, 2 m up and down.
@@ -73,7 +73,7 @@ TEST_CASE("Without bounds there is no box") {
   CHECK_FALSE(see_box(kCamera, {}, ManifestObject(), ActorPose(), kDown));
 }
 
-TEST_CASE("A lens shows corners where it shows their points") {
+TEST_CASE("A lens moves corners like other points") {
   const LensDistortion lens = {.k1 = -0.2, .k2 = 0.03, .p1 = 0.01, .p2 = -0.005};
   const SeenBox box = seen({.position_m = {7, 6, 0}, .heading_rad = 0}, lens);
   double left = 1e9;
@@ -91,7 +91,7 @@ TEST_CASE("A lens shows corners where it shows their points") {
   CHECK_THAT(box.box_px->x_px + box.box_px->width_px, WithinAbs(right, 1e-9));
 }
 
-TEST_CASE("Beyond where a lens folds over, what is far out stays far out") {
+TEST_CASE("Beyond the fold of a lens, far points stay far out") {
   // r (1 - 0.4 r^2) is largest at r = sqrt(1 / 1.2) = 0.913, and 0.6086 there: 60.86 px from the axis. A step is a
   // 96th of three times the corner's 0.64, or of the way: 0.02, over which the top of 1.2 r (0.02)^2 is flat within
   // 0.05 px.

@@ -20,7 +20,7 @@ ManifestObject object(std::uint16_t index, ObjectClass object_class) {
   return result;
 }
 
-/// Ground 1, a tree 2, actors 8, 3 and 9. The camera is as large as `plane`, with a tangent of 1 at 10 px.
+/// Ground 1, a tree 2, actors 8, 3 and 9. The camera has the size of `plane`, with a tangent of 1 at 10 px.
 Manifest manifest_for(const IndexPlane& plane, int supersample = 1) {
   Manifest result;
   result.supersample = supersample;
@@ -56,7 +56,7 @@ std::vector<Instance> labels_of(const IndexPlane& all, const IndexPlane& alone =
 
 }  // namespace
 
-TEST_CASE("An animal behind a trunk is one instance, and as visible as what is left of it") {
+TEST_CASE("An animal behind a trunk is one instance, and its visibility is the fraction left") {
   const std::vector<Instance> labels = labels_of(drawn({"111211",  //
                                                         "133231",  //
                                                         "133231",  //
@@ -75,7 +75,7 @@ TEST_CASE("An animal behind a trunk is one instance, and as visible as what is l
   CHECK_FALSE(labels[0].covered_px);
 }
 
-TEST_CASE("The whole box holds what is hidden") {
+TEST_CASE("The whole box includes hidden parts") {
   const std::vector<Instance> labels = labels_of(drawn({"......", ".32222", "......"}),  //
                                                  drawn({"......", ".3333.", "......"}));
   CHECK(labels.at(0).box == PixelBox{1, 1, 1, 1});
@@ -84,7 +84,7 @@ TEST_CASE("The whole box holds what is hidden") {
   CHECK_FALSE(labels.at(0).truncated);
 }
 
-TEST_CASE("What is hidden wholly has no label; who hides whom of the actors is no matter of plants") {
+TEST_CASE("A completely hidden actor has no label; occlusion among actors does not depend on plants") {
   const std::vector<Instance> labels = labels_of(drawn({"22.89.", "22.89."}), drawn({"33.89.", "33.89."}));
   REQUIRE(labels.size() == 2);
   CHECK(labels[0].index == 8);
@@ -93,7 +93,7 @@ TEST_CASE("What is hidden wholly has no label; who hides whom of the actors is n
   CHECK(labels[1].visibility == 1);
 }
 
-TEST_CASE("Visibility is never above 1, and not known where the layer says nothing of the actor") {
+TEST_CASE("Visibility is never above 1, and unknown if the layer lacks the actor") {
   const std::vector<Instance> labels = labels_of(drawn({"....", ".33.", ".88.", "...."}),  //
                                                  drawn({"....", ".3..", "....", "...."}));
   REQUIRE(labels.size() == 2);
@@ -110,7 +110,8 @@ TEST_CASE("A frame without actor layer has labels without visibility") {
   CHECK(labels[0].truncated_fraction == 0);
 }
 
-TEST_CASE("An index in the actor layer that is no actor's is a fault that says where, and what there is") {
+TEST_CASE(
+    "An index in the actor layer that is not an actor's is an error with its place and the known ones") {
   CHECK(message_of<DataError>([] {
           (void)labels_of(drawn({"133", "122"}), drawn({".33", ".22"}));
         }) ==
@@ -124,7 +125,7 @@ namespace {
 /// Level at the origin, looking along +x with +z up: right is -y, down is -z.
 const std::array<double, 16> kLevel = {0, 0, 1, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, 1};
 
-/// The manifest with a cube of 2 m for actor 3, and the frame in which its middle is at (10, y_m, z_m).
+/// The manifest with a cube of 2 m for actor 3, and the frame in which its centre is at (10, y_m, z_m).
 Manifest with_cube(Manifest manifest) {
   manifest.objects[3].bounds_m = {{{-1, -1, 0}, {1, 1, 2}}};
   return manifest;
@@ -140,12 +141,13 @@ ManifestFrame cube_at(double y_m, double z_m) {
 
 }  // namespace
 
-TEST_CASE("An actor cut by a corner of the frame reaches as far as its box in the world") {
+TEST_CASE("An actor cut by a corner of the frame extends as far as its box in the world") {
   const IndexPlane plane = drawn({"33..",  //
                                   "3...",  //
                                   "...."});
   const Manifest manifest = with_cube(manifest_for(plane));
-  // Left and above: y and z are positive. The near face, at 9 m, is 10 / 9 px a metre. The camera's middle is (2, 1.5).
+  // Left and above: y and z are positive. The near face, at 9 m, is 10 / 9 px per metre. The camera's centre is (2,
+  // 1.5).
   const std::vector<Instance> labels = labels_of(manifest, passes_of(plane), cube_at(2.4, 1.7));
   REQUIRE(labels.size() == 1);
   CHECK(labels[0].truncated);
@@ -154,14 +156,14 @@ TEST_CASE("An actor cut by a corner of the frame reaches as far as its box in th
   REQUIRE(labels[0].whole_box);
   CHECK_THAT(labels[0].whole_box->x_px, WithinAbs(left_px, 1e-12));
   CHECK_THAT(labels[0].whole_box->y_px, WithinAbs(top_px, 1e-12));
-  CHECK_THAT(labels[0].whole_box->width_px, WithinAbs(2 - left_px, 1e-12));  // inside, its pixels tell
+  CHECK_THAT(labels[0].whole_box->width_px, WithinAbs(2 - left_px, 1e-12));  // inside, its pixels decide
   CHECK_THAT(labels[0].whole_box->height_px, WithinAbs(2 - top_px, 1e-12));
   CHECK_THAT(labels[0].truncated_fraction.value(),
              WithinAbs(1 - 2 * 2 / ((2 - left_px) * (2 - top_px)), 1e-12));
   CHECK_THAT(labels[0].range_m.value(), WithinAbs(std::hypot(10, 2.4, 1.7), 1e-12));
 }
 
-TEST_CASE("At the right and at the foot it does so too") {
+TEST_CASE("The same holds at the right and lower borders") {
   const IndexPlane plane = drawn({"....", "..33", "..33"});
   const std::vector<Instance> labels =
       labels_of(with_cube(manifest_for(plane)), passes_of(plane), cube_at(-2.4, -1.7));
@@ -172,15 +174,15 @@ TEST_CASE("At the right and at the foot it does so too") {
   CHECK_THAT(labels[0].whole_box->height_px, WithinAbs(0.5 + 2.7 / 0.9, 1e-12));
 }
 
-TEST_CASE("What the box in the world is too wide at one side is taken off at the other") {
+TEST_CASE("The excess of the box in the world on one side is subtracted on the other") {
   Plane<std::uint16_t> plane(8, 3);
   plane.at(0, 1) = 3;
-  // The middle is at x = 4. The box reaches from 4 - 4.4 / 0.9 to 4 - 2.4 / 1.1 = 1.82, the pixels end at 1.
+  // The centre is at x = 4. The box reaches from 4 - 4.4 / 0.9 to 4 - 2.4 / 1.1 = 1.82, the pixels end at 1.
   const Instance wide = labels_of(with_cube(manifest_for(plane)), passes_of(plane), cube_at(3.4, 0)).at(0);
   CHECK_THAT(wide.whole_box.value().x_px, WithinAbs(4 - 4.4 / 0.9 + (4 - 2.4 / 1.1 - 1), 1e-12));
   CHECK(wide.whole_box.value().y_px == 1);
   Plane<std::uint16_t> right(8, 3);
-  right.at(7, 1) = 3;  // likewise at the other border, the other way round
+  right.at(7, 1) = 3;  // likewise at the opposite border, mirrored
   const Instance mirrored =
       labels_of(with_cube(manifest_for(right)), passes_of(right), cube_at(-3.4, 0)).at(0);
   CHECK_THAT(mirrored.whole_box.value().width_px, WithinAbs(1 - wide.whole_box->x_px, 1e-12));
@@ -198,7 +200,7 @@ TEST_CASE("Within the frame the box in the world changes nothing") {
   CHECK(labels.at(0).range_m == 10);
 }
 
-TEST_CASE("One that touches the border with a hidden part is cut there") {
+TEST_CASE("One whose hidden part touches the border is cut there") {
   const IndexPlane all = drawn({"....", "23..", "...."});
   const IndexPlane alone = drawn({"....", "33..", "...."});
   const std::vector<Instance> labels =
@@ -208,7 +210,7 @@ TEST_CASE("One that touches the border with a hidden part is cut there") {
   CHECK(labels_of(all).at(0).truncated == false);
 }
 
-TEST_CASE("How much is cut off is not known without poses, and less than nothing never") {
+TEST_CASE("The truncated fraction is unknown without poses, and never negative") {
   const IndexPlane plane = drawn({"3...", "....", "...."});
   const Instance unknown = labels_of(plane).at(0);
   CHECK(unknown.truncated);
@@ -218,7 +220,7 @@ TEST_CASE("How much is cut off is not known without poses, and less than nothing
   const Instance inside = labels_of(with_cube(manifest_for(plane)), passes_of(plane), cube_at(-1, -1)).at(0);
   CHECK(inside.truncated);
   CHECK(inside.truncated_fraction == 0);
-  // Behind the camera, whatever that means for what is seen.
+  // Behind the camera, whatever the picture shows.
   ManifestFrame behind = cube_at(0, 0);
   behind.actors[1].position_m[0] = -10;
   const Instance odd = labels_of(with_cube(manifest_for(plane)), passes_of(plane), behind).at(0);
@@ -242,7 +244,7 @@ TEST_CASE("Without poses, range is the mean over the pixels, along their rays") 
   CHECK_FALSE(labels_of(manifest_for(plane), passes).at(0).range_m);
 }
 
-TEST_CASE("Depth that only others asked for is not looked at") {
+TEST_CASE("Depth that only others requested is not read") {
   const IndexPlane plane = drawn({"....", ".33.", "...."});
   Passes passes = passes_of(plane);
   passes.depth_m = Plane<float>(4, 3, 20);
@@ -251,7 +253,8 @@ TEST_CASE("Depth that only others asked for is not looked at") {
   CHECK_FALSE(labels.at(0).range_m);
 }
 
-TEST_CASE("In finer passes a label has the pixels that are half covered, and keeps what is covered in all") {
+TEST_CASE(
+    "In finer passes a label has the pixels that are at least half covered, and counts all covered ones") {
   const IndexPlane all = drawn({"....33",  //
                                 ".33333",  //
                                 "22333.",  //
@@ -283,7 +286,7 @@ TEST_CASE("A target smaller than a pixel is labelled if it covers half of one") 
   CHECK(label.visibility == 1);
 }
 
-TEST_CASE("What lies in the overscan is not of the picture") {
+TEST_CASE("The overscan is not part of the picture") {
   const IndexPlane all = drawn({"......", ".2233.", "......"});
   const IndexPlane alone = drawn({"......", "333333", "......"});
   Manifest manifest = manifest_for(all);
@@ -298,8 +301,8 @@ TEST_CASE("What lies in the overscan is not of the picture") {
   CHECK(label.truncated);
 }
 
-TEST_CASE("Finer passes are counted in the picture only, too") {
-  IndexPlane all(12, 6);  // 6 x 3 px of 2 x 2, the picture being the 4 x 1 in the middle
+TEST_CASE("Finer passes also count only pixels in the picture") {
+  IndexPlane all(12, 6);  // 6 x 3 px of 2 x 2, of which the picture is the central 4 x 1
   IndexPlane alone(12, 6);
   for (int y = 2; y < 4; ++y) {
     for (int x = 0; x < 12; ++x) alone.at(x, y) = 3;

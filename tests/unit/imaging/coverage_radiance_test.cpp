@@ -49,7 +49,7 @@ Manifest manifest() {
 
 enum class Model { published, physical };
 
-/// Everything that depends on where a pixel is, how far and how it stands.
+/// Everything that depends on a pixel's position, range and normal.
 PhysicsSettings all_terms() {
   PhysicsSettings settings;
   settings.terms = {
@@ -104,7 +104,7 @@ Passes shared() {
   return passes;
 }
 
-/// Ranks that say the same as the index plane.
+/// Ranks equivalent to the index plane.
 Passes with_whole_coverage(Passes passes) {
   std::vector<float> coverage;
   for (const std::uint16_t index : passes.object_index.pixels()) coverage.push_back(index == 0 ? 0.0F : 1.0F);
@@ -116,7 +116,7 @@ Passes with_whole_coverage(Passes passes) {
 
 }  // namespace
 
-TEST_CASE("A shared pixel's radiance is the mean of what its objects' would be alone") {
+TEST_CASE("A shared pixel's radiance is the mean of its objects' radiances") {
   for (const Model model : {Model::published, Model::physical}) {
     const FrameConverter used = converter(model);
     const std::vector<float> sky = radiance(used, uniform(0));
@@ -131,8 +131,8 @@ TEST_CASE("A shared pixel's radiance is the mean of what its objects' would be a
       const double second = static_cast<double>(kSecondCoverage[i]);
       const double mean =
           first * alone(kFirst[i]) + second * alone(kSecond[i]) + (1 - first - second) * alone(0);
-      // These coverages are eighths, so what is left is exact. Three products of positive numbers and two sums, each
-      // rounded by 2^-24 at most.
+      // These coverages are eighths, so the rest is exact. Three products of positive numbers and two sums, each
+      // rounded by at most 2^-24.
       CAPTURE(i);
       CHECK_THAT(static_cast<double>(found[i]), WithinRel(mean, 3 * 6e-8));
       if (kSecondCoverage[i] > 0) CHECK(found[i] != soil[i]);
@@ -143,7 +143,7 @@ TEST_CASE("A shared pixel's radiance is the mean of what its objects' would be a
   }
 }
 
-TEST_CASE("Objects that cover their pixels wholly keep every bit of an index plane's radiance") {
+TEST_CASE("Objects that cover their pixels completely keep every bit of an index plane's radiance") {
   for (const Model model : {Model::published, Model::physical}) {
     Passes passes = uniform(1);
     passes.object_index.at(1, 1) = passes.object_index.at(2, 1) = 7;
@@ -154,7 +154,7 @@ TEST_CASE("Objects that cover their pixels wholly keep every bit of an index pla
   }
 }
 
-TEST_CASE("So they do in finer passes beneath a lens") {
+TEST_CASE("The same holds for finer passes with a lens") {
   const LensDistortion lens = {.k1 = -0.1};
   Manifest finer = manifest();
   finer.supersample = 2;
@@ -168,7 +168,7 @@ TEST_CASE("So they do in finer passes beneath a lens") {
   CHECK(radiance(used, with_whole_coverage(passes)) == expected);
 }
 
-TEST_CASE("A shared pixel counts in finer passes by its share") {
+TEST_CASE("A shared pixel counts in finer passes by its coverage") {
   Manifest finer = manifest();
   finer.supersample = 2;
   const FrameConverter used = converter(Model::published, finer);
@@ -183,11 +183,11 @@ TEST_CASE("A shared pixel counts in finer passes by its share") {
     return static_cast<double>(static_cast<float>(0.9 * radiance_of(SensorParameters())(temperature_k)));
   };
   const double mean = (at(305) + at(220) + 6 * at(280)) / 8;
-  // A product and a sum for the share, three sums and a product for the mean.
+  // A product and a sum for the coverage, three sums and a product for the mean.
   CHECK_THAT(static_cast<double>(radiance(used, passes)[0]), WithinRel(mean, 6 * 6e-8));
 }
 
-TEST_CASE("The material plane is rank 0's alone") {
+TEST_CASE("The material plane applies to rank 0 only") {
   const FrameConverter used = converter(Model::published);
   Passes passes = shared();
   passes.material_index = Plane<std::uint16_t>(kWidth, kHeight, 4);
@@ -205,7 +205,7 @@ TEST_CASE("The material plane is rank 0's alone") {
   CHECK(found[2] != 0.75F * soil[2] + 0.25F * human[2]);
 }
 
-TEST_CASE("Coverages whose sum is rounded past 1 leave no sky, not less than none") {
+TEST_CASE("Coverages whose sum is rounded above 1 leave no sky, and no negative amount") {
   Passes passes = uniform(1);
   const std::size_t pixels = passes.object_index.size();
   // 0.7 + 0.3 in single precision is 1 + 2^-25 and more before it is rounded.
@@ -219,21 +219,21 @@ TEST_CASE("Coverages whose sum is rounded past 1 leave no sky, not less than non
         most * radiance(used, uniform(1))[0] + rest * radiance(used, uniform(7))[0]);
 }
 
-TEST_CASE("Labels go by the object index, whatever the ranks are") {
+TEST_CASE("Labels use the object index, whatever the ranks are") {
   const SceneFrame frame = converter(Model::published).convert(shared());
   REQUIRE(frame.instances.size() == 1);
   CHECK(frame.instances[0].index == 7);
   CHECK(frame.instances[0].area_px == 6);
 }
 
-TEST_CASE("An index that the manifest lacks is a fault in any rank") {
+TEST_CASE("An index missing from the manifest is an error in any rank") {
   Passes passes = shared();
   passes.ranks[1].object_index.at(2, 0) = 5;
   CHECK(message_of<DataError>([&] { (void)converter(Model::published).convert(passes); }) ==
         "object index at pixel (2, 0) = 5 (1 pixels); expected an index of the manifest's objects: 0, 1, 7");
 }
 
-TEST_CASE("A frame's memory is used again, whatever was in it") {
+TEST_CASE("A frame's memory is reused, whatever it held") {
   const FrameConverter used = converter(Model::published);
   SceneFrame frame;
   used.convert(uniform(7), manifest().frames[0], frame);

@@ -61,7 +61,7 @@ FrameConverter converter(Season season = Season::winter, AgcMode mode = AgcMode:
   return FrameConverter(manifest(), materials(), season, parameters);
 }
 
-/// What the published model gives a material: emissivity times the band's radiance, in single precision.
+/// The published model's radiance of a material: emissivity times the band's radiance, in single precision.
 float radiance_at(double temperature_k) {
   return static_cast<float>(0.5 * radiance_of(SensorParameters())(temperature_k));
 }
@@ -73,17 +73,17 @@ std::vector<float> radiances(const FrameConverter& used, const Passes& passes) {
 
 }  // namespace
 
-TEST_CASE("A pixel radiates as its object's material does, index 0 as the sky") {
+TEST_CASE("A pixel has the radiance of its object's material, index 0 of the sky") {
   CHECK(radiances(converter(), passes_of({0, 1, 7})) ==
         std::vector<float>{radiance_at(10), radiance_at(100), radiance_at(300)});
 }
 
-TEST_CASE("In summer it has summer's temperature") {
+TEST_CASE("In summer it has the summer temperature") {
   CHECK(radiances(converter(Season::summer), passes_of({1, 7})) ==
         std::vector<float>{radiance_at(200), radiance_at(600)});
 }
 
-TEST_CASE("The material plane goes before the object, except where it is 0") {
+TEST_CASE("The material plane overrides the object, except where it is 0") {
   CHECK(radiances(converter(), passes_of({1, 1, 7, 0}, {0, 4, 4, 4})) ==
         std::vector<float>{radiance_at(100), radiance_at(200), radiance_at(200), radiance_at(200)});
 }
@@ -100,7 +100,7 @@ TEST_CASE("Only actors are labelled") {
   CHECK(frame.instances[0].area_px == 2);
 }
 
-TEST_CASE("Actors alone are wanted where the manifest names their layer") {
+TEST_CASE("Actors alone are needed if the manifest names their layer") {
   CHECK_FALSE(converter().needs().actors);
   Manifest layered = manifest();
   layered.actor_layer = "Actors";
@@ -112,7 +112,7 @@ TEST_CASE("Actors alone are wanted where the manifest names their layer") {
   CHECK(used.convert(passes).instances.at(0).visibility == 0.5);
 }
 
-TEST_CASE("An index the manifest lacks is a fault that says where, how often, and what there is") {
+TEST_CASE("An index missing from the manifest is an error with place, number and the known ones") {
   CHECK(message_of<DataError>([] {
           (void)converter().convert(passes_of({1, 0, 5, 5}));
         }) ==
@@ -123,7 +123,7 @@ TEST_CASE("An index the manifest lacks is a fault that says where, how often, an
         "material index at pixel (1, 0) = 9 (1 pixels); expected an index of the manifest's materials: 0, 4");
 }
 
-TEST_CASE("A material the library lacks is a fault that names its object") {
+TEST_CASE("A material missing from the library is an error with its object") {
   const auto fault_in = [](const Manifest& wrong) {
     return message_of<ConfigError>(
         [&] { (void)FrameConverter(wrong, materials(), Season::winter, SensorParameters()); });
@@ -139,7 +139,7 @@ TEST_CASE("A material the library lacks is a fault that names its object") {
         "material index 4 = \"marble\"; expected one of grass, human, lava, sky, soil");
 }
 
-TEST_CASE("A finer frame is converted first and averaged after") {
+TEST_CASE("A finer frame is converted first and averaged afterwards") {
   Manifest finer = manifest();
   finer.supersample = 2;
   const FrameConverter used(finer, materials(), Season::winter, SensorParameters());
@@ -162,7 +162,7 @@ TEST_CASE("A finer frame is converted first and averaged after") {
 
 namespace {
 
-/// Passes of 6 x 5 px about a picture of 4 x 3 px: soil, and a person in the two columns from `left` on.
+/// Passes of 6 x 5 px around a picture of 4 x 3 px: soil, and a person in the two columns from `left` on.
 Passes wide_passes(int left) {
   Passes passes;
   passes.object_index = Plane<std::uint16_t>(6, 5, 1);
@@ -184,7 +184,7 @@ FrameConverter wide_converter(const Manifest& used, const LensDistortion& lens =
 
 }  // namespace
 
-TEST_CASE("Overscan is cut off, from radiance and labels alike") {
+TEST_CASE("Overscan is cropped, from radiance and labels alike") {
   const SceneFrame frame = wide_converter(wide_manifest()).convert(wide_passes(0));
   REQUIRE(frame.radiance_w_m2_sr.width_px() == 4);
   REQUIRE(frame.radiance_w_m2_sr.height_px() == 3);
@@ -229,18 +229,18 @@ TEST_CASE("Labels are distorted with the picture") {
   REQUIRE(frame.instances.size() == 1);
   CHECK(frame.instances[0].box == PixelBox{0, 0, 1, 1});
   CHECK(frame.instances[0].truncated);
-  // The source is the pixel's centre but for some 1e-15 px, which single precision cannot tell from 0 here.
+  // The source is the pixel's centre within about 1e-15 px, which is 0 in single precision.
   CHECK_THAT(static_cast<double>(frame.radiance_w_m2_sr.at(0, 0)),
              WithinRel(static_cast<double>(radiance_at(300)), 6e-8));
   CHECK(frame.radiance_w_m2_sr.at(1, 0) == radiance_at(100));
-  // Alone, the person also is in the picture's last pixel, which the passes have in their last column.
+  // In the actor layer the person is also in the picture's last pixel, which is in the last column of the passes.
   passes.actor_index = Plane<std::uint16_t>(8, 3);
   passes.actor_index.at(0, 1) = passes.actor_index.at(7, 1) = 7;
-  passes.actor_index.at(1, 1) = 7;  // which no pixel of the picture shows
+  passes.actor_index.at(1, 1) = 7;  // outside the picture
   CHECK(wide_converter(used, lens).convert(passes).instances.at(0).visibility == 0.5);
 }
 
-TEST_CASE("Passes that reach less far than the lens needs are a fault that says how far") {
+TEST_CASE("Passes with too little overscan for the lens are an error with the needed amount") {
   CHECK(message_of<ConfigError>([] {
           Manifest narrow = wide_manifest();
           narrow.camera = {

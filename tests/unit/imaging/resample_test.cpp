@@ -15,7 +15,7 @@ constexpr LensDistortion kLens = {.k1 = -0.3, .k2 = 0.1, .p1 = 0.004, .p2 = -0.0
 constexpr CameraIntrinsics kCamera = {
     .width_px = 64, .height_px = 48, .fx_px = 60, .fy_px = 61, .cx_px = 31, .cy_px = 25};
 
-/// Where the picture's pixel lies in the wide plane, counted between centres: that of its first pixel is (0, 0).
+/// Position of the picture's pixel in the wide plane, in units of pixel centres: that of its first pixel is (0, 0).
 LensPoint source_px(int x, int y, int overscan) {
   const LensPoint seen = undistort(
       kLens, {(x + 0.5 - kCamera.cx_px) / kCamera.fx_px, (y + 0.5 - kCamera.cy_px) / kCamera.fy_px});
@@ -23,7 +23,7 @@ LensPoint source_px(int x, int y, int overscan) {
           .y = kCamera.cy_px + kCamera.fy_px * seen.y - 0.5 + overscan};
 }
 
-/// A map for the lens with two pixels more than it needs, and planes of the size it takes.
+/// A map for the lens with two pixels more than it needs, and planes of matching size.
 struct Lens {
   int overscan = overscan_px(kCamera, kLens) + 2;
   ResampleMap map = ResampleMap(kCamera, overscan, kLens);
@@ -39,7 +39,7 @@ Plane<float> linear(const ResampleMap& map, const Plane<float>& in) {
 
 }  // namespace
 
-TEST_CASE("Without distortion the picture is cut out of the middle, whatever is around it") {
+TEST_CASE("Without distortion the picture is cropped from the centre, whatever surrounds it") {
   const CameraIntrinsics camera = {
       .width_px = 3, .height_px = 2, .fx_px = 5, .fy_px = 5, .cx_px = 1.5, .cy_px = 1};
   const ResampleMap map(camera, 2, {});
@@ -63,7 +63,7 @@ TEST_CASE("Without distortion the picture is cut out of the middle, whatever is 
   }
 }
 
-TEST_CASE("A plane that rises evenly is shown with the value of each pixel's source") {
+TEST_CASE("In a linear plane each pixel has the value of its source position") {
   const Lens lens;
   Plane<float> ramp(lens.width, lens.height);
   for (int y = 0; y < lens.height; ++y) {
@@ -81,7 +81,7 @@ TEST_CASE("A plane that rises evenly is shown with the value of each pixel's sou
   }
 }
 
-TEST_CASE("An even plane stays even to the last bit") {
+TEST_CASE("A uniform plane stays uniform to the last bit") {
   const Lens lens;
   const Plane<float> out = linear(lens.map, Plane<float>(lens.width, lens.height, 0.1F));
   CHECK(out == Plane<float>(kCamera.width_px, kCamera.height_px, 0.1F));
@@ -95,7 +95,7 @@ TEST_CASE("An index is that of the nearest pixel") {
   for (int y = 0; y < kCamera.height_px; ++y) {
     for (int x = 0; x < kCamera.width_px; ++x) {
       const LensPoint source = source_px(x, y, lens.overscan);
-      // Within the rounding of a share to single precision, either neighbour is right; none is so close here.
+      // Within the rounding of a fraction to single precision, either neighbour is correct; none is so close here.
       REQUIRE(std::abs(source.x - std::floor(source.x) - 0.5) > 1e-7);
       REQUIRE(std::abs(source.y - std::floor(source.y) - 0.5) > 1e-7);
       const auto nearest =
@@ -105,7 +105,7 @@ TEST_CASE("An index is that of the nearest pixel") {
   }
 }
 
-TEST_CASE("What is not finite spreads to those who look at it and no further") {
+TEST_CASE("Values that are not finite affect only pixels that use them") {
   const Lens lens;
   const int x_bad = lens.width / 3;
   const int y_bad = lens.height / 3;
@@ -137,7 +137,7 @@ TEST_CASE("The bits do not depend on the number of threads") {
   CHECK(run(1) == run(4));
 }
 
-TEST_CASE("A picture of one pixel has no neighbours to look at") {
+TEST_CASE("A picture of one pixel has no neighbours to interpolate with") {
   const CameraIntrinsics camera = {
       .width_px = 1, .height_px = 1, .fx_px = 1, .fy_px = 1, .cx_px = 0.5, .cy_px = 0.5};
   REQUIRE(overscan_px(camera, kLens) == 0);
@@ -146,7 +146,7 @@ TEST_CASE("A picture of one pixel has no neighbours to look at") {
   CHECK(map.resample_nearest(Plane<std::uint16_t>(1, 1, 3)).at(0, 0) == 3);
 }
 
-TEST_CASE("A pixel is shown as often as resample_nearest shows it") {
+TEST_CASE("The counts match how often resample_nearest uses each pixel") {
   const Lens lens;
   const Plane<std::uint16_t> times = lens.map.times_shown();
   REQUIRE((times.width_px() == lens.width && times.height_px() == lens.height));
@@ -165,10 +165,10 @@ TEST_CASE("A pixel is shown as often as resample_nearest shows it") {
   CHECK(all > 100);
   int sum = 0;
   for (const std::uint16_t count : times.pixels()) sum += count;
-  CHECK(sum == 64 * 48);  // each pixel of the picture shows one
+  CHECK(sum == 64 * 48);  // each pixel of the picture uses one
 }
 
-TEST_CASE("A crop shows what is in it once") {
+TEST_CASE("A crop uses each of its pixels once") {
   const CameraIntrinsics camera = {
       .width_px = 3, .height_px = 2, .fx_px = 5, .fy_px = 5, .cx_px = 1.5, .cy_px = 1};
   const Plane<std::uint16_t> times = ResampleMap(camera, 2, {}).times_shown();

@@ -21,7 +21,7 @@ std::vector<Instance> one_actor() {
   return extract_instances(plane, survey_indices(plane), IndexSet(actors));
 }
 
-/// The actor at one temperature, all else at another.
+/// The actor at one temperature, everything else at another.
 Plane<float> scene(double actor_k, double around_k) {
   Plane<float> radiance = cameras::uniform_scene(kSide, kSide, around_k);
   for (int y = 9; y < 12; ++y) {
@@ -43,9 +43,9 @@ Instance seen(const SensorParameters& parameters, const Plane<float>& radiance, 
 
 }  // namespace
 
-// Single precision of a radiance near 60 W m^-2 sr^-1 is 4e-6, of which a kelvin is 0.6; a temperature near 300 K is
-// told to 1.5e-5 K, and the table has less than 1e-4 K of its own.
-TEST_CASE("Contrast is what a perfect camera sees of it, whatever its sign") {
+// Single precision of a radiance near 60 W m^-2 sr^-1 is 4e-6, and a kelvin is 0.6; a temperature near 300 K is
+// accurate to 1.5e-5 K, and the table's own error is below 1e-4 K.
+TEST_CASE("Contrast is as seen by a perfect camera, whatever its sign") {
   const Instance warm = seen(cameras::perfect_sensor(), scene(305, 285));
   CHECK_THAT(warm.temperature_k.value(), WithinAbs(305, 2e-4));
   CHECK_THAT(warm.contrast_k.value(), WithinAbs(20, 4e-4));
@@ -53,7 +53,7 @@ TEST_CASE("Contrast is what a perfect camera sees of it, whatever its sign") {
   CHECK_THAT(seen(cameras::perfect_sensor(), scene(280, 285)).contrast_k.value(), WithinAbs(-5, 4e-4));
 }
 
-TEST_CASE("In units of the noise it is the difference of radiances over the noise's") {
+TEST_CASE("In units of the noise it is the difference of radiances / that of the noise") {
   SensorParameters parameters = cameras::perfect_sensor();
   parameters.noise.amount = 1;
   const double difference =
@@ -65,12 +65,12 @@ TEST_CASE("In units of the noise it is the difference of radiances over the nois
   CHECK_THAT(seen(parameters, scene(300.4, 300), 2).contrast_noise.value(), WithinRel(expected / 2, 1e-5));
 }
 
-TEST_CASE("Blur takes contrast from a small target") {
+TEST_CASE("Blur reduces the contrast of a small target") {
   SensorParameters parameters = cameras::perfect_sensor();
   parameters.optics.blur_sigma_px = 1;
-  // A Gaussian of 1 px has the weights 0.399, 0.242 and 0.054 at 0, 1 and 2 px: of three pixels in a row their mean
-  // keeps 0.399 + 4/3 x 0.242 + 2/3 x 0.054 = 0.758, of three by three 0.574. Of 20 K that is 11.5 K, and some more, as
-  // a mean of radiances is warmer than one of temperatures.
+  // A Gaussian of 1 px has the weights 0.399, 0.242 and 0.054 at 0, 1 and 2 px: the mean of three pixels in a row
+  // keeps 0.399 + 4/3 x 0.242 + 2/3 x 0.054 = 0.758, that of three by three 0.574. Of 20 K that is 11.5 K, and
+  // slightly more, because a mean of radiances is warmer than one of temperatures.
   const double contrast_k = seen(parameters, scene(305, 285)).contrast_k.value();
   CHECK(contrast_k > 11.45);
   CHECK(contrast_k < 12);

@@ -14,6 +14,6 @@ TEST_CASE("Base64 of RFC 4648, section 10") {
   CHECK(base64_of("foobar") == "Zm9vYmFy");
 }
 
-TEST_CASE("Base64 of bytes that are no text") {
+TEST_CASE("Base64 of bytes that are not text") {
   CHECK(base64_of(std::string("\xff\xfe\xfd\x00\x80", 5)) == "//79AIA=");
 }

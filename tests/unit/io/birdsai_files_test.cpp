@@ -53,6 +53,15 @@ TEST_CASE("BIRDSAI's rows become labels") {
   CHECK(set.categories[set.labels[3].category].name == "rhinoceros");
 }
 
+TEST_CASE("BIRDSAI's rows may begin with a byte-order mark") {
+  const TemporaryFolder folder;
+  const LabelSet set = read_birdsai(birdsai(folder,
+                                            "\xEF\xBB\xBF"
+                                            "4,2,10,20,5,6,1,-1,0,0\r\n"));
+  REQUIRE(set.labels.size() == 1);
+  CHECK(set.labels[0].box == LabelBox{10, 20, 5, 6});
+}
+
 TEST_CASE("Frames without a row are there if their picture is") {
   const TemporaryFolder folder;
   const Path root = birdsai(folder, "1,1,1,1,2,2,0,1,0,0\n");
@@ -70,7 +79,7 @@ TEST_CASE("Frames without a row are there if their picture is") {
   CHECK(set.labels[0].image == 1);
 }
 
-TEST_CASE("A row of BIRDSAI that is none is told to the line") {
+TEST_CASE("An invalid row of BIRDSAI is reported with its line") {
   CHECK(fault_in("0,1,1,1,2,2,0,1,0,0\n0,2,1,1,2,2,0,1,0\n") ==
         "2: 9 columns; expected 10: frame, object_id, x_min, y_min, w, h, class, species, occluded, noisy");
   CHECK(fault_in("0,1,1,1,2,2,0,1,0,0,0\n") ==
@@ -89,10 +98,10 @@ TEST_CASE("A row of BIRDSAI that is none is told to the line") {
   CHECK(fault_in("0,1,1,1,2,2,0,1,2,0\n") == "1: occluded 2; expected 0 or 1");
   CHECK(fault_in("0,1,1,1,2,2,0,1,0,-1\n") == "1: noisy -1; expected 0 or 1");
   CHECK(fault_in("3,1,1,1,2,2,0,1,0,0\n3,1,5,5,2,2,0,1,0,0\n") ==
-        "2: object 1 comes twice in frame 3; expected once");
+        "2: object 1 appears twice in frame 3; expected once");
 }
 
-TEST_CASE("A folder without BIRDSAI's annotations is told") {
+TEST_CASE("A folder without BIRDSAI's annotations is reported") {
   const TemporaryFolder folder;
   CHECK(message_of<IoError>([&] { (void)read_birdsai(folder.path()); }) ==
         (folder / "annotations").string() + " holds no .csv file");

@@ -43,7 +43,15 @@ TEST_CASE("What a program prints goes to its log, both streams") {
   CHECK(read_file(folder / "log") == "out\nerror\n");
 }
 
-TEST_CASE("How a program ended is told in words") {
+TEST_CASE("A log that is there is added to") {
+  const TemporaryFolder folder;
+  const Path log = folder.file("log", "first\n");
+  ChildProcess child(shell("echo second"), log);
+  (void)child.wait();
+  CHECK(read_file(log) == "first\nsecond\n");
+}
+
+TEST_CASE("How a program ended is put into words") {
   const TemporaryFolder folder;
   ChildProcess failing(shell("exit 7"), folder / "log");
   CHECK(failing.wait().in_words() == "ended with exit code 7");
@@ -63,7 +71,7 @@ TEST_CASE("A log that cannot be written is a fault") {
         "cannot open /nowhere/log: No such file or directory");
 }
 
-TEST_CASE("Half a line, of a program that died in the middle of it, is dropped") {
+TEST_CASE("An incomplete line, from a program that was killed while writing it, is dropped") {
   const TemporaryFolder folder;
   ChildProcess child(shell("printf 'whole\\nhal' >&3; kill -9 $$"), folder / "log");
   CHECK(lines_of(child) == std::vector<std::string>{"whole"});
@@ -95,7 +103,7 @@ TEST_CASE("Stopping ends the program and what it started") {
   REQUIRE(is_running(grandchild));
   child.stop();
   CHECK(child.wait().signal == SIGTERM);
-  for (int i = 0; i < 500 && is_running(grandchild); ++i) ::usleep(10000);  // init reaps it in its own time
+  for (int i = 0; i < 500 && is_running(grandchild); ++i) ::usleep(10000);  // init reaps it some time later
   CHECK_FALSE(is_running(grandchild));
 }
 
@@ -107,7 +115,7 @@ TEST_CASE("A program that will not end when asked is killed") {
   CHECK(child.wait().signal == SIGKILL);
 }
 
-TEST_CASE("A program does not outlive the one who started it") {
+TEST_CASE("A program does not outlive the process that started it") {
   const TemporaryFolder folder;
   std::string process;
   {
@@ -133,12 +141,12 @@ TEST_CASE("run_program takes more output than a pipe holds, on both streams at o
   CHECK(output.error == std::string(300000, 'b'));
 }
 
-TEST_CASE("run_program tells of programs that are killed or cannot be run") {
+TEST_CASE("run_program reports programs that are killed or cannot be run") {
   CHECK(run_program(shell("kill -15 $$")).status.in_words() == "was killed by signal 15 (Terminated)");
   CHECK(run_program({"/nowhere/python3"}).status.code == 127);
 }
 
-TEST_CASE("A program's last words are its last line that says something") {
+TEST_CASE("The reason of a program's failure is the last line of its output that is not empty") {
   CHECK(run_program(shell("printf 'first\\nlast\\n\\n' >&2")).last_words() == "last");
   CHECK(run_program(shell("echo out")).last_words().empty());
 }

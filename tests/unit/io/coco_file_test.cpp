@@ -10,7 +10,7 @@ using namespace thermal;
 
 namespace {
 
-/// Two pictures of a video that are not in its order, three labels that are not in the pictures'.
+/// Two pictures of a video, not in its order, and three labels, not in the pictures' order.
 const char* const kTwoFrames = R"({
   "annotations": [
     {"id": 5, "image_id": 21, "category_id": 2, "bbox": [1, 2, 3.5, 4], "area": 9, "iscrowd": 0, "track_id": 8,
@@ -62,21 +62,21 @@ TEST_CASE("A COCO file becomes labels in the order of videos and frames") {
   CHECK(set.categories[set.labels[0].category].name == "lion");
 }
 
-TEST_CASE("A label's optional figures are read where they are") {
+TEST_CASE("A label's optional properties are read if present") {
   const TemporaryFolder folder;
   const LabelSet set = read_coco(folder.file("truth.json", kTwoFrames));
-  const Label& told = set.labels[0];
-  CHECK(told.box == LabelBox{1, 2, 3.5, 4});
-  CHECK(told.area_px == 9);
-  CHECK((told.ignore && told.noisy && told.truncated && !told.crowd));
-  CHECK(told.occluded == std::optional(true));
-  CHECK(told.track_id == std::optional<std::int64_t>(8));
-  CHECK(told.visibility == std::optional(0.25));
-  CHECK(told.truncated_fraction == std::optional(0.5));
-  CHECK(told.range_m == std::optional(61.5));
-  CHECK(told.temperature_k == std::optional(291.0));
-  CHECK(told.contrast_k == std::optional(-2.5));
-  CHECK(told.contrast_noise == std::optional(-5.0));
+  const Label& reported = set.labels[0];
+  CHECK(reported.box == LabelBox{1, 2, 3.5, 4});
+  CHECK(reported.area_px == 9);
+  CHECK((reported.ignore && reported.noisy && reported.truncated && !reported.crowd));
+  CHECK(reported.occluded == std::optional(true));
+  CHECK(reported.track_id == std::optional<std::int64_t>(8));
+  CHECK(reported.visibility == std::optional(0.25));
+  CHECK(reported.truncated_fraction == std::optional(0.5));
+  CHECK(reported.range_m == std::optional(61.5));
+  CHECK(reported.temperature_k == std::optional(291.0));
+  CHECK(reported.contrast_k == std::optional(-2.5));
+  CHECK(reported.contrast_noise == std::optional(-5.0));
   const Label& plain = set.labels[2];
   CHECK(plain.area_px == 4);  // of the box
   CHECK((plain.crowd && !plain.ignore && !plain.noisy && !plain.truncated));
@@ -84,7 +84,7 @@ TEST_CASE("A label's optional figures are read where they are") {
   CHECK_FALSE(set.labels[1].visibility);  // null
 }
 
-TEST_CASE("Pictures of no video are a video of their folder") {
+TEST_CASE("Pictures without a video form a video per folder") {
   const TemporaryFolder folder;
   const LabelSet set = read_coco(folder.file("val.json", R"({"categories": [], "annotations": [], "images": [
       {"id": 1, "file_name": "b/x/0.jpg"}, {"id": 2, "file_name": "1.jpg"}, {"id": 3, "file_name": "b/x/1.jpg"}]})"));
@@ -97,10 +97,12 @@ TEST_CASE("Pictures of no video are a video of their folder") {
   CHECK(flat_name(set, set.images[2]) == "val_1");
 }
 
-TEST_CASE("What a COCO file must not hold is told to the entry") {
-  CHECK(fault_with("/images/1/id", 20) == "images[1].id = 20; expected another id than entry 0 has");
-  CHECK(fault_with("/categories/1/id", 7) == "categories[1].id = 7; expected another id than entry 0 has");
-  CHECK(fault_with("/annotations/2/id", 5) == "annotations[2].id = 5; expected another id than entry 0 has");
+TEST_CASE("Faults of a COCO file are reported with the entry") {
+  CHECK(fault_with("/images/1/id", 20) == "images[1].id = 20; expected an id other than that of entry 0");
+  CHECK(fault_with("/categories/1/id", 7) ==
+        "categories[1].id = 7; expected an id other than that of entry 0");
+  CHECK(fault_with("/annotations/2/id", 5) ==
+        "annotations[2].id = 5; expected an id other than that of entry 0");
   CHECK(fault_with("/annotations/1/image_id", 9) ==
         "annotations[1].image_id = 9; expected the id of one of the images");
   CHECK(fault_with("/annotations/1/category_id", 1) ==
@@ -109,7 +111,7 @@ TEST_CASE("What a COCO file must not hold is told to the entry") {
         "images[0].video_id = 1; expected the id of one of the videos");
   CHECK(fault_with("/images/0/width", -8) ==
         "images[0].width = -8; expected a whole number from 0 to 1000000000");
-  CHECK(fault_with("/images/0/file_name", "") == "images[0].file_name = \"\"; expected a text");
+  CHECK(fault_with("/images/0/file_name", "") == "images[0].file_name = \"\"; expected a string");
   CHECK(fault_with("/images/0", 5) == "images[0] = 5; expected an object");
   CHECK(fault_with("/annotations/0/area", "big") ==
         "annotations[0].area = \"big\"; expected a finite number");
@@ -128,10 +130,10 @@ TEST_CASE("A box is four numbers and in its picture") {
         "annotations[0].bbox = [8, 0, 2, 2] px; expected a box inside its picture, 8 x 6 px");
   CHECK(fault_with("/annotations/0/bbox", {-3, 0, 2, 2}) ==
         "annotations[0].bbox = [-3, 0, 2, 2] px; expected a box inside its picture, 8 x 6 px");
-  CHECK(fault_with("/annotations/0/bbox", {-1, -1, 20, 20}) == "(no fault was thrown)");  // reaches out
+  CHECK(fault_with("/annotations/0/bbox", {-1, -1, 20, 20}) == "(no fault was thrown)");  // extends beyond it
 }
 
-TEST_CASE("What is no COCO file is told") {
+TEST_CASE("Other files than COCO are reported") {
   CHECK(fault_in("[]") ==
         ": no list \"images\"; expected a COCO file with images, categories and annotations");
   CHECK(fault_in(R"({"images": [], "categories": []})") ==

@@ -8,7 +8,7 @@ using namespace thermal;
 
 namespace {
 
-/// The least a config can say.
+/// A minimal config.
 Json least() {
   return parse_json(R"({"name": "night", "clips": [
       {"id": "a", "season": "winter", "frames": 3, "flight": {"pattern": "zigzag"}},
@@ -16,7 +16,7 @@ Json least() {
                     "");
 }
 
-/// The same with a flight to be cut.
+/// The same with a flight to cut.
 Json with_flight() {
   Json document = least();
   document["flights"] = parse_json(
@@ -42,7 +42,7 @@ std::string fault_in_setting(const std::string& assignment) {
 
 }  // namespace
 
-TEST_CASE("The least a config can say is enough, and all defaults are written out") {
+TEST_CASE("A minimal config is valid, and all defaults are filled in") {
   const Config config = resolved(least());
   CHECK(config.name == "night");
   CHECK(config.seed == 1);
@@ -57,7 +57,7 @@ TEST_CASE("The least a config can say is enough, and all defaults are written ou
   CHECK(config.resolved["clips"][0]["flight"]["altitude_m"] == 61);
 }
 
-TEST_CASE("What labels are marked by is read, and by default is next to nothing") {
+TEST_CASE("Label thresholds are read, and are nearly off by default") {
   CHECK(resolved(least()).labels == LabelParameters());
   Json document = least();
   document["labels"] = {
@@ -67,12 +67,12 @@ TEST_CASE("What labels are marked by is read, and by default is next to nothing"
                                                      .ignore_below_area_px = 12});
 }
 
-TEST_CASE("Resolving what is resolved changes nothing") {
+TEST_CASE("Resolving a resolved config changes nothing") {
   const Config config = resolved(least());
   CHECK(resolved(config.resolved).resolved == config.resolved);
 }
 
-TEST_CASE("Every fault has a line, each with the config's name") {
+TEST_CASE("Every fault has a line starting with the config's name") {
   Json document = least();
   document["clips"][0]["frames"] = 0;
   document["clips"][1]["flight"]["patern"] = "follow";
@@ -85,7 +85,7 @@ TEST_CASE("Every fault has a line, each with the config's name") {
                    "number"));
 }
 
-TEST_CASE("A clip's id comes once") {
+TEST_CASE("Clip ids are unique") {
   CHECK(fault_in(with_setting("clips[1].id=a")) == "night.json: clips[1].id = \"a\"; expected each id once");
 }
 
@@ -94,18 +94,18 @@ TEST_CASE("A setting changes one value, as JSON or as plain text") {
   CHECK(with_setting("name=other")["name"] == "other");
   CHECK(with_setting("name=\"7\"")["name"] == "7");
   CHECK(with_setting("clips[1].flight.altitude_m=30.5")["clips"][1]["flight"]["altitude_m"] == 30.5);
-  CHECK(with_setting("sensor.netd_mk=50")["sensor"]["netd_mk"] == 50);  // makes what is on the way
+  CHECK(with_setting("sensor.netd_mk=50")["sensor"]["netd_mk"] == 50);  // creates missing members on the way
   CHECK(with_setting("name=a=b")["name"] == "a=b");
   CHECK(with_setting("name=")["name"].get<std::string>().empty());
 }
 
-TEST_CASE("The season is that of every clip") {
+TEST_CASE("The season setting applies to every clip") {
   const Json document = with_setting("season=summer");
   CHECK(document["clips"][0]["season"] == "summer");
   CHECK(document["clips"][1]["season"] == "summer");
 }
 
-TEST_CASE("A setting that cannot be meant is a fault") {
+TEST_CASE("An invalid setting is an error") {
   CHECK(fault_in_setting("seed") == "--set = \"seed\"; expected KEY=VALUE");
   CHECK(fault_in_setting("=7") == "--set = \"=7\"; expected KEY=VALUE");
   CHECK(fault_in_setting("name.first=7") ==
@@ -125,7 +125,7 @@ TEST_CASE("A setting's value is checked like any other") {
         "night.json: sensor.optics.blur_sigma_px = -1 px; expected at least 0 and at most 10 px");
 }
 
-TEST_CASE("An unknown clip is a fault with the nearest id") {
+TEST_CASE("An unknown clip is an error with the nearest id") {
   Json document = least();
   document["clips"][0]["id"] = "winter_zigzag";
   const Config config = resolved(document);
@@ -134,7 +134,7 @@ TEST_CASE("An unknown clip is a fault with the nearest id") {
         "--clips = \"winter_zigzg\"; expected one of winter_zigzag, b; did you mean \"winter_zigzag\"?");
 }
 
-TEST_CASE("Maps are named relative to the config that names them") {
+TEST_CASE("Maps are relative to the config that names them") {
   Json document = least();
   document["scene"]["terrain"]["heightmap"] = {{"file", "maps/hill.png"}, {"height_m", {0, 30}}};
   document["scene"]["terrain"]["density_map"] = {{"file", "/abroad/areas.png"}};
@@ -144,14 +144,14 @@ TEST_CASE("Maps are named relative to the config that names them") {
   CHECK(terrain["density_map"]["file"] == "/abroad/areas.png");
 }
 
-TEST_CASE("A map that is no file name is left to the schema") {
+TEST_CASE("A map that is not a file name is left to the schema") {
   Json document = least();
   document["scene"]["terrain"]["density_map"] = {{"file", 3}};
   root_files(document, "/ranger");
   CHECK(fault_in(document) == "night.json: scene.terrain.density_map.file = 3; expected a string");
 }
 
-TEST_CASE("A mission's file is named relative to the config, of clips and of flights") {
+TEST_CASE("A mission's file is relative to the config, for clips and for flights") {
   Json document = with_flight();
   document["clips"][0]["flight"] = {{"pattern", "waypoints"}, {"waypoints", {{"file", "lake.plan"}}}};
   document["flights"][0]["flight"] = {{"pattern", "waypoints"}, {"waypoints", {{"file", "/abroad/log.csv"}}}};
@@ -161,7 +161,7 @@ TEST_CASE("A mission's file is named relative to the config, of clips and of fli
   CHECK(found["flights"][0]["flight"]["waypoints"]["file"] == "/abroad/log.csv");
 }
 
-TEST_CASE("A view stands for a height and an angle, which can be overruled") {
+TEST_CASE("A view is shorthand for a height and an angle, which can be overridden") {
   Json document = least();
   document["clips"][0]["flight"] = {{"pattern", "zigzag"}, {"view", "122m_oblique"}};
   document["clips"][1]["flight"] = {{"pattern", "zigzag"}, {"view", "122m_oblique"}, {"look_angle_deg", 60}};
@@ -172,13 +172,13 @@ TEST_CASE("A view stands for a height and an angle, which can be overruled") {
   CHECK(clips[1]["flight"]["look_angle_deg"] == 60);
 }
 
-TEST_CASE("A setting whose value is no JSON that can be meant is a text") {
+TEST_CASE("A setting whose value is not valid JSON is a string") {
   const std::string deep(100, '[');
   CHECK(with_setting("name=" + deep + std::string(100, ']'))["name"].is_string());
   CHECK(with_setting(R"(name={"a": 1, "a": 2})")["name"] == R"({"a": 1, "a": 2})");
 }
 
-TEST_CASE("A config of flights needs no clips, and one of neither is a fault") {
+TEST_CASE("A config of flights needs no clips, and one with neither is an error") {
   Json document = with_flight();
   document.erase("clips");
   CHECK(resolved(document).clips.empty());
@@ -186,19 +186,19 @@ TEST_CASE("A config of flights needs no clips, and one of neither is a fault") {
   CHECK(fault_in(document) == "night.json: clips and flights are empty; expected at least one of either");
 }
 
-TEST_CASE("A flight's id comes once") {
+TEST_CASE("Flight ids are unique") {
   Json document = with_flight();
   document["flights"].push_back(document["flights"][0]);
   CHECK(fault_in(document) == "night.json: flights[1].id = \"long\"; expected each id once");
 }
 
-TEST_CASE("The season is that of every flight as well") {
+TEST_CASE("The season setting applies to every flight as well") {
   Json document = with_flight();
   apply_setting(document, "season=summer");
   CHECK(document["flights"][0]["season"] == "summer");
 }
 
-TEST_CASE("What is no clip and no flight has no season, and is a fault as ever") {
+TEST_CASE("An entry that is neither clip nor flight has no season, and is still reported") {
   Json document = least();
   document["clips"] = {"a", document["clips"][0]};
   document["flights"] = "b";
@@ -208,7 +208,7 @@ TEST_CASE("What is no clip and no flight has no season, and is a fault as ever")
   CHECK_THAT(fault_in(document), StartsWith("night.json: "));
 }
 
-TEST_CASE("The clips of flights come after a config's own") {
+TEST_CASE("The clips of flights follow a config's own") {
   const Config config = resolved(with_flight());
   Json clip = config.resolved["clips"][0];
   clip["id"] = "long_0000";

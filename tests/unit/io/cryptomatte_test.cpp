@@ -36,7 +36,7 @@ ExrHeader header_of(const std::vector<std::string>& names) {
 
 const std::string kName = "ViewLayer.CryptoObject";
 
-/// What is wrong with the only cryptomatte of a file, whose header `change` was done to.
+/// The fault of the only cryptomatte of a file after `change` is applied to its header.
 template <typename Change>
 std::string fault_after(const Change& change) {
   ExrHeader header = header_of({kName});
@@ -76,7 +76,7 @@ std::string fault_of_choice(const std::vector<std::string>& names, const std::st
 
 }  // namespace
 
-TEST_CASE("A cryptomatte is told by its metadata") {
+TEST_CASE("A cryptomatte is found by its metadata") {
   const ExrHeader header = header_of({"ViewLayer.CryptoObject", "ViewLayer.CryptoMaterial"});
   const std::vector<Cryptomatte> found = cryptomattes_in(header);
   REQUIRE(found.size() == 2);
@@ -89,7 +89,7 @@ TEST_CASE("A cryptomatte is told by its metadata") {
                                  "ViewLayer.CryptoObject00.b", "ViewLayer.CryptoObject00.a"});
 }
 
-TEST_CASE("A file without metadata has none, whatever its channels are called") {
+TEST_CASE("A file without metadata has none, whatever its channels are named") {
   ExrHeader header = header_of({kName});
   header.texts = {
       {"cryptomatte", "x"}, {"cryptomatte/", "x"}, {"comment", "cryptomatte/0000000/name"}, {"a/b/c", "x"}};
@@ -105,7 +105,7 @@ TEST_CASE("Metadata may have the prefix of other programs") {
   CHECK(cryptomattes_in(header).front().fault.empty());
 }
 
-TEST_CASE("Components are spelt in several ways, and the picture for people is none of them") {
+TEST_CASE("Components have several spellings, and the preview picture is none of them") {
   for (const std::vector<std::string>& spelt :
        {std::vector<std::string>{"R", "G", "B", "A"}, {"red", "green", "blue", "alpha"}}) {
     ExrHeader header = header_of({kName});
@@ -123,14 +123,14 @@ TEST_CASE("Components are spelt in several ways, and the picture for people is n
   }
 }
 
-TEST_CASE("The last layer may have one rank") {
+TEST_CASE("The last layer may have a single rank") {
   CHECK(fault_after([](ExrHeader& header) {
           header.channels.push_back(channel(kName + "01.r"));
           header.channels.push_back(channel(kName + "01.g"));
         }).empty());
 }
 
-TEST_CASE("Hashes of a manifest are told as floats carry them") {
+TEST_CASE("Hashes of a manifest are reported as stored in floats") {
   ExrHeader header = header_of({kName});
   header.texts["cryptomatte/0000000/manifest"] = R"({"tree_97": "ffeed3b0", "name \"Ä\"": "4CBBB188"})";
   CHECK(cryptomattes_in(header).front().names ==
@@ -145,7 +145,7 @@ TEST_CASE("A cryptomatte may come without names") {
   CHECK(cryptomattes_in(header).front().names.empty());
 }
 
-TEST_CASE("What is wrong with a cryptomatte is told of it") {
+TEST_CASE("The fault of a cryptomatte is reported with it") {
   CHECK(fault_of("hash", "md5") ==
         "cryptomatte ViewLayer.CryptoObject: hash = \"md5\"; expected \"MurmurHash3_32\"");
   CHECK(fault_of("conversion", "uint32_to_float64") ==
@@ -159,7 +159,7 @@ TEST_CASE("What is wrong with a cryptomatte is told of it") {
         "cryptomatte Other: no channels; expected Other00.r, Other00.g and so on");
 }
 
-TEST_CASE("A manifest that is none leaves a cryptomatte without names") {
+TEST_CASE("An invalid manifest leaves a cryptomatte without names") {
   const auto fault_of_names = [](const std::string& manifest) {
     ExrHeader header = header_of({kName});
     header.texts["cryptomatte/0000000/manifest"] = manifest;
@@ -185,7 +185,7 @@ TEST_CASE("A manifest that is none leaves a cryptomatte without names") {
         "manifest[\"anna\"] = \"12345678.5\"; expected a hash of eight hexadecimal digits");
 }
 
-TEST_CASE("A rank without its hash or coverage is a fault") {
+TEST_CASE("A rank without hash or coverage is an error") {
   CHECK(fault_after([](ExrHeader& header) { header.channels.push_back(channel(kName + "02.r")); }) ==
         "cryptomatte ViewLayer.CryptoObject: no channel ViewLayer.CryptoObject01.r; expected hash and "
         "coverage of "
@@ -196,12 +196,12 @@ TEST_CASE("A rank without its hash or coverage is a fault") {
         "every rank up to ViewLayer.CryptoObject00.b");
 }
 
-TEST_CASE("More ranks than any program writes are a fault, not memory") {
+TEST_CASE("More ranks than any program writes are an error, not a memory problem") {
   CHECK(fault_after([](ExrHeader& header) { header.channels.push_back(channel(kName + "16.g")); }) ==
         "cryptomatte ViewLayer.CryptoObject: ranks = 33; expected at most 32");
 }
 
-TEST_CASE("Hashes must have kept their bits") {
+TEST_CASE("Hashes must keep their bits") {
   CHECK(fault_after([](ExrHeader& header) { header.channels[2].type = "half"; }) ==
         "cryptomatte ViewLayer.CryptoObject: ViewLayer.CryptoObject00.b: type = half; expected float, whose "
         "bits are "
@@ -220,7 +220,7 @@ TEST_CASE("Hashes must have kept their bits") {
   }
 }
 
-TEST_CASE("A cryptomatte is meant by its whole name or without its layer") {
+TEST_CASE("A cryptomatte is selected by its whole name or without its layer") {
   const std::vector<std::string> names = {"CryptoMaterial", "Fog.CryptoObject", "ViewLayer.CryptoObject"};
   CHECK(chosen(names, "CryptoMaterial") == "CryptoMaterial");
   CHECK(chosen(names, "Fog.CryptoObject") == "Fog.CryptoObject");
@@ -230,7 +230,7 @@ TEST_CASE("A cryptomatte is meant by its whole name or without its layer") {
   CHECK(chosen({"CryptoObject", "Fog.CryptoObject"}, "CryptoObject", "Fog") == "CryptoObject");
 }
 
-TEST_CASE("A choice that cannot be meant lists what there is") {
+TEST_CASE("An invalid choice lists the available ones") {
   CHECK(fault_of_choice({"Fog.CryptoObject", "ViewLayer.CryptoObject"}, "CryptoObject") ==
         "cryptomatte = \"CryptoObject\"; expected the whole name of one: Fog.CryptoObject, "
         "ViewLayer.CryptoObject");
@@ -239,10 +239,10 @@ TEST_CASE("A choice that cannot be meant lists what there is") {
         "Fog.CryptoObject; did you "
         "mean \"CryptoObject\"?");
   CHECK(fault_of_choice({}, "CryptoObject") ==
-        "cryptomatte = \"CryptoObject\"; expected a file with cryptomattes, this one has none");
+        "cryptomatte = \"CryptoObject\"; expected a file with cryptomattes; this one has none");
 }
 
-TEST_CASE("One that cannot be read is a fault only where it is meant") {
+TEST_CASE("An unreadable one is an error only if it is selected") {
   std::vector<Cryptomatte> all = named({"CryptoMaterial", "CryptoObject"});
   all[0].fault = "cryptomatte CryptoMaterial: broken";
   CHECK(choose_cryptomatte(all, "CryptoObject", "").name == "CryptoObject");

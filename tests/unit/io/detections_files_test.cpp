@@ -35,7 +35,7 @@ std::vector<Detection> read_text(const std::string& text) {
   return read_detections(folder.file("found.json", text), truth());
 }
 
-/// What is said of a results file, without its folder.
+/// The message for a results file, without its folder.
 std::string fault_of(const std::string& text) {
   const TemporaryFolder folder;
   const std::string file = folder.file("found.json", text).string();
@@ -43,7 +43,7 @@ std::string fault_of(const std::string& text) {
   return message.starts_with(file) ? message.substr(file.size() - 10) : message;
 }
 
-/// What is said of a picture's YOLO results, without their folder.
+/// The message for a picture's YOLO results, without their folder.
 std::string yolo_fault(const std::string& text, const std::string& name = "winter_000001.txt",
                        const LabelSet& set = truth()) {
   const TemporaryFolder folder;
@@ -71,14 +71,15 @@ TEST_CASE("COCO results are read in their order") {
   CHECK(found[1].score == 1);
 }
 
-TEST_CASE("No results are results") {
+TEST_CASE("An empty list of results is valid") {
   CHECK(read_text("[]").empty());
   CHECK(read_text(" [ ] \n").empty());
   const TemporaryFolder folder;
   CHECK(read_detections(folder.path(), truth()).empty());
 }
 
-TEST_CASE("Detections may come twice, have any score, and boxes that reach out or have no area") {
+TEST_CASE(
+    "Detections may be repeated, have any score, and boxes that extend beyond the picture or have no area") {
   const auto entry = [](const std::string& box, const std::string& score) {
     return R"({"image_id": 12, "category_id": 5, "bbox": )" + box + R"(, "score": )" + score + "}";
   };
@@ -89,7 +90,7 @@ TEST_CASE("Detections may come twice, have any score, and boxes that reach out o
   CHECK(found.size() == 5);
 }
 
-TEST_CASE("Results that are no list of detections are refused") {
+TEST_CASE("Results that are not a list of detections are refused") {
   CHECK(fault_of("{}") == kNoList);
   CHECK(fault_of(R"({"images": [{"id": 1}], "annotations": []})") == kNoList);
   CHECK(fault_of("7") == kNoList);
@@ -110,7 +111,7 @@ TEST_CASE("Unknown pictures and categories are named") {
         "found.json: [0].image_id = \"12\"; expected a whole number");
 }
 
-TEST_CASE("Scores that are no finite numbers are named") {
+TEST_CASE("Scores that are not finite numbers are named") {
   const auto with_score = [](const std::string& score) {
     return std::string("[") + kGood + ",\n" + R"({"image_id": 12, "category_id": 5, "bbox": [1, 2, 3, 4])" +
            (score.empty() ? "" : R"(, "score": )" + score) + "}]";
@@ -122,7 +123,7 @@ TEST_CASE("Scores that are no finite numbers are named") {
   CHECK(fault_of(with_score("1e999")) == "found.json: not JSON: number overflow parsing '1e999'");
 }
 
-TEST_CASE("NaN and Infinity, which Python writes, are placed and explained") {
+TEST_CASE("NaN and Infinity, which Python writes, are located and explained") {
   const std::string rule =
       "; expected a finite number: JSON has no NaN and no Infinity, though Python writes them";
   const auto ends_of = [&rule](const std::string& score) {
@@ -138,7 +139,7 @@ TEST_CASE("NaN and Infinity, which Python writes, are placed and explained") {
   CHECK(fault_of("").starts_with("found.json:1:1: not JSON: syntax error"));
 }
 
-TEST_CASE("Boxes that cannot be are named") {
+TEST_CASE("Invalid boxes are named") {
   const auto with_box = [](const std::string& box) {
     return R"([{"image_id": 12, "category_id": 5, "score": 0.5, "bbox": )" + box + "}]";
   };
@@ -153,7 +154,7 @@ TEST_CASE("Boxes that cannot be are named") {
   CHECK(fault_of(with_box("[1, -5, 3, 4]")) == "found.json: [0].bbox = [1,-5,3,4]" + inside);
 }
 
-TEST_CASE("Of pictures whose size is not told, boxes may lie anywhere but left and above") {
+TEST_CASE("In pictures of unknown size, boxes may be anywhere except left and above") {
   LabelSet set = truth();
   for (LabelImage& image : set.images) image.width_px = image.height_px = 0;
   const TemporaryFolder folder;
@@ -165,12 +166,14 @@ TEST_CASE("Of pictures whose size is not told, boxes may lie anywhere but left a
   CHECK(read("[5000, 5000, 1, 1]") == 1);
   CHECK(message_of<DataError>([&] { (void)read("[-2, 0, 1, 1]"); }) ==
         (folder / "found.json").string() +
-            ": [0].bbox = [-2,0,1,1]; expected a box that is not left of its picture or above it");
+            ": [0].bbox = [-2,0,1,1]; expected a box that is not to the left of its picture or above it");
 }
 
 TEST_CASE("YOLO results are scaled to their pictures") {
   const TemporaryFolder folder;
-  (void)folder.file("winter_000001.txt", "1 0.5 0.25 0.125 0.5 0.75\r\n\n  0\t1 1 0 0 1e-3  \n0 0 0 .5 .5 1");
+  (void)folder.file("winter_000001.txt",
+                    "\xEF\xBB\xBF"
+                    "1 0.5 0.25 0.125 0.5 0.75\r\n\n  0\t1 1 0 0 1e-3  \n0 0 0 .5 .5 1");
   (void)folder.file("notes.md", "not read");
   const auto found = read_detections(folder.path(), truth());
   REQUIRE(found.size() == 3);
@@ -183,7 +186,7 @@ TEST_CASE("YOLO results are scaled to their pictures") {
   CHECK(found[2].box == LabelBox{-160, -128, 320, 256});
 }
 
-TEST_CASE("YOLO results may have the picture's own name where no other has the same") {
+TEST_CASE("YOLO results may use the picture's own name if it is unique") {
   LabelSet set = truth();
   CHECK(yolo_fault("", "000001.txt", set) == "(no fault was thrown)");
   set.videos.push_back({"summer"});
@@ -195,17 +198,17 @@ TEST_CASE("YOLO results may have the picture's own name where no other has the s
             .starts_with("000001.txt: names no picture of the truth; expected VIDEO_PICTURE.txt"));
 }
 
-TEST_CASE("YOLO files that name no picture are refused") {
+TEST_CASE("YOLO files that match no picture are refused") {
   CHECK(yolo_fault("", "winter_00001.txt") ==
         "winter_00001.txt: names no picture of the truth; expected VIDEO_PICTURE.txt; did you mean "
         "\"winter_000001\"?");
   CHECK(yolo_fault("", "classes.txt") ==
         "classes.txt: names no picture of the truth; expected VIDEO_PICTURE.txt");
   CHECK(yolo_fault("", "winter_000001.json")
-            .ends_with(": no .txt files; expected YOLO results, one file a picture"));
+            .ends_with(": no .txt files; expected YOLO results, one file per picture"));
 }
 
-TEST_CASE("Faults of YOLO results are placed") {
+TEST_CASE("Faults of YOLO results are located") {
   CHECK(yolo_fault("0 .5 .5 .1 .1 1\n0 .5 .5 .1 .1\n") ==
         "winter_000001.txt:2 = 5 words; expected class cx cy w h score");
   CHECK(yolo_fault("2 .5 .5 .1 .1 1") ==
@@ -231,11 +234,11 @@ TEST_CASE("YOLO results need the pictures' sizes") {
   LabelSet set = truth();
   set.images[1].width_px = 0;
   CHECK(yolo_fault("", "winter_000001.txt", set) ==
-        "winter_000001.txt: the truth does not tell the size of clips/winter/ir8/000001.png; expected it, as "
-        "YOLO's boxes are in parts of it");
+        "winter_000001.txt: the truth lacks the size of clips/winter/ir8/000001.png; expected it, because "
+        "YOLO boxes are relative to it");
 }
 
-TEST_CASE("Results that are not there cannot be read") {
+TEST_CASE("Missing results cannot be read") {
   const TemporaryFolder folder;
   const std::string file = (folder / "found.json").string();
   CHECK(message_of<IoError>([&] { (void)read_detections(file, truth()); }) ==

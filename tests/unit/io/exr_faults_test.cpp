@@ -1,4 +1,4 @@
-/// EXR files that cannot be read, and what other readers are given of those that can.
+/// EXR files that cannot be read, and values from readable ones for other readers.
 
 #include <bit>
 #include <cstring>
@@ -31,21 +31,20 @@ std::string fault_of(const Path& file, const PassNeeds& needs = {}) {
 
 }  // namespace
 
-TEST_CASE("A file whose writer stopped early is an error, if a part that is needed lacks pixels") {
+TEST_CASE("A file whose writer stopped early is an error if a needed part lacks pixels") {
   const TemporaryFolder folder;
   const Path file = folder / "f.exr";
   exr_forms::Part objects = part_of("objects", {{"IndexOB.X", floats({1, 2, 3, 4})}});
   exr_forms::Part depth = part_of("depth", {{"Z", floats({1, 2, 3, 4})}});
-  objects.compression = depth.compression = Imf::RLE_COMPRESSION;  // a chunk a line
+  objects.compression = depth.compression = Imf::RLE_COMPRESSION;  // one chunk per line
   depth.lines = 1;
   exr_forms::write(file, {objects, depth});
   CHECK(fault_of(file) == "(no fault was thrown)");
   CHECK(fault_of(file, {.depth = true}) ==
-        "cannot read " + file.string() +
-            ": part 1 lacks pixels; expected a file that was written to its end");
+        "cannot read " + file.string() + ": part 1 lacks pixels; expected a completely written file");
 }
 
-TEST_CASE("Channels with fewer samples than pixels are refused, if they are needed") {
+TEST_CASE("Channels with fewer samples than pixels are refused if they are needed") {
   const TemporaryFolder folder;
   const Path file = folder / "f.exr";
   Imf::Header header(2, 2);
@@ -65,7 +64,7 @@ TEST_CASE("Channels with fewer samples than pixels are refused, if they are need
         file.string() + ": Depth.Z: sampling = 2 x 1 px; expected 1 x 1 px, a number for every pixel");
 }
 
-TEST_CASE("What is no file is not waited for") {
+TEST_CASE("Reading does not wait for pipes and devices") {
   const TemporaryFolder folder;
   const Path pipe = folder / "pipe.exr";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
@@ -73,7 +72,7 @@ TEST_CASE("What is no file is not waited for") {
   CHECK(fault_of(folder.path()) == "cannot read " + folder.path().string() + ": it is not a regular file");
 }
 
-TEST_CASE("A file that claims more than it can hold costs nothing") {
+TEST_CASE("A file that claims more than it can hold costs no memory") {
   const TemporaryFolder folder;
   const Path file = folder / "f.exr";
   exr_forms::write(file, {part_of("", {{"IndexOB.X", floats({1, 2, 3, 4})}})});
@@ -95,7 +94,7 @@ TEST_CASE("A file that claims more than it can hold costs nothing") {
   CHECK(fault_of(claim(1, 1)) == "(no fault was thrown)");
 }
 
-TEST_CASE("A file that changes while it is read is told") {
+TEST_CASE("A file that changes while it is read is reported") {
   const TemporaryFolder folder;
   const Path file = folder / "f.exr";
   exr_forms::write(file, {part_of("a", {{"IndexOB.X", floats({1, 2, 3, 4})}}),
@@ -105,11 +104,11 @@ TEST_CASE("A file that changes while it is read is told") {
   const auto fault_at = [&](std::size_t i) {
     return message_of<IoError>([&] { (void)read_exr_channel(file, header, header.channels[i]); });
   };
-  CHECK(fault_at(0) == "cannot read " + file.string() + ": a.IndexOB.X is not in it any more");
-  CHECK(fault_at(1) == "cannot read " + file.string() + ": b.Z is not in it any more");
+  CHECK(fault_at(0) == "cannot read " + file.string() + ": a.IndexOB.X is no longer in it");
+  CHECK(fault_at(1) == "cannot read " + file.string() + ": b.Z is no longer in it");
 }
 
-TEST_CASE("Other readers get the texts of all parts, and compressions by part") {
+TEST_CASE("Other readers get the string attributes of all parts, and compressions by part") {
   const TemporaryFolder folder;
   const Path file = folder / "f.exr";
   exr_forms::Part a = part_of("a", {{"S.IndexOB.X", floats({1, 2, 3, 4})}});
@@ -134,10 +133,10 @@ TEST_CASE("Other readers get the texts of all parts, and compressions by part") 
   CHECK(header.channels[1].part == 1);
 }
 
-TEST_CASE("Channels keep all bits of floats, of several parts and the same one twice") {
+TEST_CASE("Channels keep all bits of floats, from several parts and when requested twice") {
   const TemporaryFolder folder;
   const Path file = folder / "f.exr";
-  // Hashes of a cryptomatte, and a NaN that signals.
+  // Hashes of a cryptomatte, and a signalling NaN.
   const std::vector<std::uint32_t> bits = {0xA8FCE865, 0x7FA00001, 0x00000001, 0x80000000};
   std::vector<float> pixels;
   for (const std::uint32_t pixel : bits) pixels.push_back(std::bit_cast<float>(pixel));

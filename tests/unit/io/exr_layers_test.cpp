@@ -1,4 +1,4 @@
-/// Which channels of a file are the planes of a clip: layers, parts, views, and channels that the manifest names.
+/// Which channels of a file are the planes of a clip: layers, parts, views, and channels named in the manifest.
 
 #include <map>
 
@@ -15,7 +15,7 @@ using exr_forms::window;
 
 namespace {
 
-/// One pixel a channel, of one number: that tells which was read.
+/// One pixel per channel, with a number that identifies it.
 using Numbers = std::map<std::string, float>;
 
 struct NumberedPart {
@@ -115,7 +115,7 @@ TEST_CASE("Layers may be parts, by their names or by their channels'") {
   CHECK(prefixed.fault() == "IndexOB is in several layers: Far, Near" + kSeveral);
 }
 
-TEST_CASE("A part a pass is read as Blender 5 writes them") {
+TEST_CASE("Files with one part per pass are read as Blender 5 writes them") {
   const Exr exr(
       {{.name = "ViewLayer.Combined", .numbers = {{"ViewLayer.Combined.R", 1}}},
        {.name = "ViewLayer.Depth", .numbers = {{"ViewLayer.Depth.Z", 2}}},
@@ -127,7 +127,7 @@ TEST_CASE("A part a pass is read as Blender 5 writes them") {
   CHECK(exr.read({.layer = "ViewLayer"}, kAll) == Read{6, 7, 2, 3, 4, 5, kNone});
 }
 
-TEST_CASE("A part a pass is read where the parts' names alone tell them") {
+TEST_CASE("Files with one part per pass are read where only the parts' names distinguish them") {
   const Exr exr({{.name = "rgba", .numbers = {{"R", 1}, {"G", 1}, {"B", 1}}},
                  {.name = "depth", .numbers = {{"Z", 2}}},
                  {.name = "N", .numbers = {{"red", 3}, {"green", 4}, {"blue", 5}}},
@@ -136,7 +136,7 @@ TEST_CASE("A part a pass is read where the parts' names alone tell them") {
   CHECK(exr.read({}, kAll) == Read{6, 7, 2, 3, 4, 5, kNone});
 }
 
-TEST_CASE("Planes without a layer of their own belong to the one object index") {
+TEST_CASE("Planes without a layer belong to the only object index") {
   const Exr exr({{.name = "ids", .numbers = {{"IndexOB.X", 1}, {"IndexMA.X", 2}}},
                  {.name = "beauty", .numbers = {{"Z", 3}, {"R", 9}}},
                  {.name = "geometry", .numbers = {{"N.X", 4}, {"N.Y", 5}, {"N.Z", 6}}}});
@@ -149,7 +149,7 @@ TEST_CASE("Planes without a layer of their own belong to the one object index") 
   const Exr actors({{"IndexOB.X", 1}, {"Actors.Depth.Z", 3}});
   CHECK(actors.fault({.actor_layer = "Actors"}, {.depth = true}) ==
         "no depth channel, which the chosen terms need; the file has: Actors.Depth.Z, IndexOB.X");
-  CHECK(two.read() == Read{1, kNone, kNone, kNone, kNone, kNone, kNone});  // nobody asked
+  CHECK(two.read() == Read{1, kNone, kNone, kNone, kNone, kNone, kNone});  // not requested
 }
 
 TEST_CASE("Another layer's planes are never taken for the chosen one's") {
@@ -163,7 +163,7 @@ TEST_CASE("Another layer's planes are never taken for the chosen one's") {
         "no normal Y channel" + rest + "A.IndexOB.X, A.Normal.X, A.Normal.Z");
 }
 
-TEST_CASE("A view of several is a layer") {
+TEST_CASE("One of several views is a layer") {
   const Exr exr({{.name = "V.Object Index-left", .numbers = {{"V.Object Index.X", 1}}, .view = "left"},
                  {.name = "V.Object Index-right", .numbers = {{"V.Object Index.X", 2}}, .view = "right"},
                  {.name = "V.Depth-left", .numbers = {{"V.Depth.Z", 3}}, .view = "left"},
@@ -172,7 +172,7 @@ TEST_CASE("A view of several is a layer") {
   CHECK(exr.read({.layer = "V.right"}, {.depth = true}) == Read{2, kNone, 4, kNone, kNone, kNone, kNone});
 }
 
-TEST_CASE("A layer without a name is chosen by naming its channel") {
+TEST_CASE("A layer without a name is selected by naming its channel") {
   const Exr exr({{"IndexOB.X", 1}, {"Depth.Z", 2}, {"Far.IndexOB.X", 3}, {"Far.Depth.Z", 4}});
   CHECK(exr.fault() == "IndexOB is in several layers: (no name), Far" + kSeveral);
   CHECK(exr.read(naming_objects("IndexOB.X"), {.depth = true})[2] == 2);
@@ -200,7 +200,7 @@ TEST_CASE("Channels with unusual names are named by the manifest") {
         Read{1, kNone, 8, kNone, kNone, kNone, kNone});
 }
 
-TEST_CASE("A name that no channel has is an error that lists those there are") {
+TEST_CASE("An unknown channel name is an error that lists the existing ones") {
   const Exr exr({{"S.IndexOB.X", 1}, {"S.Depth.Z", 2}, {"S.up.X", 3}, {"S.up.Y", 4}});
   const std::string list = "S.Depth.Z, S.IndexOB.X, S.up.X, S.up.Y";
   CHECK(exr.fault(naming_objects("ids")) ==
@@ -212,19 +212,19 @@ TEST_CASE("A name that no channel has is an error that lists those there are") {
                   {.depth = true}) == "channels.depth = \"S.Depth\"; expected a channel of the file: " +
                                           list + "; did you mean \"S.Depth.Z\"?");
   CHECK(exr.fault(naming({.object_index = "", .material_index = "", .depth = "S.Depth", .normal = ""})) ==
-        "(no fault was thrown)");  // nobody asked
+        "(no fault was thrown)");  // not requested
   CHECK(exr.fault(naming({.object_index = "", .material_index = "", .depth = "", .normal = "S.ip"}),
                   {.normals = true}) ==
-        "channels.normal = \"S.ip\"; expected what comes before .X of a channel of the file: S.Depth, "
+        "channels.normal = \"S.ip\"; expected a pass with a channel .X in the file: S.Depth, "
         "S.IndexOB, S.up; "
         "did you mean \"S.up\"?");
   CHECK(exr.fault(naming({.object_index = "", .material_index = "", .depth = "", .normal = "S.up"}),
                   {.normals = true}) ==
-        "channels.normal = \"S.up\"; expected what comes before .Z of a channel of the file: S.Depth, "
+        "channels.normal = \"S.up\"; expected a pass with a channel .Z in the file: S.Depth, "
         "S.IndexOB, S.up");
 }
 
-TEST_CASE("A name that several parts have is told apart by the part") {
+TEST_CASE("A name shared by several parts is resolved by the part") {
   const Exr exr({{.name = "one", .numbers = {{"ids", 1}, {"N.X", 4}, {"N.Y", 4}, {"N.Z", 4}}},
                  {.name = "two", .numbers = {{"ids", 2}, {"N.X", 5}, {"N.Y", 5}, {"N.Z", 5}}}});
   CHECK(exr.read(naming_objects("two.ids"))[0] == 2);
@@ -235,7 +235,7 @@ TEST_CASE("A name that several parts have is told apart by the part") {
         "channels.object_index = \"ids\"; expected one of the channels of that name: one.ids, two.ids");
 }
 
-TEST_CASE("Actors alone are in their layer, in parts and with named channels too") {
+TEST_CASE("Actors alone are in their layer, also in parts and with named channels") {
   const Exr parts(
       {{.name = "Scene", .numbers = {{"IndexOB.X", 1}}}, {.name = "Actors", .numbers = {{"IndexOB.X", 2}}}});
   CHECK(parts.read({.actor_layer = "Actors"}, {.actors = true}) ==
@@ -249,23 +249,24 @@ TEST_CASE("Actors alone are in their layer, in parts and with named channels too
         Read{3, kNone, kNone, kNone, kNone, kNone, 3});
 }
 
-TEST_CASE("Which planes there are is told without reading them") {
-  const auto told = [](const Exr& exr, const ExrLayout& layout = {}) {
+TEST_CASE("Available planes are found without reading them") {
+  const auto has_passes = [](const Exr& exr, const ExrLayout& layout = {}) {
     const PassNeeds planes = planes_in_exr(exr.file, layout);
     return std::vector<bool>{planes.depth, planes.normals, planes.actors};
   };
-  using Told = std::vector<bool>;
-  CHECK(told(Exr(layer("Scene.", 1))) == Told{true, true, false});
-  CHECK(told(Exr({{"IndexOB.X", 1}})) == Told{false, false, false});
-  CHECK(told(Exr({{"IndexOB.X", 1}, {"N.X", 1}, {"N.Y", 1}})) == Told{false, false, false});
+  using HasPasses = std::vector<bool>;
+  CHECK(has_passes(Exr(layer("Scene.", 1))) == HasPasses{true, true, false});
+  CHECK(has_passes(Exr({{"IndexOB.X", 1}})) == HasPasses{false, false, false});
+  CHECK(has_passes(Exr({{"IndexOB.X", 1}, {"N.X", 1}, {"N.Y", 1}})) == HasPasses{false, false, false});
   const Exr two(both(layer("A.", 1), {{"B.IndexOB.X", 2}}));
-  CHECK(told(two, {.layer = "A", .actor_layer = "B"}) == Told{true, true, true});
-  CHECK(told(two, {.layer = "B"}) == Told{false, false, false});
-  CHECK(told(Exr({{"A.IndexOB.X", 1}}), {.layer = "A", .actor_layer = "B"}) == Told{false, false, false});
+  CHECK(has_passes(two, {.layer = "A", .actor_layer = "B"}) == HasPasses{true, true, true});
+  CHECK(has_passes(two, {.layer = "B"}) == HasPasses{false, false, false});
+  CHECK(has_passes(Exr({{"A.IndexOB.X", 1}}), {.layer = "A", .actor_layer = "B"}) ==
+        HasPasses{false, false, false});
   const Exr named({{"A.ids", 1}, {"A.far", 2}});
-  CHECK(
-      told(named, naming({.object_index = "A.ids", .material_index = "", .depth = "A.far", .normal = ""})) ==
-      Told{true, false, false});
+  CHECK(has_passes(named,
+                   naming({.object_index = "A.ids", .material_index = "", .depth = "A.far", .normal = ""})) ==
+        HasPasses{true, false, false});
   CHECK(message_of<DataError>([&] { (void)planes_in_exr(two.file, {}); }) ==
         two.file.string() + ": IndexOB is in several layers: A, B" + kSeveral);
 }

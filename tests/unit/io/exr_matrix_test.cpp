@@ -1,4 +1,4 @@
-/// Index planes in every form that EXR has: types, compressions, scanlines and tiles, orders; values to the bit.
+/// Index planes in every form of EXR: types, compressions, scanlines and tiles, orders; values to the bit.
 
 #include <bit>
 #include <cstdint>
@@ -32,7 +32,7 @@ struct Size {
 
 constexpr Size kSize = {21, 70};  // more lines than two of PIZ's chunks, and than four of ZIP's
 
-/// Indices up to the largest, which the first pixel has.
+/// Indices up to the largest, which is in the first pixel.
 std::vector<float> indices(Size size, int largest, std::uint32_t step) {
   std::vector<float> pixels;
   for (std::uint32_t i = 0; i < size.pixels(); ++i)
@@ -41,7 +41,7 @@ std::vector<float> indices(Size size, int largest, std::uint32_t step) {
   return pixels;
 }
 
-/// Depths and what may stand in their place. PXR24 keeps 24 bits of a float, so the last 8 are none here.
+/// Depths and special values. PXR24 keeps 24 bits of a float, so the last 8 are zero here.
 std::vector<float> depths(Size size) {
   const std::vector<std::uint32_t> special = {0x7FC00100, 0x7F800000, 0xFF800000,
                                               0x80000000, 0x00000100, 0x501502F9};
@@ -154,7 +154,7 @@ TEST_CASE("Pictures may be as small as a pixel, a line or a column") {
 }
 
 TEST_CASE("Pictures may be of 3840 x 3072 pixels") {
-  // Bands, which make a small file: a test of indices, not of disks.
+  // Bands, which make a small file: this tests indices, not disks.
   constexpr Size kLarge = {3840, 3072};
   std::vector<float> bands;
   for (std::size_t i = 0; i < kLarge.pixels(); ++i) bands.push_back(static_cast<float>(i / 1000));
@@ -165,8 +165,9 @@ TEST_CASE("Pictures may be of 3840 x 3072 pixels") {
   CHECK((numbers_in(read_passes(folder / "f.exr", {}).object_index) == bands));  // millions are not printed
 }
 
-TEST_CASE("PXR24 keeps every index that a float may hold") {
-  // It rounds floats to 15 bits after the leading one: whole numbers to 2^16 are kept. Indices end at 32767 < 2^15.
+TEST_CASE("PXR24 keeps every index that a float can hold") {
+  // It rounds floats to 15 bits after the leading one, so whole numbers up to 2^16 are kept. Indices end at 32767 <
+  // 2^15.
   constexpr Size kAll = {256, 128};
   Frame frame(kAll, Imf::FLOAT, Imf::FLOAT);
   frame.part.compression = Imf::PXR24_COMPRESSION;
@@ -208,7 +209,7 @@ std::string fault_of(const exr_forms::Stored& plane, Imf::Compression compressio
 
 }  // namespace
 
-TEST_CASE("Whole numbers that are no index are told exactly, above 2^24 too") {
+TEST_CASE("Whole numbers that are not indices are reported exactly, above 2^24 too") {
   const std::string rule = "; expected a whole number from 0 to 32767";
   for (const std::uint32_t number : {32768U, 65536U, 16777217U, 4294967295U}) {
     CHECK(fault_of(exr_forms::wholes({0, number})) ==
@@ -217,7 +218,7 @@ TEST_CASE("Whole numbers that are no index are told exactly, above 2^24 too") {
   CHECK(fault_of(exr_forms::wholes({0, 32767})) == "(no fault was thrown)");
 }
 
-TEST_CASE("Half floats hold indices to 2048, and more is an error") {
+TEST_CASE("Half floats hold indices up to 2048, and larger ones are errors") {
   const std::string rule = "; expected a whole number from 0 to 2048, up to which half floats are exact";
   CHECK(fault_of(halves({0, 2048})) == "(no fault was thrown)");
   CHECK(fault_of(halves({0, 2050})) == "IndexOB.X at pixel (1, 0) = 2050" + rule);
@@ -227,7 +228,7 @@ TEST_CASE("Half floats hold indices to 2048, and more is an error") {
   CHECK(fault_of(floats({0, 2050})) == "(no fault was thrown)");
 }
 
-TEST_CASE("Index planes of a lossy compression are refused, whatever their pixels are") {
+TEST_CASE("Index planes with a lossy compression are refused, whatever their pixels are") {
   const auto [compression, name] =
       GENERATE(table<Imf::Compression, std::string>({{Imf::B44_COMPRESSION, "B44"},
                                                      {Imf::B44A_COMPRESSION, "B44A"},
@@ -236,11 +237,10 @@ TEST_CASE("Index planes of a lossy compression are refused, whatever their pixel
   const auto type = GENERATE(Imf::UINT, Imf::HALF, Imf::FLOAT);
   CHECK(fault_of(numbers(type, {0, 1}), compression) ==
         "IndexOB.X: compression = " + name +
-            "; expected a lossless one (none, RLE, ZIPS, ZIP, PIZ or PXR24): others make other indices of "
-            "these");
+            "; expected a lossless one (none, RLE, ZIPS, ZIP, PIZ or PXR24): others change indices");
 }
 
-TEST_CASE("Depth and normals may be of a lossy compression") {
+TEST_CASE("Depth and normals may have a lossy compression") {
   const TemporaryFolder folder;
   const Path file = folder / "f.exr";
   const Imath::Box2i box = window(0, 0, 40, 40);

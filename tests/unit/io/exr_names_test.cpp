@@ -1,4 +1,4 @@
-/// What channels of an EXR file are called, and which layer, pass and component that means.
+/// Names of channels of an EXR file, and the layer, pass and component they mean.
 
 #include "io/exr_names.h"
 
@@ -19,9 +19,9 @@ std::vector<std::string> apart(const std::vector<std::string>& names,
   std::vector<ExrChannel> channels;
   for (const std::string& name : names) channels.emplace_back().name = name;
   name_channels(channels, {.parts = {{.name = "", .view = ""}}, .views = views});
-  std::vector<std::string> told;
-  for (const ExrChannel& channel : channels) told.push_back(apart(channel));
-  return told;
+  std::vector<std::string> described;
+  for (const ExrChannel& channel : channels) described.push_back(apart(channel));
+  return described;
 }
 
 std::string one(const std::string& name, const std::vector<std::string>& views = {}) {
@@ -57,7 +57,7 @@ using Texts = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("A name is layer, pass and component, with dots between") {
+TEST_CASE("A name is layer, pass and component, joined by dots") {
   CHECK(one("IndexOB") == " | IndexOB | ");
   CHECK(one("IndexOB.X") == " | IndexOB | X");
   CHECK(one("Scene.IndexOB.X") == "Scene | IndexOB | X");
@@ -70,7 +70,7 @@ TEST_CASE("A name is layer, pass and component, with dots between") {
   CHECK(one("") == " |  | ");
 }
 
-TEST_CASE("Z after a layer is its depth, and after a pass that pass's component") {
+TEST_CASE("Z after a layer is its depth, and after a pass the pass's component") {
   CHECK(apart({"Scene.IndexOB.X", "Scene.Z"}) == Texts{"Scene | IndexOB | X", "Scene | Z | "});
   CHECK(apart({"beauty.R", "beauty.Z"}) == Texts{" | beauty | R", "beauty | Z | "});
   CHECK(apart({"Scene.Mist.Z", "Scene.Depth.Z"}) == Texts{"Scene | Mist | Z", "Scene | Depth | Z"});
@@ -79,7 +79,7 @@ TEST_CASE("Z after a layer is its depth, and after a pass that pass's component"
   CHECK(apart({"P.X", "P.Z", "P.R"}) == Texts{" | P | X", " | P | Z", " | P | R"});
 }
 
-TEST_CASE("A part's name is the layer of channels that have none") {
+TEST_CASE("A part's name is the layer of channels without one") {
   CHECK(in_part("Scene", "IndexOB") == "Scene | IndexOB | ");
   CHECK(in_part("Scene", "IndexOB.X") == "Scene | IndexOB | X");
   CHECK(in_part("Scene.IndexOB", "X") == "Scene | IndexOB | X");
@@ -92,7 +92,7 @@ TEST_CASE("A part's name is the layer of channels that have none") {
   CHECK(apart(in_parts({{.name = "only", .channel = "IndexOB.X"}}).front()) == " | IndexOB | X");
 }
 
-TEST_CASE("Several views make a layer each, however they are told") {
+TEST_CASE("Several views make one layer each, however they are declared") {
   const Texts views = {"left", "right"};
   CHECK(one("ViewLayer.IndexOB.left.X", views) == "ViewLayer.left | IndexOB | X");  // Blender 3.4
   CHECK(one("ViewLayer.left.IndexOB.X", views) == "ViewLayer.left | IndexOB | X");  // OpenEXR
@@ -114,21 +114,21 @@ TEST_CASE("Several views make a layer each, however they are told") {
   CHECK(apart(bare[2]) == "bright.right | N | X");
 }
 
-TEST_CASE("One view is none") {
+TEST_CASE("A single view is ignored") {
   const std::vector<ExrChannel> channels = in_parts({{.name = "a", .channel = "S.IndexOB.X", .view = "main"},
                                                      {.name = "b", .channel = "S.Depth.Z", .view = "main"}});
   CHECK(apart(channels[0]) == "S | IndexOB | X");
   CHECK(apart(channels[1]) == "S | Depth | Z");
 }
 
-TEST_CASE("What parts call alike is told apart by their names") {
+TEST_CASE("Equal names in several parts are distinguished by the parts' names") {
   const std::vector<ExrChannel> channels = in_parts({{.name = "one", .channel = "S.IndexOB.X"},
                                                      {.name = "", .channel = "S.IndexOB.X"},
                                                      {.name = "three", .channel = "S.Depth.Z"}});
   CHECK(full_names(channels) == Texts{"one.S.IndexOB.X", "part 1.S.IndexOB.X", "S.Depth.Z"});
 }
 
-TEST_CASE("Passes are known by every spelling in use") {
+TEST_CASE("Passes are recognised by every known spelling") {
   for (const char* name : {"IndexOB", "indexob", "Object Index", "object_index", "OBJECT-INDEX", "ObjectID",
                            "object_id", "Object ID"})
     CHECK(pass_kind_of(name) == PassKind::object_index);
@@ -143,7 +143,7 @@ TEST_CASE("Passes are known by every spelling in use") {
 
 namespace {
 
-/// Name of the one that is taken, of channels of one layer.
+/// Name of the selected channel among those of one layer.
 std::string taken(const Texts& names, PassKind kind, const std::string& axis = "") {
   std::vector<ExrChannel> channels;
   for (const std::string& name : names) channels.emplace_back().name = name;

@@ -36,7 +36,7 @@ struct Exr {
   Path file = folder / "000000.exr";
 };
 
-/// What is wrong with the data of a file, without its name.
+/// The fault of the data of a file, without its name.
 std::string fault_in(const ExrChannels& channels, const std::string& layer = "") {
   const Exr exr(channels);
   const std::string message = message_of<DataError>([&] { (void)exr.read(layer); });
@@ -67,7 +67,7 @@ TEST_CASE("A file without a material index has none") {
   CHECK(Exr({{"Scene.IndexOB.X", kObjects}}).read().material_index.empty());
 }
 
-TEST_CASE("Planes are read only where they are asked for") {
+TEST_CASE("Planes are read only if they are requested") {
   const Exr exr({{"Scene.IndexOB.X", kObjects},
                  {"Scene.Depth.Z", {1, 2, 3, 4, 5, 1e10F}},
                  {"Scene.Normal.X", {0, 0, 0, 0, 0, 0}},
@@ -85,7 +85,7 @@ namespace {
 
 const std::vector<float> kActors = {0, 0, 2, 0, 300, 0};
 
-/// What read_passes makes of the actors of a file, asked for this layer of them; `layer` is that of everything.
+/// Actors that read_passes reads from a file when this layer is requested; `layer` is that of everything.
 std::vector<int> actors_of(const ExrChannels& channels, const std::string& actor_layer,
                            const std::string& layer = "Scene") {
   const Exr exr(channels);
@@ -98,7 +98,7 @@ std::vector<int> actors_of(const ExrChannels& channels, const std::string& actor
 
 }  // namespace
 
-TEST_CASE("Actors alone are read from their layer, if they are asked for") {
+TEST_CASE("Actors alone are read from their layer, if requested") {
   const ExrChannels both = {{"Scene.IndexOB.X", kObjects}, {"Actors.IndexOB.X", kActors}};
   CHECK(actors_of(both, "Actors") == std::vector<int>{0, 0, 2, 0, 300, 0});
   CHECK(actors_of(both, "Actors", "") ==
@@ -114,7 +114,7 @@ TEST_CASE("A frame may lack the layer of actors") {
   CHECK(actors_of({{"Scene.IndexOB.X", kObjects}, {"Actors.Depth.Z", kAnything}}, "Actors").empty());
 }
 
-TEST_CASE("That it has one of another name is a slip of the pen") {
+TEST_CASE("A frame whose actor layer has another name is an error") {
   const Exr exr({{"Scene.IndexOB.X", kObjects}, {"Actors.IndexOB.X", kActors}});
   const auto fault_of = [&](const std::string& actor_layer) {
     return message_of<DataError>([&] {
@@ -141,7 +141,7 @@ TEST_CASE("Indices of actors alone are checked as all are") {
                   ": Actors.IndexOB.X at pixel (0, 0) = 0.5; expected a whole number from 0 to 32767");
 }
 
-TEST_CASE("A plane the terms need must be there") {
+TEST_CASE("A plane that the terms need must exist") {
   const Exr exr({{"Scene.IndexOB.X", kObjects}});
   CHECK(message_of<DataError>([&] {
           (void)read_passes(exr.file, {.layer = "", .actor_layer = "", .width_px = 3, .height_px = 2},
@@ -150,7 +150,7 @@ TEST_CASE("A plane the terms need must be there") {
         exr.file.string() + ": no depth channel, which the chosen terms need; the file has: Scene.IndexOB.X");
 }
 
-TEST_CASE("Other renderers' spellings are understood") {
+TEST_CASE("Other renderers' spellings are recognised") {
   const auto name = GENERATE(as<std::string>{}, "Scene.IndexOB.X", "ViewLayer.IndexOB.X",
                              "RenderLayer.IndexOB.X", "View Layer.IndexOB.X", "ViewLayer.Object Index.V",
                              "IndexOB.X", "IndexOB", "Object Index", "rig.left.IndexOB.Z");
@@ -166,7 +166,7 @@ TEST_CASE("Pixels may be stored as any type the format has") {
         std::vector<int>{0, 1, 2, 3, 300, 2048});
 }
 
-TEST_CASE("Channel names are taken apart") {
+TEST_CASE("Channel names are parsed") {
   const Exr exr({{"Scene.IndexOB.X", kObjects}, {"a.b.Depth", kAnything}, {"Z", kAnything}}, Imf::HALF);
   const ExrHeader header = read_exr_header(exr.file);
   CHECK(header.width_px == 3);
@@ -185,7 +185,7 @@ TEST_CASE("Channel names are taken apart") {
   CHECK(read_exr_channel(exr.file, header, header.channels[1]).at(2, 1) == 0.5F);
 }
 
-TEST_CASE("Compressions are called by their names") {
+TEST_CASE("Compressions have their usual names") {
   const auto [compression, name] = GENERATE(table<Imf::Compression, std::string>(
       {{Imf::NO_COMPRESSION, "none"}, {Imf::RLE_COMPRESSION, "RLE"}, {Imf::PIZ_COMPRESSION, "PIZ"}}));
   const Exr exr({{"IndexOB", kObjects}}, Imf::FLOAT, compression);
@@ -202,16 +202,16 @@ TEST_CASE("With several layers, the manifest says which") {
         "IndexOB is in several layers: Actors, Scene; expected the manifest's \"layer\" to name one");
 }
 
-TEST_CASE("Without an object index the channels there are get listed") {
+TEST_CASE("Without an object index the existing channels are listed") {
   const ExrChannels channels = {{"Scene.Combined.R", kAnything}, {"Scene.Depth.Z", kAnything}};
   CHECK(fault_in(channels) ==
-        "no object index channel; expected one like Scene.IndexOB.X, the file has: "
+        "no object index channel; expected one such as Scene.IndexOB.X; the file has: "
         "Scene.Combined.R, Scene.Depth.Z");
   CHECK(fault_in({{"Scene.IndexOB.X", kObjects}}, "Actors") ==
         "layer = \"Actors\"; expected a layer with an object index: Scene");
 }
 
-TEST_CASE("What is no index is told with its channel and pixel") {
+TEST_CASE("A number that is not an index is reported with its channel and pixel") {
   const std::string where = "Scene.IndexOB.X at pixel (1, 1) = ";
   const std::string rule = "; expected a whole number from 0 to 32767";
   CHECK(fault_of_index(std::numeric_limits<float>::quiet_NaN()) == where + "nan" + rule);
@@ -222,7 +222,7 @@ TEST_CASE("What is no index is told with its channel and pixel") {
   CHECK(fault_of_index(1e-30F) == where + "1e-30" + rule);
 }
 
-TEST_CASE("A bad material index is told too") {
+TEST_CASE("A bad material index is reported too") {
   CHECK(fault_in({{"Scene.IndexOB.X", kObjects}, {"Scene.IndexMA.X", {0, 0, 0.25F, 0, 0, 0}}}) ==
         "Scene.IndexMA.X at pixel (2, 0) = 0.25; expected a whole number from 0 to 32767");
 }
@@ -232,7 +232,7 @@ TEST_CASE("Minus zero is index 0") {
         std::vector<int>(6, 0));
 }
 
-TEST_CASE("A file of another size than the manifest says is a fault") {
+TEST_CASE("A file whose size differs from the manifest's is an error") {
   const Exr exr({{"Scene.IndexOB.X", kObjects}});
   CHECK(message_of<DataError>([&] {
           (void)read_passes(exr.file, {.layer = "", .actor_layer = "", .width_px = 640, .height_px = 512});
@@ -241,12 +241,12 @@ TEST_CASE("A file of another size than the manifest says is a fault") {
             .object_index.size() == 6);  // 0: any size
 }
 
-TEST_CASE("A file that is not there, or no EXR, cannot be read") {
+TEST_CASE("A missing file, or one that is not EXR, cannot be read") {
   const TemporaryFolder folder;
   const Path missing = folder / "missing.exr";
   CHECK(message_of<IoError>([&] {
           (void)read_passes(missing, {.layer = "", .actor_layer = "", .width_px = 3, .height_px = 2});
-        }) == "cannot read " + missing.string() + ": there is no such file");
+        }) == "cannot read " + missing.string() + ": no such file");
   const Path text = folder.file("text.exr", "this is a text, and long enough to hold a header");
   CHECK_THAT(message_of<IoError>([&] {
                (void)read_passes(text, {.layer = "", .actor_layer = "", .width_px = 3, .height_px = 2});
@@ -254,7 +254,7 @@ TEST_CASE("A file that is not there, or no EXR, cannot be read") {
              StartsWith("cannot read " + text.string() + ": "));
 }
 
-TEST_CASE("A file cut short anywhere is an error that names it, never a picture") {
+TEST_CASE("A file truncated anywhere is an error that names it, never a picture") {
   const Exr exr({{"Scene.IndexOB.X", kObjects}});
   const auto bytes = std::filesystem::file_size(exr.file);
   for (auto length = bytes; length-- > 0;) {
@@ -269,7 +269,7 @@ namespace {
 
 const ExrLayout kAnyLayout = {.layer = "", .actor_layer = "", .width_px = 0, .height_px = 0};
 
-/// Planes of a frame of 3 x 2 px with everything there is, which `add` is added to.
+/// Planes of a frame of 3 x 2 px with all planes, to which `add` is added.
 ExrChannels all_planes(float add) {
   ExrChannels channels = {{"Scene.IndexOB.X", kObjects}, {"Scene.IndexMA.X", kMaterials}};
   for (const char* name : {"Scene.Depth.Z", "Scene.Normal.X", "Scene.Normal.Y", "Scene.Normal.Z"})
@@ -286,7 +286,7 @@ bool same(const Passes& a, const Passes& b) {
 
 }  // namespace
 
-TEST_CASE("A buffer holds the frame that was read last, of those that were asked for, in the same memory") {
+TEST_CASE("A buffer holds the requested planes of the last frame, in the same memory") {
   const PassNeeds all = {.depth = true, .normals = true, .actors = false};
   const Exr first(all_planes(0));
   const Exr second(all_planes(1));
@@ -323,7 +323,7 @@ TEST_CASE("A buffer keeps nothing of a frame that could not be read") {
   CHECK(same(buffer.passes, read_passes(good.file, kAnyLayout, all)));
 }
 
-TEST_CASE("A smaller or larger frame than the last is read whole into its buffer") {
+TEST_CASE("A smaller or larger frame than the last is read completely into its buffer") {
   const Exr small(all_planes(0));
   TemporaryFolder folder;
   const Path large = folder / "large.exr";

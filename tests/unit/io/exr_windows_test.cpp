@@ -1,4 +1,4 @@
-/// The picture is the display window: what of it the data window leaves out, and what lies beyond.
+/// The picture is the display window: pixels that the data window lacks, and pixels beyond the display window.
 
 #include <bit>
 #include <cstdint>
@@ -16,7 +16,7 @@ using Imath::Box2i;
 
 namespace {
 
-/// What a pixel holds, by where it is in the plane that windows lie in.
+/// A pixel's value, by its position in the windows' plane.
 float index_at(int x, int y) { return static_cast<float>(1000 + 100 * y + x); }
 float depth_at(int x, int y) { return 0.125F * index_at(x, y); }
 float slope_at(int x, int y) { return -index_at(y, x); }
@@ -55,7 +55,7 @@ void check_plane(const Plane<Pixel>& plane, const Box2i& display, const Box2i& d
   }
 }
 
-/// `buffer` may hold another frame, of which nothing may be left.
+/// `buffer` may hold another frame, of which nothing may remain.
 void check(const Path& file, const Box2i& display, const Box2i& data, PassBuffer& buffer) {
   read_passes(file, {}, {.depth = true, .normals = true}, buffer);
   const Passes& passes = buffer.passes;
@@ -65,7 +65,7 @@ void check(const Path& file, const Box2i& display, const Box2i& data, PassBuffer
   for (const Plane<float>& normal : passes.normal) check_plane(normal, display, data, slope_at, 0);
 }
 
-/// Data windows by where they begin against the display window, and by their size.
+/// Data windows by their position relative to the display window, and by their size.
 const std::vector<Box2i> kData = {
     window(0, 0, 23, 41),    // the whole picture
     window(3, 2, 10, 20),    // within it
@@ -84,7 +84,7 @@ const std::vector<Box2i> kData = {
 
 }  // namespace
 
-TEST_CASE("What the data window leaves out is sky, and what lies beyond the display window is cropped") {
+TEST_CASE("Pixels outside the data window are sky, and those outside the display window are cropped") {
   const auto [left, top] = GENERATE(table<int, int>({{0, 0}, {-100, 7}, {1000, -3}}));
   const auto tiled = GENERATE(false, true);
   const auto compression = GENERATE(Imf::NO_COMPRESSION, Imf::ZIP_COMPRESSION);
@@ -114,7 +114,7 @@ TEST_CASE("Tiles may be larger than the picture and its data") {
   }
 }
 
-TEST_CASE("Every part has a data window of its own") {
+TEST_CASE("Every part has its own data window") {
   const TemporaryFolder folder;
   const Box2i display = window(10, 10, 6, 5);
   const Box2i depth = window(12, 9, 9, 3);
@@ -133,7 +133,7 @@ TEST_CASE("Every part has a data window of its own") {
   check_plane(passes.depth_m, display, depth, depth_at, 1e10F);
 }
 
-TEST_CASE("Channels for other readers have what they say outside the data window") {
+TEST_CASE("Channels for other readers have the requested value outside the data window") {
   const TemporaryFolder folder;
   const Box2i display = window(0, 0, 3, 2);
   exr_forms::write(folder / "f.exr", {part_of(display, window(1, 1, 1, 1))});

@@ -57,14 +57,14 @@ class Holder {
 
 }  // namespace
 
-TEST_CASE("A file is read whole, whatever is in it") {
+TEST_CASE("A file is read completely, whatever it contains") {
   const TemporaryFolder folder;
   const std::string content("a\0b\r\n\xFF", 6);
   CHECK(read_file(folder.file("data", content)) == content);
   CHECK(read_file(folder.file("empty", "")).empty());
 }
 
-TEST_CASE("What cannot be read is named, with the system's reason") {
+TEST_CASE("An unreadable file is named, with the system's reason") {
   const TemporaryFolder folder;
   const Path missing = folder / "missing.json";
   CHECK(message_of<IoError>([&] { (void)read_file(missing); }) ==
@@ -81,7 +81,7 @@ TEST_CASE("Writing atomically leaves the file, and nothing beside it") {
   CHECK(entries_of(folder.path()) == 1);
 }
 
-TEST_CASE("What cannot be written is named, and the old file stays") {
+TEST_CASE("An unwritable file is named, and the old file stays") {
   const TemporaryFolder folder;
   const Path nowhere = folder / "no/folder/data.json";
   CHECK_THAT(message_of<IoError>([&] { write_file_atomically(nowhere, "x"); }),
@@ -93,14 +93,14 @@ TEST_CASE("What cannot be written is named, and the old file stays") {
   CHECK(std::filesystem::is_directory(taken / "by"));
 }
 
-TEST_CASE("A full disk means: try again later") {
+TEST_CASE("A full disk is a TryAgainError") {
   if (!std::filesystem::exists("/dev/full")) return;  // Linux has it
   const std::string text = "x";
   CHECK(message_of<TryAgainError>([&] { write_file("/dev/full", std::as_bytes(std::span(text))); }) ==
         "cannot write /dev/full: No space left on device");
 }
 
-TEST_CASE("Folders are made with those above them; a file in the way is a fault") {
+TEST_CASE("Folders are created with their parents; a file in the way is an error") {
   const TemporaryFolder folder;
   make_folder(folder / "a/b/c");
   make_folder(folder / "a/b/c");
@@ -110,14 +110,14 @@ TEST_CASE("Folders are made with those above them; a file in the way is a fault"
         "cannot make folder " + (folder / "file/below").string() + ": Not a directory");
 }
 
-TEST_CASE("One process at a time holds a folder") {
+TEST_CASE("One process at a time locks a folder") {
   const TemporaryFolder folder;
   const Path data = folder / "data";
   Holder holder(data);
   CHECK(message_of<TryAgainError>([&] { const FolderLock second(data); }) ==
         data.string() + " is in use by another run of veldt; try again when that one has ended");
   holder.kill();
-  CHECK_NOTHROW(FolderLock(data));  // a dead process holds nothing
+  CHECK_NOTHROW(FolderLock(data));  // a terminated process holds nothing
 }
 
 TEST_CASE("A folder is free again when its lock ends") {
@@ -138,20 +138,20 @@ TEST_CASE("Runs share a folder as long as their places differ") {
   CHECK(message_of<TryAgainError>([&] { const FolderLock all(folder.path()); }) == in_use);
 }
 
-TEST_CASE("A folder that is one run's alone has no places for others, nor for a run without places") {
+TEST_CASE("A folder locked by one run has no places for others, nor for a run without places") {
   const TemporaryFolder folder;
   const FolderLock all(folder.path());
   CHECK_THROWS_AS(FolderLock(folder.path(), {7}), TryAgainError);
   CHECK_THROWS_AS(FolderLock(folder.path(), {}), TryAgainError);
 }
 
-TEST_CASE("A run without places keeps others from having the folder alone") {
+TEST_CASE("A run without places prevents others from locking the whole folder") {
   const TemporaryFolder folder;
   const FolderLock without_places(folder.path(), {});
   CHECK_THROWS_AS(FolderLock(folder.path()), TryAgainError);
 }
 
-TEST_CASE("Runs that share a folder take turns, and a fault ends one") {
+TEST_CASE("Runs that share a folder take turns, and an exception ends a turn") {
   const TemporaryFolder folder;
   const FolderLock first(folder.path(), {0});
   const FolderLock second(folder.path(), {1});
@@ -168,14 +168,14 @@ TEST_CASE("Runs that share a folder take turns, and a fault ends one") {
   CHECK(value == 0);
 }
 
-TEST_CASE("A file system has some room, and a place that is not there none to tell") {
+TEST_CASE("A file system has some free space, and a missing place reports none") {
   CHECK(room_left_bytes("/") >= 0);
   CHECK(room_left_bytes("/proc") == 0);
   CHECK(message_of<IoError>([] { (void)room_left_bytes("/nowhere"); }) ==
-        "cannot tell the room left in /nowhere: No such file or directory");
+        "cannot get the free disk space of /nowhere: No such file or directory");
 }
 
-TEST_CASE("Only a file is a file: what would be waited for, or read without end, is refused") {
+TEST_CASE("Only regular files are read: anything that would block or never end is refused") {
   const TemporaryFolder folder;
   const auto fault_of = [](const Path& file) { return message_of<IoError>([&] { check_is_file(file); }); };
   write_file(folder / "file", {});
@@ -183,9 +183,8 @@ TEST_CASE("Only a file is a file: what would be waited for, or read without end,
   CHECK_NOTHROW(check_is_file(folder / "file"));
   CHECK_NOTHROW(check_is_file(folder / "link"));
   const std::string name = "cannot read " + (folder / "x").string() + ": ";
-  CHECK(fault_of(folder / "x") == name + "there is no such file");
-  CHECK(fault_of(folder / "file/x") ==
-        "cannot read " + (folder / "file/x").string() + ": there is no such file");
+  CHECK(fault_of(folder / "x") == name + "no such file");
+  CHECK(fault_of(folder / "file/x") == "cannot read " + (folder / "file/x").string() + ": no such file");
   std::filesystem::create_symlink("x", folder / "x");
   CHECK(fault_of(folder / "x") == name + "Too many levels of symbolic links");
   std::filesystem::remove(folder / "x");
@@ -197,7 +196,7 @@ TEST_CASE("Only a file is a file: what would be waited for, or read without end,
   CHECK(fault_of("/dev/zero") == "cannot read /dev/zero: it is a pipe or a device; expected a file");
 }
 
-TEST_CASE("A file that is written takes a link's place, under both its names, and what links lead to stays") {
+TEST_CASE("Writing a file replaces links of either name, and their targets stay unchanged") {
   const TemporaryFolder folder;
   write_file_atomically(folder / "kept", "kept");
   for (const char* name : {"file", "file.tmp"}) {
@@ -212,7 +211,7 @@ TEST_CASE("A file that is written takes a link's place, under both its names, an
   CHECK_FALSE(std::filesystem::exists(folder / "nowhere"));
 }
 
-TEST_CASE("Nothing half written is left of a file that cannot be written") {
+TEST_CASE("No partial file is left if a file cannot be written") {
   const TemporaryFolder folder;
   make_folder(folder / "file/in the way");
   CHECK(message_of<IoError>([&] { write_file_atomically(folder / "file", "new"); }) ==
@@ -225,6 +224,6 @@ TEST_CASE("A lock that is a link to elsewhere is refused") {
   std::filesystem::create_symlink("elsewhere", folder / ".lock");
   CHECK(message_of<IoError>([&] { const FolderLock lock(folder.path()); }) ==
         (folder / ".lock").string() +
-            " = a link to elsewhere; expected no link, because nothing is written to other places");
+            " = a link to elsewhere; expected a path that is not a link; nothing is written to other places");
   CHECK_FALSE(std::filesystem::exists(folder / "elsewhere"));
 }

@@ -23,7 +23,7 @@ ManifestObject object(std::uint16_t index, std::optional<Colour> colour = {}) {
   return object;
 }
 
-/// Ground and an actor, told by numbers.
+/// Ground and an actor, identified by numbers.
 Manifest numbered(int width_px = 3, int height_px = 2) {
   Manifest manifest;
   manifest.camera = {
@@ -32,7 +32,7 @@ Manifest numbered(int width_px = 3, int height_px = 2) {
   return manifest;
 }
 
-/// The same told by colours: ground brown, the actor red, the sky blue.
+/// The same, identified by colours: ground brown, the actor red, the sky blue.
 Manifest coloured(int width_px = 3, int height_px = 2) {
   Manifest manifest = numbered(width_px, height_px);
   manifest.objects = {object(1, Colour{90, 60, 30}), object(7, Colour{255, 0, 0})};
@@ -94,7 +94,7 @@ using Indices = std::vector<std::uint16_t>;
 
 }  // namespace
 
-TEST_CASE("Pictures are told by their names") {
+TEST_CASE("Pictures are recognised by their names") {
   CHECK(is_index_picture("a/000000.png"));
   CHECK(is_index_picture("a/000000.PNG"));
   CHECK_FALSE(is_index_picture("a/000000.exr"));
@@ -117,7 +117,7 @@ TEST_CASE("Numbers of fewer bits are not stretched") {
   CHECK(Png(grey({'\x7F', '\x10', '\x01', '\x80'}, 4)).read(numbered()) == Indices{7, 15, 1, 0, 1, 8});
 }
 
-TEST_CASE("A gamma changes no number") {
+TEST_CASE("A gamma changes no index") {
   PngPicture picture = grey({'\0', '\1', '\7', '\x7F', '\x80', '\xFF'});
   picture.gamma_100000 = 45455;
   CHECK(Png(picture).read(numbered()) == Indices{0, 1, 7, 127, 128, 255});
@@ -131,7 +131,7 @@ TEST_CASE("Colours are those of the objects and of the sky") {
         Indices{0, 1, 7, 7, 0, 1});
 }
 
-TEST_CASE("A palette's colours are looked up, whatever its depth") {
+TEST_CASE("A palette's colours are looked up, at any bit depth") {
   PngPicture picture = {.width_px = 3,
                         .height_px = 2,
                         .bit_depth = 8,
@@ -178,7 +178,7 @@ TEST_CASE("A picture may be one pixel, or one wide, or one high") {
   }
 }
 
-TEST_CASE("What is transparent is sky, and colours beneath an opaque alpha are kept") {
+TEST_CASE("Transparent pixels are sky, and colours with opaque alpha are kept") {
   const std::string opaque = "\xFF";
   const std::string clear(1, '\0');
   CHECK(Png(colours(kActor + opaque + kActor + clear + kGround + opaque + "abc" + clear + kSky + opaque +
@@ -198,21 +198,21 @@ TEST_CASE("What is transparent is sky, and colours beneath an opaque alpha are k
   CHECK(Png(palette).read(coloured()) == Indices{0, 1, 7, 7, 1, 0});
 }
 
-TEST_CASE("A pixel that is transparent in part is a fault") {
+TEST_CASE("A partly transparent pixel is an error") {
   const std::string opaque = "\xFF";
   const std::string edge = "\x80";
   CHECK(Png(colours(kActor + opaque + kActor + opaque + kGround + opaque + kSky + opaque + kActor + edge +
                         kSky + edge,
                     true))
             .fault(coloured()) ==
-        "alpha at pixel (1, 1) = 128; expected 0 (sky) or 255: a pixel is one object's");
+        "alpha at pixel (1, 1) = 128; expected 0 (sky) or 255, because a pixel belongs to one object");
   PngPicture deep = grey(std::string(20, '\0') + "\1\2\3\4", 16);
   deep.colour_type = 4;
   CHECK(Png(deep).fault(numbered()) ==
-        "alpha at pixel (2, 1) = 772; expected 0 (sky) or 65535: a pixel is one object's");
+        "alpha at pixel (2, 1) = 772; expected 0 (sky) or 65535, because a pixel belongs to one object");
 }
 
-TEST_CASE("Grey is a colour where objects have colours") {
+TEST_CASE("Grey is a colour if objects have colours") {
   Manifest manifest = coloured();
   manifest.objects[0].colour = Colour{9, 9, 9};
   manifest.sky_colour = {0, 0, 0};
@@ -225,7 +225,7 @@ TEST_CASE("Grey is a colour where objects have colours") {
         Indices{0, 0, 0, 0, 0, 9});  // only numbers have 16 bits
 }
 
-TEST_CASE("A colour of nothing is a fault that says where, how often and what is near") {
+TEST_CASE("An unknown colour is an error with place, number and the nearest ones") {
   const std::string edge = {'\xF0', '\x01', '\x02'};
   CHECK(Png(colours(kSky + kGround + edge + edge + "abc" + edge)).fault(coloured()) ==
         "colour at pixel (2, 0) = #f00102 (240, 1, 2) (3 pixels); expected an object's or the sky's; did you "
@@ -233,36 +233,36 @@ TEST_CASE("A colour of nothing is a fault that says where, how often and what is
         "(255, 0, 0)?");
 }
 
-TEST_CASE("Colours that nothing in the manifest has are a fault") {
+TEST_CASE("Colours without any in the manifest are an error") {
   CHECK(Png(colours(kSky + kGround + kActor + kActor + kSky + kGround)).fault(numbered()) ==
         "a picture of colours; expected objects[].colour in the manifest, or a grey picture of indices");
 }
 
-TEST_CASE("Colours of 16 bits are a fault") {
+TEST_CASE("Colours with 16 bits are an error") {
   PngPicture picture = colours(std::string(36, '\0'));
   picture.bit_depth = 16;
-  CHECK(Png(picture).fault(coloured()) == "bits a channel = 16; expected 8 in a picture of colours");
+  CHECK(Png(picture).fault(coloured()) == "bits per channel = 16; expected 8 in a picture of colours");
 }
 
-TEST_CASE("A number that is no index is a fault") {
+TEST_CASE("A number that is not an index is an error") {
   CHECK(Png(grey({'\0', '\0', '\0', '\1', '\x80', '\0', '\0', '\0', '\0', '\0', '\0', '\0'}, 16))
             .fault(numbered()) == "index at pixel (2, 0) = 32768; expected a whole number from 0 to 32767");
 }
 
-TEST_CASE("Two of one colour are a fault") {
+TEST_CASE("Two objects of one colour are an error") {
   const auto fault_of = [](const Manifest& manifest) {
     return message_of<DataError>([&] { (void)IndexPictures(manifest); });
   };
   Manifest manifest = coloured();
   manifest.objects[1].colour = manifest.objects[0].colour;
   CHECK(fault_of(manifest) ==
-        "objects[1].colour = #5a3c1e (90, 60, 30); expected another colour than objects[0].colour");
+        "objects[1].colour = #5a3c1e (90, 60, 30); expected a colour other than objects[0].colour");
   manifest.objects[1].colour = Colour{0, 0, 255};
   CHECK(fault_of(manifest) ==
-        "objects[1].colour = #0000ff (0, 0, 255); expected another colour than sky_colour");
+        "objects[1].colour = #0000ff (0, 0, 255); expected a colour other than sky_colour");
 }
 
-TEST_CASE("Planes that a picture cannot have are a fault where they are needed") {
+TEST_CASE("Planes that a picture cannot have are an error if they are needed") {
   const Png png(grey({'\0', '\1', '\7', '\1', '\1', '\1'}));
   CHECK(png.fault(numbered(), {.depth = true, .normals = true, .actors = false}) ==
         "no depth channel, which the chosen terms need; a picture of indices or colours has no other plane");
@@ -273,7 +273,7 @@ TEST_CASE("Planes that a picture cannot have are a fault where they are needed")
             .actor_index.empty());
 }
 
-TEST_CASE("A picture of another size is a fault, with supersampling and overscan in the count") {
+TEST_CASE("A picture of another size is an error that accounts for supersampling and overscan") {
   const Png png(grey({'\0', '\1', '\7', '\1', '\1', '\1'}));
   CHECK(png.fault(numbered(2, 2)) == "size = 3 x 2 px; expected the manifest's 2 x 2 px");
   Manifest finer = numbered();
@@ -282,24 +282,24 @@ TEST_CASE("A picture of another size is a fault, with supersampling and overscan
   CHECK(png.fault(finer) == "size = 3 x 2 px; expected the manifest's 10 x 8 px");
 }
 
-TEST_CASE("What a head claims is judged before memory is taken for it") {
+TEST_CASE("A header's claims are checked before memory is allocated") {
   PngPicture picture = grey({'\0', '\1', '\7', '\1', '\1', '\1'});
-  CHECK(Png(picture).fault(numbered(), {}, {.pixels = 5}) == "size = 3 x 2 px; expected 5 pixels at most");
+  CHECK(Png(picture).fault(numbered(), {}, {.pixels = 5}) == "size = 3 x 2 px; expected at most 5 pixels");
   picture.width_px = picture.height_px = 0x7FFFFFFF;
   const Png huge(picture);
   CHECK(huge.fault(numbered()) == "size = 2147483647 x 2147483647 px; expected the manifest's 3 x 2 px");
   const auto fault_of_survey = [](const Png& png) {
     return png.without_name(message_of<DataError>([&] { (void)survey_picture(png.file); }));
   };
-  CHECK(fault_of_survey(huge) == "size = 2147483647 x 2147483647 px; expected 256000000 pixels at most");
+  CHECK(fault_of_survey(huge) == "size = 2147483647 x 2147483647 px; expected at most 256000000 pixels");
   picture.width_px = picture.height_px = 16000;
   const std::string bytes = png_bytes::encode(picture);
   CHECK(fault_of_survey(Png(bytes)) ==
         fmt::format("pixels = 256000000 bytes; expected what a file of {} bytes can hold", bytes.size()));
 }
 
-TEST_CASE("Files that are no PNG are faults, whatever they are called") {
-  const std::string fault = "no PNG, or its head is damaged";
+TEST_CASE("Files that are not PNG are errors, whatever their names") {
+  const std::string fault = "not a PNG file, or its header is damaged";
   const std::string good = png_bytes::encode(grey({'\0', '\1', '\7', '\1', '\1', '\1'}));
   CHECK(Png(std::string()).fault(numbered()) == fault);
   CHECK(Png(std::string("\xFF\xD8\xFF\xE0 a JPEG that is long enough to have a head")).fault(numbered()) ==
@@ -322,7 +322,7 @@ TEST_CASE("Files that are no PNG are faults, whatever they are called") {
 
 namespace {
 
-/// Every number there is, several times, in rows that filters do something to.
+/// All possible numbers, several times, in rows on which filters have an effect.
 PngPicture busy(int colour_type, int bit_depth, std::size_t channels) {
   PngPicture picture = {.width_px = 37, .height_px = 29, .bit_depth = bit_depth, .colour_type = colour_type};
   std::uint32_t state = 1;
@@ -334,7 +334,7 @@ PngPicture busy(int colour_type, int bit_depth, std::size_t channels) {
   return picture;
 }
 
-/// All that is in a picture, row by row.
+/// All pixels of a picture, row by row.
 std::vector<int> numbers_in(const Png& png) {
   std::vector<int> numbers;
   PngFile file(png.file);
@@ -349,7 +349,7 @@ std::vector<int> numbers_in(const Png& png) {
 
 }  // namespace
 
-TEST_CASE("Filters are undone, whatever the pixels are") {
+TEST_CASE("Filters are reversed, whatever the pixels are") {
   for (const auto& [colour_type, bit_depth, channels] :
        {std::tuple(0, 8, 1U), {0, 16, 1U}, {2, 8, 3U}, {4, 8, 2U}, {4, 16, 2U}, {6, 8, 4U}}) {
     PngPicture picture = busy(colour_type, bit_depth, channels);
@@ -367,7 +367,7 @@ TEST_CASE("Filters are undone, whatever the pixels are") {
   }
 }
 
-TEST_CASE("What this program's own encoder writes is read") {
+TEST_CASE("The output of Veldt's own encoder is read") {
   Plane<std::uint16_t> picture(257, 64);
   for (std::size_t i = 0; i < picture.size(); ++i)
     picture.pixels()[i] = static_cast<std::uint16_t>(i * 2 % 32768);
@@ -376,7 +376,7 @@ TEST_CASE("What this program's own encoder writes is read") {
   CHECK(IndexPictures(numbered(257, 64)).read(folder / "own.png", {}).object_index == picture);
 }
 
-TEST_CASE("One grey or colour may be the transparent one") {
+TEST_CASE("One grey or colour may be transparent") {
   PngPicture picture = grey({'\0', '\1', '\7', '\7', '\1', '\0'});
   picture.transparency = {'\0', '\7'};
   CHECK(Png(picture).read(numbered()) == Indices{0, 1, 0, 0, 1, 0});
@@ -385,7 +385,7 @@ TEST_CASE("One grey or colour may be the transparent one") {
   CHECK(Png(in_colours).read(coloured()) == Indices{0, 1, 7, 0, 0, 0});
 }
 
-TEST_CASE("A picture that ends too soon is never a picture") {
+TEST_CASE("A truncated picture is never read as a picture") {
   std::string samples;
   for (int i = 0; i < 64 * 64; ++i) samples.push_back(static_cast<char>(i % 2));
   PngPicture picture = grey(samples);
@@ -398,7 +398,7 @@ TEST_CASE("A picture that ends too soon is never a picture") {
   }
 }
 
-TEST_CASE("A damaged picture is a fault that says what is wrong with it") {
+TEST_CASE("A damaged picture is an error that says what is wrong with it") {
   const PngPicture usual = grey({'\0', '\1', '\7', '\1', '\1', '\1'});
   const auto fault_of = [](const std::string& bytes) { return Png(bytes).fault(numbered()); };
   const auto fault_of_stream = [&](const std::string& stream) {
@@ -422,7 +422,7 @@ TEST_CASE("A damaged picture is a fault that says what is wrong with it") {
         "damaged: bad adaptive filter value");
 }
 
-TEST_CASE("A palette that cannot be meant is a fault") {
+TEST_CASE("An invalid palette is an error") {
   PngPicture picture = {.width_px = 3,
                         .height_px = 2,
                         .bit_depth = 8,
@@ -438,7 +438,7 @@ TEST_CASE("A palette that cannot be meant is a fault") {
   CHECK(Png(picture).fault(coloured()) == "damaged: PLTE: invalid");
 }
 
-TEST_CASE("Chunks that nobody needs are left out, others are a fault") {
+TEST_CASE("Ancillary chunks are skipped, unknown critical ones are an error") {
   const std::string bytes = png_bytes::encode(grey({'\0', '\1', '\7', '\1', '\1', '\1'}));
   const auto with = [&](const std::string& chunk) {
     return Png(bytes.substr(0, 33) + chunk + bytes.substr(33));
@@ -455,13 +455,13 @@ TEST_CASE("Chunks that nobody needs are left out, others are a fault") {
   CHECK(with(std::string("\x03\xFF\xFF\xFFzTXtx")).fault(numbered()) == "damaged: the file ends too soon");
 }
 
-TEST_CASE("A file that cannot be opened is a fault that names it") {
+TEST_CASE("A file that cannot be opened is an error that names it") {
   const TemporaryFolder folder;
   const auto fault_of = [](const Path& file) {
     return message_of<IoError>([&] { (void)survey_picture(file); });
   };
   CHECK(fault_of(folder / "none.png") ==
-        fmt::format("cannot read {}: there is no such file", (folder / "none.png").string()));
+        fmt::format("cannot read {}: no such file", (folder / "none.png").string()));
   std::filesystem::create_directory(folder / "folder.png");
   CHECK(fault_of(folder / "folder.png") ==
         fmt::format("cannot read {}: it is a folder; expected a file", (folder / "folder.png").string()));
@@ -480,7 +480,7 @@ TEST_CASE("A survey counts numbers") {
   CHECK(survey_picture(Png(grey(std::string(12, '\1'), 16)).file).kind == PictureKind::grey16);
 }
 
-TEST_CASE("A survey counts colours, and apart from them what is transparent") {
+TEST_CASE("A survey counts colours, and transparent pixels separately") {
   const std::string opaque = "\xFF";
   const std::string clear = "\x10";
   const PictureSurvey survey =
@@ -498,7 +498,7 @@ TEST_CASE("A survey counts colours, and apart from them what is transparent") {
   CHECK(survey.uses[2].colour == Colour{90, 60, 30});
 }
 
-TEST_CASE("A survey of a photograph has an end") {
+TEST_CASE("A survey of a photograph is limited") {
   std::string samples;
   for (int i = 0; i < 300 * 300; ++i)
     samples += {static_cast<char>(i), static_cast<char>(i >> 8), static_cast<char>(i >> 16)};

@@ -42,7 +42,7 @@ const Json kSchema = parse_json(R"({
 })",
                                 "schema");
 
-/// Faults of a document that has a name and `members` besides.
+/// Faults of a document with a name and `members`.
 Faults faults_in(const std::string& members) {
   Json document = parse_json(R"({"name": "n")" + (members.empty() ? "" : ", " + members) + "}", "document");
   return check_and_fill(document, kSchema);
@@ -50,7 +50,7 @@ Faults faults_in(const std::string& members) {
 
 }  // namespace
 
-TEST_CASE("A document that fits has no faults") {
+TEST_CASE("A valid document has no faults") {
   CHECK(faults_in("").empty());
   CHECK(faults_in(R"("frames": 100, "speed_m_s": 0.1, "tilt_deg": -90, "loud": true, "season": "summer",
                      "version": 1, "code": "x1", "area_m": [0, 0, 1, 1], "clips": [{"id": "a"}],
@@ -58,7 +58,7 @@ TEST_CASE("A document that fits has no faults") {
             .empty());
 }
 
-TEST_CASE("An unknown key is a fault that lists the known ones and the nearest") {
+TEST_CASE("An unknown key is reported with the known ones and the nearest") {
   Json document = parse_json(R"({"lenght_m": 1})", "");
   CHECK(check_and_fill(document, kSchema["properties"]["paths"]["additionalProperties"]) ==
         Faults{"lenght_m is not a known key; expected one of length_m; did you mean \"length_m\"?"});
@@ -69,14 +69,13 @@ TEST_CASE("An unknown key is a fault that lists the known ones and the nearest")
                  EndsWith("; did you mean \"season\"?"));
 }
 
-TEST_CASE("A missing key is a fault") {
+TEST_CASE("A missing key is reported") {
   Json document = Json::object();
-  CHECK(check_and_fill(document, kSchema) == Faults{"name is missing; expected it to be given"});
-  CHECK(faults_in(R"("clips": [{"id": "a"}, {}])") ==
-        Faults{"clips[1].id is missing; expected it to be given"});
+  CHECK(check_and_fill(document, kSchema) == Faults{"name is missing; expected a value"});
+  CHECK(faults_in(R"("clips": [{"id": "a"}, {}])") == Faults{"clips[1].id is missing; expected a value"});
 }
 
-TEST_CASE("A value of the wrong type is a fault that says which type it is") {
+TEST_CASE("A value of the wrong type is reported with the right types") {
   CHECK(faults_in(R"("frames": "12")") == Faults{"frames = \"12\"; expected a whole number"});
   CHECK(faults_in(R"("frames": 1.5)") == Faults{"frames = 1.5; expected a whole number"});
   CHECK(faults_in(R"("speed_m_s": null)") == Faults{"speed_m_s = null; expected a number"});
@@ -98,13 +97,13 @@ TEST_CASE("A value may be of several types, each with its own rules") {
         Faults{"spacing_m = a list of 3; expected at most 2 entries"});
 }
 
-TEST_CASE("A whole number may be written with a point") {
+TEST_CASE("A whole number may be written with a decimal point") {
   CHECK(faults_in(R"("frames": 12.0)").empty());
   CHECK(faults_in(R"("frames": 1e300)") ==
-        Faults{"frames = 1e+300; expected a whole number"});  // not one a double tells from its neighbours
+        Faults{"frames = 1e+300; expected a whole number"});  // too large for a double to count by one
 }
 
-TEST_CASE("A value out of range is a fault with its unit and the whole rule") {
+TEST_CASE("A value out of range is reported with its unit and the whole rule") {
   CHECK(faults_in(R"("speed_m_s": 0)") ==
         Faults{"speed_m_s = 0 m/s; expected more than 0 and at most 30 m/s"});
   CHECK(faults_in(R"("speed_m_s": 31.5)") ==
@@ -114,39 +113,39 @@ TEST_CASE("A value out of range is a fault with its unit and the whole rule") {
   CHECK(faults_in(R"("frames": 101)") == Faults{"frames = 101; expected at least 1 and at most 100"});
 }
 
-TEST_CASE("A value that is none of the choices is a fault, with the nearest of them") {
+TEST_CASE("A value that is not among the choices is reported with the nearest") {
   CHECK(faults_in(R"("season": "sumer")") ==
         Faults{"season = \"sumer\"; expected one of winter, summer; did you mean \"summer\"?"});
   CHECK(faults_in(R"("season": "Autumn")") == Faults{"season = \"Autumn\"; expected one of winter, summer"});
   CHECK(faults_in(R"("version": 2)") == Faults{"version = 2; expected 1"});
 }
 
-TEST_CASE("A text that does not match is a fault in words, or with the pattern") {
+TEST_CASE("A string that does not match is reported in words, or with the pattern") {
   Json document = parse_json(R"({"name": "two words"})", "");
   CHECK(check_and_fill(document, kSchema) ==
         Faults{"name = \"two words\"; expected letters, digits, _ and - only"});
-  CHECK(faults_in(R"("code": "y")") == Faults{"code = \"y\"; expected text like ^x"});
+  CHECK(faults_in(R"("code": "y")") == Faults{"code = \"y\"; expected text that matches ^x"});
 }
 
-TEST_CASE("A list too short or too long is a fault") {
+TEST_CASE("A list that is too short or too long is reported") {
   CHECK(faults_in(R"("area_m": [1, 2, 3])") == Faults{"area_m = a list of 3; expected 4 entries"});
   CHECK(faults_in(R"("clips": [])") == Faults{"clips = a list of 0; expected at least 1 entries"});
   CHECK(faults_in(R"("clips": [{"id": "a"}, {"id": "b"}, {"id": "c"}, {"id": "d"}])") ==
         Faults{"clips = a list of 4; expected at most 3 entries"});
 }
 
-TEST_CASE("Faults inside lists are told by entry, and all of them at once") {
+TEST_CASE("Faults inside lists are reported by entry, and all of them at once") {
   CHECK(faults_in(R"("area_m": [0, "1", 2, true], "frames": -1)") ==
         Faults{"area_m[1] = \"1\"; expected a number", "area_m[3] = true; expected a number",
                "frames = -1; expected at least 1 and at most 100"});
 }
 
-TEST_CASE("A long value is cut in its fault") {
+TEST_CASE("A long value is shortened in its message") {
   const std::string fault = faults_in("\"season\": \"" + std::string(200, 'w') + "\"").at(0);
   CHECK(fault == "season = \"" + std::string(59, 'w') + "…; expected one of winter, summer");
 }
 
-TEST_CASE("Defaults are filled in at every depth, and leave what is there") {
+TEST_CASE("Defaults are filled in at every depth, and existing values stay") {
   Json document = parse_json(R"({"name": "n", "clips": [{"id": "a"}, {"id": "b", "frames": 4}],
                                  "paths": {"loop": {}}})",
                              "");
@@ -166,7 +165,7 @@ TEST_CASE("Filling in defaults twice changes nothing") {
   CHECK(twice.dump() == once.dump());
 }
 
-TEST_CASE("The unit is the longest suffix that is one") {
+TEST_CASE("The unit is that of the longest matching suffix") {
   CHECK(unit_of_key("speed_m_s") == "m/s");
   CHECK(unit_of_key("start_s") == "s");
   CHECK(unit_of_key("size_m") == "m");
@@ -178,10 +177,10 @@ TEST_CASE("The unit is the longest suffix that is one") {
   CHECK(unit_of_key("").empty());
 }
 
-TEST_CASE("What a schema refers to is checked and filled where it is meant") {
+TEST_CASE("A schema's references are resolved, checked and filled in") {
   CHECK(faults_in(R"("first": {"turn_deg": "x"}, "later": [{"to": "a"}, {}])") ==
-        Faults{"first.turn_deg = \"x\"; expected a number", "first.to is missing; expected it to be given",
-               "later[1].to is missing; expected it to be given"});
+        Faults{"first.turn_deg = \"x\"; expected a number", "first.to is missing; expected a value",
+               "later[1].to is missing; expected a value"});
   Json document = parse_json(R"({"name": "n", "later": [{"to": "a"}]})", "");
   CHECK(check_and_fill(document, kSchema).empty());
   CHECK(document["later"][0]["turn_deg"] == 4);

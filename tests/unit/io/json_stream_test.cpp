@@ -34,7 +34,7 @@ const Json kDocument = {
 
 }  // namespace
 
-TEST_CASE("A document written by elements is the one written at once") {
+TEST_CASE("A document written element by element equals one written at once") {
   for (const std::size_t arrays : {1U, 2U, 3U}) {
     CAPTURE(arrays);
     CHECK(streamed(kDocument, arrays, JsonLayout::indented) == to_text(kDocument));

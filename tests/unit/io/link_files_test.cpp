@@ -7,7 +7,7 @@
 
 using namespace thermal;
 
-TEST_CASE("A file gets a second place as is asked") {
+TEST_CASE("A file gets a second location as requested") {
   const TemporaryFolder folder;
   const Path file = folder.file("a", "what it holds");
   for (const Linking linking : {Linking::hard, Linking::symlink, Linking::copy}) {
@@ -19,7 +19,7 @@ TEST_CASE("A file gets a second place as is asked") {
   }
 }
 
-TEST_CASE("What is linked is the file itself, not a symbolic link to it, which may go") {
+TEST_CASE("The file itself is linked, not a symbolic link to it, which may be removed") {
   const TemporaryFolder folder;
   const Path file = folder.file("a", "x");
   std::filesystem::create_symlink("a", folder / "link");
@@ -33,7 +33,7 @@ TEST_CASE("What is linked is the file itself, not a symbolic link to it, which m
   CHECK(std::filesystem::read_symlink(folder / "new" / "1").is_absolute());
 }
 
-TEST_CASE("Where there can be no hard link there is a copy") {
+TEST_CASE("Without hard links the file is copied") {
   const TemporaryFolder folder;
   const Path file = folder.file("a", "new");
   const Path as = folder.file("b", "old");  // a link would not replace it
@@ -41,7 +41,7 @@ TEST_CASE("Where there can be no hard link there is a copy") {
   CHECK(read_file(as) == "new");
 }
 
-TEST_CASE("A file that there is not") {
+TEST_CASE("A missing file is an error") {
   const TemporaryFolder folder;
   const std::string name = (folder / "none").string();
   CHECK(message_of<IoError>([&] { link_file(name, folder / "b", Linking::hard); }) ==

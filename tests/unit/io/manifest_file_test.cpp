@@ -36,7 +36,7 @@ std::string fault_in(const Json& document) {
 
 }  // namespace
 
-TEST_CASE("A manifest is read into what it says") {
+TEST_CASE("All fields of a manifest are read") {
   const TemporaryFolder folder;
   const Manifest manifest = read_manifest(folder.file("manifest.json", example().dump()), VELDT_SOURCE_DIR);
   CHECK(manifest.clip == "night_1");
@@ -65,7 +65,7 @@ TEST_CASE("A manifest is read into what it says") {
   CHECK(manifest.frames[1].actors.empty());
 }
 
-TEST_CASE("Passes can be finer than the camera and reach further") {
+TEST_CASE("Passes can be finer than the camera and extend further") {
   Json document = example();
   document["supersample"] = 2;
   document["overscan_px"] = 12;
@@ -75,7 +75,7 @@ TEST_CASE("Passes can be finer than the camera and reach further") {
   CHECK(manifest.overscan_px == 12);
 }
 
-TEST_CASE("What a manifest must not say is told, and where") {
+TEST_CASE("Faults of a manifest are reported with their place") {
   Json document = example();
   SECTION("an index past Blender's largest") {
     document["objects"][0]["index"] = 32768;
@@ -94,7 +94,7 @@ TEST_CASE("What a manifest must not say is told, and where") {
     document["frames"][1]["file"] = "../000001.exr";
     CHECK_THAT(fault_in(document), StartsWith("frames[1].file = \"../000001.exr\"; expected "));
   }
-  SECTION("a pose that is no matrix") {
+  SECTION("a pose that is not a matrix") {
     document["frames"][0]["camera_to_world"] = {1, 2, 3};
     CHECK(fault_in(document) == "frames[0].camera_to_world = a list of 3; expected 16 entries");
   }
@@ -104,14 +104,14 @@ TEST_CASE("What a manifest must not say is told, and where") {
   }
 }
 
-TEST_CASE("A manifest that is not JSON is the data's fault, with line and column") {
+TEST_CASE("A manifest that is not JSON is a DataError, with line and column") {
   const TemporaryFolder folder;
   const Path file = folder.file("manifest.json", "{\n");
   CHECK_THAT(message_of<DataError>([&] { (void)read_manifest(file, VELDT_SOURCE_DIR); }),
              StartsWith(file.string() + ":2:1: not JSON: "));
 }
 
-TEST_CASE("A manifest that is not there cannot be read") {
+TEST_CASE("A missing manifest cannot be read") {
   CHECK(message_of<IoError>([] { (void)read_manifest("/nowhere/manifest.json", VELDT_SOURCE_DIR); }) ==
         "cannot read /nowhere/manifest.json: No such file or directory");
 }

@@ -26,7 +26,7 @@ struct Home {
 }  // namespace
 
 // Bondi et al., COMPASS 2018, Table 1 (night).
-TEST_CASE("The materials that come with Veldt hold Table 1") {
+TEST_CASE("The materials in assets contain Table 1") {
   struct Row {
     std::string name;
     double winter_k;
@@ -66,5 +66,5 @@ TEST_CASE("A fault in a material names its file") {
              StartsWith(too_bright.file.string() + ": emissivity = 1.2; expected ") && EndsWith("at most 1"));
   const Home no_source(R"({"emissivity": 0.9, "winter_k": 270, "summer_k": 290})");
   CHECK(message_of<ConfigError>([&] { (void)read_materials(no_source.folder.path()); }) ==
-        no_source.file.string() + ": source is missing; expected it to be given");
+        no_source.file.string() + ": source is missing; expected a value");
 }

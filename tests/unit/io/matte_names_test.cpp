@@ -24,7 +24,7 @@ std::string fault_of(const std::vector<ManifestObject>& objects) {
 
 }  // namespace
 
-TEST_CASE("Names have the hashes that other programs give them") {
+TEST_CASE("Names have the same hashes as in other programs") {
   // Specification 1.2.0, "Metadata"; tests of the Cryptomatte project's plug-in for Nuke, which cover names of every
   // length modulo 4 and of letters beyond ASCII; a file that Blender 3.4.1 wrote.
   CHECK(cryptomatte_hash("bunny") == 0x13851A76);
@@ -38,7 +38,7 @@ TEST_CASE("Names have the hashes that other programs give them") {
   CHECK(cryptomatte_hash("Fell Ä") == 0x4CBBB188);
 }
 
-TEST_CASE("A hash that would make no usual number has its exponent changed") {
+TEST_CASE("A hash that would not be a normal float has its exponent changed") {
   CHECK(cryptomatte_hash("tree_169") == 0x808CB812);   // MurmurHash3: 800cb812, denormal
   CHECK(cryptomatte_hash("tree_97") == 0xFF6ED3B0);    // ffeed3b0, NaN
   CHECK(cryptomatte_hash("tree_2049") == 0x7F36901A);  // 7fb6901a, NaN
@@ -49,7 +49,7 @@ TEST_CASE("A hash that would make no usual number has its exponent changed") {
   }
 }
 
-TEST_CASE("A star is any letters, also none") {
+TEST_CASE("A star matches any letters, or none") {
   CHECK(matches_matte("tree_*", "tree_12"));
   CHECK(matches_matte("tree_*", "tree_"));
   CHECK_FALSE(matches_matte("tree_*", "tree"));
@@ -63,7 +63,7 @@ TEST_CASE("A star is any letters, also none") {
   CHECK(matches_matte("", ""));
   CHECK_FALSE(matches_matte("x", ""));
   CHECK_FALSE(matches_matte("t?ee", "tree"));
-  const std::string many(20000, 'a');  // what goes back for every star would never end
+  const std::string many(20000, 'a');  // a matcher that backtracks for every star would never end
   CHECK_FALSE(matches_matte("*a*a*a*a*a*a*a*a*a*a*b", many));
 }
 
@@ -75,17 +75,17 @@ TEST_CASE("An object's mattes are those it lists, or its name") {
   CHECK(index_of(names, "ground") == -1);
   CHECK(index_of(names, "anna") == 7);
   CHECK(index_of(names, "a*a") == 8);
-  CHECK(index_of(names, "aha") == -1);  // a name is no pattern
+  CHECK(index_of(names, "aha") == -1);  // a name is not a pattern
   CHECK(names.texts() == std::vector<std::string>{"soil", "stone_*", "anna", "a*a"});
 }
 
-TEST_CASE("A name goes before a pattern") {
+TEST_CASE("A name takes precedence over a pattern") {
   const MatteNames names(std::vector{matte_object(1, "stones", {"stone_*"}), matte_object(2, "stone_7")});
   CHECK(index_of(names, "stone_7") == 2);
   CHECK(index_of(names, "stone_8") == 1);
 }
 
-TEST_CASE("A hash without a name is one of the names'") {
+TEST_CASE("A hash of unknown name is compared with those of the names") {
   const MatteNames names(std::vector{matte_object(1, "stones", {"stone_*"}), matte_object(2, "anna")});
   REQUIRE(names.find_hash(cryptomatte_hash("anna")) != nullptr);
   CHECK(names.find_hash(cryptomatte_hash("anna"))->index == 2);
@@ -93,23 +93,23 @@ TEST_CASE("A hash without a name is one of the names'") {
   CHECK(names.find_hash(0) == nullptr);
 }
 
-TEST_CASE("A name of two objects is a fault that says whose") {
+TEST_CASE("A name of two objects is an error that names both") {
   CHECK(fault_of({matte_object(1, "anna"), matte_object(2, "ben", {"x", "anna"})}) ==
-        "objects[1].mattes[1] = \"anna\"; expected a name of its own, objects[0].name is \"anna\"");
+        "objects[1].mattes[1] = \"anna\"; expected a unique name, but objects[0].name is \"anna\"");
   CHECK(fault_of({matte_object(1, "a", {"t_*"}), matte_object(2, "b", {"t_*"})}) ==
-        "objects[1].mattes[0] = \"t_*\"; expected a name of its own, objects[0].mattes[0] is \"t_*\"");
+        "objects[1].mattes[0] = \"t_*\"; expected a unique name, but objects[0].mattes[0] is \"t_*\"");
   CHECK(fault_of({matte_object(1, "anna", {"anna", "anna", "t_*", "t_*"})}) == "(no fault was thrown)");
 }
 
-TEST_CASE("Names whose hashes are one cannot be two objects'") {
+TEST_CASE("Names with equal hashes cannot belong to two objects") {
   CHECK(fault_of({matte_object(1, "stone_76992"), matte_object(2, "stone_81521")}) ==
-        "objects[1].name = \"stone_81521\"; expected a hash of its own, objects[0].name is \"stone_76992\"");
+        "objects[1].name = \"stone_81521\"; expected a unique hash, but objects[0].name is \"stone_76992\"");
 }
 
-TEST_CASE("A name of two objects' patterns is a fault that names both") {
+TEST_CASE("A name that matches patterns of two objects is an error that names both") {
   const MatteNames names(
       std::vector{matte_object(1, "stones", {"stone_*", "s*"}), matte_object(2, "sevens", {"*_7"})});
   CHECK(index_of(names, "stone_8") == 1);  // by two of one object's
   CHECK(message_of<DataError>([&] { (void)names.find("stone_7"); }) ==
-        "expected a name of one object, but stones's \"stone_*\" and sevens's \"*_7\" stand for it");
+        "expected a name of one object, but stones's \"stone_*\" and sevens's \"*_7\" match it");
 }

@@ -12,10 +12,10 @@ using namespace thermal;
 
 namespace {
 
-/// What covers one pixel: hashes, which are ten times the indices here, and coverages, by rank.
+/// Contents of one pixel: hashes, which are ten times the indices here, and coverages, by rank.
 using Pixel = std::vector<std::pair<std::uint32_t, float>>;
 
-/// A row of pixels that all have the same number of ranks.
+/// A row of pixels with equal numbers of ranks.
 MatteChannels mattes_of(const std::vector<Pixel>& row) {
   MatteChannels mattes;
   for (std::size_t k = 0; k < row.front().size(); ++k) {
@@ -49,7 +49,7 @@ using Shares = std::vector<float>;
 
 }  // namespace
 
-TEST_CASE("Ranks and coverages are kept as they are") {
+TEST_CASE("Ranks and coverages are read unchanged") {
   const Passes passes =
       ranked({{{70, 1.0F}, {0, 0.0F}}, {{10, 0.75F}, {70, 0.25F}}, {{70, 0.5F}, {10, 0.125F}}});
   REQUIRE(passes.ranks.size() == 2);
@@ -60,14 +60,14 @@ TEST_CASE("Ranks and coverages are kept as they are") {
   CHECK(values(passes.object_index) == Indices{7, 1, 7});
 }
 
-TEST_CASE("Ranks that cover nothing are not there") {
+TEST_CASE("Ranks without coverage are left out") {
   CHECK(ranked({{{70, 1.0F}, {10, 0.0F}, {0, 0.5F}}}).ranks.size() == 1);
   const Passes nothing = ranked({{{0, 0.0F}}, {{70, 0.0F}}, {{0, 1.0F}}});
   CHECK(nothing.ranks.empty());
   CHECK(values(nothing.object_index) == Indices{0, 0, 0});
 }
 
-TEST_CASE("A hash that covers nothing is not asked for, and each other one once") {
+TEST_CASE("A hash without coverage is not looked up, and each other one once") {
   std::vector<std::uint32_t> asked;
   (void)ranked({{{70, 1.0F}, {20, 0.0F}}, {{10, 1.0F}, {0, 0.5F}}, {{70, 1.0F}, {0, 0.0F}}},
                [&](std::uint32_t hash) {
@@ -77,14 +77,14 @@ TEST_CASE("A hash that covers nothing is not asked for, and each other one once"
   CHECK(asked == std::vector<std::uint32_t>{70, 10});
 }
 
-TEST_CASE("The label is sky where what nothing covers is more than any object") {
+TEST_CASE("The label is sky where more is uncovered than any object covers") {
   const Passes passes =
       ranked({{{70, 0.5F}, {10, 0.0F}}, {{70, 0.375F}, {10, 0.125F}}, {{70, 0.375F}, {10, 0.25F}}});
   CHECK(values(passes.object_index) == Indices{7, 0, 7});
   CHECK(values(passes.ranks[0].object_index) == Indices{7, 7, 7});
 }
 
-TEST_CASE("Hashes of one object are one, and the most coverage comes first") {
+TEST_CASE("Hashes of one object are summed, and the most coverage comes first") {
   const Passes passes =
       ranked({{{70, 0.375F}, {10, 0.25F}, {11, 0.25F}}, {{10, 0.25F}, {70, 0.75F}, {0, 0.0F}}});
   REQUIRE(passes.ranks.size() == 2);
@@ -95,17 +95,17 @@ TEST_CASE("Hashes of one object are one, and the most coverage comes first") {
   CHECK(values(passes.object_index) == Indices{1, 7});
 }
 
-TEST_CASE("Objects that cover as much keep the file's order") {
+TEST_CASE("Objects of equal coverage keep the file's order") {
   CHECK(values(ranked({{{70, 0.5F}, {10, 0.5F}}, {{10, 0.5F}, {70, 0.5F}}}).object_index) == Indices{7, 1});
 }
 
-TEST_CASE("Coverages of more than 1 in sum are scaled to 1") {
+TEST_CASE("Coverages with a sum above 1 are scaled to 1") {
   const Passes passes = ranked({{{70, 1.5F}, {10, 0.5F}}, {{70, 3.0F}, {10, 0.0F}}});
   CHECK(values(passes.ranks[0].coverage) == Shares{0.75F, 1});
   CHECK(values(passes.ranks[1].coverage) == Shares{0.25F, 0});
 }
 
-TEST_CASE("A coverage that is none is a fault that says where") {
+TEST_CASE("An invalid coverage is an error with its place") {
   const auto fault_of = [](float coverage, std::uint32_t hash = 10) {
     return message_of<DataError>([&] {
       (void)ranked({{{70, 1.0F}, {0, 0.0F}}, {{70, 0.5F}, {hash, coverage}}});
@@ -119,7 +119,7 @@ TEST_CASE("A coverage that is none is a fault that says where") {
   CHECK(fault_of(-0.0F) == "(no fault was thrown)");
 }
 
-TEST_CASE("A hash is found where it first covers anything, and its pixels are counted") {
+TEST_CASE("A hash is located where it first has coverage, and its pixels are counted") {
   const MatteChannels mattes = mattes_of({{{10, 1.0F}, {70, 0.0F}},
                                           {{10, 0.5F}, {70, 0.5F}},
                                           {{70, 0.75F}, {70, 0.25F}},

@@ -94,14 +94,14 @@ ExrChannels with_other_planes(const std::string& layer = "ViewLayer.") {
 
 }  // namespace
 
-TEST_CASE("A cryptomatte is read to the bit, whatever keeps its bits") {
+TEST_CASE("A cryptomatte is read to the bit, with any lossless compression") {
   for (const Imf::Compression lossless : {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION,
                                           Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
     check_usual(Exr(matte_channels(kRanks), matte_texts(kNames), lossless).read());
   }
 }
 
-TEST_CASE("Compressions that change hashes are refused") {
+TEST_CASE("Lossy compressions are refused") {
   const auto fault_of = [](Imf::Compression compression) {
     return Exr(matte_channels(kRanks), matte_texts(kNames), compression).fault();
   };
@@ -177,7 +177,7 @@ TEST_CASE("A cryptomatte may be in several parts, and in tiles") {
   check_usual(exr.read());
 }
 
-TEST_CASE("What the data window leaves out is sky") {
+TEST_CASE("Pixels outside the data window are sky") {
   const Exr exr;
   Imf::Header header(kWidth, kHeight);
   header.dataWindow() = Imath::Box2i({1, 1}, {2, 1});
@@ -200,7 +200,7 @@ TEST_CASE("What the data window leaves out is sky") {
   CHECK(values(passes.ranks[0].coverage) == Shares{0, 0, 0, 0, 1, 0.75F});
 }
 
-TEST_CASE("Depth and normals are read where they are asked for, materials where they are there") {
+TEST_CASE("Depth and normals are read if requested, materials if present") {
   const Exr exr(with_other_planes());
   const Passes bare = exr.read();
   check_usual(bare);
@@ -215,7 +215,7 @@ TEST_CASE("Depth and normals are read where they are asked for, materials where 
   CHECK(all.actor_index.empty());
 }
 
-TEST_CASE("Planes come from the cryptomatte's layer, and materials are none where the file has none") {
+TEST_CASE("Planes come from the cryptomatte's layer, and materials are empty without any in the file") {
   ExrChannels channels = with_other_planes();
   for (const auto& [name, pixels] : with_other_planes("Fog.")) {
     if (name.starts_with("Fog.")) channels.emplace(name, std::vector<float>(pixels.size(), 9));
@@ -225,7 +225,7 @@ TEST_CASE("Planes come from the cryptomatte's layer, and materials are none wher
   CHECK(Exr().read().material_index.empty());
 }
 
-TEST_CASE("Planes that are needed and missing are a fault") {
+TEST_CASE("Planes that are needed and missing are an error") {
   const Exr exr;
   CHECK(exr.fault({.depth = true, .normals = false, .actors = false}) ==
         "no depth channel, which the chosen terms need; the file has: ViewLayer.CryptoObject00.a, "
@@ -235,7 +235,7 @@ TEST_CASE("Planes that are needed and missing are a fault") {
   CHECK_FALSE(exr.fault({.depth = false, .normals = true, .actors = false}).empty());
 }
 
-TEST_CASE("It can be told which planes there are, without reading them") {
+TEST_CASE("Available planes are listed without reading them") {
   const auto planes_in = [](const Exr& exr) {
     return MatteTable(manifest()).planes_in(exr.file, {.layer = "", .actor_layer = "", .channels = {}});
   };
@@ -251,16 +251,16 @@ TEST_CASE("Without a manifest in the file, the names of objects are hashed") {
   check_usual(Exr(matte_channels(kRanks), matte_texts({})).read({}, plain));
 }
 
-TEST_CASE("Blender's manifests have hashes as they were before they were made floats") {
+TEST_CASE("Blender's manifests have hashes from before their conversion to floats") {
   ExrTexts texts = matte_texts(kNames);
   texts["cryptomatte/542cafa/manifest"] = R"({"tree_97": "ffeed3b0"})";
   Manifest trees = manifest();
-  trees.objects[0].mattes = {"tree_*"};  // so that its name alone tells of it
+  trees.objects[0].mattes = {"tree_*"};  // so that only its name identifies it
   const std::vector<MatteRank> ranks = {{std::vector<std::string>(6, "tree_97"), std::vector<float>(6, 1)}};
   CHECK(values(Exr(matte_channels(ranks), texts).read({}, trees).object_index) == Indices(6, 1));
 }
 
-TEST_CASE("A name of no object is a fault that says where it is, and what was meant") {
+TEST_CASE("A name that matches no object is an error with its place and the expected names") {
   Manifest other = manifest();
   other.objects[1].name = "ana";
   CHECK(Exr().fault({}, other) ==
@@ -269,7 +269,7 @@ TEST_CASE("A name of no object is a fault that says where it is, and what was me
         "objects: ground, ana, stone_*; did you mean \"ana\"?");
 }
 
-TEST_CASE("A hash without a name is told as it is") {
+TEST_CASE("A hash without a name is reported as a number") {
   CHECK(Exr(matte_channels(kRanks), matte_texts({})).fault() ==
         fmt::format("ViewLayer.CryptoObject00.r at pixel (0, 1) = \"{:08x}\" (1 pixels); expected the hash "
                     "of a name among "
@@ -277,7 +277,7 @@ TEST_CASE("A hash without a name is told as it is") {
                     cryptomatte_hash("stone_1")));
 }
 
-TEST_CASE("That names cannot be read is told where they are missed, and nowhere else") {
+TEST_CASE("Unreadable names are reported where they are missed, and nowhere else") {
   ExrTexts texts = matte_texts(kNames);
   texts["cryptomatte/542cafa/manifest"] = std::string(1, '{');
   Manifest plain = manifest();
@@ -292,37 +292,37 @@ TEST_CASE("That names cannot be read is told where they are missed, and nowhere 
             cryptomatte_hash("stone_1")));
 }
 
-TEST_CASE("A name of two objects' patterns is a fault that says where it is") {
+TEST_CASE("A name that matches patterns of two objects is an error with its place") {
   Manifest other = manifest();
   other.objects[1].mattes = {"anna", "*_2"};
   CHECK(Exr().fault({}, other) ==
         "ViewLayer.CryptoObject00.b at pixel (0, 1) = \"stone_2\" (1 pixels); expected a name of one object, "
         "but anna's "
-        "\"*_2\" and stones's \"stone_*\" stand for it");
+        "\"*_2\" and stones's \"stone_*\" match it");
 }
 
-TEST_CASE("A manifest whose mattes cannot be meant is a fault before anything is read") {
+TEST_CASE("A manifest with invalid mattes is an error before anything is read") {
   Manifest other = manifest();
   other.objects[1].mattes = {"ground"};
   CHECK(message_of<DataError>([&] { (void)PassReader(other); }) ==
-        "objects[1].mattes[0] = \"ground\"; expected a name of its own, objects[0].name is \"ground\"");
+        "objects[1].mattes[0] = \"ground\"; expected a unique name, but objects[0].name is \"ground\"");
 }
 
-TEST_CASE("Faults in pixels name their channel") {
+TEST_CASE("Errors in pixels name their channel") {
   std::vector<MatteRank> ranks = kRanks;
   ranks[1].coverage[4] = -1;
   CHECK(Exr(matte_channels(ranks)).fault() ==
         "ViewLayer.CryptoObject00.a at pixel (1, 1) = -1; expected a coverage from 0 to 1");
 }
 
-TEST_CASE("A cryptomatte of another size is a fault, with supersampling and overscan in the count") {
+TEST_CASE("A cryptomatte of another size is an error that accounts for supersampling and overscan") {
   Manifest finer = manifest();
   finer.supersample = 2;
   finer.overscan_px = 1;
   CHECK(Exr().fault({}, finer) == "size = 3 x 2 px; expected the manifest's 10 x 8 px");
 }
 
-TEST_CASE("Of several layers' cryptomattes one must be named") {
+TEST_CASE("Among cryptomattes of several layers one must be named") {
   ExrChannels channels = matte_channels(kRanks);
   for (const auto& [name, pixels] :
        matte_channels({{std::vector<std::string>(6, "anna"), std::vector<float>(6, 1)}}, "Fog.CryptoObject"))
@@ -341,13 +341,13 @@ TEST_CASE("Of several layers' cryptomattes one must be named") {
   CHECK(values(exr.read({}, chosen).object_index) == Indices(6, 7));
 }
 
-TEST_CASE("A file that is not there or ends too soon is a fault that names it") {
+TEST_CASE("A missing or truncated file is an error that names it") {
   const Exr exr;
   const auto unreadable = [&] { return message_of<IoError>([&] { (void)exr.read(); }); };
   std::filesystem::resize_file(exr.file, std::filesystem::file_size(exr.file) - 20);
   CHECK(unreadable().starts_with(fmt::format("cannot read {}: ", exr.file.string())));
   std::filesystem::remove(exr.file);
-  CHECK(unreadable() == fmt::format("cannot read {}: there is no such file", exr.file.string()));
+  CHECK(unreadable() == fmt::format("cannot read {}: no such file", exr.file.string()));
 }
 
 TEST_CASE("A survey counts the pixels of rank 0") {
@@ -360,14 +360,14 @@ TEST_CASE("A survey counts the pixels of rank 0") {
     found.emplace_back(use.name, use.hash, use.pixels);
   REQUIRE(found.size() == 4);
   std::vector<std::uint32_t> twice = {cryptomatte_hash("anna"), cryptomatte_hash("ground")};
-  std::sort(twice.begin(), twice.end());  // of as many pixels, the lower hash comes first
+  std::sort(twice.begin(), twice.end());  // for equal numbers of pixels, the lower hash comes first
   for (std::size_t i = 0; i < 2; ++i)
     CHECK(found[i] == std::tuple(all.front().names.at(twice[i]), twice[i], 2));
   CHECK(found[2] == std::tuple("", 0U, 1));
   CHECK(found[3] == std::tuple("stone_1", cryptomatte_hash("stone_1"), 1));
 }
 
-TEST_CASE("A survey of what cannot be read is a fault that names the file") {
+TEST_CASE("A survey of an unreadable file is an error that names it") {
   const Exr exr(matte_channels(kRanks), matte_texts(kNames), Imf::DWAA_COMPRESSION);
   const ExrHeader header = read_exr_header(exr.file);
   const std::vector<Cryptomatte> all = cryptomattes_in(header);

@@ -20,11 +20,11 @@ std::vector<std::string> lines_of(Spool& spool) {
 
 }  // namespace
 
-TEST_CASE("A file has all that was added, and its sum is that of the whole") {
+TEST_CASE("A file has all that was added, and its checksum is that of the whole") {
   const TemporaryFolder folder;
   OutputFile out(folder / "a.txt");
   std::string whole;
-  for (int i = 0; i < 3000; ++i) {  // more than any buffer
+  for (int i = 0; i < 3000; ++i) {  // larger than any buffer
     const std::string piece = std::to_string(i) + "\n";
     out.add(piece);
     whole += piece;
@@ -33,13 +33,13 @@ TEST_CASE("A file has all that was added, and its sum is that of the whole") {
   CHECK(read_file(folder / "a.txt") == whole);
 }
 
-TEST_CASE("A file that is not closed is gone") {
+TEST_CASE("A file that is not closed is removed") {
   const TemporaryFolder folder;
   { OutputFile(folder / "a.txt").add("half"); }
   CHECK_FALSE(std::filesystem::exists(folder / "a.txt"));
 }
 
-TEST_CASE("A file takes its place when it is closed, and not before") {
+TEST_CASE("A file is renamed to its place when it is closed, and not before") {
   const TemporaryFolder folder;
   const Path place = folder.file("a.txt", "old");
   OutputFile out(folder / "a.txt.tmp");
@@ -71,7 +71,7 @@ TEST_CASE("A file that cannot be made is named, with the reason") {
         "cannot rename to " + file.string() + ": No such file or directory");
 }
 
-TEST_CASE("Lines that were put aside come back in order, from memory and from a file that is then gone") {
+TEST_CASE("Spooled lines come back in order, from memory and from a file that is then removed") {
   const TemporaryFolder folder;
   for (const Path& file : {Path(), folder / "lines"}) {
     CAPTURE(file.string());
@@ -82,7 +82,7 @@ TEST_CASE("Lines that were put aside come back in order, from memory and from a 
   CHECK(std::filesystem::is_empty(folder.path()));
 }
 
-TEST_CASE("Lines that nobody reads are gone with their file") {
+TEST_CASE("Lines that are never read are removed with their file") {
   const TemporaryFolder folder;
   {
     Spool spool(folder / "lines");
@@ -92,12 +92,12 @@ TEST_CASE("Lines that nobody reads are gone with their file") {
   CHECK(std::filesystem::is_empty(folder.path()));
 }
 
-TEST_CASE("Lines whose file has gone meanwhile cannot be read, and it is named") {
+TEST_CASE("Lines of a removed file cannot be read, and it is named") {
   const TemporaryFolder folder;
   const Path file = folder / "lines";
   Spool spool(file);
   spool.add("one");
   std::filesystem::remove(file);
   CHECK(message_of<IoError>([&] { (void)lines_of(spool); }) ==
-        "cannot read " + file.string() + ": it was there a moment ago");
+        "cannot read " + file.string() + ": it has disappeared");
 }

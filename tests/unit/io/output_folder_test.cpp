@@ -18,7 +18,7 @@ void put(const Path& file, const std::string& content) {
 
 }  // namespace
 
-TEST_CASE("A fresh folder is there and empty, whatever was there") {
+TEST_CASE("A fresh folder is empty, whatever existed before") {
   const TemporaryFolder folder;
   make_fresh_folder(folder / "clips/a.part");
   CHECK(std::filesystem::is_empty(folder / "clips/a.part"));
@@ -31,7 +31,7 @@ TEST_CASE("A fresh folder is there and empty, whatever was there") {
   CHECK(std::filesystem::is_empty(folder / "clips/a.part"));
 }
 
-TEST_CASE("A fresh folder takes the place of a link, and what that leads to stays") {
+TEST_CASE("A fresh folder replaces a link, and the link's target stays") {
   const TemporaryFolder folder;
   put(folder / "elsewhere/kept", "kept");
   make_folder(folder / "clips");
@@ -42,17 +42,18 @@ TEST_CASE("A fresh folder takes the place of a link, and what that leads to stay
   CHECK(read_file(folder / "elsewhere/kept") == "kept");
 }
 
-TEST_CASE("A fresh folder is not made where its parent leads elsewhere") {
+TEST_CASE("A fresh folder is not created where its parent leads elsewhere") {
   const TemporaryFolder folder;
   make_folder(folder / "elsewhere");
   std::filesystem::create_directory_symlink(folder / "elsewhere", folder / "clips");
-  CHECK(message_of<IoError>([&] { make_fresh_folder(folder / "clips/a.part"); }) ==
-        fmt::format("{} = a link to {}; expected no link, because nothing is written to other places",
-                    (folder / "clips").string(), (folder / "elsewhere").string()));
+  CHECK(
+      message_of<IoError>([&] { make_fresh_folder(folder / "clips/a.part"); }) ==
+      fmt::format("{} = a link to {}; expected a path that is not a link; nothing is written to other places",
+                  (folder / "clips").string(), (folder / "elsewhere").string()));
   CHECK(std::filesystem::is_empty(folder / "elsewhere"));
 }
 
-TEST_CASE("A whole folder takes a place that is free, taken, or a link's") {
+TEST_CASE("A complete folder replaces nothing, a folder, or a link") {
   const TemporaryFolder folder;
   put(folder / "elsewhere/kept", "kept");
   if (GENERATE(true, false)) put(folder / "a/old", "old");
@@ -71,7 +72,7 @@ TEST_CASE("A whole folder takes a place that is free, taken, or a link's") {
   CHECK(read_file(folder / "elsewhere/kept") == "kept");
 }
 
-TEST_CASE("A folder that is not there takes no place") {
+TEST_CASE("A missing folder cannot be renamed") {
   const TemporaryFolder folder;
   CHECK(message_of<IoError>([&] { replace_folder(folder / "a.part", folder / "a"); }) ==
         fmt::format("cannot rename to {}: No such file or directory", (folder / "a").string()));

@@ -42,14 +42,14 @@ TEST_CASE("A video may have any size, odd ones too") {
   }
 }
 
-TEST_CASE("A video that cannot be written is named, with the reason") {
+TEST_CASE("A video that cannot be written is reported by name, with the reason") {
   const TemporaryFolder folder;
   const Path file = folder / "none/video.mp4";
   CHECK(message_of<IoError>([&] { const PreviewVideo video(file, 9, 8, 8); }) ==
         "cannot write " + file.string() + ": No such file or directory");
 }
 
-TEST_CASE("A full disk is told when the video is written, and to try again") {
+TEST_CASE("A full disk is reported when the video is written, as a TryAgainError") {
   const auto write = [] {
     PreviewVideo writer("/dev/full", 9, 8, 8);
     writer.add(Plane<std::uint8_t>(8, 8));

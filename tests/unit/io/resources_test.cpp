@@ -11,7 +11,7 @@ using namespace thermal;
 
 namespace {
 
-/// Sets an environment variable for as long as it lives.
+/// Sets an environment variable for its lifetime.
 class Environment {
  public:
   Environment(const char* name, const std::string& value) : name_(name) {
@@ -35,7 +35,7 @@ Path program_in(const TemporaryFolder& folder, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("A program is found on the path, the first folder first") {
+TEST_CASE("A program is found on the path, in the first folder that has it") {
   const TemporaryFolder first;
   const TemporaryFolder second;
   const Path only_second = program_in(second, "render");
@@ -48,7 +48,7 @@ TEST_CASE("A program is found on the path, the first folder first") {
   CHECK(find_program("blender").empty());
 }
 
-TEST_CASE("A program given with a folder is that one or none") {
+TEST_CASE("A program with a folder is that one or none") {
   const TemporaryFolder folder;
   const Path program = program_in(folder, "blender");
   CHECK(find_program(program.string()) == program);
@@ -56,7 +56,7 @@ TEST_CASE("A program given with a folder is that one or none") {
   CHECK(find_program((folder / "other").string()).empty());
 }
 
-TEST_CASE("The home is where VELDT_HOME says, if that is one") {
+TEST_CASE("The home is VELDT_HOME, if that is one") {
   const TemporaryFolder folder;
   const Environment home("VELDT_HOME", folder.path().string());
   CHECK(message_of<IoError>([] { (void)find_home(); }) ==
@@ -66,7 +66,7 @@ TEST_CASE("The home is where VELDT_HOME says, if that is one") {
   CHECK(find_home() == folder.path());
 }
 
-TEST_CASE("Without VELDT_HOME it is the checkout the program was built in") {
+TEST_CASE("Without VELDT_HOME it is the checkout of the build") {
   const Environment home("VELDT_HOME", "");
   CHECK(std::filesystem::equivalent(find_home(), VELDT_SOURCE_DIR));
 }

@@ -32,7 +32,7 @@ Config resolved(const Json& document) { return resolve_config(document, "night.j
 std::vector<Path> presets() {
   std::vector<Path> files;
   for (const auto& entry : std::filesystem::directory_iterator(Path(VELDT_SOURCE_DIR) / "assets" / "sensors"))
-    files.push_back(entry.path());
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
   return files;
 }
 
@@ -44,7 +44,7 @@ void add_leaves(const Json& object, const std::string& prefix, std::set<std::str
   }
 }
 
-/// All but the response, whose samples are the file's.
+/// All but the response, whose samples are in a file.
 bool same_figures(const SensorParameters& a, const SensorParameters& b) {
   return a.radiance == b.radiance && a.optics == b.optics && a.time_constant_s == b.time_constant_s &&
          a.netd_mk == b.netd_mk && a.netd_f_number == b.netd_f_number && a.noise == b.noise &&
@@ -66,7 +66,7 @@ TEST_CASE("Defaults of schema and library are the same") {
 }
 
 TEST_CASE("Every value of a config's sensor reaches the library") {
-  // Each key, set to something else than its default, must change something.
+  // Each key, set to a value other than its default, must change something.
   const Json rules = config_schema()["properties"]["sensor"]["properties"];
   const auto changes_something = [](const Json::json_pointer& key, const Json& rule) {
     Json document = with_sensor("{}");
@@ -90,7 +90,7 @@ TEST_CASE("Every value of a config's sensor reaches the library") {
   }
 }
 
-TEST_CASE("Every preset can be used, and every figure of it has a source") {
+TEST_CASE("Every preset is usable, and each of its figures has a source") {
   for (const Path& file : presets()) {
     CAPTURE(file.string());
     CHECK_NOTHROW(resolved(with_sensor(R"({"preset": ")" + file.stem().string() + "\"}")));
@@ -116,14 +116,15 @@ TEST_CASE("The cameras have the fields of view of their data sheets") {
   for (const auto& [name, sheet_deg] : sheets_deg) {
     CAPTURE(name);
     const Json camera = resolved(with_sensor(R"({"preset": ")" + name + "\"}")).resolved["camera"];
-    // Sheets round to a tenth or to a whole degree; a lens a millimetre longer or shorter is off by 1 deg or more.
+    // Data sheets round to a tenth or to a whole degree; a focal length that is off by a millimetre changes 1 deg or
+    // more.
     const double allowed_deg = 0.3;
     CHECK_THAT(field_of_view_deg(camera["width_px"], camera), WithinAbs(sheet_deg.first, allowed_deg));
     CHECK_THAT(field_of_view_deg(camera["height_px"], camera), WithinAbs(sheet_deg.second, allowed_deg));
   }
 }
 
-TEST_CASE("What a config says stands against its preset, value by value, and the preset against defaults") {
+TEST_CASE("A config overrides its preset, value by value, and the preset overrides defaults") {
   Json document = with_sensor(R"({"preset": "boson_640_14mm", "netd_mk": 33, "noise": {"row_ratio": 0.7}})");
   document["camera"] = {{"width_px", 320}};
   const Config config = resolved(document);
@@ -138,7 +139,7 @@ TEST_CASE("What a config says stands against its preset, value by value, and the
   CHECK(resolved(config.resolved).resolved == config.resolved);
 }
 
-TEST_CASE("Without a word of it, the camera is the published one") {
+TEST_CASE("By default, the camera is the published one") {
   const Config config = resolved(with_sensor("{}"));
   CHECK(config.resolved["sensor"]["preset"] == "airsim_w");
   CHECK(config.sensor.netd_mk == 470);
@@ -150,14 +151,14 @@ TEST_CASE("NETD grows with the square of the f-number") {
   CHECK_THAT(config.netd_k, WithinRel(0.050 * 1.25 * 1.25, 1e-12));
 }
 
-TEST_CASE("A preset that is not there is a fault with the nearest name") {
+TEST_CASE("An unknown preset is an error with the nearest name") {
   CHECK(message_of<ConfigError>([] { (void)resolved(with_sensor(R"({"preset": "boson_640_13mm"})")); }) ==
         "night.json: sensor.preset = \"boson_640_13mm\"; expected one of airsim_w, airsim_w_256x144, "
         "boson_640_14mm, boson_640_18mm, flir_vue_pro_640_13mm, flir_vue_pro_640_19mm; did you mean "
         "\"boson_640_14mm\"?");
 }
 
-TEST_CASE("What is wrong with a preset is told with its file") {
+TEST_CASE("Faults of a preset are reported with its file") {
   const TemporaryFolder home;
   std::filesystem::create_directories(home / "assets/sensors");
   const auto fault_of = [&](const std::string& preset) {

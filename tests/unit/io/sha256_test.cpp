@@ -12,7 +12,7 @@ using namespace thermal;
 
 namespace {
 
-/// The most memory this process has had since this was made, in kB (proc(5): VmHWM).
+/// The peak memory of this process since this was created, in kB (proc(5): VmHWM).
 class PeakMemory {
  public:
   PeakMemory() {
@@ -45,7 +45,7 @@ TEST_CASE("SHA-256 gives the standard's answers") {
         "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-TEST_CASE("A file's sum is that of its content, and takes no memory for it") {
+TEST_CASE("A file's checksum is that of its content, and takes no memory for it") {
   const TemporaryFolder folder;
   CHECK(sha256_of_file(folder.file("empty", "")) == sha256_of(""));
   CHECK(sha256_of_file(folder.file("abc", "abc")) == sha256_of("abc"));
@@ -60,7 +60,7 @@ TEST_CASE("A file's sum is that of its content, and takes no memory for it") {
   CHECK_THROWS_AS(sha256_of_file(folder.path()), IoError);
 }
 
-TEST_CASE("A sum in pieces is that of the whole") {
+TEST_CASE("A checksum in pieces is that of the whole") {
   Sha256 sum;
   sum.add("a");
   sum.add("");

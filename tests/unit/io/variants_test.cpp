@@ -16,7 +16,7 @@ std::string fault_in(const std::string& text) {
   return message_of<ConfigError>([&] { (void)variants_in(text); });
 }
 
-/// What remains of a document with one variant's changes.
+/// The resulting document with one variant's changes.
 Json changed(const std::string& changes, const std::string& document) {
   const Variant variant = {.name = "x", .where = "", .changes = parse_json(changes, "")};
   return changed_by(variant, parse_json(document, ""));
@@ -24,7 +24,7 @@ Json changed(const std::string& changes, const std::string& document) {
 
 }  // namespace
 
-TEST_CASE("Variants come in their order, each with the place that faults are put down to") {
+TEST_CASE("Variants are in order, each with its prefix for messages") {
   const auto variants = variants_in(R"({"variants": [{"name": "plain"}, {"name": "B-2_x", "seed": 3}]})");
   REQUIRE(variants.size() == 2);
   CHECK(variants[0].name == "plain");
@@ -45,7 +45,7 @@ TEST_CASE("Objects are merged key by key, anything else is replaced") {
         parse_json(R"({"seed": 2, "camera": {"width_px": 9, "distortion": {"k1": 0.1, "p1": 0.2}}})", ""));
 }
 
-TEST_CASE("A season is that of every clip") {
+TEST_CASE("A season applies to every clip") {
   const char* const clips =
       R"({"clips": [{"id": "a", "season": "winter"}, {"id": "b", "season": "summer"}]})";
   CHECK(changed(R"({"season": "summer"})", clips) ==
@@ -53,11 +53,11 @@ TEST_CASE("A season is that of every clip") {
   CHECK(changed("{}", clips) == parse_json(clips, ""));
 }
 
-TEST_CASE("Lists that cannot be meant") {
+TEST_CASE("Invalid lists are errors") {
   CHECK(fault_in(R"({"variants": []})") == "list.json: variants = a list of 0; expected at least 1 entries");
-  CHECK(fault_in("{}") == "list.json: variants is missing; expected it to be given");
+  CHECK(fault_in("{}") == "list.json: variants is missing; expected a value");
   CHECK(fault_in(R"({"variants": [{"seed": 3}]})") ==
-        "list.json: variants[0].name is missing; expected it to be given");
+        "list.json: variants[0].name is missing; expected a value");
   CHECK(fault_in(R"({"variants": [{"name": "a/b"}, {"name": ""}]})") ==
         "list.json: variants[0].name = \"a/b\"; expected letters, digits, _ and - only\n"
         "list.json: variants[1].name = \"\"; expected letters, digits, _ and - only");

@@ -13,7 +13,7 @@ TEST_CASE("A known category has the same id in every dataset") {
   for (const auto& [name, id] : none) CHECK(some.at(name) == id);
 }
 
-TEST_CASE("Categories Veldt does not know follow in alphabetical order") {
+TEST_CASE("Unknown categories follow in alphabetical order") {
   const auto ids = number_categories({"warthog", "human", "antelope"});
   CHECK(ids.at("antelope") == 11);
   CHECK(ids.at("warthog") == 12);

@@ -15,7 +15,7 @@ namespace {
 using IndexPlane = Plane<std::uint16_t>;
 using Pixels = std::set<std::pair<int, int>>;  // (x, y)
 
-/// Rectangles of a few indices, some reaching over the border, and single pixels strewn over them.
+/// Rectangles of a few indices, some crossing the border, and scattered single pixels.
 IndexPlane random_plane(std::mt19937& random, int width_px, int height_px) {
   IndexPlane plane(width_px, height_px);
   const auto below = [&random](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
@@ -43,7 +43,7 @@ std::map<std::uint16_t, Pixels> pixels_by_index(const IndexPlane& plane) {
   return pixels;
 }
 
-/// The pixels a mask sets; its runs must cover the frame exactly, and none but the first be empty.
+/// The pixels of a mask; its runs must cover the frame exactly, and only the first may be empty.
 Pixels pixels_of(const RunLengths& mask, const IndexPlane& plane) {
   Pixels pixels;
   std::size_t at = 0;
@@ -83,7 +83,7 @@ std::vector<Instance> instances_in(const IndexPlane& plane, const std::vector<st
   return extract_instances(plane, survey_indices(plane), IndexSet(actors));
 }
 
-/// Compares everything the fast way says of a plane with what counting pixel by pixel gives.
+/// Compares all results of the fast implementation for a plane with a count of every pixel.
 void check_against_counting(const IndexPlane& plane) {
   std::map<std::uint16_t, Pixels> expected = pixels_by_index(plane);
   expected.erase(0);
@@ -133,27 +133,27 @@ TEST_CASE("A box that touches any border is truncated, and only then") {
   CHECK_FALSE(truncated({"...", ".1.", "..."}));
 }
 
-TEST_CASE("A mask's runs go on from the foot of one column to the head of the next") {
+TEST_CASE("A mask's runs continue from the bottom of one column to the top of the next") {
   CHECK(instances_in(drawn({".11.", ".11."}), {1}).at(0).mask == RunLengths{2, 4, 2});
   CHECK(instances_in(drawn({"..1.", ".1.."}), {1}).at(0).mask == RunLengths{3, 2, 3});
 }
 
-TEST_CASE("An actor may fill the frame, and the frame be one pixel") {
+TEST_CASE("An actor may fill the frame, and the frame may be one pixel") {
   CHECK(instances_in(IndexPlane(1, 1, 3), {3}).at(0).mask == RunLengths{0, 1});
   CHECK(instances_in(IndexPlane(5, 4, 3), {3}).at(0).mask == RunLengths{0, 20});
   CHECK(instances_in(IndexPlane(5, 4, 3), {3}).at(0).box == PixelBox{0, 0, 5, 4});
 }
 
-TEST_CASE("What is no actor is not labelled, and an actor out of sight neither") {
+TEST_CASE("Objects that are not actors, and actors out of sight, are not labelled") {
   const IndexPlane plane = drawn({"123"});
   const std::vector<Instance> instances = instances_in(plane, {9, 3, 1});
   REQUIRE(instances.size() == 2);
-  CHECK(instances[0].index == 1);  // by rising index, not as asked
+  CHECK(instances[0].index == 1);  // in ascending order, not as requested
   CHECK(instances[1].index == 3);
   CHECK(instances_in(plane, {}).empty());
 }
 
-TEST_CASE("A survey finds every index, where it is first and how often") {
+TEST_CASE("A survey finds every index, with its first place and its count") {
   const std::vector<IndexUse> uses = survey_indices(drawn({"..5.",  //
                                                            "2.55",  //
                                                            "2..."}));
@@ -170,14 +170,14 @@ TEST_CASE("A survey finds every index, where it is first and how often") {
   CHECK(uses[2].pixels == 3);
 }
 
-TEST_CASE("The largest index there is can be surveyed") {
+TEST_CASE("The largest possible index can be surveyed") {
   const std::vector<IndexUse> uses = survey_indices(IndexPlane(2, 2, 32767));
   REQUIRE(uses.size() == 1);
   CHECK(uses[0].index == 32767);
   CHECK(uses[0].pixels == 4);
 }
 
-TEST_CASE("On random planes of any shape, labels are exactly what counting gives") {
+TEST_CASE("On random planes of any shape, labels equal a count of every pixel") {
   std::mt19937 random(2);
   for (int i = 0; i < 2000; ++i) {
     const int width_px = 1 + static_cast<int>(random() % 24);
@@ -186,7 +186,7 @@ TEST_CASE("On random planes of any shape, labels are exactly what counting gives
   }
 }
 
-TEST_CASE("Also on planes one pixel wide or high") {
+TEST_CASE("The same on planes one pixel wide or high") {
   std::mt19937 random(3);
   for (int i = 0; i < 300; ++i) {
     const int length_px = 1 + static_cast<int>(random() % 40);
@@ -195,7 +195,7 @@ TEST_CASE("Also on planes one pixel wide or high") {
   }
 }
 
-TEST_CASE("The use of an index is found, or told to be none") {
+TEST_CASE("The use of an index is found, or null") {
   const std::vector<IndexUse> uses = survey_indices(drawn({"3.5"}));
   REQUIRE(find_use(uses, 5) != nullptr);
   CHECK(find_use(uses, 5)->first_x_px == 2);

@@ -24,16 +24,16 @@ TEST_CASE("By default nothing is ignored") {
   CHECK_FALSE(ignored(1, std::nullopt, {}));
 }
 
-TEST_CASE("A target under a bound is ignored, one that is on it is not") {
+TEST_CASE("A target below a threshold is ignored, one at it is not") {
   const LabelParameters parameters = {.ignore_below_visibility = 0.25, .ignore_below_area_px = 10};
   CHECK_FALSE(ignored(10, 0.25, parameters));
   CHECK(ignored(9, 1, parameters));
   CHECK(ignored(10, 0.24, parameters));
-  CHECK_FALSE(ignored(10, std::nullopt, parameters));  // what is not known is no reason
+  CHECK_FALSE(ignored(10, std::nullopt, parameters));  // unknown values do not matter
   CHECK(ignored(9, std::nullopt, parameters));
 }
 
-TEST_CASE("Bounds that mean nothing are faults") {
+TEST_CASE("Invalid thresholds are errors") {
   const auto fault_of = [](const LabelParameters& wrong) {
     return message_of<ConfigError>([&] { wrong.validate(); });
   };

@@ -46,7 +46,7 @@ TEST_CASE("A flat name is the video's and the picture's") {
   CHECK(flat_name(set, set.images[0]) == "2026_winter_000012");
 }
 
-TEST_CASE("People are human, vehicles vehicles, all else animals") {
+TEST_CASE("People are humans, vehicles vehicles, everything else animals") {
   CHECK(kind_of("human") == Kind::human);
   CHECK(kind_of("person") == Kind::human);
   CHECK(kind_of("vehicle") == Kind::vehicle);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kLargest = std::numeric_limits<std::uint32_t>::max();
 
-/// Counts of any size: as many bits, at random, as a mask of any frame could need.
+/// Counts of any size: with a random number of bits, up to what a mask of any frame could need.
 RunLengths random_counts(std::mt19937& random) {
   RunLengths counts(random() % 40);
   for (std::uint32_t& count : counts) count = static_cast<std::uint32_t>(random()) >> (random() % 32);
@@ -65,12 +65,12 @@ TEST_CASE("The largest steps up and down survive too") {
   CHECK(decode_coco_rle("").empty());
 }
 
-TEST_CASE("A string no mask can have is a fault that shows it") {
+TEST_CASE("A string that no mask can have is an error that shows it") {
   const auto fault_in = [](const std::string& text) {
     return message_of<DataError>([&] { (void)decode_coco_rle(text); });
   };
-  CHECK(fault_in("P") == "run lengths \"P\" are not a COCO mask");      // says more follows, and nothing does
-  CHECK(fault_in("1 2") == "run lengths \"1 2\" are not a COCO mask");  // no character of the code
+  CHECK(fault_in("P") == "run lengths \"P\" are not a COCO mask");      // says more follows, but nothing does
+  CHECK(fault_in("1 2") == "run lengths \"1 2\" are not a COCO mask");  // not a character of the code
   CHECK(fault_in("1p") == "run lengths \"1p\" are not a COCO mask");    // nor is the one after its last
   CHECK(fault_in("@") == "run lengths \"@\" are not a COCO mask");      // a negative count
   CHECK(fault_in("001N") == "run lengths \"001N\" are not a COCO mask");  // so is 0 and then 2 fewer

@@ -15,7 +15,7 @@ std::vector<Instance> instances_in(const Plane<std::uint16_t>& plane) {
   return extract_instances(plane, survey_indices(plane), IndexSet(actors));
 }
 
-/// A picture of this value with the instances' pixels at others.
+/// A picture of this value, with the instances' pixels at others.
 Plane<float> painted(const Plane<std::uint16_t>& plane, float around, const std::vector<float>& of_index) {
   Plane<float> picture(plane.width_px(), plane.height_px(), around);
   for (std::size_t i = 0; i < plane.size(); ++i) {
@@ -58,7 +58,7 @@ TEST_CASE("The ring is half of the larger side wide, and at least four pixels") 
   CHECK(ring_px({0, 0, 100, 9}) == 50);
 }
 
-TEST_CASE("The mean of a target is that of its own pixels, split as they may be") {
+TEST_CASE("The mean of a target is that of its own pixels, in any number of pieces") {
   const Plane<std::uint16_t> plane = drawn({"1..", "...", "..1"});
   Plane<float> picture(3, 3, 100);
   picture.at(0, 0) = 3;
@@ -66,7 +66,7 @@ TEST_CASE("The mean of a target is that of its own pixels, split as they may be"
   CHECK(target_means(picture, instances_in(plane)).at(0).target == 4);
 }
 
-TEST_CASE("Two pixels about the box are blur and not surroundings, and so is what lies far away") {
+TEST_CASE("Two pixels around the box are excluded as blur, and so are distant ones") {
   // One pixel at x = 8 of a single row: the guard reaches to 6 and 10, the ring to 2 and 14.
   Plane<std::uint16_t> plane(20, 1);
   plane.at(8, 0) = 1;
@@ -82,7 +82,7 @@ TEST_CASE("Two pixels about the box are blur and not surroundings, and so is wha
   }
 }
 
-TEST_CASE("Others in the ring do not count, and with nothing left there is no ring") {
+TEST_CASE("Other actors in the ring do not count, and without pixels there is no ring") {
   const Plane<std::uint16_t> plane = drawn({"1..2......"});
   const std::vector<TargetMeans> means = target_means(painted(plane, 7, {0, 20, 90}), instances_in(plane));
   CHECK(means[0].target == 20);
@@ -95,7 +95,7 @@ TEST_CASE("Others in the ring do not count, and with nothing left there is no ri
   CHECK(target_means(Plane<float>(4, 4, 1), {}).empty());
 }
 
-TEST_CASE("On random pictures, means are what counting pixel by pixel gives") {
+TEST_CASE("On random pictures, means equal a count of every pixel") {
   std::mt19937 random(5);
   for (int i = 0; i < 300; ++i) {
     const int width_px = 1 + static_cast<int>(random() % 40);

@@ -34,12 +34,12 @@ TEST_CASE("A denormal temperature is dark, without dividing by zero") {
   check_dark(kBand.evaluate(1e-310));
 }
 
-TEST_CASE("The logarithm goes on where the radiance is below the smallest double") {
+TEST_CASE("The logarithm is accurate below the smallest double") {
   const BandValue value = kBand.evaluate(1);
   CHECK(value.radiance_w_m2_sr == 0);
   CHECK(std::isfinite(value.ln_radiance));
-  // Far below, only -x at the long-wave end counts: c2 / (14 um T). The rest, logarithms of some 100, is 1e-10
-  // of it at 1e-9 K.
+  // At very low temperatures only -x at the long-wave end counts: c2 / (14 um T). The rest, logarithms of some 100,
+  // is 1e-10 of it at 1e-9 K.
   constexpr double kColdest = 1e-9;
   const double x_end = kSecondRadiationConstant / (14e-6 * kColdest);
   CHECK_THAT(kBand.evaluate(kColdest).ln_radiance, WithinRel(-x_end, 1e-9));
@@ -92,13 +92,13 @@ TEST_CASE("No radiance means 0 K, infinite radiance infinity") {
   CHECK(kBand.temperature_from_ln(kInfinity) == kInfinity);
 }
 
-TEST_CASE("The inverse of the smallest radiance is where the forward way underflows") {
+TEST_CASE("The inverse of the smallest radiance is where the forward function underflows") {
   const double temperature_k = kBand.temperature(kDenormal);
   CHECK(temperature_k > 1.37);
   CHECK(temperature_k < 1.40);
 }
 
-TEST_CASE("Radiance rises with temperature all the way") {
+TEST_CASE("Radiance increases monotonically with temperature") {
   double before = -kInfinity;
   for (double temperature_k = 1e-2; temperature_k < 1e9; temperature_k *= 1.01) {
     const double ln_radiance = kBand.evaluate(temperature_k).ln_radiance;
@@ -116,11 +116,11 @@ TEST_CASE("The derivative is the slope of the radiance") {
   CHECK_THAT(rise / (2 * step_k), WithinRel(kBand.evaluate(temperature_k).derivative_w_m2_sr_k, 3e-7));
 }
 
-TEST_CASE("Zero response at the ends adds nothing, wherever the ends are") {
+TEST_CASE("Zero response at the ends adds nothing") {
   const BandRadiance tight(SpectralResponse({{8, 0}, {10, 1}, {14, 0}}));
   const BandRadiance wide(SpectralResponse({{0.5, 0}, {8, 0}, {10, 1}, {14, 0}, {20, 0}, {100, 0}}));
   const double temperature_k = GENERATE(2.0, 30.0, 300.0, 5000.0);
-  // Skipped altogether, not merely small: at 2 K the band at 100 um would outshine 8-14 um by e^440.
+  // Skipped completely, not merely small: at 2 K the band at 100 um would outshine 8-14 um by e^440.
   CHECK(wide.radiance(temperature_k) == tight.radiance(temperature_k));
   CHECK(wide.evaluate(temperature_k).ln_radiance == tight.evaluate(temperature_k).ln_radiance);
 }

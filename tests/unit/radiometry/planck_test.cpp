@@ -20,7 +20,7 @@ TEST_CASE("Nothing at or below absolute zero radiates") {
   CHECK(planck_radiance(10, -kInfinity) == 0);
 }
 
-TEST_CASE("A temperature too low for a double gives 0, not a fault") {
+TEST_CASE("A temperature too low for a double gives 0, not an error") {
   CHECK(planck_radiance(10, std::numeric_limits<double>::denorm_min()) == 0);
   CHECK(planck_radiance(10, 1) == 0);  // e^1439
 }

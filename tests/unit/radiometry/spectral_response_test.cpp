@@ -43,7 +43,7 @@ TEST_CASE("A response needs two samples") {
   CHECK(fault_in({{10, 1}}) == "response: samples = 1; expected at least 2");
 }
 
-TEST_CASE("Wavelengths rise and are positive and finite") {
+TEST_CASE("Wavelengths are ascending, positive and finite") {
   CHECK(fault_in({{8, 1}, {7, 1}}) == "response: wavelength 2 = 7 um; expected a finite number above 8 um");
   CHECK(fault_in({{8, 1}, {8, 1}}) == "response: wavelength 2 = 8 um; expected a finite number above 8 um");
   CHECK(fault_in({{0, 1}, {8, 1}}) == "response: wavelength 1 = 0 um; expected a finite number above 0 um");
@@ -61,6 +61,6 @@ TEST_CASE("Responses are finite and not negative") {
         "response at 9 um = inf; expected a finite number of at least 0");
 }
 
-TEST_CASE("A response that sees nothing is a fault") {
+TEST_CASE("A response of zero is an error") {
   CHECK(fault_in({{8, 0}, {14, 0}}) == "response: largest value = 0; expected more than 0");
 }

@@ -20,7 +20,7 @@ TEST_CASE("A finer camera sees the same field with more pixels") {
   CHECK(fine.cy_px == 1024);
 }
 
-TEST_CASE("The camera of the passes sees further on every side, then finer") {
+TEST_CASE("The camera of the passes has overscan on every side, then finer pixels") {
   Manifest manifest;
   manifest.camera = kCamera;
   manifest.overscan_px = 10;

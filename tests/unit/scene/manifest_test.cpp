@@ -32,9 +32,9 @@ std::string fault_in(const Manifest& manifest) {
 
 }  // namespace
 
-TEST_CASE("A manifest that makes sense has no fault") { CHECK_NOTHROW(example().validate()); }
+TEST_CASE("A valid manifest has no fault") { CHECK_NOTHROW(example().validate()); }
 
-TEST_CASE("Indices come once") {
+TEST_CASE("Indices are unique") {
   Manifest manifest = example();
   SECTION("of objects") {
     manifest.objects[2].index = 1;
@@ -47,7 +47,7 @@ TEST_CASE("Indices come once") {
   SECTION("but an object and a material may share one") { CHECK_NOTHROW(manifest.validate()); }
 }
 
-TEST_CASE("Actors have a category and a track of their own") {
+TEST_CASE("Actors have a category and a unique track") {
   Manifest manifest = example();
   SECTION("no category") {
     manifest.objects[1].category.clear();
@@ -63,13 +63,13 @@ TEST_CASE("Actors have a category and a track of their own") {
   }
 }
 
-TEST_CASE("What is no actor needs neither") {
+TEST_CASE("Other objects need neither") {
   Manifest manifest = example();
-  manifest.objects[0].track_id = 1;  // a plant's, which nobody reads
+  manifest.objects[0].track_id = 1;  // a plant's, which is never read
   CHECK_NOTHROW(manifest.validate());
 }
 
-TEST_CASE("A pose is that of an actor") {
+TEST_CASE("A pose belongs to an actor") {
   Manifest manifest = example();
   manifest.frames[0].actors.push_back({7, {0, 0, 0}, 0});
   CHECK(fault_in(manifest) == "frames[0].actors[1].index = 7; expected the index of an actor in objects");
@@ -80,15 +80,14 @@ TEST_CASE("A pose is that of an actor") {
 TEST_CASE("Frames are listed or have a pattern, not both") {
   Manifest manifest = example();
   manifest.sequence = "f_####.exr";
-  CHECK(fault_in(manifest) ==
-        "sequence = \"f_####.exr\"; expected none beside frames, which lists the files");
+  CHECK(fault_in(manifest) == "sequence = \"f_####.exr\"; expected none, because frames lists the files");
   manifest.frames.clear();
   CHECK_NOTHROW(manifest.validate());
   manifest.sequence.clear();
-  CHECK_NOTHROW(manifest.validate());  // then the files are named when it is used
+  CHECK_NOTHROW(manifest.validate());  // the files are then named when it is used
 }
 
-TEST_CASE("A colour is one object's") {
+TEST_CASE("A colour belongs to one object") {
   Manifest manifest = example();
   manifest.objects[0].colour = thermal::Colour{1, 2, 3};
   manifest.objects[2].colour = thermal::Colour{3, 2, 1};
@@ -96,12 +95,12 @@ TEST_CASE("A colour is one object's") {
   SECTION("twice") {
     manifest.objects[2].colour = thermal::Colour{1, 2, 3};
     CHECK(fault_in(manifest) ==
-          "objects[2].colour = #010203 (1, 2, 3); expected another colour than objects[0].colour");
+          "objects[2].colour = #010203 (1, 2, 3); expected a colour other than objects[0].colour");
   }
   SECTION("the sky's") {
     manifest.objects[2].colour = thermal::Colour{0, 0, 0};
     CHECK(fault_in(manifest) ==
-          "objects[2].colour = #000000 (0, 0, 0); expected another colour than sky_colour");
+          "objects[2].colour = #000000 (0, 0, 0); expected a colour other than sky_colour");
     manifest.sky_colour = {9, 9, 9};
     CHECK_NOTHROW(manifest.validate());
   }

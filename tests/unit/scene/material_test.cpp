@@ -51,7 +51,7 @@ TEST_CASE("An emissivity is above 0 and at most 1") {
   CHECK(fault_in(material) == "material clay: emissivity = " + text + "; expected above 0 and at most 1");
 }
 
-TEST_CASE("A temperature is above 0 K and one a savanna could have") {
+TEST_CASE("A temperature is above 0 K and plausible for a savanna") {
   Material cold = clay();
   cold.winter_k = 0;
   CHECK(fault_in(cold) == "material clay: winter_k = 0 K; expected above 0 K and at most 2000 K");
@@ -69,7 +69,7 @@ TEST_CASE("A library finds its materials, and lists them in order") {
   CHECK(library.names() == std::vector<std::string>{"grass", "soil"});
 }
 
-TEST_CASE("An unknown material is a fault that says who asked, what there is, and the nearest") {
+TEST_CASE("An unknown material is an error with its place, the known ones, and the nearest") {
   const MaterialLibrary library = library_of({"soil", "grass", "water"});
   CHECK(message_of<ConfigError>([&] { (void)library.find("gras", "object 3: material"); }) ==
         "object 3: material = \"gras\"; expected one of grass, soil, water; did you mean \"grass\"?");
@@ -77,10 +77,10 @@ TEST_CASE("An unknown material is a fault that says who asked, what there is, an
         "object 3: material = \"marble\"; expected one of grass, soil, water");
 }
 
-TEST_CASE("A name comes once, and what is invalid does not get in") {
+TEST_CASE("A name is unique, and invalid materials are rejected") {
   MaterialLibrary library = library_of({"clay"});
   CHECK(message_of<ConfigError>([&] { library.add(clay()); }) ==
-        "material clay is there twice; expected one of each name");
+        "material clay is defined twice; expected unique names");
   Material black = clay();
   black.name = "black";
   black.emissivity = 2;

@@ -43,7 +43,7 @@ std::vector<int> levels_of(const ToneCurve& curve, Polarity polarity = Polarity:
   return {ir8.pixels().begin(), ir8.pixels().end()};
 }
 
-/// Normal about a temperature, with a few pixels far off, some dark, some clipped.
+/// Normally distributed about a temperature, with a few outliers, some dark, some clipped.
 Counts random_counts(int seed, double middle, double spread) {
   std::mt19937 random(static_cast<unsigned>(seed));
   Counts counts(80, 60);
@@ -57,7 +57,7 @@ Counts random_counts(int seed, double middle, double spread) {
   return counts;
 }
 
-/// Checks levels by count against what they should be before rounding. Where that is a half to 1e-6, either will do.
+/// Checks levels by count against their values before rounding. Within 1e-6 of a half, both are accepted.
 template <typename LevelOf>
 void check_levels(const ToneCurve& curve, LevelOf level_of) {
   const std::vector<int> levels = levels_of(curve);
@@ -81,7 +81,7 @@ TEST_CASE(
   CHECK(levels.back() == 255);
   int wrong = 0;
   for (int count = 1; count < 65535; ++count) {
-    // A level begins at the count that its radiance is rounded to, so a count shows the level of its upper edge.
+    // A level starts at the count to which its radiance rounds, so a count shows the level of its upper edge.
     const double upper_edge_k = (count + 0.5) * kelvin_per_count;
     const double share = 255 * kBand.radiance(upper_edge_k) / 63.75;
     const double level = std::min(255.0, std::floor(share + (truncated ? 0 : 0.5)));
@@ -90,7 +90,7 @@ TEST_CASE(
   CHECK(wrong == 0);
 }
 
-TEST_CASE("The script's levels are cut off and clipped, whole ones stay whole, NaN is dark") {
+TEST_CASE("The script's levels are truncated and clipped, whole ones stay whole, NaN is dark") {
   constexpr float kLevel = 0.25F;
   Plane<float> radiance(7, 1);
   const std::array<float, 7> levels = {0, 99.99F, 100, 255, 256, -1, std::numeric_limits<float>::quiet_NaN()};
@@ -113,7 +113,7 @@ TEST_CASE("linear is a straight line between its temperatures") {
 }
 
 TEST_CASE("percentile is a straight line between percentiles, damped in time") {
-  const double spread = GENERATE(3.0, 400.0);  // NETDs: the largest gain counts; or not
+  const double spread = GENERATE(3.0, 400.0);  // NETDs: the largest gain applies; or not
   const double damping_s = GENERATE(0.0, 0.7);
   const AgcParameters parameters = {.mode = AgcMode::percentile, .tail_percent = 0.8, .damping_s = damping_s};
   Agc agc(parameters, scene_of());
@@ -132,7 +132,7 @@ TEST_CASE("percentile is a straight line between percentiles, damped in time") {
   }
 }
 
-TEST_CASE("A tail drops as many pixels as it says, to the pixel") {
+TEST_CASE("A tail drops the requested number of pixels, to the pixel") {
   Counts counts(200, 1);
   for (int i = 0; i < 200; ++i) counts.at(i, 0) = static_cast<std::uint16_t>(20000 + 50 * i);
   const int dropped = GENERATE(0, 1, 2, 50);
@@ -147,7 +147,7 @@ TEST_CASE("plateau equalises the histogram up to its plateau and its largest gai
   const double spread = GENERATE(3.0, 400.0);
   const double plateau_percent = GENERATE(0.2, 5.0, 100.0);
   const AgcParameters parameters = {.mode = AgcMode::plateau, .plateau_percent = plateau_percent};
-  const double kelvin_per_count = GENERATE(0.01, 0.1);  // four counts a bin; one
+  const double kelvin_per_count = GENERATE(0.01, 0.1);  // four counts per bin; one
   const int bin_counts = kelvin_per_count == 0.01 ? 4 : 1;
   const double per_kelvin = 1 / kelvin_per_count;
   Agc agc(parameters, scene_of(kelvin_per_count));
@@ -166,7 +166,7 @@ TEST_CASE("plateau equalises the histogram up to its plateau and its largest gai
   }
 }
 
-TEST_CASE("No adaptive mode shows one NETD as more than the largest gain") {
+TEST_CASE("No adaptive mode spreads one NETD over more than the largest gain") {
   const AgcMode mode = GENERATE(AgcMode::percentile, AgcMode::plateau);
   const double spread = GENERATE(0.0, 1.0, 5.0, 60.0, 2000.0);
   const double gain = GENERATE(2.0, 8.0);
@@ -175,12 +175,12 @@ TEST_CASE("No adaptive mode shows one NETD as more than the largest gain") {
   CHECK(std::is_sorted(levels.begin(), levels.end()));
   int steepest = 0;
   for (std::size_t count = 1; count + 5 < levels.size() - 1; ++count) {
-    steepest = std::max(steepest, levels[count + 5] - levels[count]);  // 5 counts are a NETD
+    steepest = std::max(steepest, levels[count + 5] - levels[count]);  // 5 counts are one NETD
   }
   CHECK(steepest <= gain + 1);  // rounding may add a level
 }
 
-TEST_CASE("A scene of nothing but noise keeps its noise below the largest gain") {
+TEST_CASE("A scene of pure noise keeps its noise below the largest gain") {
   const AgcMode mode = GENERATE(AgcMode::percentile, AgcMode::plateau);
   SensorParameters parameters;  // white noise of 40 mK at 300 K
   parameters.agc.mode = mode;
@@ -193,8 +193,8 @@ TEST_CASE("A scene of nothing but noise keeps its noise below the largest gain")
     squares += level * level;
   }
   const double mean = sum / 19200;
-  // 8 levels and a twelfth of a level squared for rounding; 5 sigma of the deviation of 19,200 normals. The grain
-  // of 16-bit counts adds 1/12 of 0.25 NETD squared: 2 levels squared over 12.
+  // 8 levels and a twelfth of a level squared for rounding; 5 sigma of the deviation of 19,200 normals. The
+  // quantisation to 16-bit counts adds 1/12 of 0.25 NETD squared: 2 levels squared over 12.
   const double most = std::sqrt(64 + 1.0 / 12 + 4.0 / 12) * (1 + 5 / std::sqrt(2 * 19200.0));
   CHECK(std::sqrt(squares / 19200 - mean * mean) <= most);
   CHECK_THAT(mean, WithinAbs(127.5, 8));

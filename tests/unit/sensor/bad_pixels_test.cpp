@@ -17,14 +17,14 @@ BadPixels dead_of(double share, int width_px, int height_px, bool replace = true
   return {{.dead_share = share, .replace_dead = replace}, seed, "a", kFrameRate, width_px, height_px};
 }
 
-/// A picture in which no two pixels are alike.
+/// A picture in which no two pixels are equal.
 Plane<float> ramp(int width_px, int height_px) {
   Plane<float> picture(width_px, height_px);
   for (std::size_t i = 0; i < picture.size(); ++i) picture.pixels()[i] = 10 + static_cast<float>(i * i % 977);
   return picture;
 }
 
-/// Mean of what is alive at the given places about a pixel; -1: nothing is.
+/// Mean of the working pixels at the given places around a pixel; -1: there are none.
 double living_mean(const Plane<float>& picture, const std::set<std::size_t>& dead, std::size_t pixel,
                    const std::vector<std::pair<int, int>>& places) {
   const int x = static_cast<int>(pixel) % picture.width_px();
@@ -49,7 +49,7 @@ double expected_of(const Plane<float>& picture, const std::set<std::size_t>& dea
 
 }  // namespace
 
-TEST_CASE("A dead pixel shows the mean of its living neighbours, on borders and in clusters too") {
+TEST_CASE("A dead pixel shows the mean of its working neighbours, on borders and in clusters too") {
   const double share = GENERATE(0.02, 0.3, 0.7, 0.95);
   const auto [width_px, height_px] =
       GENERATE(table<int, int>({{40, 30}, {1, 60}, {60, 1}, {3, 3}, {67, 13}}));
@@ -69,13 +69,13 @@ TEST_CASE("A dead pixel shows the mean of its living neighbours, on borders and 
   }
 }
 
-TEST_CASE("Pixels that are all dead are dark") {
+TEST_CASE("Pixels are dark if all are dead") {
   Plane<float> picture = ramp(5, 4);
   dead_of(1, 5, 4).apply(0, 1, picture);
   CHECK(picture == Plane<float>(5, 4));
 }
 
-TEST_CASE("Dead pixels that are not replaced see nothing") {
+TEST_CASE("Dead pixels that are not replaced measure nothing") {
   BadPixels bad = dead_of(0.2, 40, 30, false);
   Plane<float> picture = ramp(40, 30);
   bad.apply(0, 1, picture);

@@ -26,7 +26,7 @@ SensorFrame frame_of(const SensorParameters& parameters, const Plane<float>& sce
   return camera(parameters, {.width_px = scene.width_px(), .height_px = scene.height_px()}).expose(scene);
 }
 
-/// A full sensor that forgets: nothing but noise goes from frame to frame.
+/// A full sensor without memory: only noise carries over from frame to frame.
 SensorParameters forgetful_sensor() {
   SensorParameters parameters = full_sensor();
   parameters.time_constant_s = 0;
@@ -38,7 +38,7 @@ SensorParameters forgetful_sensor() {
 
 }  // namespace
 
-TEST_CASE("Radiances that cannot be are shown as said") {
+TEST_CASE("Invalid radiances are shown as documented") {
   Plane<float> scene(6, 1);
   const std::vector<float> radiances = {kNan, 0, -1, -kInfinity, kInfinity, 1e30F};
   std::copy(radiances.begin(), radiances.end(), scene.pixels().begin());
@@ -74,7 +74,7 @@ TEST_CASE("A pixel that is NaN counts as dark, in sharp and in blurred pictures"
   CHECK(cameras::same_pixels(frame_of(parameters, scene), dark));
 }
 
-TEST_CASE("A frame of radiances that cannot be leaves nothing behind") {
+TEST_CASE("A frame of invalid radiances leaves no trace") {
   const float value = GENERATE(as<float>{}, kNan, -kInfinity, kInfinity);
   ThermalCamera struck = camera(forgetful_sensor(), {.width_px = 33, .height_px = 21});
   ThermalCamera spared = camera(forgetful_sensor(), {.width_px = 33, .height_px = 21});
@@ -87,20 +87,20 @@ TEST_CASE("A frame of radiances that cannot be leaves nothing behind") {
   }
 }
 
-TEST_CASE("A lagging pixel recovers from what cannot be as from any flash or darkness") {
+TEST_CASE("A lagging pixel recovers from invalid values as from any flash or darkness") {
   SensorParameters parameters = perfect_sensor();
   parameters.time_constant_s = 0.012;
   const float value = GENERATE(as<float>{}, kNan, kInfinity);
   ThermalCamera sensor = camera(parameters, {.width_px = 5, .height_px = 3, .frame_rate_hz = 30});
   (void)sensor.expose(uniform_scene(5, 3, 290));
   (void)sensor.expose(Plane<float>(5, 3, value));
-  // Full scale is 655.36 K, some 50 times the radiance of 290 K; 12 frames leave e^-33 of it.
+  // Full scale is 655.36 K, some 50 times the radiance of 290 K; after 12 frames e^-33 of it is left.
   SensorFrame frame;
   for (int i = 0; i < 12; ++i) sensor.expose(uniform_scene(5, 3, 290), frame);
   CHECK(frame.ir16 == Plane<std::uint16_t>(5, 3, 29000));
 }
 
-TEST_CASE("Scenes without anything to see, or all alike, come through every mode") {
+TEST_CASE("Empty and uniform scenes pass through every mode") {
   SensorParameters parameters = perfect_sensor();
   parameters.agc.mode = any_mode();
   const auto [side_px, nothing, white] = GENERATE(
@@ -112,7 +112,7 @@ TEST_CASE("Scenes without anything to see, or all alike, come through every mode
   CHECK(dark.ir8 == Plane<std::uint8_t>(side_px, side_px, white ? 0 : 255));
   const SensorFrame grey = sensor.expose(uniform_scene(side_px, side_px, 288));
   CHECK(grey.ir16 == Plane<std::uint16_t>(side_px, side_px, 28800));
-  // linear: half of 263 to 313 K. Adaptive: the middle, within the 8 levels that a plateau's bin may rise by.
+  // linear: half of 263 to 313 K. Adaptive: the middle, within the 8 levels by which a plateau's bin may rise.
   const AgcMode mode = parameters.agc.mode;
   const bool of_radiance = mode == AgcMode::scene_max || mode == AgcMode::table_max;
   const double level = of_radiance ? static_cast<double>(cameras::radiance_at(288) / cameras::kLevel) : 127.5;
@@ -120,7 +120,7 @@ TEST_CASE("Scenes without anything to see, or all alike, come through every mode
   CHECK_THAT(shown, WithinAbs(level, mode == AgcMode::plateau ? 8.5 : 1));
 }
 
-TEST_CASE("An adaptive mode keeps its curve through frames without anything to see") {
+TEST_CASE("An adaptive mode keeps its curve through empty frames") {
   SensorParameters parameters = perfect_sensor();
   parameters.agc.mode = GENERATE(AgcMode::percentile, AgcMode::plateau);
   ThermalCamera sensor = camera(parameters, {.width_px = 9, .height_px = 7});
@@ -131,7 +131,7 @@ TEST_CASE("An adaptive mode keeps its curve through frames without anything to s
   CHECK_FALSE(sensor.expose(uniform_scene(9, 7, 298)).curve == curve);
 }
 
-TEST_CASE("Pictures of any size come through everything a camera does") {
+TEST_CASE("Pictures of any size pass through every stage of a camera") {
   const auto [width_px, height_px] =
       GENERATE(table<int, int>({{1, 1}, {1, 37}, {37, 1}, {2, 2}, {255, 3}, {257, 2}, {63, 5}}));
   ThermalCamera sensor = camera(full_sensor(), {.width_px = width_px, .height_px = height_px});
@@ -140,7 +140,7 @@ TEST_CASE("Pictures of any size come through everything a camera does") {
     REQUIRE(frame.ir16.width_px() == width_px);
     REQUIRE(frame.ir8.height_px() == height_px);
     for (const std::uint16_t count : frame.ir16.pixels()) {
-      // All parts of the noise together have a deviation below 10 NETDs, of blinking pixels 20: 0.8 K; a lone dead
+      // All parts of the noise together have a deviation below 10 NETDs, blinking pixels 20: 0.8 K; a single dead
       // pixel has no neighbours and is dark.
       REQUIRE((count == 0 || std::abs(count - 29000) < 500));
     }

@@ -27,12 +27,12 @@ double white() {
 
 }  // namespace
 
-TEST_CASE("A pixel's noise is its NETD where nothing else is") {
+TEST_CASE("A pixel's noise is its NETD without other components") {
   CHECK_THAT(noise_of(white_only()), WithinRel(white(), 1e-6));  // single precision
   CHECK(noise_of(cameras::perfect_sensor()) == 0);
 }
 
-TEST_CASE("Patterns add to it in quadrature; what whole frames share does not") {
+TEST_CASE("Patterns add to it in quadrature; noise shared by whole frames does not") {
   SensorParameters parameters = white_only();
   parameters.noise.fixed_pattern_ratio = 2;
   parameters.noise.row_ratio = 3;
@@ -45,7 +45,7 @@ TEST_CASE("Patterns add to it in quadrature; what whole frames share does not") 
   CHECK_THAT(noise_of(parameters), WithinRel(white() * std::sqrt(1.0 + 4 + 9 + 16 + 1 + 25 + 36), 1e-6));
 }
 
-TEST_CASE("The 1/f part and the drift count with their variances") {
+TEST_CASE("The 1/f part and the drift count by their variances") {
   SensorParameters parameters = white_only();
   parameters.noise.flicker_knee_hz = 2;
   const double flicker = 2 * FlickerFilter::design(9).variance();
@@ -58,7 +58,7 @@ TEST_CASE("The 1/f part and the drift count with their variances") {
              WithinRel(white() * std::sqrt(1 + 4 * (1 / 8.0 + 1 / 5.0 + 1 / 12.0)), 1e-6));
 }
 
-TEST_CASE("The paper's pattern goes by the first frame, and counts from then on") {
+TEST_CASE("The paper's pattern is scaled by the first frame, and counts from then on") {
   SensorParameters parameters = white_only();
   parameters.noise.first_frame_ratio = 0.5;
   ThermalCamera used = camera(parameters, {.width_px = 4, .height_px = 4});
@@ -69,7 +69,7 @@ TEST_CASE("The paper's pattern goes by the first frame, and counts from then on"
   CHECK_THAT(used.noise_w_m2_sr(0, 0), WithinRel(std::hypot(white(), 5 / std::sqrt(3)), 1e-6));
 }
 
-TEST_CASE("What is looked at is the picture behind the optics, and looking changes nothing") {
+TEST_CASE("The look receives the picture behind the optics, and looking changes nothing") {
   SensorParameters parameters = cameras::full_sensor();
   parameters.optics = {.psf = Psf::gaussian, .blur_sigma_px = 0};
   const cameras::ClipOf clip = {.width_px = 17, .height_px = 9};
@@ -88,7 +88,7 @@ TEST_CASE("What is looked at is the picture behind the optics, and looking chang
   }
 }
 
-TEST_CASE("Apparent temperature is what the 16-bit picture is made of") {
+TEST_CASE("The 16-bit picture is made from apparent temperature") {
   const ThermalCamera used = camera(cameras::perfect_sensor(), {.width_px = 1, .height_px = 1});
   // The table's error and single precision at 300 K.
   CHECK_THAT(used.temperature_k(static_cast<double>(cameras::radiance_at(300))), WithinAbs(300, 1.5e-4));

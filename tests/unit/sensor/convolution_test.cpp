@@ -34,7 +34,7 @@ int mirrored(int at, int size) {
   return at;
 }
 
-/// What Convolution with gaussian_kernel promises, straight from its words, in double precision.
+/// The documented result of Convolution with gaussian_kernel, in double precision.
 double blurred_at(const Plane<float>& picture, double sigma_px, int x, int y) {
   const int radius = radius_px(sigma_px);
   double sum = 0;
@@ -89,11 +89,11 @@ TEST_CASE("Without a sigma the picture stays as it is") {
   CHECK(blurred(Plane<float>(), 1).empty());
 }
 
-TEST_CASE("A blur is the convolution it says, borders and all") {
+TEST_CASE("A blur is the documented convolution, including borders") {
   const auto [width_px, height_px] =
       GENERATE(table<int, int>({{33, 21}, {16, 16}, {1, 1}, {1, 9}, {9, 1}, {2, 3}}));
   const double sigma_px =
-      GENERATE(0.3, 1.0, 2.5);  // the last reaches beyond the small pictures several times
+      GENERATE(0.3, 1.0, 2.5);  // the last extends beyond the small pictures several times
   CAPTURE(width_px, height_px, sigma_px);
   const Plane<float> picture = random_picture(width_px, height_px);
   const Plane<float> result = blurred(picture, sigma_px);
@@ -105,7 +105,7 @@ TEST_CASE("A blur is the convolution it says, borders and all") {
   }
 }
 
-TEST_CASE("A blur conserves the sum, borders and all") {
+TEST_CASE("A blur conserves the sum, including borders") {
   const auto [width_px, height_px] = GENERATE(table<int, int>({{64, 48}, {5, 4}, {1, 1}, {1, 50}, {50, 1}}));
   const double sigma_px = GENERATE(0.5, 1.0, 3.0);
   const Plane<float> picture = random_picture(width_px, height_px);
@@ -116,7 +116,7 @@ TEST_CASE("Every kernel conserves energy to 1e-6, of points in corners and on bo
   const HalfKernel kernel =
       GENERATE(gaussian_kernel(0.5), gaussian_kernel(3), physical_kernel(1, 12, 1), physical_kernel(1, 17, 1),
                physical_kernel(1.25, 12, 1), physical_kernel(1.4, 17, 4));
-  // The middle weight takes what rounding leaves, so the sum is off by no more than that weight's own rounding.
+  // The middle weight absorbs the rounding, so the sum is off by at most that weight's own rounding.
   CHECK_THAT(kernel_sum(kernel), WithinAbs(1, kFloatRounding * static_cast<double>(kernel[0])));
   const auto [width_px, height_px] = GENERATE(table<int, int>({{24, 20}, {3, 2}, {1, 1}, {1, 7}, {7, 1}}));
   const int x = GENERATE_COPY(0, width_px / 2, width_px - 1);
@@ -145,9 +145,9 @@ TEST_CASE("One convolution serves pictures of several sizes") {
   }
 }
 
-TEST_CASE("A point spreads alike in all four directions, bit for bit") {
+TEST_CASE("A point spreads equally in all four directions, bit for bit") {
   Plane<float> point(31, 31);
-  point.at(15, 15) = 1;  // so that only the weights' products are rounded, in either order alike
+  point.at(15, 15) = 1;  // so that only the weights' products are rounded, in the same way in either order
   const Plane<float> spread = blurred(point, 1.7);
   for (int y = 0; y < 31; ++y) {
     for (int x = 0; x < 31; ++x) {
@@ -158,7 +158,7 @@ TEST_CASE("A point spreads alike in all four directions, bit for bit") {
   }
 }
 
-TEST_CASE("A point spreads by the sigma asked for") {
+TEST_CASE("A point spreads by the requested sigma") {
   const double sigma_px = GENERATE(0.8, 1.0, 2.0);
   Plane<float> point(41, 41);
   point.at(20, 20) = 1;
@@ -177,7 +177,7 @@ TEST_CASE("Turning the picture turns the result, bit for bit") {
   CHECK(blurred(flipped(picture), 1) == flipped(blurred(picture, 1)));
 }
 
-TEST_CASE("A NaN spoils what is within the kernel's reach, and nothing else") {
+TEST_CASE("A NaN affects pixels within the kernel's radius, and no others") {
   Plane<float> picture = random_picture(31, 21);
   const Plane<float> clean = blurred(picture, 1);
   picture.at(15, 10) = std::numeric_limits<float>::quiet_NaN();

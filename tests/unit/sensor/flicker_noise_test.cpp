@@ -10,9 +10,9 @@ using namespace thermal;
 
 namespace {
 
-constexpr std::size_t kPixels = 3001;  // no multiple of a batch or a block
+constexpr std::size_t kPixels = 3001;  // not a multiple of a batch or a block
 
-/// Every pixel's noise of the next frame, made in pieces of so many pixels.
+/// Every pixel's noise of the next frame, made in pieces of this size.
 std::vector<float> next_of(FlickerNoise& noise, std::uint32_t frame, float stddev = 1,
                            std::size_t piece = kPixels, std::size_t pixels = kPixels) {
   std::vector<float> picture(pixels);
@@ -55,7 +55,7 @@ TEST_CASE("The filter's spectrum is 1/f, as strong at 1 Hz as white noise of var
   for (double hz = 3e-3; hz <= 0.5 * frame_rate_hz; hz *= 1.05) {
     CAPTURE(frame_rate_hz, hz);
     const double level_db = 10 * std::log10(filter.density(hz, frame_rate_hz) * hz * frame_rate_hz / 2);
-    REQUIRE(level_db > -0.5);  // as design() says
+    REQUIRE(level_db > -0.5);  // as documented for design()
     REQUIRE(level_db < (hz < 0.35 * frame_rate_hz ? 0.5 : 0.8));
   }
 }
@@ -66,7 +66,7 @@ TEST_CASE("The filter's slope is -1 within 0.005 over three decades") {
   CHECK_THAT(slope(FlickerFilter::design(60, 2), 60, 0.01, 10), WithinAbs(-1, 0.005));
 }
 
-TEST_CASE("The variance is what is under the spectrum") {
+TEST_CASE("The variance is the integral of the spectrum") {
   const double frame_rate_hz = GENERATE(9.0, 60.0);
   const FlickerFilter filter = FlickerFilter::design(frame_rate_hz);
   double under = 0;
@@ -81,7 +81,7 @@ TEST_CASE("The variance is what is under the spectrum") {
   CHECK_THAT(under, WithinRel(filter.variance(), 1e-4));
 }
 
-TEST_CASE("A filter of the lowest rates is one too") {
+TEST_CASE("A filter of the lowest rates is valid too") {
   for (const double frame_rate_hz : {1e-3, 0.01, 1.0}) {
     const FlickerFilter filter = FlickerFilter::design(frame_rate_hz);
     CHECK(std::isfinite(filter.variance()));
@@ -90,7 +90,7 @@ TEST_CASE("A filter of the lowest rates is one too") {
   }
 }
 
-TEST_CASE("1/f noise runs the same way every time, in one piece or in many") {
+TEST_CASE("1/f noise is the same every time, in one piece or in many") {
   FlickerNoise whole = noise_of(1, "a");
   FlickerNoise pieces = noise_of(1, "a");
   FlickerNoise tiny = noise_of(1, "a");
@@ -101,7 +101,7 @@ TEST_CASE("1/f noise runs the same way every time, in one piece or in many") {
   }
 }
 
-TEST_CASE("1/f noise of another seed, clip or pixel runs another way") {
+TEST_CASE("1/f noise differs by seed, clip and pixel") {
   FlickerNoise noise = noise_of(1, "a");
   FlickerNoise other_seed = noise_of(2, "a");
   FlickerNoise other_clip = noise_of(1, "b");
@@ -112,7 +112,7 @@ TEST_CASE("1/f noise of another seed, clip or pixel runs another way") {
   CHECK(first[0] != first[kRandomBatch]);
 }
 
-TEST_CASE("1/f noise goes on from frame to frame whatever its amplitude was") {
+TEST_CASE("1/f noise continues from frame to frame whatever its amplitude was") {
   FlickerNoise steady = noise_of(1, "a");
   FlickerNoise muted = noise_of(1, "a");
   (void)next_of(steady, 0);
@@ -120,7 +120,7 @@ TEST_CASE("1/f noise goes on from frame to frame whatever its amplitude was") {
   CHECK(next_of(steady, 1) == next_of(muted, 1));
 }
 
-TEST_CASE("1/f noise is added to what is there") {
+TEST_CASE("1/f noise is added to the existing values") {
   FlickerNoise noise = noise_of(1, "a", 5);
   FlickerNoise same = noise_of(1, "a", 5);
   std::vector<float> picture(5, 64);

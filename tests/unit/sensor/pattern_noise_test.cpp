@@ -30,7 +30,7 @@ PatternNoise noise_of(const NoiseParameters& parameters, std::uint32_t seed = 1,
   return {parameters, seed, clip, kWidth, kHeight};
 }
 
-/// Every row of the same value throughout.
+/// Whether every row is constant.
 bool constant_rows(const Plane<float>& picture) {
   for (int y = 0; y < picture.height_px(); ++y) {
     for (const float value : picture.row(y)) {
@@ -40,7 +40,7 @@ bool constant_rows(const Plane<float>& picture) {
   return true;
 }
 
-/// Every row like the first.
+/// Whether every row equals the first.
 bool constant_columns(const Plane<float>& picture) {
   for (int y = 0; y < picture.height_px(); ++y) {
     for (int x = 0; x < picture.width_px(); ++x) {
@@ -50,10 +50,10 @@ bool constant_columns(const Plane<float>& picture) {
   return true;
 }
 
-/// A component, what of it is alike, and whether it stands still between two closings of the shutter.
+/// A component, the axis along which it is constant, and whether it is fixed between two closings of the shutter.
 struct Component {
   NoiseParameters parameters;
-  bool rows_alike;  // every column alike: a row is constant
+  bool rows_alike;  // all columns equal: a row is constant
   bool columns_alike;
   bool still;
 };
@@ -76,7 +76,7 @@ TEST_CASE("Every component is shared as its name says") {
   CHECK((frame_of(noise, 2, {.event = 1}) == second) == false);
 }
 
-TEST_CASE("No two components are made of the same numbers") {
+TEST_CASE("No two components use the same random numbers") {
   const std::vector<NoiseParameters> alone = {
       {.fixed_pattern_ratio = 1},   {.row_ratio = 1},   {.column_ratio = 1}, {.temporal_row_ratio = 1},
       {.temporal_column_ratio = 1}, {.frame_ratio = 1}, {.drift_ratio = 1}};
@@ -88,7 +88,7 @@ TEST_CASE("No two components are made of the same numbers") {
   CHECK(first_numbers.size() == alone.size());
 }
 
-TEST_CASE("Without ratios there is no noise of patterns") {
+TEST_CASE("Without ratios there is no pattern noise") {
   PatternNoise noise = noise_of({});
   CHECK(frame_of(noise, 0, {.event = 3, .since_intervals = 1}, 5) == Plane<float>(kWidth, kHeight));
 }
@@ -124,7 +124,7 @@ TEST_CASE("The pattern that drifts has grown to its ratio one interval after the
   CHECK_FALSE(frame_of(noise, 3, {.event = 3, .since_intervals = 1}) == grown);  // begins anew
 }
 
-TEST_CASE("Bands have their period, their strength and their pace") {
+TEST_CASE("Bands have the given period, strength and speed") {
   PatternNoise noise = noise_of({.banding_ratio = 0.7, .banding_period_px = 16, .banding_hz = 0.5});
   const Plane<float> first = frame_of(noise, 0);
   CHECK(constant_rows(first));
@@ -141,7 +141,7 @@ TEST_CASE("Bands have their period, their strength and their pace") {
   }
 }
 
-TEST_CASE("The noise of patterns is the same in one piece or in many, for any size of picture") {
+TEST_CASE("Pattern noise is the same in one piece or in many, for any size of picture") {
   const NoiseParameters parameters = {.fixed_pattern_ratio = 1,
                                       .row_ratio = 1,
                                       .column_ratio = 1,
@@ -164,13 +164,13 @@ TEST_CASE("The noise of patterns is the same in one piece or in many, for any si
   for (const float value : whole.pixels()) REQUIRE(std::isfinite(value));
 }
 
-TEST_CASE("The noise of patterns is a function of seed, clip, frame and shutter") {
+TEST_CASE("Pattern noise is a function of seed, clip, frame and shutter") {
   const NoiseParameters parameters = {.fixed_pattern_ratio = 1, .temporal_row_ratio = 1};
   PatternNoise noise = noise_of(parameters);
   (void)frame_of(noise, 0, {.event = 1});
   const Plane<float> frame = frame_of(noise, 5, {.event = 2});
   PatternNoise again = noise_of(parameters);
-  CHECK(frame_of(again, 5, {.event = 2}) == frame);  // not of the frames before it
+  CHECK(frame_of(again, 5, {.event = 2}) == frame);  // does not depend on earlier frames
   PatternNoise other_seed = noise_of(parameters, 2);
   PatternNoise other_clip = noise_of(parameters, 1, "b");
   CHECK_FALSE(frame_of(other_seed, 5, {.event = 2}) == frame);

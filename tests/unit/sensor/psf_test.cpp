@@ -25,8 +25,8 @@ double gaussian(double cycles_per_px, double sigma_px) {
   return std::exp(-2 * std::pow(pi * sigma_px * cycles_per_px, 2));
 }
 
-/// Overlap of two discs of radius 1 whose centres are 2 v apart, as a share of a disc, strip by strip: what an
-/// incoherent transfer function is by definition.
+/// Overlap of two discs of radius 1 whose centres are 2 v apart, as a fraction of a disc, strip by strip: the
+/// definition of an incoherent transfer function.
 double disc_overlap(double v) {
   constexpr int kStrips = 20000;
   double sum = 0;
@@ -39,7 +39,7 @@ double disc_overlap(double v) {
 
 }  // namespace
 
-TEST_CASE("A lens transfers what two shifted apertures share") {
+TEST_CASE("A lens transfers the overlap of two shifted apertures") {
   for (const double v : {0.0, 0.1, 0.5, 0.9, 0.99}) {
     CAPTURE(v);
     // Strips of a square root's end: error below (1 - v) / strips.
@@ -58,8 +58,8 @@ TEST_CASE("At Nyquist a lens, a pixel and a quarter of a pixel transfer the publ
     double over_band;
   };
   // at_10_6_um: PHYSICS.md section 5, three digits; they are those of 10.6 um alone. over_band: 8-14 um, weighted
-  // with the radiance of 300 K, by the trapezoid rule with 20,000 steps in double precision elsewhere; 0.004 to
-  // 0.006 lower, for the band's middle is at 11 um and its long waves count for more than its short ones.
+  // with the radiance of 300 K, by the trapezoid rule with 20,000 steps in double precision elsewhere; 0.004 to 0.006
+  // lower, because the band's centre is at 11 um and its long waves have more weight than its short ones.
   const auto golden = GENERATE(Golden{1, 12, 0.213, 0.20804}, Golden{1, 17, 0.285, 0.28067},
                                Golden{1.25, 12, 0.156, 0.15090}, Golden{1.25, 17, 0.242, 0.23650});
   CAPTURE(golden.f_number, golden.pixel_pitch_um);
@@ -76,7 +76,8 @@ TEST_CASE("The plain Gaussian is its own transfer function") {
   for (const double cycles : {0.0, 0.1, 0.25, 0.5}) {
     CAPTURE(cycles);
     CHECK_THAT(optics_mtf(optics, kBand, cycles), WithinAbs(gaussian(cycles, 1), 1e-15));
-    // Sampling adds the aliases. The cut at 4 sigma drops 6.3e-5 of the weight, and scaling spreads it: twice that.
+    // Sampling adds the aliases. The truncation at 4 sigma drops 6.3e-5 of the weight, and scaling distributes it:
+    // twice that.
     CHECK_THAT(kernel_mtf(psf_kernel(optics, kBand, 1), cycles),
                WithinAbs(gaussian(cycles, 1) + gaussian(1 - cycles, 1) + gaussian(1 + cycles, 1), 1.3e-4));
   }
@@ -104,7 +105,7 @@ TEST_CASE("A sharp lens and a narrow band leave the footprint alone") {
   }
 }
 
-TEST_CASE("The kernel of a physical lens transfers what the lens does") {
+TEST_CASE("The kernel of a physical lens has the lens's transfer") {
   const double f_number = GENERATE(1.0, 1.25, 2.0);
   const double pixel_pitch_um = GENERATE(12.0, 17.0);
   const int supersample = GENERATE(1, 2, 4);
@@ -114,12 +115,12 @@ TEST_CASE("The kernel of a physical lens transfers what the lens does") {
   CHECK_THAT(kernel_mtf(kernel, 0), WithinAbs(1, 6e-8));
   for (double cycles = 0.005; cycles <= 0.5; cycles += 0.005) {
     CAPTURE(cycles);
-    // What the mean of the samples of a pixel does is there before the kernel comes.
+    // The mean of a pixel's samples acts before the kernel.
     double before = 0;
     for (int i = 0; i < supersample; ++i) {
       before += std::cos(2 * pi * cycles * ((i + 0.5) / supersample - 0.5)) / supersample;
     }
-    const double ripple = 0.015;  // psf_kernel() says so
+    const double ripple = 0.015;  // as documented for psf_kernel()
     REQUIRE_THAT(before * kernel_mtf(kernel, cycles), WithinAbs(optics_mtf(optics, kBand, cycles), ripple));
   }
 }

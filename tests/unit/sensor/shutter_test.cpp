@@ -54,7 +54,7 @@ TEST_CASE(
   CHECK_FALSE(never_frozen.at(closing_s).closed);
 }
 
-TEST_CASE("The share of the interval that has passed is never outside 0 to 1, whatever rounding does") {
+TEST_CASE("The elapsed fraction of the interval is always 0 to 1, despite rounding") {
   const double interval_s = GENERATE(1.0 / 3, 0.7, 180.0, 1e-3);
   const Shutter shutter({.interval_s = interval_s, .freeze_s = 0}, 1, "a");
   for (int event = 1; event < 2000; ++event) {
@@ -69,7 +69,7 @@ TEST_CASE("The share of the interval that has passed is never outside 0 to 1, wh
   }
 }
 
-TEST_CASE("A clip begins anywhere in the interval, a function of seed and clip") {
+TEST_CASE("A clip starts anywhere in the interval, a function of seed and clip") {
   const ShutterParameters parameters = {.interval_s = 10, .freeze_s = 0.5};
   CHECK(Shutter(parameters, 1, "a").begins_s() == Shutter(parameters, 1, "a").begins_s());
   CHECK(Shutter(parameters, 1, "a").begins_s() != Shutter(parameters, 2, "a").begins_s());

@@ -20,7 +20,7 @@ using cameras::uniform_scene;
 
 namespace {
 
-constexpr int kWidth = 83;  // no multiple of a vector or a block
+constexpr int kWidth = 83;  // not a multiple of a vector or a block
 constexpr int kHeight = 60;
 
 cameras::ClipOf clip(const char* id = "a", std::uint32_t seed = 1) {
@@ -67,7 +67,7 @@ bool same(const std::vector<SensorFrame>& a, const std::vector<SensorFrame>& b) 
 
 }  // namespace
 
-TEST_CASE("A perfect camera shows whole levels as they are, by both of the paper's ways") {
+TEST_CASE("A perfect camera shows whole levels exactly, in both of the paper's modes") {
   SensorParameters parameters = perfect_sensor();
   parameters.agc.mode = GENERATE(AgcMode::scene_max, AgcMode::table_max);
   Plane<float> scene(256, 1);
@@ -76,7 +76,7 @@ TEST_CASE("A perfect camera shows whole levels as they are, by both of the paper
   for (int level = 0; level < 256; ++level) CHECK(frame.ir8.at(level, 0) == level);
 }
 
-TEST_CASE("The paper's levels are rounded, the script's are cut off") {
+TEST_CASE("The paper's levels are rounded, the script's are truncated") {
   SensorParameters parameters = perfect_sensor();
   const bool script = GENERATE(false, true);
   parameters.agc.mode = script ? AgcMode::table_max : AgcMode::scene_max;
@@ -87,7 +87,7 @@ TEST_CASE("The paper's levels are rounded, the script's are cut off") {
   CHECK(frame.ir8.at(1, 0) == (script ? 99 : 100));
 }
 
-TEST_CASE("ir8 is what the curve makes of ir16, in every mode but the script's, with all noise") {
+TEST_CASE("ir8 is the curve applied to ir16, in every mode but the script's, with all noise") {
   SensorParameters parameters = full_sensor();
   parameters.agc.mode = GENERATE(AgcMode::scene_max, AgcMode::table_max, AgcMode::linear, AgcMode::percentile,
                                  AgcMode::plateau);
@@ -111,11 +111,10 @@ TEST_CASE("Frame n of a clip is the same in every run, also in one with other th
   CHECK(same(frames_with(1, 12), alone));
   CHECK(same(frames_with(2, 12), alone));
   CHECK(same(frames_with(0, 12), alone));
-  CHECK_FALSE(
-      same_pixels(alone[4], alone[8]));  // the same scene in other noise, the shutter open at least once
+  CHECK_FALSE(same_pixels(alone[4], alone[8]));  // other noise, and the shutter open at least once
 }
 
-TEST_CASE("Clips share nothing: made in turns or one after the other, they are the same") {
+TEST_CASE("Clips share nothing: interleaved or one after the other, they are the same") {
   const std::vector<SensorFrame> a = frames_of(full_sensor(), clip("a"), 6);
   const std::vector<SensorFrame> b = frames_of(full_sensor(), clip("b"), 6);
   ThermalCamera one = camera(full_sensor(), clip("b"));
@@ -140,7 +139,7 @@ TEST_CASE("White noise is a function of seed and clip") {
   CHECK_FALSE(same_pixels(frames_of(parameters, clip("a", 2), 1)[0], frame));
 }
 
-TEST_CASE("A camera that sees means of samples leaves their share of the footprint out of its blur") {
+TEST_CASE("A camera that receives means of samples leaves their part of the footprint out of its blur") {
   SensorParameters parameters = perfect_sensor();
   parameters.optics.psf = Psf::physical;
   const int supersample = GENERATE(1, 2, 4);
@@ -155,7 +154,7 @@ TEST_CASE("A camera that sees means of samples leaves their share of the footpri
 TEST_CASE("The paper's fixed pattern is scaled by the first frame, and stays") {
   SensorParameters parameters = perfect_sensor();
   parameters.noise = {.amount = 0.5, .first_frame_ratio = 1};
-  parameters.netd_mk = 1e-6;  // no white noise to speak of
+  parameters.netd_mk = 1e-6;  // practically no white noise
   ThermalCamera sensor = camera(parameters, clip());
   // 62 columns of 100 levels and 21 of 140: standard deviation 40 sqrt(62 * 21) / 83.
   const double half_width = 0.5 * 40 * std::sqrt(62.0 * 21) / 83;
@@ -191,10 +190,10 @@ TEST_CASE("Noise has the standard deviation of its NETD, behind any lens and at 
   CHECK_THAT(squares_k2 / kPixels, WithinRel(sigma_k * sigma_k + 1e-4 / 12, 5 * std::sqrt(2 / kPixels)));
 }
 
-TEST_CASE("The picture freezes when the shutter closes, to the frame, and time goes on behind it") {
+TEST_CASE("The picture freezes when the shutter closes, to the frame, and time continues behind it") {
   const double frame_rate_hz = GENERATE(9.0, 30.0, 60.0);
   SensorParameters freezing = full_sensor();
-  freezing.agc.mode = AgcMode::linear;  // an adaptive curve remembers what it was shown
+  freezing.agc.mode = AgcMode::linear;  // an adaptive curve depends on earlier frames
   freezing.shutter = {.interval_s = 0.9, .freeze_s = 0.3};
   SensorParameters open = freezing;
   open.shutter.freeze_s = 0;
@@ -237,14 +236,14 @@ TEST_CASE("A blurred picture's mean is the scene's, and the blur is in radiance"
   CHECK(frame.ir8.at(5, 0) == 100);
 }
 
-TEST_CASE("After a first frame that nobody saw, all that a camera remembers begins with the next") {
+TEST_CASE("After a skipped first frame, all state of the camera starts with the next") {
   SensorParameters parameters = full_sensor();
   parameters.shutter = {};
   ThermalCamera late = camera(parameters, clip());
   late.skip();
   const SensorFrame first = late.expose(two_parts());
   const SensorFrame usual = frames_of(parameters, clip(), 1).front();
-  // Another frame's noise, as strong as any: standard deviations of 4980 differences agree to a few per cent.
+  // Another frame's noise, equally strong: standard deviations of 4980 differences agree to a few per cent.
   CHECK_FALSE(same_pixels(first, usual));
   const auto spread = [](const SensorFrame& frame) {
     double sum = 0;
@@ -261,7 +260,7 @@ TEST_CASE("After a first frame that nobody saw, all that a camera remembers begi
   CHECK_THAT(spread(first), WithinRel(spread(usual), 0.15));
 }
 
-TEST_CASE("A lag has nothing to lag behind in the first frame that is seen") {
+TEST_CASE("A lag has no history in the first frame that is given") {
   SensorParameters parameters = perfect_sensor();
   parameters.time_constant_s = 0.2;
   ThermalCamera late = camera(parameters, clip());
@@ -269,7 +268,7 @@ TEST_CASE("A lag has nothing to lag behind in the first frame that is seen") {
   CHECK(same_pixels(late.expose(two_parts()), frames_of(perfect_sensor(), clip(), 1).front()));
 }
 
-TEST_CASE("A skipped frame's noise is nobody's: later frames have the noise of their own numbers") {
+TEST_CASE("A skipped frame's noise is not reused: later frames have the noise of their own numbers") {
   SensorParameters parameters = perfect_sensor();
   parameters.noise.amount = 1;
   ThermalCamera gap = camera(parameters, clip());

@@ -10,7 +10,7 @@
 namespace thermal {
 namespace {
 
-/// Whole pixels that hold all of [low, low + length]: first, and how many. What a sum is off by roundings is no pixel.
+/// The whole pixels that cover [low, low + length]: first, and number. Rounding errors of sums do not add a pixel.
 struct Span {
   long first_px = 0;
   long count_px = 0;
@@ -45,7 +45,7 @@ std::string rows_of(const LabelSet& set, std::size_t first, std::size_t end) {
 }  // namespace
 
 std::string why_not_in_birdsai(const LabelSet& set, const Label& label) {
-  if (label.crowd) return "of crowds, which BIRDSAI has no mark for";
+  if (label.crowd) return "of crowds, which BIRDSAI cannot mark";
   return kind_of(set.categories[label.category].name) == Kind::vehicle
              ? "of vehicles, which BIRDSAI has no class for"
              : "";

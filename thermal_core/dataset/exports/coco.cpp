@@ -11,7 +11,7 @@
 namespace thermal {
 namespace {
 
-/// What becomes the files of the splits, list by list, while one big file is read.
+/// Writes the files of the splits, list by list, while one large file is read.
 class Splitter {
  public:
   explicit Splitter(const ExportInput& input)
@@ -70,7 +70,7 @@ class Splitter {
       if (videos_[split].contains(video.at("id").dump())) add(split, "videos", video);
   }
 
-  /// Keys in the order of the file that was read; its lists are empty in `rest`.
+  /// Keys in the order of the file read; its lists are empty in `rest`.
   std::string file_of(std::size_t split, const Json& rest) {
     std::string text = "{";
     for (const auto& [key, value] : rest.items()) {
@@ -82,9 +82,9 @@ class Splitter {
   }
 
   const ExportInput& input_;
-  std::unordered_map<std::int64_t, std::size_t> images_;   ///< place in the set, by id
+  std::unordered_map<std::int64_t, std::size_t> images_;   ///< index in the set, by id
   std::vector<std::map<std::string, std::string>> lists_;  ///< by split and key
-  std::vector<std::set<std::string>> videos_;              ///< ids of those that have images, by split
+  std::vector<std::set<std::string>> videos_;              ///< ids with images, by split
   std::vector<Json> all_videos_;
 };
 

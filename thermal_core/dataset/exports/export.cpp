@@ -70,7 +70,7 @@ ExportOutcome tally(const ExportInput& input, ExportFormat format) {
   return outcome;
 }
 
-/// What tells one export from another: equal requests make equal folders.
+/// Identifies an export: equal requests make equal folders.
 Json request_of(const ExportOptions& options, const ExportSource& source) {
   Json splits = Json::object();
   for (const SplitShare& split : options.splits) splits[split.name] = split.share;
@@ -119,7 +119,7 @@ bool is_there(const Path& out, const Json& request) {
                   out.string(), list_names(found, kMost)));
 }
 
-/// The folder an export is made in; removed unless it becomes the export.
+/// The folder in which an export is made; removed unless it is completed.
 class Part {
  public:
   explicit Part(const Path& out) : out_(out), part_(part_of(out)), lock_(part_) { clear(); }
@@ -147,7 +147,7 @@ class Part {
  private:
   static constexpr const char* kLock = ".lock";
 
-  /// What a killed run left has a lock in it; what has none is somebody's.
+  /// A folder left by a killed run has a lock in it; one without belongs to the user.
   static Path part_of(const Path& out) {
     Path part = out;
     part += ".part";
@@ -169,7 +169,7 @@ class Part {
   bool done_ = false;
 };
 
-/// Returns how many pictures were copied for want of links.
+/// Returns the number of pictures copied because links were impossible.
 int write_pictures(const ExportPlan& plan, const LabelSet& set, const Path& folder, Linking linking,
                    const RunHooks& hooks) {
   Progress progress{.clip = "", .frames_done = 0, .frames_total = static_cast<int>(plan.pictures.size())};
@@ -193,7 +193,7 @@ void write_texts(const ExportPlan& plan, const Path& folder, const RunHooks& hoo
   }
 }
 
-/// With a name at its end, so that OUT.part is beside OUT.
+/// Without a trailing slash, so that OUT.part is beside OUT.
 Path named(const Path& folder) {
   const Path path = folder.lexically_normal();
   if (path == "." || path.filename() == "..") return std::filesystem::canonical(path);
@@ -225,7 +225,7 @@ ExportOutcome export_dataset(const ExportOptions& options, const RunHooks& hooks
   plan.texts.push_back({.to = kRecord, .content = record_of(request, outcome)});
   check_targets(plan, source.input.set);
   Part part(out);
-  outcome.already_there = is_there(out, request);  // made by another run, just now
+  outcome.already_there = is_there(out, request);  // made by another run in the meantime
   if (outcome.already_there) return outcome;
   outcome.copied = write_pictures(plan, source.input.set, part.path(), options.linking, hooks);
   write_texts(plan, part.path(), hooks);

@@ -15,14 +15,14 @@ namespace thermal {
 enum class ExportFormat { coco, yolo, mot, birdsai };
 
 struct ExportOptions {
-  Path source;  ///< as read_labels() takes it
+  Path source;  ///< as read_labels() accepts it
   ExportFormat format = ExportFormat::coco;
-  Path out;  ///< empty or not there yet
+  Path out;  ///< empty or not existing yet
   Linking linking = Linking::hard;
-  bool ir16 = false;                  ///< the pictures of 16 bits, which only datasets of ours have
-  std::vector<SplitShare> splits;     ///< none: all is one
-  std::optional<std::uint32_t> seed;  ///< of the splits; none: the dataset's own, or 1
-  Path selection;                     ///< frames to take; empty: all
+  bool ir16 = false;                  ///< 16-bit pictures, which only Veldt datasets have
+  std::vector<SplitShare> splits;     ///< empty: no split
+  std::optional<std::uint32_t> seed;  ///< seed of the splits; empty: the dataset's own, or 1
+  Path selection;                     ///< frames to export; empty: all
   bool unfinished_too = false;
 };
 
@@ -30,21 +30,21 @@ struct ExportedSplit {
   std::string name;
   int clips = 0;
   int pictures = 0;
-  std::vector<int> labels;  ///< of each category
+  std::vector<int> labels;  ///< per category
 };
 
 struct ExportOutcome {
-  bool already_there = false;  ///< this very export, finished before: nothing was written
+  bool already_there = false;  ///< this very export existed already: nothing was written
   std::vector<std::string> categories;
   std::vector<ExportedSplit> splits;
-  std::map<std::string, int> left_out;  ///< labels by why the format can't hold them
-  int copied = 0;                       ///< pictures that were to be linked and could not be
+  std::map<std::string, int> left_out;  ///< labels left out, by why the format cannot represent them
+  int copied = 0;                       ///< pictures that could not be linked
 };
 
-/// Writes labels and pictures as other programs read them, in their layout, with export.json that tells what it is of.
-/// All is made in OUT.part, which becomes OUT when it is whole, and is removed if it does not.
-/// ConfigError if `out` holds anything but this very export, or the request can't be met; DataError for labels or
-/// names of files that the format can't hold, and missing pictures; IoError, TryAgainError or Cancelled.
+/// Writes labels and pictures in another program's layout, with an export.json that describes the source. Everything
+/// is made in OUT.part, which becomes OUT when it is complete, and is removed on failure.
+/// ConfigError if `out` holds anything but this very export, or the request is impossible; DataError for labels or
+/// file names that the format cannot represent, and missing pictures; IoError, TryAgainError or Cancelled.
 ExportOutcome export_dataset(const ExportOptions& options, const RunHooks& hooks);
 
 /// As flags spell it.

@@ -60,7 +60,7 @@ class MotPlanner {
     plan_.texts.push_back({.to = folder + "/seqinfo.ini", .content = seqinfo(clip, name)});
   }
 
-  /// seqinfo.ini can tell but one size and ending.
+  /// seqinfo.ini has only one size and extension.
   void check_alike(const Clip& clip) const {
     const LabelImage& one = set_.images[clip.begin];
     for (std::size_t i = clip.begin; i < clip.end; ++i) {
@@ -69,8 +69,8 @@ class MotPlanner {
           ending_of(other.file) == ending_of(one.file))
         continue;
       throw DataError(
-          fmt::format("{} is {} x {} px and {} is {} x {} px; expected pictures of one clip to be of one "
-                      "kind and size, which --format mot needs",
+          fmt::format("{} is {} x {} px and {} is {} x {} px; expected all pictures of a clip to have one "
+                      "kind and size, as --format mot requires",
                       one.file, one.width_px, one.height_px, other.file, other.width_px, other.height_px));
     }
   }

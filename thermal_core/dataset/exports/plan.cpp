@@ -47,18 +47,18 @@ void check_tracks(const LabelSet& set, std::string_view format) {
     const std::string& file = set.images[label.image].file;
     if (!label.track_id)
       throw DataError(
-          fmt::format("annotation {} of {} has no track_id; expected one, which --format {} needs", label.id,
+          fmt::format("annotation {} of {} has no track_id; expected one, as --format {} requires", label.id,
                       file, format));
     const auto [there, fresh] = seen.emplace(std::pair(label.image, *label.track_id), label.id);
     if (!fresh)
       throw DataError(
-          fmt::format("annotations {} and {} of {} have track_id {} both; expected one of a track",
+          fmt::format("annotations {} and {} of {} both have track_id {}; expected one annotation per track",
                       there->second, label.id, file, *label.track_id));
   }
 }
 
 void check_targets(const ExportPlan& plan, const LabelSet& set) {
-  std::map<std::string, std::string> targets;  // by where to: which file
+  std::map<std::string, std::string> targets;  // by target: source file
   const auto check = [&targets](const std::string& to, const std::string& file) {
     check_inside(to, file);
     const auto [there, fresh] = targets.emplace(to, file);

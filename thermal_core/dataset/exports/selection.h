@@ -5,8 +5,8 @@
 
 namespace thermal {
 
-/// The pictures that a selection takes, with their labels; all videos and categories stay. `file` is where the
-/// selection comes from. DataError naming it if it takes of a video or a frame that there is not, or takes nothing.
+/// The pictures of a selection, with their labels; all videos and categories stay. `file` is the selection's file.
+/// DataError with it if it selects from an unknown video or frame, or selects nothing.
 [[nodiscard]] LabelSet take_selected(const LabelSet& set, const SelectedDataset& selected, const Path& file);
 
 }  // namespace thermal

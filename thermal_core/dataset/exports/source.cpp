@@ -27,7 +27,8 @@ Path coco_file_of(const Path& source) {
   return std::filesystem::is_regular_file(source) ? source : Path();
 }
 
-/// People keep COCO files in annotations/ beside the folders of pictures; file names are then relative to both.
+/// COCO files are often in annotations/ beside the folders of pictures; file names are then relative to the parent of
+/// both.
 Path root_of(const LabelSet& set) {
   Path root = Path(set.root);
   if (set.images.empty() || root.filename() != "annotations") return root;
@@ -42,7 +43,7 @@ std::string ir16_of(const std::string& file) {
   return (path.parent_path().parent_path() / "ir16" / path.filename()).string();
 }
 
-/// Labels of the pictures that are asked for, all of them or those selected.
+/// Labels of the requested pictures: all, or the selected ones.
 LabelSet read_set(const ExportOptions& options) {
   LabelSet set = read_labels(options.source, options.unfinished_too);
   if (!options.selection.empty()) {
@@ -58,12 +59,11 @@ LabelSet read_set(const ExportOptions& options) {
 
 void use_ir16(LabelSet& set, const Path& source) {
   if (!is_ours(source))
-    throw ConfigError(
-        fault("--images", "ir16", "", "ir8; only datasets of Veldt's have pictures of 16 bits"));
+    throw ConfigError(fault("--images", "ir16", "", "ir8; only Veldt datasets have 16-bit pictures"));
   for (LabelImage& image : set.images) image.file = ir16_of(image.file);
 }
 
-/// A name that leads out of the folder could make anybody's file a part of what is given away.
+/// A name that leads out of the folder could add any file of this machine to an export that is given away.
 void check_names(const LabelSet& set) {
   for (const LabelImage& image : set.images) {
     const Path path(image.file);
@@ -81,7 +81,7 @@ void check_pictures(const LabelSet& set) {
   }
   if (missing.empty()) return;
   constexpr std::size_t kMost = 3;
-  throw DataError(fmt::format("{}: no picture {}; expected all {} that labels tell of",
+  throw DataError(fmt::format("{}: no picture {}; expected all {} that the labels refer to",
                               set.root.empty() ? "." : set.root, list_names(missing, kMost),
                               set.images.size()));
 }

@@ -7,18 +7,18 @@
 
 namespace thermal {
 
-/// What is read for an export, before anything is written.
+/// Everything read for an export, before anything is written.
 struct ExportSource {
   ExportInput input;
-  std::string coco;       ///< the COCO file the labels come from, whole; empty if they come from none
-  std::string coco_name;  ///< for faults
-  bool all = true;        ///< nothing is left away, renamed or split
+  std::string coco;       ///< the COCO file of the labels, complete; empty for other sources
+  std::string coco_name;  ///< for messages
+  bool all = true;        ///< nothing is removed, renamed or split
   std::string labels_sha256;
   std::uint32_t seed = 1;  ///< of the splits
 };
 
-/// Reads labels, takes the selected frames, and shares clips out to splits. Each picture is there,
-/// and has a size where the format needs one.
+/// Reads labels, takes the selected frames, and assigns clips to splits. Checks that each picture exists, and has a
+/// size if the format needs one.
 [[nodiscard]] ExportSource read_export_source(const ExportOptions& options);
 
 }  // namespace thermal

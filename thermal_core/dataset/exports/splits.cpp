@@ -14,10 +14,10 @@
 namespace thermal {
 namespace {
 
-/// How many of each thing: labels of each category, and pictures last.
+/// Counts: labels of each category, and pictures last.
 using Counts = std::vector<double>;
 
-/// A way to split is judged by how many splits lack a category that there is, then by squared errors of shares.
+/// Cost of a split: how many splits lack an existing category, then squared errors of shares.
 struct Cost {
   int missing = 0;
   double error = 0;
@@ -27,16 +27,16 @@ struct Cost {
     error += other.error;
     return *this;
   }
-  /// By more than roundings, so that no search goes round in circles.
+  /// By more than rounding errors, so that a search always ends.
   [[nodiscard]] bool is_better_than(const Cost& other) const {
     constexpr double kRoundings = 1e-12;
     return missing != other.missing ? missing < other.missing : error < other.error - kRoundings;
   }
 };
 
-/// Whole videos to be shared out; one that has no picture is not among them.
+/// The videos to distribute; without those that have no picture.
 struct Clips {
-  std::vector<std::size_t> videos;  ///< place of each in the label set, by name
+  std::vector<std::size_t> videos;  ///< index of each in the label set, by name
   std::vector<Counts> counts;
   Counts total;
 };
@@ -58,10 +58,10 @@ Clips clips_of(const LabelSet& set) {
   return clips;
 }
 
-/// Clips in an order of its own for each seed and start.
+/// A random order of clips for each seed and start.
 std::vector<std::size_t> shuffled(const LabelSet& set, const Clips& clips, std::uint32_t seed,
                                   std::size_t start) {
-  constexpr std::uint32_t kSplitStream = 1000;  // past those of sensor/streams.h
+  constexpr std::uint32_t kSplitStream = 1000;  // after those of sensor/streams.h
   std::vector<std::pair<float, std::size_t>> keys;
   for (std::size_t i = 0; i < clips.videos.size(); ++i) {
     std::array<float, kRandomBatch> random{};
@@ -76,10 +76,10 @@ std::vector<std::size_t> shuffled(const LabelSet& set, const Clips& clips, std::
   return order;
 }
 
-/// Few clips leave few good ways, which a search may miss; with many, all ends are nearly as good.
+/// With few clips there are few good solutions, which a search may miss; with many, all results are nearly as good.
 std::size_t starts_for(std::size_t clips) { return std::clamp<std::size_t>(4000 / clips, 4, 100); }
 
-/// A way to split, on its way to a better one.
+/// A solution that is being improved.
 class Assignment {
  public:
   Assignment(const Clips& clips, const std::vector<SplitShare>& shares)
@@ -89,7 +89,7 @@ class Assignment {
         got_(shares.size(), Counts(clips.total.size(), 0)),
         clips_in_(shares.size(), 0) {}
 
-  /// Each clip to the split that is then nearest to its shares.
+  /// Greedy start: each clip goes to the split that it brings nearest to its shares.
   void fill(const std::vector<std::size_t>& order) {
     for (std::size_t left = order.size(); const std::size_t clip : order) {
       put(clip, best_split_for(clip, left));
@@ -97,7 +97,7 @@ class Assignment {
     }
   }
 
-  /// Moves and swaps clips until no single step betters it.
+  /// Moves and swaps clips until no single step improves the cost.
   void improve() {
     while (move_some() || swap_some()) {
     }
@@ -135,7 +135,7 @@ class Assignment {
     ++clips_in_[split];
   }
 
-  /// Leaves no split without a clip: once as many clips are left as splits are empty, only those are chosen from.
+  /// Leaves no split without a clip: once only as many clips are left as splits are empty, only those are candidates.
   [[nodiscard]] std::size_t best_split_for(std::size_t clip, std::size_t clips_left) {
     const auto empty = static_cast<std::size_t>(std::ranges::count(clips_in_, 0));
     std::optional<std::pair<double, std::size_t>> best;
@@ -150,7 +150,7 @@ class Assignment {
     return best->second;
   }
 
-  /// Cost of two splits after `change`; which stays done if it is better, and is undone by `undo` if not.
+  /// Cost of two splits after `change`, which stays if it is an improvement, and is otherwise reverted by `undo`.
   template <typename Change, typename Undo>
   bool keep_if_better(std::size_t one, std::size_t other, const Change& change, const Undo& undo) {
     Cost before = cost_of(one);
@@ -177,7 +177,7 @@ class Assignment {
   }
 
   bool swap_some() {
-    constexpr std::size_t kMostClips = 500;  // where there are more, single moves come near enough
+    constexpr std::size_t kMostClips = 500;  // with more, single moves come close enough
     if (of_clip_.size() > kMostClips) return false;
     bool swapped = false;
     for (std::size_t a = 0; a < of_clip_.size(); ++a) {

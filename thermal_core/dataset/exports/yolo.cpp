@@ -9,7 +9,7 @@
 namespace thermal {
 namespace {
 
-/// The part of a box that lies in its picture; sides are 0 or less if nothing does.
+/// The part of a box inside its picture; sides are 0 or less if it is outside.
 LabelBox cut(const LabelBox& box, const LabelImage& image) {
   const double left_px = std::max(box.x_px, 0.0);
   const double top_px = std::max(box.y_px, 0.0);
@@ -26,7 +26,7 @@ std::string line_of(const Label& label, const LabelImage& image) {
                      box.height_px / image.height_px);
 }
 
-/// JSON's strings are YAML's too.
+/// JSON strings are also valid YAML.
 std::string quoted(const std::string& text) { return Json(text).dump(); }
 
 bool has_split(const ExportInput& input, const std::string& name) {
@@ -51,8 +51,8 @@ std::string data_yaml(const ExportInput& input, const std::string& folder) {
 }  // namespace
 
 std::string why_not_in_yolo(const LabelSet& set, const Label& label) {
-  if (label.crowd) return "of crowds, which YOLO has no mark for";
-  if (label.ignore) return "to be ignored, which YOLO has no mark for";
+  if (label.crowd) return "of crowds, which YOLO cannot mark";
+  if (label.ignore) return "marked as ignored, which YOLO cannot mark";
   const LabelBox box = cut(label.box, set.images[label.image]);
   return box.width_px > 0 && box.height_px > 0 ? "" : "outside their picture";
 }

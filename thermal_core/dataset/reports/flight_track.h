@@ -9,23 +9,23 @@
 
 namespace thermal {
 
-/// Where a clip's camera was, as far as frames.jsonl tells.
+/// Path of a clip's camera, as far as recorded in frames.jsonl.
 struct FlightTrack {
   std::string clip;
-  std::vector<std::array<double, 16>> camera_to_world;  ///< row by row; of the frames that have one
+  std::vector<std::array<double, 16>> camera_to_world;  ///< row-major; of the frames that have one
   std::vector<double> agl_m;                            ///< of the same frames; empty unless all have one
 };
 
-/// Places of x, y and z in camera_to_world.
+/// Indices of x, y and z in camera_to_world.
 inline constexpr std::size_t kX = 3, kY = 7, kZ = 11;
 
-/// Reads a clip's frames.jsonl; a clip without poses gives a track without points. DataError naming file and line.
+/// Reads a clip's frames.jsonl; a clip without poses gives a track without points. DataError with file and line.
 [[nodiscard]] FlightTrack read_track(const Path& file, const std::string& clip);
 
-/// About `most` of `count` places, evenly spread, the first and the last among them.
+/// About `most` of `count` indices, evenly spaced, including the first and the last.
 [[nodiscard]] std::vector<std::size_t> spread(std::size_t count, std::size_t most);
 
-/// What the camera sees from the track's middle frame (see seen_ground); empty where that is not known.
+/// The ground seen from the track's middle frame (see seen_ground); empty where unknown.
 [[nodiscard]] std::vector<std::array<double, 2>> seen_halfway(const FlightTrack& track, const Json& config);
 
 }  // namespace thermal

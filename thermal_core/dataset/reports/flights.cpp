@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "dataset/plan.h"
 #include "io/base64.h"
 #include "io/child_process.h"
@@ -34,7 +35,7 @@ Json track_json(const FlightTrack& track, const Json& config) {
   return json;
 }
 
-/// For draw_map.py: places below the camera and how high ground or water is there; then places that it sees.
+/// Input of draw_map.py: positions below the camera with the height of ground or water, then the positions it sees.
 Json ground_points(const std::vector<FlightTrack>& tracks, const Json& config) {
   constexpr std::size_t kMostPoints = 400;
   Json points = Json::array();
@@ -59,29 +60,29 @@ Json picture(const Path& folder, const char* name, const Json& answer) {
 }
 
 Json drawn(const Json& answer, const Path& folder) {
-  constexpr double kMostOffM = 0.5;  // roads' cuts and rounding are centimetres; other places are metres off
+  constexpr double kMostOffM = 0.5;  // roads' cuts and rounding differ by centimetres; other places by metres
   const double off_m = answer.at("off_m");
   if (off_m > kMostOffM) {
-    return absent(
-        fmt::format("The ground of the config's place is up to {:.1f} m off the ground below the camera, so "
-                    "the passes are not of that place, and it is not drawn.",
-                    off_m));
+    return absent(fmt::format(
+        "The ground of the config's place differs by up to {:.1f} m from the ground below the camera, so "
+        "the passes are not of that place, and it is not drawn.",
+        off_m));
   }
   return {{"place", picture(folder, "place", answer)}, {"window", picture(folder, "window", answer)}};
 }
 
 Json map_of(const std::vector<FlightTrack>& tracks, const Json& config, const Path& home) {
   const Path python = find_python();
-  if (python.empty()) return absent("The place could not be drawn: there is no python3 on PATH.");
+  if (python.empty()) return absent("The place could not be drawn: no python3 on PATH.");
   const PassingFolder folder;
   write_file_atomically(folder.path() / "config.json", to_text(config));
   write_file_atomically(folder.path() / "points.json", ground_points(tracks, config).dump());
   const std::string at = folder.path().string();
   const Output output =
-      run_program({python.string(), "-B", (home / "blender_scripts" / "draw_map.py").string(), "--config",
-                   at + "/config.json", "--points", at + "/points.json", "--out", at});
+      run_program({python.string(), "-I", "-B", (home / "blender_scripts" / "draw_map.py").string(),
+                   "--config", at + "/config.json", "--points", at + "/points.json", "--out", at});
   if (output.status.signal != 0 || output.status.code != 0) {
-    const std::string why = output.last_words();
+    const std::string why = printable(output.last_words());
     return absent("The place could not be drawn: " + (why.empty() ? output.status.in_words() : why));
   }
   return drawn(parse_json(output.out, "draw_map.py"), folder.path());
@@ -101,11 +102,11 @@ Json flight_figures(const std::vector<FlightTrack>& tracks, const Json& config, 
     if (!track.camera_to_world.empty()) flown.push_back(track);
   }
   if (flown.empty()) {
-    json["map"] = absent("The passes this dataset was made of have no camera poses.");
+    json["map"] = absent("The passes of this dataset have no camera poses.");
   } else if (!std::all_of(flown.begin(), flown.end(), has_heights)) {
     json["map"] = absent(
-        "The passes do not say how high the camera flew above ground, so nothing tells whether the place of "
-        "the config is theirs, and it is not drawn.");
+        "The passes do not say how high the camera flew above ground, so it is unknown whether they show the "
+        "place of the config, and it is not drawn.");
   } else {
     json["map"] = map_of(flown, config, home);
   }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostSamples = 18;
 constexpr std::size_t kOfVideo = 3;
 
-/// Places of images by video, and how many labels each image has.
+/// Indices of images by video, and number of labels of each image.
 struct Index {
   std::vector<std::vector<std::size_t>> images;
   std::vector<std::size_t> labels;
@@ -28,7 +28,7 @@ Index index_of(const LabelSet& set) {
   return index;
 }
 
-/// The samples of one video, most telling first.
+/// The samples of one video, most informative first.
 std::vector<SampleFrame> samples_of(const std::vector<std::size_t>& images,
                                     const std::vector<std::size_t>& labels) {
   std::vector<std::size_t> order = images;

@@ -14,7 +14,7 @@ class Heat {
       : rows_(std::clamp(static_cast<int>(std::lround(kColumns * height_to_width)), 1, 4 * kColumns)),
         covered_(static_cast<std::size_t>(kColumns * rows_)) {}
 
-  /// Adds to each cell the share of it that a box covers.
+  /// Adds to each cell the fraction of it that a box covers.
   void add(const LabelBox& box, const LabelImage& image) {
     const double to_columns = 1.0 * kColumns / image.width_px;
     const double to_rows = 1.0 * rows_ / image.height_px;

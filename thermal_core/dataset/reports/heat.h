@@ -5,9 +5,9 @@
 
 namespace thermal {
 
-/// Where boxes are in the picture, as JSON: `columns`, `rows`, and `boxes_over`, row by row how many boxes lie over each
-/// cell, on average over all pictures whose size is told. Pictures of other sizes than the first's are stretched to it.
-/// {} where no picture's size is told.
+/// Where boxes are in the picture, as JSON: `columns`, `rows`, and `boxes_over`, row by row the number of boxes over
+/// each cell, averaged over all pictures of known size. Pictures of other sizes than the first's are scaled to it. {}
+/// if no picture's size is known.
 [[nodiscard]] Json heat_of(const LabelSet& set);
 
 }  // namespace thermal

@@ -6,7 +6,7 @@
 namespace thermal {
 namespace {
 
-/// The largest of 1, 2, 5, 10, 20 … that is at most `width`, and of tenths of them.
+/// The largest of 1, 2, 5, 10, 20 … and 0.1, 0.2, 0.5 … that is at most `width`.
 double round_width(double width) {
   const double power = std::pow(10.0, std::floor(std::log10(width)));
   for (const double factor : {5.0, 2.0}) {
@@ -15,7 +15,7 @@ double round_width(double width) {
   return power;
 }
 
-/// Of sorted values, the one that this share of them lies below.
+/// Quantile of sorted values.
 double quantile(const std::vector<double>& sorted, double share) {
   const auto last = static_cast<double>(sorted.size() - 1);
   return sorted[static_cast<std::size_t>(std::lround(share * last))];

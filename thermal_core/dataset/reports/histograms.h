@@ -8,9 +8,9 @@
 
 namespace thermal {
 
-/// How a quantity is divided.
+/// Kind of bins.
 enum class Bins {
-  logarithmic,  ///< five to a factor of ten
+  logarithmic,  ///< five per decade
   share,        ///< twenty from 0 to 1
   linear,       ///< about 25 of a round width
 };
@@ -21,12 +21,12 @@ struct HistogramValue {
   std::size_t category = 0;
 };
 
-/// Edges (n + 1) of the bins that hold the values but for half a percent at either end; {} if there are no values.
+/// Edges (n + 1) of the bins that hold all values except half a percent at either end; {} without values.
 [[nodiscard]] std::vector<double> bin_edges(std::vector<double> values, Bins bins);
 
 /// `known` values `of` all; `least`, `median` and `most` of them; `edges` (n + 1); `counts`, for each category n of
-/// them. Values beyond the edges count for the bin next to them, `below` and `above` say how many they are.
-/// Without values only `known` and `of`.
+/// them. Values beyond the edges count for the nearest bin, and `below` and `above` give their number. Without values
+/// only `known` and `of`.
 [[nodiscard]] Json histogram_of(const std::vector<HistogramValue>& values, std::size_t categories, Bins bins);
 
 }  // namespace thermal

@@ -18,7 +18,7 @@ std::vector<std::int64_t> labels_of_each(const LabelSet& set) {
   return counts;
 }
 
-/// Names in the order of their places; those without labels are left out.
+/// Names in the order of their indices, without those that have no labels.
 std::vector<std::string> used_categories(const LabelSet& set, const std::vector<std::size_t>& places) {
   const std::vector<std::int64_t> counts = labels_of_each(set);
   std::vector<std::string> names(set.categories.size());
@@ -31,12 +31,12 @@ std::vector<std::string> used_categories(const LabelSet& set, const std::vector<
   return names;
 }
 
-/// How many labels of a category are what.
+/// Counts of a category's labels.
 struct Count {
   std::array<std::int64_t, 3> of_size{};
   std::int64_t ignored = 0;
   std::int64_t truncated = 0;
-  std::optional<std::int64_t> occluded;  ///< where labels tell
+  std::optional<std::int64_t> occluded;  ///< where labels have it
   std::int64_t noisy = 0;
   std::set<std::pair<std::size_t, std::int64_t>> tracks;
 
@@ -92,7 +92,7 @@ Json videos_of(const LabelSet& set) {
   return json;
 }
 
-/// Widths and heights that are told, each once.
+/// Known widths and heights, each once.
 Json sizes_of(const LabelSet& set) {
   std::set<std::pair<int, int>> sizes;
   for (const LabelImage& image : set.images) {

@@ -10,7 +10,7 @@
 namespace thermal {
 namespace {
 
-/// What the page is made of, by the name it has in page.html between {{ and }}.
+/// The parts of the page, by their names in page.html between {{ and }}.
 using Pieces = std::map<std::string, std::string>;
 
 std::string as_html(const std::string& text) {
@@ -36,12 +36,12 @@ std::string as_html(const std::string& text) {
   return html;
 }
 
-/// JSON that no HTML parser takes for the end of the script it is in.
+/// JSON in which an HTML parser finds no end of the enclosing script.
 std::string as_script_data(const Json& json) {
   const std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());
-  for (const char c : text) {  // "<" is in strings only
+  for (const char c : text) {  // "<" occurs in strings only
     if (c == '<')
       safe += "\\u003c";
     else

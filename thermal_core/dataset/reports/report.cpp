@@ -27,7 +27,7 @@ std::vector<FlightTrack> tracks_of(const Layout& layout, const Json& record) {
   return tracks;
 }
 
-/// Figures that only datasets of ours have; `record` is its dataset.json.
+/// Figures that only Veldt datasets have; `record` is the dataset.json.
 void add_dataset(const Layout& layout, const Path& home, Json& figures) {
   Json record = read_json(layout.dataset_json());
   try {

@@ -7,10 +7,10 @@
 namespace thermal {
 
 struct ReportRequest {
-  Path source;  ///< whatever read_labels() reads
+  Path source;  ///< anything that read_labels() reads
   Path out;     ///< the page; empty: report.html in the dataset, or beside a COCO file
   Path home;
-  bool unfinished_too = false;  ///< of a dataset of which clips are missing, what is there
+  bool unfinished_too = false;  ///< accept a dataset with missing clips
 };
 
 struct ReportOutcome {
@@ -21,9 +21,8 @@ struct ReportOutcome {
   std::size_t bytes = 0;
 };
 
-/// Writes one HTML page that tells what a dataset is, and needs nothing but itself; atomically. The same dataset gives
-/// the same bytes. Faults are those of read_labels(); also DataError or IoError for frames of a dataset of ours that
-/// can't be read.
+/// Writes one self-contained HTML page about a dataset, atomically. The same dataset gives the same bytes. Faults are
+/// those of read_labels(); also DataError or IoError for frames of a Veldt dataset that cannot be read.
 ReportOutcome write_report(const ReportRequest& request);
 
 }  // namespace thermal

@@ -11,7 +11,7 @@ using namespace thermal;
 
 namespace {
 
-/// The file that two_videos() could have come from, with keys of other people's and a category that nothing is of.
+/// A possible source file of two_videos(), with unknown keys and an unused category.
 const std::string kText =
     R"({"info":{"year":2026},"licenses":[{"id":1,"name":"CC0"}],)"
     R"("annotations":[{"id":4,"image_id":14,"category_id":10,"bbox":[10,2,4.0,4],"mine":[1,{"a":0.1}]},)"
@@ -28,14 +28,14 @@ Json json_of(const ExportPlan& plan, const std::string& to) { return parse_json(
 
 }  // namespace
 
-TEST_CASE("COCO as it is, is as it was, and pictures stay in their folders") {
+TEST_CASE("A COCO file exported as it is keeps every byte, and pictures stay in their folders") {
   const ExportPlan plan = plan_coco(two_videos(), "  {} ", "a.json", true);
   CHECK(text_of(plan, "annotations.json") == "  {} ");
   CHECK(targets_of(plan)[1] == "clips/east/ir8/000002.png");
   CHECK(plan.texts.size() == 1);
 }
 
-TEST_CASE("A COCO file for each split has its pictures, labels and videos, and all else, unchanged") {
+TEST_CASE("A COCO file for each split has its pictures, labels and videos, and everything else unchanged") {
   const ExportPlan plan = plan_coco(two_splits(), kText, "a.json", false);
   CHECK(plan.texts.size() == 2);
   CHECK(text_of(plan, "annotations/val.json") ==
@@ -50,7 +50,7 @@ TEST_CASE("A COCO file for each split has its pictures, labels and videos, and a
   CHECK(train["annotations"].size() == 3);
   CHECK(train["annotations"][0]["segmentation"]["counts"] == "c01");
   CHECK(train["images"].size() == 3);
-  CHECK(train["images"][1]["file_name"] == "clips/east/ir8/000002.png");  // as the set has it
+  CHECK(train["images"][1]["file_name"] == "clips/east/ir8/000002.png");  // as in the set
   CHECK(train["videos"].dump() == R"([{"id":1,"name":"east"}])");
 }
 
@@ -79,7 +79,7 @@ SelectedDataset taking(const std::vector<SelectedVideo>& videos) {
 
 }  // namespace
 
-TEST_CASE("A selection takes its frames with their labels") {
+TEST_CASE("A selection exports its frames with their labels") {
   const ExportInput input = two_videos();
   const LabelSet taken = take_selected(
       input.set, taking({{.name = "east", .frames = {2, 3}}, {.name = "west", .frames = {0}}}), "s.json");
@@ -92,7 +92,7 @@ TEST_CASE("A selection takes its frames with their labels") {
   CHECK(taken.labels[1].image == 2);
 }
 
-TEST_CASE("A COCO file of selected frames holds no others") {
+TEST_CASE("A COCO file of selected frames has no others") {
   ExportInput input = two_videos();
   input.set = take_selected(input.set, taking({{.name = "east", .frames = {0}}}), "s.json");
   const Json document = json_of(plan_coco(input, kText, "a.json", false), "annotations.json");
@@ -103,7 +103,7 @@ TEST_CASE("A COCO file of selected frames holds no others") {
   CHECK(document["categories"].size() == 4);
 }
 
-TEST_CASE("Selections of what there is not") {
+TEST_CASE("Selections of unknown videos and frames are errors") {
   const LabelSet set = two_videos().set;
   const auto fault_of = [&set](const std::vector<SelectedVideo>& videos) {
     return message_of<DataError>([&] { (void)take_selected(set, taking(videos), "s.json"); });

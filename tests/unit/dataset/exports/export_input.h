@@ -48,14 +48,14 @@ inline thermal::ExportInput two_splits() {
   return input;
 }
 
-/// Content of a planned file; "(none)" if there is no such file.
+/// Content of a planned file; "(none)" if no such file.
 inline std::string text_of(const thermal::ExportPlan& plan, const std::string& to) {
   for (const thermal::PlannedText& text : plan.texts)
     if (text.to == to) return text.content;
   return "(none)";
 }
 
-/// Where each picture goes, in the order of images.
+/// Target of each picture, in the order of images.
 inline std::vector<std::string> targets_of(const thermal::ExportPlan& plan) {
   std::vector<std::string> targets;
   for (const thermal::PlannedPicture& picture : plan.pictures) targets.push_back(picture.to);

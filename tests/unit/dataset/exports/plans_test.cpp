@@ -11,7 +11,7 @@ using Names = std::vector<std::string>;
 
 // --- YOLO ------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("YOLO: a line a label, centre and size as fractions, classes from 0") {
+TEST_CASE("YOLO: one line per label, centre and size as fractions, classes from 0") {
   const ExportPlan plan = plan_yolo(two_videos(), "/data/out");
   CHECK(targets_of(plan) == Names{"images/train/east_000000.png", "images/train/east_000002.png",
                                   "images/train/east_000003.png", "images/train/west_000000.png"});
@@ -22,7 +22,7 @@ TEST_CASE("YOLO: a line a label, centre and size as fractions, classes from 0") 
   CHECK(plan.texts.size() == 5);
 }
 
-TEST_CASE("YOLO: data.yaml tells where pictures are and what classes mean") {
+TEST_CASE("YOLO: data.yaml has the folders of pictures and the names of classes") {
   CHECK(text_of(plan_yolo(two_splits(), "/data/\"out\""), "data.yaml") ==
         "# \"night\"\n"
         "path: \"/data/\\\"out\\\"\"  # if you move the folder, change this\n"
@@ -36,7 +36,7 @@ TEST_CASE("YOLO: data.yaml tells where pictures are and what classes mean") {
                                "test: images/test\nnames:"));
 }
 
-TEST_CASE("YOLO: boxes end at the border of the picture") {
+TEST_CASE("YOLO: boxes are clipped to the picture") {
   ExportInput input = two_videos();
   input.set.labels = {label(1, 0, 0, 1, {.x_px = -4, .y_px = 8, .width_px = 8, .height_px = 4}),
                       label(2, 0, 0, 2, {.x_px = 20, .y_px = 2, .width_px = 5, .height_px = 5})};
@@ -46,13 +46,13 @@ TEST_CASE("YOLO: boxes end at the border of the picture") {
   CHECK(why_not_in_yolo(input.set, input.set.labels[1]) == "outside their picture");
 }
 
-TEST_CASE("YOLO: what is ignored and crowds are left out, and the picture stays") {
+TEST_CASE("YOLO: ignored labels and crowds are left out, and the picture stays") {
   ExportInput input = two_videos();
   input.set.labels[0].ignore = true;
   input.set.labels[1].crowd = true;
   CHECK(text_of(plan_yolo(input, "/o"), "labels/train/east_000000.txt").empty());
-  CHECK(why_not_in_yolo(input.set, input.set.labels[0]) == "to be ignored, which YOLO has no mark for");
-  CHECK(why_not_in_yolo(input.set, input.set.labels[1]) == "of crowds, which YOLO has no mark for");
+  CHECK(why_not_in_yolo(input.set, input.set.labels[0]) == "marked as ignored, which YOLO cannot mark");
+  CHECK(why_not_in_yolo(input.set, input.set.labels[1]) == "of crowds, which YOLO cannot mark");
   CHECK(why_not_in_yolo(input.set, input.set.labels[2]).empty());
 }
 
@@ -72,7 +72,7 @@ TEST_CASE("MOT: frames and pixels from 1, frames without gaps, rows sorted") {
   CHECK(text_of(plan, "train/west/gt/gt.txt") == "1,1,11,3,4,4,1,10,1\n");
 }
 
-TEST_CASE("MOT: what trackers want to know of a clip, and of all") {
+TEST_CASE("MOT: files that trackers need for a clip, and for all clips") {
   const ExportPlan plan = plan_mot(two_splits());
   CHECK(text_of(plan, "train/east/seqinfo.ini") ==
         "[Sequence]\nname=east\nimDir=img1\nframeRate=12.5\nseqLength=3\nimWidth=20\nimHeight=10\nimExt=."
@@ -84,7 +84,7 @@ TEST_CASE("MOT: what trackers want to know of a clip, and of all") {
   CHECK(text_of(plan, "classes.txt") == "1 human\n8 giraffe\n10 vehicle\n");
 }
 
-TEST_CASE("MOT: tracks of a clip are numbered from 1 where they are not") {
+TEST_CASE("MOT: tracks of a clip are renumbered from 1 if needed") {
   ExportInput input = two_videos();
   input.set.labels[1].track_id = 0;
   CHECK(text_of(plan_mot(input), "train/east/gt/gt.txt") ==
@@ -92,24 +92,24 @@ TEST_CASE("MOT: tracks of a clip are numbered from 1 where they are not") {
   CHECK(text_of(plan_mot(input), "train/west/gt/gt.txt") == "1,1,11,3,4,4,1,10,1\n");
 }
 
-TEST_CASE("MOT: labels that are no tracks, and clips that are none") {
+TEST_CASE("MOT: labels without tracks, and videos that are not clips, are errors") {
   ExportInput input = two_videos();
   input.set.images[1].height_px = 12;
   CHECK(message_of<DataError>([&] { (void)plan_mot(input); }) ==
         "clips/east/ir8/000000.png is 20 x 10 px and clips/east/ir8/000002.png is 20 x 12 px; expected "
-        "pictures of "
-        "one clip to be of one kind and size, which --format mot needs");
+        "all pictures of a clip to have one kind and size, as --format mot requires");
   input.set.labels[1].track_id = 7;
   CHECK(message_of<DataError>([&] { (void)plan_mot(input); }) ==
-        "annotations 1 and 2 of clips/east/ir8/000000.png have track_id 7 both; expected one of a track");
+        "annotations 1 and 2 of clips/east/ir8/000000.png both have track_id 7; expected one annotation per "
+        "track");
   input.set.labels[1].track_id.reset();
   CHECK(message_of<DataError>([&] { (void)plan_mot(input); }) ==
-        "annotation 2 of clips/east/ir8/000000.png has no track_id; expected one, which --format mot needs");
+        "annotation 2 of clips/east/ir8/000000.png has no track_id; expected one, as --format mot requires");
 }
 
 // --- BIRDSAI ---------------------------------------------------------------------------------------------------------
 
-TEST_CASE("BIRDSAI: a file a clip, frames and pixels from 0, boxes rounded outwards") {
+TEST_CASE("BIRDSAI: one file per clip, frames and pixels from 0, boxes rounded outwards") {
   ExportInput input = two_videos();
   input.set.labels[1].occluded = true;
   input.set.labels[2].noisy = true;
@@ -120,11 +120,11 @@ TEST_CASE("BIRDSAI: a file a clip, frames and pixels from 0, boxes rounded outwa
         "0,3,4,5,8,5,0,3,1,0\n"
         "0,7,0,0,5,2,1,0,0,0\n"
         "2,7,2,1,2,3,1,0,0,1\n");
-  CHECK(text_of(plan, "annotations/west.csv").empty());  // there is but a vehicle
+  CHECK(text_of(plan, "annotations/west.csv").empty());  // there is only a vehicle
   CHECK(why_not_in_birdsai(input.set, input.set.labels[3]) == "of vehicles, which BIRDSAI has no class for");
 }
 
-TEST_CASE("BIRDSAI: a sum that is off by roundings takes no further pixel") {
+TEST_CASE("BIRDSAI: rounding errors of a sum do not add a pixel") {
   ExportInput input = two_videos();
   input.set.labels = {label(1, 0, 0, 1, {.x_px = 1.1, .y_px = 0.1, .width_px = 2.9, .height_px = 0.2}),
                       label(2, 0, 0, 2, {.x_px = -2.5, .y_px = 2.9999999999, .width_px = 1, .height_px = 2})};
@@ -132,23 +132,23 @@ TEST_CASE("BIRDSAI: a sum that is off by roundings takes no further pixel") {
         "0,1,1,0,3,1,1,0,0,0\n0,2,-3,3,2,2,1,0,0,0\n");
 }
 
-TEST_CASE("BIRDSAI: each split is a folder of its own, as TrainReal and TestReal are") {
+TEST_CASE("BIRDSAI: each split is a separate folder, like TrainReal and TestReal") {
   const ExportPlan plan = plan_birdsai(two_splits());
   CHECK(targets_of(plan).back() == "val/images/west/west_0000000000.png");
   CHECK(text_of(plan, "train/annotations/east.csv") != "(none)");
 }
 
-TEST_CASE("BIRDSAI: labels that are no tracks") {
+TEST_CASE("BIRDSAI: labels without tracks are errors") {
   ExportInput input = two_videos();
   input.set.labels[0].track_id.reset();
   CHECK(message_of<DataError>([&] { (void)plan_birdsai(input); }) ==
-        "annotation 1 of clips/east/ir8/000000.png has no track_id; expected one, which --format birdsai "
-        "needs");
+        "annotation 1 of clips/east/ir8/000000.png has no track_id; expected one, as --format birdsai "
+        "requires");
 }
 
 // --- all -------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("No file of an export lies outside its folder, or where another does") {
+TEST_CASE("No file of an export is outside its folder, or where another one is") {
   ExportInput input = two_videos();
   const auto fault_of = [&input](const std::string& to) {
     ExportPlan plan;

@@ -23,7 +23,7 @@ std::string numbered(const char* what, std::size_t number) {
   return name.append(std::to_string(number));
 }
 
-/// Videos named "v0", "v1" … that hold this.
+/// Videos named "v0", "v1" … with these contents.
 LabelSet set_of(const std::vector<Row>& rows) {
   LabelSet set;
   for (std::size_t k = 1; k < rows.front().size(); ++k)
@@ -41,7 +41,7 @@ LabelSet set_of(const std::vector<Row>& rows) {
   return set;
 }
 
-/// Pairs of a split and a category that there is of which it has none, and the sum of squared errors of shares.
+/// Pairs of a split and an existing category it lacks, and the sum of squared errors of shares.
 std::pair<int, double> cost_of(const std::vector<Row>& rows, const std::vector<std::size_t>& of_video,
                                const std::vector<SplitShare>& shares) {
   std::pair<int, double> cost;
@@ -60,7 +60,7 @@ std::pair<int, double> cost_of(const std::vector<Row>& rows, const std::vector<s
   return cost;
 }
 
-/// The best of all ways in which every split has a video.
+/// The best of all solutions in which every split has a video.
 std::pair<int, double> best_cost(const std::vector<Row>& rows, const std::vector<SplitShare>& shares) {
   std::pair<int, double> best{std::numeric_limits<int>::max(), 0};
   std::vector<std::size_t> way(rows.size(), 0);
@@ -91,7 +91,7 @@ const std::vector<SplitShare> kThree = parse_splits("train:0.6,val:0.2,test:0.2"
 
 }  // namespace
 
-TEST_CASE("Shares are read in the order they come, and made to add up to 1") {
+TEST_CASE("Shares are read in order, and scaled to add up to 1") {
   REQUIRE(kThree.size() == 3);
   CHECK(kThree[0].name == "train");
   CHECK(kThree[2].name == "test");
@@ -102,7 +102,7 @@ TEST_CASE("Shares are read in the order they come, and made to add up to 1") {
   CHECK(parse_splits("all:1").size() == 1);
 }
 
-TEST_CASE("Shares that can't be meant") {
+TEST_CASE("Invalid shares are errors") {
   for (const char* text :
        {"", "train", "train:", ":0.5,b:0.5", "train:0.8,val:0.3", "train:0.8", "a:0.5,a:0.5", "a:1,b:0",
         "a:1.5,b:-0.5", "a:0.5,b:0.5,", "a:0.5x,b:0.5", "a:nan,b:0.5", "../up:0.5,b:0.5", "a b:0.5,c:0.5"}) {
@@ -124,7 +124,7 @@ TEST_CASE("Every video with pictures goes to one split, and none without") {
   CHECK(std::ranges::count(of_video, 1U) == 4);
 }
 
-TEST_CASE("Splits are the best there are, found by trying them all") {
+TEST_CASE("Splits are optimal, compared with trying all") {
   std::mt19937 random(1);
   for (int i = 0; i < 300; ++i) {
     const auto& shares = i % 2 == 0 ? kTwo : kThree;
@@ -132,12 +132,12 @@ TEST_CASE("Splits are the best there are, found by trying them all") {
     const auto best = best_cost(rows, shares);
     const auto found = cost_of(rows, split_videos(set_of(rows), shares, 7), shares);
     INFO("instance " << i);
-    CHECK(found.first == best.first);  // every split has each category where that can be
+    CHECK(found.first == best.first);  // every split has each category where possible
     CHECK(found.second <= best.second + 1e-9);
   }
 }
 
-TEST_CASE("Where clips are many, every share of everything is near what is asked") {
+TEST_CASE("With many clips, every share of everything is near the requested one") {
   std::mt19937 random(2);
   const std::vector<Row> rows = random_rows(random, 200, 6);
   const std::vector<std::size_t> of_video = split_videos(set_of(rows), kThree, 3);
@@ -153,7 +153,7 @@ TEST_CASE("Where clips are many, every share of everything is near what is asked
   }
 }
 
-TEST_CASE("The same seed splits alike, whatever the order of videos; another seed otherwise") {
+TEST_CASE("The same seed gives the same splits in any order of videos; another seed gives others") {
   std::mt19937 random(3);
   const std::vector<Row> rows = random_rows(random, 40, 3);
   LabelSet set = set_of(rows);
@@ -167,7 +167,7 @@ TEST_CASE("The same seed splits alike, whatever the order of videos; another see
   CHECK(back == one);
 }
 
-TEST_CASE("Fewer clips with pictures than splits") {
+TEST_CASE("Fewer clips with pictures than splits is an error") {
   CHECK(message_of<ConfigError>([] {
           (void)split_videos(set_of({{3, 1}, {0, 0}, {4, 2}}), kThree, 1);
         }) ==

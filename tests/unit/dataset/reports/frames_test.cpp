@@ -38,12 +38,12 @@ Chosen chosen_of(const LabelSet& set) {
 
 }  // namespace
 
-TEST_CASE("A video shows its fullest, its median and its first empty picture") {
+TEST_CASE("A video shows the picture with most labels, its median and its first empty one") {
   CHECK(chosen_of(set_with({{2, 0, 5, 0, 5, 1}})) ==
         Chosen{{2, "most labels"}, {0, "median"}, {1, "no labels"}});
 }
 
-TEST_CASE("A video shows what it has") {
+TEST_CASE("A video with fewer kinds of pictures shows those it has") {
   CHECK(chosen_of(set_with({{0, 0}})) == Chosen{{0, "no labels"}});
   CHECK(chosen_of(set_with({{3}})) == Chosen{{0, "most labels"}});
   CHECK(chosen_of(set_with({{}})).empty());
@@ -61,7 +61,7 @@ TEST_CASE("Many videos show fewer pictures each, and very many only some videos"
   CHECK(samples.back().image > 180);
 }
 
-TEST_CASE("Categories with most labels come first, equal ones by name, and those without last") {
+TEST_CASE("Categories with most labels come first, equal ones by name, and those without labels last") {
   LabelSet set = set_with({{3}});
   set.categories = {{1, "a"}, {2, "z"}, {3, "b"}, {4, "c"}};
   set.labels[0].category = 3;
@@ -73,7 +73,7 @@ TEST_CASE("Categories with most labels come first, equal ones by name, and those
   CHECK(figures.at("unused_categories") == Json{"a", "z"});
 }
 
-TEST_CASE("The heat map of one box is the share of each cell that it covers") {
+TEST_CASE("The heat map of one box is the fraction of each cell that it covers") {
   LabelSet set = set_with({{1, 0}});
   set.labels[0].box = {.x_px = 2.5, .y_px = 0, .width_px = 5, .height_px = 0.125};
   const Json heat = label_figures(set).at("heat");
@@ -86,7 +86,7 @@ TEST_CASE("The heat map of one box is the share of each cell that it covers") {
   CHECK(heat.at("boxes_over")[50] == 0);
 }
 
-TEST_CASE("Boxes that reach out of the picture count inside it") {
+TEST_CASE("Boxes that extend beyond the picture count inside it") {
   LabelSet set = set_with({{1}});
   set.labels[0].box = {.x_px = -50, .y_px = -50, .width_px = 200, .height_px = 200};
   const Json boxes_over = label_figures(set).at("heat").at("boxes_over");
@@ -94,7 +94,7 @@ TEST_CASE("Boxes that reach out of the picture count inside it") {
   for (const Json& cell : boxes_over) CHECK(cell == 1);
 }
 
-TEST_CASE("What the camera sees: straight down a rectangle, towards the horizon nothing") {
+TEST_CASE("Seen ground: a rectangle straight down, nothing towards the horizon") {
   const Json camera = {
       {"width_px", 640}, {"height_px", 512}, {"focal_length_m", 0.016}, {"pixel_pitch_um", 25}};  // 640 px
   const std::array<double, 16> down = {1, 0, 0, 100, 0, -1, 0, 50, 0, 0, -1, 70, 0, 0, 0, 1};
@@ -107,4 +107,20 @@ TEST_CASE("What the camera sees: straight down a rectangle, towards the horizon 
   }
   const std::array<double, 16> level = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 60, 0, 0, 0, 1};  // to the north
   CHECK(seen_ground(level, 60, camera).empty());
+}
+
+TEST_CASE("What a camera sees whose axis is off the middle, and whose pixels are not square") {
+  // 200 px to the left, 440 to the right, 100 up and 412 down; 60 m down a px is 60 / 500 m wide and 60 / 400 m high.
+  const Json camera = {{"width_px", 640},      {"height_px", 512}, {"focal_length_m", 0.016},
+                       {"pixel_pitch_um", 25}, {"fx_px", 500},     {"fy_px", 400},
+                       {"cx_px", 200},         {"cy_px", 100}};
+  const std::array<double, 16> down = {1, 0, 0, 100, 0, -1, 0, 50, 0, 0, -1, 70, 0, 0, 0, 1};
+  const auto corners = seen_ground(down, 60, camera);
+  REQUIRE(corners.size() == 4);
+  const std::vector<std::array<double, 2>> expected = {
+      {100 - 24, 50 + 15}, {100 + 52.8, 50 + 15}, {100 + 52.8, 50 - 61.8}, {100 - 24, 50 - 61.8}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    CHECK(std::abs(corners[k][0] - expected[k][0]) < 1e-9);
+    CHECK(std::abs(corners[k][1] - expected[k][1]) < 1e-9);
+  }
 }

@@ -29,7 +29,7 @@ TEST_CASE("Bins have round widths and hold all values") {
   CHECK(edges.back() == 98);
 }
 
-TEST_CASE("Logarithmic bins are five to a factor of ten, on the decades") {
+TEST_CASE("Logarithmic bins are five per decade, aligned to decades") {
   const std::vector<double> edges = bin_edges({1, 99}, Bins::logarithmic);
   REQUIRE(edges.size() == 11);
   CHECK(edges[0] == 1);
@@ -37,14 +37,14 @@ TEST_CASE("Logarithmic bins are five to a factor of ten, on the decades") {
   CHECK(std::abs(edges[10] - 100) < 1e-12);
 }
 
-TEST_CASE("Shares have the same twenty bins whatever they are") {
+TEST_CASE("Fractions have the same twenty bins for all values") {
   const std::vector<double> edges = bin_edges({0.5}, Bins::share);
   REQUIRE(edges.size() == 21);
   CHECK(edges.front() == 0);
   CHECK(edges.back() == 1);
 }
 
-TEST_CASE("One value alone has a bin") {
+TEST_CASE("A single value has a bin") {
   for (const double value : {0.0, 293.0, -4.5}) {
     const Json histogram = histogram_of(of_one_category({value}), 1, Bins::linear);
     CHECK(histogram.at("edges").size() >= 2);
@@ -53,7 +53,7 @@ TEST_CASE("One value alone has a bin") {
   }
 }
 
-TEST_CASE("Values on edges count for the bin they begin, the last one for the last") {
+TEST_CASE("Values on edges count for the bin they start, the last one for the last") {
   const Json histogram = histogram_of(of_one_category({0, 0.05, 0.999, 1}), 1, Bins::share);
   CHECK(histogram.at("counts")[0][0] == 1);
   CHECK(histogram.at("counts")[0][1] == 1);
@@ -62,7 +62,7 @@ TEST_CASE("Values on edges count for the bin they begin, the last one for the la
   CHECK(histogram.at("above") == 0);
 }
 
-TEST_CASE("A far outlier does not stretch the axis, and is told of") {
+TEST_CASE("A far outlier does not stretch the axis, and is counted separately") {
   std::vector<double> values(999, 10.0);
   for (std::size_t k = 0; k < values.size(); ++k) values[k] += 0.01 * static_cast<double>(k);
   values.push_back(1e6);
@@ -73,7 +73,7 @@ TEST_CASE("A far outlier does not stretch the axis, and is told of") {
   CHECK(sum_of(histogram.at("counts")[0]) == 1000);
 }
 
-TEST_CASE("Labels that do not tell are counted and nothing else") {
+TEST_CASE("Labels without a value are counted and nothing else") {
   const Json histogram = histogram_of({{std::nullopt, 0}, {std::nullopt, 1}}, 2, Bins::linear);
   CHECK(histogram == Json{{"known", 0}, {"of", 2}});
 }

@@ -1,0 +1,98 @@
+"""How a failed script reaches the user: the exception's own last line, its place in these scripts, and a hint.
+
+This module imports nothing but Python's standard library, because it also reports that NumPy is missing.
+"""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from veldt.faults import ConfigError
+
+_SCRIPTS = Path(__file__).resolve().parents[1]
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Why a script failed, in one line each; `hint` may be empty."""
+
+    exit_code: int  # 2 for a fault of the config, else 1
+    message: str  # "ModuleNotFoundError: No module named 'numpy'"; the bare message for a fault of the config
+    where: str  # "blender_scripts/veldt/noise.py:8"
+    hint: str  # "install NumPy …"
+
+    @property
+    def is_config_fault(self) -> bool:
+        """Whether the config is at fault, and not the scripts or the machine."""
+        return self.exit_code == 2
+
+    def in_words(self) -> str:
+        """All of it in one line; of a fault of the config, the message alone."""
+        if self.is_config_fault:
+            return self.message
+        return f"{self.message} ({self.where})" + (f"; {self.hint}" if self.hint else "")
+
+
+def failure_of(error: BaseException) -> Failure:
+    """Describes an exception that ended a script; call it while the exception is being handled."""
+    if isinstance(error, ConfigError):
+        return Failure(2, str(error), _place(error), "")
+    return Failure(1, _last_line(error), _place(error), _hint(error))
+
+
+def run(act: Callable[[], None]) -> int:
+    """Acts, reports a failure on stderr, the last line of which sums it up, and returns the exit code: 0 done,
+    1 failed, 2 the config is at fault."""
+    try:
+        act()
+    except BaseException as error:  # pylint: disable=broad-exception-caught
+        return _report(error)
+    return 0
+
+
+@contextmanager
+def reported_imports() -> Iterator[None]:
+    """Reports imports that fail as run() does, and exits."""
+    try:
+        yield
+    except BaseException as error:  # pylint: disable=broad-exception-caught
+        sys.exit(_report(error))
+
+
+def _report(error: BaseException) -> int:
+    failure = failure_of(error)
+    if not failure.is_config_fault:
+        traceback.print_exception(error)
+    print(failure.in_words(), file=sys.stderr)
+    return failure.exit_code
+
+
+def _last_line(error: BaseException) -> str:
+    """Type and message of an exception; of a message of many lines, the last that is not empty."""
+    text = error.msg if isinstance(error, SyntaxError) else str(error)
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    return ": ".join([type(error).__name__, *lines[-1:]])
+
+
+def _place(error: BaseException) -> str:
+    """File and line of the innermost frame that lies in these scripts; of a syntax error, where it is."""
+    steps = [(step.filename, step.lineno) for step in traceback.extract_tb(error.__traceback__)]
+    if isinstance(error, SyntaxError):
+        steps.append((error.filename or "", error.lineno))
+    ours = [(Path(file).resolve(), line) for file, line in steps if file and not file.startswith("<")]
+    for file, line in reversed(ours):
+        if file.is_relative_to(_SCRIPTS):
+            return f"{file.relative_to(_SCRIPTS.parent)}:{line}"
+    return "outside of blender_scripts"
+
+
+def _hint(error: BaseException) -> str:
+    if not isinstance(error, ModuleNotFoundError) or (error.name or "").partition(".")[0] != "numpy":
+        return ""
+    version = f"{sys.version_info.major}.{sys.version_info.minor}"
+    return f"install NumPy for the Python {version} in {sys.prefix} (apt-get install python3-numpy)"

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "dataset/layout.h"
+#include "labels/label_set.h"
+#include "sensor/agc.h"
+
+namespace thermal {
+
+/// A dataset as far as videos need to know it.
+struct FilmedDataset {
+  Layout layout;
+  std::string name;
+  std::string camera;  ///< the sensor's preset, or its model where there is none
+  double kelvin_per_count = 0;
+  std::vector<std::string> clips;  ///< all ids
+  std::vector<std::string> made;   ///< those that are finished
+
+  /// Throws unless all these clips are there: ConfigError "--clips = …" for an unknown id, DataError for one not made.
+  void check_clips(const std::vector<std::string>& ids) const;
+};
+
+/// Reads dataset.json. IoError if `root` is not a dataset, DataError if its record is damaged.
+[[nodiscard]] FilmedDataset read_filmed_dataset(const Path& root);
+
+/// What frames.jsonl says of a frame.
+struct FilmFrame {
+  int frame_index = 0;
+  double time_s = 0;
+  std::optional<double> agl_m;
+  std::optional<std::array<double, 16>> camera_to_world;  ///< row by row
+  bool shutter_closed = false;
+  std::array<std::uint16_t, kLevels - 1> thresholds{};  ///< see ToneCurve
+};
+
+/// The camera of a clip's labels, with the coefficients of its lens in OpenCV's order: k1, k2, p1, p2, k3, k4, k5, k6.
+struct FilmCamera {
+  double fx_px = 0;
+  double fy_px = 0;
+  double cx_px = 0;
+  double cy_px = 0;
+  std::array<double, 8> distortion{};
+};
+
+/// One finished clip; frames are read one by one.
+struct ClipFilm {
+  Path folder;
+  std::string id;
+  double frame_rate_hz = 0;
+  int width_px = 0;
+  int height_px = 0;
+  bool black_hot = false;
+  std::string agc_mode;
+  std::vector<FilmFrame> frames;
+  LabelSet labels;                       ///< empty unless asked for
+  std::vector<std::size_t> first_label;  ///< of each of `frames` in `labels`, and the number of labels
+  std::optional<FilmCamera> camera;      ///< where labels.json has it
+
+  /// The 8-bit frame as levels of its tone curve: hot is high, whatever the polarity.
+  [[nodiscard]] Plane<std::uint8_t> read_levels(std::size_t frame) const;
+  /// The 16-bit frame.
+  [[nodiscard]] Plane<std::uint16_t> read_counts(std::size_t frame) const;
+};
+
+/// Reads a clip's records, and its labels.json if `labels`. DataError or IoError naming the file.
+[[nodiscard]] ClipFilm read_clip_film(const FilmedDataset& dataset, const std::string& id, bool labels);
+
+}  // namespace thermal

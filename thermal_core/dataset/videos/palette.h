@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace thermal {
+
+/// Red, green, blue.
+using PaletteColour = std::array<std::uint8_t, 3>;
+
+/// The colour of each level, the coldest first.
+using PaletteTable = std::array<PaletteColour, 256>;
+
+/// Names that palette_table() knows, in the order that help shows them.
+[[nodiscard]] const std::vector<std::string>& palette_names();
+
+/// white_hot, black_hot: grey. ironbow: black, violet, orange, white; lightness rises with temperature. rainbow: the
+/// hues from violet to red at full saturation. inferno, viridis, turbo: OpenCV's tables of those names; the first two
+/// are perceptually uniform.
+/// `name`: one of palette_names(). ConfigError "--palette = …" otherwise.
+[[nodiscard]] PaletteTable palette_table(const std::string& name);
+
+}  // namespace thermal

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+
+#include "imaging/row_terms.h"
+
+namespace thermal {
+
+/// How many of the pixels that show a surface hold what a term can compute with.
+struct PlaneCheck {
+  std::int64_t pixels = 0;    ///< that show a surface, in frames whose plane was read
+  std::int64_t unusable = 0;  ///< of those
+
+  /// 0 where no pixel was looked at.
+  [[nodiscard]] double share() const noexcept {
+    return pixels == 0 ? 0 : static_cast<double>(unusable) / static_cast<double>(pixels);
+  }
+  PlaneCheck& operator+=(const PlaneCheck& other) noexcept;
+  [[nodiscard]] bool operator==(const PlaneCheck&) const = default;
+};
+
+/// What the planes held that the terms read. Sky is not counted: renderers write anything there.
+struct PassChecks {
+  PlaneCheck depth;  ///< unusable: NaN, at most 0, infinite, or kSkyFromM and more
+  PlaneCheck
+      normal;  ///< unusable: NaN, infinite, or of length 0. Means of several normals, which are short, are usable
+
+  PassChecks& operator+=(const PassChecks& other) noexcept;
+  [[nodiscard]] bool operator==(const PassChecks&) const = default;
+};
+
+/// Counts a row: those of its planes that are there.
+[[nodiscard]] PassChecks check_row(const Row& row) noexcept;
+
+}  // namespace thermal

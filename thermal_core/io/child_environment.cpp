@@ -1,0 +1,38 @@
+#include "io/child_environment.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <string_view>
+
+#include <unistd.h>
+
+namespace thermal {
+namespace {
+
+constexpr const char* kPath = "PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin";
+
+constexpr std::array<std::string_view, 7> kHandedDown = {
+    "HOME", "TMPDIR", "LANG", "LANGUAGE", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"};
+
+bool is_handed_down(std::string_view variable) {
+  const std::string_view name = variable.substr(0, variable.find('='));
+  return name.starts_with("LC_") || std::ranges::find(kHandedDown, name) != kHandedDown.end();
+}
+
+}  // namespace
+
+std::vector<std::string> child_environment(std::span<const std::string> ours) {
+  std::vector<std::string> theirs = {kPath};
+  std::ranges::copy_if(ours, std::back_inserter(theirs), is_handed_down);
+  return theirs;
+}
+
+std::vector<std::string> child_environment() {
+  std::vector<std::string> ours;
+  for (char** variable = environ; variable != nullptr && *variable != nullptr; ++variable)
+    ours.emplace_back(*variable);
+  return child_environment(ours);
+}
+
+}  // namespace thermal
