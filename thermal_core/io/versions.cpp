@@ -1,7 +1,6 @@
 #include "io/versions.h"
 
 #include <OpenEXRConfig.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <isa-l.h>
 #include <nlohmann/json.hpp>
@@ -13,12 +12,13 @@ extern "C" {
 #include <libavutil/avutil.h>
 }
 
+#include "io/picture_module.h"
+
 namespace thermal {
 
 std::vector<std::pair<std::string, std::string>> library_versions() {
-  const int oiio = OIIO::openimageio_version();
   return {{"OpenEXR", OPENEXR_VERSION_STRING},
-          {"OpenImageIO", fmt::format("{}.{}.{}", oiio / 10000, oiio / 100 % 100, oiio % 100)},
+          {"OpenImageIO", picture_module().openimageio_version()},
           {"OpenCV", cv::getVersionString()},
           {"ISA-L", fmt::format("{}.{}.{}", ISAL_MAJOR_VERSION, ISAL_MINOR_VERSION, ISAL_PATCH_VERSION)},
           {"FFmpeg", av_version_info()},

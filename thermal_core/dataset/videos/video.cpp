@@ -7,13 +7,13 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "dataset/videos/cell_painter.h"
+#include "io/encoded_picture.h"
 #include "io/h264_file.h"
 #include "io/temporary_file.h"
 
@@ -254,13 +254,9 @@ void write_video(Painter& painter, const Programme& programme, const VideoReques
 }
 
 void write_still(Painter& painter, int frame, const VideoRequest& request) {
-  const bool png = kind_of(request.out) == OutKind::png;
-  std::vector<std::uint8_t> bytes;
-  const std::vector<int> how =
-      png ? std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, 9} : std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 92};
-  cv::imencode(png ? ".png" : ".jpg", painter.paint(frame), bytes, how);
-  write_file_atomically(request.out,
-                        std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  const PictureFormat format =
+      kind_of(request.out) == OutKind::png ? PictureFormat::png : PictureFormat::jpeg;
+  write_file_atomically(request.out, encode_picture(painter.paint(frame), format));
 }
 
 int still_frame(const VideoRequest& request, int frames) {

@@ -1,5 +1,3 @@
-#include "io/jpeg.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -11,8 +9,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "io/pictures/functions.h"
 
-namespace thermal {
+namespace thermal::pictures {
 namespace {
 
 /// 8 bits, grey or red, green and blue.
@@ -53,4 +52,4 @@ std::string as_jpeg(const Path& picture, int most_px) {
   return {bytes.begin(), bytes.end()};
 }
 
-}  // namespace thermal
+}  // namespace thermal::pictures

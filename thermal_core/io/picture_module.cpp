@@ -1,0 +1,35 @@
+#include "io/picture_module.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "io/jpeg.h"
+
+namespace thermal {
+namespace {
+
+/// The loader looks in the folders that the program was linked with. The module stays until the program ends.
+const PictureModule& load() {
+  void* library = ::dlopen("libveldt_pictures.so", RTLD_LAZY | RTLD_LOCAL);
+  void* table = library == nullptr ? nullptr : ::dlsym(library, "veldt_picture_module");
+  if (table == nullptr) throw IoError(fmt::format("cannot load a part of veldt: {}", ::dlerror()));
+  return *static_cast<const PictureModule*>(table);
+}
+
+}  // namespace
+
+const PictureModule& picture_module() {
+  static const PictureModule& module = load();
+  return module;
+}
+
+std::string as_jpeg(const Path& picture, int most_px) { return picture_module().as_jpeg(picture, most_px); }
+
+PictureSize read_picture_size(const Path& file) { return picture_module().read_picture_size(file); }
+
+std::string encode_picture(const cv::Mat& bgr, PictureFormat format) {
+  return picture_module().encode_picture(bgr, format);
+}
+
+}  // namespace thermal
