@@ -65,10 +65,30 @@ class Poses:
             ]
         )
 
+    def extent_m(self, body: Body, origin_m: np.ndarray, axes: np.ndarray) -> np.ndarray:
+        """Box (2, 3) that contains the body at all moments: coordinates from origins (n, 3) along the columns of `axes`
+        (n, 3, 3). Sums are written out because BLAS may change their order."""
+        low, high = np.full(3, np.inf), np.full(3, -np.inf)
+        for k, bone in enumerate(body.bones):
+            if not len(bone.mesh.points_m):
+                continue
+            x, y, z = bone.mesh.points_m.T
+            start = _along(axes, (self.position_m[:, k] - origin_m)[..., None])[..., 0]
+            weight = self.scale * _along(axes, self.rotation[:, k])
+            reach = weight[..., 0:1] * x + weight[..., 1:2] * y + weight[..., 2:3] * z  # (n, 3, vertices)
+            low = np.minimum(low, (start + reach.min(axis=-1)).min(axis=0))
+            high = np.maximum(high, (start + reach.max(axis=-1)).max(axis=0))
+        return np.stack([low, high])
+
     def mesh(self, body: Body, moment: int) -> Mesh:
         """The body in the world."""
         whole = joined([bone.mesh for bone in body.bones])
         return Mesh(self.points_m(body, moment), whole.triangles, whole.slot)
+
+
+def _along(axes: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Coordinates (n, 3, c) along the columns of `axes` (n, 3, 3) of the columns of `vectors` (n, 3, c)."""
+    return sum(axes[:, row, :, None] * vectors[:, row, None, :] for row in range(3))
 
 
 def pose(walker: Walker, motion: Motion) -> Poses:

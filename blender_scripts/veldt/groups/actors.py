@@ -53,11 +53,7 @@ class Actor(Draft):
         body = pose(self.walker, Motion(walked_m, time_s, pace, head_down, self.posture))
         point, heading = self.path(walked_m)
         origin = np.column_stack([point, self.terrain.height_m(*point.T)])
-        boxes = [
-            _box(_seen_from(body.points_m(self.body, k) - origin[k], facing(heading[k])))
-            for k in range(len(origin))
-        ]
-        low, high = np.min(boxes, axis=0)[0], np.max(boxes, axis=0)[1]
+        low, high = body.extent_m(self.body, origin, facing(heading))
         return np.stack([low - _MARGIN * (high - low), high + _MARGIN * (high - low)])
 
 
@@ -113,12 +109,3 @@ def _telling_places(actor: Actor) -> np.ndarray:
     steepest = [along_m[pick(slope)] for slope in slopes for pick in (np.argmin, np.argmax)]
     around = np.add.outer(steepest, actor.walker.stride_m * np.linspace(-0.5, 0.5, _MOMENTS)).ravel()
     return np.concatenate([np.linspace(0.0, actor.route.length_m, _PLACES), around])
-
-
-def _seen_from(points_m: np.ndarray, turn: np.ndarray) -> np.ndarray:
-    """Points (n, 3) in the axes of a rotated body; sums are written out because BLAS may change their order."""
-    return points_m[:, 0:1] * turn[0] + points_m[:, 1:2] * turn[1] + points_m[:, 2:3] * turn[2]
-
-
-def _box(points_m: np.ndarray) -> np.ndarray:
-    return np.stack([points_m.min(axis=0), points_m.max(axis=0)])
