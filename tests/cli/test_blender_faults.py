@@ -5,25 +5,9 @@ from pathlib import Path
 
 import pytest
 
-import fake_blender
 from configs import tiny
-from program import ROOT
-
-
-@pytest.fixture(name="blender")
-def _blender(veldt):
-    """A stand-in for Blender, and the tiny config beside it."""
-    veldt.write("config.json", tiny())
-    return fake_blender.install(veldt.folder)
-
-
-def _generate(veldt, blender, *options, out="out", **how):
-    return veldt("generate", "config.json", "--out", out, "--blender", blender, *options, **how)
-
-
-def _check(done, code: int, message: str) -> None:
-    assert (done.code, done.out, done.err) == (code, "", f"veldt: {message}\n")
-
+from fake_blender import generate
+from program import ROOT, check_fault
 
 LOG = "; log: out/passes/down.log"
 KILLED = "; unless someone killed it, the machine may have run out of memory" + LOG
@@ -110,11 +94,11 @@ def test_a_blender_that_fails_before_there_is_a_scene_ends_the_run(veldt, blende
     script, code, message = BLENDERS[name]
     good = blender.read_text()
     blender.write_text(f"#!/bin/sh\n{script}\n")
-    done = _generate(veldt, blender, "--progress", "none")
-    _check(done, code, message)
+    done = generate(veldt, blender, "--progress", "none")
+    check_fault(done, code, message)
     assert not (veldt.folder / "out" / "clips" / "down").exists()
     blender.write_text(good)
-    assert _generate(veldt, blender).code == 0  # and the same command goes on from there
+    assert generate(veldt, blender).code == 0  # and the same command goes on from there
 
 
 BUILT = """echo '{"event": "scene_built"}' >&3; """
@@ -143,12 +127,12 @@ def test_a_blender_that_fails_in_every_clip_is_reported_for_each(veldt, blender,
     script, code, message = FAILING_IN_CLIPS[name]
     good = blender.read_text()
     blender.write_text(f"#!/bin/sh\n{BUILT}{script}\n")
-    done = _generate(veldt, blender, "--progress", "none")
+    done = generate(veldt, blender, "--progress", "none")
     lines = [f"veldt: clip {clip} failed: {message.format(clip=clip)}\n" for clip in ("down", "side")]
     assert (done.code, done.err) == (code, "".join(lines))
     assert done.out == "out: 0 clips made, 0 frames; the dataset is not complete yet\n"
     blender.write_text(good)
-    assert _generate(veldt, blender).code == 0
+    assert generate(veldt, blender).code == 0
 
 
 def test_the_log_keeps_every_blender_of_a_run_and_only_those(veldt, blender):
@@ -156,7 +140,7 @@ def test_the_log_keeps_every_blender_of_a_run_and_only_those(veldt, blender):
     (veldt.folder / "out" / "passes").mkdir(parents=True)
     veldt.write("out/passes/down.log", "of an earlier run\n")
     blender.write_text(f"#!/bin/sh\n{BUILT} echo x >> starts; echo Blender $(wc -l < starts); exit 3\n")
-    done = _generate(veldt, blender, "--progress", "none")
+    done = generate(veldt, blender, "--progress", "none")
     why = "Blender ended with exit code 3 while rendering clip {}: Blender {}" + LOG
     assert done.err == "".join(
         f"veldt: clip {clip} failed: {why.format(clip, number)}\n"
@@ -169,7 +153,7 @@ def test_the_log_keeps_every_blender_of_a_run_and_only_those(veldt, blender):
 def test_a_fault_of_the_config_in_a_clip_ends_the_run(veldt, blender):
     event = '{"event": "error", "kind": "config", "message": "seed = 0; expected more"}'
     blender.write_text(f"#!/bin/sh\n{BUILT}\necho x >> starts\necho '{event}' >&3; exit 2\n")
-    _check(_generate(veldt, blender, "--progress", "none"), 2, "seed = 0; expected more")
+    check_fault(generate(veldt, blender, "--progress", "none"), 2, "seed = 0; expected more")
     assert (veldt.folder / "starts").read_text() == "x\n"  # not started again
 
 
@@ -193,7 +177,7 @@ def test_passes_that_cannot_be_converted_fail_their_clip_alone(veldt, blender):
     good = blender.read_text()
     _spoil(veldt, blender, "frame == 6")  # the other clip is cut short of it
     veldt.write("config.json", tiny(lambda config: config["clips"][1].update(frames=5)))
-    done = _generate(veldt, blender, "--progress", "none")
+    done = generate(veldt, blender, "--progress", "none")
     why = f"out/passes/down/000006.exr: {UNKNOWN}"
     assert (done.code, done.err) == (3, f"veldt: clip down failed: {why}\n")
     assert done.out == "out: 1 clip made, 5 frames; the dataset is not complete yet\n"
@@ -203,7 +187,7 @@ def test_passes_that_cannot_be_converted_fail_their_clip_alone(veldt, blender):
     assert (veldt.folder / "out" / "passes" / "down" / "unusable.txt").read_text() == why + "\n"
     assert (veldt.folder / "out" / "passes" / "down" / "000006.exr").exists()
     blender.write_text(good)
-    done = _generate(veldt, blender, "--progress", "none")
+    done = generate(veldt, blender, "--progress", "none")
     assert (done.code, done.err) == (0, "")
     assert done.out == "out: 1 clip made, 8 frames; 1 already existed\n"
     assert not (veldt.folder / "out" / "passes").exists()
@@ -219,17 +203,17 @@ def test_a_damaged_file_fails_its_clip_alone(veldt, blender):
     stand_in.write_text(stand_in.read_text().replace(written, written + cut))
     good = blender.read_text()
     blender.write_text(good.replace(str(ROOT / "tests" / "support"), str(veldt.folder / "support")))
-    done = _generate(veldt, blender, "--progress", "none")
+    done = generate(veldt, blender, "--progress", "none")
     assert done.code == 3 and done.err.startswith(
         "veldt: clip side failed: cannot read out/passes/side/000002.exr: "
     )
     blender.write_text(good)
-    assert _generate(veldt, blender, "--quiet").code == 0
+    assert generate(veldt, blender, "--quiet").code == 0
 
 
 def test_no_passes_can_be_converted(veldt, blender):
     _spoil(veldt, blender, "frame == 2")
-    done = _generate(veldt, blender, "--progress", "none")
+    done = generate(veldt, blender, "--progress", "none")
     names = [f"out/passes/{clip}/000002.exr" for clip in ("down", "side")]
     lines = [f"veldt: clip {Path(name).parent.name} failed: {name}: {UNKNOWN}\n" for name in names]
     assert (done.code, done.err) == (1, "".join(lines))

@@ -8,25 +8,9 @@ import subprocess
 
 import pytest
 
-import fake_blender
 from configs import tiny
-from program import ROOT, files_below
-
-
-@pytest.fixture(name="blender")
-def _blender(veldt):
-    """A stand-in for Blender, and the tiny config beside it."""
-    veldt.write("config.json", tiny())
-    return fake_blender.install(veldt.folder)
-
-
-def _generate(veldt, blender, *options, out="out", **how):
-    return veldt("generate", "config.json", "--out", out, "--blender", blender, *options, **how)
-
-
-def _check(done, code: int, message: str) -> None:
-    assert (done.code, done.out, done.err) == (code, "", f"veldt: {message}\n")
-
+from fake_blender import generate
+from program import ROOT, check_fault, files_below
 
 # --- the request ------------------------------------------------------------------------------------------------------
 
@@ -45,7 +29,7 @@ REQUESTS = {
 @pytest.mark.parametrize("name", REQUESTS)
 def test_request_that_cannot_be_meant(veldt, blender, name):
     options, message = REQUESTS[name]
-    _check(_generate(veldt, blender, *options), 2, message)
+    check_fault(generate(veldt, blender, *options), 2, message)
     assert not (veldt.folder / "out").exists()
 
 
@@ -77,7 +61,7 @@ def test_a_dry_run_needs_no_blender_and_writes_nothing(veldt):
 def test_no_blender_on_path(veldt):
     veldt.write("config.json", tiny())
     done = veldt("generate", "config.json", "--out", "out", env={"PATH": ""})
-    _check(
+    check_fault(
         done,
         1,
         "no blender on PATH; install it (apt-get install blender) or name one with --blender PATH",
@@ -88,13 +72,13 @@ def test_no_blender_on_path(veldt):
 @pytest.mark.parametrize("name", ["nowhere/blender", ".", "config.json"])
 def test_a_blender_that_cannot_be_run(veldt, blender, name):
     named = veldt.folder / name
-    _check(_generate(veldt, named), 2, f"--blender = {named}; expected an executable program")
+    check_fault(generate(veldt, named), 2, f"--blender = {named}; expected an executable program")
     assert blender.exists() and not (veldt.folder / "out").exists()
 
 
 def test_a_home_without_assets(veldt, blender):
-    done = _generate(veldt, blender, env={"VELDT_HOME": "/proc"})
-    _check(done, 1, 'VELDT_HOME = "/proc"; expected a folder with assets and blender_scripts')
+    done = generate(veldt, blender, env={"VELDT_HOME": "/proc"})
+    check_fault(done, 1, 'VELDT_HOME = "/proc"; expected a folder with assets and blender_scripts')
 
 
 @pytest.mark.parametrize(
@@ -107,9 +91,9 @@ def test_a_home_without_assets(veldt, blender):
 def test_a_python_that_fails_to_plan(veldt, blender, said, reported):
     python = veldt.write("python", f"#!/bin/sh\n{said}\n")
     python.chmod(0o755)
-    done = _generate(veldt, blender, env={"VELDT_PYTHON": str(python)})
+    done = generate(veldt, blender, env={"VELDT_PYTHON": str(python)})
     why = "" if reported is None else ": ModuleNotFoundError: No module (veldt/noise.py:8)"
-    _check(done, 1, f"{python} plan_dataset.py ended with exit code 1{why}")
+    check_fault(done, 1, f"{python} plan_dataset.py ended with exit code 1{why}")
 
 
 # --- the output folder ------------------------------------------------------------------------------------------------
@@ -117,14 +101,14 @@ def test_a_python_that_fails_to_plan(veldt, blender, said, reported):
 
 def test_a_file_where_the_folder_should_be(veldt, blender):
     veldt.write("out", "precious")
-    _check(_generate(veldt, blender), 1, "cannot make folder out: Not a directory")
-    _check(_generate(veldt, blender, out="out/deep"), 1, "cannot make folder out/deep: Not a directory")
+    check_fault(generate(veldt, blender), 1, "cannot make folder out: Not a directory")
+    check_fault(generate(veldt, blender, out="out/deep"), 1, "cannot make folder out/deep: Not a directory")
     assert (veldt.folder / "out").read_text() == "precious"
 
 
 def test_a_folder_that_cannot_be_made(veldt, blender):
-    _check(
-        _generate(veldt, blender, out="/proc/out"),
+    check_fault(
+        generate(veldt, blender, out="/proc/out"),
         1,
         "cannot make folder /proc/out: No such file or directory",
     )
@@ -137,7 +121,7 @@ def test_a_folder_without_permission_to_write(veldt, blender):
         under = ["setpriv", "--bounding-set=-dac_override"]
         if subprocess.run([*under, "true"], check=False).returncode != 0:
             pytest.skip("this root may not give up rights")
-    _check(_generate(veldt, blender, under=under), 1, "cannot lock out/.lock: Permission denied")
+    check_fault(generate(veldt, blender, under=under), 1, "cannot lock out/.lock: Permission denied")
     assert not files_below(veldt.folder / "out")
 
 
@@ -145,9 +129,9 @@ def test_a_folder_in_use(veldt, blender):
     (veldt.folder / "out").mkdir()
     with open(veldt.folder / "out" / ".lock", "w", encoding="utf-8") as lock:
         fcntl.lockf(lock, fcntl.LOCK_EX)
-        done = _generate(veldt, blender)
-    _check(done, 75, "out is in use by another run of veldt; try again when that one has ended")
-    assert _generate(veldt, blender).code == 0
+        done = generate(veldt, blender)
+    check_fault(done, 75, "out is in use by another run of veldt; try again when that one has ended")
+    assert generate(veldt, blender).code == 0
 
 
 def _other(config: dict) -> None:
@@ -202,7 +186,7 @@ def _on_a_small_disk(veldt, size: str) -> list[str]:
 
 def test_too_little_disk_space_for_a_clip_is_reported_before_it_is_begun(veldt, blender):
     under = _on_a_small_disk(veldt, "64k")
-    done = _generate(veldt, blender, "--progress", "none", under=under)
+    done = generate(veldt, blender, "--progress", "none", under=under)
     # 8 frames of 96 x 80 pixels, 40 bytes of passes and 4 of pictures each
     wanted = "expected at least 2 x the 2.7 MB that clip down still needs"
     assert done.code == 75 and re.fullmatch(rf"veldt: out = \d+ kB left; {wanted}\n", done.err), done
@@ -223,7 +207,7 @@ def test_a_full_disk_ends_the_run_and_finished_clips_stay(veldt, blender):
     assert held in stand_in.read_text()
     stand_in.write_text(stand_in.read_text().replace(held, f"        {taking}{held}"))
     blender.write_text(good.replace(str(ROOT / "tests" / "support"), str(veldt.folder / "support")))
-    done = _generate(veldt, blender, "--progress", "none", under=under)
+    done = generate(veldt, blender, "--progress", "none", under=under)
     few = r"out = \d+ (k|)B left; expected at least 2 x the \d+ kB that clip side still needs"
     assert (done.code, done.out) == (75, "") and re.fullmatch(f"veldt: {few}\n", done.err), done
     kept = files_below(veldt.folder / "kept")
@@ -231,7 +215,7 @@ def test_a_full_disk_ends_the_run_and_finished_clips_stay(veldt, blender):
     assert "clips/down/clip.json" in kept and "passes/side/000002.exr" in kept
     blender.write_text(good)
     (veldt.folder / "kept" / "other").unlink()
-    done = _generate(veldt, blender, "--progress", "none", out="kept")
+    done = generate(veldt, blender, "--progress", "none", out="kept")
     assert (done.code, done.err) == (0, "")
     assert done.out == "kept: 1 clip made, 8 frames; 1 already existed\n"
     assert veldt("validate", "kept").code == 0

@@ -8,7 +8,7 @@ import pytest
 import fake_blender
 from configs import CLIPS, FRAMES, tiny
 from datasets import content_of
-from program import Veldt, files_below
+from program import Veldt, check_fault, files_below
 
 THREE = (*CLIPS, "third")
 
@@ -130,15 +130,11 @@ def _shards(place, veldt) -> Veldt:
     return veldt
 
 
-def _check(done, code: int, message: str) -> None:
-    assert (done.code, done.out, done.err) == (code, "", f"veldt: {message}\n")
-
-
 def test_a_folder_that_is_no_dataset(shards):
     (shards.folder / "empty").mkdir()
     for name in ("empty", "nowhere"):
         done = _merge(shards, "a", name, out="out")
-        _check(done, 2, f"DIR = {name}; expected a dataset, with a dataset.json")
+        check_fault(done, 2, f"DIR = {name}; expected a dataset, with a dataset.json")
     assert not (shards.folder / "out").exists()
 
 
@@ -148,11 +144,11 @@ def test_shards_of_different_configs(place, shards):
     place.write("other.json", config)
     _make(place, str(shards.folder / "c"), "--clips", "side", config="other.json")
     message = "seed is 7 here and 8 there; expected shards of one config"
-    _check(_merge(shards, "a", "c", out="out"), 2, f"a and c have different configs: {message}")
+    check_fault(_merge(shards, "a", "c", out="out"), 2, f"a and c have different configs: {message}")
     assert not (shards.folder / "out").exists()
     _merge(shards, "a", out="out")
     message = "seed is 8 here and 7 there; expected the same config, or another folder"
-    _check(_merge(shards, "c", out="out"), 2, f"out holds a dataset made from another config: {message}")
+    check_fault(_merge(shards, "c", out="out"), 2, f"out holds a dataset made from another config: {message}")
 
 
 def test_shards_of_another_version(shards):
@@ -160,7 +156,7 @@ def test_shards_of_another_version(shards):
     version, index["veldt_version"] = index["veldt_version"], "0.0.1"
     shards.write("b/dataset.json", index)
     done = _merge(shards, "a", "b", out="out")
-    _check(done, 2, f"b: veldt_version = 0.0.1; expected {version}, this program's version")
+    check_fault(done, 2, f"b: veldt_version = 0.0.1; expected {version}, this program's version")
 
 
 def test_two_of_one_clip_that_differ(place, shards):
@@ -169,14 +165,14 @@ def test_two_of_one_clip_that_differ(place, shards):
     shards.write("a/clips/down/clip.json", record)
     done = _merge(place, "shard_0", shards.folder / "a", out=shards.folder / "out")
     folders = f"shard_0/clips/down and {shards.folder}/a/clips/down"
-    _check(done, 1, f"{folders} differ; expected the same pixels and labels")
+    check_fault(done, 1, f"{folders} differ; expected the same pixels and labels")
     assert not (shards.folder / "out" / "dataset.json").exists()
 
 
 def test_the_folder_of_a_source(shards):
     done = _merge(shards, "a", "b", out="b")
     rule = "expected a folder that is not among DIR; to add the others to it, leave it out of DIR"
-    _check(done, 2, f"--out = b; {rule}")
+    check_fault(done, 2, f"--out = b; {rule}")
     done = _merge(shards, "a", out="b")
     assert (done.code, done.out, done.err) == (0, "b: 1 clip merged, 8 frames; 2 already existed\n", "")
 
@@ -212,4 +208,4 @@ def test_a_damaged_clip_fails_alone_unless_another_source_has_it(place, shards, 
 
 def test_way_to_link_that_there_is_not(shards):
     done = _merge(shards, "a", "--link", "soft", out="out")
-    _check(done, 2, "--link: soft not in {hard,copy}; see veldt merge --help")
+    check_fault(done, 2, "--link: soft not in {hard,copy}; see veldt merge --help")

@@ -14,13 +14,6 @@ from program import files_below
 MADE = ["config.json", "map.png", "overview.png"]
 
 
-@pytest.fixture(name="blender")
-def _blender(veldt):
-    """A stand-in for Blender, and the tiny config beside it."""
-    veldt.write("config.json", tiny())
-    return fake_blender.install(veldt.folder)
-
-
 def _run(blender, *options, out="out") -> list[str]:
     return ["render", "config.json", "--out", str(out), "--preview", "--blender", str(blender), *options]
 

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import passes
 from pictures import write_exr
+from program import Ended, Veldt
 
 # Orders lie beside the program: its environment is not that of the test.
 _HOLDS, _DIES = "blender_holds_after.txt", "blender_dies_after.txt"
@@ -29,6 +30,11 @@ def install(folder: Path) -> Path:
     )
     program.chmod(0o755)
     return program
+
+
+def generate(veldt: Veldt, blender: Path, *options, out="out", **how) -> Ended:
+    """Run `veldt generate config.json` with this stand-in."""
+    return veldt("generate", "config.json", "--out", out, "--blender", blender, *options, **how)
 
 
 def hold_after(folder: Path, clip: str, frame: int) -> None:

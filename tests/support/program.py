@@ -26,6 +26,11 @@ class Ended:
         return json.loads(self.out)
 
 
+def check_fault(done: Ended, code: int, message: str) -> None:
+    """Check that a run printed one message, on standard error, and nothing else."""
+    assert (done.code, done.out, done.err) == (code, "", f"veldt: {message}\n")
+
+
 class Veldt:
     """The program, run in `folder`, so that its messages contain short paths."""
 
