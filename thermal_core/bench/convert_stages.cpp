@@ -79,7 +79,7 @@ class Line {
   void convert(const Passes& passes) { converter_.convert(passes, manifest_.frames[0], scene_); }
   void expose() {
     camera_.expose(scene_.radiance_w_m2_sr, pictures_, [this](const Plane<float>& radiance) {
-      tell_contrast(camera_, radiance, scene_.instances);
+      set_contrast(camera_, radiance, scene_.instances);
     });
   }
   /// Its labels and its line of frames.jsonl; returns the number of bytes.

@@ -111,7 +111,7 @@ struct LabelScene {
 
   [[nodiscard]] std::vector<Instance> measured() const {
     std::vector<Instance> instances = labelled();
-    tell_contrast(camera, radiance_w_m2_sr, instances);
+    set_contrast(camera, radiance_w_m2_sr, instances);
     return instances;
   }
 
@@ -209,7 +209,7 @@ std::vector<StageRow> run_labels_suite() {
                 2 * kIndexBytes,
                 [&] { (void)scene.labeller.label(scene.passes, uses, scene.manifest.frames[0]); }),
           timed(row_of("contrast", {{"worst_mk", worst_mk(scene)}}), sizeof(float),
-                [&] { tell_contrast(scene.camera, scene.radiance_w_m2_sr, measured); }),
+                [&] { set_contrast(scene.camera, scene.radiance_w_m2_sr, measured); }),
           timed(row_of("JSON, a clip of one frame", {{"labels", labels}, {"bytes", bytes}}), 0,
                 [&] { (void)scene.text_of(measured); }),
           timed(row_of("everything", {{"labels", labels}}), kAllBytes,

@@ -56,7 +56,7 @@ void ClipOutput::expose(const SceneFrame& scene, Frame& frame) {
   frame.instances = scene.instances;
   frame.checks = scene.checks;
   camera_.expose(scene.radiance_w_m2_sr, frame.pictures, [&](const Plane<float>& radiance_w_m2_sr) {
-    tell_contrast(camera_, radiance_w_m2_sr, frame.instances);
+    set_contrast(camera_, radiance_w_m2_sr, frame.instances);
   });
 }
 

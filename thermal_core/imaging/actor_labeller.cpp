@@ -92,8 +92,8 @@ std::vector<Instance> ActorLabeller::label(const Passes& passes, std::span<const
   const Layer all = look_at(passes.object_index, uses);
   const Layer alone = layered ? look_at(passes.actor_index, alone_uses) : Layer();
   std::vector<Instance> instances = extract_instances(all.picture(), all.uses(), is_actor_);
-  for (Instance& instance : instances) tell_visible(all, layered ? &alone : nullptr, instance);
-  tell_places(frame, instances);
+  for (Instance& instance : instances) set_visible(all, layered ? &alone : nullptr, instance);
+  set_places(frame, instances);
   for (Instance& instance : instances) {
     if (!instance.range_m) instance.range_m = mean_range_m(passes, *find_use(uses, instance.index));
   }
@@ -144,7 +144,7 @@ void ActorLabeller::check_actors(std::span<const IndexUse> uses) const {
   }
 }
 
-void ActorLabeller::tell_visible(const Layer& all, const Layer* alone, Instance& instance) const {
+void ActorLabeller::set_visible(const Layer& all, const Layer* alone, Instance& instance) const {
   const double seen = shown_px(all, instance.index);
   if (supersample_ > 1) instance.covered_px = seen / (supersample_ * supersample_);
   PixelBox box = instance.box;
@@ -158,7 +158,7 @@ void ActorLabeller::tell_visible(const Layer& all, const Layer* alone, Instance&
 }
 
 /// From poses alone, where given.
-void ActorLabeller::tell_places(const ManifestFrame& frame, std::vector<Instance>& instances) const {
+void ActorLabeller::set_places(const ManifestFrame& frame, std::vector<Instance>& instances) const {
   for (const ActorPose& pose : frame.actors) {
     Instance* instance = find_index(instances, pose.index);
     if (instance == nullptr || !frame.camera_to_world) continue;

@@ -45,8 +45,8 @@ class ActorLabeller {
                                                 std::span<const IndexUse> uses) const;
   [[nodiscard]] double shown_px(const Layer& layer, std::uint16_t index) const;
   void check_actors(std::span<const IndexUse> uses) const;
-  void tell_visible(const Layer& all, const Layer* alone, Instance& instance) const;
-  void tell_places(const ManifestFrame& frame, std::vector<Instance>& instances) const;
+  void set_visible(const Layer& all, const Layer* alone, Instance& instance) const;
+  void set_places(const ManifestFrame& frame, std::vector<Instance>& instances) const;
   [[nodiscard]] std::optional<double> mean_range_m(const Passes& passes, const IndexUse& use) const;
 
   CameraIntrinsics camera_;

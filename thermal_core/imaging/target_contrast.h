@@ -13,7 +13,7 @@ namespace thermal {
 /// mean (target_means()); contrast_noise, the difference of both radiances in standard deviations of the noise of a
 /// pixel at the centre of its box. The latter two are empty if the surroundings are not in the picture, the last also
 /// without noise.
-void tell_contrast(const ThermalCamera& camera, const Plane<float>& radiance_w_m2_sr,
+void set_contrast(const ThermalCamera& camera, const Plane<float>& radiance_w_m2_sr,
                    std::vector<Instance>& instances);
 
 }  // namespace thermal

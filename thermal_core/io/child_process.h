@@ -32,7 +32,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Next line of the channel, waiting up to this long. Nothing if none came; ended() tells why.
+  /// Next line of the channel, waiting up to this long. Nothing if none came; ended() says why.
   [[nodiscard]] std::optional<std::string> next_line(int timeout_ms);
   /// The channel is closed and all its lines are read.
   [[nodiscard]] bool ended() const noexcept { return closed_ && buffer_.empty(); }

@@ -132,7 +132,7 @@ std::string part_name(const ExrParts& file, const ExrChannel& channel) {
 }
 
 /// Channels of several parts with equal names are put in layers of their parts' names.
-void tell_apart(std::vector<ExrChannel>& channels, const ExrParts& file) {
+void separate_parts(std::vector<ExrChannel>& channels, const ExrParts& file) {
   std::map<std::string, int> uses;
   for (const ExrChannel& channel : channels) ++uses[channel.full_name()];
   for (ExrChannel& channel : channels) {
@@ -166,7 +166,7 @@ void name_channels(std::vector<ExrChannel>& channels, const ExrParts& file) {
     channels[i].pass = parsed[i].pass;
     channels[i].component = parsed[i].component;
   }
-  tell_apart(channels, file_parts);
+  separate_parts(channels, file_parts);
 }
 
 bool has_bare_name(const ExrChannel& channel) {

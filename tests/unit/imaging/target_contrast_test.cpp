@@ -37,7 +37,7 @@ Instance seen(const SensorParameters& parameters, const Plane<float>& radiance, 
   ThermalCamera camera(parameters, clip, 60);
   std::vector<Instance> instances = one_actor();
   SensorFrame frame;
-  camera.expose(radiance, frame, [&](const Plane<float>& plane) { tell_contrast(camera, plane, instances); });
+  camera.expose(radiance, frame, [&](const Plane<float>& plane) { set_contrast(camera, plane, instances); });
   return instances.front();
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("It is measured before lag, noise and bad pixels, and while the shutte
   camera.expose(scene(285, 285), frame);
   std::vector<Instance> instances = one_actor();
   camera.expose(scene(305, 285), frame,
-                [&](const Plane<float>& plane) { tell_contrast(camera, plane, instances); });
+                [&](const Plane<float>& plane) { set_contrast(camera, plane, instances); });
   CHECK(frame.shutter_closed);
   CHECK_THAT(instances[0].contrast_k.value(), WithinAbs(20, 4e-4));
 }
@@ -95,7 +95,7 @@ TEST_CASE("An actor without surroundings has a temperature and no contrast") {
   const std::vector<std::uint16_t> actors = {7};
   std::vector<Instance> instances = extract_instances(plane, survey_indices(plane), IndexSet(actors));
   const ThermalCamera camera = cameras::camera(cameras::full_sensor(), {.width_px = 3, .height_px = 3});
-  tell_contrast(camera, cameras::uniform_scene(3, 3, 290), instances);
+  set_contrast(camera, cameras::uniform_scene(3, 3, 290), instances);
   CHECK_THAT(instances[0].temperature_k.value(), WithinAbs(290, 2e-4));
   CHECK_FALSE(instances[0].contrast_k);
   CHECK_FALSE(instances[0].contrast_noise);
