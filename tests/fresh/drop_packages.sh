@@ -1,27 +1,23 @@
 #!/usr/bin/env bash
 # Drops one package at a time from the lists in `run` and reports what then fails on a fresh machine: the proof that
-# ./run fresh can fail, and that each package is needed. Run by hand as root, after one ./run fresh; a suite takes an
-# hour or two.
+# ./run fresh can fail, and that each package is needed. Run by hand as root; a list takes an hour or so.
 #
-# usage: tests/fresh/drop_packages.sh SUITE COMMAND PACKAGE…
-#   tests/fresh/drop_packages.sh bookworm tests/fresh/two_frames.sh g++ cmake ninja-build …
-#   tests/fresh/drop_packages.sh bookworm './run test' catch2 python3-pytest …
+# usage: tests/fresh/drop_packages.sh SUITE LIST COMMAND [PACKAGE…]
+#   tests/fresh/drop_packages.sh bookworm demo tests/fresh/two_frames.sh
+#   tests/fresh/drop_packages.sh bookworm test './run test browser' chromium chromium-driver python3-selenium
 #
-# Prints a table row a package: still installed (as a dependency of the others), or what the command ended with.
+# LIST is one of tests/fresh/packages.sh; without PACKAGE, all of it. Prints a row of a table a package: what the command
+# ended with, or that the other packages bring it along, in which case nothing can fail and nothing is run.
 # shellcheck disable=SC2016 # backquotes are Markdown's
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-readonly suite=$1 command=$2 packages=("${@:3}")
+readonly suite=$1 list=$2 command=$3
+packages=("${@:4}")
 readonly kept=$PWD/build/fresh/$suite
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-mkdir -p "$scratch/ccache"
-
-# The names in all lists of `run`, one a line.
-listed_packages() {
-  sed -n '/^[a-z]*_packages=(/,/)$/p' run | sed 's/^[a-z]*_packages=(//; s/)$//' | tr -s ' ' '\n' | grep -v '^"\|^$' | sort -u
-}
+mkdir -p "$scratch/ccache" "$kept"
 
 # A clone whose `run` lacks the package, with the base system and the downloads of this one.
 clone_without() { # PACKAGE
@@ -34,26 +30,25 @@ clone_without() { # PACKAGE
   git -C "$clone" -c user.name=fresh -c user.email=fresh@localhost commit --quiet --all --message "Drop $1"
 }
 
-# Which packages ask for it, of those that the others bring along.
-installed_by() { # PACKAGE
-  awk -v package="$1" '$1 == "Inst" && $2 == package {found = 1} END {exit !found}' "$scratch/plan"
+# The first line of a log that says what is missing.
+first_fault() { # LOG
+  grep -aiE '\berror\b|not found|could not|fatal|no such file|no module|failed' "$1" |
+    grep -avE 'debconf|Building|apt-utils|took [0-9]+ s' | head -n 1 | cut -c1-160
 }
 
-plan_without() { # PACKAGE
-  local others
-  mapfile -t others < <(listed_packages | grep -vx -- "$1")
-  chroot "$kept/base" apt-get --simulate --no-install-recommends install "${others[@]}" >"$scratch/plan" 2>&1
-}
+((${#packages[@]})) || mapfile -t packages < <(tests/fresh/packages.sh "$list")
+brought_along=$(./run fresh --suite "$suite" tests/fresh/packages.sh "$list" --brought-along | sed -n 's/^brought along: //p')
 
 for package in "${packages[@]}"; do
-  note="" status=0
+  if grep -qx -- "$package" <<<"$brought_along"; then
+    printf '| `%s` | the others bring it along |\n' "$package"
+    continue
+  fi
   clone_without "$package"
-  if plan_without "$package" && installed_by "$package"; then note=", though other packages bring it along"; fi
   log=$kept/without_$package.log
-  (cd "$scratch/veldt" && FRESH_CCACHE=$scratch/ccache ./run fresh --suite "$suite" sh -c "$command") >"$log" 2>&1 || status=$?
-  if ((status == 0)); then
-    printf '| `%s` | passes%s |\n' "$package" "$note"
+  if (cd "$scratch/veldt" && FRESH_CCACHE=$scratch/ccache ./run fresh --suite "$suite" sh -c "$command") >"$log" 2>&1; then
+    printf '| `%s` | passes |\n' "$package"
   else
-    printf '| `%s` | fails: %s |\n' "$package" "$(grep -aiE 'error|not found|failed|no such' "$log" | head -n 1 | cut -c1-150)"
+    printf '| `%s` | fails: %s |\n' "$package" "$(first_fault "$log")"
   fi
 done

@@ -85,7 +85,7 @@ make_root() {
   [[ $user == root ]] || chroot "$root" chown -R "$user:" "$home"
 }
 
-# Where apt and pip find their registries, and whom they trust.
+# Where apt and pip find their registries, and the certificates they trust.
 copy_network_settings() {
   local found
   found=$(repositories)
