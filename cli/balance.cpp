@@ -14,7 +14,7 @@
 namespace veldt {
 namespace {
 
-struct Options {
+struct BalanceArguments {
   std::vector<std::string> datasets;
   std::vector<std::string> per_class;
   std::string out;
@@ -24,7 +24,7 @@ struct Options {
 };
 
 /// An existing file may be replaced only if it is a selection.
-void check_out(const Options& options) {
+void check_out(const BalanceArguments& options) {
   const thermal::Path out = options.out;
   if (!out.parent_path().empty() && !std::filesystem::is_directory(out.parent_path()))
     throw thermal::ConfigError(thermal::fault("--out", options.out, "", "a file in an existing folder"));
@@ -37,7 +37,7 @@ void check_out(const Options& options) {
   }
 }
 
-std::vector<thermal::LabelSource> read_sources(const Options& options) {
+std::vector<thermal::LabelSource> read_sources(const BalanceArguments& options) {
   std::vector<thermal::LabelSource> sources;
   std::set<thermal::Path> seen;
   for (const std::string& path : options.datasets) {
@@ -49,7 +49,7 @@ std::vector<thermal::LabelSource> read_sources(const Options& options) {
   return sources;
 }
 
-void check_labels(const std::vector<thermal::BalanceVideo>& videos, const Options& options) {
+void check_labels(const std::vector<thermal::BalanceVideo>& videos, const BalanceArguments& options) {
   for (const thermal::BalanceVideo& video : videos) {
     if (!video.types.empty()) return;
   }
@@ -57,7 +57,7 @@ void check_labels(const std::vector<thermal::BalanceVideo>& videos, const Option
                            ": no labels of animals or people that count; expected at least one");
 }
 
-Balanced balance_sources(const Options& options) {
+Balanced balance_sources(const BalanceArguments& options) {
   Balanced done;
   done.program.bounds = parse_class_bounds(options.per_class);
   check_out(options);
@@ -71,7 +71,7 @@ Balanced balance_sources(const Options& options) {
   return done;
 }
 
-int run(const Options& options, bool quiet) {
+int run_balance(const BalanceArguments& options, bool quiet) {
   const Balanced done = balance_sources(options);
   thermal::write_selection(options.out, done.selection);
   if (options.json) fmt::print("{}\n", to_json(done).dump(2));
@@ -92,7 +92,7 @@ void add_balance(CLI::App& app, Session& session) {
       add_command(app, session, "balance",
                   "Select frames so that small, medium and large animals and poachers are drawn\n"
                   "evenly from all videos, within bounds for each class");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BalanceArguments>();
   command
       ->add_option("datasets", options->datasets, "Datasets, BIRDSAI folders or COCO files; never modified")
       ->required()
@@ -122,7 +122,7 @@ void add_balance(CLI::App& app, Session& session) {
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the table as JSON");
   command->callback([options, &session] {
-    session.run = [options, &session] { return run(*options, session.common.quiet); };
+    session.run = [options, &session] { return run_balance(*options, session.common.quiet); };
   });
 }
 

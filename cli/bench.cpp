@@ -136,7 +136,7 @@ int show(const std::string& suite, const std::vector<Row>& rows, bool json) {
   return kDone;
 }
 
-struct Options {
+struct BenchArguments {
   std::string suite = "radiance";
   std::string blender;
   bool json = false;
@@ -148,11 +148,11 @@ std::function<void(const std::string&)> teller(bool quiet) {
   };
 }
 
-std::vector<thermal::RenderRow> measure_rendering(const Options& options, bool quiet) {
+std::vector<thermal::RenderRow> measure_rendering(const BenchArguments& options, bool quiet) {
   return thermal::run_render_suite({find_blender(options.blender), thermal::find_home(), teller(quiet)});
 }
 
-int run(const Options& options, bool quiet) {
+int run_bench(const BenchArguments& options, bool quiet) {
   if (options.suite == "sensor") return show(options.suite, thermal::run_sensor_suite(), options.json);
   if (options.suite == "labels") return show(options.suite, thermal::run_labels_suite(), options.json);
   if (options.suite == "balance")
@@ -169,7 +169,7 @@ int run(const Options& options, bool quiet) {
 void add_bench(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "bench", "Speed and error of every kernel, measured on this machine");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchArguments>();
   command->add_option("--suite", options->suite, "What to measure")
       ->check(CLI::IsMember({"radiance", "sensor", "labels", "convert", "balance", "render"}))
       ->capture_default_str();
@@ -179,7 +179,7 @@ void add_bench(CLI::App& app, Session& session) {
       ->type_name("PATH");
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &session] {
-    session.run = [options, &session] { return run(*options, session.common.quiet); };
+    session.run = [options, &session] { return run_bench(*options, session.common.quiet); };
   });
 }
 

@@ -29,7 +29,7 @@ void print_materials(const thermal::SceneOutline& outline) {
   }
 }
 
-void print(const thermal::Budget& budget, const thermal::SceneOutline& outline) {
+void print_budget(const thermal::Budget& budget, const thermal::SceneOutline& outline) {
   fmt::print(
       "NETD {:.0f} mK: an automatic term is kept if it differs by more than {:.1f} mK across the "
       "pictures\n\n",
@@ -43,13 +43,13 @@ void print(const thermal::Budget& budget, const thermal::SceneOutline& outline) 
   print_materials(outline);
 }
 
-struct Options {
+struct BudgetArguments {
   std::string config;
   std::vector<std::string> settings;
   bool json = false;
 };
 
-int run(const Options& options) {
+int run_budget(const BudgetArguments& options) {
   const thermal::Path home = thermal::find_home();
   const thermal::Config config = load_config(options.config, options.settings, home);
   const thermal::MaterialLibrary materials = thermal::read_materials(home);
@@ -58,7 +58,7 @@ int run(const Options& options) {
   if (options.json) {
     fmt::print("{}\n", thermal::to_json(budget).dump(2));
   } else {
-    print(budget, outline);
+    print_budget(budget, outline);
   }
   return kDone;
 }
@@ -68,11 +68,11 @@ int run(const Options& options) {
 void add_budget(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "budget", "Each physical term in mK against NETD: kept or dropped, and why");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BudgetArguments>();
   command->add_option("config", options->config, "Config of a dataset, JSON")->required();
   add_settings(command, options->settings);
   command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &session] { session.run = [options] { return run(*options); }; });
+  command->callback([options, &session] { session.run = [options] { return run_budget(*options); }; });
 }
 
 }  // namespace veldt

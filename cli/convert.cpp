@@ -13,7 +13,7 @@
 namespace veldt {
 namespace {
 
-struct Options {
+struct ConvertArguments {
   std::vector<std::string> passes;
   std::string out;
   std::string manifest;
@@ -34,7 +34,7 @@ std::optional<thermal::Json> read_document(const std::string& file) {
   }
 }
 
-int run(const Options& options, const CommonOptions& common) {
+int run_convert(const ConvertArguments& options, const CommonOptions& common) {
   check_max_unusable(options.max_unusable_share);
   thermal::ConvertOptions request = {.home = thermal::find_home(),
                                      .passes = {options.passes.begin(), options.passes.end()},
@@ -61,7 +61,7 @@ int run(const Options& options, const CommonOptions& common) {
 
 void add_convert(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "convert", "Turn rendered passes into frames and labels");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConvertArguments>();
   command
       ->add_option("passes", options->passes,
                    "Passes, one clip per folder: folders with a manifest.json, files, or quoted "
@@ -82,8 +82,9 @@ void add_convert(CLI::App& app, Session& session) {
   add_max_unusable(command, options->max_unusable_share);
   command->add_flag("--strict", options->strict,
                     "Stop at the first bad frame instead of reporting it and skipping it");
-  command->callback(
-      [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
+  command->callback([options, &session] {
+    session.run = [options, &session] { return run_convert(*options, session.common); };
+  });
 }
 
 }  // namespace veldt

@@ -53,7 +53,7 @@ std::vector<Finding> look() {
   return findings;
 }
 
-int run(bool json) {
+int run_doctor(bool json) {
   const std::vector<Finding> findings = look();
   bool all_there = true;
   thermal::Json report = thermal::Json::array();
@@ -78,7 +78,7 @@ void add_doctor(CLI::App& app, Session& session) {
                                   "What is installed, which versions, what is missing and how to get it");
   auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "Print JSON");
-  command->callback([json, &session] { session.run = [json] { return run(*json); }; });
+  command->callback([json, &session] { session.run = [json] { return run_doctor(*json); }; });
 }
 
 }  // namespace veldt

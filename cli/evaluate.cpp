@@ -15,7 +15,7 @@
 namespace veldt {
 namespace {
 
-struct Options {
+struct EvaluateArguments {
   std::string truth;
   std::string detections;
   thermal::EvaluateOptions evaluate;
@@ -58,8 +58,8 @@ thermal::Json clip_to_json(const thermal::LabelSet& truth, const thermal::Evalua
           {"categories", std::move(categories)}};
 }
 
-thermal::Json to_json(const Options& options, const thermal::LabelSet& truth, std::size_t detections,
-                      const thermal::Evaluation& evaluation) {
+thermal::Json to_json(const EvaluateArguments& options, const thermal::LabelSet& truth,
+                      std::size_t detections, const thermal::Evaluation& evaluation) {
   thermal::Json document = {{"truth", options.truth},
                             {"detections", options.detections},
                             {"iou", options.evaluate.iou},
@@ -87,7 +87,7 @@ thermal::Json to_json(const Options& options, const thermal::LabelSet& truth, st
   return document;
 }
 
-int run(const Options& options) {
+int run_evaluate(const EvaluateArguments& options) {
   options.evaluate.validate();
   const thermal::LabelSet truth = thermal::read_labels(options.truth);
   if (truth.labels.empty())
@@ -113,7 +113,7 @@ void add_evaluate(CLI::App& app, Session& session) {
       "without a target is that of its own box.\n"
       "Average precision agrees with pycocotools. Targets marked as ignored, and crowds, count neither\n"
       "as found nor as missed; detections that match them are not counted.");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EvaluateArguments>();
   command->add_option("--truth", options->truth, "Labels: a dataset, a BIRDSAI folder or a COCO file")
       ->required();
   command
@@ -127,7 +127,7 @@ void add_evaluate(CLI::App& app, Session& session) {
   command->add_flag("--count-ignored", options->evaluate.count_ignored,
                     "Count targets that are marked as ignored like any others, as pycocotools does");
   command->add_flag("--json", options->json, "Print JSON, with each clip's categories too");
-  command->callback([options, &session] { session.run = [options] { return run(*options); }; });
+  command->callback([options, &session] { session.run = [options] { return run_evaluate(*options); }; });
 }
 
 }  // namespace veldt

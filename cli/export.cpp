@@ -14,7 +14,7 @@
 namespace veldt {
 namespace {
 
-struct Options {
+struct ExportArguments {
   thermal::ExportOptions what;
   std::string source;
   std::string format;
@@ -37,7 +37,7 @@ thermal::Linking linking_named(const std::string& name) {
   return name == "hard" ? thermal::Linking::hard : thermal::Linking::symlink;
 }
 
-thermal::ExportOptions request_of(const Options& options) {
+thermal::ExportOptions request_of(const ExportArguments& options) {
   thermal::ExportOptions request = options.what;
   request.source = options.source;
   request.format = format_named(options.format);
@@ -80,7 +80,7 @@ std::string counted(int count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-void summarise(const thermal::ExportOutcome& outcome, const Options& options) {
+void summarise(const thermal::ExportOutcome& outcome, const ExportArguments& options) {
   if (outcome.already_there) {
     fmt::print("{}: nothing to do; this export already exists\n", options.out);
     return;
@@ -100,7 +100,7 @@ void summarise(const thermal::ExportOutcome& outcome, const Options& options) {
     fmt::print("{} copied: the file system cannot link them\n", counted(outcome.copied, "picture"));
 }
 
-int run(const Options& options, const CommonOptions& common) {
+int run_export(const ExportArguments& options, const CommonOptions& common) {
   const thermal::ExportOptions request = request_of(options);
   watch_for_stop();
   thermal::ExportOutcome outcome;
@@ -117,7 +117,7 @@ int run(const Options& options, const CommonOptions& common) {
 void add_export(CLI::App& app, Session& session) {
   CLI::App* command = add_command(
       app, session, "export", "Write a dataset as other programs read it: COCO, YOLO, MOTChallenge, BIRDSAI");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportArguments>();
   command
       ->add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file; never modified")
       ->required()
@@ -145,8 +145,9 @@ void add_export(CLI::App& app, Session& session) {
   command->add_option("--selection", options->selection, "Export only the frames that veldt balance selected")
       ->type_name("FILE");
   command->add_flag("--unfinished", options->what.unfinished_too, "Accept a dataset with missing clips");
-  command->callback(
-      [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
+  command->callback([options, &session] {
+    session.run = [options, &session] { return run_export(*options, session.common); };
+  });
 }
 
 }  // namespace veldt

@@ -21,7 +21,7 @@ namespace {
 using Run = thermal::RunOutcome (*)(const thermal::Config&, const thermal::GenerateOptions&,
                                     const thermal::RunHooks&);
 
-struct Options {
+struct GenerateArguments {
   std::string config;
   std::string out;
   std::string blender;
@@ -60,7 +60,7 @@ int make_preview(const thermal::Config& config, const thermal::GenerateOptions& 
   return kDone;
 }
 
-int run(const Options& options, const CommonOptions& common, Run work) {
+int run_generate(const GenerateArguments& options, const CommonOptions& common, Run work) {
   check_max_unusable(options.max_unusable_share);
   const thermal::Path home = thermal::find_home();
   const thermal::Config given = load_config(options.config, options.settings, home);
@@ -93,7 +93,7 @@ int run(const Options& options, const CommonOptions& common, Run work) {
 
 void add(CLI::App& app, Session& session, const std::string& name, const std::string& description, Run work) {
   CLI::App* command = add_command(app, session, name, description);
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GenerateArguments>();
   command->add_option("config", options->config, "Config of the dataset, JSON")->required();
   command->add_option("--out", options->out, "Folder of the dataset")->required();
   command->add_option("--clips", options->clips, "Only these clips")
@@ -121,7 +121,7 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
   add_settings(command, options->settings);
   command->add_flag("--dry-run", options->dry_run, "Check the config and print what would be made");
   command->callback([options, &session, work] {
-    session.run = [options, &session, work] { return run(*options, session.common, work); };
+    session.run = [options, &session, work] { return run_generate(*options, session.common, work); };
   });
 }
 

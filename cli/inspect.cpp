@@ -16,7 +16,7 @@ namespace {
 using thermal::Inspection;
 using thermal::Path;
 
-struct Options {
+struct InspectArguments {
   std::vector<std::string> passes;
   std::string manifest;
   std::string layer;
@@ -26,7 +26,7 @@ struct Options {
   bool json = false;
 };
 
-thermal::InspectOptions request_of(const Options& options) {
+thermal::InspectOptions request_of(const InspectArguments& options) {
   return {.home = thermal::find_home(),
           .passes = {options.passes.begin(), options.passes.end()},
           .manifest = options.manifest,
@@ -47,20 +47,20 @@ void check_starter(const Path& file) {
     refuse("a file in an existing folder");
 }
 
-Inspection inspect(const Options& options, const CommonOptions& common) {
+Inspection inspect(const InspectArguments& options, const CommonOptions& common) {
   watch_for_stop();
   ProgressBar bar(common);
   return thermal::inspect(request_of(options), hooks_for(bar));
 }
 
-void write_starter(const Inspection& inspection, const Options& options) {
+void write_starter(const Inspection& inspection, const InspectArguments& options) {
   const thermal::StarterManifest starter =
       thermal::starter_manifest(inspection, thermal::KnownThings(thermal::find_home()));
   thermal::write_file_atomically(options.starter, thermal::to_text(starter.document));
   if (!options.json) print(starter, inspection, options.starter);
 }
 
-int run(const Options& options, const CommonOptions& common) {
+int run_inspect(const InspectArguments& options, const CommonOptions& common) {
   check_starter(options.starter);
   const Inspection inspection = inspect(options, common);
   options.json ? fmt::print("{}\n", to_json(inspection).dump(2)) : print(inspection);
@@ -73,7 +73,7 @@ int run(const Options& options, const CommonOptions& common) {
 void add_inspect(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "inspect", "What is in these passes, and what convert would do with them");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InspectArguments>();
   command
       ->add_option(
           "passes", options->passes,
@@ -91,8 +91,9 @@ void add_inspect(CLI::App& app, Session& session) {
       ->excludes(manifest);
   add_max_megapixels(command, options->max_megapixels);
   command->add_flag("--json", options->json, "Print JSON");
-  command->callback(
-      [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
+  command->callback([options, &session] {
+    session.run = [options, &session] { return run_inspect(*options, session.common); };
+  });
 }
 
 }  // namespace veldt

@@ -14,19 +14,19 @@
 namespace veldt {
 namespace {
 
-struct Options {
+struct MergeArguments {
   std::vector<std::string> sources;
   std::string out;
   std::string link = "hard";
 };
 
-void print_missing(const thermal::MergeOutcome& outcome, const Options& options) {
+void print_missing(const thermal::MergeOutcome& outcome, const MergeArguments& options) {
   if (outcome.missing.empty()) return;
   fmt::print(stderr, "veldt: {} lacks clips {}; none of {} has them complete\n", options.out,
              thermal::list_names(outcome.missing), thermal::list_names(options.sources));
 }
 
-int run(const Options& options, const CommonOptions& common) {
+int run_merge(const MergeArguments& options, const CommonOptions& common) {
   watch_for_stop();
   thermal::MergeOutcome outcome;
   {
@@ -46,7 +46,7 @@ int run(const Options& options, const CommonOptions& common) {
 
 void add_merge(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "merge", "Join datasets made as shards of one config");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MergeArguments>();
   command
       ->add_option("dirs", options->sources, "Datasets, each with some of the config's clips; never modified")
       ->required()
@@ -55,8 +55,9 @@ void add_merge(CLI::App& app, Session& session) {
   command->add_option("--link", options->link, "Hard links where the file system supports them, or copies")
       ->check(CLI::IsMember({"hard", "copy"}))
       ->capture_default_str();
-  command->callback(
-      [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
+  command->callback([options, &session] {
+    session.run = [options, &session] { return run_merge(*options, session.common); };
+  });
 }
 
 }  // namespace veldt

@@ -13,7 +13,7 @@ namespace veldt {
 namespace {
 
 /// A line of the table: a clip, or all chosen clips of a flight.
-struct Row {
+struct PlanRow {
   std::string name;
   int clips = 0;
   int frames = 0;
@@ -30,7 +30,7 @@ struct Row {
   }
 };
 
-void print_row(const Row& row) {
+void print_row(const PlanRow& row) {
   fmt::print("{:<32} {:>6} {:>8} {:>12} {:>8.1f} {:>7.1f}\n", row.name, row.clips, row.frames,
              row.frames_with_actors, row.min_agl_m, row.max_agl_m);
 }
@@ -55,13 +55,13 @@ void print_plan(const thermal::Config& config, const thermal::DatasetPlan& plan,
   for (const thermal::ClipConfig& clip : chosen) ids.insert(clip.id);
   fmt::print("{:<32} {:>6} {:>8} {:>12} {:>16}\n", "clip or flight", "clips", "frames", "with actors",
              "height [m AGL]");
-  Row all{.name = "all"};
-  Row row;
+  PlanRow all{.name = "all"};
+  PlanRow row;
   for (const thermal::ClipPlan& clip : plan.clips) {
     if (!ids.contains(clip.id)) continue;
     const std::string name = clip.flight.empty() ? clip.id : clip.flight;
     if (name != row.name && row.clips > 0) print_row(row);
-    if (name != row.name) row = Row{.name = name};
+    if (name != row.name) row = PlanRow{.name = name};
     row.add(clip);
     all.add(clip);
   }

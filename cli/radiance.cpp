@@ -15,7 +15,7 @@
 namespace veldt {
 namespace {
 
-struct Options {
+struct RadianceArguments {
   std::vector<double> temperatures_k;
   std::vector<double> radiances_w_m2_sr;
   std::string band_um = "8:14";
@@ -102,7 +102,7 @@ void check_values(const std::vector<double>& values, const std::string& option, 
 }
 
 /// The band or the response that was named. A response that cannot be read is bad usage.
-thermal::SpectralResponse response_of(const Options& options) {
+thermal::SpectralResponse response_of(const RadianceArguments& options) {
   if (options.response.empty()) return parse_band(options.band_um);
   try {
     return thermal::read_response(options.response);
@@ -111,7 +111,7 @@ thermal::SpectralResponse response_of(const Options& options) {
   }
 }
 
-int run(const Options& options) {
+int run_radiance(const RadianceArguments& options) {
   check_values(options.temperatures_k, "--temperature-k", "K", kHottestK);
   if (!(options.emissivity > 0 && options.emissivity <= 1)) {
     throw thermal::ConfigError(
@@ -147,7 +147,7 @@ int run(const Options& options) {
 void add_radiance(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "radiance",
                                   "In-band radiance of a temperature, or temperature of a radiance");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RadianceArguments>();
   auto* temperatures =
       command->add_option("--temperature-k", options->temperatures_k, "Temperatures [K], from 0 to 1e6")
           ->delimiter(',')
@@ -176,7 +176,7 @@ void add_radiance(CLI::App& app, Session& session) {
       if (options->temperatures_k.empty() && options->radiances_w_m2_sr.empty()) {
         throw thermal::ConfigError("nothing asked; expected --temperature-k T,… or --radiance L,…");
       }
-      return run(*options);
+      return run_radiance(*options);
     };
   });
 }

@@ -10,13 +10,13 @@
 namespace veldt {
 namespace {
 
-struct Options {
+struct ReportArguments {
   std::string source;
   std::string out;
   bool unfinished = false;
 };
 
-int run(const Options& options, const CommonOptions& common) {
+int run_report(const ReportArguments& options, const CommonOptions& common) {
   const thermal::ReportOutcome outcome = thermal::write_report({.source = options.source,
                                                                 .out = options.out,
                                                                 .home = thermal::find_home(),
@@ -34,14 +34,15 @@ void add_report(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "report",
                   "One HTML page about a dataset: pictures, plots, counts, provenance; needs no network");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportArguments>();
   command->add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file (.json)")
       ->required();
   command->add_option("--out", options->out, "File of the page; by default report.html in the dataset")
       ->type_name("FILE");
   command->add_flag("--unfinished", options->unfinished, "Accept a dataset with missing clips");
-  command->callback(
-      [options, &session] { session.run = [options, &session] { return run(*options, session.common); }; });
+  command->callback([options, &session] {
+    session.run = [options, &session] { return run_report(*options, session.common); };
+  });
 }
 
 }  // namespace veldt

@@ -10,7 +10,7 @@
 namespace veldt {
 namespace {
 
-constexpr std::size_t kMostLines = 20;
+constexpr std::size_t kMostSkipLines = 20;
 
 using Frames = std::vector<thermal::SkippedFrame>;
 
@@ -36,7 +36,7 @@ std::string line_of(const thermal::ClipSkips& clip, std::size_t begin, std::size
 void add_lines(const thermal::ClipSkips& clip, std::vector<std::string>& lines) {
   std::size_t printed = 0;
   std::size_t frame = 0;
-  for (; frame < clip.frames.size() && printed < kMostLines; ++printed) {
+  for (; frame < clip.frames.size() && printed < kMostSkipLines; ++printed) {
     const std::size_t end = end_of_run(clip.frames, frame);
     lines.push_back(line_of(clip, frame, end));
     frame = end;

@@ -12,13 +12,13 @@
 namespace veldt {
 namespace {
 
-struct Options {
+struct ValidateArguments {
   std::string what;
   std::vector<std::string> settings;
   bool json = false;
 };
 
-int validate_dataset(const Options& options) {
+int validate_dataset(const ValidateArguments& options) {
   if (!options.settings.empty()) {
     throw thermal::ConfigError(
         thermal::fault("--set", options.settings.front(), "", "a config to check, not a dataset"));
@@ -39,7 +39,7 @@ int validate_dataset(const Options& options) {
   return check.faults.empty() ? kDone : kFailed;
 }
 
-int validate_config(const Options& options) {
+int validate_config(const ValidateArguments& options) {
   const thermal::Path home = thermal::find_home();
   const thermal::Config config = load_config(options.what, options.settings, home);
   const auto plan = thermal::plan_dataset(config.resolved, options.what, home).clips;
@@ -69,7 +69,7 @@ void add_validate(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "validate",
                   "Check a config (schema and meaning) or a dataset (complete, every file unchanged)");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ValidateArguments>();
   command->add_option("what", options->what, "A config, or the folder of a dataset")->required();
   add_settings(command, options->settings);
   command->add_flag("--json", options->json, "Report as JSON");

@@ -15,7 +15,7 @@
 namespace veldt {
 namespace {
 
-struct Options {
+struct VideoArguments {
   std::string source;
   std::string beside;
   std::string out;
@@ -29,7 +29,7 @@ struct Options {
   bool scale = false;
 };
 
-thermal::VideoRequest request_of(const Options& options, bool frame_given) {
+thermal::VideoRequest request_of(const VideoArguments& options, bool frame_given) {
   thermal::VideoRequest request{.source = options.source,
                                 .beside = options.beside,
                                 .out = options.out,
@@ -58,7 +58,7 @@ void summarise(const thermal::VideoOutcome& outcome, const std::string& out, dou
     fmt::print("left out, because not made: {}\n", thermal::list_names(outcome.not_made, 8));
 }
 
-int run(const Options& options, bool frame_given, const CommonOptions& common) {
+int run_video(const VideoArguments& options, bool frame_given, const CommonOptions& common) {
   const thermal::VideoRequest request = request_of(options, frame_given);
   watch_for_stop();
   const auto begun = std::chrono::steady_clock::now();
@@ -78,7 +78,7 @@ void add_video(CLI::App& app, Session& session) {
   CLI::App* command = add_command(
       app, session, "video",
       "A video to show: false colours, a scale in kelvin, boxes and tracks; several clips in a grid");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VideoArguments>();
   command->add_option("dataset", options->source, "A dataset, or one clip's folder in it (DIR/clips/CLIP)")
       ->required()
       ->type_name("DATASET|CLIP");
@@ -117,7 +117,7 @@ void add_video(CLI::App& app, Session& session) {
       ->capture_default_str();
   command->callback([options, frame, &session] {
     session.run = [options, given = frame->count() > 0, &session] {
-      return run(*options, given, session.common);
+      return run_video(*options, given, session.common);
     };
   });
 }

@@ -1,4 +1,4 @@
-"""The configs that come with Veldt can be generated: each passes every check that `generate` makes before it renders."""
+"""The configs that come with Veldt can be generated: they pass all checks that `generate` makes before it renders."""
 
 import json
 

@@ -14,8 +14,8 @@ namespace {
 
 using Frames = std::vector<std::vector<std::int64_t>>;
 
-constexpr std::size_t kBlock = 4;  // videos rounded together
-constexpr int kBlockNodes = 200;   // of the search tree of a block
+constexpr std::size_t kVideosABlock = 4;  // videos rounded together
+constexpr int kBlockNodes = 200;          // of the search tree of a block
 constexpr int kPasses = 8;
 
 /// Orders of videos in which a pass rounds them: fewest frame types first, most first, then random. The videos
@@ -47,7 +47,7 @@ class Search {
 
   BalanceResult run() && {
     relax();
-    const int passes = program_.videos.size() > kBlock ? kPasses : 0;  // one block would be the whole
+    const int passes = program_.videos.size() > kVideosABlock ? kPasses : 0;  // one block would be the whole
     for (int pass = 0; pass < passes && !is_done() && deadline_.left_s() > 0; ++pass) round_in_blocks(pass);
     if (!is_done() && deadline_.left_s() > 0) solve_whole();
     return {.solution = best_, .bound = bound_, .gap = gap_to_bound(), .in_time = is_done()};
@@ -76,8 +76,8 @@ class Search {
                      .start = best_.taken,
                      .used_up = used_up_,
                      .elastic = true};
-    for (std::size_t begin = 0; begin < order.size(); begin += kBlock) {
-      const std::size_t end = std::min(begin + kBlock, order.size());
+    for (std::size_t begin = 0; begin < order.size(); begin += kVideosABlock) {
+      const std::size_t end = std::min(begin + kVideosABlock, order.size());
       for (std::size_t place = begin; place < end; ++place) shape.parts[order[place]] = VideoPart::whole;
       const BalanceModel model = make_model(program_, shape);
       const SolverResult solved = solve(model.program, {.time_s = deadline_.left_s(), .nodes = kBlockNodes});

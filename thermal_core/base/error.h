@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace thermal {
 
@@ -46,5 +47,8 @@ class Cancelled : public Error {
 /// "<where> = <value> <unit>; expected <rule>"; an empty unit is left out.
 [[nodiscard]] std::string fault(std::string_view where, std::string_view value, std::string_view unit,
                                 std::string_view rule);
+
+/// ConfigError with a line "<name>: <fault>" for each fault; does nothing if there are none.
+void throw_faults(const std::vector<std::string>& faults, const std::string& name);
 
 }  // namespace thermal

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +22,9 @@ namespace thermal {
 
 /// The parts between separators, one more than there are of those; views into `text`.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// Digits of a number that is certain to fit into 64 bits.
+inline constexpr std::size_t kMostDigits = 18;
 
 /// The number that the whole text represents, in the syntax of std::from_chars: no blanks, no plus sign. Empty if it
 /// is not a number or out of range.

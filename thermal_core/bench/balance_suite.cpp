@@ -12,9 +12,9 @@
 namespace thermal {
 namespace {
 
-constexpr std::uint32_t kSeed = 1;
+constexpr std::uint32_t kBalanceSeed = 1;
 constexpr int kVideos = 70;  // both as in the published data set
-constexpr int kFrames = 40000;
+constexpr int kFramesAVideo = 40000;
 
 ClassCounts sums_of(const std::vector<BalanceVideo>& videos) {
   ClassCounts sums{};
@@ -85,7 +85,7 @@ RenderRow instance_row(const std::vector<BalanceVideo>& videos) {
 }  // namespace
 
 std::vector<RenderRow> run_balance_suite(const std::function<void(const std::string&)>& announce) {
-  BalanceProgram program{.videos = made_up_videos(kSeed, kVideos, kFrames), .bounds = {}};
+  BalanceProgram program{.videos = made_up_videos(kBalanceSeed, kVideos, kFramesAVideo), .bounds = {}};
   const ClassCounts there = sums_of(program.videos);
   std::vector<RenderRow> rows = {instance_row(program.videos)};
   const auto measure = [&](const std::string& name, const std::array<ClassBounds, kBalanceClasses>& bounds) {

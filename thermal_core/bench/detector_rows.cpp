@@ -15,7 +15,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::uint32_t kSeed = 1;
+constexpr std::uint32_t kDetectorSeed = 1;
 
 /// A camera that leaves the signal unchanged except for its outputs.
 SensorParameters bare_camera() {
@@ -84,7 +84,7 @@ StageRow lag_row() {
 }
 
 RandomField white_field(std::uint32_t frame) {
-  return {.seed = kSeed, .stream = kWhiteStream, .clip = hash_name("bench"), .frame = frame};
+  return {.seed = kDetectorSeed, .stream = kWhiteStream, .clip = hash_name("bench"), .frame = frame};
 }
 
 /// Mean square and mean fourth power of white noise, in their standard errors; for normal values these are sqrt(2 /
@@ -153,7 +153,7 @@ StageRow white_row() {
 double component_sigma(double NoiseParameters::*ratio, int width_px, int height_px, int pictures) {
   NoiseParameters parameters;
   parameters.*ratio = 1;
-  PatternNoise noise(parameters, kSeed, "bench", width_px, height_px);
+  PatternNoise noise(parameters, kDetectorSeed, "bench", width_px, height_px);
   const auto pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   double squares = 0;
   for (std::uint32_t picture = 0; picture < static_cast<std::uint32_t>(pictures); ++picture) {
@@ -177,7 +177,7 @@ StageRow pattern_row() {
                                     {"tv_sigma", component_sigma(&Noise::temporal_row_ratio, 1, 512, 256)},
                                     {"th_sigma", component_sigma(&Noise::temporal_column_ratio, 640, 1, 256)},
                                     {"t_sigma", component_sigma(&Noise::frame_ratio, 1, 1, 65536)}}};
-  PatternNoise noise(full_camera().noise, kSeed, "bench", kSceneWidthPx, kSceneHeightPx);
+  PatternNoise noise(full_camera().noise, kDetectorSeed, "bench", kSceneWidthPx, kSceneHeightPx);
   std::vector<float> out(kScenePixels);
   std::uint32_t frame = 0;
   return timed(row, 2 * sizeof(float), [&] {
@@ -197,7 +197,7 @@ StageRow bad_pixel_row() {
   }
   Convolution(psf_kernel(camera.optics, camera.response, 1)).apply(truth);
   const BadPixelParameters parameters = camera.bad_pixels;
-  BadPixels bad(parameters, kSeed, "bench", kSceneRateHz, kSceneWidthPx, kSceneHeightPx);
+  BadPixels bad(parameters, kDetectorSeed, "bench", kSceneRateHz, kSceneWidthPx, kSceneHeightPx);
   Plane<float> shown = truth;
   bad.apply(0, 0, shown);
   double squares_k2 = 0;

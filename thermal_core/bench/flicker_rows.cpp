@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLowHz = 0.01;
 constexpr double kHighHz = 10;
-constexpr std::uint32_t kSeed = 1;
+constexpr std::uint32_t kFlickerSeed = 1;
 
 using AddNext = std::function<void(std::uint32_t frame, std::span<float> out)>;
 
@@ -34,7 +34,7 @@ Generator pole_zero(double poles_per_decade) {
           .density = [filter](double f_hz) { return filter.density(f_hz, kSceneRateHz); },
           .variance = filter.variance(),
           .start = [filter](std::size_t pixels) -> AddNext {
-            const auto noise = std::make_shared<FlickerNoise>(kSeed, "bench", filter, pixels);
+            const auto noise = std::make_shared<FlickerNoise>(kFlickerSeed, "bench", filter, pixels);
             return [noise](std::uint32_t frame, std::span<float> out) { noise->add_next(frame, 0, 1, out); };
           }};
 }
@@ -45,23 +45,23 @@ Generator ou_processes(int count) {
           .density = [bank](double f_hz) { return bank.density(f_hz, kSceneRateHz); },
           .variance = bank.variance(),
           .start = [bank](std::size_t pixels) -> AddNext {
-            const auto noise = std::make_shared<OuNoise>(kSeed, "bench", bank, pixels);
+            const auto noise = std::make_shared<OuNoise>(kFlickerSeed, "bench", bank, pixels);
             return [noise](std::uint32_t frame, std::span<float> out) { noise->add_next(frame, out); };
           }};
 }
 
 /// Slope error of the measured spectrum, in bands of an eighth of a decade.
 double measured_slope_error(const Generator& generator) {
-  constexpr std::size_t kPixels = 128;
+  constexpr std::size_t kSlopePixels = 128;
   constexpr std::uint32_t kFrames = 32768;
   constexpr int kBands = 24;
-  std::vector<std::vector<float>> series(kPixels, std::vector<float>(kFrames));
-  const AddNext add_next = generator.start(kPixels);
-  std::vector<float> values(kPixels);
+  std::vector<std::vector<float>> series(kSlopePixels, std::vector<float>(kFrames));
+  const AddNext add_next = generator.start(kSlopePixels);
+  std::vector<float> values(kSlopePixels);
   for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
     std::fill(values.begin(), values.end(), 0.0F);
     add_next(frame, values);
-    for (std::size_t i = 0; i < kPixels; ++i) series[i][frame] = values[i];
+    for (std::size_t i = 0; i < kSlopePixels; ++i) series[i][frame] = values[i];
   }
   const std::vector<double> spectrum = mean_periodogram(series, kSceneRateHz);
   const double bin_hz = kSceneRateHz / kFrames;

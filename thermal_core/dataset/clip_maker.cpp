@@ -39,14 +39,14 @@ struct FrameWork {
 };
 
 /// The output of a scene's frames for one task.
-struct Output {
+struct ClipResult {
   std::size_t scene;
   ClipOutput clip;
 };
 
-using Outputs = std::vector<Output>;
+using Outputs = std::vector<ClipResult>;
 
-Output open_output(const ClipTask& task, const Manifest& manifest, ClipScenes& scenes) {
+ClipResult open_output(const ClipTask& task, const Manifest& manifest, ClipScenes& scenes) {
   const std::size_t scene = scenes.add(task);
   return {.scene = scene,
           .clip = ClipOutput(task, manifest, scenes.brightest_w_m2_sr(scene),
@@ -96,8 +96,8 @@ class ClipMaker {
                            enter & reading & exposing & writing & leave);
     if (frames_skipped_ == frame_count()) throw DataError(no_frame_left(first_fault_, frames_skipped_));
     std::vector<ClipRecord> records;
-    for (Output& output : outputs_) records.push_back(output.clip.finish());
-    for (const Output& output : outputs_) output.clip.move_into_place();
+    for (ClipResult& output : outputs_) records.push_back(output.clip.finish());
+    for (const ClipResult& output : outputs_) output.clip.move_into_place();
     return records;
   }
 
@@ -158,7 +158,7 @@ class ClipMaker {
   void skip(FrameWork& work) {
     if (passes_.bad_frames == BadFrames::fail) std::rethrow_exception(work.fault);
     work.skipped = skipped_frame(passes_, work.number, work.fault);
-    for (Output& output : outputs_) output.clip.skip(work.number, work.skipped->reason);
+    for (ClipResult& output : outputs_) output.clip.skip(work.number, work.skipped->reason);
     if (frames_skipped_++ == 0) first_fault_ = message_of(work.fault);
   }
 

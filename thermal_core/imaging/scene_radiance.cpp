@@ -13,7 +13,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kRowsAChunk = 8;
+constexpr std::size_t kSceneRowsAChunk = 8;
 
 /// In the planes' precision, so that pixels of the brightest material have exactly the brightest count.
 float emitted(const Material& material, Season season, const SceneRadiance::RadianceOf& radiance_of) {
@@ -148,9 +148,9 @@ PassChecks SceneRadiance::radiance(const Passes& passes, const ManifestFrame& fr
     out = Plane<float>(objects.width_px(), objects.height_px());
   }
   const auto rows = static_cast<std::size_t>(objects.height_px());
-  std::vector<PassChecks> checks((rows + kRowsAChunk - 1) /
-                                 kRowsAChunk);  // a chunk each: sums of any order are equal
-  parallel_for(rows, kRowsAChunk, [&](std::size_t begin, std::size_t end) {
+  std::vector<PassChecks> checks((rows + kSceneRowsAChunk - 1) /
+                                 kSceneRowsAChunk);  // a chunk each: sums of any order are equal
+  parallel_for(rows, kSceneRowsAChunk, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint16_t> numbers(static_cast<std::size_t>(objects.width_px()));
     Row row;
     row.pose = &pose;
@@ -159,7 +159,7 @@ PassChecks SceneRadiance::radiance(const Passes& passes, const ManifestFrame& fr
       const auto materials = has_materials ? passes.material_index.row(y) : std::span<const std::uint16_t>();
       map_.number(objects.row(y), materials, numbers);
       begin_row(passes, y, row);
-      checks[begin / kRowsAChunk] += check_row(row);
+      checks[begin / kSceneRowsAChunk] += check_row(row);
       row.radiance_w_m2_sr = out.row(y);
       for (const RowTerm& term : chain_) term(row);
     }

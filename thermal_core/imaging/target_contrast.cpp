@@ -14,7 +14,7 @@ double noise_at(const ThermalCamera& camera, const PixelBox& box) {
 }  // namespace
 
 void set_contrast(const ThermalCamera& camera, const Plane<float>& radiance_w_m2_sr,
-                   std::vector<Instance>& instances) {
+                  std::vector<Instance>& instances) {
   const std::vector<TargetMeans> means = target_means(radiance_w_m2_sr, instances);
   for (std::size_t i = 0; i < means.size(); ++i) {
     Instance& instance = instances[i];

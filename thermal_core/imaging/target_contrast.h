@@ -14,6 +14,6 @@ namespace thermal {
 /// pixel at the centre of its box. The latter two are empty if the surroundings are not in the picture, the last also
 /// without noise.
 void set_contrast(const ThermalCamera& camera, const Plane<float>& radiance_w_m2_sr,
-                   std::vector<Instance>& instances);
+                  std::vector<Instance>& instances);
 
 }  // namespace thermal

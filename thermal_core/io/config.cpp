@@ -68,13 +68,6 @@ void check_flown(const Json& flights, const std::vector<ClipConfig>& clips,
   check_ids("flights", ids, faults);
 }
 
-void throw_faults(const std::vector<std::string>& faults, const std::string& name) {
-  if (faults.empty()) return;
-  std::vector<std::string> lines;
-  for (const std::string& line : faults) lines.push_back(name + ": " + line);
-  throw ConfigError(fmt::format("{}", fmt::join(lines, "\n")));
-}
-
 /// One step of a setting's key: "clips[0]" is the member "clips", then entry 0.
 Json& step_into(Json& at, const std::string& part, const std::string& assignment) {
   const std::size_t bracket = part.find('[');

@@ -100,7 +100,7 @@ struct Job {
 };
 
 /// Destination of a strip's pixels of a channel: the first pixel, and the line stride.
-struct Place {
+struct LinePlace {
   char* first = nullptr;
   std::size_t bytes_a_line = 0;
 };
@@ -121,7 +121,7 @@ void read_strip(Imf::MultiPartInputFile& file, int number, const Strip& strip,
 
 /// The fast path for most files: all of a part, in a lossless compression.
 void read_whole_part(const Source& source, int number, const std::vector<Job>& jobs,
-                     const std::vector<Place>& places) {
+                     const std::vector<LinePlace>& places) {
   std::vector<ChannelTarget> targets;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     targets.push_back({.channel = jobs[i].channel,
@@ -143,7 +143,7 @@ bool can_unpack(const Imf::ChannelList& channels, const std::vector<Job>& jobs) 
 }
 
 void read_to(const Source& source, int number, const Strip& strip, const std::vector<Job>& jobs,
-             const std::vector<Place>& places) {
+             const std::vector<LinePlace>& places) {
   const Imf::Header& header = source.file.header(number);
   if (!source.file.partComplete(number))
     throw IoError(fmt::format("part {} lacks pixels; expected a completely written file", number));
@@ -166,7 +166,7 @@ void read_into_planes(const Source& source, int number, const Strip& strip, cons
   const std::size_t bytes_a_line = kBytes * static_cast<std::size_t>(width_of(display));
   const std::size_t before = bytes_a_line * static_cast<std::size_t>(strip.window.min.y - display.min.y) +
                              kBytes * static_cast<std::size_t>(strip.window.min.x - display.min.x);
-  std::vector<Place> places;
+  std::vector<LinePlace> places;
   for (const Job& job : jobs) places.push_back({.first = job.pixels + before, .bytes_a_line = bytes_a_line});
   read_to(source, number, strip, jobs, places);
 }
@@ -188,7 +188,7 @@ void crop(const Bits& strip, const Box2i& window, char* to, const Box2i& display
 
 void read_and_crop(const Source& source, int number, const Strip& strip, const std::vector<Job>& jobs) {
   std::vector<Bits> strips(jobs.size());
-  std::vector<Place> places;
+  std::vector<LinePlace> places;
   for (Bits& bits : strips) {
     bits = Bits(width_of(strip.window), height_of(strip.window));
     places.push_back({.first = reinterpret_cast<char*>(bits.pixels().data()),

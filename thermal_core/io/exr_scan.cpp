@@ -59,9 +59,9 @@ std::int64_t lines_a_chunk(std::uint8_t compression) {
 std::int64_t parts_of(std::int64_t whole, std::int64_t part) { return (whole + part - 1) / part; }
 
 /// Reads values one after another; reading past the end is a fault.
-class Reader {
+class ByteReader {
  public:
-  explicit Reader(const Path& file) : in_(file, std::ios::binary) {
+  explicit ByteReader(const Path& file) : in_(file, std::ios::binary) {
     std::error_code error;
     const auto size = std::filesystem::file_size(file, error);
     if (!in_ || error) throw DataError("cannot be opened");
@@ -249,7 +249,7 @@ class HeaderScan {
                           fmt::format("what the {} bytes left in the file can hold", in_.left())));
   }
 
-  Reader in_;
+  ByteReader in_;
   ExrLimits limits_;
   bool tiled_ = false;
   std::size_t longest_name_ = 31;

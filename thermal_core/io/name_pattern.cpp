@@ -11,7 +11,6 @@ namespace thermal {
 namespace {
 
 constexpr std::size_t kLongestName = 255;
-constexpr std::size_t kMostDigits = 18;  // fit into 64 bits
 
 bool is_digit(char letter) noexcept { return letter >= '0' && letter <= '9'; }
 

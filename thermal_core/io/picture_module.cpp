@@ -12,7 +12,7 @@ namespace {
 /// The loader looks in the folders that the program was linked with. The module stays until the program ends.
 const PictureModule& load() {
   void* library = ::dlopen("libveldt_pictures.so", RTLD_LAZY | RTLD_LOCAL);
-  void* table = library == nullptr ? nullptr : ::dlsym(library, "veldt_picture_module");
+  void* table = library == nullptr ? nullptr : ::dlsym(library, "kVeldtPictureModule");
   if (table == nullptr) throw IoError(fmt::format("cannot load a part of veldt: {}", ::dlerror()));
   return *static_cast<const PictureModule*>(table);
 }

@@ -15,7 +15,6 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kMostDigits = 18;  // fit into 64 bits
 constexpr std::int64_t kMostGapsAFile =
     10;  // more is probably a mistake: two names with time stamps of a recording, say
 

@@ -22,11 +22,6 @@ void check_names(const Json& variants, std::vector<std::string>& faults) {
   }
 }
 
-void throw_faults(const std::vector<std::string>& faults, const std::string& name) {
-  if (faults.empty()) return;
-  throw ConfigError(name + ": " + fmt::format("{}", fmt::join(faults, "\n" + name + ": ")));
-}
-
 void merge(Json& into, const Json& changes) {
   if (!into.is_object() || !changes.is_object()) {
     into = changes;

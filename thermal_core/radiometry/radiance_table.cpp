@@ -9,7 +9,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kBlock = 256;
+constexpr std::size_t kTemperaturesABlock = 256;
 
 }  // namespace
 
@@ -63,8 +63,8 @@ double RadianceTable::relative_error_bound(double temperature_k) const noexcept 
 void RadianceTable::radiances(std::span<const float> temperature_k,
                               std::span<float> radiance_w_m2_sr) const noexcept {
   assert(temperature_k.size() == radiance_w_m2_sr.size());
-  for (std::size_t begin = 0; begin < temperature_k.size(); begin += kBlock) {
-    const auto in = temperature_k.subspan(begin, std::min(kBlock, temperature_k.size() - begin));
+  for (std::size_t begin = 0; begin < temperature_k.size(); begin += kTemperaturesABlock) {
+    const auto in = temperature_k.subspan(begin, std::min(kTemperaturesABlock, temperature_k.size() - begin));
     const auto out = radiance_w_m2_sr.subspan(begin, in.size());
     bool all_inside = true;
     for (const float value : in) all_inside &= is_inside(value);

@@ -15,7 +15,7 @@ namespace thermal {
 namespace {
 
 constexpr int kSteps = 8192;
-constexpr std::size_t kBlock = 256;
+constexpr std::size_t kRadiancesABlock = 256;
 
 struct Nodes {
   float low_w_m2_sr;
@@ -120,11 +120,11 @@ void TemperatureTable::temperatures(std::span<const float> radiance_w_m2_sr,
                                     std::span<float> temperature_k) const {
   assert(radiance_w_m2_sr.size() == temperature_k.size());
   const Nodes nodes = {.low_w_m2_sr = low_w_m2_sr_, .nodes_per_w_m2_sr = nodes_per_w_m2_sr_};
-  std::array<float, kBlock> radiances{};  // a copy: input and output may be the same memory
-  std::array<std::int32_t, kBlock> node{};
-  std::array<float, kBlock> share{};
-  for (std::size_t first = 0; first < radiance_w_m2_sr.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, radiance_w_m2_sr.size() - first);
+  std::array<float, kRadiancesABlock> radiances{};  // a copy: input and output may be the same memory
+  std::array<std::int32_t, kRadiancesABlock> node{};
+  std::array<float, kRadiancesABlock> share{};
+  for (std::size_t first = 0; first < radiance_w_m2_sr.size(); first += kRadiancesABlock) {
+    const std::size_t count = std::min(kRadiancesABlock, radiance_w_m2_sr.size() - first);
     std::copy_n(&radiance_w_m2_sr[first], count, radiances.begin());
     const bool inside = find_nodes(nodes, radiances.data(), count, node.data(), share.data());
     for (std::size_t i = 0; i < count; ++i) {

@@ -14,7 +14,7 @@ constexpr std::size_t kCounts = 65536;
 constexpr double kLargestLevel = 255;
 constexpr std::size_t kClipped = kCounts - 1;
 constexpr double kBinK = 0.04;  // of the plateau's histogram: about a NETD
-constexpr std::size_t kPixelsAChunk = 65536;
+constexpr std::size_t kCountsAChunk = 65536;
 
 std::uint16_t threshold(double count) {
   return static_cast<std::uint16_t>(std::clamp(std::ceil(count), 1.0, static_cast<double>(kClipped)));
@@ -189,7 +189,7 @@ void apply_tone_curve(const ToneCurve& curve, Polarity polarity, const Plane<std
   const std::uint8_t* const levels = table.data();
   const std::uint16_t* const in = ir16.pixels().data();
   std::uint8_t* const out = ir8.pixels().data();
-  parallel_for(ir16.size(), kPixelsAChunk, [=](std::size_t begin, std::size_t end) {
+  parallel_for(ir16.size(), kCountsAChunk, [=](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) out[i] = levels[in[i]];
   });
 }

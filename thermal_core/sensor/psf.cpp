@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kReferenceTemperatureK = 300;
+constexpr double kSpectrumTemperatureK = 300;
 constexpr int kWavelengths = 96;   // midpoints; twice as many change no transfer by 1e-5
 constexpr int kFrequencies = 512;  // midpoints from 0 to Nyquist
 constexpr double kLargestMisfit = 0.015;
@@ -43,7 +43,7 @@ double band_diffraction_mtf(const OpticsParameters& optics, const SpectralRespon
   double weights = 0;
   for (int i = 0; i < kWavelengths; ++i) {
     const double wavelength_um = response.begin_um() + (i + 0.5) * step_um;
-    const double weight = response.at(wavelength_um) * planck_radiance(wavelength_um, kReferenceTemperatureK);
+    const double weight = response.at(wavelength_um) * planck_radiance(wavelength_um, kSpectrumTemperatureK);
     sum += weight * diffraction_mtf(cycles_per_mm, wavelength_um, optics.f_number);
     weights += weight;
   }

@@ -19,13 +19,13 @@
 namespace thermal {
 namespace {
 
-constexpr double kReferenceTemperatureK = 300;  // at which a NETD is stated
+constexpr double kNetdTemperatureK = 300;  // at which a NETD is stated
 constexpr float kLargestCount = 65535;
 constexpr std::size_t kPixelsAChunk = 16384;
 constexpr std::size_t kPixelsABlock = 256;
 
 float netd_w_m2_sr(const SensorParameters& parameters) {
-  const BandValue at_300_k = BandRadiance(parameters.response).evaluate(kReferenceTemperatureK);
+  const BandValue at_300_k = BandRadiance(parameters.response).evaluate(kNetdTemperatureK);
   return static_cast<float>(parameters.noise.amount * parameters.netd_k() * at_300_k.derivative_w_m2_sr_k);
 }
 

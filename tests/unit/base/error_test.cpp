@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "support/catch.h"
+#include "support/message_of.h"
 
 using namespace thermal;
 
@@ -13,6 +14,13 @@ TEST_CASE("A message states where, what, in which unit, and what was expected") 
 
 TEST_CASE("A message without a unit has no gap for it") {
   CHECK(fault("--shard", "3/2", "", "I/N with I below N") == "--shard = 3/2; expected I/N with I below N");
+}
+
+TEST_CASE("Faults of one file are lines of one message, and no faults are no message") {
+  CHECK_NOTHROW(throw_faults({}, "a.json"));
+  CHECK(message_of<ConfigError>([] {
+          throw_faults({"x = 1; expected 2", "y is missing"}, "a.json");
+        }) == "a.json: x = 1; expected 2\na.json: y is missing");
 }
 
 TEST_CASE("Every user-facing fault is an Error, and its kinds are distinct") {

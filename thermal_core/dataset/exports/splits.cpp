@@ -41,7 +41,7 @@ struct Clips {
   Counts total;
 };
 
-Clips clips_of(const LabelSet& set) {
+Clips counts_of(const LabelSet& set) {
   std::vector<Counts> counts(set.videos.size(), Counts(set.categories.size() + 1, 0));
   for (const LabelImage& image : set.images) counts[image.video].back() += 1;
   for (const Label& label : set.labels) counts[set.images[label.image].video][label.category] += 1;
@@ -208,7 +208,7 @@ class Assignment {
 
 std::vector<std::size_t> split_videos(const LabelSet& set, const std::vector<SplitShare>& shares,
                                       std::uint32_t seed) {
-  const Clips clips = clips_of(set);
+  const Clips clips = counts_of(set);
   if (clips.videos.size() < shares.size())
     throw ConfigError(
         fmt::format("--split = {} splits; expected no more than there are clips with pictures, {}: "

@@ -17,21 +17,21 @@ namespace thermal {
 namespace {
 
 /// A centimetre is finer than a pixel of any map.
-double rounded(double value_m) { return std::round(100 * value_m) / 100; }
+double rounded_m(double value_m) { return std::round(100 * value_m) / 100; }
 
 Json track_json(const FlightTrack& track, const Json& config) {
   constexpr std::size_t kMostPoints = 300;
   Json points = Json::array();
   for (const std::size_t k : spread(track.camera_to_world.size(), kMostPoints)) {
     const auto& pose = track.camera_to_world[k];
-    points.push_back({rounded(pose[kX]), rounded(pose[kY])});
+    points.push_back({rounded_m(pose[kX]), rounded_m(pose[kY])});
   }
   Json json = {{"clip", track.clip}, {"points_m", std::move(points)}, {"seen_m", Json::array()}};
   if (track.agl_m.empty()) return json;
   const auto [least, most] = std::minmax_element(track.agl_m.begin(), track.agl_m.end());
-  json["agl_m"] = {rounded(*least), rounded(*most)};
+  json["agl_m"] = {rounded_m(*least), rounded_m(*most)};
   for (const auto& [x_m, y_m] : seen_halfway(track, config))
-    json["seen_m"].push_back({rounded(x_m), rounded(y_m)});
+    json["seen_m"].push_back({rounded_m(x_m), rounded_m(y_m)});
   return json;
 }
 

@@ -12,7 +12,7 @@ constexpr double kWidescreen = 16.0 / 9.0;
 
 int even_down(int size_px) { return size_px - size_px % 2; }
 int even_up(int size_px) { return size_px + size_px % 2; }
-int rounded(double size_px) { return static_cast<int>(std::lround(size_px)); }
+int rounded_px(double size_px) { return static_cast<int>(std::lround(size_px)); }
 
 /// Width over height of the widest and of the tallest frame: cells have room for both.
 double flattest_ratio(const std::vector<PixelSize>& frames) {
@@ -48,11 +48,11 @@ struct Measures {
 
   Measures(int width_px, int columns, bool bar) {
     const double cell_px = static_cast<double>(width_px) / columns;
-    text_px = std::clamp(rounded(cell_px / 52), std::min(12, static_cast<int>(cell_px / 14)), 26);
+    text_px = std::clamp(rounded_px(cell_px / 52), std::min(12, static_cast<int>(cell_px / 14)), 26);
     margin_px = text_px;
-    caption_px = rounded(2.1 * text_px);
-    gap_px = rounded(0.8 * text_px);
-    bar_px = bar ? rounded(6.4 * text_px) : 0;
+    caption_px = rounded_px(2.1 * text_px);
+    gap_px = rounded_px(0.8 * text_px);
+    bar_px = bar ? rounded_px(6.4 * text_px) : 0;
   }
 };
 
@@ -60,8 +60,8 @@ struct Measures {
 PixelRect fitted(const PixelSize& frame, const PixelRect& room) {
   const double scale = std::min(static_cast<double>(room.width_px) / frame.width_px,
                                 static_cast<double>(room.height_px) / frame.height_px);
-  const int width_px = std::max(1, rounded(frame.width_px * scale));
-  const int height_px = std::max(1, rounded(frame.height_px * scale));
+  const int width_px = std::max(1, rounded_px(frame.width_px * scale));
+  const int height_px = std::max(1, rounded_px(frame.height_px * scale));
   return {room.x_px + (room.width_px - width_px) / 2, room.y_px, width_px, height_px};
 }
 
@@ -94,7 +94,7 @@ Grid make_grid(const GridRequest& request) {
   grid.text_px = measures.text_px;
   const int column_px = (grid.width_px - measures.margin_px) / grid.columns;  // with the margin before it
   const int picture_px = std::max(1, column_px - measures.margin_px - measures.bar_px);
-  const PixelSize room{picture_px, std::max(1, rounded(picture_px / ratio))};
+  const PixelSize room{picture_px, std::max(1, rounded_px(picture_px / ratio))};
   const int top_px = request.headings ? measures.margin_px + measures.caption_px : measures.margin_px / 2;
   const int row_px = measures.caption_px + room.height_px + measures.margin_px;
   const auto left_px = [&](int column) { return measures.margin_px + column * column_px; };

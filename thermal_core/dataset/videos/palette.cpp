@@ -23,22 +23,22 @@ PaletteTable grey(bool white_hot) {
 }
 
 /// A colour at a share of the way from cold to hot.
-struct Stop {
+struct ColourStop {
   double share;
   std::array<double, 3> colour;
 };
 
 /// Thermal cameras' usual "iron": estimates by eye of what vendors show, chosen so that lightness rises steadily.
-constexpr std::array<Stop, 8> kIronbow = {{{0.00, {0, 0, 12}},
-                                           {0.12, {34, 4, 104}},
-                                           {0.28, {112, 8, 150}},
-                                           {0.44, {186, 26, 126}},
-                                           {0.58, {228, 76, 44}},
-                                           {0.72, {248, 142, 8}},
-                                           {0.87, {254, 208, 60}},
-                                           {1.00, {255, 254, 244}}}};
+constexpr std::array<ColourStop, 8> kIronbow = {{{0.00, {0, 0, 12}},
+                                                 {0.12, {34, 4, 104}},
+                                                 {0.28, {112, 8, 150}},
+                                                 {0.44, {186, 26, 126}},
+                                                 {0.58, {228, 76, 44}},
+                                                 {0.72, {248, 142, 8}},
+                                                 {0.87, {254, 208, 60}},
+                                                 {1.00, {255, 254, 244}}}};
 
-PaletteColour mixed(const Stop& from, const Stop& to, double share) {
+PaletteColour mixed(const ColourStop& from, const ColourStop& to, double share) {
   PaletteColour colour{};
   const double t = (share - from.share) / (to.share - from.share);
   for (std::size_t c = 0; c < colour.size(); ++c)

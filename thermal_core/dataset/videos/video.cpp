@@ -43,12 +43,12 @@ void check_request(const VideoRequest& request) {
 }
 
 /// What a path names: a dataset, and the clip of it where the path is a clip's folder.
-struct Source {
+struct ClipSource {
   FilmedDataset dataset;
   std::string clip;
 };
 
-Source find_source(const Path& path) {
+ClipSource find_source(const Path& path) {
   const bool is_clip = !Layout{path}.is_begun() && std::filesystem::exists(path / "clip.json");
   if (!is_clip) return {.dataset = read_filmed_dataset(path), .clip = {}};
   const Path folder = std::filesystem::canonical(path);
@@ -57,7 +57,7 @@ Source find_source(const Path& path) {
 }
 
 /// Ids that are shown, in the dataset's order or in the one asked for.
-std::vector<std::string> choose(const Source& source, const VideoRequest& request) {
+std::vector<std::string> choose(const ClipSource& source, const VideoRequest& request) {
   const FilmedDataset& dataset = source.dataset;
   if (!source.clip.empty()) {
     if (!request.clips.empty())
@@ -118,7 +118,7 @@ struct Programme {
 };
 
 Programme read_programme(const VideoRequest& request) {
-  const Source source = find_source(request.source);
+  const ClipSource source = find_source(request.source);
   std::vector<std::string> ids = choose(source, request);
   Programme programme;
   programme.datasets.push_back(source.dataset);

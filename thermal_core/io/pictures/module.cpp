@@ -35,8 +35,8 @@ std::string openimageio_version() {
 }  // namespace
 }  // namespace thermal::pictures
 
-extern "C" const thermal::PictureModule veldt_picture_module;
-const thermal::PictureModule veldt_picture_module = {
+extern "C" const thermal::PictureModule kVeldtPictureModule;
+const thermal::PictureModule kVeldtPictureModule = {
     .as_jpeg = thermal::pictures::as_jpeg,
     .read_picture_size = thermal::pictures::read_picture_size,
     .draw_text = thermal::pictures::draw_text,
