@@ -5,9 +5,11 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export VELDT_WERROR=1
 
+took=()
 for command in tests/fresh/two_frames.sh "./run lint" "./run test"; do
   start=$SECONDS
   echo "===== $command ====="
   $command
-  echo "===== $command took $((SECONDS - start)) s ====="
+  took+=("$command $((SECONDS - start)) s")
 done
+printf '===== %s =====\n' "${took[@]}"
