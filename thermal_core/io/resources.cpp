@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,13 +12,16 @@
 namespace thermal {
 namespace {
 
+/// What this user may not look into is not there.
 bool is_home(const Path& folder) {
-  return std::filesystem::is_directory(folder / "assets") &&
-         std::filesystem::is_directory(folder / "blender_scripts");
+  std::error_code ignored;
+  return std::filesystem::is_directory(folder / "assets", ignored) &&
+         std::filesystem::is_directory(folder / "blender_scripts", ignored);
 }
 
 bool can_run(const Path& file) {
-  return std::filesystem::is_regular_file(file) && ::access(file.c_str(), X_OK) == 0;
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0;
 }
 
 }  // namespace
