@@ -219,6 +219,7 @@ class Stages {
               {{"bytes", static_cast<double>(deflate())}});
     encode_png(picture, png_);
     const Path file = folder_ / "picture.png";
+    std::filesystem::remove(file);
     write_file(file, png_);
     png_bytes_ += png_.size();
     add(name, pixels.size(), {"raw deflate", deflate_s},
@@ -235,8 +236,10 @@ class Stages {
       (void)sha256_of(bytes_of(pictures.ir16));
       (void)sha256_of(files);
     });
-    add("files written", png_bytes_, copying(png_bytes_), {},
-        [&] { write_file(folder_ / "written.png", files); });
+    add("files written", png_bytes_, copying(png_bytes_), {}, [&] {
+      std::filesystem::remove(folder_ / "written.png");
+      write_file(folder_ / "written.png", files);
+    });
     std::size_t text = 0;
     const auto label_and_record = [&] { text = published_.label_and_record(); };
     label_and_record();

@@ -48,8 +48,10 @@ std::vector<RenderRow> file_rows(const Path& file) {
     return RenderRow{"file of passes", name, {{"ms", 1e3 * seconds}, {"mb", file_mb}}};
   };
   return {row("the converter reads it", shortest_run_s([&] { (void)read_all(file); })),
-          row("its bytes copied", memcpy_s(content.size())),
-          row("its bytes written", shortest_run_s([&] { write_file(copy, bytes); }))};
+          row("its bytes copied", memcpy_s(content.size())), row("its bytes written", shortest_run_s([&] {
+                                                                   std::filesystem::remove(copy);
+                                                                   write_file(copy, bytes);
+                                                                 }))};
 }
 
 /// Pixels with any bit different in any plane.

@@ -4,19 +4,21 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.h"
 
 namespace thermal {
 namespace {
+
+constexpr std::size_t kMostReadBytes = std::size_t{1} << 30U;
 
 /// A file descriptor that closes itself.
 class Descriptor {
@@ -41,23 +43,35 @@ class Descriptor {
   int number_;
 };
 
-/// Flags to open a file for writing, and whether it must survive a power failure.
 struct Writing {
-  int flags = 0;
-  bool sync = false;
+  bool sync = false;  ///< it must survive a power failure
 };
 
-void write_all(const Path& file, const std::byte* data, std::size_t bytes, const Writing& how) {
-  Descriptor out(file, O_WRONLY | O_CREAT | how.flags, "write");
-  while (bytes > 0) {
-    const ssize_t written = ::write(out.number(), data, bytes);
+void write_bytes(const Descriptor& out, const Path& file, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(out.number(), bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail_at("write", file, errno);
-    data += written;
-    bytes -= static_cast<std::size_t>(written);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
+}
+
+/// Creates a file; one that exists, or a link, is an error, and not written to.
+void write_new(const Path& file, std::span<const std::byte> bytes, const Writing& how) {
+  Descriptor out(file, O_WRONLY | O_CREAT | O_EXCL, "write");
+  write_bytes(out, file, bytes);
   if (how.sync && ::fsync(out.number()) != 0) fail_at("write", file, errno);
   out.close(file);
+}
+
+/// Refuses folders and devices, of which some never end. Reading a pipe may wait for its writer.
+void check_can_end(const Descriptor& in, const Path& file) {
+  struct stat status = {};
+  if (::fstat(in.number(), &status) != 0) fail_at("read", file, errno);
+  if (S_ISDIR(status.st_mode)) fail_at("read", file, EISDIR);
+  if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
+    throw IoError(fmt::format("cannot read {}: it is a device; expected a file or a pipe", file.string()));
+  if (::fcntl(in.number(), F_SETFL, 0) != 0) fail_at("read", file, errno);  // wait for data
 }
 
 /// Meaning of the bytes of a lock file; they are locked, not written. These are locks of open files (OFD), because
@@ -99,21 +113,27 @@ void fail_at(std::string_view doing, const Path& place, int error) {
 }
 
 void read_pieces(const Path& file, const std::function<void(std::string_view piece)>& take) {
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail_at("read", file, errno == 0 ? EIO : errno);
-  if (std::filesystem::is_directory(file)) fail_at("read", file, EISDIR);
+  // O_NONBLOCK: opening a pipe without a writer would wait for one.
+  const Descriptor in(file, O_RDONLY | O_NONBLOCK | O_NOCTTY, "read");
+  check_can_end(in, file);
   std::vector<char> piece(1 << 16);
-  while (in) {
-    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    take({piece.data(), static_cast<std::size_t>(in.gcount())});
+  for (;;) {
+    const ssize_t bytes = ::read(in.number(), piece.data(), piece.size());
+    if (bytes < 0 && errno == EINTR) continue;
+    if (bytes < 0) fail_at("read", file, errno);
+    if (bytes == 0) return;
+    take({piece.data(), static_cast<std::size_t>(bytes)});
   }
-  if (in.bad()) fail_at("read", file, EIO);
 }
 
 std::string read_file(const Path& file) {
   std::string content;
-  read_pieces(file, [&content](std::string_view piece) { content.append(piece); });
+  read_pieces(file, [&](std::string_view piece) {
+    if (content.size() + piece.size() > kMostReadBytes)
+      throw IoError(fmt::format("cannot read {}: more than {} bytes; expected at most 1 GiB", file.string(),
+                                kMostReadBytes));
+    content.append(piece);
+  });
   return content;
 }
 
@@ -141,9 +161,7 @@ void write_file_atomically(const Path& file, std::string_view content) {
   temporary += ".tmp";  // always the same, so that leftovers of a killed run are overwritten
   ::unlink(temporary.c_str());
   try {
-    // O_EXCL, in case a link has been created meanwhile.
-    write_all(temporary, reinterpret_cast<const std::byte*>(content.data()), content.size(),
-              {.flags = O_EXCL, .sync = true});
+    write_new(temporary, std::as_bytes(std::span(content)), {.sync = true});
     if (::rename(temporary.c_str(), file.c_str()) != 0) fail_at("rename to", file, errno);
   } catch (...) {
     ::unlink(temporary.c_str());
@@ -153,7 +171,13 @@ void write_file_atomically(const Path& file, std::string_view content) {
 }
 
 void write_file(const Path& file, std::span<const std::byte> content) {
-  write_all(file, content.data(), content.size(), {.flags = O_TRUNC, .sync = false});
+  write_new(file, content, {.sync = false});
+}
+
+void copy_content(const Path& from, const Path& to) {
+  Descriptor out(to, O_WRONLY | O_CREAT | O_EXCL, "write");
+  read_pieces(from, [&](std::string_view piece) { write_bytes(out, to, std::as_bytes(std::span(piece))); });
+  out.close(to);
 }
 
 void make_folder(const Path& folder) {

@@ -17,10 +17,11 @@ using Path = std::filesystem::path;
 /// IoError.
 [[noreturn]] void fail_at(std::string_view doing, const Path& place, int error);
 
-/// Content in pieces of about ten kilobytes, in order. IoError with the file and the system's reason.
+/// Content of a file or a pipe in pieces of at most 64 KiB, in order. A pipe without a writer is empty. IoError with the
+/// file and the system's reason, or if it is a folder or a device.
 void read_pieces(const Path& file, const std::function<void(std::string_view piece)>& take);
 
-/// Whole content. IoError as read_pieces().
+/// Whole content, at most 1 GiB. IoError as read_pieces(), or if it is larger.
 [[nodiscard]] std::string read_file(const Path& file);
 
 /// Refuses anything that is not a regular file: a folder, or a pipe or device, on which reading might block or never
@@ -35,8 +36,12 @@ void check_is_no_link(const Path& place);
 /// IoError with the file and the system's reason; TryAgainError if the disk is full.
 void write_file_atomically(const Path& file, std::string_view content);
 
-/// The same without the temporary name, for files inside a folder that is itself renamed when complete.
+/// A new file, without the temporary name, inside a folder that is itself renamed when complete. IoError as above, also
+/// if there is a file or a link of this name.
 void write_file(const Path& file, std::span<const std::byte> content);
+
+/// A new file with the content of another, of any size, in constant memory. Errors as read_pieces() and write_file().
+void copy_content(const Path& from, const Path& to);
 
 /// mkdir -p. IoError with the folder and the system's reason.
 void make_folder(const Path& folder);

@@ -1,6 +1,5 @@
 #include "io/link_files.h"
 
-#include <span>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -27,8 +26,8 @@ Linking link_file(const Path& file, const Path& as, Linking wanted) {
   if (wanted == Linking::hard) std::filesystem::create_hard_link(real, as, error);
   if (wanted == Linking::symlink) std::filesystem::create_symlink(real, as, error);
   if (wanted != Linking::copy && !error) return wanted;
-  const std::string bytes = read_file(real);
-  write_file(as, std::as_bytes(std::span(bytes)));
+  if (error == std::errc::file_exists) fail_at("write", as, error.value());
+  copy_content(real, as);
   return Linking::copy;
 }
 

@@ -230,7 +230,7 @@ TEST_CASE("Faults that are not a frame's are not skipped") {
     make_folder(place.layout.unfinished_clip("a") / "ir8/000000.png");
   };
   CHECK(message_of<IoError>([&] { (void)place.make_without_bad({place.task()}, hooks); }) ==
-        fmt::format("cannot write {}: Is a directory",
+        fmt::format("cannot write {}: File exists",
                     (place.layout.unfinished_clip("a") / "ir8/000000.png").string()));
   CHECK_FALSE(place.has_anything_of_the_clip());
 }

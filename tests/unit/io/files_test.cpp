@@ -94,10 +94,58 @@ TEST_CASE("An unwritable file is named, and the old file stays") {
 }
 
 TEST_CASE("A full disk is a TryAgainError") {
-  if (!std::filesystem::exists("/dev/full")) return;  // Linux has it
-  const std::string text = "x";
-  CHECK(message_of<TryAgainError>([&] { write_file("/dev/full", std::as_bytes(std::span(text))); }) ==
-        "cannot write /dev/full: No space left on device");
+  CHECK(message_of<TryAgainError>([] { fail_at("write", "a.png", ENOSPC); }) ==
+        "cannot write a.png: No space left on device");
+  CHECK(message_of<TryAgainError>([] { fail_at("write", "a.png", EDQUOT); }) ==
+        "cannot write a.png: Disk quota exceeded");
+  CHECK(message_of<IoError>([] { fail_at("write", "a.png", EROFS); }) ==
+        "cannot write a.png: Read-only file system");
+}
+
+TEST_CASE("Devices and folders are not read: some never end") {
+  const TemporaryFolder folder;
+  CHECK(message_of<IoError>([] { (void)read_file("/dev/zero"); }) ==
+        "cannot read /dev/zero: it is a device; expected a file or a pipe");
+  CHECK(message_of<IoError>([&] { (void)read_file(folder.path()); }) ==
+        "cannot read " + folder.path().string() + ": Is a directory");
+}
+
+TEST_CASE("A pipe is read to its end; without a writer it is empty, and nothing waits") {
+  const TemporaryFolder folder;
+  const Path pipe = folder / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(read_file(pipe).empty());
+  int ends[2];
+  REQUIRE(::pipe(ends) == 0);
+  REQUIRE(::write(ends[1], "late", 4) == 4);
+  ::close(ends[1]);
+  CHECK(read_file("/dev/fd/" + std::to_string(ends[0])) == "late");
+  ::close(ends[0]);
+}
+
+TEST_CASE("A file is read up to 1 GiB") {
+  const TemporaryFolder folder;
+  const Path file = folder.file("hole", "");
+  std::filesystem::resize_file(file, (std::uintmax_t{1} << 30U) + 1);
+  CHECK(message_of<IoError>([&] { (void)read_file(file); }) ==
+        "cannot read " + file.string() + ": more than 1073741824 bytes; expected at most 1 GiB");
+}
+
+TEST_CASE("A copy has the content, and replaces nothing") {
+  const TemporaryFolder folder;
+  const Path file = folder.file("a", std::string(200000, 'x'));
+  copy_content(file, folder / "b");
+  CHECK(read_file(folder / "b") == read_file(file));
+  CHECK(message_of<IoError>([&] { copy_content(file, folder / "b"); }) ==
+        "cannot write " + (folder / "b").string() + ": File exists");
+}
+
+TEST_CASE("A new file replaces none") {
+  const TemporaryFolder folder;
+  const Path file = folder.file("a", "old");
+  CHECK(message_of<IoError>([&] { write_file(file, {}); }) ==
+        "cannot write " + file.string() + ": File exists");
+  CHECK(read_file(file) == "old");
 }
 
 TEST_CASE("Folders are created with their parents; a file in the way is an error") {

@@ -35,10 +35,23 @@ TEST_CASE("The file itself is linked, not a symbolic link to it, which may be re
 
 TEST_CASE("Without hard links the file is copied") {
   const TemporaryFolder folder;
+  const Path as = folder / "b";
+  CHECK(link_file("/proc/version", as, Linking::hard) == Linking::copy);  // another file system
+  CHECK(read_file(as) == read_file("/proc/version"));
+}
+
+TEST_CASE("A file that exists is neither replaced nor written to, nor what a link there leads to") {
+  const TemporaryFolder folder;
   const Path file = folder.file("a", "new");
-  const Path as = folder.file("b", "old");  // a link would not replace it
-  CHECK(link_file(file, as, Linking::hard) == Linking::copy);
-  CHECK(read_file(as) == "new");
+  const Path old = folder.file("old", "old");
+  std::filesystem::create_symlink("old", folder / "link");
+  for (const Path& as : {old, folder / "link"}) {
+    for (const Linking linking : {Linking::hard, Linking::symlink, Linking::copy}) {
+      CHECK(message_of<IoError>([&] { link_file(file, as, linking); }) ==
+            "cannot write " + as.string() + ": File exists");
+      CHECK(read_file(old) == "old");
+    }
+  }
 }
 
 TEST_CASE("A missing file is an error") {

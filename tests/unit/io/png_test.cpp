@@ -61,6 +61,7 @@ Plane<T> extremes(int width_px, int height_px) {
 template <typename T>
 Path written(const TemporaryFolder& folder, const Plane<T>& picture) {
   Path file = folder / "picture.png";
+  std::filesystem::remove(file);
   write_file(file, encode_png(picture));
   return file;
 }
