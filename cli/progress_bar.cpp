@@ -99,6 +99,15 @@ void ProgressBar::show_restart(const std::string& clip, const std::string& why) 
   fmt::print(stderr, "clip {}: {}; restarting Blender\n", clip, why);
 }
 
+void ProgressBar::show_remade(const std::string& clip) {
+  if (style_ == Style::none) return;
+  if (style_ == Style::json) {
+    fmt::print(stderr, "{}\n", thermal::Json({{"event", "remade"}, {"clip", clip}}).dump());
+    return;
+  }
+  fmt::print(stderr, "clip {}: its manifest or its passes have changed; making it again\n", clip);
+}
+
 void ProgressBar::show_skipped(const std::string& clip, const thermal::SkippedFrame& frame) {
   if (style_ != Style::json) return;
   const thermal::Json line = {{"event", "skipped"},
@@ -115,7 +124,8 @@ thermal::RunHooks hooks_for(ProgressBar& bar) {
       .cancelled = [] { return stop_signal() != 0; },
       .restarted = [&bar](const std::string& clip, const std::string& why) { bar.show_restart(clip, why); },
       .skipped = [&bar](const std::string& clip,
-                        const thermal::SkippedFrame& frame) { bar.show_skipped(clip, frame); }};
+                        const thermal::SkippedFrame& frame) { bar.show_skipped(clip, frame); },
+      .remade = [&bar](const std::string& clip) { bar.show_remade(clip); }};
 }
 
 }  // namespace veldt

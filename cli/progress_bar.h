@@ -20,6 +20,8 @@ class ProgressBar {
   void show(const thermal::Progress& progress);
   /// Blender crashed while rendering a clip and is restarted.
   void show_restart(const std::string& clip, const std::string& why);
+  /// An existing clip is made again.
+  void show_remade(const std::string& clip);
   /// A frame was skipped. Printed only as JSON; the summary lists skipped frames for people.
   void show_skipped(const std::string& clip, const thermal::SkippedFrame& frame);
 

@@ -82,7 +82,7 @@ FORM = {
     ),
     "invalid name": (
         _with("clips.0.id", "../down"),
-        'clips[0].id = "../down"; expected letters, digits, _ and - only',
+        'clips[0].id = "../down"; expected 1 to 200 letters, digits, _ or -, not beginning with -',
     ),
     "too few corners": (
         _with("scene.paths.loop.points_m", [[0, 0], [1, 1]]),

@@ -300,7 +300,7 @@ REQUESTS = {
     ),
     "name that leaves the folder": (
         [{"name": "../a"}],
-        'list.json: variants[0].name = "../a"; expected letters, digits, _ and - only',
+        'list.json: variants[0].name = "../a"; expected 1 to 200 letters, digits, _ or -, not beginning with -',
     ),
     "none": ([], "list.json: variants = a list of 0; expected at least 1 entries"),
 }

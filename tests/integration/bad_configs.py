@@ -46,7 +46,7 @@ CONFIGS = [
     _config(
         "a clip named ../x",
         {"name": "x", "clips": [{"id": "../x", "season": "winter", "frames": 3}]},
-        'asked.json: clips[0].id = "../x"; expected letters, digits, _ and - only',
+        'asked.json: clips[0].id = "../x"; expected 1 to 200 letters, digits, _ or -, not beginning with -',
     ),
     _config(
         "not JSON",
@@ -57,7 +57,7 @@ CONFIGS = [
     _config(
         "a variant named ../x",
         {"variants": [{"name": "../x"}]},
-        'asked.json: variants[0].name = "../x"; expected letters, digits, _ and - only',
+        'asked.json: variants[0].name = "../x"; expected 1 to 200 letters, digits, _ or -, not beginning with -',
         "--variants",
     ),
     _config(

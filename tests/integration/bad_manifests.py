@@ -157,12 +157,12 @@ MANIFESTS = [
     _manifest(
         "a clip named ../x",
         lambda m: m.update(clip="../x"),
-        'one/manifest.json: clip = "../x"; expected letters, digits, _ and - only',
+        'one/manifest.json: clip = "../x"; expected 1 to 200 letters, digits, _ or -, not beginning with -',
     ),
     _manifest(
         "a clip named /tmp/x",
         lambda m: m.update(clip="/tmp/x"),
-        'one/manifest.json: clip = "/tmp/x"; expected letters, digits, _ and - only',
+        'one/manifest.json: clip = "/tmp/x"; expected 1 to 200 letters, digits, _ or -, not beginning with -',
     ),
     _manifest(
         "a frame in another folder",

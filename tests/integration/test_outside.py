@@ -4,7 +4,7 @@ import pytest
 
 import passes
 
-NAME = "expected letters, digits, _ and - only"
+NAME = "expected 1 to 200 letters, digits, _ or -, not beginning with -"
 
 
 def _state(folder):

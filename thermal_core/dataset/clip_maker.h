@@ -38,6 +38,7 @@ struct ClipTask {
   LabelParameters labels;
   std::optional<PhysicsSettings> physics;  ///< empty: the published model
   Layout layout;                           ///< its folder
+  std::string made_from_sha256 = {};       ///< for the clip's record
 };
 
 /// Callbacks while a clip is made. All may be empty.

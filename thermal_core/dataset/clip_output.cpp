@@ -91,6 +91,7 @@ ClipRecord ClipOutput::finish() {
   record_.clip = task_.clip.id;
   record_.season = season_name(task_.clip.season);
   record_.seed = task_.seed;
+  record_.made_from_sha256 = task_.made_from_sha256;
   record_.annotations = annotations_.count();
   record_.frame_rate_hz = manifest_.frame_rate_hz;
   record_.pixels_sha256 = pixels_.hex();

@@ -1,9 +1,14 @@
 #include "dataset/clip_record.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/printable.h"
+#include "base/relative_name.h"
+#include "base/text.h"
 
 namespace thermal {
 
@@ -19,6 +24,33 @@ std::vector<SkippedFrame> read_skipped(const Json& record) {
     frames.push_back(
         {.frame_index = frame.at("frame_index"), .file = frame.at("file"), .reason = frame.at("reason")});
   return frames;
+}
+
+/// "000012": at least six digits, as frame_name() writes them.
+bool is_frame_number(std::string_view text) {
+  return text.size() >= 6 && text.size() <= kMostDigits &&
+         std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Whether a clip's folder has a file of this name; merge and validate open no others.
+bool is_clip_file(std::string_view name) {
+  if (name == "frames.jsonl" || name == "labels.json" || name == "preview.mp4") return true;
+  for (const std::string_view folder : {"ir8/", "ir16/"}) {
+    if (name.starts_with(folder) && name.ends_with(".png") && name.size() > folder.size() + 4)
+      return is_frame_number(name.substr(folder.size(), name.size() - folder.size() - 4));
+  }
+  return false;
+}
+
+void check_names(const ClipRecord& record, const Path& file) {
+  if (!RelativeName::part_of(record.clip))
+    throw DataError(fault(file.string() + ": clip", brief(record.clip), "", RelativeName::kPartRule));
+  for (const auto& [name, sum] : record.files) {
+    if (!is_clip_file(name))
+      throw DataError(
+          fault(file.string() + ": files", brief(name), "",
+                "frames.jsonl, labels.json, preview.mp4, ir8/NNNNNN.png and ir16/NNNNNN.png only"));
+  }
 }
 
 std::optional<double> read_share(const Json& record, const char* key) {
@@ -44,6 +76,7 @@ Json to_json(const ClipRecord& record) {
                {"frame_rate_hz", record.frame_rate_hz},
                {"pixels_sha256", record.pixels_sha256},
                {"files", record.files}};
+  if (!record.made_from_sha256.empty()) json["made_from_sha256"] = record.made_from_sha256;
   add_unusable(record, json);
   for (const SkippedFrame& frame : record.skipped) json["skipped"].push_back(to_json(frame));
   return json;
@@ -52,17 +85,20 @@ Json to_json(const ClipRecord& record) {
 ClipRecord read_clip_record(const Path& file) {
   try {
     const Json json = read_json(file);
-    return {.clip = json.at("clip"),
-            .season = json.at("season"),
-            .seed = json.at("seed"),
-            .frames = json.at("frames"),
-            .annotations = json.at("annotations"),
-            .frame_rate_hz = json.at("frame_rate_hz"),
-            .pixels_sha256 = json.at("pixels_sha256"),
-            .files = json.at("files").get<std::map<std::string, std::string>>(),
-            .skipped = read_skipped(json),
-            .unusable_depth_share = read_share(json, "unusable_depth_share"),
-            .unusable_normal_share = read_share(json, "unusable_normal_share")};
+    ClipRecord record = {.clip = json.at("clip"),
+                         .season = json.at("season"),
+                         .seed = json.at("seed"),
+                         .frames = json.at("frames"),
+                         .annotations = json.at("annotations"),
+                         .frame_rate_hz = json.at("frame_rate_hz"),
+                         .pixels_sha256 = json.at("pixels_sha256"),
+                         .made_from_sha256 = json.value("made_from_sha256", std::string()),
+                         .files = json.at("files").get<std::map<std::string, std::string>>(),
+                         .skipped = read_skipped(json),
+                         .unusable_depth_share = read_share(json, "unusable_depth_share"),
+                         .unusable_normal_share = read_share(json, "unusable_normal_share")};
+    check_names(record, file);
+    return record;
   } catch (const ConfigError& error) {
     throw DataError(error.what());
   } catch (const Json::exception& error) {

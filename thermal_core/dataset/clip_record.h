@@ -27,7 +27,9 @@ struct ClipRecord {
   int frames = 0;  ///< finished ones
   int annotations = 0;
   double frame_rate_hz = 9;
-  std::string pixels_sha256;                 ///< of the frames' checksums, in order: ir8, ir16, ir8, …
+  std::string pixels_sha256;  ///< of the frames' checksums, in order: ir8, ir16, ir8, …
+  std::string made_from_sha256 =
+      {};  ///< identity_of() its passes; empty if they were rendered for this dataset
   std::map<std::string, std::string> files;  ///< SHA-256 of every other file of the clip's folder
   std::vector<SkippedFrame> skipped = {};    ///< in ascending order
   /// Share of the pixels of surfaces whose depth, or normal, is unusable (PassChecks), over all converted frames; empty
@@ -41,7 +43,7 @@ struct ClipRecord {
 /// Adds unusable_depth_share and unusable_normal_share, if they are known.
 void add_unusable(const ClipRecord& record, Json& json);
 
-/// DataError with the file if it is not a clip's record.
+/// DataError with the file if it is not a clip's record, or names files that a clip does not have.
 [[nodiscard]] ClipRecord read_clip_record(const Path& file);
 
 }  // namespace thermal

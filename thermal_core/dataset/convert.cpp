@@ -13,6 +13,7 @@
 #include "dataset/frame_faults.h"
 #include "dataset/outline.h"
 #include "dataset/passes_folders.h"
+#include "dataset/passes_identity.h"
 #include "dataset/physics.h"
 #include "io/material_files.h"
 
@@ -65,15 +66,18 @@ class Dataset {
         behind_(!index_.complete() || !index_.recorded) {
     index_.physics = to_json(budget);
     for (const ClipPasses& source : sources) {
+      if (has_new_passes(source)) changed_.insert(source.manifest.clip);
       if (is_to_mend(source, materials)) mended_.insert(source.manifest.clip);
       if (!lacks(source)) outcome_.already_there.push_back(source.manifest.clip);
     }
-    behind_ = behind_ || !mended_.empty();
+    behind_ = behind_ || !mended_.empty() || !changed_.empty();
   }
+
+  [[nodiscard]] bool has_changed_passes(const std::string& clip) const { return changed_.contains(clip); }
 
   [[nodiscard]] bool lacks(const ClipPasses& source) const {
     const std::string& clip = source.manifest.clip;
-    return !index_.finished.contains(clip) || mended_.contains(clip);
+    return !index_.finished.contains(clip) || mended_.contains(clip) || changed_.contains(clip);
   }
 
   /// From here on the folder belongs to this config.
@@ -91,7 +95,8 @@ class Dataset {
             .distortion = config.distortion,
             .labels = config.labels,
             .physics = physics_of(config, clip, kept_),
-            .layout = layout_};
+            .layout = layout_,
+            .made_from_sha256 = identity_of(source)};
   }
 
   void add(const ClipRecord& record) {
@@ -126,6 +131,12 @@ class Dataset {
   }
 
  private:
+  [[nodiscard]] bool has_new_passes(const ClipPasses& source) const {
+    const auto found = index_.made_from_sha256.find(source.manifest.clip);
+    return found != index_.made_from_sha256.end() &&
+           has_changed(source, found->second, layout_.clip(source.manifest.clip) / "clip.json");
+  }
+
   /// Whether an existing clip can be remade with more of its frames. In strict mode, making it reports what is bad.
   [[nodiscard]] bool is_to_mend(const ClipPasses& source, const MaterialLibrary& materials) const {
     const auto found = index_.skipped.find(source.manifest.clip);
@@ -150,8 +161,9 @@ class Dataset {
   DatasetIndex index_;
   Terms kept_;
   std::vector<std::string> left_out_;
-  bool behind_;                   ///< clips are missing, or the files do not list all
-  std::set<std::string> mended_;  ///< existing clips that are remade
+  bool behind_;                    ///< clips are missing, or the files do not list all
+  std::set<std::string> changed_;  ///< existing clips whose passes have changed since
+  std::set<std::string> mended_;   ///< existing clips that can be made with more of their frames
   RunOutcome outcome_;
 };
 
@@ -182,12 +194,18 @@ class Converter {
  private:
   void make_all() {
     for (const auto& dataset : datasets_) dataset->begin();
+    for (const ClipPasses& source : sources_) announce(source.manifest.clip);
     for (const ClipPasses& source : sources_) {
       if (!lacking(source).empty()) progress_.frames_total += static_cast<int>(source.manifest.frames.size());
     }
     for (const ClipPasses& source : sources_) {
       if (const std::vector<Dataset*> wanted = lacking(source); !wanted.empty()) try_make(source, wanted);
     }
+  }
+
+  void announce(const std::string& clip) const {
+    const auto changed = [&clip](const auto& dataset) { return dataset->has_changed_passes(clip); };
+    if (hooks_.remade && std::ranges::any_of(datasets_, changed)) hooks_.remade(clip);
   }
 
   [[nodiscard]] std::vector<Dataset*> lacking(const ClipPasses& source) const {

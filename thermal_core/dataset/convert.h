@@ -44,7 +44,8 @@ struct ConvertOutcome {
 /// the passes of a clip are read once for all variants that lack it. Progress counts frames of passes, each once. A
 /// frame that cannot be converted is listed in the outcome, and its clip is made without it; a clip that cannot be
 /// made is listed, and the others are still made. The next run reads the skipped frames again, and remakes the clip
-/// if one of them can be converted now. Nothing is written outside `out`: a folder in it that is a link is an
+/// if one of them can be converted now; it remakes clips whose manifest or passes have changed (passes_identity.h), and
+/// reports them. Nothing is written outside `out`: a folder in it that is a link is an
 /// IoError.
 /// ConfigError, IoError, TryAgainError or Cancelled; DataError for manifests and, in strict mode, for the first bad
 /// frame.

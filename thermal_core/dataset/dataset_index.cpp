@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/version.h"
+#include "dataset/dataset_file.h"
 #include "dataset/joined_annotations.h"
 #include "io/sha256.h"
 
@@ -22,6 +23,15 @@ void check_same_config(const Layout& layout, const Json& config, const Json& the
       fmt::format("{} holds a dataset made from another config: {}; expected the same config, or "
                   "another folder",
                   layout.root.string(), list_names(found, kMost)));
+}
+
+/// The dataset that a run is to go on with. Something else in its place is a fault of the request.
+Json read_started(const Layout& layout) {
+  try {
+    return read_dataset_file(layout.root);
+  } catch (const DataError& fault) {
+    throw ConfigError(fault.what());
+  }
 }
 
 /// False if a run was killed after it renamed a clip and before it recorded it, or before it joined the labels.
@@ -109,6 +119,7 @@ void DatasetIndex::add(const std::string& id, const ClipRecord& record) {
   add_unusable(record, finished[id]);
   if (!record.skipped.empty()) finished[id]["skipped"] = record.skipped.size();
   skipped[id] = record.skipped;
+  made_from_sha256[id] = record.made_from_sha256;
   failed.erase(id);
 }
 
@@ -128,7 +139,7 @@ std::vector<UnusableShare> DatasetIndex::unusable(const std::vector<std::string>
 DatasetIndex open_dataset(const Layout& layout, const Config& config) {
   DatasetIndex index{.config = config.resolved, .physics = {}, .clips = {}, .finished = {}, .failed = {}};
   const bool begun = layout.is_begun();
-  const Json there = begun ? read_json(layout.dataset_json()) : Json();
+  const Json there = begun ? read_started(layout) : Json();
   if (begun) check_same_config(layout, config.resolved, there);
   for (const ClipConfig& clip : config.clips) index.clips.push_back(clip.id);
   if (begun) index.failed = failed_there(there);
@@ -140,7 +151,7 @@ DatasetIndex open_dataset(const Layout& layout, const Config& config) {
 void catch_up(const Layout& layout, const std::set<std::string>& own, DatasetIndex& index) {
   find_finished(layout, index);
   std::erase_if(index.failed, [&own](const auto& failed) { return !own.contains(failed.first); });
-  for (const auto& [id, why] : failed_there(read_json(layout.dataset_json()))) {
+  for (const auto& [id, why] : failed_there(read_dataset_file(layout.root))) {
     if (!own.contains(id) && !index.finished.contains(id)) index.failed[id] = why;
   }
 }

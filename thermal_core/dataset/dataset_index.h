@@ -26,6 +26,8 @@ struct DatasetIndex {
   std::map<std::string, Json> finished;       ///< by id: its entry; checksums of files stay in clip.json
   std::map<std::string, std::string> failed;  ///< by id: why it failed when last tried
   std::map<std::string, std::vector<SkippedFrame>> skipped = {};  ///< by id: frames that finished clips lack
+  std::map<std::string, std::string> made_from_sha256 =
+      {};                 ///< by id: the identity of finished clips' passes
   bool recorded = false;  ///< the files on disk list all finished clips
 
   [[nodiscard]] bool complete() const { return finished.size() == clips.size(); }

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "dataset/dataset_file.h"
 #include "dataset/layout.h"
 #include "io/birdsai_files.h"
 #include "io/coco_file.h"
@@ -13,18 +14,6 @@
 
 namespace thermal {
 namespace {
-
-/// A dataset's own record, read as data that may be damaged.
-Json read_record(const Path& file) {
-  try {
-    Json record = read_json(file);
-    if (record.value("format", "") == "veldt-dataset") return record;
-  } catch (const ConfigError& error) {
-    throw DataError(error.what());
-  } catch (const Json::exception&) {  // not even an object
-  }
-  throw DataError(file.string() + " does not belong to a Veldt dataset");
-}
 
 std::vector<std::string> clips_not_made(const Json& record) {
   std::vector<std::string> clips;
@@ -52,7 +41,7 @@ void check_made(const Path& root, const Json& record, bool unfinished_too) {
 
 LabelSet read_dataset(const Path& root, bool unfinished_too) {
   const Layout layout{root};
-  const Json record = read_record(layout.dataset_json());
+  const Json record = read_dataset_file(root);
   try {
     check_made(root, record, unfinished_too);
     LabelSet set = read_coco(layout.annotations_json());

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "dataset/clip_record.h"
+#include "dataset/dataset_file.h"
 #include "dataset/dataset_index.h"
 #include "io/sha256.h"
 
@@ -31,10 +32,9 @@ struct FoundClip {
 };
 
 Source open_source(const Path& root) {
-  const Path file = Layout{root}.dataset_json();
-  const Json document = std::filesystem::exists(file) ? read_json(file) : Json::object();
-  if (document.value("format", "") != "veldt-dataset")
+  if (!Layout{root}.is_begun())
     throw ConfigError(fault("DIR", root.string(), "", "a dataset, with a dataset.json"));
+  const Json document = read_dataset_file(root);
   const auto version = document.value("veldt_version", std::string());
   if (version != kVersion)
     throw ConfigError(fault(root.string() + ": veldt_version", version, "",

@@ -22,6 +22,8 @@ struct RunHooks {
   std::function<void(const std::string& clip, const std::string& why)> restarted = {};
   /// A frame is skipped, and the clip continues without it.
   std::function<void(const std::string& clip, const SkippedFrame& frame)> skipped = {};
+  /// An existing clip is made again, because its passes or their manifest have changed.
+  std::function<void(const std::string& clip)> remade = {};
 
   void report(const Progress& state) const {
     if (progress) progress(state);

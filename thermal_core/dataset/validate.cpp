@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "dataset/clip_record.h"
+#include "dataset/dataset_file.h"
 #include "dataset/layout.h"
 #include "io/json_file.h"
 #include "io/sha256.h"
@@ -28,10 +29,7 @@ class Checker {
   explicit Checker(const Path& root) : layout_{root} {}
 
   DatasetCheck run() {
-    const Json dataset = read_json(layout_.dataset_json());
-    if (dataset.value("format", "") != "veldt-dataset") {
-      throw IoError(layout_.dataset_json().string() + " does not belong to a Veldt dataset");
-    }
+    const Json dataset = read_dataset_file(layout_.root);
     for (const Json& clip : dataset.at("clips")) check_clip(clip);
     if (dataset.contains("annotations_sha256")) {
       check_file(layout_.annotations_json(), dataset["annotations_sha256"]);

@@ -11,7 +11,7 @@ namespace thermal {
 
 JsonEntry::JsonEntry(const Json& json, const std::string& file, const std::string& list, std::size_t place)
     : json_(json), file_(file), list_(list), place_(place) {
-  if (!json.is_object()) throw DataError(fault(where(), json.dump(), "", "an object"));
+  if (!json.is_object()) throw DataError(fault(where(), brief(json), "", "an object"));
 }
 
 std::int64_t JsonEntry::integer(const char* key) const {
@@ -67,7 +67,7 @@ LabelBox JsonEntry::box(const char* key) const {
 }
 
 DataError JsonEntry::fault_of(const char* key, const std::string& rule) const {
-  return DataError(fault(where() + "." + key, json_.contains(key) ? json_[key].dump() : "nothing", "", rule));
+  return DataError(fault(where() + "." + key, json_.contains(key) ? brief(json_[key]) : "nothing", "", rule));
 }
 
 std::string JsonEntry::where() const { return fmt::format("{}: {}[{}]", file_, list_, place_); }

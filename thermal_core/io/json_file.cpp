@@ -160,6 +160,15 @@ Json read_json_elements(const Path& file, const TakeElement& take) {
 
 Json read_json(const Path& file) { return parse_json(read_file(file), file.string()); }
 
+std::string brief(const Json& value) {
+  constexpr std::size_t kMost = 60;
+  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // inside a character
+  return text.substr(0, end) + "…";
+}
+
 std::string to_text(const Json& json) { return json.dump(2) + "\n"; }
 
 std::vector<std::string> differences(const Json& here, const Json& there) {

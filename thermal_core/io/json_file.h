@@ -36,6 +36,9 @@ using TakeElement = std::function<void(const std::string& array, std::size_t pla
 /// are not detected.
 [[nodiscard]] Json read_json_elements(const Path& file, const TakeElement& take);
 
+/// For messages: one line of JSON, which escapes control characters; past 60 bytes cut, with "…".
+[[nodiscard]] std::string brief(const Json& value);
+
 /// Indented by two, newline at the end.
 [[nodiscard]] std::string to_text(const Json& json);
 

@@ -48,6 +48,10 @@ std::string key_of(std::string_view where) {
   return key;
 }
 
+/// Of names that become names of files and folders, or parts of them.
+constexpr std::string_view kNamePattern = "^[A-Za-z0-9_][A-Za-z0-9_-]{0,199}$";
+constexpr std::size_t kMostPatternBytes = 4096;
+
 /// Checks one document against one schema.
 class Checker {
  public:
@@ -84,11 +88,9 @@ class Checker {
   }
 
   static std::string shortened(const Json& value) {
-    constexpr std::size_t kMost = 60;
     if (value.is_object()) return "an object";
     if (value.is_array()) return fmt::format("a list of {}", value.size());
-    const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-    return text.size() <= kMost ? text : text.substr(0, kMost) + "…";
+    return brief(value);
   }
 
   bool has_type(const Json& value, const Json& schema) {
@@ -149,11 +151,16 @@ class Checker {
 
   void check_pattern(const Json& value, const Json& schema) {
     if (!schema.contains("pattern")) return;
+    const auto& text = value.get_ref<const std::string&>();
+    if (text.size() > kMostPatternBytes) {  // std::regex takes stack space for each byte
+      add(value, fmt::format("at most {} bytes", kMostPatternBytes));
+      return;
+    }
     const auto pattern = schema["pattern"].get<std::string>();
     const auto compiled = patterns_.try_emplace(pattern, pattern).first;
-    if (std::regex_search(value.get<std::string>(), compiled->second)) return;
-    add(value,
-        pattern == "^[A-Za-z0-9_-]+$" ? "letters, digits, _ and - only" : "text that matches " + pattern);
+    if (std::regex_search(text, compiled->second)) return;
+    add(value, pattern == kNamePattern ? "1 to 200 letters, digits, _ or -, not beginning with -"
+                                       : "text that matches " + pattern);
   }
 
   void check_object(Json& value, const Json& schema, const std::string& where) {

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "io/json_file.h"
 #include "io/json_schema.h"
+#include "io/sha256.h"
 
 namespace thermal {
 namespace {
@@ -96,11 +97,13 @@ Manifest read_manifest(const Path& file, const Path& home) {
   const Json schema = read_json(home / "configs" / "schema" / "manifest.schema.json");
   try {
     Json document = read_json(file);
+    const std::string sum = sha256_of(document.dump());
     const std::vector<std::string> faults = check_and_fill(document, schema);
     if (!faults.empty()) {
       throw DataError(fmt::format("{}: {}", file.string(), fmt::join(faults, "\n" + file.string() + ": ")));
     }
     Manifest manifest = read_document(document);
+    manifest.document_sha256 = sum;
     manifest.validate();
     return manifest;
   } catch (const ConfigError& error) {  // not JSON: the file's fault, not the config's

@@ -91,6 +91,8 @@ struct Manifest {
   std::vector<ManifestObject> objects;
   std::vector<ManifestMaterial> materials;
   std::vector<ManifestFrame> frames;
+  std::string document_sha256 =
+      {};  ///< of the JSON it was read from, without its layout; empty if there is none
 
   /// DataError if indices or track ids are repeated; an actor has no category or track; an actor in a frame is not
   /// among the objects; frames and a sequence are both given; or two objects have one colour, or an object the sky's.

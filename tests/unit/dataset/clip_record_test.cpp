@@ -33,6 +33,33 @@ TEST_CASE("An invalid record is a DataError with the file") {
              StartsWith(cut.string() + ":1:13: not JSON"));
 }
 
+TEST_CASE("A record names only files that a clip has, so that no other file is read, linked or replaced") {
+  const TemporaryFolder folder;
+  const auto fault_of = [&folder](const std::string& clip, const std::string& name) {
+    ClipRecord record{.clip = clip, .season = "winter", .pixels_sha256 = "", .files = {{name, "0"}}};
+    const Path file = folder.file("clip.json", to_text(to_json(record)));
+    return message_of<DataError>([&] { (void)read_clip_record(file); }).substr(file.string().size());
+  };
+  const std::string rule =
+      "; expected frames.jsonl, labels.json, preview.mp4, ir8/NNNNNN.png and ir16/NNNNNN.png only";
+  for (const std::string name :
+       {"../../../.bashrc", "/etc/passwd", "ir8/../../x.png", "ir8/00000.png", "ir8/-00001.png", "clip.json",
+        "ir8/000000.png.part", "", "ir8/000000.PNG", "ir8/.png"}) {
+    CHECK(fault_of("a", name) == ": files = " + brief(name) + rule);
+  }
+  CHECK_THAT(fault_of("../a", "labels.json"),
+             StartsWith(": clip = \"../a\"; expected a name of at most 200 bytes"));
+  const Path good = folder.file("good.json", to_text(to_json(ClipRecord{.clip = "a",
+                                                                        .season = "winter",
+                                                                        .pixels_sha256 = "",
+                                                                        .files = {{"ir8/1234567.png", "0"},
+                                                                                  {"ir16/000000.png", "0"},
+                                                                                  {"labels.json", "0"},
+                                                                                  {"frames.jsonl", "0"},
+                                                                                  {"preview.mp4", "0"}}})));
+  CHECK(read_clip_record(good).files.size() == 5);
+}
+
 TEST_CASE("Frames are numbered with six digits") {
   CHECK(frame_name(0) == "000000.png");
   CHECK(frame_name(12) == "000012.png");

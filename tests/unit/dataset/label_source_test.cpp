@@ -81,9 +81,9 @@ TEST_CASE("A source without labels is reported") {
   (void)folder.file("dataset.json", "{}");
   CHECK(fault_of(folder.path()) == "/dataset.json does not belong to a Veldt dataset");
   (void)folder.file("dataset.json", R"({"format": "veldt-dataset"})");
+  CHECK(fault_of(folder.path()) == "/dataset.json: clips = missing; expected a list");
+  (void)folder.file("dataset.json", R"({"format": "veldt-dataset", "clips": []})");
   CHECK_THAT(fault_of(folder.path()), StartsWith(": annotations.json may lack clips"));
-  (void)folder.file("dataset.json", R"({"format": "veldt-dataset", "annotations_sha256": "0"})");
-  CHECK_THAT(fault_of(folder.path()), StartsWith("/dataset.json: "));
   (void)folder.file("dataset.json", "{");
   CHECK_THAT(fault_of(folder.path()), StartsWith("/dataset.json:1:2: not JSON: "));
 }

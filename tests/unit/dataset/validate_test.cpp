@@ -110,6 +110,6 @@ TEST_CASE("A folder without a dataset cannot be checked") {
   CHECK(message_of<IoError>([&] { (void)validate_dataset(folder.path()); }) ==
         "cannot read " + (folder / "dataset.json").string() + ": No such file or directory");
   const Path other = folder.file("dataset.json", "{}");
-  CHECK(message_of<IoError>([&] { (void)validate_dataset(folder.path()); }) ==
+  CHECK(message_of<DataError>([&] { (void)validate_dataset(folder.path()); }) ==
         other.string() + " does not belong to a Veldt dataset");
 }

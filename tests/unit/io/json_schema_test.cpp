@@ -14,7 +14,7 @@ const Json kSchema = parse_json(R"({
   "additionalProperties": false,
   "required": ["name"],
   "properties": {
-    "name": {"type": "string", "pattern": "^[A-Za-z0-9_-]+$"},
+    "name": {"type": "string", "pattern": "^[A-Za-z0-9_][A-Za-z0-9_-]{0,199}$"},
     "code": {"type": "string", "pattern": "^x"},
     "frames": {"type": "integer", "minimum": 1, "maximum": 100},
     "speed_m_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 30},
@@ -123,7 +123,19 @@ TEST_CASE("A value that is not among the choices is reported with the nearest") 
 TEST_CASE("A string that does not match is reported in words, or with the pattern") {
   Json document = parse_json(R"({"name": "two words"})", "");
   CHECK(check_and_fill(document, kSchema) ==
-        Faults{"name = \"two words\"; expected letters, digits, _ and - only"});
+        Faults{"name = \"two words\"; expected 1 to 200 letters, digits, _ or -, not beginning with -"});
+  for (const std::string& name :
+       {std::string("-rf"), std::string(), std::string("a/b"), std::string(".."), std::string(201, 'a')}) {
+    Json other = {{"name", name}};
+    CHECK(check_and_fill(other, kSchema) ==
+          Faults{"name = " + brief(other["name"]) +
+                 "; expected 1 to 200 letters, digits, _ or -, not beginning with -"});
+  }
+  Json longest = {{"name", std::string(200, 'a')}};
+  CHECK(check_and_fill(longest, kSchema).empty());
+  Json endless = {{"name", std::string(1 << 20, 'a')}};
+  CHECK(check_and_fill(endless, kSchema) ==
+        Faults{"name = \"" + std::string(59, 'a') + "…; expected at most 4096 bytes"});
   CHECK(faults_in(R"("code": "y")") == Faults{"code = \"y\"; expected text that matches ^x"});
 }
 

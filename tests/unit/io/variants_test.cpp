@@ -58,9 +58,11 @@ TEST_CASE("Invalid lists are errors") {
   CHECK(fault_in("{}") == "list.json: variants is missing; expected a value");
   CHECK(fault_in(R"({"variants": [{"seed": 3}]})") ==
         "list.json: variants[0].name is missing; expected a value");
-  CHECK(fault_in(R"({"variants": [{"name": "a/b"}, {"name": ""}]})") ==
-        "list.json: variants[0].name = \"a/b\"; expected letters, digits, _ and - only\n"
-        "list.json: variants[1].name = \"\"; expected letters, digits, _ and - only");
+  CHECK(
+      fault_in(R"({"variants": [{"name": "a/b"}, {"name": ""}]})") ==
+      "list.json: variants[0].name = \"a/b\"; expected 1 to 200 letters, digits, _ or -, not beginning with "
+      "-\n"
+      "list.json: variants[1].name = \"\"; expected 1 to 200 letters, digits, _ or -, not beginning with -");
   CHECK(fault_in(R"({"variants": [{"name": "a"}, {"name": "b"}, {"name": "a"}]})") ==
         "list.json: variants[2].name = \"a\"; expected each name once");
   CHECK(fault_in(R"({"variants": [{"name": "a", "sensr": {}}]})") ==

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "dataset/dataset_file.h"
 #include "dataset/label_source.h"
 #include "dataset/layout.h"
 #include "dataset/reports/flights.h"
@@ -29,7 +30,7 @@ std::vector<FlightTrack> tracks_of(const Layout& layout, const Json& record) {
 
 /// Figures that only Veldt datasets have; `record` is the dataset.json.
 void add_dataset(const Layout& layout, const Path& home, Json& figures) {
-  Json record = read_json(layout.dataset_json());
+  Json record = read_dataset_file(layout.root);
   try {
     figures["flights"] = flight_figures(tracks_of(layout, record), record.at("config"), home);
   } catch (const Json::exception& error) {

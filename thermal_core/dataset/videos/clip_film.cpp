@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "dataset/clip_record.h"
+#include "dataset/dataset_file.h"
 #include "io/coco_file.h"
 #include "io/json_file.h"
 #include "io/picture_size.h"
@@ -16,23 +17,6 @@
 
 namespace thermal {
 namespace {
-
-/// A document of a dataset's own, read as data that someone may have damaged.
-Json read_own_json(const Path& file) {
-  try {
-    return read_json(file);
-  } catch (const ConfigError& error) {
-    throw DataError(error.what());
-  }
-}
-
-/// An id becomes the name of a folder.
-std::string checked_id(const Json& clip, const Path& file) {
-  std::string id = clip.at("id");
-  if (id.empty() || id == "." || id == ".." || Path(id).filename() != id)
-    throw DataError(fault(file.string() + ": id of a clip", fmt::format("\"{}\"", id), "", "a name"));
-  return id;
-}
 
 std::string camera_name(const Json& config) {
   const Json& sensor = config.at("sensor");
@@ -137,13 +121,13 @@ FilmedDataset read_filmed_dataset(const Path& root) {
         std::filesystem::exists(root)
             ? " is not a dataset; expected a folder with dataset.json, or a clip's folder, DIR/clips/CLIP"
             : " does not exist"));
-  const Json record = read_own_json(file);
+  const Json record = read_dataset_file(root);
   try {
     dataset.name = record.at("config").at("name");
     dataset.camera = camera_name(record.at("config"));
     dataset.kelvin_per_count = record.at("kelvin_per_count");
     for (const Json& clip : record.at("clips")) {
-      dataset.clips.push_back(checked_id(clip, file));
+      dataset.clips.push_back(clip.at("id"));
       if (clip.at("status") == "done") dataset.made.push_back(dataset.clips.back());
     }
   } catch (const Json::exception& error) {

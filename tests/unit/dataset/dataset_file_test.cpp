@@ -1,0 +1,56 @@
+#include "dataset/dataset_file.h"
+
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+#include "support/temporary_folder.h"
+
+using namespace thermal;
+
+namespace {
+
+std::string fault_of(const std::string& content) {
+  const TemporaryFolder folder;
+  const Path file = folder.file("dataset.json", content);
+  return message_of<DataError>([&] { (void)read_dataset_file(folder.path()); }).substr(file.string().size());
+}
+
+std::string clips_fault(const std::string& clips) {
+  return fault_of(R"({"format": "veldt-dataset", "clips": )" + clips + "}");
+}
+
+}  // namespace
+
+TEST_CASE("A dataset's file is read as it is") {
+  const TemporaryFolder folder;
+  (void)folder.file("dataset.json",
+                    R"({"format": "veldt-dataset", "clips": [{"id": "a", "status": "done"}]})");
+  CHECK(read_dataset_file(folder.path()).at("clips").at(0).at("id") == "a");
+}
+
+TEST_CASE("Other files are refused") {
+  for (const std::string content : {"{}", "[]", "7", R"({"format": "coco"})", R"({"format": 7})"})
+    CHECK(fault_of(content) == " does not belong to a Veldt dataset");
+  CHECK_THAT(fault_of("{"), StartsWith(":1:2: not JSON"));
+  CHECK(fault_of(R"({"format": "veldt-dataset"})") == ": clips = missing; expected a list");
+  CHECK(clips_fault("{}") == ": clips = {}; expected a list");
+}
+
+TEST_CASE("Ids of clips are names, each once, because they become names of folders") {
+  const std::string rule =
+      "; expected a name of at most 200 bytes without \"/\" or control characters that does not begin with "
+      "\"-\"";
+  CHECK(clips_fault(R"([{"id": "../../victim", "status": "done"}])") ==
+        ": clips[0].id = \"../../victim\"" + rule);
+  CHECK(clips_fault(R"([{"id": "/tmp/x", "status": "done"}])") == ": clips[0].id = \"/tmp/x\"" + rule);
+  CHECK(clips_fault(R"([{"id": "-rf", "status": "done"}])") == ": clips[0].id = \"-rf\"" + rule);
+  CHECK(clips_fault(R"([{"id": "a\u001b[2J", "status": "done"}])") ==
+        ": clips[0].id = \"a\\u001b[2J\"" + rule);
+  CHECK(clips_fault(R"([{"id": "a", "status": "done"}, {"id": "a", "status": "done"}])") ==
+        ": clips[1].id = \"a\"; expected each id once");
+  CHECK(clips_fault(R"([{"id": 7, "status": "done"}])") == ": clips[0].id = 7; expected a string");
+  CHECK(clips_fault(R"([{"id": "a"}])") == ": clips[0].status = nothing; expected one");
+  CHECK(clips_fault("[7]") == ": clips[0] = 7; expected an object");
+  CHECK(clips_fault(R"([{"id": ")" + std::string(1000000, 'a') + R"(", "status": "done"}])") ==
+        ": clips[0].id = \"" + std::string(59, 'a') + "…" + rule);
+}
