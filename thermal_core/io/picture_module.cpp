@@ -9,9 +9,12 @@
 namespace thermal {
 namespace {
 
-/// The loader looks in the folders that the program was linked with. The module stays until the program ends.
+/// In ../lib/veldt from the program, built or installed. By its path, because under AddressSanitizer the loader does not
+/// look in the folders that a program was linked with. The module stays until the program ends.
 const PictureModule& load() {
-  void* library = ::dlopen("libveldt_pictures.so", RTLD_LAZY | RTLD_LOCAL);
+  const Path program = std::filesystem::read_symlink("/proc/self/exe");
+  const Path file = program.parent_path().parent_path() / "lib" / "veldt" / "libveldt_pictures.so";
+  void* library = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   void* table = library == nullptr ? nullptr : ::dlsym(library, "kVeldtPictureModule");
   if (table == nullptr) throw IoError(fmt::format("cannot load a part of veldt: {}", ::dlerror()));
   return *static_cast<const PictureModule*>(table);
