@@ -141,7 +141,9 @@ def test_an_id_that_leads_elsewhere_is_refused(veldt, dataset):
     change(dataset / "dataset.json", lambda record: record["clips"][0].update(id="../../elsewhere"))
     done = _video(veldt)
     assert (done.code, done.out) == (1, "")
-    assert done.err.startswith('veldt: out/dataset.json: clips[0].id = "../../elsewhere"; expected a name of ')
+    assert done.err.startswith(
+        'veldt: out/dataset.json: clips[0].id = "../../elsewhere"; expected a name of '
+    )
 
 
 def test_damaged_records_are_named_with_their_line(veldt, dataset):
