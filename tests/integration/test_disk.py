@@ -5,12 +5,14 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
+from pathlib import Path
 
 import pytest
 
 import passes
 from datasets import content_of
-from program import ROOT, files_below
+from program import ROOT, Veldt, files_below
 from small_disk import BLOCK, can_be_root_of_a_namespace, small_disk
 
 FULL = "No space left on device"
@@ -128,28 +130,33 @@ def test_a_folder_that_is_not_ours_to_write_in(veldt, locked, message):
 UNPRIVILEGED = ("setpriv", "--reuid=65534", "--regid=65534", "--clear-groups")
 
 
+@pytest.fixture(name="public")
+def _public():
+    """The program in a folder that every user may read, unlike pytest's own."""
+    with tempfile.TemporaryDirectory(prefix="veldt-") as folder:
+        Path(folder).chmod(0o755)
+        yield Veldt(Path(folder))
+
+
 @pytest.fixture(name="home")
-def _home(veldt) -> dict:
-    """The environment of a user who may read everything in `veldt.folder` and write nothing."""
-    for folder in (veldt.folder, *veldt.folder.parents):
-        if not folder.stat().st_mode & 0o005 and folder.is_relative_to("/tmp"):
-            folder.chmod(0o755)
-    # The checkout may be in a folder of root's own, such as a clone in its home.
+def _home(public) -> dict:
+    """The environment of a user whose checkout is in `public.folder`: the tests' own may be in root's home."""
     for resources in ("assets", "blender_scripts", "configs"):
-        shutil.copytree(ROOT / resources, veldt.folder / "home" / resources)
-    return {"VELDT_HOME": str(veldt.folder / "home")}
+        shutil.copytree(ROOT / resources, public.folder / "home" / resources)
+    return {"VELDT_HOME": str(public.folder / "home")}
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can be an ordinary user")
-def test_a_folder_of_another_user(veldt, home):
-    passes.write_clip(veldt.folder / "one")
-    done = veldt("convert", "one", "--out", "out", "--quiet", under=UNPRIVILEGED, env=home)
+def test_a_folder_of_another_user(public, home):
+    passes.write_clip(public.folder / "one")
+    done = public("convert", "one", "--out", "out", "--quiet", under=UNPRIVILEGED, env=home)
     assert (done.code, done.err) == (1, "veldt: cannot make folder out: Permission denied\n")
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can be an ordinary user")
-def test_a_folder_on_path_that_may_not_be_looked_into(veldt, home):
-    (veldt.folder / "secret").mkdir(mode=0o700)
-    found = veldt("doctor", "--json", under=UNPRIVILEGED, env=home)
-    secret = {"PATH": f"{veldt.folder / 'secret'}:{os.environ['PATH']}"}
-    assert veldt("doctor", "--json", under=UNPRIVILEGED, env=home | secret) == found
+def test_a_folder_on_path_that_may_not_be_looked_into(public, home):
+    (public.folder / "secret").mkdir(mode=0o700)
+    found = public("doctor", "--json", under=UNPRIVILEGED, env=home)
+    assert found.json()
+    secret = {"PATH": f"{public.folder / 'secret'}:{os.environ['PATH']}"}
+    assert public("doctor", "--json", under=UNPRIVILEGED, env=home | secret) == found
