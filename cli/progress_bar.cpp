@@ -89,23 +89,20 @@ void ProgressBar::show_json(const thermal::Progress& progress, double frames_per
 }
 
 void ProgressBar::show_restart(const std::string& clip, const std::string& why) {
-  if (style_ == Style::none) return;
-  if (style_ == Style::json) {
-    fmt::print(stderr, "{}\n", thermal::Json({{"event", "restart"}, {"clip", clip}, {"reason", why}}).dump());
-    return;
-  }
-  if (line_open_) fmt::print(stderr, "\n");
-  line_open_ = false;
-  fmt::print(stderr, "clip {}: {}; restarting Blender\n", clip, why);
+  show_event({{"event", "restart"}, {"clip", clip}, {"reason", why}},
+             fmt::format("clip {}: {}; restarting Blender", clip, why));
 }
 
 void ProgressBar::show_remade(const std::string& clip) {
+  show_event({{"event", "remade"}, {"clip", clip}},
+             fmt::format("clip {}: its manifest or its passes have changed; making it again", clip));
+}
+
+void ProgressBar::show_event(const thermal::Json& event, const std::string& line) {
   if (style_ == Style::none) return;
-  if (style_ == Style::json) {
-    fmt::print(stderr, "{}\n", thermal::Json({{"event", "remade"}, {"clip", clip}}).dump());
-    return;
-  }
-  fmt::print(stderr, "clip {}: its manifest or its passes have changed; making it again\n", clip);
+  if (line_open_) fmt::print(stderr, "\n");
+  line_open_ = false;
+  fmt::print(stderr, "{}\n", style_ == Style::json ? event.dump() : line);
 }
 
 void ProgressBar::show_skipped(const std::string& clip, const thermal::SkippedFrame& frame) {

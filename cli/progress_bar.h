@@ -32,6 +32,7 @@ class ProgressBar {
   [[nodiscard]] static Style style_of(const CommonOptions& options);
   void show_bar(const thermal::Progress& progress, double frames_per_s);
   static void show_plain(const thermal::Progress& progress, double frames_per_s);
+  void show_event(const thermal::Json& event, const std::string& line);
   static void show_json(const thermal::Progress& progress, double frames_per_s);
 
   Style style_;

@@ -45,13 +45,13 @@ def failure_of(error: BaseException) -> Failure:
     return Failure(1, _last_line(error), _place(error), _hint(error))
 
 
-def run(act: Callable[[], None]) -> int:
-    """Acts, reports a failure on stderr, the last line of which sums it up, and returns the exit code: 0 done,
-    1 failed, 2 the config is at fault."""
+def run(act: Callable[[], None], report: Callable[[BaseException], int] | None = None) -> int:
+    """Acts, reports a failure, and returns the exit code: 0 done, 1 failed, 2 the config is at fault. `report` returns
+    the code of a failure; without it, stderr gets the failure, the last line of which sums it up."""
     try:
         act()
     except BaseException as error:  # pylint: disable=broad-exception-caught
-        return _report(error)
+        return (report or _report)(error)
     return 0
 
 

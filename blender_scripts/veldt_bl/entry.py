@@ -11,18 +11,16 @@ import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
+from veldt import failures
 from veldt.events import Events
-from veldt.failures import failure_of
 
 
 def run(act: Callable[[], None], events: Events) -> int:
     """Run `act`, report its outcome, and return the exit code: 0 done, 1 failed, 2 the config is at fault."""
-    try:
-        act()
-    except BaseException as error:  # pylint: disable=broad-exception-caught
-        return _report(events, error)
-    events.report("done")
-    return 0
+    code = failures.run(act, lambda error: _report(events, error))
+    if code == 0:
+        events.report("done")
+    return code
 
 
 @contextmanager
@@ -43,7 +41,7 @@ def own_arguments() -> list[str]:
 
 def _report(events: Events, error: BaseException) -> int:
     """Writes an event of the exception, and its traceback into the log."""
-    failure = failure_of(error)
+    failure = failures.failure_of(error)
     kind = "config" if failure.is_config_fault else "internal"
     hint = {"hint": failure.hint} if failure.hint else {}
     events.report("error", kind=kind, message=failure.message, where=failure.where, **hint)

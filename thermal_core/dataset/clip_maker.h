@@ -26,6 +26,7 @@ struct ClipPasses {
   Path folder;  ///< of the EXR files
   ReadLimits limits = {};
   BadFrames bad_frames = BadFrames::fail;
+  std::string identity_sha256 = {};  ///< identity_of() them; empty if they are rendered for the dataset
 };
 
 /// What a dataset makes from a clip's passes: all settings for frames and labels.

@@ -66,8 +66,11 @@ class Dataset {
         behind_(!index_.complete() || !index_.recorded) {
     index_.physics = to_json(budget);
     for (const ClipPasses& source : sources) {
-      if (has_new_passes(source)) changed_.insert(source.manifest.clip);
-      if (is_to_mend(source, materials)) mended_.insert(source.manifest.clip);
+      if (has_new_passes(source)) {
+        changed_.insert(source.manifest.clip);
+      } else if (is_to_mend(source, materials)) {
+        mended_.insert(source.manifest.clip);
+      }
       if (!lacks(source)) outcome_.already_there.push_back(source.manifest.clip);
     }
     behind_ = behind_ || !mended_.empty() || !changed_.empty();
@@ -96,7 +99,7 @@ class Dataset {
             .labels = config.labels,
             .physics = physics_of(config, clip, kept_),
             .layout = layout_,
-            .made_from_sha256 = identity_of(source)};
+            .made_from_sha256 = source.identity_sha256};
   }
 
   void add(const ClipRecord& record) {

@@ -6,10 +6,10 @@
 
 namespace thermal {
 
-/// Placeholder in a starter manifest for values that only the user knows.
+/// Stands in a starter manifest for each value that only the user knows.
 inline constexpr const char* kFillIn = "FILL IN";
 
-/// DataError that lists every placeholder left in `file`, and every unknown material; entries with the same fault
+/// DataError that lists every such value that is still missing in `file`, and every unknown material; entries with the same fault
 /// share a line.
 void check_filled_in(const Manifest& manifest, const Path& file, const MaterialLibrary& materials);
 

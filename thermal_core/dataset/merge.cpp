@@ -71,7 +71,7 @@ Config config_of(const Source& source) {
 }
 
 /// Empty if a run was killed after it renamed the clip and before it recorded it.
-std::string told_record_sha256(const Source& source, const std::string& id) {
+std::string recorded_sha256(const Source& source, const std::string& id) {
   for (const Json& clip : source.document.value("clips", Json::array())) {
     if (clip.at("id") == id) return clip.value("record_sha256", std::string());
   }
@@ -83,7 +83,7 @@ std::optional<FoundClip> find_clip(const Source& source, const std::string& id) 
   if (!std::filesystem::exists(folder / "clip.json")) return std::nullopt;
   return FoundClip{.folder = folder,
                    .record = read_clip_record(folder / "clip.json"),
-                   .record_sha256 = told_record_sha256(source, id)};
+                   .record_sha256 = recorded_sha256(source, id)};
 }
 
 /// Pictures and labels; their encoding in files may differ between machines' libraries.

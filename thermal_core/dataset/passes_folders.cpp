@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "dataset/filled_in.h"
 #include "dataset/passes_groups.h"
+#include "dataset/passes_identity.h"
 #include "io/manifest_file.h"
 
 namespace thermal {
@@ -95,6 +96,7 @@ std::vector<ClipPasses> find_passes(const std::vector<Path>& named, const Path& 
     check_filled_in(meaning, file, materials);
     take_frames(meaning, frames_of(group, meaning, file, !manifest.empty()));
     all.push_back({.manifest = std::move(meaning), .folder = group.folder});
+    all.back().identity_sha256 = identity_of(all.back());
   }
   check_clips(all);
   return all;

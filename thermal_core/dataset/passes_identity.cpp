@@ -34,7 +34,7 @@ std::string identity_of(const ClipPasses& passes) {
 }
 
 bool has_changed(const ClipPasses& passes, const std::string& made_from_sha256, const Path& record_file) {
-  if (made_from_sha256 != identity_of(passes)) return true;
+  if (made_from_sha256 != passes.identity_sha256) return true;
   std::error_code error;
   const auto recorded = std::filesystem::last_write_time(record_file, error);
   return error || std::ranges::any_of(passes.manifest.frames, [&](const ManifestFrame& frame) {

@@ -7,12 +7,12 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "dataset/dataset_file.h"
 #include "dataset/exports/coco.h"
 #include "dataset/exports/selection.h"
 #include "dataset/exports/splits.h"
 #include "dataset/label_source.h"
 #include "dataset/layout.h"
-#include "io/json_file.h"
 #include "io/picture_size.h"
 #include "io/sha256.h"
 
@@ -97,8 +97,7 @@ void find_sizes(LabelSet& set) {
 
 std::uint32_t own_seed(const Path& source) {
   constexpr std::uint32_t kDefault = 1;
-  return is_ours(source) ? read_json(Layout{source}.dataset_json()).at("config").value("seed", kDefault)
-                         : kDefault;
+  return is_ours(source) ? read_dataset_file(source).at("config").value("seed", kDefault) : kDefault;
 }
 
 void share_out(ExportInput& input, const ExportOptions& options, std::uint32_t seed) {
