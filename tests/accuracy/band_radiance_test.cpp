@@ -6,6 +6,8 @@
 #include "support/catch.h"
 #include "support/golden.h"
 
+namespace band_radiance_test {
+
 using namespace thermal;
 
 namespace {
@@ -136,3 +138,5 @@ TEST_CASE("Golden radiances give back their temperatures to 1e-6 K") {
     CHECK_THAT(back_k, WithinAbs(golden.temperature_k, 1e-6));
   }
 }
+
+}  // namespace band_radiance_test

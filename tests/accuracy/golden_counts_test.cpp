@@ -9,6 +9,8 @@
 #include "sensor/thermal_camera.h"
 #include "support/catch.h"
 
+namespace golden_counts_test {
+
 using namespace thermal;
 
 namespace {
@@ -77,3 +79,5 @@ TEST_CASE("Planck's law instead of the script's sum changes one count: the tree 
   CHECK(counts_of(RadianceModel::exact, Season::winter) == winter);
   CHECK(counts_of(RadianceModel::exact, Season::summer) == kSummer);
 }
+
+}  // namespace golden_counts_test

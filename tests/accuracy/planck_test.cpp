@@ -3,6 +3,8 @@
 #include "support/catch.h"
 #include "support/golden.h"
 
+namespace planck_test {
+
 using namespace thermal;
 
 TEST_CASE("Planck's law agrees with 60-digit arithmetic") {
@@ -18,3 +20,5 @@ TEST_CASE("Planck's law agrees with 60-digit arithmetic") {
     CHECK_THAT(planck_radiance(wavelength_um, temperature_k), WithinRel(row.numbers[2], (3 * x + 5) * kEps));
   }
 }
+
+}  // namespace planck_test

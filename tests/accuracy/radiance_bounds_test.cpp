@@ -7,6 +7,8 @@
 #include "support/catch.h"
 #include "support/golden.h"
 
+namespace radiance_bounds_test {
+
 using namespace thermal;
 
 namespace {
@@ -111,3 +113,5 @@ TEST_CASE("Bounds at the edges of the domain") {
   CHECK(table.relative_error_bound(0) == 0);
   CHECK(table.relative_error_bound(5) == 1);  // 2e-88, below the smallest float
 }
+
+}  // namespace radiance_bounds_test

@@ -7,6 +7,8 @@
 #include "support/catch.h"
 #include "support/golden.h"
 
+namespace script_radiance_test {
+
 using namespace thermal;
 
 TEST_CASE("The published script's sum is reproduced to rounding") {
@@ -42,3 +44,5 @@ TEST_CASE("The script's sum is defined at the edges too") {
   CHECK(script_radiance(1) == 0);  // e^1028 overflows, to a radiance of 0
   CHECK(std::isnan(script_radiance(std::numeric_limits<double>::quiet_NaN())));
 }
+
+}  // namespace script_radiance_test

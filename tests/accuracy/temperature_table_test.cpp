@@ -5,6 +5,8 @@
 #include "radiometry/band_radiance.h"
 #include "support/catch.h"
 
+namespace temperature_table_test {
+
 using namespace thermal;
 
 namespace {
@@ -80,3 +82,5 @@ TEST_CASE("Where the two parts meet they agree to their errors") {
     CHECK_THAT(static_cast<double>(temperature_k), WithinAbs(kHottest, 2e-4 + table.worst_error_k()));
   }
 }
+
+}  // namespace temperature_table_test

@@ -6,6 +6,8 @@
 #include "support/catch.h"
 #include "support/statistics.h"
 
+namespace bad_pixels_test {
+
 using namespace thermal;
 using statistics::kSigmas;
 
@@ -71,3 +73,5 @@ TEST_CASE("A blinking pixel jumps at the requested rate, without memory") {
     CHECK_THAT(jumps[k], WithinAbs(flip * chances[k], kSigmas * std::sqrt(flip * (1 - flip) * chances[k])));
   }
 }
+
+}  // namespace bad_pixels_test

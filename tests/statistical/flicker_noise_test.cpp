@@ -9,6 +9,8 @@
 #include "support/catch.h"
 #include "support/statistics.h"
 
+namespace flicker_noise_test {
+
 using namespace thermal;
 using statistics::kSigmas;
 
@@ -163,3 +165,5 @@ TEST_CASE("In a camera's picture 1/f noise adds its variance at the requested kn
   CHECK_THAT(squares_k2 / (kSide * kSide),
              WithinRel(0.01 * (1 + flicker) + 1e-4 / 12, kSigmas * std::sqrt(2.0) / kSide));
 }
+
+}  // namespace flicker_noise_test

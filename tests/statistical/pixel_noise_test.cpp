@@ -5,6 +5,8 @@
 #include "support/catch.h"
 #include "support/statistics.h"
 
+namespace pixel_noise_test {
+
 using namespace thermal;
 
 namespace {
@@ -82,3 +84,5 @@ TEST_CASE("Rows, columns and bands do too") {
   parameters.noise.banding_ratio = 1;
   check_noise(parameters);
 }
+
+}  // namespace pixel_noise_test

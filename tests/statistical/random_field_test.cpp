@@ -5,6 +5,8 @@
 #include "base/rng.h"
 #include "support/catch.h"
 
+namespace random_field_test {
+
 using namespace thermal;
 
 namespace {
@@ -135,3 +137,5 @@ TEST_CASE("The lowest bits of uniform numbers are as random as the highest") {
   for (const float value : uniforms(kField)) ++bins[static_cast<std::size_t>(value * 16777216.0F) % 256];
   CHECK(std::abs(chi_square_sigmas(bins)) < kSigmas);
 }
+
+}  // namespace random_field_test

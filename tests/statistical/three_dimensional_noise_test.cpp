@@ -5,6 +5,8 @@
 #include "support/catch.h"
 #include "support/statistics.h"
 
+namespace three_dimensional_noise_test {
+
 using namespace thermal;
 using statistics::kSigmas;
 
@@ -179,3 +181,5 @@ TEST_CASE("Every component of three-dimensional noise has the requested strength
   check("v", found.v, asked.v, sigma.v);
   check("h", found.h, asked.h, sigma.h);
 }
+
+}  // namespace three_dimensional_noise_test

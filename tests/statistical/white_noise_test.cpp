@@ -5,6 +5,8 @@
 #include "support/catch.h"
 #include "support/statistics.h"
 
+namespace white_noise_test {
+
 using namespace thermal;
 using statistics::kSigmas;
 
@@ -130,3 +132,5 @@ TEST_CASE("White noise does not repeat later in the picture, or in later frames"
   }
   CHECK(sigmas(first, second, 0) < kSigmas);
 }
+
+}  // namespace white_noise_test

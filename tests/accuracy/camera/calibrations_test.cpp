@@ -10,6 +10,8 @@
 #include "io/calibration_file.h"
 #include "support/catch.h"
 
+namespace calibrations_test {
+
 using namespace thermal;
 
 namespace {
@@ -154,3 +156,5 @@ TEST_CASE("The middle of the first pixel is at (0.5, 0.5) here and at (0, 0) the
   CHECK_THAT(here.x, WithinAbs(there[0].x, 1e-11));
   CHECK_THAT(here.y, WithinAbs(there[0].y, 1e-11));
 }
+
+}  // namespace calibrations_test

@@ -7,6 +7,8 @@
 #include "support/golden.h"
 #include "support/message_of.h"
 
+namespace air_and_sky_test {
+
 using namespace thermal;
 
 namespace {
@@ -127,3 +129,5 @@ TEST_CASE("Impossible air is an error") {
   CHECK_NOTHROW(Air{233, 0, 1}.validate());
   CHECK_NOTHROW(Air{323, 1, 0}.validate());
 }
+
+}  // namespace air_and_sky_test

@@ -1,6 +1,8 @@
 #include "accuracy/physical/chain_scene.h"
 #include "support/catch.h"
 
+namespace anchored_variation_test {
+
 using namespace thermal;
 
 namespace {
@@ -48,3 +50,5 @@ TEST_CASE("Another place has another temperature, and another seed gives another
   CHECK(here.at(0, 0) != here.at(kSide - 1, kSide - 1));
   CHECK(picture_from(60, -40, 0) != here);
 }
+
+}  // namespace anchored_variation_test

@@ -4,6 +4,8 @@
 #include "support/catch.h"
 #include "support/golden.h"
 
+namespace angular_factor_test {
+
 using namespace thermal;
 
 namespace {
@@ -58,3 +60,5 @@ TEST_CASE("Cosines are clamped to [0, 1], and NaN counts as 1") {
     CHECK(angular_factor(law, -kInfinity) == angular_factor(law, 0));
   }
 }
+
+}  // namespace angular_factor_test

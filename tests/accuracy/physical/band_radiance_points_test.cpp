@@ -7,6 +7,8 @@
 #include "support/catch.h"
 #include "support/golden.h"
 
+namespace band_radiance_points_test {
+
 using namespace thermal;
 
 namespace {
@@ -119,3 +121,5 @@ TEST_CASE("A surface that emits nothing in the band has no radiance at any tempe
     CHECK(value.ln_radiance == -std::numeric_limits<double>::infinity());
   }
 }
+
+}  // namespace band_radiance_points_test

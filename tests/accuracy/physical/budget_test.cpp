@@ -7,6 +7,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace budget_test {
+
 using namespace thermal;
 
 namespace {
@@ -252,3 +254,5 @@ TEST_CASE("Parts are measured over actors only") {
   empty.covers.pop_back();
   CHECK(effect(weigh_terms(empty, kAllAuto), "parts").spread_k == 0);
 }
+
+}  // namespace budget_test

@@ -8,6 +8,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace chain_hard_cases_test {
+
 using namespace thermal;
 using chain_scene::kAllTerms;
 using chain_scene::uniform_passes;
@@ -210,3 +212,5 @@ TEST_CASE("The air is correct at every range and in every weather, to float roun
     }
   }
 }
+
+}  // namespace chain_hard_cases_test

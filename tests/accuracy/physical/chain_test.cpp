@@ -9,6 +9,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace chain_test {
+
 using namespace thermal;
 
 namespace {
@@ -269,3 +271,5 @@ TEST_CASE("Terms that need a viewpoint need a pose in every frame") {
     CHECK_NOTHROW(SceneRadiance(poseless, chain_scene::library(), chain_scene::settings(terms)));
   }
 }
+
+}  // namespace chain_test

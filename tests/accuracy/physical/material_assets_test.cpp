@@ -7,6 +7,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace material_assets_test {
+
 using namespace thermal;
 
 namespace {
@@ -116,3 +118,5 @@ TEST_CASE("A faulty material is reported with its file and key") {
         "spectrum, "
         R"(angular, variation, parts, source; did you mean "emissivity"?)");
 }
+
+}  // namespace material_assets_test

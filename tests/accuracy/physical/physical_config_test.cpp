@@ -5,6 +5,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace physical_config_test {
+
 using namespace thermal;
 
 namespace {
@@ -129,3 +131,5 @@ TEST_CASE("The flat responses are flat, and the camera's peaks near 10 um") {
   CHECK(camera.at(15) == 0);
   CHECK(camera.at(14) < 0.5);
 }
+
+}  // namespace physical_config_test

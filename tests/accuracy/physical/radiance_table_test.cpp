@@ -8,6 +8,8 @@
 #include "radiometry/temperature_table.h"
 #include "support/catch.h"
 
+namespace radiance_table_test {
+
 using namespace thermal;
 
 namespace {
@@ -150,3 +152,5 @@ TEST_CASE("A table per material removes the grey-band error, which is 12 mK per 
   const RadianceTable table(surface);
   CHECK_THAT(surface.temperature(static_cast<double>(table.radiance(301))), WithinAbs(301, 5e-5));
 }
+
+}  // namespace radiance_table_test

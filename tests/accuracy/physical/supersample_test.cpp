@@ -7,6 +7,8 @@
 #include "imaging/frame_converter.h"
 #include "support/catch.h"
 
+namespace supersample_test {
+
 using namespace thermal;
 
 namespace {
@@ -155,3 +157,5 @@ TEST_CASE("Every sub-pixel has its own air and angle before averaging") {
   CHECK_THAT(mixed, WithinRel((near + far) / 2, 64 * 6e-8));
   CHECK(mixed > middle * (1 + 1e-4));
 }
+
+}  // namespace supersample_test

@@ -4,6 +4,8 @@
 #include "accuracy/physical/assets.h"
 #include "support/catch.h"
 
+namespace temperatures_test {
+
 using namespace thermal;
 
 namespace {
@@ -110,3 +112,5 @@ TEST_CASE("A vehicle cools exponentially from the moment it stops") {
              WithinAbs(273 + hood.cooling_excess_k / std::exp(2.0), rounding_k));
   CHECK(hood_k(1e9) == 273);
 }
+
+}  // namespace temperatures_test

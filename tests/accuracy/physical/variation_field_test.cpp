@@ -5,6 +5,8 @@
 
 #include "support/catch.h"
 
+namespace variation_field_test {
+
 using namespace thermal;
 
 namespace {
@@ -174,3 +176,5 @@ TEST_CASE("Many places at once give the same as each alone") {
   field.sample(x, y, footprint, value);
   for (std::size_t i = 0; i < x.size(); ++i) REQUIRE(value[i] == field.sample(x[i], y[i], footprint[i]));
 }
+
+}  // namespace variation_field_test

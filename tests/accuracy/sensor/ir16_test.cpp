@@ -4,6 +4,8 @@
 #include "support/cameras.h"
 #include "support/catch.h"
 
+namespace ir16_test {
+
 using namespace thermal;
 
 namespace {
@@ -51,3 +53,5 @@ TEST_CASE("The finest step gives the lowest temperatures it can represent to hal
   CHECK(worst_k <= 0.0005 + 6 * kRounding * 65.5);
   CHECK(worst_k >= 0.99 * 0.0005);
 }
+
+}  // namespace ir16_test

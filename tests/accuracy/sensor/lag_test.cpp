@@ -4,6 +4,8 @@
 #include "support/cameras.h"
 #include "support/catch.h"
 
+namespace lag_test {
+
 using namespace thermal;
 
 namespace {
@@ -83,3 +85,5 @@ TEST_CASE("Without a time constant a pixel follows at once") {
   (void)camera.expose(cameras::uniform_scene(3, 2, 280));
   CHECK(camera.expose(cameras::uniform_scene(3, 2, 310)).ir16 == Plane<std::uint16_t>(3, 2, 31000));
 }
+
+}  // namespace lag_test

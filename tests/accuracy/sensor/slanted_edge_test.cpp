@@ -6,6 +6,8 @@
 #include "sensor/psf.h"
 #include "support/catch.h"
 
+namespace slanted_edge_test {
+
 using namespace thermal;
 
 namespace {
@@ -113,3 +115,5 @@ TEST_CASE("A slanted edge shows the modulation transfer of the optics up to Nyqu
   // 0.004. That is why the edge is steeper than the standard's 5 degrees.
   CHECK(worst < 0.02);
 }
+
+}  // namespace slanted_edge_test

@@ -2,6 +2,8 @@
 
 #include "support/catch.h"
 
+namespace average_precision_test {
+
 using namespace thermal;
 
 namespace {
@@ -100,3 +102,5 @@ TEST_CASE("The mean leaves out categories without figures") {
   CHECK(mean_of(categories).at_50_to_95 == 0.375);
   CHECK_FALSE(mean_of(std::vector<AveragePrecision>(2)).at_50);
 }
+
+}  // namespace average_precision_test

@@ -6,6 +6,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace balance_check_test {
+
 using namespace thermal;
 
 namespace {
@@ -148,3 +150,5 @@ TEST_CASE("invalid options are reported") {
   CHECK(message({.gap = std::nan("")}) == "gap = nan; expected a number from 0 to 1");
   CHECK(message({.time_limit_s = 0}) == "time_limit_s = 0 s; expected a time above 0 s");
 }
+
+}  // namespace balance_check_test

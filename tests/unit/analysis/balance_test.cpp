@@ -13,6 +13,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace balance_test {
+
 using namespace thermal;
 
 namespace {
@@ -226,3 +228,5 @@ TEST_CASE("bounds that cannot be met are detected, and so are the nearest feasib
   }
   CHECK(infeasible > 30);
 }
+
+}  // namespace balance_test

@@ -6,6 +6,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace evaluate_test {
+
 using namespace thermal;
 
 namespace {
@@ -235,3 +237,5 @@ TEST_CASE("Options out of range are reported") {
   CHECK(fault_of({.score = kNan}) == "--score = nan; expected a finite number");
   CHECK_NOTHROW(EvaluateOptions{.iou = 1, .score = -5}.validate());
 }
+
+}  // namespace evaluate_test

@@ -2,6 +2,8 @@
 
 #include "support/catch.h"
 
+namespace frame_types_test {
+
 using namespace thermal;
 
 namespace {
@@ -84,3 +86,5 @@ TEST_CASE("videos without frames are kept") {
   CHECK(videos[1].name == "two");
   CHECK(videos[1].types.empty());
 }
+
+}  // namespace frame_types_test

@@ -4,6 +4,8 @@
 
 #include "support/catch.h"
 
+namespace matching_test {
+
 using namespace thermal;
 using Found = std::vector<std::size_t>;
 
@@ -144,3 +146,5 @@ TEST_CASE("Crowds are ignored even if ignored targets count") {
     CHECK(encounters.all()[0].targets[0].crowd);
   }
 }
+
+}  // namespace matching_test

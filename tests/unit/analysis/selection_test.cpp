@@ -7,6 +7,8 @@
 
 #include "support/catch.h"
 
+namespace selection_test {
+
 using namespace thermal;
 
 namespace {
@@ -51,3 +53,5 @@ TEST_CASE("every frame has the same chance") {
   const double sigma = std::sqrt(kTimes * 0.25 * 0.75);
   for (const int count : times) CHECK(std::abs(count - kTimes / 4) < 4.5 * sigma);
 }
+
+}  // namespace selection_test

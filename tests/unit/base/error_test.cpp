@@ -5,6 +5,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace error_test {
+
 using namespace thermal;
 
 TEST_CASE("A message states where, what, in which unit, and what was expected") {
@@ -33,3 +35,5 @@ TEST_CASE("Every user-facing fault is an Error, and its kinds are distinct") {
   STATIC_REQUIRE_FALSE(std::is_base_of_v<IoError, TryAgainError>);
   CHECK(std::string(Cancelled().what()) == "stopped on request");
 }
+
+}  // namespace error_test

@@ -5,6 +5,8 @@
 
 #include "support/catch.h"
 
+namespace image_test {
+
 using namespace thermal;
 
 TEST_CASE("A new plane holds one value everywhere") {
@@ -38,3 +40,5 @@ TEST_CASE("A plane without pixels is empty") {
   CHECK(Plane<float>(0, 5).empty());
   CHECK_FALSE(Plane<float>(1, 1).empty());
 }
+
+}  // namespace image_test

@@ -11,6 +11,8 @@
 
 #include "support/catch.h"
 
+namespace parallel_test {
+
 using namespace thermal;
 
 namespace {
@@ -75,3 +77,5 @@ TEST_CASE("An exception in a chunk reaches the caller") {
   };
   CHECK_THROWS_WITH(parallel_for(100, 1, work), "chunk 50");
 }
+
+}  // namespace parallel_test

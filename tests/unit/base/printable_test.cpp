@@ -2,6 +2,8 @@
 
 #include "support/catch.h"
 
+namespace printable_test {
+
 using namespace thermal;
 
 TEST_CASE("Printable text is unchanged") {
@@ -27,3 +29,5 @@ TEST_CASE("Bytes that are not UTF-8 are escaped one by one") {
   CHECK(printable("\xe2\x82") == "\\xe2\\x82");                    // cut short
   CHECK(printable("\xf0\x9f\x98(") == "\\xf0\\x9f\\x98(");
 }
+
+}  // namespace printable_test

@@ -2,6 +2,8 @@
 
 #include "support/catch.h"
 
+namespace relative_name_test {
+
 using thermal::RelativeName;
 
 TEST_CASE("Names that stay below a folder are taken as they are") {
@@ -35,3 +37,5 @@ TEST_CASE("A part is a name without a folder") {
   CHECK_FALSE(RelativeName::part_of("clips/clip_1"));
   CHECK_FALSE(RelativeName::part_of(".."));
 }
+
+}  // namespace relative_name_test

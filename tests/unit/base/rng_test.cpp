@@ -8,6 +8,8 @@
 
 #include "support/catch.h"
 
+namespace rng_test {
+
 using namespace thermal;
 
 namespace {
@@ -132,3 +134,5 @@ TEST_CASE("Normal numbers stay within the range of 31 bits") {
   CHECK(static_cast<double>(*high) <= largest);
   CHECK(static_cast<double>(*high) > 4);  // one in 32 thousand exceeds 4: among a million, certainly one
 }
+
+}  // namespace rng_test

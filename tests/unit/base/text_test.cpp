@@ -4,6 +4,8 @@
 
 #include "support/catch.h"
 
+namespace text_test {
+
 using namespace thermal;
 
 namespace {
@@ -67,3 +69,5 @@ TEST_CASE("A number is the whole of its text") {
   for (const char* text : {"", " 1", "1 ", "+1", "1x", "99999999999"}) CHECK_FALSE(number_in<int>(text));
   CHECK_FALSE(number_in<std::size_t>("-1"));
 }
+
+}  // namespace text_test

@@ -4,6 +4,8 @@
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 
+namespace annotations_test {
+
 using namespace thermal;
 
 namespace {
@@ -172,3 +174,5 @@ TEST_CASE("Labels in a spool file are the same as in memory, and the file is rem
   CHECK(text_of(in_file) == text_of(in_memory));
   CHECK(std::filesystem::is_empty(folder.path()));
 }
+
+}  // namespace annotations_test

@@ -5,6 +5,8 @@
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 
+namespace blender_failure_test {
+
 using namespace thermal;
 
 TEST_CASE("A reported failure is its message, its place and its hint, as far as there are any") {
@@ -62,3 +64,5 @@ TEST_CASE("An unreported end says how Blender ended, and what it printed unless 
         "machine may "
         "have run out of memory");
 }
+
+}  // namespace blender_failure_test

@@ -3,6 +3,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace choose_clips_test {
+
 using namespace thermal;
 
 namespace {
@@ -41,3 +43,5 @@ TEST_CASE("An unknown clip is an error") {
   CHECK(message_of<ConfigError>([] { (void)chosen({"f"}, {}); }) ==
         "--clips = \"f\"; expected one of a, b, c, d, e");
 }
+
+}  // namespace choose_clips_test

@@ -12,6 +12,8 @@
 #include "support/temporary_folder.h"
 #include "support/tiny_clip.h"
 
+namespace clip_maker_test {
+
 using namespace thermal;
 
 namespace {
@@ -325,3 +327,5 @@ TEST_CASE("An impossible request of a task is reported with its variant") {
   CHECK_THAT(message_of<ConfigError>([&] { (void)place.make_all(tasks); }),
              StartsWith("list.json: variants[1] (barrel): clip a: overscan_px = 0 px; expected at least "));
 }
+
+}  // namespace clip_maker_test

@@ -6,6 +6,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace clip_record_test {
+
 using namespace thermal;
 
 TEST_CASE("A record survives writing and reading") {
@@ -65,3 +67,5 @@ TEST_CASE("Frames are numbered with six digits") {
   CHECK(frame_name(12) == "000012.png");
   CHECK(frame_name(1234567) == "1234567.png");
 }
+
+}  // namespace clip_record_test

@@ -8,6 +8,8 @@
 #include "support/temporary_folder.h"
 #include "support/tiny_clip.h"
 
+namespace clip_scenes_test {
+
 using namespace thermal;
 
 namespace {
@@ -105,3 +107,5 @@ TEST_CASE("A frame of a scene is converted once, whichever tasks share it") {
   CHECK(scenes.temperatures(SpectralResponse::flat(8, 14)) !=
         scenes.temperatures(SpectralResponse::flat(8, 13)));
 }
+
+}  // namespace clip_scenes_test

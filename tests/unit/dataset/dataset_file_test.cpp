@@ -5,6 +5,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace dataset_file_test {
+
 using namespace thermal;
 
 namespace {
@@ -54,3 +56,5 @@ TEST_CASE("Ids of clips are names, each once, because they become names of folde
   CHECK(clips_fault(R"([{"id": ")" + std::string(1000000, 'a') + R"(", "status": "done"}])") ==
         ": clips[0].id = \"" + std::string(59, 'a') + "…" + rule);
 }
+
+}  // namespace dataset_file_test

@@ -4,6 +4,8 @@
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 
+namespace dataset_index_test {
+
 using namespace thermal;
 
 namespace {
@@ -134,3 +136,5 @@ TEST_CASE("A failed clip is listed until it is complete") {
   (void)place.finish("a");
   CHECK(place.open().failed.empty());
 }
+
+}  // namespace dataset_index_test

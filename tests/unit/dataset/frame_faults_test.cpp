@@ -6,6 +6,8 @@
 #include "support/temporary_folder.h"
 #include "support/tiny_clip.h"
 
+namespace frame_faults_test {
+
 using namespace thermal;
 
 TEST_CASE("A fault's message is reported without the file's name at its start") {
@@ -43,3 +45,5 @@ TEST_CASE("A clip can be remade once any of its skipped frames can be converted"
   CHECK(can({0, 1, 2}));
   CHECK_FALSE(can({-1, 3, 2147483647}));  // a record written by hand
 }
+
+}  // namespace frame_faults_test

@@ -5,6 +5,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace joined_annotations_test {
+
 using namespace thermal;
 
 namespace {
@@ -130,3 +132,5 @@ TEST_CASE("Damaged or missing labels are named, and the existing file stays") {
   CHECK(read_file(layout.annotations_json()) == "before");
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 2);
 }
+
+}  // namespace joined_annotations_test

@@ -2,6 +2,8 @@
 
 #include "support/catch.h"
 
+namespace known_things_test {
+
 using thermal::KnownThing;
 using thermal::ObjectClass;
 using Words = std::vector<std::string>;
@@ -44,3 +46,5 @@ TEST_CASE("two words take precedence over one, and the first over the second") {
   CHECK(known.find("dry termite mound") == thing(ObjectClass::plant, "termite_mound"));
   CHECK(known.find("human on elephant")->material == "human");
 }
+
+}  // namespace known_things_test

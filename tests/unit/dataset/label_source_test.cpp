@@ -7,6 +7,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace label_source_test {
+
 using namespace thermal;
 
 namespace {
@@ -87,3 +89,5 @@ TEST_CASE("A source without labels is reported") {
   (void)folder.file("dataset.json", "{");
   CHECK_THAT(fault_of(folder.path()), StartsWith("/dataset.json:1:2: not JSON: "));
 }
+
+}  // namespace label_source_test

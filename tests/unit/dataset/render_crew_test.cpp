@@ -7,6 +7,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace render_crew_test {
+
 using namespace thermal;
 
 namespace {
@@ -76,3 +78,5 @@ TEST_CASE("All tasks stop on request") {
   };
   CHECK_THROWS_AS(run_crew(idle_tasks(folder, {{"a"}, {"b"}}), work, [] { return true; }), Cancelled);
 }
+
+}  // namespace render_crew_test

@@ -4,6 +4,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace room_test {
+
 using namespace thermal;
 
 namespace {
@@ -67,3 +69,5 @@ TEST_CASE("Bytes are printed in units of a thousand, with two digits or more") {
   CHECK(bytes_in_words(1'200'000'000) == "1.2 GB");
   CHECK(bytes_in_words(5'000'000'000'000'000) == "5000 TB");
 }
+
+}  // namespace room_test

@@ -5,6 +5,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace selection_file_test {
+
 using namespace thermal;
 
 namespace {
@@ -108,3 +110,5 @@ TEST_CASE("a dataset finds its part by path, otherwise by name") {
   selection.datasets[0].name = selection.datasets[1].name;
   CHECK(fault("elsewhere/b", "b") == "s.json: no entry for elsewhere/b; expected one of sets/a, sets/b");
 }
+
+}  // namespace selection_file_test

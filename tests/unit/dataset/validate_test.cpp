@@ -9,6 +9,8 @@
 #include "support/temporary_folder.h"
 #include "support/tiny_clip.h"
 
+namespace validate_test {
+
 using namespace thermal;
 
 namespace {
@@ -113,3 +115,5 @@ TEST_CASE("A folder without a dataset cannot be checked") {
   CHECK(message_of<DataError>([&] { (void)validate_dataset(folder.path()); }) ==
         other.string() + " does not belong to a Veldt dataset");
 }
+
+}  // namespace validate_test

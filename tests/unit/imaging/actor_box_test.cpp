@@ -5,6 +5,8 @@
 
 #include "support/catch.h"
 
+namespace actor_box_test {
+
 using namespace thermal;
 
 namespace {
@@ -103,3 +105,5 @@ TEST_CASE("Beyond the fold of a lens, far points stay far out") {
     CHECK(std::isfinite(box.box_px->x_px));
   }
 }
+
+}  // namespace actor_box_test

@@ -7,6 +7,8 @@
 #include "support/drawn.h"
 #include "support/message_of.h"
 
+namespace actor_labeller_test {
+
 using namespace thermal;
 
 namespace {
@@ -319,3 +321,5 @@ TEST_CASE("Finer passes also count only pixels in the picture") {
   CHECK(label.visibility == 10.0 / 16);
   CHECK(label.area_px == 3);  // column 2 of the picture's is half covered
 }
+
+}  // namespace actor_labeller_test

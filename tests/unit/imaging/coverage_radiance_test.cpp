@@ -9,6 +9,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace coverage_radiance_test {
+
 using namespace thermal;
 
 namespace {
@@ -242,3 +244,5 @@ TEST_CASE("A frame's memory is reused, whatever it held") {
                                     frame.radiance_w_m2_sr.pixels().end()};
   CHECK(again == radiance(used, shared()));
 }
+
+}  // namespace coverage_radiance_test

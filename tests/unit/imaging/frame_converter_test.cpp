@@ -5,6 +5,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace frame_converter_test {
+
 using namespace thermal;
 
 namespace {
@@ -251,3 +253,5 @@ TEST_CASE("Passes with too little overscan for the lens are an error with the ne
         "(render.overscan_px), or a "
         "manifest whose camera is smaller than its passes");
 }
+
+}  // namespace frame_converter_test

@@ -6,6 +6,8 @@
 #include "base/parallel.h"
 #include "support/catch.h"
 
+namespace resample_test {
+
 using namespace thermal;
 
 namespace {
@@ -176,3 +178,5 @@ TEST_CASE("A crop uses each of its pixels once") {
     for (int x = 0; x < 7; ++x) CHECK(times.at(x, y) == (x >= 2 && x < 5 && y >= 2 && y < 4 ? 1 : 0));
   }
 }
+
+}  // namespace resample_test

@@ -5,6 +5,8 @@
 #include "support/cameras.h"
 #include "support/catch.h"
 
+namespace target_contrast_test {
+
 using namespace thermal;
 
 namespace {
@@ -100,3 +102,5 @@ TEST_CASE("An actor without surroundings has a temperature and no contrast") {
   CHECK_FALSE(instances[0].contrast_k);
   CHECK_FALSE(instances[0].contrast_noise);
 }
+
+}  // namespace target_contrast_test

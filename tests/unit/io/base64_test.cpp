@@ -2,6 +2,8 @@
 
 #include "support/catch.h"
 
+namespace base64_test {
+
 using namespace thermal;
 
 TEST_CASE("Base64 of RFC 4648, section 10") {
@@ -17,3 +19,5 @@ TEST_CASE("Base64 of RFC 4648, section 10") {
 TEST_CASE("Base64 of bytes that are not text") {
   CHECK(base64_of(std::string("\xff\xfe\xfd\x00\x80", 5)) == "//79AIA=");
 }
+
+}  // namespace base64_test

@@ -6,6 +6,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace birdsai_files_test {
+
 using namespace thermal;
 
 namespace {
@@ -115,3 +117,5 @@ TEST_CASE("Categories have BIRDSAI's class and species") {
   CHECK(birdsai_kind("impala").animal_or_human == 0);
   CHECK(birdsai_kind("impala").species == -1);
 }
+
+}  // namespace birdsai_files_test

@@ -7,6 +7,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace calibration_file_test {
+
 using namespace thermal;
 
 namespace {
@@ -245,3 +247,5 @@ TEST_CASE("Only a file is read") {
   CHECK(message_of<ConfigError>([&] { (void)read_calibration(large); }) ==
         large.string() + ": more than 1048576 bytes; expected at most that many in a calibration");
 }
+
+}  // namespace calibration_file_test

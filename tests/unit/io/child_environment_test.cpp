@@ -6,6 +6,8 @@
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 
+namespace child_environment_test {
+
 using namespace thermal;
 
 namespace {
@@ -71,3 +73,5 @@ TEST_CASE("Both ways to start a program give it that environment") {
   CHECK(child.wait().code == 0);
   CHECK(read_file(folder / "log") == expected);
 }
+
+}  // namespace child_environment_test

@@ -8,6 +8,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace child_process_test {
+
 using namespace thermal;
 
 namespace {
@@ -150,3 +152,5 @@ TEST_CASE("The reason of a program's failure is the last line of its output that
   CHECK(run_program(shell("printf 'first\\nlast\\n\\n' >&2")).last_words() == "last");
   CHECK(run_program(shell("echo out")).last_words().empty());
 }
+
+}  // namespace child_process_test

@@ -6,6 +6,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace coco_file_test {
+
 using namespace thermal;
 
 namespace {
@@ -143,3 +145,5 @@ TEST_CASE("Other files than COCO are reported") {
   CHECK_THAT(fault_in("{\"images\": [,]}"), StartsWith(":1:13: not JSON: "));
   CHECK_THROWS_AS(read_coco("/nowhere/truth.json"), IoError);
 }
+
+}  // namespace coco_file_test

@@ -4,6 +4,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace config_test {
+
 using namespace thermal;
 
 namespace {
@@ -222,3 +224,5 @@ TEST_CASE("The clips of flights follow a config's own") {
   CHECK(cut.resolved["flights"].empty());
   CHECK(resolved(cut.resolved).resolved == cut.resolved);
 }
+
+}  // namespace config_test

@@ -5,6 +5,8 @@
 #include "support/mattes.h"
 #include "support/message_of.h"
 
+namespace cryptomatte_test {
+
 using namespace thermal;
 
 namespace {
@@ -249,3 +251,5 @@ TEST_CASE("An unreadable one is an error only if it is selected") {
   CHECK(message_of<DataError>([&] { (void)choose_cryptomatte(all, "CryptoMaterial", ""); }) ==
         "cryptomatte CryptoMaterial: broken");
 }
+
+}  // namespace cryptomatte_test

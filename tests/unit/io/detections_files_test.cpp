@@ -7,6 +7,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace detections_files_test {
+
 using namespace thermal;
 
 namespace {
@@ -244,3 +246,5 @@ TEST_CASE("Missing results cannot be read") {
   CHECK(message_of<IoError>([&] { (void)read_detections(file, truth()); }) ==
         "cannot read " + file + ": No such file or directory");
 }
+
+}  // namespace detections_files_test

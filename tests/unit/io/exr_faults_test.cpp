@@ -15,6 +15,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace exr_faults_test {
+
 using namespace thermal;
 using exr_forms::floats;
 using exr_forms::window;
@@ -157,3 +159,5 @@ TEST_CASE("Channels keep all bits of floats, from several parts and when request
   }
   CHECK(planes[3].at(0, 1) == 16777216);  // floats have 24 bits
 }
+
+}  // namespace exr_faults_test

@@ -9,6 +9,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace exr_layers_test {
+
 using namespace thermal;
 using exr_forms::floats;
 using exr_forms::window;
@@ -270,3 +272,5 @@ TEST_CASE("Available planes are found without reading them") {
   CHECK(message_of<DataError>([&] { (void)planes_in_exr(two.file, {}); }) ==
         two.file.string() + ": IndexOB is in several layers: A, B" + kSeveral);
 }
+
+}  // namespace exr_layers_test

@@ -14,6 +14,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace exr_matrix_test {
+
 using namespace thermal;
 using exr_forms::floats;
 using exr_forms::halves;
@@ -258,3 +260,5 @@ TEST_CASE("Depth and normals may have a lossy compression") {
   CHECK(message_of<DataError>([&] { (void)read_passes(file, {}, {.depth = true, .normals = true}); }) ==
         file.string() + ": a.IndexOB.X at pixel (0, 0) = 0.5; expected a whole number from 0 to 32767");
 }
+
+}  // namespace exr_matrix_test

@@ -5,6 +5,8 @@
 #include "io/exr_spellings.h"
 #include "support/catch.h"
 
+namespace exr_names_test {
+
 using namespace thermal;
 
 namespace {
@@ -178,3 +180,5 @@ TEST_CASE("Normals are X, Y, Z or R, G, B") {
   CHECK(taken({"N.R", "N.X"}, PassKind::normal, "X") == "N.X");
   CHECK(taken({"N.X"}, PassKind::normal, "Y") == "none");
 }
+
+}  // namespace exr_names_test

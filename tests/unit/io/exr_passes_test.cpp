@@ -10,6 +10,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace exr_passes_test {
+
 using namespace thermal;
 
 namespace {
@@ -334,3 +336,5 @@ TEST_CASE("A smaller or larger frame than the last is read completely into its b
     CHECK(same(buffer.passes, read_passes(file, kAnyLayout)));
   }
 }
+
+}  // namespace exr_passes_test

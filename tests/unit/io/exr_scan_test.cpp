@@ -8,6 +8,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace exr_scan_test {
+
 using namespace thermal;
 
 namespace {
@@ -206,3 +208,5 @@ TEST_CASE("Strings of a list must be within it") {
         "part 0: multiView: text = -1 bytes; expected at most 0");
   CHECK(fault_in(file_of(2, texts("abc"))) == "part 0: multiView = 3 bytes; expected more");
 }
+
+}  // namespace exr_scan_test

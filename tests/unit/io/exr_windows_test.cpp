@@ -10,6 +10,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace exr_windows_test {
+
 using namespace thermal;
 using exr_forms::window;
 using Imath::Box2i;
@@ -162,3 +164,5 @@ TEST_CASE("Sizes are those of the display window, and checked before pixels are 
             "--max-megapixels)");
   CHECK(fault_of({.limits = {.pixels = 600}}) == "(no fault was thrown)");
 }
+
+}  // namespace exr_windows_test

@@ -14,6 +14,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace files_test {
+
 using namespace thermal;
 
 namespace {
@@ -275,3 +277,5 @@ TEST_CASE("A lock that is a link to elsewhere is refused") {
             " = a link to elsewhere; expected a path that is not a link; nothing is written to other places");
   CHECK_FALSE(std::filesystem::exists(folder / "elsewhere"));
 }
+
+}  // namespace files_test

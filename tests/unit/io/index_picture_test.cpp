@@ -12,6 +12,8 @@
 #include "support/png_bytes.h"
 #include "support/temporary_folder.h"
 
+namespace index_picture_test {
+
 using namespace thermal;
 
 namespace {
@@ -513,3 +515,5 @@ TEST_CASE("A survey of a photograph is limited") {
   CHECK(survey.uses.size() == kMostPictureUses);
   CHECK(survey.other_pixels == 300 * 300 - 65536);
 }
+
+}  // namespace index_picture_test

@@ -5,6 +5,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace json_file_test {
+
 using namespace thermal;
 
 namespace {
@@ -122,3 +124,5 @@ TEST_CASE("Lists of different lengths, and values of different kinds, differ as 
         std::vector<std::string>{"clips has 2 entries here and 1 there"});
   CHECK(differences({{"a", "1"}}, {{"a", 1}}) == std::vector<std::string>{"a is \"1\" here and 1 there"});
 }
+
+}  // namespace json_file_test

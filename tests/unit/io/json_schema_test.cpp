@@ -2,6 +2,8 @@
 
 #include "support/catch.h"
 
+namespace json_schema_test {
+
 using namespace thermal;
 
 namespace {
@@ -207,3 +209,5 @@ TEST_CASE("A preset fills in what is not given, and no more") {
   CHECK(check_and_fill(unknown, kSchema).empty());
   CHECK_FALSE(unknown.contains("frames"));
 }
+
+}  // namespace json_schema_test

@@ -2,6 +2,8 @@
 
 #include "support/catch.h"
 
+namespace json_stream_test {
+
 using namespace thermal;
 
 namespace {
@@ -41,3 +43,5 @@ TEST_CASE("A document written element by element equals one written at once") {
     CHECK(streamed(kDocument, arrays, JsonLayout::compact) == kDocument.dump() + "\n");
   }
 }
+
+}  // namespace json_stream_test

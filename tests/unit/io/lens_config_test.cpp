@@ -6,6 +6,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace lens_config_test {
+
 using namespace thermal;
 
 namespace {
@@ -200,3 +202,5 @@ TEST_CASE("A principal point outside the picture is a fault") {
   document["camera"].update({{"cx_px", 202}});
   CHECK(fault_in(document) == "night.json: camera.cx_px = 202 px; expected 0 to 201 px, within the picture");
 }
+
+}  // namespace lens_config_test

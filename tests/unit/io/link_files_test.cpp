@@ -5,6 +5,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace link_files_test {
+
 using namespace thermal;
 
 TEST_CASE("A file gets a second location as requested") {
@@ -61,3 +63,5 @@ TEST_CASE("A missing file is an error") {
         "cannot read " + name + ": No such file or directory");
   CHECK_FALSE(std::filesystem::exists(folder / "b"));
 }
+
+}  // namespace link_files_test

@@ -6,6 +6,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace manifest_file_test {
+
 using namespace thermal;
 
 namespace {
@@ -115,3 +117,5 @@ TEST_CASE("A missing manifest cannot be read") {
   CHECK(message_of<IoError>([] { (void)read_manifest("/nowhere/manifest.json", VELDT_SOURCE_DIR); }) ==
         "cannot read /nowhere/manifest.json: No such file or directory");
 }
+
+}  // namespace manifest_file_test

@@ -7,6 +7,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace material_files_test {
+
 using namespace thermal;
 
 namespace {
@@ -68,3 +70,5 @@ TEST_CASE("A fault in a material names its file") {
   CHECK(message_of<ConfigError>([&] { (void)read_materials(no_source.folder.path()); }) ==
         no_source.file.string() + ": source is missing; expected a value");
 }
+
+}  // namespace material_files_test

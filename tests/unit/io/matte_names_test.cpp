@@ -8,6 +8,8 @@
 #include "support/mattes.h"
 #include "support/message_of.h"
 
+namespace matte_names_test {
+
 using namespace thermal;
 
 namespace {
@@ -113,3 +115,5 @@ TEST_CASE("A name that matches patterns of two objects is an error that names bo
   CHECK(message_of<DataError>([&] { (void)names.find("stone_7"); }) ==
         "expected a name of one object, but stones's \"stone_*\" and sevens's \"*_7\" match it");
 }
+
+}  // namespace matte_names_test

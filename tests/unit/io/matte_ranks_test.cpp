@@ -8,6 +8,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace matte_ranks_test {
+
 using namespace thermal;
 
 namespace {
@@ -130,3 +132,5 @@ TEST_CASE("A hash is located where it first has coverage, and its pixels are cou
   CHECK(spot.y_px == 0);
   CHECK(spot.pixels == 2);
 }
+
+}  // namespace matte_ranks_test

@@ -16,6 +16,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace matte_table_test {
+
 using namespace thermal;
 
 namespace {
@@ -374,3 +376,5 @@ TEST_CASE("A survey of an unreadable file is an error that names it") {
   CHECK(message_of<DataError>([&] { (void)survey_mattes(exr.file, header, all.front()); }) ==
         fmt::format("{}: {}", exr.file.string(), all.front().fault));
 }
+
+}  // namespace matte_table_test

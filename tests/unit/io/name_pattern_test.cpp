@@ -8,6 +8,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace name_pattern_test {
+
 using thermal::ConfigError;
 using thermal::NamePattern;
 using thermal::NumberPlace;
@@ -88,3 +90,5 @@ TEST_CASE("patterns are recognised") {
   for (const char* name : {"*.exr", "a?.exr", "#.exr", "%d"}) CHECK(NamePattern::has_wildcards(name));
   CHECK_FALSE(NamePattern::has_wildcards("f_0001.exr"));
 }
+
+}  // namespace name_pattern_test

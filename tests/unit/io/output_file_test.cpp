@@ -8,6 +8,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace output_file_test {
+
 using namespace thermal;
 
 namespace {
@@ -101,3 +103,5 @@ TEST_CASE("Lines of a removed file cannot be read, and it is named") {
   CHECK(message_of<IoError>([&] { (void)lines_of(spool); }) ==
         "cannot read " + file.string() + ": it has disappeared");
 }
+
+}  // namespace output_file_test

@@ -7,6 +7,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace output_folder_test {
+
 using namespace thermal;
 
 namespace {
@@ -77,3 +79,5 @@ TEST_CASE("A missing folder cannot be renamed") {
   CHECK(message_of<IoError>([&] { replace_folder(folder / "a.part", folder / "a"); }) ==
         fmt::format("cannot rename to {}: No such file or directory", (folder / "a").string()));
 }
+
+}  // namespace output_folder_test

@@ -14,6 +14,8 @@
 #include "support/png_bytes.h"
 #include "support/temporary_folder.h"
 
+namespace png_test {
+
 using namespace thermal;
 
 namespace {
@@ -207,3 +209,5 @@ TEST_CASE("A picture with changed pixels is damaged") {
   CHECK(changed_at(pixels_sum + 4) == "damaged: IDAT: CRC error");
   CHECK(changed_at(bytes.size() - 1) == "damaged: IEND: CRC error");
 }
+
+}  // namespace png_test

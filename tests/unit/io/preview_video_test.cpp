@@ -6,6 +6,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace preview_video_test {
+
 using namespace thermal;
 
 namespace {
@@ -57,3 +59,5 @@ TEST_CASE("A full disk is reported when the video is written, as a TryAgainError
   };
   CHECK(message_of<TryAgainError>(write) == "cannot write /dev/full: No space left on device");
 }
+
+}  // namespace preview_video_test

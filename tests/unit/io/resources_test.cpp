@@ -7,6 +7,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace resources_test {
+
 using namespace thermal;
 
 namespace {
@@ -70,3 +72,5 @@ TEST_CASE("Without VELDT_HOME it is the checkout of the build") {
   const Environment home("VELDT_HOME", "");
   CHECK(std::filesystem::equivalent(find_home(), VELDT_SOURCE_DIR));
 }
+
+}  // namespace resources_test

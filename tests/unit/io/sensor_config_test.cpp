@@ -13,6 +13,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace sensor_config_test {
+
 using namespace thermal;
 
 namespace {
@@ -177,3 +179,5 @@ TEST_CASE("Faults of a preset are reported with its file") {
         "\"sensor\"?");
   CHECK(fault_of("[]") == "document = a list of 0; expected an object");
 }
+
+}  // namespace sensor_config_test

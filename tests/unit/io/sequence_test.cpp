@@ -10,6 +10,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace sequence_test {
+
 using namespace thermal;
 
 namespace {
@@ -135,3 +137,5 @@ TEST_CASE("passes of a folder: EXR files, otherwise PNG files, and no hidden one
   CHECK(message_of<IoError>([&] { (void)files_in(folder / "none"); }) ==
         fmt::format("cannot read {}: No such file or directory", (folder / "none").string()));
 }
+
+}  // namespace sequence_test

@@ -8,6 +8,8 @@
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 
+namespace sha256_test {
+
 using namespace thermal;
 
 namespace {
@@ -67,3 +69,5 @@ TEST_CASE("A checksum in pieces is that of the whole") {
   sum.add("bc");
   CHECK(sum.hex() == sha256_of("abc"));
 }
+
+}  // namespace sha256_test

@@ -5,6 +5,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace spectrum_files_test {
+
 using namespace thermal;
 
 namespace {
@@ -63,3 +65,5 @@ TEST_CASE("A missing response cannot be read") {
   CHECK(message_of<IoError>([] { (void)read_response("/nowhere/r.csv"); }) ==
         "cannot read /nowhere/r.csv: no such file");
 }
+
+}  // namespace spectrum_files_test

@@ -5,6 +5,8 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
+namespace text_file_test {
+
 using namespace thermal;
 
 TEST_CASE("A text file is read without its byte-order mark, and otherwise as it is") {
@@ -36,3 +38,5 @@ TEST_CASE("What is not a regular file is not read") {
         "cannot read " + folder.path().string() + ": it is a folder; expected a file");
   CHECK(fault_of("/nowhere/t") == "cannot read /nowhere/t: no such file");
 }
+
+}  // namespace text_file_test

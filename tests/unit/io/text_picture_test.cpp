@@ -7,6 +7,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace text_picture_test {
+
 using namespace thermal;
 
 namespace {
@@ -44,3 +46,5 @@ TEST_CASE("A font that cannot be used is named") {
           (void)draw_text(not_a_font, "H", 40);
         }).starts_with("cannot use the font " + not_a_font.string() + ": "));
 }
+
+}  // namespace text_picture_test

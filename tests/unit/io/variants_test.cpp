@@ -4,6 +4,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace variants_test {
+
 using namespace thermal;
 
 namespace {
@@ -75,3 +77,5 @@ TEST_CASE("Invalid lists are errors") {
   CHECK(fault_in(R"({"variants": [{"name": "a", "season": "spring"}]})") ==
         "list.json: variants[0].season = \"spring\"; expected one of winter, summer");
 }
+
+}  // namespace variants_test

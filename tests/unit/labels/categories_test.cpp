@@ -2,6 +2,8 @@
 
 #include "support/catch.h"
 
+namespace categories_test {
+
 using namespace thermal;
 
 TEST_CASE("A known category has the same id in every dataset") {
@@ -19,3 +21,5 @@ TEST_CASE("Unknown categories follow in alphabetical order") {
   CHECK(ids.at("warthog") == 12);
   CHECK(ids.size() == 12);
 }
+
+}  // namespace categories_test

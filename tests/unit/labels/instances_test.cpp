@@ -8,6 +8,8 @@
 #include "support/catch.h"
 #include "support/drawn.h"
 
+namespace instances_test {
+
 using namespace thermal;
 
 namespace {
@@ -204,3 +206,5 @@ TEST_CASE("The use of an index is found, or null") {
   CHECK(find_use(uses, 32767) == nullptr);
   CHECK(find_use({}, 0) == nullptr);
 }
+
+}  // namespace instances_test

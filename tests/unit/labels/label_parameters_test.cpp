@@ -6,6 +6,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace label_parameters_test {
+
 using namespace thermal;
 
 namespace {
@@ -47,3 +49,5 @@ TEST_CASE("Invalid thresholds are errors") {
         "labels.ignore_below_area_px = inf px; expected 0 or more");
   CHECK_NOTHROW(LabelParameters({.occluded_below_visibility = 1, .ignore_below_visibility = 1}).validate());
 }
+
+}  // namespace label_parameters_test

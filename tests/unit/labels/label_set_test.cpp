@@ -2,6 +2,8 @@
 
 #include "support/catch.h"
 
+namespace label_set_test {
+
 using namespace thermal;
 
 namespace {
@@ -52,3 +54,5 @@ TEST_CASE("People are humans, vehicles vehicles, everything else animals") {
   CHECK(kind_of("vehicle") == Kind::vehicle);
   CHECK(kind_of("elephant") == Kind::animal);
 }
+
+}  // namespace label_set_test

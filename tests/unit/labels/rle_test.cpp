@@ -7,6 +7,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace rle_test {
+
 using namespace thermal;
 
 namespace {
@@ -76,3 +78,5 @@ TEST_CASE("A string that no mask can have is an error that shows it") {
   CHECK(fault_in("001N") == "run lengths \"001N\" are not a COCO mask");  // so is 0 and then 2 fewer
   CHECK(fault_in("oooooooo0") == "run lengths \"oooooooo0\" are not a COCO mask");  // past 32 bits
 }
+
+}  // namespace rle_test

@@ -6,6 +6,8 @@
 #include "support/catch.h"
 #include "support/drawn.h"
 
+namespace surroundings_test {
+
 using namespace thermal;
 
 namespace {
@@ -121,3 +123,5 @@ TEST_CASE("On random pictures, means equal a count of every pixel") {
     }
   }
 }
+
+}  // namespace surroundings_test

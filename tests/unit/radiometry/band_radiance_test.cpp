@@ -6,6 +6,8 @@
 #include "radiometry/planck.h"
 #include "support/catch.h"
 
+namespace band_radiance_test {
+
 using namespace thermal;
 
 namespace {
@@ -143,3 +145,5 @@ TEST_CASE("Finer samples of the same response change nothing") {
   // As above, plus 600 sums of 12 points: their roundings add up to at most 600 / 2 of the total each way.
   CHECK_THAT(fine.radiance(300), WithinRel(coarse.radiance(300), (600 + 100) * 1.1e-16));
 }
+
+}  // namespace band_radiance_test

@@ -5,6 +5,8 @@
 
 #include "support/catch.h"
 
+namespace planck_test {
+
 using namespace thermal;
 
 namespace {
@@ -29,3 +31,5 @@ TEST_CASE("Limits of Planck's law") {
   CHECK(std::isnan(planck_radiance(10, std::numeric_limits<double>::quiet_NaN())));
   CHECK(planck_radiance(10, kInfinity) == kInfinity);
 }
+
+}  // namespace planck_test

@@ -6,6 +6,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace spectral_response_test {
+
 using namespace thermal;
 
 namespace {
@@ -64,3 +66,5 @@ TEST_CASE("Responses are finite and not negative") {
 TEST_CASE("A response of zero is an error") {
   CHECK(fault_in({{8, 0}, {14, 0}}) == "response: largest value = 0; expected more than 0");
 }
+
+}  // namespace spectral_response_test

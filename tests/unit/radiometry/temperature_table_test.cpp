@@ -5,6 +5,8 @@
 
 #include "support/catch.h"
 
+namespace temperature_table_test {
+
 using namespace thermal;
 
 namespace {
@@ -99,3 +101,5 @@ TEST_CASE("Not a bit changes in the first table where there is a hot part") {
     REQUIRE(with(radiance) == without(radiance));
   }
 }
+
+}  // namespace temperature_table_test

@@ -2,6 +2,8 @@
 
 #include "support/catch.h"
 
+namespace camera_geometry_test {
+
 using namespace thermal;
 
 namespace {
@@ -33,3 +35,5 @@ TEST_CASE("The camera of the passes has overscan on every side, then finer pixel
   CHECK(passes.cx_px == 2 * 330.25);
   CHECK(passes.cy_px == 2 * 266);
 }
+
+}  // namespace camera_geometry_test

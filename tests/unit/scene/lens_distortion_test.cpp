@@ -9,6 +9,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace lens_distortion_test {
+
 using namespace thermal;
 
 namespace {
@@ -174,3 +176,5 @@ TEST_CASE("A lens that needs more overscan than the limit is an error") {
         "px "
         "beyond the picture, not 4200 px");
 }
+
+}  // namespace lens_distortion_test

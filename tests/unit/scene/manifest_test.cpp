@@ -4,6 +4,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace manifest_test {
+
 using namespace thermal;
 
 namespace {
@@ -105,3 +107,5 @@ TEST_CASE("A colour belongs to one object") {
     CHECK_NOTHROW(manifest.validate());
   }
 }
+
+}  // namespace manifest_test

@@ -6,6 +6,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace material_test {
+
 using namespace thermal;
 
 namespace {
@@ -87,3 +89,5 @@ TEST_CASE("A name is unique, and invalid materials are rejected") {
   CHECK_THROWS_AS(library.add(black), ConfigError);
   CHECK(library.names() == std::vector<std::string>{"clay"});
 }
+
+}  // namespace material_test

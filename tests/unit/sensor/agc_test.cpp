@@ -12,6 +12,8 @@
 #include "support/cameras.h"
 #include "support/catch.h"
 
+namespace agc_test {
+
 using namespace thermal;
 
 namespace {
@@ -223,3 +225,5 @@ TEST_CASE("A change of scene fades by the damping's time constant") {
     REQUIRE_THAT(agc.next(after).high_k, WithinAbs(after_k + left * (before_k - after_k), 1e-9));
   }
 }
+
+}  // namespace agc_test

@@ -7,6 +7,8 @@
 
 #include "support/catch.h"
 
+namespace bad_pixels_test {
+
 using namespace thermal;
 
 namespace {
@@ -134,3 +136,5 @@ TEST_CASE("Which pixels are bad is a function of seed and clip") {
   const BadPixels more({.dead_share = 0.2}, 1, "a", kFrameRate, 40, 30);
   CHECK(std::includes(more.dead().begin(), more.dead().end(), bad.dead().begin(), bad.dead().end()));
 }
+
+}  // namespace bad_pixels_test

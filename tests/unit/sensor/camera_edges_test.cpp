@@ -6,6 +6,8 @@
 #include "support/cameras.h"
 #include "support/catch.h"
 
+namespace camera_edges_test {
+
 using namespace thermal;
 using cameras::camera;
 using cameras::full_sensor;
@@ -146,3 +148,5 @@ TEST_CASE("Pictures of any size pass through every stage of a camera") {
     }
   }
 }
+
+}  // namespace camera_edges_test

@@ -4,6 +4,8 @@
 #include "support/cameras.h"
 #include "support/catch.h"
 
+namespace camera_noise_test {
+
 using namespace thermal;
 using cameras::camera;
 using cameras::uniform_scene;
@@ -94,3 +96,5 @@ TEST_CASE("The 16-bit picture is made from apparent temperature") {
   CHECK_THAT(used.temperature_k(static_cast<double>(cameras::radiance_at(300))), WithinAbs(300, 1.5e-4));
   CHECK(used.temperature_k(0) == 0);
 }
+
+}  // namespace camera_noise_test

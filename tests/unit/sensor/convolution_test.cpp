@@ -10,6 +10,8 @@
 #include "sensor/psf.h"
 #include "support/catch.h"
 
+namespace convolution_test {
+
 using namespace thermal;
 
 namespace {
@@ -199,3 +201,5 @@ TEST_CASE("Threads change nothing") {
   };
   CHECK(blurred_with(1) == blurred_with(2));
 }
+
+}  // namespace convolution_test

@@ -6,6 +6,8 @@
 
 #include "support/catch.h"
 
+namespace flicker_noise_test {
+
 using namespace thermal;
 
 namespace {
@@ -129,3 +131,5 @@ TEST_CASE("1/f noise is added to the existing values") {
   // A handful of sums near 64, each rounded to 4e-6.
   for (std::size_t i = 0; i < picture.size(); ++i) REQUIRE(std::abs(picture[i] - 64 - alone[i]) < 5e-5F);
 }
+
+}  // namespace flicker_noise_test

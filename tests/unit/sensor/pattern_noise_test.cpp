@@ -7,6 +7,8 @@
 #include "base/rng.h"
 #include "support/catch.h"
 
+namespace pattern_noise_test {
+
 using namespace thermal;
 
 namespace {
@@ -176,3 +178,5 @@ TEST_CASE("Pattern noise is a function of seed, clip, frame and shutter") {
   CHECK_FALSE(frame_of(other_seed, 5, {.event = 2}) == frame);
   CHECK_FALSE(frame_of(other_clip, 5, {.event = 2}) == frame);
 }
+
+}  // namespace pattern_noise_test

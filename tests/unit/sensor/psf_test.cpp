@@ -5,6 +5,8 @@
 
 #include "support/catch.h"
 
+namespace psf_test {
+
 using namespace thermal;
 
 namespace {
@@ -131,3 +133,5 @@ TEST_CASE("A kernel's transfer is the Fourier sum of its weights") {
   CHECK_THAT(kernel_mtf(kernel, 0.25), WithinAbs(0.5, 1e-15));
   CHECK_THAT(kernel_mtf(kernel, 0.5), WithinAbs(0, 1e-15));
 }
+
+}  // namespace psf_test

@@ -6,6 +6,8 @@
 
 #include "support/catch.h"
 
+namespace shutter_test {
+
 using namespace thermal;
 
 TEST_CASE("Without an interval the shutter never closes") {
@@ -84,3 +86,5 @@ TEST_CASE("A clip starts anywhere in the interval, a function of seed and clip")
   }
   CHECK_THAT(sum / kClips, WithinAbs(5, 5 * 10 / std::sqrt(12.0 * kClips)));  // 5 sigma of a uniform's mean
 }
+
+}  // namespace shutter_test

@@ -10,6 +10,8 @@
 #include "support/cameras.h"
 #include "support/catch.h"
 
+namespace thermal_camera_test {
+
 using namespace thermal;
 using cameras::camera;
 using cameras::full_sensor;
@@ -276,3 +278,5 @@ TEST_CASE("A skipped frame's noise is not reused: later frames have the noise of
   gap.skip();
   CHECK(same_pixels(gap.expose(two_parts()), frames_of(parameters, clip(), 3).back()));
 }
+
+}  // namespace thermal_camera_test

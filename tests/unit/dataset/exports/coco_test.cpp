@@ -7,6 +7,8 @@
 #include "support/message_of.h"
 #include "unit/dataset/exports/export_input.h"
 
+namespace coco_test {
+
 using namespace thermal;
 
 namespace {
@@ -114,3 +116,5 @@ TEST_CASE("Selections of unknown videos and frames are errors") {
         "s.json: video \"east\" of night has no frame 1; expected a frame_index of its pictures");
   CHECK(fault_of({{.name = "east", .frames = {}}}) == "s.json: no frame of night; expected at least one");
 }
+
+}  // namespace coco_test

@@ -6,6 +6,8 @@
 #include "support/message_of.h"
 #include "unit/dataset/exports/export_input.h"
 
+namespace plans_test {
+
 using namespace thermal;
 using Names = std::vector<std::string>;
 
@@ -173,3 +175,5 @@ TEST_CASE("A video whose name is a path gets one folder, not several") {
   CHECK(targets_of(plan_birdsai(input)).back() == "images/.._far_west/.._far_west_0000000000.png");
   CHECK(targets_of(plan_yolo(input, "/o")).back() == "images/train/.._far_west_000000.png");
 }
+
+}  // namespace plans_test

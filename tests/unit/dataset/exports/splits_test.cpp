@@ -11,6 +11,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace splits_test {
+
 using namespace thermal;
 
 namespace {
@@ -178,3 +180,5 @@ TEST_CASE("Fewer clips with pictures than splits is an error") {
   CHECK(std::ranges::count(of_video, 0U) == 1);  // each split has one
   CHECK(std::ranges::count(of_video, 1U) == 1);
 }
+
+}  // namespace splits_test

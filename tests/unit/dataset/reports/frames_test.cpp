@@ -8,6 +8,8 @@
 #include "dataset/reports/seen_ground.h"
 #include "support/catch.h"
 
+namespace frames_test {
+
 using namespace thermal;
 
 namespace {
@@ -124,3 +126,5 @@ TEST_CASE("What a camera sees whose axis is off the middle, and whose pixels are
     CHECK(std::abs(corners[k][1] - expected[k][1]) < 1e-9);
   }
 }
+
+}  // namespace frames_test

@@ -4,6 +4,8 @@
 
 #include "support/catch.h"
 
+namespace histograms_test {
+
 using namespace thermal;
 
 namespace {
@@ -85,3 +87,5 @@ TEST_CASE("Each category has its own counts") {
   CHECK(sum_of(histogram.at("counts")[1]) == 2);
   CHECK(sum_of(histogram.at("counts")[2]) == 0);
 }
+
+}  // namespace histograms_test

@@ -5,6 +5,8 @@
 #include "dataset/videos/tag_places.h"
 #include "support/catch.h"
 
+namespace grid_test {
+
 using namespace thermal;
 
 namespace {
@@ -115,3 +117,5 @@ TEST_CASE("A tag keeps its place as its target moves on") {
   TagPlacer fresh({0, 0, 400, 300}, 2);
   CHECK(fresh.place({{.box = {104, 101, 30, 20}, .tag = {60, 14}, .track = 1}})[0].tag.y_px < 101);
 }
+
+}  // namespace grid_test

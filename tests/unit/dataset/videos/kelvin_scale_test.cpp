@@ -8,6 +8,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace kelvin_scale_test {
+
 using namespace thermal;
 
 namespace {
@@ -130,3 +132,5 @@ TEST_CASE("A range of temperatures is two numbers, the lower first") {
               "\"; expected LO:HI in kelvin, 0 <= LO < HI <= 10000, such as 270:300");
   }
 }
+
+}  // namespace kelvin_scale_test

@@ -6,6 +6,8 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 
+namespace palette_test {
+
 using namespace thermal;
 
 namespace {
@@ -54,3 +56,5 @@ TEST_CASE("An unknown palette is a fault with a near miss") {
         "turbo; "
         "did you mean \"ironbow\"?");
 }
+
+}  // namespace palette_test

@@ -4,6 +4,8 @@
 
 #include "support/catch.h"
 
+namespace trails_test {
+
 using namespace thermal;
 
 namespace {
@@ -100,3 +102,5 @@ TEST_CASE("A trail forgets what is too long ago, and what the edge of the pictur
   film.labels.labels[0].truncated = true;
   CHECK(Trails(film, 5).at(2)[0].points.size() == 2);
 }
+
+}  // namespace trails_test
