@@ -41,7 +41,7 @@ def test_in_words(veldt, clip):
     pixels = {number: f"{np.count_nonzero(index == number):>9} px" for number in (0, 1, 4, 101, 102)}
     assert _lines(veldt, "one/000000.exr") == [
         "one/000000.exr",
-        "  24 x 16 px, compression ZIP",
+        "  24 x 16 px, compression none",
         "layer Scene",
         "  Depth                    Z          float  depth",
         "  IndexOB                  X          float  object index",
@@ -66,14 +66,14 @@ def test_in_words(veldt, clip):
 def test_a_folder_shows_its_first_frame_and_counts_them(veldt, clip):
     report = veldt("inspect", "one", "--json").json()
     assert (report["file"], report["files"], report["frames_read"]) == ("one/000000.exr", 3, 1)
-    assert _lines(veldt, clip)[1] == "  24 x 16 px, compression ZIP; the first of 3 files"
+    assert _lines(veldt, clip)[1] == "  24 x 16 px, compression none; the first of 3 files"
 
 
 def test_all_frames(veldt, clip):
     (clip / "000001.exr").unlink()
     lines = _lines(veldt, "one", "--all-frames", "--progress", "none")
     both = sum(np.count_nonzero(passes.object_index(k) == passes.WALKER) for k in (0, 2))
-    assert lines[1:3] == ["  24 x 16 px, compression ZIP; the first of 2 files", "  missing: 000001.exr"]
+    assert lines[1:3] == ["  24 x 16 px, compression none; the first of 2 files", "  missing: 000001.exr"]
     assert "object indices, of 2 frames" in lines
     assert f"    101 {both:>9} px  walker" in lines
     at = lines.index("depth, of 2 frames")

@@ -80,7 +80,7 @@ def test_a_file_whose_name_looks_like_a_pattern_is_meant_by_it(veldt):
 def test_gaps_are_frames_that_are_missing(veldt):
     _write(veldt, ["f_0008.exr", "f_0010.exr", "f_0014.exr"], sequence="f_####.exr")
     assert veldt("inspect", "r").out.splitlines()[1:3] == [
-        "  24 x 16 px, compression ZIP; the first of 3 files",
+        "  24 x 16 px, compression none; the first of 3 files",
         "  missing: f_0012.exr",
     ]
     assert veldt("inspect", "r", "--json").json()["missing"] == ["f_0012.exr"]

@@ -15,8 +15,8 @@ import time
 from pathlib import Path
 
 import passes
-from pictures import write_exr
 from program import Ended, Veldt
+from raw_exr import write_exr
 
 # Orders lie beside the program: its environment is not that of the test.
 _HOLDS, _DIES = "blender_holds_after.txt", "blender_dies_after.txt"

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pictures import write_exr
+from raw_exr import write_exr
 
 WIDTH, HEIGHT, FRAMES = 24, 16, 3
 GROUND, SHRUB, WALKER, ELEPHANT = 1, 4, 101, 102
