@@ -1,54 +1,65 @@
 #!/usr/bin/env bash
-# Drops one package at a time from the lists in `run` and reports what then fails on a fresh machine: the proof that
-# ./run fresh can fail, and that each package is needed. Run by hand as root; a list takes an hour or so.
+# Drops one package at a time from a list in `run` and reports what then fails: the proof that ./run fresh can fail, and
+# that each package is needed. For a fresh machine alone: it removes packages.
 #
-# usage: tests/fresh/drop_packages.sh SUITE LIST COMMAND [PACKAGE…]
-#   tests/fresh/drop_packages.sh bookworm demo tests/fresh/two_frames.sh
-#   tests/fresh/drop_packages.sh bookworm test './run test browser' chromium chromium-driver python3-selenium
+# usage: ./run fresh [--suite SUITE] tests/fresh/drop_packages.sh LIST COMMAND [PACKAGE…]
+#   ./run fresh tests/fresh/drop_packages.sh demo tests/fresh/two_frames.sh
+#   ./run fresh tests/fresh/drop_packages.sh test './run test browser' chromium chromium-driver python3-selenium
 #
-# LIST is one of tests/fresh/packages.sh; without PACKAGE, all of it. Prints a row of a table a package: what the command
-# ended with, or that the other packages bring it along, in which case nothing can fail and nothing is run.
+# LIST is one of build, demo, test, lint and fuzz; without PACKAGE, all of it. COMMAND is a line for sh. It must pass with
+# all packages; then each one is removed with what it alone brought along, COMMAND runs in an empty build/, and a row of
+# a table says how it ended. What other packages of the list bring along stays, and nothing is run.
 # shellcheck disable=SC2016 # backquotes are Markdown's
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-readonly suite=$1 list=$2 command=$3
-packages=("${@:4}")
-readonly kept=$PWD/build/fresh/$suite
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-mkdir -p "$scratch/ccache" "$kept"
+(($# >= 2)) || { echo "usage: drop_packages.sh LIST COMMAND [PACKAGE…]" >&2 && exit 2; }
+command=$2
+dropped=("${@:3}")
+log=$(mktemp)
 
-# A clone whose `run` lacks the package, with the base system and the downloads of this one.
-clone_without() { # PACKAGE
-  local clone=$scratch/veldt
-  rm -rf "$clone"
-  git clone --quiet "file://$PWD" "$clone"
-  mkdir -p "$clone/build/fresh"
-  ln -s "$kept" "$clone/build/fresh/$suite"
-  sed -i -E "/^[a-z]*_packages=\(/,/\)$/ s/(^|[ (])${1//+/\\+}([ )]|$)/\1\2/" "$clone/run"
-  git -C "$clone" -c user.name=fresh -c user.email=fresh@localhost commit --quiet --all --message "Drop $1"
+# The assignments in `run`, as they are there.
+eval "$(sed -n '/^[a-z]*_packages=(/,/)$/p' run)"
+declare -n listed=$1_packages
+((${#dropped[@]})) || dropped=("${listed[@]}")
+
+apt() { # ARGS…
+  DEBIAN_FRONTEND=noninteractive apt-get --quiet --yes --no-install-recommends -o APT::AutoRemove::RecommendsImportant=0 \
+    -o APT::AutoRemove::SuggestsImportant=0 "$@" >"$log" 2>&1 || { cat "$log" >&2 && exit 1; }
 }
 
-# The first line of a log that says what is missing.
-first_fault() { # LOG
-  grep -aiE '\berror\b|not found|could not|fatal|no such file|no module|failed' "$1" |
-    grep -avE 'debconf|Building|apt-utils|took [0-9]+ s' | head -n 1 | cut -c1-160
+passes() {
+  rm -rf build
+  VELDT_NO_INSTALL=1 sh -c "$command" >"$log" 2>&1
 }
 
-((${#packages[@]})) || mapfile -t packages < <(tests/fresh/packages.sh "$list")
-brought_along=$(./run fresh --suite "$suite" tests/fresh/packages.sh "$list" --brought-along | sed -n 's/^brought along: //p')
+# The first line of the log that says what is missing.
+first_fault() {
+  grep -aiE '\berror\b|not found|could not|cannot|fatal|no such file|no module|failed' "$log" |
+    grep -avE 'Building|took [0-9]+ s' | head -n 1 | cut -c1-160
+}
 
-for package in "${packages[@]}"; do
-  if grep -qx -- "$package" <<<"$brought_along"; then
-    printf '| `%s` | the others bring it along |\n' "$package"
-    continue
-  fi
-  clone_without "$package"
-  log=$kept/without_$package.log
-  if (cd "$scratch/veldt" && FRESH_CCACHE=$scratch/ccache ./run fresh --suite "$suite" sh -c "$command") >"$log" 2>&1; then
-    printf '| `%s` | passes |\n' "$package"
+remove_alone() { # PACKAGE
+  apt-mark auto "$1" >/dev/null
+  apt autoremove --purge
+  ! dpkg-query --show --showformat '${db:Status-Status}' "$1" 2>/dev/null | grep -qx installed
+}
+
+row() { # PACKAGE
+  if ! remove_alone "$1"; then
+    echo "the others bring it along"
+  elif passes; then
+    echo "passes"
   else
-    printf '| `%s` | fails: %s |\n' "$package" "$(first_fault "$log")"
+    echo "fails: $(first_fault)"
   fi
+}
+
+apt update
+apt install ccache "${listed[@]}"
+passes || { tail -n 30 "$log" >&2 && echo "drop_packages: \"$command\" fails with all packages" >&2 && exit 1; }
+for package in "${dropped[@]}"; do
+  printf '| `%s` | %s |\n' "$package" "$(row "$package")"
+  apt install "$package"
 done
+passes || { tail -n 30 "$log" >&2 && echo "drop_packages: \"$command\" fails in the end, with all packages again" >&2 && exit 1; }

@@ -7,7 +7,6 @@
 # build/fresh/SUITE keeps what makes the second time quick: base/, as debootstrap leaves it, and archives/, the packages
 # that apt has fetched. root/ is a copy of base/ that lives as long as one run. All mounts are in a mount namespace of
 # their own: they end with the last process in it, whatever ends that.
-# FRESH_CCACHE=DIR lends the command a compiler cache (tests/fresh/drop_packages.sh builds many times).
 set -euo pipefail
 
 readonly suite=$1 user=$2 inner_command=("${@:3}")
@@ -118,7 +117,7 @@ add_user() {
 run_inside() {
   local status=0
   export suite user root home kept
-  export -f mount_devices inner_environment install_inside enter
+  export -f mount_devices inner_environment install_sudo enter
   setpriv --pdeathsig KILL unshare --mount --pid --ipc --uts --fork --kill-child -- \
     bash -c 'set -euo pipefail; enter "$@"' enter "${inner_command[@]}" <&0 9>&- &
   inside=$!
@@ -155,10 +154,10 @@ inner_environment() {
   done
 }
 
-install_inside() { # PACKAGE, which the machine has before the command runs; a variable `environment`
+install_sudo() { # a variable `environment`
   # shellcheck disable=SC2154 # set by enter
   chroot "$root" env -i DEBIAN_FRONTEND=noninteractive "${environment[@]}" \
-    sh -c "apt-get -q update && apt-get -q -y --no-install-recommends install $1" >"$kept/$1.log" 2>&1
+    sh -c "apt-get -q update && apt-get -q -y --no-install-recommends install sudo" >"$kept/sudo.log" 2>&1
 }
 
 enter() { # COMMAND…
@@ -167,13 +166,7 @@ enter() { # COMMAND…
   mount_devices
   hostname localhost
   mapfile -t environment < <(inner_environment)
-  if [[ -n ${FRESH_CCACHE:-} ]]; then
-    mkdir -p "$root/ccache"
-    mount --bind "$FRESH_CCACHE" "$root/ccache"
-    environment+=(CCACHE_DIR=/ccache)
-    install_inside ccache
-  fi
-  [[ $user == root ]] || install_inside sudo
+  [[ $user == root ]] || install_sudo
   chroot "$root" setpriv --reuid "$user" --regid "$user" --init-groups env -i "${environment[@]}" \
     sh -c 'cd ~/veldt && exec "$@"' sh "$@"
 }
