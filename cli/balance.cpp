@@ -2,13 +2,12 @@
 #include <memory>
 #include <set>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "base/text.h"
 #include "cli/balance_table.h"
 #include "cli/class_bounds.h"
 #include "cli/command.h"
+#include "cli/output.h"
 #include "dataset/label_source.h"
 
 namespace veldt {
@@ -74,14 +73,14 @@ Balanced balance_sources(const BalanceArguments& options) {
 int run_balance(const BalanceArguments& options, bool quiet) {
   const Balanced done = balance_sources(options);
   thermal::write_selection(options.out, done.selection);
-  if (options.json) fmt::print("{}\n", to_json(done).dump(2));
+  if (options.json) print_json(to_json(done));
   if (!options.json && !quiet) {
     print_table(done);
-    fmt::print("{}: written\n", options.out);
+    print("{}: written\n", options.out);
   }
   if (!done.result.in_time)
-    fmt::print(stderr, "veldt: stopped after {} s with a gap of {:.2f} %; {} % was requested\n",
-               options.balance.time_limit_s, 100 * done.result.gap, 100 * options.balance.gap);
+    print_error("veldt: stopped after {} s with a gap of {:.2f} %; {} % was requested\n",
+                options.balance.time_limit_s, 100 * done.result.gap, 100 * options.balance.gap);
   return kDone;
 }
 
@@ -101,7 +100,7 @@ void add_balance(CLI::App& app, Session& session) {
       ->add_option("--per-class", options->per_class,
                    "Number of labels per class, e.g. 500:800 small_poacher=200:800.\n"
                    "Classes: small_animal, medium_animal, large_animal, small_poacher, medium_poacher,\n"
-                   "large_poacher; classes that are not listed have no bounds.\n"
+                   "large_poacher (or _human); classes that are not listed have no bounds.\n"
                    "Taking all labels of a class, where HI allows it, counts as perfectly even")
       ->required()
       ->type_name("[CLASS=]LO:HI …");

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/output.h"
+
 namespace veldt {
 namespace {
 
@@ -84,9 +86,9 @@ void print_rows(const std::vector<std::pair<std::string, std::vector<std::string
     for (std::size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());
   }
   for (const auto& [name, cells] : lines) {
-    fmt::print("{:<{}}", name, name_width);
-    for (std::size_t i = 0; i < cells.size(); ++i) fmt::print("  {:>{}}", cells[i], widths[i]);
-    fmt::print("\n");
+    print("{:<{}}", name, name_width);
+    for (std::size_t i = 0; i < cells.size(); ++i) print("  {:>{}}", cells[i], widths[i]);
+    print("\n");
   }
 }
 
@@ -131,14 +133,14 @@ void print_table(const Balanced& balanced) {
   lines.emplace_back("all", cells_of(all));
   print_rows(lines);
   const thermal::BalanceResult& result = balanced.result;
-  fmt::print(
+  print(
       "objective: {} (most labels from one video minus fewest from a video with labels left, summed over "
       "classes)\n",
       result.solution.objective);
-  fmt::print("lower bound: {}, gap {:.2f} %, {:.1f} s\n", result.bound, 100 * result.gap, balanced.time_s);
-  if (all.frames_taken == 0) fmt::print("no frame is selected: no class requires a label\n");
+  print("lower bound: {}, gap {:.2f} %, {:.1f} s\n", result.bound, 100 * result.gap, balanced.time_s);
+  if (all.frames_taken == 0) print("no frame is selected: no class requires a label\n");
   if (all.unlabelled > 0)
-    fmt::print("{} frames have no label that counts; none of them is selected\n", all.unlabelled);
+    print("{} frames have no label that counts; none of them is selected\n", all.unlabelled);
 }
 
 thermal::Json to_json(const Balanced& balanced) {

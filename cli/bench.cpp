@@ -11,6 +11,7 @@
 #include "bench/render_suite.h"
 #include "bench/sensor_suite.h"
 #include "cli/command.h"
+#include "cli/output.h"
 #include "io/material_files.h"
 #include "io/resources.h"
 
@@ -34,14 +35,14 @@ void print_table(const std::vector<thermal::BenchRow>& rows) {
   for (const thermal::BenchRow& row : rows) {
     const std::string shown = row.group.starts_with("term") ? "terms, 640 x 512" : row.group;
     if (shown != group) {
-      fmt::print("\n{:<38}{:>10}{:>10}{:>12}{:>12}{:>12}{:>12}\n", shown, "ns/pixel", "x memcpy",
-                 "worst rel.", "rms rel.", "worst mK", "rms mK");
+      print("\n{:<38}{:>10}{:>10}{:>12}{:>12}{:>12}{:>12}\n", shown, "ns/pixel", "x memcpy", "worst rel.",
+            "rms rel.", "worst mK", "rms mK");
       group = shown;
     }
     const std::string copies = row.times_memcpy > 0 ? fmt::format("{:.1f}", row.times_memcpy) : "";
-    fmt::print("  {:<36}{:>10.2f}{:>10}{:>12.2g}{:>12.2g}{:>12.2g}{:>12.2g}{}\n", row.name, row.ns_per_pixel,
-               copies, row.worst_relative, row.rms_relative, row.worst_mk, row.rms_mk,
-               row.dominated ? "  dominated" : "");
+    print("  {:<36}{:>10.2f}{:>10}{:>12.2g}{:>12.2g}{:>12.2g}{:>12.2g}{}\n", row.name, row.ns_per_pixel,
+          copies, row.worst_relative, row.rms_relative, row.worst_mk, row.rms_mk,
+          row.dominated ? "  dominated" : "");
   }
 }
 
@@ -59,13 +60,13 @@ void print_table(const std::vector<thermal::StageRow>& rows) {
   std::string group;
   for (const thermal::StageRow& row : rows) {
     if (row.group != group) {
-      fmt::print("\n{:<34}{:>10}{:>10}\n", row.group, "ms/frame", "x memcpy");
+      print("\n{:<34}{:>10}{:>10}\n", row.group, "ms/frame", "x memcpy");
       group = row.group;
     }
     const std::string copies = row.times_memcpy > 0 ? fmt::format("{:.1f}", row.times_memcpy) : "";
-    fmt::print("  {:<32}{:>10.3f}{:>10} ", row.name, row.ms_per_frame, copies);
-    for (const thermal::Figure& figure : row.figures) fmt::print("  {} {:.2g}", figure.name, figure.value);
-    fmt::print("\n");
+    print("  {:<32}{:>10.3f}{:>10} ", row.name, row.ms_per_frame, copies);
+    for (const thermal::Figure& figure : row.figures) print("  {} {:.2g}", figure.name, figure.value);
+    print("\n");
   }
 }
 
@@ -95,14 +96,14 @@ void print_table(const std::vector<thermal::RenderRow>& rows) {
   std::string group;
   for (const thermal::RenderRow& row : rows) {
     if (row.group != group) {
-      fmt::print("\n{:<32}", row.group);
-      for (const thermal::Figure& figure : row.figures) fmt::print("{:>15}", figure.name);
-      fmt::print("\n");
+      print("\n{:<32}", row.group);
+      for (const thermal::Figure& figure : row.figures) print("{:>15}", figure.name);
+      print("\n");
       group = row.group;
     }
-    fmt::print("  {:<30}", row.name);
-    for (const thermal::Figure& figure : row.figures) fmt::print("{:>15}", short_number(figure.value));
-    fmt::print("\n");
+    print("  {:<30}", row.name);
+    for (const thermal::Figure& figure : row.figures) print("{:>15}", short_number(figure.value));
+    print("\n");
   }
 }
 
@@ -110,16 +111,16 @@ void print_table(const std::vector<thermal::ConvertRow>& rows) {
   std::string group;
   for (const thermal::ConvertRow& row : rows) {
     if (row.group != group) {
-      fmt::print("\n{:<44}{:>10}{:>10}{:>10}\n", row.group, "ms/frame", "MB/s", "x limit");
+      print("\n{:<44}{:>10}{:>10}{:>10}\n", row.group, "ms/frame", "MB/s", "x limit");
       group = row.group;
     }
     const std::string times =
         row.limit.empty() ? "" : fmt::format("{:>10.1f}  {:<12}", row.times_limit, row.limit);
-    fmt::print("  {:<42}{:>10.3f}{:>10.0f}{:<24}", row.name, row.ms, row.mb_per_s, times);
+    print("  {:<42}{:>10.3f}{:>10.0f}{:<24}", row.name, row.ms, row.mb_per_s, times);
     for (const thermal::Figure& figure : row.figures)
-      fmt::print("  {} {}", figure.name, short_number(figure.value));
-    fmt::print("\n");
-    if (!row.bound.empty()) fmt::print("    bound by {}\n", row.bound);
+      print("  {} {}", figure.name, short_number(figure.value));
+    print("\n");
+    if (!row.bound.empty()) print("    bound by {}\n", row.bound);
   }
 }
 
@@ -132,7 +133,7 @@ int show(const std::string& suite, const std::vector<Row>& rows, bool json) {
   thermal::Json list = thermal::Json::array();
   for (const Row& row : rows) list.push_back(to_json(row));
   const thermal::Json document = {{"veldt_version", thermal::kVersion}, {"suite", suite}, {"rows", list}};
-  fmt::print("{}\n", document.dump(2));
+  print_json(document);
   return kDone;
 }
 
@@ -144,7 +145,7 @@ struct BenchArguments {
 
 std::function<void(const std::string&)> teller(bool quiet) {
   return [quiet](const std::string& what) {
-    if (!quiet) fmt::print(stderr, "measuring {}\n", what);
+    if (!quiet) print_error("measuring {}\n", what);
   };
 }
 

@@ -2,9 +2,8 @@
 
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "cli/command.h"
+#include "cli/output.h"
 #include "dataset/outline.h"
 #include "dataset/physics.h"
 #include "io/material_files.h"
@@ -18,28 +17,28 @@ void print_materials(const thermal::SceneOutline& outline) {
     if (night.looks.empty()) continue;
     const auto nearest = std::min_element(night.looks.begin(), night.looks.end(),
                                           [](const auto& a, const auto& b) { return a.range_m < b.range_m; });
-    fmt::print("\nair at {} K, humidity {}, range {:.0f} m [mK]\n{:<16}{:>10}{:>10}\n",
-               night.weather.air.temperature_k, night.weather.air.relative_humidity, nearest->range_m, "",
-               "sky", "path");
+    print("\nair at {} K, humidity {}, range {:.0f} m [mK]\n{:<16}{:>10}{:>10}\n",
+          night.weather.air.temperature_k, night.weather.air.relative_humidity, nearest->range_m, "", "sky",
+          "path");
     for (const thermal::SceneOutline::Cover& cover : outline.covers) {
       const thermal::MaterialShift shift =
           thermal::shift_of(*cover.material, night.weather, nearest->range_m, outline.response);
-      fmt::print("{:<16}{:>+10.0f}{:>+10.0f}\n", cover.material->name, 1e3 * shift.sky_k, 1e3 * shift.path_k);
+      print("{:<16}{:>+10.0f}{:>+10.0f}\n", cover.material->name, 1e3 * shift.sky_k, 1e3 * shift.path_k);
     }
   }
 }
 
 void print_budget(const thermal::Budget& budget, const thermal::SceneOutline& outline) {
-  fmt::print(
+  print(
       "NETD {:.0f} mK: an automatic term is kept if it differs by more than {:.1f} mK across the "
       "pictures\n\n",
       1e3 * outline.netd_k, 1e3 * outline.netd_k / 3);
-  fmt::print("{:<12}{:>8}{:>14}{:>22}  {}\n", "term", "choice", "spread [mK]", "largest on actor [mK]", "");
+  print("{:<12}{:>8}{:>14}{:>22}  {}\n", "term", "choice", "spread [mK]", "largest on actor [mK]", "");
   for (const thermal::TermEffect& effect : budget.effects) {
-    fmt::print("{:<12}{:>8}{:>14.1f}{:>22.1f}  {}\n", effect.name, choice_name(effect.choice),
-               1e3 * effect.spread_k, 1e3 * effect.actor_shift_k, effect.kept ? "kept" : "dropped");
+    print("{:<12}{:>8}{:>14.1f}{:>22.1f}  {}\n", effect.name, choice_name(effect.choice),
+          1e3 * effect.spread_k, 1e3 * effect.actor_shift_k, effect.kept ? "kept" : "dropped");
   }
-  fmt::print("\ndropped in total: {:.1f} mK\n", 1e3 * budget.dropped_k);
+  print("\ndropped in total: {:.1f} mK\n", 1e3 * budget.dropped_k);
   print_materials(outline);
 }
 
@@ -56,7 +55,7 @@ int run_budget(const BudgetArguments& options) {
   const thermal::SceneOutline outline = thermal::outline_of(config, materials, home);
   const thermal::Budget budget = thermal::weigh_terms(outline, config.terms);
   if (options.json) {
-    fmt::print("{}\n", thermal::to_json(budget).dump(2));
+    print_json(thermal::to_json(budget));
   } else {
     print_budget(budget, outline);
   }

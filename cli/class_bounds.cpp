@@ -34,9 +34,16 @@ ClassBounds parse_bounds(std::string_view text, const std::string& word) {
   return {.at_least = *low, .at_most = *high};
 }
 
+/// The category of poachers is `human`, so small_human is another name of small_poacher.
+std::string with_poachers(const std::string& name) {
+  const std::size_t size = name.rfind("_human");
+  return size != std::string::npos && name.ends_with("_human") ? name.substr(0, size) + "_poacher" : name;
+}
+
 std::size_t parse_class(const std::string& name, const std::string& word) {
   const auto& names = thermal::balance_class_names();
-  const auto found = std::find(names.begin(), names.end(), name);
+  const std::string known = with_poachers(name);
+  const auto found = std::find(names.begin(), names.end(), known);
   if (found == names.end())
     throw fault_of(word,
                    "one of " + thermal::list_names(names) + " before =" + thermal::did_you_mean(name, names));

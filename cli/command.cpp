@@ -1,5 +1,6 @@
 #include "cli/command.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -8,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/printable.h"
 #include "base/text.h"
 #include "base/version.h"
+#include "cli/output.h"
 #include "cli/stop_signal.h"
 #include "io/resources.h"
 
@@ -22,26 +23,65 @@ constexpr std::array kCommands = {add_generate, add_render,   add_convert,  add_
                                   add_inspect,  add_validate, add_balance,  add_evaluate, add_report,
                                   add_video,    add_budget,   add_radiance, add_bench,    add_doctor};
 
-void print_fault(const std::string& what) {
-  std::istringstream lines(what);
-  for (std::string line; std::getline(lines, line);)
-    fmt::print(stderr, "veldt: {}\n", thermal::printable(line));
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+/// The fault of an option that a command does not have, which may be the misspelt name of one that it lacks; empty if
+/// there is none.
+std::string unknown_option(const CLI::App& command) {
+  const std::vector<std::string> rest = command.remaining();
+  const auto option =
+      std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with("--"); });
+  if (option == rest.end()) return "";
+  const std::string name = option->substr(0, option->find('='));
+  std::vector<std::string> known;
+  for (const CLI::Option* one : command.get_options({})) known.push_back(one->get_single_name());
+  const std::string meant = thermal::near_miss(name.substr(2), known);
+  return "unknown option " + name + (meant.empty() ? "" : "; did you mean --" + meant + "?");
 }
 
 /// What is wrong with a command line, as one line.
 std::string usage_fault(const CLI::App* app, const CLI::Error& error) {
   const std::vector<CLI::App*> named = app->get_subcommands();
-  if (!named.empty())
-    return fmt::format("veldt: {}; see veldt {} --help\n", error.what(), named.front()->get_name());
+  if (!named.empty()) {
+    const CLI::App* command = named.front();
+    const std::string misspelt = unknown_option(*command);
+    return fmt::format("{}; see veldt {} --help", misspelt.empty() ? error.what() : misspelt,
+                       command->get_name());
+  }
   const std::vector<std::string> unknown = app->remaining();
   if (!unknown.empty() && unknown.front().starts_with('-'))
-    return fmt::format("veldt: option {} before a command; see veldt --help\n", unknown.front());
-  std::vector<std::string> known;
-  for (const CLI::App* command : app->get_subcommands({})) known.push_back(command->get_name());
+    return fmt::format("option {} before a command; see veldt --help", unknown.front());
+  const std::vector<std::string> known = command_names(*app);
   const std::string choice = "expected one of " + thermal::list_names(known);
-  if (unknown.empty()) return fmt::format("veldt: no command; {}; see veldt --help\n", choice);
-  return fmt::format("veldt: unknown command \"{}\"; {}{}\n", unknown.front(), choice,
+  if (unknown.empty()) return fmt::format("no command; {}; see veldt --help", choice);
+  return fmt::format("unknown command \"{}\"; {}{}", unknown.front(), choice,
                      thermal::did_you_mean(unknown.front(), known));
+}
+
+/// The words after the program's name, last first, as the parser takes them; `help X` is another way to say `X --help`.
+std::vector<std::string> words_of(const CLI::App& app, int argc, const char* const* argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    const std::vector<std::string> known = command_names(app);
+    if (words.empty() || std::ranges::find(known, words.front()) != known.end()) words.emplace_back("--help");
+  }
+  std::ranges::reverse(words);
+  return words;
+}
+
+/// Prints help, the version or what is wrong with the command line.
+int print_parsed(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out;
+  std::ostringstream fault;
+  const int code = app.exit(error, out, fault);
+  fmt::print(stdout, "{}", out.str());
+  print_fault(fault.str());
+  return code == 0 ? kDone : kBadUsage;
 }
 
 /// Runs a command and turns exceptions into messages and exit codes.
@@ -109,17 +149,17 @@ int run_command_line(int argc, const char* const* argv) {
       "Labelled thermal drone video of the savanna, for training detectors.\n"
       "Exit codes: 0 done, 1 failed, 2 bad usage or config, 3 some inputs rejected, 75 try again later.",
       "veldt");
-  app.set_version_flag("--version", std::string(thermal::kVersion));
+  app.set_version_flag("-V,--version", std::string(thermal::kVersion));
   app.require_subcommand(1);
   app.failure_message(usage_fault);
   Session session;
   for (const auto& add : kCommands) add(app, session);
   try {
-    app.parse(argc, argv);
+    app.parse(words_of(app, argc, argv));
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kBadUsage;
+    return written(print_parsed(app, error));
   }
-  return run_guarded(session.run);
+  return written(run_guarded(session.run));
 }
 
 }  // namespace veldt

@@ -1,11 +1,10 @@
 #include <memory>
 #include <sstream>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "base/version.h"
 #include "cli/command.h"
+#include "cli/output.h"
 #include "dataset/plan.h"
 #include "io/child_process.h"
 #include "io/resources.h"
@@ -64,10 +63,10 @@ int run_doctor(bool json) {
       report.push_back(
           {{"what", finding.what}, {"found", finding.found}, {"remedy", there ? "" : finding.remedy}});
     } else {
-      fmt::print("{:<20} {}\n", finding.what, there ? finding.found : "missing: " + finding.remedy);
+      print("{:<20} {}\n", finding.what, there ? finding.found : "missing: " + finding.remedy);
     }
   }
-  if (json) fmt::print("{}\n", report.dump(2));
+  if (json) print_json(report);
   return all_there ? kDone : kFailed;
 }
 

@@ -4,11 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "cli/command.h"
 #include "cli/evaluation_table.h"
+#include "cli/output.h"
 #include "dataset/label_source.h"
 #include "io/detections_files.h"
 
@@ -95,7 +94,7 @@ int run_evaluate(const EvaluateArguments& options) {
   const std::vector<thermal::Detection> detections = thermal::read_detections(options.detections, truth);
   const thermal::Evaluation evaluation = thermal::evaluate(truth, detections, options.evaluate);
   if (options.json) {
-    fmt::print("{}\n", to_json(options, truth, detections.size(), evaluation).dump(2));
+    print_json(to_json(options, truth, detections.size(), evaluation));
   } else {
     print_tables(evaluation, truth, detections.size(), options.evaluate);
   }

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/output.h"
+
 namespace veldt {
 namespace {
 
@@ -37,42 +39,42 @@ class Tables {
   }
 
   void print_by_size(const std::string& name, CellText text) const {
-    fmt::print("\n");
+    print("\n");
     print_name(name);
     for (const thermal::SizeClass size : kSizes) print_cell(size_class_name(size));
     print_cell("all");
-    fmt::print("\n");
+    print("\n");
     for (std::size_t i = 0; i < truth_.videos.size(); ++i)
       print_row(truth_.videos[i].name, evaluation_.of_video(i), text);
-    fmt::print("\n");
+    print("\n");
     for (std::size_t i = 0; i < truth_.categories.size(); ++i)
       print_row(truth_.categories[i].name, evaluation_.of_category(i), text);
     print_row("all", evaluation_.overall(), text);
   }
 
   void print_averages() const {
-    fmt::print("\n");
+    print("\n");
     print_name("average precision");
-    fmt::print(" {:>7} {:>7}\n", "AP50", "AP50:95");
+    print(" {:>7} {:>7}\n", "AP50", "AP50:95");
     for (std::size_t i = 0; i < truth_.categories.size(); ++i)
       print_average(truth_.categories[i].name, evaluation_.average_precision[i]);
     print_average("mean", evaluation_.mean_average_precision);
   }
 
  private:
-  void print_name(const std::string& name) const { fmt::print("{:<{}}", name, width_); }
+  void print_name(const std::string& name) const { print("{:<{}}", name, width_); }
 
-  void print_cell(const std::string& text) const { fmt::print(" {:>{}}", text, cell_width_); }
+  void print_cell(const std::string& text) const { print(" {:>{}}", text, cell_width_); }
 
   void print_row(const std::string& name, const thermal::SizeCounts& counts, CellText text) const {
     print_name(name);
     for (const thermal::Counts& column : columns_of(counts)) print_cell(text(column));
-    fmt::print("\n");
+    print("\n");
   }
 
   void print_average(const std::string& name, const thermal::AveragePrecision& precision) const {
     print_name(name);
-    fmt::print(" {:>7} {:>7}\n", to_text(precision.at_50), to_text(precision.at_50_to_95));
+    print(" {:>7} {:>7}\n", to_text(precision.at_50), to_text(precision.at_50_to_95));
   }
 
   const thermal::LabelSet& truth_;
@@ -92,12 +94,12 @@ std::vector<thermal::Counts> columns_of(const thermal::SizeCounts& counts) {
 void print_tables(const thermal::Evaluation& evaluation, const thermal::LabelSet& truth,
                   std::size_t detections, const thermal::EvaluateOptions& options) {
   const thermal::Counts all = total(evaluation.overall());
-  fmt::print("{} pictures; {} targets, {} of them ignored\n", truth.images.size(), truth.labels.size(),
-             evaluation.ignored_targets);
-  fmt::print("{} detections, {} of score {} or more, {} of these on ignored targets\n", detections,
-             all.true_positives + all.false_positives + evaluation.ignored_detections, options.score,
-             evaluation.ignored_detections);
-  fmt::print("a target is found at IoU {} or more\n", options.iou);
+  print("{} pictures; {} targets, {} of them ignored\n", truth.images.size(), truth.labels.size(),
+        evaluation.ignored_targets);
+  print("{} detections, {} of score {} or more, {} of these on ignored targets\n", detections,
+        all.true_positives + all.false_positives + evaluation.ignored_detections, options.score,
+        evaluation.ignored_detections);
+  print("a target is found at IoU {} or more\n", options.iou);
   const Tables tables(truth, evaluation);
   tables.print_by_size("precision and recall", rates_of);
   tables.print_by_size("TP/FP/FN", counts_of);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/output.h"
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
 
@@ -58,9 +59,9 @@ std::size_t width_of(const std::string& heading) { return std::max<std::size_t>(
 
 void print_cells(const std::vector<std::string>& headings, const std::string& first,
                  const std::vector<std::string>& cells) {
-  fmt::print("  {:<12}", first);
-  for (std::size_t i = 0; i < cells.size(); ++i) fmt::print("{:>{}}", cells[i], width_of(headings[i]));
-  fmt::print("\n");
+  print("  {:<12}", first);
+  for (std::size_t i = 0; i < cells.size(); ++i) print("{:>{}}", cells[i], width_of(headings[i]));
+  print("\n");
 }
 
 void print_table(const thermal::ExportOutcome& outcome) {
@@ -82,7 +83,7 @@ std::string counted(int count, const std::string& what) {
 
 void summarise(const thermal::ExportOutcome& outcome, const ExportArguments& options) {
   if (outcome.already_there) {
-    fmt::print("{}: nothing to do; this export already exists\n", options.out);
+    print("{}: nothing to do; this export already exists\n", options.out);
     return;
   }
   int pictures = 0;
@@ -91,13 +92,12 @@ void summarise(const thermal::ExportOutcome& outcome, const ExportArguments& opt
     pictures += split.pictures;
     labels += labels_in(split);
   }
-  fmt::print("{}: {} and {} as {}\n", options.out, counted(pictures, "picture"), counted(labels, "label"),
-             options.format);
+  print("{}: {} and {} as {}\n", options.out, counted(pictures, "picture"), counted(labels, "label"),
+        options.format);
   print_table(outcome);
-  for (const auto& [why, count] : outcome.left_out)
-    fmt::print("left out: {} {}\n", counted(count, "label"), why);
+  for (const auto& [why, count] : outcome.left_out) print("left out: {} {}\n", counted(count, "label"), why);
   if (outcome.copied > 0)
-    fmt::print("{} copied: the file system cannot link them\n", counted(outcome.copied, "picture"));
+    print("{} copied: the file system cannot link them\n", counted(outcome.copied, "picture"));
 }
 
 int run_export(const ExportArguments& options, const CommonOptions& common) {

@@ -4,10 +4,9 @@
 #include <charconv>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "cli/command.h"
+#include "cli/output.h"
 #include "cli/plan_table.h"
 #include "cli/progress_bar.h"
 #include "cli/run_summary.h"
@@ -51,12 +50,12 @@ int make_preview(const thermal::Config& config, const thermal::GenerateOptions& 
                  const CommonOptions& common) {
   int pictures = 0;
   {
-    ProgressBar bar(common);
+    ProgressBar bar(common, "building the scene");
     pictures = thermal::preview(config, request, hooks_for(bar));
   }
   const thermal::Path folder = thermal::Layout{request.out}.preview();
   if (!common.quiet)
-    fmt::print("{}: {} pictures; map.png shows the place from above\n", folder.string(), pictures);
+    print("{}: {} pictures; map.png shows the place from above\n", folder.string(), pictures);
   return kDone;
 }
 
@@ -85,7 +84,7 @@ int run_generate(const GenerateArguments& options, const CommonOptions& common, 
   if (options.preview) return make_preview(config, request, common);
   thermal::RunOutcome outcome;
   {
-    ProgressBar bar(common);
+    ProgressBar bar(common, "building the scene");
     outcome = work(config, request, hooks_for(bar));
   }
   return summarise(outcome, options.out, common, "made", options.max_unusable_share);

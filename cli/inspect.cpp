@@ -1,10 +1,9 @@
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "cli/command.h"
 #include "cli/inspection_table.h"
+#include "cli/output.h"
 #include "cli/progress_bar.h"
 #include "cli/read_limits.h"
 #include "cli/stop_signal.h"
@@ -63,7 +62,7 @@ void write_starter(const Inspection& inspection, const InspectArguments& options
 int run_inspect(const InspectArguments& options, const CommonOptions& common) {
   check_starter(options.starter);
   const Inspection inspection = inspect(options, common);
-  options.json ? fmt::print("{}\n", to_json(inspection).dump(2)) : print(inspection);
+  options.json ? print_json(to_json(inspection)) : print(inspection);
   if (!options.starter.empty()) write_starter(inspection, options);
   return kDone;
 }

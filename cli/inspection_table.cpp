@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "cli/output.h"
 
 namespace veldt {
 namespace {
@@ -21,14 +22,13 @@ constexpr std::size_t kMostNames = 4;
 
 /// Lines past the limit are only counted; --json has all.
 void print_lines(const std::vector<std::string>& lines) {
-  for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) fmt::print("  {}\n", lines[i]);
-  if (lines.size() > kMostLines)
-    fmt::print("  … and {} more; --json lists them\n", lines.size() - kMostLines);
+  for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) print("  {}\n", lines[i]);
+  if (lines.size() > kMostLines) print("  … and {} more; --json lists them\n", lines.size() - kMostLines);
 }
 
 void print_block(const std::string& heading, const std::vector<std::string>& lines) {
   if (lines.empty()) return;
-  fmt::print("{}\n", heading);
+  print("{}\n", heading);
   print_lines(lines);
 }
 
@@ -41,18 +41,18 @@ void print_files(const Inspection& inspection) {
   const auto gaps = static_cast<std::size_t>(sequence.gaps());
   const std::size_t files = sequence.frames.size() - gaps;
   const std::string& compression = inspection.header.compression;
-  fmt::print("{}\n  {} x {} px{}{}\n", inspection.file.string(), inspection.header.width_px,
-             inspection.header.height_px, compression.empty() ? "" : ", compression " + compression,
-             files > 1 ? fmt::format("; the first of {} files", files) : "");
+  print("{}\n  {} x {} px{}{}\n", inspection.file.string(), inspection.header.width_px,
+        inspection.header.height_px, compression.empty() ? "" : ", compression " + compression,
+        files > 1 ? fmt::format("; the first of {} files", files) : "");
   if (const auto& window = inspection.window)
-    fmt::print("  pixels only in {} x {} px from ({}, {})\n", window->width_px, window->height_px,
-               window->x_px, window->y_px);
+    print("  pixels only in {} x {} px from ({}, {})\n", window->width_px, window->height_px, window->x_px,
+          window->y_px);
   std::vector<std::string> missing;
   for (const auto& [name, is_gap] : sequence.frames)
     if (is_gap) missing.push_back(name.name);
-  if (gaps > 0) fmt::print("  missing: {}\n", thermal::list_names(missing, kMostNames));
+  if (gaps > 0) print("  missing: {}\n", thermal::list_names(missing, kMostNames));
   if (inspection.manifest && inspection.manifest->overscan_px > 0)
-    fmt::print("  overscan: {} camera px on every side\n", inspection.manifest->overscan_px);
+    print("  overscan: {} camera px on every side\n", inspection.manifest->overscan_px);
 }
 
 /// What a conversion uses a channel for; empty if it does not.
@@ -170,21 +170,21 @@ std::string objects_from(const Inspection& inspection) {
 }
 
 void print_conversion(const Inspection& inspection) {
-  fmt::print("conversion\n");
+  print("conversion\n");
   if (!inspection.obstacle.empty()) {
-    fmt::print("  cannot be converted: {}\n", inspection.obstacle);
+    print("  cannot be converted: {}\n", inspection.obstacle);
     if (!inspection.layers.empty())
-      fmt::print("  --layer {} inspects that one\n", typed(inspection.layers.front()));
+      print("  --layer {} inspects that one\n", typed(inspection.layers.front()));
     for (const std::string& channel : inspection.likely)
-      fmt::print("  {} holds whole numbers: \"channels\": {{\"object_index\": \"{}\"}} selects it\n", channel,
-                 channel);
+      print("  {} holds whole numbers: \"channels\": {{\"object_index\": \"{}\"}} selects it\n", channel,
+            channel);
     return;
   }
-  fmt::print("  objects    {}\n", objects_from(inspection));
-  fmt::print("  materials  {}\n", or_none(inspection.planes.materials, "those of the objects"));
-  fmt::print("  depth      {}\n", or_none(inspection.planes.depth, "none"));
-  fmt::print("  normals    {}\n", or_none(inspection.planes.normals, "none"));
-  fmt::print("  meanings   {}\n", meanings(inspection));
+  print("  objects    {}\n", objects_from(inspection));
+  print("  materials  {}\n", or_none(inspection.planes.materials, "those of the objects"));
+  print("  depth      {}\n", or_none(inspection.planes.depth, "none"));
+  print("  normals    {}\n", or_none(inspection.planes.normals, "none"));
+  print("  meanings   {}\n", meanings(inspection));
 }
 
 void print_bad_frames(const Inspection& inspection) {
@@ -202,20 +202,19 @@ void print(const Inspection& inspection) {
   print_colours(inspection);
   print_cryptomattes(inspection);
   if (const auto& depth = inspection.survey.depth)
-    fmt::print("depth{}\n  {:.2f} m to {:.2f} m\n", of_frames(inspection), depth->nearest_m,
-               depth->farthest_m);
+    print("depth{}\n  {:.2f} m to {:.2f} m\n", of_frames(inspection), depth->nearest_m, depth->farthest_m);
   print_bad_frames(inspection);
   print_conversion(inspection);
 }
 
 void print(const thermal::StarterManifest& starter, const Inspection& inspection, const thermal::Path& file) {
-  fmt::print("\n{}: starter manifest\n", file.string());
+  print("\n{}: starter manifest\n", file.string());
   print_block("guessed; check these", starter.guesses);
   print_block("to fill in", starter.to_fill_in);
   const thermal::Path& folder = inspection.group.folder;
   const bool beside = (folder / "manifest.json").lexically_normal() == file.lexically_normal();
-  fmt::print("then\n  veldt convert {}{} --out dataset\n", typed(folder),
-             beside ? "" : fmt::format(" --manifest {}", typed(file)));
+  print("then\n  veldt convert {}{} --out dataset\n", typed(folder),
+        beside ? "" : fmt::format(" --manifest {}", typed(file)));
 }
 
 }  // namespace veldt

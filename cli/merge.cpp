@@ -3,10 +3,9 @@
 #include <cstdio>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/output.h"
 #include "cli/progress_bar.h"
 #include "cli/run_summary.h"
 #include "cli/stop_signal.h"
@@ -22,8 +21,8 @@ struct MergeArguments {
 
 void print_missing(const thermal::MergeOutcome& outcome, const MergeArguments& options) {
   if (outcome.missing.empty()) return;
-  fmt::print(stderr, "veldt: {} lacks clips {}; none of {} has them complete\n", options.out,
-             thermal::list_names(outcome.missing), thermal::list_names(options.sources));
+  print_error("veldt: {} lacks clips {}; none of {} has them complete\n", options.out,
+              thermal::list_names(outcome.missing), thermal::list_names(options.sources));
 }
 
 int run_merge(const MergeArguments& options, const CommonOptions& common) {

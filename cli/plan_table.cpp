@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/output.h"
 #include "dataset/estimate.h"
 
 namespace veldt {
@@ -31,8 +32,8 @@ struct PlanRow {
 };
 
 void print_row(const PlanRow& row) {
-  fmt::print("{:<32} {:>6} {:>8} {:>12} {:>8.1f} {:>7.1f}\n", row.name, row.clips, row.frames,
-             row.frames_with_actors, row.min_agl_m, row.max_agl_m);
+  print("{:<32} {:>6} {:>8} {:>12} {:>8.1f} {:>7.1f}\n", row.name, row.clips, row.frames,
+        row.frames_with_actors, row.min_agl_m, row.max_agl_m);
 }
 
 /// "45 s", "12 min", "3 h 05 min"
@@ -53,8 +54,8 @@ void print_plan(const thermal::Config& config, const thermal::DatasetPlan& plan,
                 const std::vector<thermal::ClipConfig>& chosen) {
   std::set<std::string> ids;
   for (const thermal::ClipConfig& clip : chosen) ids.insert(clip.id);
-  fmt::print("{:<32} {:>6} {:>8} {:>12} {:>16}\n", "clip or flight", "clips", "frames", "with actors",
-             "height [m AGL]");
+  print("{:<32} {:>6} {:>8} {:>12} {:>16}\n", "clip or flight", "clips", "frames", "with actors",
+        "height [m AGL]");
   PlanRow all{.name = "all"};
   PlanRow row;
   for (const thermal::ClipPlan& clip : plan.clips) {
@@ -68,8 +69,8 @@ void print_plan(const thermal::Config& config, const thermal::DatasetPlan& plan,
   if (row.clips > 0) print_row(row);
   if (all.clips > row.clips) print_row(all);
   const thermal::Estimate estimate = thermal::estimate_run(config, all.clips, all.frames);
-  fmt::print("about {} on 2 cores, {} of disk space\n", duration_text(estimate.seconds),
-             bytes_text(estimate.bytes));
+  print("about {} on 2 cores, {} of disk space\n", duration_text(estimate.seconds),
+        bytes_text(estimate.bytes));
 }
 
 }  // namespace veldt

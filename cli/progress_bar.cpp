@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "base/printable.h"
+#include "cli/output.h"
 #include "cli/stop_signal.h"
 
 namespace veldt {
@@ -19,11 +21,6 @@ double seconds_left(const thermal::Progress& progress, double frames_per_s) {
   return frames_per_s > 0 ? (progress.frames_total - progress.frames_done) / frames_per_s : 0;
 }
 
-std::string eta(const thermal::Progress& progress, double frames_per_s) {
-  if (frames_per_s > 0) return "ETA " + clock_time(seconds_left(progress, frames_per_s));
-  return progress.frames_done > 0 ? "starting" : "building the scene";
-}
-
 }  // namespace
 
 std::string clock_time(double seconds) {
@@ -34,10 +31,11 @@ std::string clock_time(double seconds) {
                    : fmt::format("{}:{:02}", minutes, whole % 60);
 }
 
-ProgressBar::ProgressBar(const CommonOptions& options) : style_(style_of(options)) {}
+ProgressBar::ProgressBar(const CommonOptions& options, std::string opening)
+    : style_(style_of(options)), opening_(std::move(opening)) {}
 
 ProgressBar::~ProgressBar() {
-  if (line_open_) fmt::print(stderr, "\n");
+  if (line_open_) print_error("\n");
 }
 
 ProgressBar::Style ProgressBar::style_of(const CommonOptions& options) {
@@ -65,18 +63,23 @@ void ProgressBar::show(const thermal::Progress& progress) {
   }
 }
 
+std::string ProgressBar::time_left(const thermal::Progress& progress, double frames_per_s) const {
+  if (frames_per_s > 0) return "ETA " + clock_time(seconds_left(progress, frames_per_s));
+  return progress.frames_done > 0 ? "starting" : opening_;
+}
+
 void ProgressBar::show_bar(const thermal::Progress& progress, double frames_per_s) {
   const int filled = progress.frames_total > 0 ? kBarWidth * progress.frames_done / progress.frames_total : 0;
-  fmt::print(stderr, "\r\x1b[K[{:=<{}}{: <{}}] {}/{} frames  {:.1f} frames/s  {}  {}", "", filled, "",
-             kBarWidth - filled, progress.frames_done, progress.frames_total, frames_per_s,
-             eta(progress, frames_per_s), progress.clip);
+  print_error("\r\x1b[K[{:=<{}}{: <{}}] {}/{} frames  {:.1f} frames/s  {}  {}", "", filled, "",
+              kBarWidth - filled, progress.frames_done, progress.frames_total, frames_per_s,
+              time_left(progress, frames_per_s), progress.clip);
   std::fflush(stderr);
   line_open_ = true;
 }
 
-void ProgressBar::show_plain(const thermal::Progress& progress, double frames_per_s) {
-  fmt::print(stderr, "{}/{} frames, {:.1f} frames/s, {}, clip {}\n", progress.frames_done,
-             progress.frames_total, frames_per_s, eta(progress, frames_per_s), progress.clip);
+void ProgressBar::show_plain(const thermal::Progress& progress, double frames_per_s) const {
+  print_error("{}/{} frames, {:.1f} frames/s, {}, clip {}\n", progress.frames_done, progress.frames_total,
+              frames_per_s, time_left(progress, frames_per_s), progress.clip);
 }
 
 void ProgressBar::show_json(const thermal::Progress& progress, double frames_per_s) {
@@ -85,7 +88,7 @@ void ProgressBar::show_json(const thermal::Progress& progress, double frames_per
                               {"frames_total", progress.frames_total},
                               {"frames_per_s", frames_per_s},
                               {"left_s", seconds_left(progress, frames_per_s)}};
-  fmt::print(stderr, "{}\n", line.dump());
+  print_event(line);
 }
 
 void ProgressBar::show_restart(const std::string& clip, const std::string& why) {
@@ -100,9 +103,10 @@ void ProgressBar::show_remade(const std::string& clip) {
 
 void ProgressBar::show_event(const thermal::Json& event, const std::string& line) {
   if (style_ == Style::none) return;
-  if (line_open_) fmt::print(stderr, "\n");
+  if (line_open_) print_error("\n");
   line_open_ = false;
-  fmt::print(stderr, "{}\n", style_ == Style::json ? event.dump() : line);
+  if (style_ == Style::json) return print_event(event);
+  print_error("{}\n", line);
 }
 
 void ProgressBar::show_skipped(const std::string& clip, const thermal::SkippedFrame& frame) {
@@ -112,7 +116,7 @@ void ProgressBar::show_skipped(const std::string& clip, const thermal::SkippedFr
                               {"frame_index", frame.frame_index},
                               {"file", thermal::printable(frame.file)},
                               {"reason", frame.reason}};
-  fmt::print(stderr, "{}\n", line.dump());
+  print_event(line);
 }
 
 thermal::RunHooks hooks_for(ProgressBar& bar) {

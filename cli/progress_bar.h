@@ -12,7 +12,8 @@ namespace veldt {
 /// seconds elsewhere, or one JSON object per line for machines.
 class ProgressBar {
  public:
-  explicit ProgressBar(const CommonOptions& options);
+  /// `opening` is what the run does before its first frame.
+  explicit ProgressBar(const CommonOptions& options, std::string opening = "starting");
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -30,14 +31,16 @@ class ProgressBar {
   using Clock = std::chrono::steady_clock;
 
   [[nodiscard]] static Style style_of(const CommonOptions& options);
+  [[nodiscard]] std::string time_left(const thermal::Progress& progress, double frames_per_s) const;
   void show_bar(const thermal::Progress& progress, double frames_per_s);
-  static void show_plain(const thermal::Progress& progress, double frames_per_s);
+  void show_plain(const thermal::Progress& progress, double frames_per_s) const;
   void show_event(const thermal::Json& event, const std::string& line);
   static void show_json(const thermal::Progress& progress, double frames_per_s);
 
   Style style_;
+  std::string opening_;
   Clock::time_point last_shown_;
-  Clock::time_point first_frame_at_;  ///< rate and time left exclude building the scene
+  Clock::time_point first_frame_at_;  ///< rate and time left exclude what is done before
   int first_frame_ = 0;
   bool line_open_ = false;
 };

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "cli/command.h"
+#include "cli/output.h"
 #include "io/spectrum_files.h"
 #include "radiometry/band_radiance.h"
 #include "radiometry/radiance_table.h"
@@ -80,11 +81,10 @@ class Evaluator {
 };
 
 void print_table(const thermal::Json& rows) {
-  fmt::print("{:>24} {:>24} {:>24}\n", "temperature [K]", "radiance [W/m2/sr]", "derivative [W/m2/sr/K]");
+  print("{:>24} {:>24} {:>24}\n", "temperature [K]", "radiance [W/m2/sr]", "derivative [W/m2/sr/K]");
   for (const thermal::Json& row : rows) {
-    fmt::print("{:>24.17g} {:>24.17g} {:>24.17g}\n", row["temperature_k"].get<double>(),
-               row["radiance_w_m2_sr"].get<double>(),
-               row["d_radiance_d_temperature_w_m2_sr_k"].get<double>());
+    print("{:>24.17g} {:>24.17g} {:>24.17g}\n", row["temperature_k"].get<double>(),
+          row["radiance_w_m2_sr"].get<double>(), row["d_radiance_d_temperature_w_m2_sr_k"].get<double>());
   }
 }
 
@@ -138,7 +138,7 @@ int run_radiance(const RadianceArguments& options) {
                                   {"band_um", {response.begin_um(), response.end_um()}},
                                   {"emissivity", options.emissivity},
                                   {"values", rows}};
-  fmt::print("{}\n", document.dump(2));
+  print_json(document);
   return kDone;
 }
 

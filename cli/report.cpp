@@ -2,9 +2,8 @@
 
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "cli/command.h"
+#include "cli/output.h"
 #include "io/resources.h"
 
 namespace veldt {
@@ -22,9 +21,8 @@ int run_report(const ReportArguments& options, const CommonOptions& common) {
                                                                 .home = thermal::find_home(),
                                                                 .unfinished_too = options.unfinished});
   if (common.quiet) return kDone;
-  fmt::print("{}: {} {}, {} frames, {} labels, {} kB\n", outcome.out.string(), outcome.clips,
-             outcome.clips == 1 ? "clip" : "clips", outcome.images, outcome.labels,
-             (outcome.bytes + 999) / 1000);
+  print("{}: {} {}, {} frames, {} labels, {} kB\n", outcome.out.string(), outcome.clips,
+        outcome.clips == 1 ? "clip" : "clips", outcome.images, outcome.labels, (outcome.bytes + 999) / 1000);
   return kDone;
 }
 

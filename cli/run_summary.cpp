@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "cli/output.h"
 #include "cli/skip_lines.h"
 
 namespace veldt {
@@ -46,8 +47,7 @@ std::size_t frames_in(const std::vector<thermal::ClipSkips>& skips) {
 
 /// Lists clips that could not be made; `what` happened to them.
 void print_failed(const thermal::RunOutcome& run, const std::string& whose, const std::string& what) {
-  for (const auto& [clip, why] : run.failed)
-    fmt::print(stderr, "veldt: {}clip {} {}: {}\n", whose, clip, what, why);
+  for (const auto& [clip, why] : run.failed) print_error("veldt: {}clip {} {}: {}\n", whose, clip, what, why);
 }
 
 /// Names clips with unusable depth or normals, and what of that is accepted.
@@ -56,9 +56,9 @@ void print_unusable(const thermal::RunOutcome& run, const std::string& whose, do
     const std::string where = fmt::format("{}clip {}: {}", whose, clip, key);
     const std::string value = fmt::format("{:.3g}", share);
     const std::string rule = fmt::format("at most {} (--max-unusable-share)", most);
-    fmt::print(stderr, "veldt: {}\n",
-               share > most ? thermal::fault(where, value, "", rule)
-                            : fmt::format("warning: {} = {}, {} is accepted", where, value, rule));
+    print_error("veldt: {}\n", share > most
+                                   ? thermal::fault(where, value, "", rule)
+                                   : fmt::format("warning: {} = {}, {} is accepted", where, value, rule));
   }
 }
 
@@ -90,7 +90,7 @@ int summarise(const thermal::RunOutcome& outcome, const thermal::Path& out, cons
               const std::string& done, double max_unusable_share) {
   print_failed(outcome, "", "failed");
   print_unusable(outcome, "", max_unusable_share);
-  if (!options.quiet) fmt::print("{}: {}\n", out.string(), summary_of(outcome, done, 0));
+  if (!options.quiet) print("{}: {}\n", out.string(), summary_of(outcome, done, 0));
   if (outcome.try_again) return kTryAgain;
   return exit_code_of({{.variant = "", .out = out, .run = outcome, .skips = {}}}, max_unusable_share);
 }
@@ -102,12 +102,12 @@ int summarise(const std::vector<thermal::ConvertOutcome>& outcomes, const Common
     print_failed(one.run, whose, "rejected");
     print_unusable(one.run, whose, max_unusable_share);
   }
-  for (const std::string& line : skip_lines(outcomes)) fmt::print(stderr, "veldt: {}\n", line);
+  for (const std::string& line : skip_lines(outcomes)) print_error("veldt: {}\n", line);
   for (const thermal::ConvertOutcome& one : outcomes) {
     if (options.quiet) break;
     const std::string out = one.out.string();
-    fmt::print("{}: {}\n", out, summary_of(one.run, "made", frames_in(one.skips)));
-    for (const std::string& term : one.left_out) fmt::print("{}: without the term {}\n", out, term);
+    print("{}: {}\n", out, summary_of(one.run, "made", frames_in(one.skips)));
+    for (const std::string& term : one.left_out) print("{}: without the term {}\n", out, term);
   }
   return exit_code_of(outcomes, max_unusable_share);
 }

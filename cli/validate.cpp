@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "cli/command.h"
+#include "cli/output.h"
 #include "dataset/plan.h"
 #include "io/resources.h"
 
@@ -30,11 +31,11 @@ int validate_dataset(const ValidateArguments& options) {
                                   {"clips", check.clips},
                                   {"files", check.files},
                                   {"faults", check.faults}};
-    fmt::print("{}\n", report.dump(2));
+    print_json(report);
   } else {
-    for (const std::string& fault : check.faults) fmt::print("{}\n", fault);
-    fmt::print("{}: {} clips, {} files checked, {}\n", options.what, check.clips, check.files,
-               check.faults.empty() ? "all unchanged" : fmt::format("{} faults", check.faults.size()));
+    for (const std::string& fault : check.faults) print("{}\n", fault);
+    print("{}: {} clips, {} files checked, {}\n", options.what, check.clips, check.files,
+          check.faults.empty() ? "all unchanged" : fmt::format("{} faults", check.faults.size()));
   }
   return check.faults.empty() ? kDone : kFailed;
 }
@@ -55,10 +56,10 @@ int validate_config(const ValidateArguments& options) {
                                   {"clips", plan.size()},
                                   {"frames", frames},
                                   {"frames_with_actors", with_actors}};
-    fmt::print("{}\n", report.dump(2));
+    print_json(report);
   } else {
-    fmt::print("{}: {} clips, {} frames, {} with actors in view\n", options.what, plan.size(), frames,
-               with_actors);
+    print("{}: {} clips, {} frames, {} with actors in view\n", options.what, plan.size(), frames,
+          with_actors);
   }
   return kDone;
 }

@@ -3,10 +3,9 @@
 #include <chrono>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/output.h"
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
 #include "dataset/videos/palette.h"
@@ -48,14 +47,14 @@ thermal::VideoRequest request_of(const VideoArguments& options, bool frame_given
 }
 
 void summarise(const thermal::VideoOutcome& outcome, const std::string& out, double elapsed_s) {
-  fmt::print("{}: {} {}, {} x {} px, ", out, outcome.clips, outcome.clips == 1 ? "clip" : "clips",
-             outcome.width_px, outcome.height_px);
+  print("{}: {} {}, {} x {} px, ", out, outcome.clips, outcome.clips == 1 ? "clip" : "clips",
+        outcome.width_px, outcome.height_px);
   if (outcome.seconds > 0)
-    fmt::print("{} frames, {:.1f} s, {:.1f} frames/s, ", outcome.frames, outcome.seconds,
-               outcome.frames / elapsed_s);
-  fmt::print("{} kB\n", (outcome.bytes + 999) / 1000);
+    print("{} frames, {:.1f} s, {:.1f} frames/s, ", outcome.frames, outcome.seconds,
+          outcome.frames / elapsed_s);
+  print("{} kB\n", (outcome.bytes + 999) / 1000);
   if (!outcome.not_made.empty())
-    fmt::print("left out, because not made: {}\n", thermal::list_names(outcome.not_made, 8));
+    print("left out, because not made: {}\n", thermal::list_names(outcome.not_made, 8));
 }
 
 int run_video(const VideoArguments& options, bool frame_given, const CommonOptions& common) {

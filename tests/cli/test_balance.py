@@ -128,10 +128,12 @@ def test_videos_of_the_same_name_stay_apart(veldt, videos):
     }
 
 
-def test_our_own_datasets(veldt):
+@pytest.mark.parametrize("people", ["small_poacher", "small_human"])
+def test_our_own_datasets(veldt, people):
+    """The class is called by what is hunted for, the category by what it is: both are understood."""
     folder = passes.write_clip(veldt.folder / "passes", "one")
     assert veldt("convert", folder, "--out", "out", "--quiet").code == 0
-    done = veldt("balance", "out", "--per-class", "small_poacher=2:2", "--out", "s.json")
+    done = veldt("balance", "out", "--per-class", f"{people}=2:2", "--out", "s.json")
     assert (done.code, done.err) == (0, "")
     assert len(_frames(veldt, "s.json")["out", "one"]) == 2
 

@@ -190,6 +190,10 @@ BAD_MANIFESTS = {
         _set_in("frames", "file", "../x.exr"),
         'frames[2].file = "../x.exr"; expected text that matches ^[^/\\\\]+$',
     ),
+    "a scene that could not name a folder": (
+        _manifest(lambda document: document.update(scene="../home")),
+        'scene = "../home"; expected at most 200 letters, digits, _ or -, not beginning with -',
+    ),
     "the position of an unknown object": (
         _set_in("frames", "actors", [{"index": 55, "position_m": [0, 0, 0], "heading_rad": 0}]),
         "frames[2].actors[0].index = 55; expected the index of an actor in objects",
@@ -249,6 +253,10 @@ REQUESTS = {
     "unknown season": (
         ["--set", "season=spring"],
         '--set: clips[0].season = "spring"; expected one of winter, summer',
+    ),
+    "setting of the camera that the passes already have": (
+        ["--set", "season=summer", "camera.focal_length_m=0.02"],
+        '--set = "camera.focal_length_m=0.02"; expected no camera; the manifest of one has that of its passes',
     ),
     "config that is missing": (["--config", "none.json"], "cannot read none.json: No such file or directory"),
     "config of other clips": (

@@ -80,8 +80,15 @@ def test_help_of_a_command_lists_its_options(veldt, command):
     assert _options_in(done.out) == COMMON | OPTIONS[command]
 
 
-def test_version(veldt):
-    done = veldt("--version")
+def test_help_is_a_command_too(veldt):
+    assert veldt("help") == veldt("--help")
+    for command in OPTIONS:
+        assert veldt("help", command) == veldt(command, "--help")
+
+
+@pytest.mark.parametrize("option", ["--version", "-V"])
+def test_version(veldt, option):
+    done = veldt(option)
     assert (done.code, done.err) == (0, "")
     assert re.fullmatch(r"\d+\.\d+\.\d+\n", done.out)
 
@@ -96,7 +103,23 @@ USAGE_FAULTS = {
     "option without a command": (["--out", "x"], "option --out before a command; see veldt --help"),
     "unknown option": (
         ["generate", "config.json", "--out", "x", "--sead"],
-        "The following argument was not expected: --sead; see veldt generate --help",
+        "unknown option --sead; did you mean --shard?; see veldt generate --help",
+    ),
+    "misspelt option that is required": (
+        ["generate", "config.json", "--uot", "x"],
+        "unknown option --uot; did you mean --out?; see veldt generate --help",
+    ),
+    "option like no other": (
+        ["generate", "config.json", "--out=x", "--colour=red"],
+        "unknown option --colour; see veldt generate --help",
+    ),
+    "too many words": (
+        ["doctor", "config.json"],
+        "The following argument was not expected: config.json; see veldt doctor --help",
+    ),
+    "help about nothing we have": (
+        ["help", "evaporate"],
+        f'unknown command "evaporate"; expected one of {COMMANDS}',
     ),
     "no config": (["generate", "--out", "x"], "config is required; see veldt generate --help"),
     "no output folder": (["render", "config.json"], "--out is required; see veldt render --help"),

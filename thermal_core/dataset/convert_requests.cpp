@@ -1,5 +1,7 @@
 #include "dataset/convert_requests.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -68,9 +70,8 @@ Config only_clips_of(Config config, const std::vector<ClipPasses>& sources) {
 Path folder_of(const std::string& file) { return std::filesystem::absolute(file).parent_path(); }
 
 /// The passes were rendered with the manifest's camera. A config that gives intrinsics, directly or by a calibration, must
-/// give the same ones.
+/// give the same ones: ConfigError if not.
 void check_cameras(const Config& config, const std::vector<ClipPasses>& sources, const std::string& name) {
-  if (!gives_intrinsics(config.resolved["camera"])) return;
   const CameraIntrinsics given = read_intrinsics(config.resolved["camera"]);
   for (const ClipPasses& source : sources) {
     const CameraIntrinsics& there = source.manifest.camera;
@@ -91,6 +92,20 @@ void check_cameras(const Config& config, const std::vector<ClipPasses>& sources,
   }
 }
 
+/// ConfigError if a setting changes the pinhole of a camera that the passes have already: only the lens is applied to
+/// passes.
+void check_settings(const ConvertOptions& options, const std::vector<ClipPasses>& sources) {
+  constexpr std::array kPinhole = {"width_px", "height_px", "focal_length_m", "pixel_pitch_um"};
+  for (const std::string& setting : options.settings) {
+    const std::string key = setting.substr(0, setting.find('='));
+    if (std::ranges::none_of(kPinhole, [&](const char* one) { return key == std::string("camera.") + one; }))
+      continue;
+    throw ConfigError(fault("--set", "\"" + setting + "\"", "",
+                            fmt::format("no camera; the manifest of {} has that of its passes",
+                                        sources.front().folder.string())));
+  }
+}
+
 /// A folder either is a dataset or holds datasets: clips of one must not be mixed with the others.
 void check_out(const Path& out) {
   if (!Layout{out}.is_begun()) return;
@@ -108,7 +123,11 @@ std::vector<ConvertRequest> convert_requests(const ConvertOptions& options,
   root_calibration(document, folder_of(options.config ? options.config_name : "."));
   // Resolved even if only variants are made, so that shared faults are not attributed to the first variant.
   Config shared = only_clips_of(resolve_config(document, name, options.home), sources);
-  check_cameras(shared, sources, name);
+  if (gives_intrinsics(shared.resolved["camera"])) {
+    check_cameras(shared, sources, name);
+  } else {
+    check_settings(options, sources);
+  }
   std::vector<ConvertRequest> requests;
   if (!options.variants) {
     requests.push_back({.variant = "", .where = "", .config = std::move(shared), .out = options.out});

@@ -50,6 +50,13 @@ std::string key_of(std::string_view where) {
 
 /// Of names that become names of files and folders, or parts of them.
 constexpr std::string_view kNamePattern = "^[A-Za-z0-9_][A-Za-z0-9_-]{0,199}$";
+constexpr std::string_view kNoNamePattern = "^([A-Za-z0-9_][A-Za-z0-9_-]{0,199})?$";
+
+std::string in_words(const std::string& pattern) {
+  if (pattern == kNamePattern) return "1 to 200 letters, digits, _ or -, not beginning with -";
+  if (pattern == kNoNamePattern) return "at most 200 letters, digits, _ or -, not beginning with -";
+  return "text that matches " + pattern;
+}
 constexpr std::size_t kMostPatternBytes = 4096;
 
 /// Checks one document against one schema.
@@ -159,8 +166,7 @@ class Checker {
     const auto pattern = schema["pattern"].get<std::string>();
     const auto compiled = patterns_.try_emplace(pattern, pattern).first;
     if (std::regex_search(text, compiled->second)) return;
-    add(value, pattern == kNamePattern ? "1 to 200 letters, digits, _ or -, not beginning with -"
-                                       : "text that matches " + pattern);
+    add(value, in_words(pattern));
   }
 
   void check_object(Json& value, const Json& schema, const std::string& where) {
