@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "io/material_files.h"
 #include "io/spectrum_files.h"
@@ -13,7 +14,9 @@ inline const thermal::MaterialLibrary& materials() {
   return kLibrary;
 }
 
-inline const thermal::Material& material(const std::string& name) { return materials().find(name, "test"); }
+inline const thermal::Material& material(std::string_view name) {
+  return materials().find(std::string(name), "test");
+}
 
 /// A response curve in assets.
 inline thermal::SpectralResponse response(const std::string& name) {
