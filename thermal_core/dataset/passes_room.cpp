@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "dataset/render_crew.h"
+#include "io/output_folder.h"
 
 namespace thermal {
 namespace {
@@ -16,9 +17,12 @@ bool has_clips(const Path& passes) {
 }  // namespace
 
 void begin_passes(const Layout& layout, const Config& config, const std::vector<std::string>& clips) {
+  make_own_folder(layout.passes());
   for (const std::string& clip : clips) {
-    if (std::filesystem::exists(layout.unusable(clip))) std::filesystem::remove_all(layout.passes(clip));
-    make_folder(layout.passes(clip));
+    make_own_folder(layout.passes(clip));
+    if (!std::filesystem::exists(layout.unusable(clip))) continue;
+    std::filesystem::remove_all(layout.passes(clip));
+    make_own_folder(layout.passes(clip));
   }
   write_file_atomically(layout.passes_config(), to_text(config.resolved));
 }

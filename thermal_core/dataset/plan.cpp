@@ -8,7 +8,6 @@
 #include "base/error.h"
 #include "base/printable.h"
 #include "io/child_process.h"
-#include "io/passing_folder.h"
 #include "io/resources.h"
 
 namespace thermal {
@@ -36,12 +35,10 @@ Path find_python() {
 DatasetPlan plan_dataset(const Json& resolved_config, const std::string& name, const Path& home) {
   const Path python = find_python();
   if (python.empty()) throw IoError("no python3 on PATH; install it (apt-get install python3-numpy)");
-  const PassingFolder folder;
-  const Path config = folder.path() / "config.json";
-  write_file_atomically(config, to_text(resolved_config));
   const Path script = home / "blender_scripts" / "plan_dataset.py";
   const Output output =
-      run_program({python.string(), "-I", "-B", script.string(), "--config", config.string(), "--json"});
+      run_program({python.string(), "-I", "-B", script.string(), "--config", "/dev/stdin", "--json"},
+                  to_text(resolved_config));
   constexpr int kConfigFault = 2;
   if (output.status.signal == 0 && output.status.code == kConfigFault) throw_faults(output.error, name);
   if (output.status.signal != 0 || output.status.code != 0) {

@@ -7,6 +7,7 @@
 #include "dataset/render_crew.h"
 #include "dataset/room_watch.h"
 #include "dataset/run_board.h"
+#include "io/output_folder.h"
 
 namespace thermal {
 namespace {
@@ -30,8 +31,9 @@ void render_clip(const ClipConfig& clip, RenderJob& job, const std::function<boo
   }
 }
 
-RenderJob::Task preview_task(const Config& config, const GenerateOptions& options, const Path& folder) {
-  make_folder(folder);
+RenderJob::Task preview_task(const Config& config, const GenerateOptions& options) {
+  const Path folder = Layout{options.out}.preview();
+  make_own_folder(folder);
   write_file_atomically(folder / "config.json", to_text(config.resolved));
   return {.blender = options.blender,
           .home = options.home,
@@ -76,7 +78,7 @@ RunOutcome render(const Config& config, const GenerateOptions& options, const Ru
 
 int preview(const Config& config, const GenerateOptions& options, const RunHooks& hooks) {
   const FolderLock lock(options.out);
-  RenderJob job(preview_task(config, options, Layout{options.out}.preview()));
+  RenderJob job(preview_task(config, options));
   const std::string clip = RenderJob::kPreview;
   job.wait_for_frame(clip, -1, hooks.cancelled);
   Progress progress{.clip = clip, .frames_done = 0, .frames_total = job.frames_of(clip)};

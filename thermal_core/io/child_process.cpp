@@ -1,5 +1,6 @@
 #include "io/child_process.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -11,6 +12,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -73,6 +75,22 @@ int open_high(const char* file, int flags) {
   constexpr int kLowest = 10;
   const int low = ::open(file, flags | O_CLOEXEC, 0666);
   if (low < 0) fail(fmt::format("open {}", file));
+  const int high = ::fcntl(low, F_DUPFD_CLOEXEC, kLowest);
+  ::close(low);
+  return high;
+}
+
+/// A descriptor that reads this text, of any length, without a file that a killed run would leave behind.
+int open_text(std::string_view text) {
+  constexpr int kLowest = 10;
+  const int low = ::memfd_create("input", MFD_CLOEXEC);
+  if (low < 0) fail("make a file in memory");
+  for (std::string_view rest = text; !rest.empty();) {
+    const ssize_t bytes = ::write(low, rest.data(), rest.size());
+    if (bytes < 0 && errno != EINTR) fail("write a file in memory");
+    rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(bytes, 0)));
+  }
+  ::lseek(low, 0, SEEK_SET);
   const int high = ::fcntl(low, F_DUPFD_CLOEXEC, kLowest);
   ::close(low);
   return high;
@@ -177,13 +195,13 @@ std::string Output::last_words() const {
   return last;
 }
 
-Output run_program(const std::vector<std::string>& argv) {
+Output run_program(const std::vector<std::string>& argv, std::string_view input_text) {
   const std::vector<std::string> variables = child_environment();
   const std::vector<char*> environment = pointers(variables);
   const std::vector<char*> arguments = pointers(argv);
   const Pipe out;
   const Pipe error;
-  const int input = open_high("/dev/null", O_RDONLY);
+  const int input = open_text(input_text);
   const int parent = ::getpid();
   const int process = ::fork();
   if (process == 0) become(arguments.data(), environment.data(), input, out.write, error.write, -1, parent);

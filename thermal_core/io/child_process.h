@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/files.h"
@@ -53,7 +54,7 @@ class ChildProcess {
   std::optional<ExitStatus> status_;
 };
 
-/// Runs a program to its end, in child_environment(), and returns what it wrote.
+/// How a program ended and what it wrote.
 struct Output {
   ExitStatus status;
   std::string out;
@@ -62,6 +63,7 @@ struct Output {
   /// The last line of `error` that is not empty, where programs say what they ended with; empty if there is none.
   [[nodiscard]] std::string last_words() const;
 };
-[[nodiscard]] Output run_program(const std::vector<std::string>& argv);
+/// Runs a program to its end, in child_environment(), with `input` as its standard input. IoError if it cannot be started.
+[[nodiscard]] Output run_program(const std::vector<std::string>& argv, std::string_view input = {});
 
 }  // namespace thermal

@@ -31,6 +31,12 @@ void make_fresh_folder(const Path& folder) {
   make_folder(folder);
 }
 
+void make_own_folder(const Path& folder) {
+  check_is_no_link(folder);
+  make_folder(folder);
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) check_is_no_link(entry.path());
+}
+
 void replace_folder(const Path& whole, const Path& place) {
   std::error_code error = rename_with(whole, place, RENAME_EXCHANGE);
   if (!error) sweep_folder(whole);

@@ -4,7 +4,8 @@
 
 namespace thermal {
 
-/// A new temporary folder; removed with its contents at the end of the object's life.
+/// A new temporary folder; removed with its contents at the end of the object's life, or, if this process is killed, by
+/// the next run that makes one.
 class PassingFolder {
  public:
   /// IoError if it cannot be created.
@@ -16,6 +17,7 @@ class PassingFolder {
 
  private:
   Path path_;
+  int lock_ = -1;  ///< held as long as the folder is in use, by this process alone
 };
 
 }  // namespace thermal

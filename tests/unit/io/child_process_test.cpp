@@ -135,6 +135,12 @@ TEST_CASE("run_program returns both streams and the exit code") {
   CHECK(output.status.code == 3);
 }
 
+TEST_CASE("run_program hands on its input, of any length") {
+  CHECK(run_program(shell("wc -c"), std::string(300000, 'a')).out == "300000\n");
+  CHECK(run_program(shell("cat /dev/stdin"), "text").out == "text");
+  CHECK(run_program(shell("cat")).out.empty());
+}
+
 TEST_CASE("run_program takes more output than a pipe holds, on both streams at once") {
   const Output output =
       run_program(shell("head -c 300000 /dev/zero | tr '\\0' a & "

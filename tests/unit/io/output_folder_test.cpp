@@ -33,6 +33,21 @@ TEST_CASE("A fresh folder is empty, whatever existed before") {
   CHECK(std::filesystem::is_empty(folder / "clips/a.part"));
 }
 
+TEST_CASE("A folder of our own keeps its files, and has no links in it") {
+  const TemporaryFolder folder;
+  put(folder / "out/passes/0.exr", "old");
+  make_own_folder(folder / "out/passes");
+  CHECK(read_file(folder / "out/passes/0.exr") == "old");
+  put(folder / "elsewhere/kept", "kept");
+  std::filesystem::create_symlink(folder / "elsewhere/kept", folder / "out/passes/1.exr");
+  std::filesystem::create_directory_symlink(folder / "elsewhere", folder / "out/preview");
+  for (const auto& [made, link] :
+       {std::pair("out/passes", "out/passes/1.exr"), std::pair("out/preview", "out/preview")}) {
+    CHECK_THAT(message_of<IoError>([&] { make_own_folder(folder / made); }),
+               StartsWith((folder / link).string() + " = a link to " + (folder / "elsewhere").string()));
+  }
+}
+
 TEST_CASE("A fresh folder replaces a link, and the link's target stays") {
   const TemporaryFolder folder;
   put(folder / "elsewhere/kept", "kept");
