@@ -81,3 +81,46 @@ def test_ids_of_clips_are_names(veldt, dataset, command, name):
     done = veldt(*READERS[command])
     check_fault(done, 1, f'foreign/data/dataset.json: clips[0].id = "{IDS[name]}"; {NAME}')
     assert files_below(veldt.folder / "home") == []
+
+
+SHOWS = {"export", "report"}  # pictures, by the names in annotations.json
+LINKS = {
+    "clips/one/ir8/000001.png": COMMANDS.keys() | SHOWS,
+    "clips/one/ir8": COMMANDS.keys() | SHOWS,
+    "clips/one/labels.json": COMMANDS.keys(),
+    "clips/one/clip.json": COMMANDS.keys(),
+    "clips/one": COMMANDS.keys() | SHOWS,
+    "clips": READERS.keys(),
+    "annotations.json": READERS.keys(),
+    "dataset.json": READERS.keys(),
+}
+
+
+@pytest.mark.parametrize("command", READERS)
+@pytest.mark.parametrize("link", LINKS)
+def test_links_are_not_followed(veldt, dataset, command, link):
+    """What a dataset links to is neither read nor handed on, even if it is what the sums say."""
+    secret = veldt.folder / "secret"
+    (dataset / link).rename(secret)
+    (dataset / link).symlink_to(secret)
+    (veldt.folder / "home").mkdir()
+    done = veldt(*READERS[command], "--progress", "none")
+    rule = "expected a path that is not a link; nothing elsewhere is read or written"
+    if command in LINKS[link]:
+        assert done.code == 1 and f"foreign/data/{link} = a link to {secret}; {rule}\n" in done.err
+        assert [file for file in files_below(veldt.folder / "home") if not file.startswith("merged")] == []
+    else:
+        assert (done.code, done.err) == (0, "")  # that file is not read
+
+
+@pytest.mark.parametrize("name", ["../secret.png", "/dev/zero"])
+def test_a_report_embeds_pictures_of_its_dataset_only(veldt, dataset, name):
+    (dataset.parent / "secret.png").write_bytes((dataset / "clips/one/ir8/000000.png").read_bytes())
+    labels = json.loads((dataset / "annotations.json").read_text())
+    for image in labels["images"]:
+        image["file_name"] = name
+    (dataset / "annotations.json").write_text(json.dumps(labels))
+    done = veldt("report", "foreign/data", "--out", "report.html", timeout_s=60)
+    rule = 'expected a relative path without "..", control characters, or parts that begin with "-" or exceed 200 bytes'
+    check_fault(done, 1, f'made_up: file_name of image 1 = "{name}"; {rule}')
+    assert not (veldt.folder / "report.html").exists()

@@ -7,7 +7,7 @@ from configs import tiny
 from fake_blender import generate
 from program import files_below
 
-RULE = "expected a path that is not a link; nothing is written to other places"
+RULE = "expected a path that is not a link; nothing elsewhere is read or written"
 PLACES = ["passes", "passes/side", "passes/side/manifest.part", "passes/down/000000.exr", "passes/side.log"]
 
 

@@ -83,6 +83,7 @@ Json to_json(const ClipRecord& record) {
 }
 
 ClipRecord read_clip_record(const Path& file) {
+  check_has_no_links(file.parent_path());
   try {
     const Json json = read_json(file);
     ClipRecord record = {.clip = json.at("clip"),

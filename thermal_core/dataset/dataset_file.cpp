@@ -38,7 +38,10 @@ void check_clips(const Json& dataset, const std::string& file) {
 }  // namespace
 
 Json read_dataset_file(const Path& root) {
-  const Path file = Layout{root}.dataset_json();
+  const Layout layout{root};
+  for (const Path& place : {layout.dataset_json(), layout.annotations_json(), layout.clips()})
+    check_is_no_link(place);
+  const Path file = layout.dataset_json();
   Json dataset = read_as_data(file);
   if (!dataset.is_object() || dataset.value("format", Json()) != "veldt-dataset")
     throw DataError(file.string() + " does not belong to a Veldt dataset");

@@ -53,6 +53,7 @@ class Checker {
       add(folder, "not made yet (status " + status + ")");
       return;
     }
+    check_has_no_links(folder);
     const Path record = folder / "clip.json";
     if (!check_file(record, clip.at("record_sha256"))) return;
     for (const auto& [name, sum] : read_clip_record(record).files) check_file(folder / name, sum);

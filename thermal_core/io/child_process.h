@@ -63,7 +63,7 @@ struct Output {
   /// The last line of `error` that is not empty, where programs say what they ended with; empty if there is none.
   [[nodiscard]] std::string last_words() const;
 };
-/// Runs a program to its end, in child_environment(), with `input` as its standard input. IoError if it cannot be started.
+/// Runs a program to its end, in child_environment(), with `input` as its standard input. IoError if it cannot start.
 [[nodiscard]] Output run_program(const std::vector<std::string>& argv, std::string_view input = {});
 
 }  // namespace thermal

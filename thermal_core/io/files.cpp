@@ -153,7 +153,19 @@ void check_is_no_link(const Path& place) {
   const Path target = std::filesystem::read_symlink(place, error);
   if (error) return;
   throw IoError(fault(place.string(), fmt::format("a link to {}", target.string()), "",
-                      "a path that is not a link; nothing is written to other places"));
+                      "a path that is not a link; nothing elsewhere is read or written"));
+}
+
+void check_has_no_links(const Path& folder) {
+  check_is_no_link(folder);
+  if (!std::filesystem::is_directory(folder)) return;
+  std::error_code error;
+  std::filesystem::recursive_directory_iterator entry(folder, error);
+  for (const std::filesystem::recursive_directory_iterator end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->is_symlink()) check_is_no_link(entry->path());
+  }
+  if (error) fail_at("read", folder, error.value());
 }
 
 void write_file_atomically(const Path& file, std::string_view content) {

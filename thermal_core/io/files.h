@@ -28,8 +28,11 @@ void read_pieces(const Path& file, const std::function<void(std::string_view pie
 /// end. IoError "cannot read FILE: " with the reason, also if it does not exist.
 void check_is_file(const Path& file);
 
-/// Refuses a symbolic link as an output: writing would follow it elsewhere. IoError with link and target.
+/// Refuses a symbolic link: reading or writing would follow it elsewhere. IoError with link and target.
 void check_is_no_link(const Path& place);
+
+/// The same for a folder with all that is in it and in the folders in it. What does not exist is no link.
+void check_has_no_links(const Path& folder);
 
 /// Writes under a temporary name beside `file`, syncs, renames: the file is complete or unchanged. Links of either
 /// name are replaced, not followed.

@@ -32,9 +32,8 @@ void make_fresh_folder(const Path& folder) {
 }
 
 void make_own_folder(const Path& folder) {
-  check_is_no_link(folder);
+  check_has_no_links(folder);
   make_folder(folder);
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) check_is_no_link(entry.path());
 }
 
 void replace_folder(const Path& whole, const Path& place) {

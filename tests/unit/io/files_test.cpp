@@ -274,7 +274,7 @@ TEST_CASE("A lock that is a link to elsewhere is refused") {
   std::filesystem::create_symlink("elsewhere", folder / ".lock");
   CHECK(message_of<IoError>([&] { const FolderLock lock(folder.path()); }) ==
         (folder / ".lock").string() +
-            " = a link to elsewhere; expected a path that is not a link; nothing is written to other places");
+            " = a link to elsewhere; expected a path that is not a link; nothing elsewhere is read or written");
   CHECK_FALSE(std::filesystem::exists(folder / "elsewhere"));
 }
 

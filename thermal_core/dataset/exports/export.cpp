@@ -16,6 +16,7 @@
 #include "dataset/exports/mot.h"
 #include "dataset/exports/source.h"
 #include "dataset/exports/yolo.h"
+#include "dataset/label_pictures.h"
 #include "io/json_file.h"
 #include "io/sha256.h"
 
@@ -177,7 +178,7 @@ int write_pictures(const ExportPlan& plan, const LabelSet& set, const Path& fold
   for (const PlannedPicture& picture : plan.pictures) {
     if (hooks.stop_wanted()) throw Cancelled();
     const LabelImage& image = set.images[picture.image];
-    if (link_file(Path(set.root) / image.file, folder / picture.to, linking) != linking) ++copied;
+    if (link_file(picture_of(set, image), folder / picture.to, linking) != linking) ++copied;
     progress.clip = set.videos[image.video].name;
     ++progress.frames_done;
     hooks.report(progress);

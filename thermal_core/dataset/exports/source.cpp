@@ -1,8 +1,5 @@
 #include "dataset/exports/source.h"
 
-#include <algorithm>
-#include <system_error>
-
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -11,6 +8,7 @@
 #include "dataset/exports/coco.h"
 #include "dataset/exports/selection.h"
 #include "dataset/exports/splits.h"
+#include "dataset/label_pictures.h"
 #include "dataset/label_source.h"
 #include "dataset/layout.h"
 #include "io/picture_size.h"
@@ -63,21 +61,16 @@ void use_ir16(LabelSet& set, const Path& source) {
   for (LabelImage& image : set.images) image.file = ir16_of(image.file);
 }
 
-/// A name that leads out of the folder could add any file of this machine to an export that is given away.
-void check_names(const LabelSet& set) {
-  for (const LabelImage& image : set.images) {
-    const Path path(image.file);
-    if (!path.is_absolute() && std::ranges::find(path, Path("..")) == path.end()) continue;
-    throw DataError(fault(fmt::format("{}: file_name of image {}", set.name, image.id),
-                          fmt::format("\"{}\"", image.file), "", "a file below the folder of the labels"));
-  }
-}
-
+/// A name or a link that leads out of the folder could add any file of this machine to an export that is given away.
 void check_pictures(const LabelSet& set) {
   std::vector<std::string> missing;
   for (const LabelImage& image : set.images) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(Path(set.root) / image.file, error)) missing.push_back(image.file);
+    try {
+      (void)picture_of(set, image);
+    } catch (const IoError&) {
+      if (std::filesystem::exists(Path(set.root) / image.file)) throw;
+      missing.push_back(image.file);
+    }
   }
   if (missing.empty()) return;
   constexpr std::size_t kMost = 3;
@@ -89,7 +82,7 @@ void check_pictures(const LabelSet& set) {
 void find_sizes(LabelSet& set) {
   for (LabelImage& image : set.images) {
     if (image.width_px > 0 && image.height_px > 0) continue;
-    const PictureSize size = read_picture_size(Path(set.root) / image.file);
+    const PictureSize size = read_picture_size(picture_of(set, image));
     image.width_px = size.width_px;
     image.height_px = size.height_px;
   }
@@ -119,7 +112,6 @@ ExportSource read_export_source(const ExportOptions& options) {
   LabelSet& set = source.input.set;
   set = read_set(options);
   if (options.ir16) use_ir16(set, options.source);
-  check_names(set);
   check_pictures(set);
   if (options.format == ExportFormat::yolo || options.format == ExportFormat::mot) find_sizes(set);
   const Path file = coco_file_of(options.source);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "dataset/label_pictures.h"
 #include "dataset/reports/labels.h"
 #include "io/base64.h"
 #include "io/jpeg.h"
@@ -77,7 +78,7 @@ Json figure_of(const LabelSet& set, const std::vector<std::size_t>& places, cons
           {"why", sample.why},
           {"width_px", image.width_px},
           {"height_px", image.height_px},
-          {"picture", "data:image/jpeg;base64," + base64_of(as_jpeg(Path(set.root) / image.file, kMostPx))},
+          {"picture", "data:image/jpeg;base64," + base64_of(as_jpeg(picture_of(set, image), kMostPx))},
           {"boxes", boxes_of(set, places, sample.image)}};
 }
 
