@@ -272,9 +272,10 @@ TEST_CASE("No partial file is left if a file cannot be written") {
 TEST_CASE("A lock that is a link to elsewhere is refused") {
   const TemporaryFolder folder;
   std::filesystem::create_symlink("elsewhere", folder / ".lock");
-  CHECK(message_of<IoError>([&] { const FolderLock lock(folder.path()); }) ==
-        (folder / ".lock").string() +
-            " = a link to elsewhere; expected a path that is not a link; nothing elsewhere is read or written");
+  CHECK(
+      message_of<IoError>([&] { const FolderLock lock(folder.path()); }) ==
+      (folder / ".lock").string() +
+          " = a link to elsewhere; expected a path that is not a link; nothing elsewhere is read or written");
   CHECK_FALSE(std::filesystem::exists(folder / "elsewhere"));
 }
 
