@@ -9,6 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
+from .regular_files import read_regular
+
+_MOST_BYTES = 1 << 30
 _BLEND_STARTS = (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # uncompressed, zstd, gzip
 _UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])  # y up to z up: (x, -z, y)
 
@@ -27,7 +30,7 @@ class Survey:
 
 def survey(path: Path) -> Survey:
     """The content of a model's file. OSError or Unreadable if it cannot be read."""
-    data = path.read_bytes()
+    data = read_regular(path, _MOST_BYTES)
     if not data:
         raise Unreadable("it is empty")
     return SUFFIXES[path.suffix.lower()](data)

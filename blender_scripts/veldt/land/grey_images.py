@@ -13,10 +13,12 @@ from pathlib import Path
 import numpy as np
 
 from ..faults import ConfigError
+from ..regular_files import read_regular
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _GREY = 0
 _MOST_PIXELS = 20_000 * 20_000
+_MOST_BYTES = 2 << 30  # more than an EXR of so many pixels has
 
 
 def read_grey(path: Path, where: str) -> np.ndarray:
@@ -25,7 +27,7 @@ def read_grey(path: Path, where: str) -> np.ndarray:
     ConfigError, naming `where` and the file, if it cannot be read, is not grey or has values that are not finite.
     """
     try:
-        content = Path(path).read_bytes()
+        content = read_regular(Path(path), _MOST_BYTES)
     except OSError as error:
         raise ConfigError(f"{where} = {path}; expected a readable file ({error.strerror})") from error
     if not content:
