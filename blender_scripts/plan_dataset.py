@@ -27,7 +27,7 @@ with reported_imports():
 def main(arguments: list[str]) -> int:
     """Run the command and return its exit code."""
     parser = argparse.ArgumentParser(prog="plan_dataset.py", description="Check and plan a dataset config.")
-    parser.add_argument("--config", type=Path, required=True)
+    parser.add_argument("--config", type=Path, required=True, help="a file, or - for standard input")
     parser.add_argument("--json", action="store_true", help="print the plan as one JSON object")
     options = parser.parse_args(arguments)
     return run(lambda: _plan(options))

@@ -156,12 +156,15 @@ std::string typed(const thermal::Path& path) {
   return plain ? text : fmt::format("\"{}\"", text);
 }
 
-std::string meanings(const Inspection& inspection) {
-  if (inspection.manifest) return "the manifest's";
+void print_meanings(const Inspection& inspection) {
+  if (inspection.manifest) {
+    print("  meanings   the manifest's\n");
+    return;
+  }
   const thermal::Path& folder = inspection.group.folder;
-  return fmt::format(
-      "unknown: no manifest.json; to start one\n             veldt inspect {} --starter-manifest {}",
-      typed(folder), typed(folder / "manifest.json"));
+  print("  meanings   unknown: no manifest.json; to start one\n");
+  print("             veldt inspect {} --starter-manifest {}\n", typed(folder),
+        typed(folder / "manifest.json"));
 }
 
 std::string objects_from(const Inspection& inspection) {
@@ -184,7 +187,7 @@ void print_conversion(const Inspection& inspection) {
   print("  materials  {}\n", or_none(inspection.planes.materials, "those of the objects"));
   print("  depth      {}\n", or_none(inspection.planes.depth, "none"));
   print("  normals    {}\n", or_none(inspection.planes.normals, "none"));
-  print("  meanings   {}\n", meanings(inspection));
+  print_meanings(inspection);
 }
 
 void print_bad_frames(const Inspection& inspection) {

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import copy
 import json
+import sys
 from pathlib import Path
 
 from .faults import ConfigError
@@ -18,9 +19,13 @@ MAPS = ("heightmap", "density_map")  # of scene.terrain, each with a file
 
 
 def load(path: Path) -> dict:
-    """The config at `path` with every default filled in; ConfigError if it cannot be read as JSON."""
+    """The config at `path`, or on standard input for "-", with every default filled in.
+
+    ConfigError if it cannot be read as JSON.
+    """
     try:
-        config = json.loads(Path(path).read_text(encoding="utf-8"))
+        content = sys.stdin.buffer.read() if str(path) == "-" else Path(path).read_bytes()
+        config = json.loads(content)
     except OSError as error:
         raise ConfigError(f"config = {path}; expected a readable file ({error.strerror})") from error
     except ValueError as error:

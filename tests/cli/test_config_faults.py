@@ -175,7 +175,7 @@ NOT_JSON = {
     ),
     "nothing": (
         "",
-        "1:1: not JSON: syntax error while parsing value - unexpected end of input; expected '[', '{', or a literal",
+        "1:1: not JSON: it is empty",
     ),
     "key twice": ('{"name": "a",\n "name": "b"}', ' key "name" appears twice in one object; expected once'),
 }

@@ -140,6 +140,9 @@ mount_devices() {
   mount -t tmpfs -o mode=1777 shm "$root/dev/shm"
   ln -s pts/ptmx "$root/dev/ptmx"
   ln -s /proc/self/fd "$root/dev/fd"
+  ln -s fd/0 "$root/dev/stdin"
+  ln -s fd/1 "$root/dev/stdout"
+  ln -s fd/2 "$root/dev/stderr"
   mount --bind "$kept/archives" "$root/var/cache/apt/archives"
 }
 

@@ -80,7 +80,7 @@ MANIFESTS = [
     _text(
         "empty",
         b"",
-        "one/manifest.json:1:1: not JSON: syntax error while parsing value - unexpected end of input; expected '[', '{', or a literal",
+        "one/manifest.json:1:1: not JSON: it is empty",
     ),
     _text(
         "not JSON",

@@ -36,9 +36,8 @@ DatasetPlan plan_dataset(const Json& resolved_config, const std::string& name, c
   const Path python = find_python();
   if (python.empty()) throw IoError("no python3 on PATH; install it (apt-get install python3-numpy)");
   const Path script = home / "blender_scripts" / "plan_dataset.py";
-  const Output output =
-      run_program({python.string(), "-I", "-B", script.string(), "--config", "/dev/stdin", "--json"},
-                  to_text(resolved_config));
+  const Output output = run_program({python.string(), "-I", "-B", script.string(), "--config", "-", "--json"},
+                                    to_text(resolved_config));
   constexpr int kConfigFault = 2;
   if (output.status.signal == 0 && output.status.code == kConfigFault) throw_faults(output.error, name);
   if (output.status.signal != 0 || output.status.code != 0) {

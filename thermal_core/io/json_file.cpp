@@ -100,9 +100,10 @@ Json parse_watched(Input&& input, const std::string& name, const WholeText& whol
     if (duplicates.first().empty()) return json;
   } catch (const Json::parse_error& error) {
     // The library counts the offending byte from 1.
+    const auto& text = whole_text();
     throw ConfigError(fmt::format("{}: not JSON: {}",
-                                  position(whole_text(), error.byte == 0 ? 0 : error.byte - 1, name),
-                                  reason(error.what())));
+                                  position(text, error.byte == 0 ? 0 : error.byte - 1, name),
+                                  text.empty() ? "it is empty" : reason(error.what())));
   } catch (const Json::out_of_range& error) {  // "[json.exception.out_of_range.406] number overflow …"
     throw ConfigError(fmt::format("{}: not JSON: {}", name, reason(error.what())));
   }

@@ -137,7 +137,7 @@ TEST_CASE("run_program returns both streams and the exit code") {
 
 TEST_CASE("run_program hands on its input, of any length") {
   CHECK(run_program(shell("wc -c"), std::string(300000, 'a')).out == "300000\n");
-  CHECK(run_program(shell("cat /dev/stdin"), "text").out == "text");
+  CHECK(run_program(shell("cat"), "text").out == "text");
   CHECK(run_program(shell("cat")).out.empty());
 }
 

@@ -452,8 +452,9 @@ TEST_CASE("Ancillary chunks are skipped, unknown critical ones are an error") {
   std::string wrong = png_bytes::chunk("teXt", "x");
   wrong.back() ^= 1;
   CHECK(with(wrong).fault(numbered()) == "damaged: teXt: CRC error");
-  CHECK(with(std::string("\x7F\xFF\xFF\xFFteXtx")).fault(numbered()) ==
-        "damaged: teXt: chunk data is too large");
+  const std::string huge = with(std::string("\x7F\xFF\xFF\xFFteXtx")).fault(numbered());
+  CHECK((huge == "damaged: teXt: chunk data is too large" ||
+         huge == "damaged: the file ends too soon"));  // libpng 1.6.48
   CHECK(with(std::string("\x03\xFF\xFF\xFFzTXtx")).fault(numbered()) == "damaged: the file ends too soon");
 }
 

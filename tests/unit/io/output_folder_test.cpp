@@ -63,10 +63,10 @@ TEST_CASE("A fresh folder is not created where its parent leads elsewhere") {
   const TemporaryFolder folder;
   make_folder(folder / "elsewhere");
   std::filesystem::create_directory_symlink(folder / "elsewhere", folder / "clips");
-  CHECK(
-      message_of<IoError>([&] { make_fresh_folder(folder / "clips/a.part"); }) ==
-      fmt::format("{} = a link to {}; expected a path that is not a link; nothing elsewhere is read or written",
-                  (folder / "clips").string(), (folder / "elsewhere").string()));
+  CHECK(message_of<IoError>([&] { make_fresh_folder(folder / "clips/a.part"); }) ==
+        fmt::format(
+            "{} = a link to {}; expected a path that is not a link; nothing elsewhere is read or written",
+            (folder / "clips").string(), (folder / "elsewhere").string()));
   CHECK(std::filesystem::is_empty(folder / "elsewhere"));
 }
 
