@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -99,12 +100,15 @@ SolverResult solve(const IntegerProgram& program, const SolverLimits& limits) {
   const ModelHandle model(Cbc_newModel(), &Cbc_deleteModel);
   load(model.get(), program);
   set_limits(model.get(), limits);
+  const auto begin = std::chrono::steady_clock::now();
   Cbc_solve(model.get());
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   SolverResult result;
   const bool finished = Cbc_status(model.get()) == 0;
   const double* values = Cbc_bestSolution(model.get());
   if (Cbc_isProvenInfeasible(model.get()) != 0) {
-    result.end = SolverEnd::infeasible;
+    // CBC 2.10 also says so when it runs out of time before it has solved the program without whole numbers.
+    if (taken.count() < limits.time_s) result.end = SolverEnd::infeasible;
     return result;
   }
   result.bound = Cbc_getBestPossibleObjValue(model.get());
