@@ -1,6 +1,12 @@
 """Fixtures: the small place of `scenes.tiny`, planned and rendered once for all tests."""
 
+import os
+
 import pytest
+
+import numpy_settings
+
+os.environ.update(numpy_settings.REPRODUCIBLE)  # before NumPy is imported
 
 from rendering import Run, render
 from scenes import tiny
