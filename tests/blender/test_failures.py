@@ -59,7 +59,7 @@ def test_the_place_is_the_innermost_of_these_scripts():
     failure = _failure(lambda: load(7))
     lines = (SCRIPTS / "veldt" / "config.py").read_text().splitlines()
     file, _, line = failure.where.partition(":")
-    assert file == "blender_scripts/veldt/config.py" and "Path(path).read_text" in lines[int(line) - 1]
+    assert file == "blender_scripts/veldt/config.py" and "Path(path).read_bytes" in lines[int(line) - 1]
 
 
 def test_without_a_frame_of_these_scripts_the_place_says_so():

@@ -34,15 +34,16 @@ def check_fault(done: Ended, code: int, message: str) -> None:
 class Veldt:
     """The program, run in `folder`, so that its messages contain short paths."""
 
-    def __init__(self, folder: Path):
+    def __init__(self, folder: Path, program: Path = PROGRAM):
         self.folder = folder
+        self.program = program
 
     def __call__(
         self, *arguments, env: dict | None = None, under: Sequence[str] = (), timeout_s: float = 300
     ) -> Ended:
         """Run to the end. `env` changes the environment; `under` is a command that runs the program."""
         done = subprocess.run(
-            [*under, PROGRAM, *map(str, arguments)],
+            [*under, self.program, *map(str, arguments)],
             cwd=self.folder,
             env=_environment(env),
             capture_output=True,
@@ -55,7 +56,7 @@ class Veldt:
     def start(self, *arguments, env: dict | None = None) -> subprocess.Popen:
         """Start a run in the background; its progress can be read from `stderr`, line by line."""
         return subprocess.Popen(
-            [PROGRAM, *map(str, arguments)],
+            [self.program, *map(str, arguments)],
             cwd=self.folder,
             env=_environment(env),
             stdout=subprocess.PIPE,
