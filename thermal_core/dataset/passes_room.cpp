@@ -19,10 +19,8 @@ bool has_clips(const Path& passes) {
 void begin_passes(const Layout& layout, const Config& config, const std::vector<std::string>& clips) {
   make_own_folder(layout.passes());
   for (const std::string& clip : clips) {
-    make_own_folder(layout.passes(clip));
-    if (!std::filesystem::exists(layout.unusable(clip))) continue;
-    std::filesystem::remove_all(layout.passes(clip));
-    make_own_folder(layout.passes(clip));
+    if (std::filesystem::exists(layout.unusable(clip))) std::filesystem::remove_all(layout.passes(clip));
+    make_folder(layout.passes(clip));
   }
   write_file_atomically(layout.passes_config(), to_text(config.resolved));
 }

@@ -55,16 +55,20 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   ::_exit(kCannotRun);
 }
 
+/// Moves a descriptor above those the child gives a meaning to, so that no dup2 there hits it; negative if it cannot.
+int moved_up(int descriptor) {
+  constexpr int kLowest = 10;
+  const int high = ::fcntl(descriptor, F_DUPFD_CLOEXEC, kLowest);
+  ::close(descriptor);
+  return high;
+}
+
 struct Pipe {
   Pipe() {
-    // Above the descriptors the child gives a meaning to, so that no dup2 there hits one of these.
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("make a pipe");
-    constexpr int kLowest = 10;
-    read = ::fcntl(ends[0], F_DUPFD_CLOEXEC, kLowest);
-    write = ::fcntl(ends[1], F_DUPFD_CLOEXEC, kLowest);
-    ::close(ends[0]);
-    ::close(ends[1]);
+    read = moved_up(ends[0]);
+    write = moved_up(ends[1]);
     if (read < 0 || write < 0) fail("make a pipe");
   }
   int read;
@@ -72,17 +76,13 @@ struct Pipe {
 };
 
 int open_high(const char* file, int flags) {
-  constexpr int kLowest = 10;
   const int low = ::open(file, flags | O_CLOEXEC, 0666);
   if (low < 0) fail(fmt::format("open {}", file));
-  const int high = ::fcntl(low, F_DUPFD_CLOEXEC, kLowest);
-  ::close(low);
-  return high;
+  return moved_up(low);
 }
 
 /// A descriptor that reads this text, of any length, without a file that a killed run would leave behind.
 int open_text(std::string_view text) {
-  constexpr int kLowest = 10;
   const int low = ::memfd_create("input", MFD_CLOEXEC);
   if (low < 0) fail("make a file in memory");
   for (std::string_view rest = text; !rest.empty();) {
@@ -91,9 +91,7 @@ int open_text(std::string_view text) {
     rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(bytes, 0)));
   }
   ::lseek(low, 0, SEEK_SET);
-  const int high = ::fcntl(low, F_DUPFD_CLOEXEC, kLowest);
-  ::close(low);
-  return high;
+  return moved_up(low);
 }
 
 ExitStatus to_status(int raw) {

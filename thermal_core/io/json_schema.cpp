@@ -50,13 +50,14 @@ std::string key_of(std::string_view where) {
 
 /// Of names that become names of files and folders, or parts of them.
 constexpr std::string_view kNamePattern = "^[A-Za-z0-9_][A-Za-z0-9_-]{0,199}$";
-constexpr std::string_view kNoNamePattern = "^([A-Za-z0-9_][A-Za-z0-9_-]{0,199})?$";
+constexpr std::string_view kNameOrNothingPattern = "^([A-Za-z0-9_][A-Za-z0-9_-]{0,199})?$";
 
 std::string in_words(const std::string& pattern) {
   if (pattern == kNamePattern) return "1 to 200 letters, digits, _ or -, not beginning with -";
-  if (pattern == kNoNamePattern) return "at most 200 letters, digits, _ or -, not beginning with -";
+  if (pattern == kNameOrNothingPattern) return "at most 200 letters, digits, _ or -, not beginning with -";
   return "text that matches " + pattern;
 }
+
 constexpr std::size_t kMostPatternBytes = 4096;
 
 /// Checks one document against one schema.

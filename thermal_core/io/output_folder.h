@@ -9,8 +9,8 @@ namespace thermal {
 /// full.
 void make_fresh_folder(const Path& folder);
 
-/// Creates a folder, unless it exists, in which other programs will write files by their names. IoError if it or one of
-/// its entries is a link to elsewhere, or with the system's reason; TryAgainError if the disk is full.
+/// Creates a folder, unless it exists, in which other programs will write files by their names. IoError if it, or
+/// anything in it at any depth, is a link to elsewhere, or with the system's reason; TryAgainError if the disk is full.
 void make_own_folder(const Path& folder);
 
 /// Renames a complete folder to `place`, replacing an existing one in one step: a reader, or a run killed in between,
