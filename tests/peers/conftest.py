@@ -9,6 +9,10 @@ import pytest
 
 from program import ROOT, Veldt
 
+# motmetrics' last release calls a function that NumPy 2 no longer has, and NumPy 1 has no wheels for Python 3.13.
+if not hasattr(np, "asfarray"):
+    np.asfarray = lambda values: np.asarray(values, float)
+
 # Debian's own, because Debian's packages put their modules there.
 _DRAWING_PYTHON = "/usr/bin/python3"
 

@@ -154,6 +154,7 @@ def _random_files(seed):
     random.shuffle(found)
     random.shuffle(labels)
     return {
+        "info": {},  # pycocotools copies it
         "images": [{"id": id, "file_name": f"{id}.png", "width": WIDTH, "height": HEIGHT} for id in images],
         "categories": [{"id": id, "name": f"kind {id}"} for id in categories],
         "annotations": labels,
