@@ -6,29 +6,31 @@ import math
 
 import numpy as np
 
-_BLOCK = 256  # moments computed one by one, in all blocks at once
+_BLOCK = 64  # moments computed one by one, in all blocks at once
 
 
 def states(kept: np.ndarray, added: np.ndarray) -> np.ndarray:
-    """s[0] = added[0], s[k] = kept s[k-1] + added[k]; s and added (m, n), n >= 1; kept (m, m).
+    """s[0] = added[0], s[k] = kept s[k-1] + added[k]; s and added (m, ..., n), n >= 1; kept (m, m).
 
     Blocks of equal size are computed from zero, all at once; then each receives the decayed final state of the one
     before it. Only sums and products are used, in an order that does not depend on n: the same bits on every machine.
     """
-    moments = added.shape[1]
+    size, moments = len(kept), added.shape[-1]
+    series = added.reshape(size, -1, moments)
     block = min(_BLOCK, moments)
     blocks = -(-moments // block)
-    padded = np.pad(added, ((0, 0), (0, blocks * block - moments)))
-    state = np.ascontiguousarray(np.reshape(padded, (len(kept), blocks, block)).transpose(2, 0, 1))
+    padded = np.pad(series, ((0, 0), (0, 0), (0, blocks * block - moments)))
+    state = np.ascontiguousarray(np.reshape(padded, (size, -1, block)).transpose(2, 0, 1))
     left = np.empty((block, *kept.shape))  # of the state before a block, at each of its moments
     left[0] = kept
     for k in range(1, block):
         state[k] += product(kept, state[k - 1])
         left[k] = product(kept, left[k - 1])
-    before = _ends_before(left[-1].tolist(), state[-1].T.tolist())
-    for column in range(len(kept)):
+    ends = np.split(state[-1], series.shape[1], axis=1)
+    before = np.hstack([_ends_before(left[-1].tolist(), end.T.tolist()) for end in ends])
+    for column in range(size):
         state += left[:, :, column, None] * before[column]
-    return state.transpose(1, 2, 0).reshape(len(kept), -1)[:, :moments]
+    return state.transpose(1, 2, 0).reshape(*series.shape[:2], -1)[..., :moments].reshape(added.shape)
 
 
 def lag_error(values: np.ndarray, lag_s: float, step_s: float) -> np.ndarray:
@@ -42,8 +44,7 @@ def lag_error(values: np.ndarray, lag_s: float, step_s: float) -> np.ndarray:
     steps = step_s / lag_s
     gained = np.diff(values, axis=0, prepend=values[:1]) * (-math.expm1(-steps) / steps)
     kept = np.array([[math.exp(-steps)]])
-    columns = [states(kept, column[None])[0] for column in gained.reshape(len(values), -1).T]
-    return np.stack(columns, axis=-1).reshape(values.shape)
+    return states(kept, gained.reshape(1, len(values), -1).transpose(0, 2, 1))[0].T.reshape(values.shape)
 
 
 def product(matrix: np.ndarray, columns: np.ndarray) -> np.ndarray:
