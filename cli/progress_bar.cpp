@@ -17,8 +17,8 @@ namespace {
 constexpr int kBarWidth = 30;
 constexpr auto kPlainInterval = std::chrono::seconds(5);
 
-double seconds_left(const thermal::Progress& progress, double frames_per_s) {
-  return frames_per_s > 0 ? (progress.frames_total - progress.frames_done) / frames_per_s : 0;
+double seconds_left(const thermal::Progress& progress, double per_s) {
+  return per_s > 0 ? (progress.total - progress.done) / per_s : 0;
 }
 
 }  // namespace
@@ -31,8 +31,12 @@ std::string clock_time(double seconds) {
                    : fmt::format("{}:{:02}", minutes, whole % 60);
 }
 
-ProgressBar::ProgressBar(const CommonOptions& options, std::string opening)
-    : style_(style_of(options)), opening_(std::move(opening)) {}
+ProgressBar::ProgressBar(const CommonOptions& options, std::string opening, std::string unit,
+                         std::chrono::seconds patience)
+    : style_(style_of(options)),
+      opening_(std::move(opening)),
+      unit_(std::move(unit)),
+      begin_(Clock::now() + patience) {}
 
 ProgressBar::~ProgressBar() {
   if (line_open_) print_error("\n");
@@ -47,47 +51,47 @@ ProgressBar::Style ProgressBar::style_of(const CommonOptions& options) {
 
 void ProgressBar::show(const thermal::Progress& progress) {
   const auto now = Clock::now();
-  if (progress.frames_done > 0 && first_frame_ == 0) {
-    first_frame_ = progress.frames_done;
-    first_frame_at_ = now;
+  if (now < begin_) return;
+  if (progress.done > 0 && first_ == 0) {
+    first_ = progress.done;
+    first_at_ = now;
   }
-  const double elapsed_s = std::chrono::duration<double>(now - first_frame_at_).count();
-  const int since = progress.frames_done - first_frame_;
-  const double frames_per_s = since > 0 && elapsed_s > 0 ? since / elapsed_s : 0;
-  const bool finished = progress.frames_done == progress.frames_total;
-  if (style_ == Style::json) show_json(progress, frames_per_s);
-  if (style_ == Style::bar) show_bar(progress, frames_per_s);
+  const double elapsed_s = std::chrono::duration<double>(now - first_at_).count();
+  const int since = progress.done - first_;
+  const double per_s = since > 0 && elapsed_s > 0 ? since / elapsed_s : 0;
+  const bool finished = progress.done == progress.total;
+  if (style_ == Style::json) show_json(progress, per_s);
+  if (style_ == Style::bar) show_bar(progress, per_s);
   if (style_ == Style::plain && (finished || now - last_shown_ >= kPlainInterval)) {
-    show_plain(progress, frames_per_s);
+    show_plain(progress, per_s);
     last_shown_ = now;
   }
 }
 
-std::string ProgressBar::time_left(const thermal::Progress& progress, double frames_per_s) const {
-  if (frames_per_s > 0) return "ETA " + clock_time(seconds_left(progress, frames_per_s));
-  return progress.frames_done > 0 ? "starting" : opening_;
+std::string ProgressBar::time_left(const thermal::Progress& progress, double per_s) const {
+  if (per_s > 0) return "ETA " + clock_time(seconds_left(progress, per_s));
+  return progress.done > 0 ? "starting" : opening_;
 }
 
-void ProgressBar::show_bar(const thermal::Progress& progress, double frames_per_s) {
-  const int filled = progress.frames_total > 0 ? kBarWidth * progress.frames_done / progress.frames_total : 0;
-  print_error("\r\x1b[K[{:=<{}}{: <{}}] {}/{} frames  {:.1f} frames/s  {}  {}", "", filled, "",
-              kBarWidth - filled, progress.frames_done, progress.frames_total, frames_per_s,
-              time_left(progress, frames_per_s), progress.clip);
+void ProgressBar::show_bar(const thermal::Progress& progress, double per_s) {
+  const int filled = progress.total > 0 ? kBarWidth * progress.done / progress.total : 0;
+  print_error("\r\x1b[K[{:=<{}}{: <{}}] {}/{} {}  {:.1f} {}/s  {}  {}", "", filled, "", kBarWidth - filled,
+              progress.done, progress.total, unit_, per_s, unit_, time_left(progress, per_s), progress.clip);
   std::fflush(stderr);
   line_open_ = true;
 }
 
-void ProgressBar::show_plain(const thermal::Progress& progress, double frames_per_s) const {
-  print_error("{}/{} frames, {:.1f} frames/s, {}, clip {}\n", progress.frames_done, progress.frames_total,
-              frames_per_s, time_left(progress, frames_per_s), progress.clip);
+void ProgressBar::show_plain(const thermal::Progress& progress, double per_s) const {
+  print_error("{}/{} {}, {:.1f} {}/s, {}, clip {}\n", progress.done, progress.total, unit_, per_s, unit_,
+              time_left(progress, per_s), progress.clip);
 }
 
-void ProgressBar::show_json(const thermal::Progress& progress, double frames_per_s) {
+void ProgressBar::show_json(const thermal::Progress& progress, double per_s) const {
   const thermal::Json line = {{"clip", progress.clip},
-                              {"frames_done", progress.frames_done},
-                              {"frames_total", progress.frames_total},
-                              {"frames_per_s", frames_per_s},
-                              {"left_s", seconds_left(progress, frames_per_s)}};
+                              {fmt::format("{}_done", unit_), progress.done},
+                              {fmt::format("{}_total", unit_), progress.total},
+                              {fmt::format("{}_per_s", unit_), per_s},
+                              {"left_s", seconds_left(progress, per_s)}};
   print_event(line);
 }
 

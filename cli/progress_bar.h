@@ -8,12 +8,13 @@
 
 namespace veldt {
 
-/// Shows the progress of a run on standard error: a bar with frames/s and time left on a terminal, a line every few
+/// Shows the progress of a run on standard error: a bar with rate and time left on a terminal, a line every few
 /// seconds elsewhere, or one JSON object per line for machines.
 class ProgressBar {
  public:
-  /// `opening` is what the run does before its first frame.
-  explicit ProgressBar(const CommonOptions& options, std::string opening = "starting");
+  /// `opening` is what the run does before its first frame. Nothing is shown for runs shorter than `patience`.
+  explicit ProgressBar(const CommonOptions& options, std::string opening = "starting",
+                       std::string unit = "frames", std::chrono::seconds patience = {});
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -31,17 +32,19 @@ class ProgressBar {
   using Clock = std::chrono::steady_clock;
 
   [[nodiscard]] static Style style_of(const CommonOptions& options);
-  [[nodiscard]] std::string time_left(const thermal::Progress& progress, double frames_per_s) const;
-  void show_bar(const thermal::Progress& progress, double frames_per_s);
-  void show_plain(const thermal::Progress& progress, double frames_per_s) const;
+  [[nodiscard]] std::string time_left(const thermal::Progress& progress, double per_s) const;
+  void show_bar(const thermal::Progress& progress, double per_s);
+  void show_plain(const thermal::Progress& progress, double per_s) const;
   void show_event(const thermal::Json& event, const std::string& line);
-  static void show_json(const thermal::Progress& progress, double frames_per_s);
+  void show_json(const thermal::Progress& progress, double per_s) const;
 
   Style style_;
   std::string opening_;
+  std::string unit_;         ///< of what is counted
+  Clock::time_point begin_;  ///< of what is shown
   Clock::time_point last_shown_;
-  Clock::time_point first_frame_at_;  ///< rate and time left exclude what is done before
-  int first_frame_ = 0;
+  Clock::time_point first_at_;  ///< rate and time left exclude what is done before
+  int first_ = 0;
   bool line_open_ = false;
 };
 

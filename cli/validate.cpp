@@ -1,5 +1,6 @@
 #include "dataset/validate.h"
 
+#include <chrono>
 #include <memory>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "base/error.h"
 #include "cli/command.h"
 #include "cli/output.h"
+#include "cli/progress_bar.h"
 #include "dataset/plan.h"
 #include "io/resources.h"
 
@@ -19,12 +21,19 @@ struct ValidateArguments {
   bool json = false;
 };
 
-int validate_dataset(const ValidateArguments& options) {
+thermal::DatasetCheck check_dataset(const std::string& folder, const CommonOptions& common) {
+  constexpr std::chrono::seconds kPatience(2);
+  ProgressBar bar(common, "starting", "clips", kPatience);
+  const auto show = [&bar](const thermal::Progress& progress) { bar.show(progress); };
+  return thermal::validate_dataset(folder, {.progress = show, .cancelled = {}});
+}
+
+int validate_dataset(const ValidateArguments& options, const CommonOptions& common) {
   if (!options.settings.empty()) {
     throw thermal::ConfigError(
         thermal::fault("--set", options.settings.front(), "", "a config to check, not a dataset"));
   }
-  const thermal::DatasetCheck check = thermal::validate_dataset(options.what);
+  const thermal::DatasetCheck check = check_dataset(options.what, common);
   if (options.json) {
     const thermal::Json report = {{"dataset", options.what},
                                   {"valid", check.faults.empty()},
@@ -75,8 +84,8 @@ void add_validate(CLI::App& app, Session& session) {
   add_settings(command, options->settings);
   command->add_flag("--json", options->json, "Report as JSON");
   command->callback([options, &session] {
-    session.run = [options] {
-      return std::filesystem::is_directory(options->what) ? validate_dataset(*options)
+    session.run = [options, &session] {
+      return std::filesystem::is_directory(options->what) ? validate_dataset(*options, session.common)
                                                           : validate_config(*options);
     };
   });

@@ -106,13 +106,13 @@ class Dataset {
     index_.add(record.clip, record);
     outcome_.made.push_back(record.clip);
     outcome_.frames_made += record.frames;
-    write_progress(layout_, index_);
+    pace_.pass([this] { write_progress(layout_, index_); });
   }
 
   void reject(const std::string& clip, const std::string& why) {
     index_.failed[clip] = printable(why);
     outcome_.failed[clip] = printable(why);
-    write_progress(layout_, index_);
+    pace_.pass([this] { write_progress(layout_, index_); });
   }
 
   ConvertOutcome end(const std::vector<ClipPasses>& sources) {
@@ -168,6 +168,7 @@ class Dataset {
   std::set<std::string> changed_;  ///< existing clips whose passes have changed since
   std::set<std::string> mended_;   ///< existing clips that can be made with more of their frames
   RunOutcome outcome_;
+  ProgressPace pace_;
 };
 
 /// Makes the missing clips, clip by clip for all the datasets that lack it.
@@ -199,7 +200,7 @@ class Converter {
     for (const auto& dataset : datasets_) dataset->begin();
     for (const ClipPasses& source : sources_) announce(source.manifest.clip);
     for (const ClipPasses& source : sources_) {
-      if (!lacking(source).empty()) progress_.frames_total += static_cast<int>(source.manifest.frames.size());
+      if (!lacking(source).empty()) progress_.total += static_cast<int>(source.manifest.frames.size());
     }
     for (const ClipPasses& source : sources_) {
       if (const std::vector<Dataset*> wanted = lacking(source); !wanted.empty()) try_make(source, wanted);
@@ -222,7 +223,7 @@ class Converter {
   void try_make(const ClipPasses& source, const std::vector<Dataset*>& wanted) {
     progress_.clip = source.manifest.clip;
     hooks_.report(progress_);
-    const int before = progress_.frames_done;
+    const int before = progress_.done;
     std::vector<ClipRecord> records;
     try {
       records = make(source, wanted);
@@ -232,7 +233,7 @@ class Converter {
       reject(source, wanted, fault.what());
     }
     for (std::size_t i = 0; i < records.size(); ++i) wanted[i]->add(records[i]);
-    if (records.empty()) progress_.frames_done = before + static_cast<int>(source.manifest.frames.size());
+    if (records.empty()) progress_.done = before + static_cast<int>(source.manifest.frames.size());
   }
 
   /// Call in a catch block: in strict mode, rethrows.
@@ -247,7 +248,7 @@ class Converter {
     const ClipHooks hooks = {.wait_for_frame = {},
                              .frame_done =
                                  [this] {
-                                   ++progress_.frames_done;
+                                   ++progress_.done;
                                    hooks_.report(progress_);
                                  },
                              .cancelled = hooks_.cancelled,

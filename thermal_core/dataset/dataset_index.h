@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <set>
 #include <string>
@@ -44,9 +45,28 @@ struct DatasetIndex {
 /// Adds what other runs have made of the dataset meanwhile. `own` clips belong to this run, which knows their state.
 void catch_up(const Layout& layout, const std::set<std::string>& own, DatasetIndex& index);
 
-/// Writes only dataset.json, during a run: little work even with many clips. Until write_dataset() it has no checksum
-/// of annotations.json, which may lack clips.
+/// Writes only dataset.json. Until write_dataset() it has no checksum of annotations.json, which may lack clips.
 void write_progress(const Layout& layout, const DatasetIndex& index);
+
+/// Decides when to write dataset.json during a run: after each clip, but for at most a tenth of the run's time, since
+/// the file grows with the number of clips. A run that is killed loses nothing: the next one finds all complete clips.
+class ProgressPace {
+ public:
+  /// Calls `write` unless the last call was too short a time ago.
+  template <typename Write>
+  void pass(const Write& write) {
+    const Clock::time_point begin = Clock::now();
+    if (begin < next_) return;
+    write();
+    const Clock::time_point end = Clock::now();
+    next_ = end + kRest * (end - begin);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr int kRest = 9;  ///< times as long as the last call
+  Clock::time_point next_;
+};
 
 /// Writes annotations.json, from the complete clips, and dataset.json: at the end of a run.
 void write_dataset(const Layout& layout, const DatasetIndex& index);

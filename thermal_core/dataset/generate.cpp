@@ -145,10 +145,12 @@ class Generator {
   /// Updates the dataset's record, including what other runs have made.
   void change_index(const std::function<void()>& change) {
     const std::lock_guard lock(mutex_);
-    lock_.in_turn([&] {
-      catch_up(layout_, own_, index_);
-      change();
-      write_progress(layout_, index_);
+    change();
+    pace_.pass([this] {
+      lock_.in_turn([this] {
+        catch_up(layout_, own_, index_);
+        write_progress(layout_, index_);
+      });
     });
   }
 
@@ -193,6 +195,7 @@ class Generator {
   std::set<std::string> own_;
   std::vector<ClipConfig> pending_;
   std::vector<std::string> already_there_;
+  ProgressPace pace_;
 };
 
 }  // namespace

@@ -186,13 +186,13 @@ void survey(Inspection& inspection, const InspectOptions& options, const RunHook
   PassSurveyor surveyor(inspection.layout, options.limits);
   const auto& frames = inspection.sequence.frames;
   Progress progress{.clip = inspection.group.folder.filename().string(),
-                    .frames_done = 0,
-                    .frames_total = options.all_frames ? static_cast<int>(frames.size()) : 1};
+                    .done = 0,
+                    .total = options.all_frames ? static_cast<int>(frames.size()) : 1};
   for (const auto& [name, is_gap] : frames) {
     if (hooks.stop_wanted()) throw Cancelled();
     if (!is_gap) surveyor.add(file_in(inspection.group, name.name));
     if (!is_gap && !options.all_frames) break;
-    ++progress.frames_done;
+    ++progress.done;
     if (options.all_frames) hooks.report(progress);
   }
   inspection.survey = surveyor.found();

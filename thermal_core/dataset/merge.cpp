@@ -21,7 +21,8 @@ namespace {
 /// A dataset to merge.
 struct Source {
   Path root;
-  Json document;  ///< its dataset.json
+  Json document;                                          ///< its dataset.json
+  std::map<std::string, std::string> record_sha256 = {};  ///< of clip.json, by clip, as dataset.json has it
 };
 
 /// A complete clip in some folder.
@@ -31,15 +32,24 @@ struct FoundClip {
   std::string record_sha256;  ///< its entry in dataset.json; empty without one
 };
 
+/// Lacks clips that a run renamed before it was killed, and did not record.
+std::map<std::string, std::string> recorded_sums(const Json& document) {
+  std::map<std::string, std::string> sums;
+  for (const Json& clip : document.at("clips"))
+    sums[clip.at("id")] = clip.value("record_sha256", std::string());
+  return sums;
+}
+
 Source open_source(const Path& root) {
   if (!Layout{root}.is_begun())
     throw ConfigError(fault("DIR", root.string(), "", "a dataset, with a dataset.json"));
-  const Json document = read_dataset_file(root);
+  Json document = read_dataset_file(root);
   const auto version = document.value("veldt_version", std::string());
   if (version != kVersion)
     throw ConfigError(fault(root.string() + ": veldt_version", version, "",
                             std::string(kVersion) + ", this program's version"));
-  return {.root = root, .document = document};
+  std::map<std::string, std::string> sums = recorded_sums(document);
+  return {.root = root, .document = std::move(document), .record_sha256 = std::move(sums)};
 }
 
 /// Checks that all have one config: `document.physics` follows from it.
@@ -70,20 +80,13 @@ Config config_of(const Source& source) {
   return config;
 }
 
-/// Empty if a run was killed after it renamed the clip and before it recorded it.
-std::string recorded_sha256(const Source& source, const std::string& id) {
-  for (const Json& clip : source.document.value("clips", Json::array())) {
-    if (clip.at("id") == id) return clip.value("record_sha256", std::string());
-  }
-  return {};
-}
-
 std::optional<FoundClip> find_clip(const Source& source, const std::string& id) {
   const Path folder = Layout{source.root}.clip(id);
   if (!std::filesystem::exists(folder / "clip.json")) return std::nullopt;
+  const auto recorded = source.record_sha256.find(id);
   return FoundClip{.folder = folder,
                    .record = read_clip_record(folder / "clip.json"),
-                   .record_sha256 = recorded_sha256(source, id)};
+                   .record_sha256 = recorded == source.record_sha256.end() ? "" : recorded->second};
 }
 
 /// Pictures and labels; their encoding in files may differ between machines' libraries.
@@ -152,7 +155,7 @@ class Merger {
       } else if (index_.finished.contains(id)) {
         outcome_.run.already_there.push_back(id);
       } else {
-        progress_.frames_total += found.front().record.frames;
+        progress_.total += found.front().record.frames;
         plan_.emplace_back(id, found);
       }
     }
@@ -162,10 +165,10 @@ class Merger {
   void try_add(const std::string& id, const std::vector<FoundClip>& found) {
     progress_.clip = id;
     hooks_.report(progress_);
-    const int before = progress_.frames_done;
+    const int before = progress_.done;
     std::string why;
     for (const FoundClip& clip : found) {
-      progress_.frames_done = before;
+      progress_.done = before;
       try {
         add(clip);
         return;
@@ -175,7 +178,7 @@ class Merger {
     }
     std::filesystem::remove_all(layout_.unfinished_clip(id));
     outcome_.run.failed[id] = why;
-    progress_.frames_done = before + found.front().record.frames;
+    progress_.done = before + found.front().record.frames;
     hooks_.report(progress_);
   }
 
@@ -193,7 +196,7 @@ class Merger {
     index_.add(id, clip.record);
     outcome_.run.made.push_back(id);
     outcome_.run.frames_made += clip.record.frames;
-    write_progress(layout_, index_);
+    pace_.pass([this] { write_progress(layout_, index_); });
   }
 
   void add_file(const Path& file, const Path& as, const std::string& sum) {
@@ -201,7 +204,7 @@ class Merger {
     check_file(file, sum);
     link_file(file, as, options_.linking);
     if (as.parent_path().filename() != "ir8") return;
-    ++progress_.frames_done;
+    ++progress_.done;
     hooks_.report(progress_);
   }
 
@@ -214,6 +217,7 @@ class Merger {
   std::vector<std::pair<std::string, std::vector<FoundClip>>> plan_;
   MergeOutcome outcome_;
   Progress progress_;
+  ProgressPace pace_;
 };
 
 }  // namespace

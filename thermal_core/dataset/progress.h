@@ -9,9 +9,10 @@ namespace thermal {
 
 /// Progress of a run.
 struct Progress {
-  std::string clip;     ///< the one being made
-  int frames_done = 0;  ///< of the whole run, counting only frames that this run has to make
-  int frames_total = 0;
+  std::string clip;  ///< the one at work
+  int done =
+      0;  ///< frames of the whole run, counting only those that this run has to make; clips of validate
+  int total = 0;
 };
 
 /// Callbacks of a long run. All may be empty; no two are called at once.

@@ -81,15 +81,15 @@ int preview(const Config& config, const GenerateOptions& options, const RunHooks
   RenderJob job(preview_task(config, options));
   const std::string clip = RenderJob::kPreview;
   job.wait_for_frame(clip, -1, hooks.cancelled);
-  Progress progress{.clip = clip, .frames_done = 0, .frames_total = job.frames_of(clip)};
+  Progress progress{.clip = clip, .done = 0, .total = job.frames_of(clip)};
   hooks.report(progress);
-  while (progress.frames_done < progress.frames_total) {
-    job.wait_for_frame(clip, progress.frames_done, hooks.cancelled);
-    ++progress.frames_done;
+  while (progress.done < progress.total) {
+    job.wait_for_frame(clip, progress.done, hooks.cancelled);
+    ++progress.done;
     hooks.report(progress);
   }
   job.wait_for_end(hooks.cancelled);
-  return progress.frames_total;
+  return progress.total;
 }
 
 }  // namespace thermal

@@ -10,7 +10,7 @@
 namespace thermal {
 
 RunBoard::RunBoard(const RunHooks& hooks, const Path& out, int frames_total) : hooks_(hooks), out_(out) {
-  progress_.frames_total = frames_total;
+  progress_.total = frames_total;
 }
 
 void RunBoard::begin(const ClipConfig& clip) {
@@ -23,7 +23,7 @@ void RunBoard::begin(const ClipConfig& clip) {
 void RunBoard::frame_done(const std::string& clip) {
   const std::lock_guard lock(mutex_);
   ++frames_done_[clip];
-  ++progress_.frames_done;
+  ++progress_.done;
   progress_.clip = clip;
   hooks_.report(progress_);
 }
@@ -39,7 +39,7 @@ void RunBoard::lost(const ClipConfig& clip, const std::string& why, bool killed)
   const std::lock_guard lock(mutex_);
   outcome_.failed[clip.id] = why;
   all_killed_ = all_killed_ && killed;
-  progress_.frames_done += clip.frames - frames_done_[clip.id];  // those will never come
+  progress_.done += clip.frames - frames_done_[clip.id];  // those will never come
   end(clip);
   hooks_.report(progress_);
 }

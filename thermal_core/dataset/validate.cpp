@@ -26,11 +26,17 @@ std::string fault_of(const Path& file) {
 
 class Checker {
  public:
-  explicit Checker(const Path& root) : layout_{root} {}
+  Checker(const Path& root, const RunHooks& hooks) : layout_{root}, hooks_(hooks) {}
 
   DatasetCheck run() {
     const Json dataset = read_dataset_file(layout_.root);
-    for (const Json& clip : dataset.at("clips")) check_clip(clip);
+    progress_.total = static_cast<int>(dataset.at("clips").size());
+    for (const Json& clip : dataset.at("clips")) {
+      check_clip(clip);
+      progress_.clip = clip.at("id");
+      ++progress_.done;
+      hooks_.report(progress_);
+    }
     if (dataset.contains("annotations_sha256")) {
       check_file(layout_.annotations_json(), dataset["annotations_sha256"]);
     } else {
@@ -72,11 +78,13 @@ class Checker {
   }
 
   Layout layout_;
+  const RunHooks& hooks_;
+  Progress progress_;
   DatasetCheck check_;
 };
 
 }  // namespace
 
-DatasetCheck validate_dataset(const Path& root) { return Checker(root).run(); }
+DatasetCheck validate_dataset(const Path& root, const RunHooks& hooks) { return Checker(root, hooks).run(); }
 
 }  // namespace thermal

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/progress.h"
 #include "io/files.h"
 
 namespace thermal {
@@ -15,7 +16,7 @@ struct DatasetCheck {
 };
 
 /// Checks that a dataset is complete and every file unchanged: SHA-256 of all of them. Never throws for faults inside
-/// the dataset; IoError if there is none.
-[[nodiscard]] DatasetCheck validate_dataset(const Path& root);
+/// the dataset; IoError if there is none. The frames of `hooks.progress` are those of dataset.json.
+[[nodiscard]] DatasetCheck validate_dataset(const Path& root, const RunHooks& hooks = {});
 
 }  // namespace thermal

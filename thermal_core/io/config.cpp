@@ -109,11 +109,10 @@ Json parse_value(const std::string& text) {
 }  // namespace
 
 const ClipConfig& Config::clip(const std::string& id, const std::string& where) const {
+  const auto found = std::ranges::find(clips, id, &ClipConfig::id);
+  if (found != clips.end()) return *found;
   std::vector<std::string> known;
-  for (const ClipConfig& clip : clips) {
-    if (clip.id == id) return clip;
-    known.push_back(clip.id);
-  }
+  for (const ClipConfig& clip : clips) known.push_back(clip.id);
   throw ConfigError(fault(where, fmt::format("\"{}\"", id), "", "one of " + list_names(known)) +
                     did_you_mean(id, known));
 }

@@ -173,14 +173,14 @@ class Part {
 /// Returns the number of pictures copied because links were impossible.
 int write_pictures(const ExportPlan& plan, const LabelSet& set, const Path& folder, Linking linking,
                    const RunHooks& hooks) {
-  Progress progress{.clip = "", .frames_done = 0, .frames_total = static_cast<int>(plan.pictures.size())};
+  Progress progress{.clip = "", .done = 0, .total = static_cast<int>(plan.pictures.size())};
   int copied = 0;
   for (const PlannedPicture& picture : plan.pictures) {
     if (hooks.stop_wanted()) throw Cancelled();
     const LabelImage& image = set.images[picture.image];
     if (link_file(picture_of(set, image), folder / picture.to, linking) != linking) ++copied;
     progress.clip = set.videos[image.video].name;
-    ++progress.frames_done;
+    ++progress.done;
     hooks.report(progress);
   }
   return copied;

@@ -247,7 +247,7 @@ void write_video(Painter& painter, const Programme& programme, const VideoReques
     if (hooks.stop_wanted()) throw Cancelled();
     cv::cvtColor(painter.paint(frame), i420, cv::COLOR_BGR2YUV_I420);
     file.add([&i420](const H264File::Planes& planes) { copy_planes(i420, planes); });
-    hooks.report({.clip = name, .frames_done = frame + 1, .frames_total = frames});
+    hooks.report({.clip = name, .done = frame + 1, .total = frames});
   }
   file.close();
   part.keep();
