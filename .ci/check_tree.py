@@ -1,5 +1,6 @@
 """Checks on the repository's files that no compiler makes: JSON that parses, configs that match the schema,
-no paths of a developer's machine. Standard input names the files, one a line, relative to the root.
+no paths of a developer's machine, no path that a document leads astray. Standard input names the files, one a line,
+relative to the root.
 
 Exit 0 when all is well; 1 with one line a fault, `<file>[:<line>]: <what>; expected <rule>`.
 """
@@ -14,6 +15,11 @@ import jsonschema
 CONFIG_SCHEMA = Path("configs/schema/config.schema.json")
 # A home or working folder at the start of a path; the look-behind leaves URLs and relative paths alone.
 MACHINE_PATH = re.compile(r"(?<![\w./-])/(?:home|root|work|Users)/")
+
+# A path that is joined with, or made of, a value of a JSON document. Text that first goes through a variable is not
+# recognized: reviews, and tests/integration/test_openings.py, look for that.
+DOCUMENT_VALUE = r"[\w.>-]+(?:\[\"|\.at\(\"|\.value\(\"|\.get<std::string>)"
+DOCUMENT_PATH = re.compile(rf"(?:(?<!/)/=? |\bPath[({{])(?:std::string\()?{DOCUMENT_VALUE}")
 
 
 def json_faults(path: Path) -> list[str]:
@@ -61,9 +67,24 @@ def machine_path_faults(path: Path) -> list[str]:
     ]
 
 
+def document_path_faults(path: Path) -> list[str]:
+    """One line for each line of C++ in which a document names a file without any check."""
+    lines = enumerate(path.read_text(encoding="utf-8").splitlines(), start=1)
+    return [
+        f"{path}:{number}: a path with text of a document; expected a RelativeName"
+        for number, line in lines
+        if DOCUMENT_PATH.search(line)
+    ]
+
+
 def file_faults(path: Path) -> list[str]:
     """All faults of one file."""
-    return machine_path_faults(path) + (json_faults(path) if path.suffix == ".json" else [])
+    faults = machine_path_faults(path)
+    if path.suffix == ".json":
+        faults += json_faults(path)
+    if path.suffix in (".cpp", ".h") and path.parts[0] in ("thermal_core", "cli"):
+        faults += document_path_faults(path)
+    return faults
 
 
 def main() -> int:

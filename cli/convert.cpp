@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "cli/command.h"
+#include "cli/output.h"
 #include "cli/progress_bar.h"
 #include "cli/read_limits.h"
 #include "cli/run_summary.h"
@@ -23,6 +24,7 @@ struct ConvertArguments {
   double max_megapixels = 256;
   double max_unusable_share = kMostUnusable;
   bool strict = false;
+  bool dry_run = false;
 };
 
 std::optional<thermal::Json> read_document(const std::string& file) {
@@ -32,6 +34,32 @@ std::optional<thermal::Json> read_document(const std::string& file) {
   } catch (const thermal::IoError& error) {
     throw thermal::ConfigError(error.what());
   }
+}
+
+const char* in_words(thermal::ConvertStep::Action action) {
+  switch (action) {
+    case thermal::ConvertStep::Action::make:
+      return "make";
+    case thermal::ConvertStep::Action::make_again:
+      return "make again";
+    case thermal::ConvertStep::Action::keep:
+      return "keep";
+  }
+  return "";
+}
+
+void print_forecast(const thermal::ConvertForecast& forecast) {
+  int clips = 0;
+  int frames = 0;
+  print("{:<48} {:>8}  what to do\n", forecast.out.string() + ": clip", "frames");
+  for (const thermal::ConvertStep& step : forecast.steps) {
+    print("{:<48} {:>8}  {}\n", step.clip, step.frames, in_words(step.action));
+    if (step.action == thermal::ConvertStep::Action::keep) continue;
+    ++clips;
+    frames += step.frames;
+  }
+  for (const std::string& term : forecast.left_out) print("without the term {}\n", term);
+  print("{} of {} clips to make, {} frames\n", clips, forecast.steps.size(), frames);
 }
 
 int run_convert(const ConvertArguments& options, const CommonOptions& common) {
@@ -48,6 +76,11 @@ int run_convert(const ConvertArguments& options, const CommonOptions& common) {
                                      .limits = read_limits(options.max_megapixels),
                                      .strict = options.strict,
                                      .threads = common.threads};
+  if (options.dry_run) {
+    for (const thermal::ConvertForecast& forecast : thermal::forecast_convert(request))
+      print_forecast(forecast);
+    return kDone;
+  }
   watch_for_stop();
   std::vector<thermal::ConvertOutcome> outcomes;
   {
@@ -82,6 +115,9 @@ void add_convert(CLI::App& app, Session& session) {
   add_max_unusable(command, options->max_unusable_share);
   command->add_flag("--strict", options->strict,
                     "Stop at the first bad frame instead of reporting it and skipping it");
+  command->add_flag(
+      "--dry-run", options->dry_run,
+      "Check the request and the manifests, and print what would be made, without writing anything");
   command->callback([options, &session] {
     session.run = [options, &session] { return run_convert(*options, session.common); };
   });

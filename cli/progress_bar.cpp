@@ -76,14 +76,15 @@ std::string ProgressBar::time_left(const thermal::Progress& progress, double per
 void ProgressBar::show_bar(const thermal::Progress& progress, double per_s) {
   const int filled = progress.total > 0 ? kBarWidth * progress.done / progress.total : 0;
   print_error("\r\x1b[K[{:=<{}}{: <{}}] {}/{} {}  {:.1f} {}/s  {}  {}", "", filled, "", kBarWidth - filled,
-              progress.done, progress.total, unit_, per_s, unit_, time_left(progress, per_s), progress.clip);
+              progress.done, progress.total, unit_, per_s, unit_, time_left(progress, per_s),
+              thermal::printable(progress.clip));
   std::fflush(stderr);
   line_open_ = true;
 }
 
 void ProgressBar::show_plain(const thermal::Progress& progress, double per_s) const {
   print_error("{}/{} {}, {:.1f} {}/s, {}, clip {}\n", progress.done, progress.total, unit_, per_s, unit_,
-              time_left(progress, per_s), progress.clip);
+              time_left(progress, per_s), thermal::printable(progress.clip));
 }
 
 void ProgressBar::show_json(const thermal::Progress& progress, double per_s) const {

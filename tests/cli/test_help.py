@@ -13,6 +13,7 @@ OPTIONS = {
         "--out",
         "--manifest",
         "--config",
+        "--dry-run",
         "--variants",
         "--set",
         "--strict",

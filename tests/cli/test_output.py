@@ -74,6 +74,49 @@ def test_tables_and_json_print_names_harmlessly(rude, style):
         assert ESCAPE in json.dumps(done.json(), ensure_ascii=False).replace("\\u001b", "\x1b")
 
 
+PLAIN = ("--progress", "plain")
+
+
+@pytest.fixture(name="rude_dataset")
+def _rude_dataset(rude):
+    assert rude("convert", "one", "--out", "set", "--quiet").code == 0
+    labels = rude.read("set/annotations.json")
+    assert any(ESCAPE in category["name"] for category in labels["categories"])
+    boxes = [
+        {k: box[k] for k in ("image_id", "category_id", "bbox")} | {"score": 0.9}
+        for box in labels["annotations"]
+    ]
+    rude.write("found.json", boxes)
+    labels["videos"][0]["name"] = f"ni{ESCAPE}ght"
+    labels["info"]["description"] = f"ni{ESCAPE}ght"
+    for image in labels["images"]:
+        image["file_name"] = "set/" + image["file_name"]
+    rude.write("foreign.json", labels)
+    return rude
+
+
+@pytest.mark.parametrize(
+    "arguments, code",
+    [
+        (["validate", "set"], 0),
+        (["export", "set", "--format", "coco", "--out", "x", *PLAIN], 0),
+        (["export", "set", "--format", "yolo", "--out", "x", *PLAIN], 0),
+        (["export", "set", "--format", "mot", "--out", "x", *PLAIN], 0),
+        (["export", "foreign.json", "--format", "coco", "--out", "x", *PLAIN], 0),
+        (["export", "foreign.json", "--format", "mot", "--out", "x"], 1),
+        (["evaluate", "--truth", "set", "--detections", "found.json"], 0),
+        (["evaluate", "--truth", "foreign.json", "--detections", "found.json", "--json"], 0),
+        (["balance", "foreign.json", "--per-class", "0:9", "--out", "s.json"], 0),
+        (["report", "foreign.json", "--out", "r.html", *PLAIN], 0),
+        (["video", "set", "--out", "v.mp4", "--boxes", *PLAIN], 0),
+    ],
+    ids=str,
+)
+def test_names_in_datasets_are_printed_harmlessly(rude_dataset, arguments, code):
+    done = rude_dataset(*arguments)
+    assert (done.code, _is_harmless(done.out), _is_harmless(done.err)) == (code, True, True), done
+
+
 def test_many_faults_are_counted(veldt):
     clip = passes.write_clip(veldt.folder / "one")
     manifest = json.loads((clip / "manifest.json").read_text())

@@ -52,14 +52,17 @@ std::vector<std::string> terms_left_out(const Budget& budget) {
   return left_out;
 }
 
-/// A dataset being made.
+/// Whether a run makes datasets, or only says what it would make.
+enum class Intent { make, forecast };
+
+/// A dataset being made. Its folder is created and locked for that alone.
 class Dataset {
  public:
   Dataset(ConvertRequest request, const Budget& budget, const MaterialLibrary& materials,
-          const std::vector<ClipPasses>& sources)
+          const std::vector<ClipPasses>& sources, Intent intent)
       : request_(std::move(request)),
         layout_(own_layout(request_)),
-        lock_(layout_.root),
+        lock_(intent == Intent::make ? std::make_unique<FolderLock>(layout_.root) : nullptr),
         index_(open_dataset(layout_, request_.config)),
         kept_(budget.kept),
         left_out_(terms_left_out(budget)),
@@ -81,6 +84,20 @@ class Dataset {
   [[nodiscard]] bool lacks(const ClipPasses& source) const {
     const std::string& clip = source.manifest.clip;
     return !index_.finished.contains(clip) || mended_.contains(clip) || changed_.contains(clip);
+  }
+
+  [[nodiscard]] ConvertForecast forecast(const std::vector<ClipPasses>& sources) const {
+    ConvertForecast forecast{
+        .variant = request_.variant, .out = request_.out, .steps = {}, .left_out = left_out_};
+    for (const ClipPasses& source : sources) {
+      const std::string& clip = source.manifest.clip;
+      const auto make =
+          index_.finished.contains(clip) ? ConvertStep::Action::make_again : ConvertStep::Action::make;
+      forecast.steps.push_back({.clip = clip,
+                                .frames = static_cast<int>(source.manifest.frames.size()),
+                                .action = lacks(source) ? make : ConvertStep::Action::keep});
+    }
+    return forecast;
   }
 
   /// From here on the folder belongs to this config.
@@ -160,7 +177,7 @@ class Dataset {
 
   ConvertRequest request_;
   Layout layout_;
-  FolderLock lock_;
+  std::unique_ptr<FolderLock> lock_;
   DatasetIndex index_;
   Terms kept_;
   std::vector<std::string> left_out_;
@@ -171,17 +188,26 @@ class Dataset {
   ProgressPace pace_;
 };
 
+std::vector<std::unique_ptr<Dataset>> open_datasets(const std::vector<ConvertRequest>& requests,
+                                                    const std::vector<ClipPasses>& sources,
+                                                    const MaterialLibrary& materials, Intent intent) {
+  // First, because a required term that is impossible is a fault, and then no folder is touched.
+  const std::vector<Budget> budgets = budgets_of(requests, materials, sources);
+  std::vector<std::unique_ptr<Dataset>> datasets;
+  for (std::size_t i = 0; i < requests.size(); ++i)
+    datasets.push_back(std::make_unique<Dataset>(requests[i], budgets[i], materials, sources, intent));
+  return datasets;
+}
+
 /// Makes the missing clips, clip by clip for all the datasets that lack it.
 class Converter {
  public:
   Converter(const std::vector<ConvertRequest>& requests, const std::vector<ClipPasses>& sources,
             const MaterialLibrary& materials, const RunHooks& hooks)
-      : sources_(sources), materials_(materials), hooks_(hooks) {
-    // First, because a required term that is impossible is a fault, and then no folder is touched.
-    const std::vector<Budget> budgets = budgets_of(requests, materials, sources);
-    for (std::size_t i = 0; i < requests.size(); ++i)
-      datasets_.push_back(std::make_unique<Dataset>(requests[i], budgets[i], materials, sources));
-  }
+      : sources_(sources),
+        materials_(materials),
+        hooks_(hooks),
+        datasets_(open_datasets(requests, sources, materials, Intent::make)) {}
 
   std::vector<ConvertOutcome> run() {
     try {
@@ -266,16 +292,32 @@ class Converter {
   Progress progress_;
 };
 
-}  // namespace
-
-std::vector<ConvertOutcome> convert(const ConvertOptions& options, const RunHooks& hooks) {
-  const ThreadLimit limit(options.threads);
-  const MaterialLibrary materials = read_materials(options.home);
+std::vector<ClipPasses> read_sources(const ConvertOptions& options, const MaterialLibrary& materials) {
   std::vector<ClipPasses> sources = find_passes(options.passes, options.manifest, materials, options.home);
   for (ClipPasses& source : sources) {
     source.limits = options.limits;
     source.bad_frames = options.strict ? BadFrames::fail : BadFrames::skip;
   }
+  return sources;
+}
+
+}  // namespace
+
+std::vector<ConvertForecast> forecast_convert(const ConvertOptions& options) {
+  const ThreadLimit limit(options.threads);
+  const MaterialLibrary materials = read_materials(options.home);
+  const std::vector<ClipPasses> sources = read_sources(options, materials);
+  std::vector<ConvertForecast> forecasts;
+  for (const auto& dataset :
+       open_datasets(convert_requests(options, sources), sources, materials, Intent::forecast))
+    forecasts.push_back(dataset->forecast(sources));
+  return forecasts;
+}
+
+std::vector<ConvertOutcome> convert(const ConvertOptions& options, const RunHooks& hooks) {
+  const ThreadLimit limit(options.threads);
+  const MaterialLibrary materials = read_materials(options.home);
+  const std::vector<ClipPasses> sources = read_sources(options, materials);
   return Converter(convert_requests(options, sources), sources, materials, hooks).run();
 }
 

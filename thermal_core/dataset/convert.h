@@ -40,6 +40,25 @@ struct ConvertOutcome {
   std::vector<std::string> left_out = {};  ///< automatic terms, each with what the passes lack for it
 };
 
+/// What a run would do with a clip.
+struct ConvertStep {
+  enum class Action { make, make_again, keep };
+  std::string clip;
+  int frames = 0;  ///< of its passes
+  Action action = Action::make;
+};
+
+/// What a run would do for one dataset.
+struct ConvertForecast {
+  std::string variant;  ///< empty: the only dataset
+  Path out;             ///< its folder
+  std::vector<ConvertStep> steps;
+  std::vector<std::string> left_out = {};  ///< automatic terms, each with what the passes lack for it
+};
+
+/// What convert() would do, without writing anything. Faults are those that convert() has before its first frame.
+[[nodiscard]] std::vector<ConvertForecast> forecast_convert(const ConvertOptions& options);
+
 /// Makes a dataset from existing passes, or one per variant: a variant is the config with its changes applied, and
 /// the passes of a clip are read once for all variants that lack it. Progress counts frames of passes, each once. A
 /// frame that cannot be converted is listed in the outcome, and its clip is made without it; a clip that cannot be

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/relative_name.h"
 #include "io/json_file.h"
 #include "io/json_schema.h"
 #include "io/spectrum_files.h"
@@ -22,6 +23,12 @@ MaterialPart read_part(const Json& json) {
           .cooling_time_s = json["cooling_time_s"]};
 }
 
+Path spectrum_file(const std::string& text, const Path& material) {
+  const auto name = RelativeName::of(text);
+  if (!name) throw ConfigError(fault(material.string() + ": spectrum", brief(text), "", RelativeName::kRule));
+  return material.parent_path() / name->text();
+}
+
 Material read_material(const Json& json, const Path& file) {
   Material material;
   material.name = file.stem().string();
@@ -29,9 +36,7 @@ Material read_material(const Json& json, const Path& file) {
   material.winter_k = json["winter_k"];
   material.summer_k = json["summer_k"];
   material.in_table_1 = json["in_table_1"];
-  if (json.contains("spectrum")) {
-    material.spectrum = read_emissivity(file.parent_path() / json["spectrum"].get<std::string>());
-  }
+  if (json.contains("spectrum")) material.spectrum = read_emissivity(spectrum_file(json["spectrum"], file));
   material.angular = read_law(json["angular"]);
   material.variation = {.stddev_k = json["variation"]["stddev_k"],
                         .correlation_length_m = json["variation"]["correlation_length_m"]};

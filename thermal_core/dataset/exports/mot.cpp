@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/printable.h"
 
 namespace thermal {
 namespace {
@@ -108,7 +109,7 @@ class MotPlanner {
   [[nodiscard]] std::string classes() const {
     std::string text;
     for (const LabelCategory& category : set_.categories)
-      text += fmt::format("{} {}\n", category.id, category.name);
+      text += fmt::format("{} {}\n", category.id, printable(category.name));
     return text;
   }
 

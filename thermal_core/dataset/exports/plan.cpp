@@ -8,21 +8,15 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/relative_name.h"
 
 namespace thermal {
 namespace {
 
-bool stays_inside(const std::string& name) {
-  const std::filesystem::path path(name);
-  if (name.empty() || path.is_absolute() || name.find('\0') != std::string::npos) return false;
-  return std::ranges::none_of(path, [](const auto& part) { return part == ".." || part == "."; }) &&
-         path.has_filename();
-}
-
 void check_inside(const std::string& to, const std::string& file) {
-  if (!stays_inside(to))
+  if (!RelativeName::of(to))
     throw DataError(fault(fmt::format("\"{}\": name of its file", file), fmt::format("\"{}\"", to), "",
-                          "one inside the folder of the export"));
+                          RelativeName::kRule));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "base/relative_name.h"
 #include "dataset/exports/birdsai.h"
 #include "dataset/exports/mot.h"
 #include "dataset/exports/yolo.h"
@@ -86,6 +87,12 @@ TEST_CASE("MOT: files that trackers need for a clip, and for all clips") {
   CHECK(text_of(plan, "classes.txt") == "1 human\n8 giraffe\n10 vehicle\n");
 }
 
+TEST_CASE("MOT: a class is one line, whatever its name") {
+  ExportInput input = two_videos();
+  input.set.categories[0].name = "hu\nman\x1b[31m";
+  CHECK(text_of(plan_mot(input), "classes.txt") == "1 hu; man\\x1b[31m\n8 giraffe\n10 vehicle\n");
+}
+
 TEST_CASE("MOT: tracks of a clip are renumbered from 1 if needed") {
   ExportInput input = two_videos();
   input.set.labels[1].track_id = 0;
@@ -158,9 +165,10 @@ TEST_CASE("No file of an export is outside its folder, or where another one is")
     plan.pictures = {{.image = 0, .to = to}};
     return message_of<DataError>([&] { check_targets(plan, input.set); });
   };
-  for (const std::string to : {"../up.png", "a/../../up.png", "/etc/x.png", "", "..", "a/", "./a.png"})
-    CHECK(fault_of(to) == "\"clips/east/ir8/000000.png\": name of its file = \"" + to +
-                              "\"; expected one inside the folder of the export");
+  for (const std::string to :
+       {"../up.png", "a/../../up.png", "/etc/x.png", "", "..", "a/", "./a.png", "-r/a.png", "a\nb.png"})
+    CHECK(fault_of(to) == "\"clips/east/ir8/000000.png\": name of its file = \"" + to + "\"; expected " +
+                              RelativeName::kRule);
   CHECK(fault_of("a/export.json") ==
         "\"a/export.json\" and \"clips/east/ir8/000000.png\" would both become a/export.json; expected names "
         "that "
