@@ -124,3 +124,25 @@ def test_a_report_embeds_pictures_of_its_dataset_only(veldt, dataset, name):
     rule = 'expected a relative path without "..", control characters, or parts that begin with "-" or exceed 200 bytes'
     check_fault(done, 1, f'made_up: file_name of image 1 = "{name}"; {rule}')
     assert not (veldt.folder / "report.html").exists()
+
+
+@pytest.mark.parametrize("command", READERS)
+@pytest.mark.parametrize(
+    "place, message",
+    [
+        ("clips/0/record_sha256", "clips[0].record_sha256 = nothing; expected one"),
+        ("clips/0/frames", "clips[0].frames = nothing; expected one"),
+        ("config/sensor/kelvin_per_count", "config.sensor.kelvin_per_count = nothing; expected a number"),
+    ],
+)
+def test_a_value_that_dataset_json_lacks_is_named(veldt, dataset, command, place, message):
+    document = json.loads((dataset / "dataset.json").read_text())
+    *parents, key = [int(part) if part.isdigit() else part for part in place.split("/")]
+    entry = document
+    for part in parents:
+        entry = entry[part]
+    del entry[key]
+    (veldt.folder / "home").mkdir()
+    (dataset / "dataset.json").write_text(json.dumps(document))
+    done = veldt(*READERS[command])
+    assert done.code == 1 and done.err == f"veldt: foreign/data/dataset.json: {message}\n"

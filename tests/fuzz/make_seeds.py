@@ -92,6 +92,7 @@ TEXTS = {
 COPIES = {
     "calibration": [file for file in sorted(CALIBRATIONS.iterdir()) if file.suffix != ".md"],
     "config": [CONFIGS / "demo.json", CONFIGS / "savanna.json"],
+    "dataset": [Path(__file__).with_name("dataset_seed.json")],
     "variants": [CONFIGS / "variants_example.json", CONFIGS / "gallery.json"],
     "plan": [FLIGHTS / "survey.plan"],
     "log": [FLIGHTS / "log.csv"],
@@ -102,6 +103,8 @@ WORDS = {
     " dist_coeffs image_width image_height cameraResolution rows cols dt data fisheye_model distortion_model plumb_bob"
     " rectification_matrix M1 type_id opencv-matrix .Nan .Inf opencv_storage <data> </data> !!binary $base64$".split(),
     "coco": ["images", "annotations", "categories", "videos", "image_id", "category_id", "bbox", "file_name"],
+    "dataset": "../ ../../secret ../secret/key.png /dev/zero /etc/passwd @sum clips/one ir8/000000.png links files id"
+    " record_sha256 file_name status done".split(),
     "detections": ["image_id", "category_id", "bbox", "score", "1e308", "-1e308"],
     "exr_passes": "channels chlist compression dataWindow displayWindow box2i lineOrder pixelAspectRatio float v2f name"
     " screenWindowCenter screenWindowWidth string tiles tiledesc type scanlineimage tiledimage chunkCount int version"

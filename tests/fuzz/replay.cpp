@@ -22,6 +22,7 @@ const std::map<std::string_view, void (*)(Bytes)> kTargets = {{"birdsai", fuzz::
                                                               {"calibration", fuzz::calibration},
                                                               {"coco", fuzz::coco},
                                                               {"config", fuzz::config},
+                                                              {"dataset", fuzz::dataset},
                                                               {"detections", fuzz::detections},
                                                               {"exr_passes", fuzz::exr_passes},
                                                               {"index_picture", fuzz::index_picture},

@@ -1,6 +1,9 @@
 #include "dataset/dataset_file.h"
 
+#include <algorithm>
+#include <array>
 #include <set>
+#include <string>
 
 #include "base/error.h"
 #include "base/relative_name.h"
@@ -19,6 +22,31 @@ Json read_as_data(const Path& file) {
   }
 }
 
+/// A value that other rooms read without asking: its place, and what it must be.
+struct RequiredValue {
+  const char* place;
+  bool (Json::*is_right)() const noexcept;
+  const char* rule;
+};
+constexpr std::array<RequiredValue, 5> kRequired = {
+    {{.place = "/veldt_version", .is_right = &Json::is_string, .rule = "text"},
+     {.place = "/config", .is_right = &Json::is_object, .rule = "an object"},
+     {.place = "/config/name", .is_right = &Json::is_string, .rule = "text"},
+     {.place = "/config/seed", .is_right = &Json::is_number_integer, .rule = "a whole number"},
+     {.place = "/config/sensor/kelvin_per_count", .is_right = &Json::is_number, .rule = "a number"}}};
+
+void check_values(const Json& dataset, const std::string& file) {
+  for (const RequiredValue& value : kRequired) {
+    const Json::json_pointer place(value.place);
+    const bool is_there = dataset.contains(place);
+    if (is_there && (dataset.at(place).*value.is_right)()) continue;
+    std::string name = &value.place[1];
+    std::ranges::replace(name, '/', '.');
+    throw DataError(
+        fault(file + ": " + name, is_there ? brief(dataset.at(place)) : "nothing", "", value.rule));
+  }
+}
+
 void check_clips(const Json& dataset, const std::string& file) {
   const std::string list = "clips";
   std::set<std::string> seen;
@@ -31,7 +59,11 @@ void check_clips(const Json& dataset, const std::string& file) {
     const std::string id = clip.text("id");
     if (!RelativeName::part_of(id)) throw clip.fault_of("id", RelativeName::kPartRule);
     if (!seen.insert(id).second) throw clip.fault_of("id", "each id once");
-    (void)clip.text("status");
+    const std::string status = clip.text("status");
+    if (status == "failed") (void)clip.text("reason");
+    if (status != "done") continue;
+    (void)clip.text("record_sha256");
+    (void)clip.count("frames");
   }
 }
 
@@ -46,6 +78,7 @@ Json read_dataset_file(const Path& root) {
   if (!dataset.is_object() || dataset.value("format", Json()) != "veldt-dataset")
     throw DataError(file.string() + " does not belong to a Veldt dataset");
   check_clips(dataset, file.string());
+  check_values(dataset, file.string());
   return dataset;
 }
 

@@ -91,7 +91,7 @@ Json document_of(const DatasetIndex& index, const std::string& annotations_sha25
                    {"pixels_sha256", pixels.hex()}};
   if (!annotations_sha256.empty()) document["annotations_sha256"] = annotations_sha256;
   document["kelvin_per_count"] = index.config.at("sensor").at("kelvin_per_count");
-  document["physics"] = index.physics;
+  if (!index.physics.is_null()) document["physics"] = index.physics;
   document["clips"] = std::move(clips);
   document["config"] = index.config;
   return document;

@@ -22,7 +22,7 @@ struct UnusableShare {
 /// The state of a dataset as recorded in dataset.json.
 struct DatasetIndex {
   Json config;                                ///< resolved
-  Json physics;                               ///< record of the budget, which is the same for all clips
+  Json physics;                               ///< record of the budget, the same for all clips; null if old
   std::vector<std::string> clips;             ///< ids, in the config's order
   std::map<std::string, Json> finished;       ///< by id: its entry; checksums of files stay in clip.json
   std::map<std::string, std::string> failed;  ///< by id: why it failed when last tried

@@ -6,6 +6,9 @@
 #include <set>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "dataset/annotations.h"
 #include "io/output_file.h"
 #include "labels/categories.h"
@@ -100,7 +103,13 @@ class Joiner {
 
 ClipLabels labels_of(const Layout& layout, const std::string& clip) {
   const Path file = layout.clip(clip) / "labels.json";
-  return {.clip = clip, .read = [file](const TakeElement& take) { (void)read_json_elements(file, take); }};
+  return {.clip = clip, .read = [file](const TakeElement& take) {
+            try {
+              (void)read_json_elements(file, take);
+            } catch (const Json::exception& error) {
+              throw DataError(fmt::format("{}: not labels of a clip: {}", file.string(), error.what()));
+            }
+          }};
 }
 
 /// Always the same, so that leftovers of a killed run are overwritten.

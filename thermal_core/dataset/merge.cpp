@@ -126,7 +126,7 @@ class Merger {
         layout_{options.out},
         lock_(options.out),
         index_(open_dataset(layout_, config_of(sources_.front()))) {
-    index_.physics = sources_.front().document.at("physics");
+    index_.physics = sources_.front().document.value("physics", Json());
   }
 
   MergeOutcome run() {

@@ -26,8 +26,19 @@ std::string clips_fault(const std::string& clips) {
 TEST_CASE("A dataset's file is read as it is") {
   const TemporaryFolder folder;
   (void)folder.file("dataset.json",
-                    R"({"format": "veldt-dataset", "clips": [{"id": "a", "status": "done"}]})");
+                    R"({"format": "veldt-dataset", "veldt_version": "1",
+                        "config": {"name": "n", "seed": 1, "sensor": {"kelvin_per_count": 0.01}},
+                        "clips": [{"id": "a", "status": "done", "record_sha256": "0", "frames": 3}]})");
   CHECK(read_dataset_file(folder.path()).at("clips").at(0).at("id") == "a");
+}
+
+TEST_CASE("A value that others rely on is named if it is missing or of another kind") {
+  CHECK(clips_fault("[]") == ": veldt_version = nothing; expected text");
+  CHECK(clips_fault(R"([], "veldt_version": "1", "config": {"name": 7})") ==
+        ": config.name = 7; expected text");
+  CHECK(clips_fault(R"([{"id": "a", "status": "done"}])") ==
+        ": clips[0].record_sha256 = nothing; expected one");
+  CHECK(clips_fault(R"([{"id": "a", "status": "failed"}])") == ": clips[0].reason = nothing; expected one");
 }
 
 TEST_CASE("Other files are refused") {
@@ -48,7 +59,7 @@ TEST_CASE("Ids of clips are names, each once, because they become names of folde
   CHECK(clips_fault(R"([{"id": "-rf", "status": "done"}])") == ": clips[0].id = \"-rf\"" + rule);
   CHECK(clips_fault(R"([{"id": "a\u001b[2J", "status": "done"}])") ==
         ": clips[0].id = \"a\\u001b[2J\"" + rule);
-  CHECK(clips_fault(R"([{"id": "a", "status": "done"}, {"id": "a", "status": "done"}])") ==
+  CHECK(clips_fault(R"([{"id": "a", "status": "pending"}, {"id": "a", "status": "pending"}])") ==
         ": clips[1].id = \"a\"; expected each id once");
   CHECK(clips_fault(R"([{"id": 7, "status": "done"}])") == ": clips[0].id = 7; expected a string");
   CHECK(clips_fault(R"([{"id": "a"}])") == ": clips[0].status = nothing; expected one");

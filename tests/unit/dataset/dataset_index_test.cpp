@@ -14,7 +14,7 @@ Config two_clips() {
   Config config;
   config.name = "night";
   config.clips = {{.id = "a"}, {.id = "b"}};
-  config.resolved = {{"name", "night"}, {"sensor", {{"kelvin_per_count", 0.01}}}};
+  config.resolved = {{"name", "night"}, {"seed", 1}, {"sensor", {{"kelvin_per_count", 0.01}}}};
   return config;
 }
 

@@ -20,10 +20,11 @@ const char* const kLabels = R"({"categories": [{"id": 1, "name": "human"}],
 /// A dataset of two clips; `rest` goes into its record.
 void write_dataset(const TemporaryFolder& folder, const std::string& status_of_b, const std::string& rest) {
   (void)folder.file("annotations.json", kLabels);
-  (void)folder.file("dataset.json",
-                    fmt::format(R"({{"format": "veldt-dataset", {}"config": {{"name": "savanna"}},
-      "clips": [{{"id": "a", "status": "done"}}, {{"id": "b", "status": "{}"}}]}})",
-                                rest, status_of_b));
+  (void)folder.file("dataset.json", fmt::format(R"({{"format": "veldt-dataset", "veldt_version": "1", {}
+      "config": {{"name": "savanna", "seed": 1, "sensor": {{"kelvin_per_count": 0.01}}}},
+      "clips": [{{"id": "a", "status": "done", "record_sha256": "0", "frames": 1}},
+                {{"id": "b", "status": "{}", "record_sha256": "0", "frames": 1}}]}})",
+                                                rest, status_of_b));
 }
 
 std::string fault_of(const Path& source, bool unfinished_too = false) {
@@ -84,7 +85,8 @@ TEST_CASE("A source without labels is reported") {
   CHECK(fault_of(folder.path()) == "/dataset.json does not belong to a Veldt dataset");
   (void)folder.file("dataset.json", R"({"format": "veldt-dataset"})");
   CHECK(fault_of(folder.path()) == "/dataset.json: clips = missing; expected a list");
-  (void)folder.file("dataset.json", R"({"format": "veldt-dataset", "clips": []})");
+  (void)folder.file("dataset.json", R"({"format": "veldt-dataset", "veldt_version": "1", "clips": [],
+      "config": {"name": "n", "seed": 1, "sensor": {"kelvin_per_count": 0.01}}})");
   CHECK_THAT(fault_of(folder.path()), StartsWith(": annotations.json may lack clips"));
   (void)folder.file("dataset.json", "{");
   CHECK_THAT(fault_of(folder.path()), StartsWith("/dataset.json:1:2: not JSON: "));
