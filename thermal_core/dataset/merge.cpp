@@ -44,7 +44,7 @@ Source open_source(const Path& root) {
   if (!Layout{root}.is_begun())
     throw ConfigError(fault("DIR", root.string(), "", "a dataset, with a dataset.json"));
   Json document = read_dataset_file(root);
-  const auto version = document.value("veldt_version", std::string());
+  const auto version = document.at("veldt_version").get<std::string>();
   if (version != kVersion)
     throw ConfigError(fault(root.string() + ": veldt_version", version, "",
                             std::string(kVersion) + ", this program's version"));

@@ -10,9 +10,8 @@ namespace thermal {
 /// Progress of a run.
 struct Progress {
   std::string clip;  ///< the one at work
-  int done =
-      0;  ///< frames of the whole run, counting only those that this run has to make; clips of validate
-  int total = 0;
+  int done = 0;      ///< frames, or clips of validate
+  int total = 0;     ///< of the whole run, counting only what this run has to do
 };
 
 /// Callbacks of a long run. All may be empty; no two are called at once.

@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 7> kHandedDown = {
 /// Whether NumPy may choose its functions for AVX-512. Telling it to leave out what a processor lacks makes it warn.
 bool has_avx512() {
 #ifdef __x86_64__
-  return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0;
+  return __builtin_cpu_supports("avx512dq") != 0;  // implies AVX512F
 #else
   return false;
 #endif
