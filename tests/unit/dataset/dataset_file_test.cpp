@@ -38,6 +38,12 @@ TEST_CASE("A value that others rely on is named if it is missing or of another k
         ": config.name = 7; expected text");
   CHECK(clips_fault(R"([{"id": "a", "status": "done"}])") ==
         ": clips[0].record_sha256 = nothing; expected one");
+  CHECK(clips_fault(R"([{"id": "a", "status": "pending", "frames": "9"}])") ==
+        ": clips[0].frames = \"9\"; expected a whole number");
+  CHECK(clips_fault(R"([{"id": "a", "status": "pending", "frames": null}])") ==
+        ": clips[0].frames = null; expected a whole number");
+  CHECK(clips_fault(R"([{"id": "a", "status": "pending", "record_sha256": 7}])") ==
+        ": clips[0].record_sha256 = 7; expected a string");
   CHECK(clips_fault(R"([{"id": "a", "status": "failed"}])") == ": clips[0].reason = nothing; expected one");
 }
 
