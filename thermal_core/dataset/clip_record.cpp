@@ -1,6 +1,7 @@
 #include "dataset/clip_record.h"
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "base/printable.h"
 #include "base/relative_name.h"
 #include "base/text.h"
+#include "io/json_entry.h"
 
 namespace thermal {
 
@@ -18,11 +20,15 @@ Json to_json(const SkippedFrame& frame) {
   return {{"frame_index", frame.frame_index}, {"file", printable(frame.file)}, {"reason", frame.reason}};
 }
 
-std::vector<SkippedFrame> read_skipped(const Json& record) {
+std::vector<SkippedFrame> read_skipped(const Json& record, const std::string& file) {
+  const std::string list = "skipped";
   std::vector<SkippedFrame> frames;
-  for (const Json& frame : record.value("skipped", Json::array()))
-    frames.push_back(
-        {.frame_index = frame.at("frame_index"), .file = frame.at("file"), .reason = frame.at("reason")});
+  for (const Json& frame : record.value(list, Json::array())) {
+    const JsonEntry entry(frame, file, list, frames.size());
+    frames.push_back({.frame_index = entry.count("frame_index"),
+                      .file = entry.text("file"),
+                      .reason = entry.text("reason")});
+  }
   return frames;
 }
 
@@ -53,9 +59,11 @@ void check_names(const ClipRecord& record, const Path& file) {
   }
 }
 
-std::optional<double> read_share(const Json& record, const char* key) {
-  if (!record.contains(key)) return std::nullopt;
-  return record.at(key).get<double>();
+std::uint32_t read_seed(const JsonEntry& record) {
+  const std::int64_t seed = record.integer("seed");
+  if (seed < 0 || seed > std::numeric_limits<std::uint32_t>::max())
+    throw record.fault_of("seed", "a whole number from 0 to 4294967295");
+  return static_cast<std::uint32_t>(seed);
 }
 
 }  // namespace
@@ -84,26 +92,28 @@ Json to_json(const ClipRecord& record) {
 
 ClipRecord read_clip_record(const Path& file) {
   check_has_no_links(file.parent_path());
+  const std::string name = file.string();
   try {
     const Json json = read_json(file);
-    ClipRecord record = {.clip = json.at("clip"),
-                         .season = json.at("season"),
-                         .seed = json.at("seed"),
-                         .frames = json.at("frames"),
-                         .annotations = json.at("annotations"),
-                         .frame_rate_hz = json.at("frame_rate_hz"),
-                         .pixels_sha256 = json.at("pixels_sha256"),
+    const JsonEntry entry(json, name);
+    ClipRecord record = {.clip = entry.text("clip"),
+                         .season = entry.text("season"),
+                         .seed = read_seed(entry),
+                         .frames = entry.count("frames"),
+                         .annotations = entry.count("annotations"),
+                         .frame_rate_hz = entry.number("frame_rate_hz"),
+                         .pixels_sha256 = entry.text("pixels_sha256"),
                          .made_from_sha256 = json.value("made_from_sha256", std::string()),
                          .files = json.at("files").get<std::map<std::string, std::string>>(),
-                         .skipped = read_skipped(json),
-                         .unusable_depth_share = read_share(json, "unusable_depth_share"),
-                         .unusable_normal_share = read_share(json, "unusable_normal_share")};
+                         .skipped = read_skipped(json, name),
+                         .unusable_depth_share = entry.optional_number("unusable_depth_share"),
+                         .unusable_normal_share = entry.optional_number("unusable_normal_share")};
     check_names(record, file);
     return record;
   } catch (const ConfigError& error) {
     throw DataError(error.what());
   } catch (const Json::exception& error) {
-    throw DataError(fmt::format("{}: not a clip record: {}", file.string(), error.what()));
+    throw DataError(fmt::format("{}: not a clip record: {}", name, error.what()));
   }
 }
 

@@ -28,8 +28,8 @@ struct ClipRecord {
   int annotations = 0;
   double frame_rate_hz = 9;
   std::string pixels_sha256;  ///< of the frames' checksums, in order: ir8, ir16, ir8, …
-  std::string made_from_sha256 =
-      {};  ///< identity_of() its passes; empty if they were rendered for this dataset
+  /// identity_of() its passes; empty if they were rendered for this dataset
+  std::string made_from_sha256 = {};
   std::map<std::string, std::string> files;  ///< SHA-256 of every other file of the clip's folder
   std::vector<SkippedFrame> skipped = {};    ///< in ascending order
   /// Share of the pixels of surfaces whose depth, or normal, is unusable (PassChecks), over all converted frames; empty

@@ -72,8 +72,8 @@ void find_finished(const Layout& layout, DatasetIndex& index) {
 /// dataset.json; `annotations_sha256` is empty while annotations.json may lack clips.
 Json document_of(const DatasetIndex& index, const std::string& annotations_sha256) {
   Json clips = Json::array();
-  int frames = 0;
-  int annotations = 0;
+  std::int64_t frames = 0;
+  std::int64_t annotations = 0;
   Sha256 pixels;
   for (const std::string& id : index.clips) {
     clips.push_back(clip_entry(index, id));

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "dataset/annotations.h"
+#include "io/json_entry.h"
 #include "io/output_file.h"
 #include "labels/categories.h"
 
@@ -29,8 +30,11 @@ struct HasSeenEnough {};
 void look_at(const ClipLabels& clip, Survey& survey) {
   std::map<int, std::string>& names = survey.names.emplace_back();
   std::size_t videos = 0;
-  const TakeElement take = [&](const std::string& array, std::size_t, const Json& element) {
-    if (array == "categories") names[element.at("id")] = element.at("name");
+  const TakeElement take = [&](const std::string& array, std::size_t place, const Json& element) {
+    if (array == "categories") {
+      const JsonEntry category(element, clip.source, array, place);
+      names[category.count("id")] = category.text("name");
+    }
     if (array == "videos") {
       survey.videos.push_back(element);
       survey.videos.back()["id"] = survey.names.size();
@@ -70,26 +74,31 @@ class Joiner {
  private:
   void add(const ClipLabels& clip, std::size_t number) {
     const std::size_t images_before = last_image_;
-    clip.read([&](const std::string& array, std::size_t, const Json& element) {
-      if (array == "images") add_image(element, images_before, number, clip.clip);
-      if (array == "annotations") add_annotation(element, images_before, survey_.names[number]);
+    clip.read([&](const std::string& array, std::size_t place, const Json& element) {
+      const JsonEntry entry(element, clip.source, array, place);
+      if (array == "images") add_image(element, entry, images_before, number, clip.clip);
+      if (array == "annotations") add_annotation(element, entry, images_before, survey_.names[number]);
     });
   }
 
   /// Skipped frames of a clip leave gaps in its ids: the last id counts, not the number of images.
-  void add_image(Json image, std::size_t before, std::size_t number, const std::string& clip) {
-    const std::size_t id = before + image.at("id").get<std::size_t>();
+  void add_image(Json image, const JsonEntry& given, std::size_t before, std::size_t number,
+                 const std::string& clip) {
+    const std::size_t id = before + static_cast<std::size_t>(given.count("id"));
     last_image_ = std::max(last_image_, id);
     image["id"] = id;
     image["video_id"] = number + 1;
-    image["file_name"] = "clips/" + clip + "/" + image.at("file_name").get<std::string>();
+    image["file_name"] = "clips/" + clip + "/" + given.text("file_name");
     document_.add(image.dump());
   }
 
-  void add_annotation(Json annotation, std::size_t images_before, const std::map<int, std::string>& names) {
+  void add_annotation(Json annotation, const JsonEntry& given, std::size_t images_before,
+                      const std::map<int, std::string>& names) {
+    const auto category = names.find(given.count("category_id"));
+    if (category == names.end()) throw given.fault_of("category_id", "the id of one of its categories");
     annotation["id"] = ++annotations_;
-    annotation["image_id"] = images_before + annotation.at("image_id").get<std::size_t>();
-    annotation["category_id"] = ids_.at(names.at(annotation.at("category_id").get<int>()));
+    annotation["image_id"] = images_before + static_cast<std::size_t>(given.count("image_id"));
+    annotation["category_id"] = ids_.at(category->second);
     spool_.add(annotation.dump());
   }
 
@@ -103,7 +112,7 @@ class Joiner {
 
 ClipLabels labels_of(const Layout& layout, const std::string& clip) {
   const Path file = layout.clip(clip) / "labels.json";
-  return {.clip = clip, .read = [file](const TakeElement& take) {
+  return {.clip = clip, .source = file.string(), .read = [file](const TakeElement& take) {
             try {
               (void)read_json_elements(file, take);
             } catch (const Json::exception& error) {

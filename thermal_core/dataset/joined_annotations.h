@@ -13,6 +13,7 @@ namespace thermal {
 /// Labels of one clip of a dataset.
 struct ClipLabels {
   std::string clip;
+  std::string source;  ///< what faults name: a file
   /// Passes on the elements of its document, as parse_json_elements() does; may be called twice.
   std::function<void(const TakeElement& take)> read;
 };

@@ -10,8 +10,13 @@
 namespace thermal {
 
 JsonEntry::JsonEntry(const Json& json, const std::string& file, const std::string& list, std::size_t place)
-    : json_(json), file_(file), list_(list), place_(place) {
-  if (!json.is_object()) throw DataError(fault(where(), brief(json), "", "an object"));
+    : json_(json), file_(file), list_(&list), place_(place) {
+  if (!json.is_object())
+    throw DataError(fault(fmt::format("{}: {}[{}]", file, list, place), brief(json), "", "an object"));
+}
+
+JsonEntry::JsonEntry(const Json& json, const std::string& file) : json_(json), file_(file) {
+  if (!json.is_object()) throw DataError(fault(file, brief(json), "", "an object"));
 }
 
 std::int64_t JsonEntry::integer(const char* key) const {
@@ -67,10 +72,13 @@ LabelBox JsonEntry::box(const char* key) const {
 }
 
 DataError JsonEntry::fault_of(const char* key, const std::string& rule) const {
-  return DataError(fault(where() + "." + key, json_.contains(key) ? brief(json_[key]) : "nothing", "", rule));
+  return DataError(fault(place_of(key), json_.contains(key) ? brief(json_[key]) : "nothing", "", rule));
 }
 
-std::string JsonEntry::where() const { return fmt::format("{}: {}[{}]", file_, list_, place_); }
+std::string JsonEntry::place_of(const char* key) const {
+  return list_ == nullptr ? fmt::format("{}: {}", file_, key)
+                          : fmt::format("{}: {}[{}].{}", file_, *list_, place_, key);
+}
 
 const Json& JsonEntry::at(const char* key) const {
   if (!json_.contains(key)) throw fault_of(key, "one");

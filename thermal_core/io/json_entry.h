@@ -10,13 +10,15 @@
 
 namespace thermal {
 
-/// One object of a list in an external JSON file, read key by key. A wrong value, or a missing required key, is a
-/// DataError "FILE: LIST[PLACE].KEY = VALUE; expected RULE". A null value counts as missing.
+/// One object of a list in an external JSON file, or the file's only one, read key by key. A wrong value, or a missing
+/// required key, is a DataError "FILE: LIST[PLACE].KEY = VALUE; expected RULE". A null value counts as missing.
 class JsonEntry {
  public:
   /// `list` is empty if the file itself is the list. All arguments must outlive the entry. DataError if it is not an
   /// object.
   JsonEntry(const Json& json, const std::string& file, const std::string& list, std::size_t place);
+  /// The file's only object: faults are "FILE: KEY = VALUE; expected RULE".
+  JsonEntry(const Json& json, const std::string& file);
 
   [[nodiscard]] bool has(const char* key) const { return json_.contains(key) && !json_[key].is_null(); }
   /// Up to 2^63 - 1.
@@ -36,13 +38,13 @@ class JsonEntry {
   [[nodiscard]] DataError fault_of(const char* key, const std::string& rule) const;
 
  private:
-  [[nodiscard]] std::string where() const;
+  [[nodiscard]] std::string place_of(const char* key) const;
   [[nodiscard]] const Json& at(const char* key) const;
 
   const Json& json_;
   const std::string& file_;
-  const std::string& list_;
-  std::size_t place_;
+  const std::string* list_ = nullptr;
+  std::size_t place_ = 0;
 };
 
 }  // namespace thermal

@@ -27,9 +27,24 @@ TEST_CASE("A record survives writing and reading") {
 
 TEST_CASE("An invalid record is a DataError with the file") {
   const TemporaryFolder folder;
-  const Path empty = folder.file("empty.json", "{}");
-  CHECK_THAT(message_of<DataError>([&] { (void)read_clip_record(empty); }),
-             StartsWith(empty.string() + ": not a clip record: "));
+  const auto fault_of = [&folder](const std::string& content) {
+    const Path file = folder.file("clip.json", content);
+    return message_of<DataError>([&] { (void)read_clip_record(file); }).substr(file.string().size());
+  };
+  CHECK(fault_of("{}") == ": clip = nothing; expected one");
+  CHECK(fault_of("[]") == " = []; expected an object");
+  Json record = to_json(ClipRecord{.clip = "a", .season = "winter", .pixels_sha256 = "0", .files = {}});
+  const auto with = [&](const char* key, const Json& value) {
+    Json changed = record;
+    changed[key] = value;
+    return fault_of(to_text(changed));
+  };
+  CHECK(with("frames", 1e308) == ": frames = 1e+308; expected a whole number");
+  CHECK(with("annotations", -1) == ": annotations = -1; expected a whole number from 0 to 1000000000");
+  CHECK(with("seed", 4294967296) == ": seed = 4294967296; expected a whole number from 0 to 4294967295");
+  CHECK(with("frame_rate_hz", "9") == ": frame_rate_hz = \"9\"; expected a finite number");
+  CHECK(with("skipped", Json::array({7})) == ": skipped[0] = 7; expected an object");
+  CHECK_THAT(with("files", 7), StartsWith(": not a clip record: "));
   const Path cut = folder.file("cut.json", "{\"clip\": \"a\"");
   CHECK_THAT(message_of<DataError>([&] { (void)read_clip_record(cut); }),
              StartsWith(cut.string() + ":1:13: not JSON"));
@@ -38,7 +53,7 @@ TEST_CASE("An invalid record is a DataError with the file") {
 TEST_CASE("A record names only files that a clip has, so that no other file is read, linked or replaced") {
   const TemporaryFolder folder;
   const auto fault_of = [&folder](const std::string& clip, const std::string& name) {
-    ClipRecord record{.clip = clip, .season = "winter", .pixels_sha256 = "", .files = {{name, "0"}}};
+    ClipRecord record{.clip = clip, .season = "winter", .pixels_sha256 = "0", .files = {{name, "0"}}};
     const Path file = folder.file("clip.json", to_text(to_json(record)));
     return message_of<DataError>([&] { (void)read_clip_record(file); }).substr(file.string().size());
   };
@@ -53,7 +68,7 @@ TEST_CASE("A record names only files that a clip has, so that no other file is r
              StartsWith(": clip = \"../a\"; expected a name of at most 200 bytes"));
   const Path good = folder.file("good.json", to_text(to_json(ClipRecord{.clip = "a",
                                                                         .season = "winter",
-                                                                        .pixels_sha256 = "",
+                                                                        .pixels_sha256 = "0",
                                                                         .files = {{"ir8/1234567.png", "0"},
                                                                                   {"ir16/000000.png", "0"},
                                                                                   {"labels.json", "0"},

@@ -27,6 +27,7 @@ struct Place {
   /// Writes a complete clip of two frames into the folder.
   [[nodiscard]] ClipRecord finish(const std::string& id) const {
     ClipRecord record;
+    record.season = "winter";
     record.clip = id;
     record.frames = 2;
     record.annotations = 1;

@@ -34,6 +34,7 @@ std::string joined_text(const std::vector<Json>& documents) {
   std::vector<ClipLabels> clips;
   for (const Json& document : documents) {
     clips.push_back({.clip = std::string(1, static_cast<char>('a' + clips.size())),
+                     .source = "labels.json",
                      .read = [text = to_text(document)](const TakeElement& take) {
                        (void)parse_json_elements(text, "labels.json", take);
                      }});
@@ -110,6 +111,20 @@ TEST_CASE("Labels of clips become a file with a checksum, and no other file is l
   CHECK(text == joined_text({document_of({0, 1})}));
   CHECK(sum == sha256_of(text));
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 2);
+}
+
+TEST_CASE("Numbers that no clip of ours has are named") {
+  const auto fault = [](const char* list, const char* key, const Json& value) {
+    Json document = document_of({0});
+    document[list][0][key] = value;
+    return message_of<DataError>([&] { (void)joined({document}); });
+  };
+  CHECK(fault("images", "id", 1e308) == "labels.json: images[0].id = 1e+308; expected a whole number");
+  CHECK(fault("annotations", "image_id", -1) ==
+        "labels.json: annotations[0].image_id = -1; expected a whole number from 0 to 1000000000");
+  CHECK(fault("annotations", "category_id", 7) ==
+        "labels.json: annotations[0].category_id = 7; expected the id of one of its categories");
+  CHECK(fault("categories", "name", 7) == "labels.json: categories[0].name = 7; expected a string");
 }
 
 TEST_CASE("Damaged or missing labels are named, and the existing file stays") {
