@@ -1,12 +1,16 @@
 #include "io/passing_folder.h"
 
+#include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -36,6 +40,20 @@ void sweep(const Path& temporary) {
   }
 }
 
+/// Waits for the end of the process that holds the other end of the pipe, then becomes "rm -rf FOLDER". Between fork and
+/// exec: nothing but system calls that are safe there.
+[[noreturn]] void guard(int pipe, char* const* removal) {
+  ::setpgid(0, 0);  // Ctrl-C is not for it
+  ::dup2(pipe, STDIN_FILENO);
+  ::close_range(STDIN_FILENO + 1, ~0U, 0);
+  char byte = 0;
+  while (::read(STDIN_FILENO, &byte, 1) < 0 && errno == EINTR) {
+  }
+  char* const none[] = {nullptr};  // NOLINT(modernize-avoid-c-arrays): as execve wants it
+  ::execve(removal[0], removal, none);
+  ::_exit(1);
+}
+
 }  // namespace
 
 PassingFolder::PassingFolder() {
@@ -48,12 +66,30 @@ PassingFolder::PassingFolder() {
     path_ = name;
     lock_ = lock_folder(path_);
   }
+  start_guard();
 }
 
 PassingFolder::~PassingFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
   ::close(lock_);
+  ::close(life_);
+  if (guard_ > 0) ::kill(guard_, SIGKILL);
+  while (guard_ > 0 && ::waitpid(guard_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+/// Without a guard, where the system refuses one, the next run removes the folder.
+void PassingFolder::start_guard() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;
+  std::array<std::string, 4> words = {"/bin/rm", "-rf", "--", path_.string()};
+  const std::array<char*, 5> removal = {words[0].data(), words[1].data(), words[2].data(), words[3].data(),
+                                        nullptr};
+  guard_ = ::fork();
+  if (guard_ == 0) guard(ends[0], removal.data());
+  ::close(ends[0]);
+  life_ = ends[1];
 }
 
 }  // namespace thermal

@@ -1,7 +1,10 @@
 #include "io/passing_folder.h"
 
+#include <csignal>
 #include <cstdlib>
-#include <optional>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "support/catch.h"
 #include "support/temporary_folder.h"
@@ -35,6 +38,29 @@ TEST_CASE("A passing folder goes with its contents") {
     write_file(path / "file", {});
   }
   CHECK_FALSE(std::filesystem::exists(path));
+}
+
+TEST_CASE("A passing folder goes with its contents if its process is interrupted or killed") {
+  const OwnTemporaries temporaries;
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    const int process = ::fork();
+    if (process == 0) {
+      const PassingFolder passing;
+      make_folder(passing.path() / "deep");
+      write_file(passing.path() / "deep" / "file", {});
+      ::signal(signal, SIG_DFL);
+      ::raise(signal);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(process, &status, 0) == process);
+    CHECK(WTERMSIG(status) == signal);
+    bool is_gone = false;
+    for (int tries = 0; tries < 1000 && !is_gone; ++tries) {
+      ::usleep(10000);
+      is_gone = std::filesystem::is_empty(temporaries.folder.path());
+    }
+    CHECK(is_gone);
+  }
 }
 
 TEST_CASE("A passing folder removes what a killed run has left, and nothing that is in use or of others") {
