@@ -8,10 +8,10 @@
 #include "cli/command.h"
 #include "cli/output.h"
 #include "cli/plan_table.h"
+#include "cli/planning.h"
 #include "cli/progress_bar.h"
 #include "cli/run_summary.h"
 #include "cli/stop_signal.h"
-#include "dataset/plan.h"
 #include "io/resources.h"
 
 namespace veldt {
@@ -73,7 +73,7 @@ int run_generate(const GenerateArguments& options, const CommonOptions& common, 
                                             .keep_passes = options.keep_passes};
   if (given.resolved["flights"].empty())  // then wrong --clips can be reported at once
     (void)thermal::choose_clips(given, request.clips, request.shard);
-  const thermal::DatasetPlan plan = thermal::plan_dataset(given.resolved, options.config, home);
+  const thermal::DatasetPlan plan = plan_with_progress(given.resolved, options.config, home, common);
   const thermal::Config config = thermal::with_flights_cut(given, plan.cut_clips);
   const std::vector<thermal::ClipConfig> chosen = thermal::choose_clips(config, request.clips, request.shard);
   if (options.dry_run) {

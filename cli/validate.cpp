@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "cli/command.h"
 #include "cli/output.h"
+#include "cli/planning.h"
 #include "cli/progress_bar.h"
-#include "dataset/plan.h"
 #include "io/resources.h"
 
 namespace veldt {
@@ -49,10 +49,10 @@ int validate_dataset(const ValidateArguments& options, const CommonOptions& comm
   return check.faults.empty() ? kDone : kFailed;
 }
 
-int validate_config(const ValidateArguments& options) {
+int validate_config(const ValidateArguments& options, const CommonOptions& common) {
   const thermal::Path home = thermal::find_home();
   const thermal::Config config = load_config(options.what, options.settings, home);
-  const auto plan = thermal::plan_dataset(config.resolved, options.what, home).clips;
+  const auto plan = plan_with_progress(config.resolved, options.what, home, common).clips;
   int frames = 0;
   int with_actors = 0;
   for (const thermal::ClipPlan& clip : plan) {
@@ -86,7 +86,7 @@ void add_validate(CLI::App& app, Session& session) {
   command->callback([options, &session] {
     session.run = [options, &session] {
       return std::filesystem::is_directory(options->what) ? validate_dataset(*options, session.common)
-                                                          : validate_config(*options);
+                                                          : validate_config(*options, session.common);
     };
   });
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,9 +25,13 @@ class Outlook:
     agl_m: np.ndarray
 
 
-def plan_dataset(world: World) -> dict:
+# How a function is applied to each entry of a config: map, or one that uses more cores. Results keep the order.
+Each = Callable[[Callable, list], Iterable]
+
+
+def plan_dataset(world: World, each: Each = map) -> dict:
     """Frames and heights of each clip, including those cut from flights, and the numbers of actors and plants."""
-    outlooks = list(_outlooks(world))
+    outlooks = list(_outlooks(world, each))
     _check_ids([outlook.clip["id"] for outlook in outlooks])
     return {
         "clips": [_described(outlook) for outlook in outlooks],
@@ -41,26 +45,33 @@ def with_flights_cut(world: World) -> World:
     """The same world with the flights of its config replaced by clips."""
     if not world.config["flights"]:
         return world
-    clips = [outlook.clip for outlook in _outlooks(world)]
+    clips = [outlook.clip for outlook in _outlooks(world, map)]
     return replace(world, config={**world.config, "clips": clips, "flights": []})
 
 
-def _outlooks(world: World) -> Iterator[Outlook]:
-    for clip in world.config["clips"]:
-        flight = world.flight(clip)
-        yield Outlook(clip, _sightings(world, flight), flight.agl_m)
-    for k, entry in enumerate(world.config["flights"]):
-        flight = world.flight(entry)
-        seen = _sightings(world, flight)
-        stretches = cut(entry, seen, world.config["seed"])
-        if not stretches:
-            raise ConfigError(
-                f'flights[{k}].keep = "{entry["keep"]}": no actor comes into the picture; expected one,'
-                ' or "all"'
-            )
-        for clip, (first, frames) in zip(clips_of(entry, stretches), stretches):
-            part = slice(first, first + frames)
-            yield Outlook(clip, seen[part], flight.agl_m[part])
+def _outlooks(world: World, each: Each) -> Iterator[Outlook]:
+    """Of the clips, then of those cut from flights."""
+    entries = [*world.config["clips"], *world.config["flights"]]
+    for outlooks in each(lambda entry: _outlooks_of(world, entry), entries):
+        yield from outlooks
+
+
+def _outlooks_of(world: World, entry: dict) -> list[Outlook]:
+    """Of a clip, or of the clips cut from a flight."""
+    flight = world.flight(entry)
+    seen = _sightings(world, flight)
+    if "keep" not in entry:  # a clip
+        return [Outlook(entry, seen, flight.agl_m)]
+    stretches = cut(entry, seen, world.config["seed"])
+    if not stretches:
+        place = world.config["flights"].index(entry)
+        raise ConfigError(
+            f'flights[{place}].keep = "{entry["keep"]}": no actor comes into the picture; expected one, or "all"'
+        )
+    parts = [slice(first, first + frames) for first, frames in stretches]
+    return [
+        Outlook(clip, seen[part], flight.agl_m[part]) for clip, part in zip(clips_of(entry, stretches), parts)
+    ]
 
 
 def _check_ids(ids: list[str]) -> None:

@@ -1,10 +1,12 @@
 """Faults in `generate`: exact messages on standard error, exit codes, and no partial output."""
 
 import fcntl
+import json
 import os
 import re
 import shutil
 import subprocess
+import sys
 
 import pytest
 
@@ -94,6 +96,24 @@ def test_a_python_that_fails_to_plan(veldt, blender, said, reported):
     done = generate(veldt, blender, env={"VELDT_PYTHON": str(python)})
     why = "" if reported is None else ": ModuleNotFoundError: No module (veldt/noise.py:8)"
     check_fault(done, 1, f"{python} plan_dataset.py ended with exit code 1{why}")
+
+
+@pytest.mark.parametrize("command", [["validate"], ["generate", "--out", "out", "--dry-run"]])
+def test_a_long_plan_says_how_far_it_is(veldt, command):
+    config = veldt.write("config.json", tiny())
+    events = "".join(
+        json.dumps({"event": "planned", "id": name, "done": k, "total": 2}) + "\\n"
+        for k, name in enumerate(["down", "side"], 1)
+    )
+    python = veldt.write(
+        "python", f"#!/bin/sh\nsleep 2.1\nprintf '{events}' >&3\nexec {sys.executable} \"$@\"\n"
+    )
+    python.chmod(0o755)
+    env = {"VELDT_PYTHON": str(python)}
+    first, *rest = veldt(*command[:1], config, *command[1:], "--progress", "plain", env=env).err.splitlines()
+    assert first == "1/2 flights, 0.0 flights/s, starting, clip down"
+    assert [line.partition(" flights")[0] for line in rest] == ["2/2", "2/2"]
+    assert veldt(*command[:1], config, *command[1:], "--quiet", env=env).err == ""
 
 
 # --- the output folder ------------------------------------------------------------------------------------------------

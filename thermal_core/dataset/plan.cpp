@@ -1,7 +1,9 @@
 #include "dataset/plan.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -23,6 +25,24 @@ namespace {
   throw ConfigError(message);
 }
 
+/// Passes on an event of the script; a line that is none would be its fault, not the user's.
+void show_event(const std::string& line, const PlanOptions& options) {
+  const Json event = Json::parse(line, nullptr, false);
+  if (options.show && event.is_object() && event.value("event", "") == "planned")
+    options.show(
+        {.clip = event.value("id", ""), .done = event.value("done", 0), .total = event.value("total", 0)});
+}
+
+Output run_planning(const Json& resolved_config, const Path& python, const Path& script,
+                    const PlanOptions& options) {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  const int processes = std::max(1, options.threads > 0 ? options.threads : cores);
+  return run_program(
+      {python.string(), "-I", "-B", script.string(), "--config", "-", "--json", "--processes",
+       std::to_string(processes), "--events-fd", std::to_string(ChildProcess::kEventDescriptor)},
+      to_text(resolved_config), [&options](const std::string& line) { show_event(line, options); });
+}
+
 }  // namespace
 
 Path find_python() {
@@ -32,12 +52,11 @@ Path find_python() {
   return system.empty() ? find_program("python3") : system;
 }
 
-DatasetPlan plan_dataset(const Json& resolved_config, const std::string& name, const Path& home) {
+DatasetPlan plan_dataset(const Json& resolved_config, const std::string& name, const PlanOptions& options) {
   const Path python = find_python();
   if (python.empty()) throw IoError("no python3 on PATH; install it (apt-get install python3-numpy)");
-  const Path script = home / "blender_scripts" / "plan_dataset.py";
-  const Output output = run_program({python.string(), "-I", "-B", script.string(), "--config", "-", "--json"},
-                                    to_text(resolved_config));
+  const Path script = options.home / "blender_scripts" / "plan_dataset.py";
+  const Output output = run_planning(resolved_config, python, script, options);
   constexpr int kConfigFault = 2;
   if (output.status.signal == 0 && output.status.code == kConfigFault) throw_faults(output.error, name);
   if (output.status.signal != 0 || output.status.code != 0) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/progress.h"
 #include "io/files.h"
 #include "io/json_file.h"
 
@@ -23,11 +24,20 @@ struct DatasetPlan {
   Json cut_clips;               ///< the latter, in the form of a config
 };
 
+/// How a plan is made.
+struct PlanOptions {
+  Path home;
+  int threads =
+      0;  ///< flights planned at once, each in a process; 0: one per core. The plan does not depend on it.
+  /// Called for each planned clip or flight; `clip` is its id.
+  std::function<void(const Progress&)> show = {};
+};
+
 /// Plans a dataset by running blender_scripts/plan_dataset.py, which does not need Blender: checks the meaning of a
 /// config (paths, species, targets, the camera above ground), cuts its flights and plans its clips. ConfigError,
 /// starting with `name`, for an invalid config; IoError if Python or NumPy is missing.
 [[nodiscard]] DatasetPlan plan_dataset(const Json& resolved_config, const std::string& name,
-                                       const Path& home);
+                                       const PlanOptions& options);
 
 /// The Python that runs the planning: $VELDT_PYTHON, /usr/bin/python3, or python3 on $PATH; empty if there is none.
 [[nodiscard]] Path find_python();

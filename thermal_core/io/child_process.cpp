@@ -94,6 +94,40 @@ int open_text(std::string_view text) {
   return moved_up(low);
 }
 
+/// Takes the first line out of a text; nothing if no line is complete.
+std::optional<std::string> first_line(std::string& text) {
+  const std::size_t end = text.find('\n');
+  if (end == std::string::npos) return std::nullopt;
+  std::string line = text.substr(0, end);
+  text.erase(0, end + 1);
+  return line;
+}
+
+/// Reads all pipes to their ends, whatever the order in which they fill; `look` is called after each piece.
+template <std::size_t kCount>
+void read_all(const std::array<Pipe, kCount>& pipes, std::array<std::string, kCount>& texts,
+              const std::function<void()>& look) {
+  std::array<pollfd, kCount> waiting{};
+  for (std::size_t i = 0; i < kCount; ++i) waiting[i] = {.fd = pipes[i].read, .events = POLLIN, .revents = 0};
+  std::size_t open = kCount;
+  while (open > 0) {
+    if (::poll(waiting.data(), waiting.size(), -1) < 0) {
+      if (errno == EINTR) continue;
+      break;
+    }
+    for (std::size_t i = 0; i < kCount; ++i) {
+      if (waiting[i].fd < 0 || waiting[i].revents == 0) continue;
+      std::array<char, 4096> chunk{};
+      const ssize_t bytes = ::read(waiting[i].fd, chunk.data(), chunk.size());
+      if (bytes > 0) texts[i].append(chunk.data(), static_cast<std::size_t>(bytes));
+      if (bytes != 0) continue;
+      waiting[i].fd = -1;
+      --open;
+    }
+    look();
+  }
+}
+
 ExitStatus to_status(int raw) {
   if (WIFSIGNALED(raw)) return {.code = 0, .signal = WTERMSIG(raw)};
   return {.code = WEXITSTATUS(raw), .signal = 0};
@@ -135,13 +169,8 @@ ChildProcess::~ChildProcess() {
 }
 
 std::optional<std::string> ChildProcess::take_line() {
-  const std::size_t end = buffer_.find('\n');
-  if (end == std::string::npos) {
-    if (closed_) buffer_.clear();  // half a line, of a program that was killed: worthless
-    return std::nullopt;
-  }
-  std::string line = buffer_.substr(0, end);
-  buffer_.erase(0, end + 1);
+  std::optional<std::string> line = first_line(buffer_);
+  if (!line && closed_) buffer_.clear();  // half a line, of a program that was killed: worthless
   return line;
 }
 
@@ -193,41 +222,30 @@ std::string Output::last_words() const {
   return last;
 }
 
-Output run_program(const std::vector<std::string>& argv, std::string_view input_text) {
+Output run_program(const std::vector<std::string>& argv, std::string_view input_text,
+                   const std::function<void(const std::string&)>& take_event) {
   const std::vector<std::string> variables = child_environment();
   const std::vector<char*> environment = pointers(variables);
   const std::vector<char*> arguments = pointers(argv);
-  const Pipe out;
-  const Pipe error;
+  const std::array<Pipe, 3> pipes;  // output, error, events
   const int input = open_text(input_text);
+  const int events = take_event ? pipes[2].write : -1;
   const int parent = ::getpid();
   const int process = ::fork();
-  if (process == 0) become(arguments.data(), environment.data(), input, out.write, error.write, -1, parent);
+  if (process == 0)
+    become(arguments.data(), environment.data(), input, pipes[0].write, pipes[1].write, events, parent);
   ::close(input);
-  ::close(out.write);
-  ::close(error.write);
+  for (const Pipe& pipe : pipes) ::close(pipe.write);
   if (process < 0) fail("start " + argv.front());
-  Output output;
-  std::array<pollfd, 2> waiting = {
-      {{.fd = out.read, .events = POLLIN, .revents = 0}, {.fd = error.read, .events = POLLIN, .revents = 0}}};
-  const std::array<std::string*, 2> texts = {&output.out, &output.error};
-  while (waiting[0].fd >= 0 || waiting[1].fd >= 0) {
-    if (::poll(waiting.data(), waiting.size(), -1) < 0 && errno != EINTR) break;
-    for (std::size_t i = 0; i < waiting.size(); ++i) {
-      if (waiting[i].fd < 0 || waiting[i].revents == 0) continue;
-      std::array<char, 4096> chunk{};
-      const ssize_t bytes = ::read(waiting[i].fd, chunk.data(), chunk.size());
-      if (bytes > 0) texts[i]->append(chunk.data(), static_cast<std::size_t>(bytes));
-      if (bytes == 0) waiting[i].fd = -1;
-    }
-  }
-  ::close(out.read);
-  ::close(error.read);
+  std::array<std::string, 3> texts;
+  read_all(pipes, texts, [&] {
+    while (const auto line = first_line(texts[2])) take_event(*line);
+  });
+  for (const Pipe& pipe : pipes) ::close(pipe.read);
   int raw = 0;
   while (::waitpid(process, &raw, 0) < 0 && errno == EINTR) {
   }
-  output.status = to_status(raw);
-  return output;
+  return {.status = to_status(raw), .out = std::move(texts[0]), .error = std::move(texts[1])};
 }
 
 }  // namespace thermal

@@ -63,7 +63,9 @@ struct Output {
   /// The last line of `error` that is not empty, where programs say what they ended with; empty if there is none.
   [[nodiscard]] std::string last_words() const;
 };
-/// Runs a program to its end, in child_environment(), with `input` as its standard input. IoError if it cannot start.
-[[nodiscard]] Output run_program(const std::vector<std::string>& argv, std::string_view input = {});
+/// Runs a program to its end, in child_environment(), with `input` as its standard input. `take_event` receives each line
+/// that it writes to ChildProcess::kEventDescriptor, which is open only if there is one. IoError if it cannot start.
+[[nodiscard]] Output run_program(const std::vector<std::string>& argv, std::string_view input = {},
+                                 const std::function<void(const std::string& line)>& take_event = {});
 
 }  // namespace thermal

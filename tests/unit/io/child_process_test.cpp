@@ -149,6 +149,15 @@ TEST_CASE("run_program takes more output than a pipe holds, on both streams at o
   CHECK(output.error == std::string(300000, 'b'));
 }
 
+TEST_CASE("run_program passes on the lines of the event channel while the program runs") {
+  std::vector<std::string> lines;
+  const Output output = run_program(shell("echo one >&3; echo two >&3; echo out; printf half >&3"), {},
+                                    [&lines](const std::string& line) { lines.push_back(line); });
+  CHECK(lines == std::vector<std::string>{"one", "two"});
+  CHECK(output.out == "out\n");
+  CHECK(run_program(shell("echo one >&3")).status.code != 0);  // without a listener there is no channel
+}
+
 TEST_CASE("run_program reports programs that are killed or cannot be run") {
   CHECK(run_program(shell("kill -15 $$")).status.in_words() == "was killed by signal 15 (Terminated)");
   CHECK(run_program({"/nowhere/python3"}).status.code == 127);
