@@ -103,19 +103,21 @@ std::optional<std::string> first_line(std::string& text) {
   return line;
 }
 
+constexpr std::size_t kStreams = 3;  // output, error, events
+
 /// Reads all pipes to their ends, whatever the order in which they fill; `look` is called after each piece.
-template <std::size_t kCount>
-void read_all(const std::array<Pipe, kCount>& pipes, std::array<std::string, kCount>& texts,
+void read_all(const std::array<Pipe, kStreams>& pipes, std::array<std::string, kStreams>& texts,
               const std::function<void()>& look) {
-  std::array<pollfd, kCount> waiting{};
-  for (std::size_t i = 0; i < kCount; ++i) waiting[i] = {.fd = pipes[i].read, .events = POLLIN, .revents = 0};
-  std::size_t open = kCount;
+  std::array<pollfd, kStreams> waiting{};
+  for (std::size_t i = 0; i < kStreams; ++i)
+    waiting[i] = {.fd = pipes[i].read, .events = POLLIN, .revents = 0};
+  std::size_t open = kStreams;
   while (open > 0) {
     if (::poll(waiting.data(), waiting.size(), -1) < 0) {
       if (errno == EINTR) continue;
       break;
     }
-    for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t i = 0; i < kStreams; ++i) {
       if (waiting[i].fd < 0 || waiting[i].revents == 0) continue;
       std::array<char, 4096> chunk{};
       const ssize_t bytes = ::read(waiting[i].fd, chunk.data(), chunk.size());
@@ -227,7 +229,7 @@ Output run_program(const std::vector<std::string>& argv, std::string_view input_
   const std::vector<std::string> variables = child_environment();
   const std::vector<char*> environment = pointers(variables);
   const std::vector<char*> arguments = pointers(argv);
-  const std::array<Pipe, 3> pipes;  // output, error, events
+  const std::array<Pipe, kStreams> pipes;
   const int input = open_text(input_text);
   const int events = take_event ? pipes[2].write : -1;
   const int parent = ::getpid();
@@ -237,7 +239,7 @@ Output run_program(const std::vector<std::string>& argv, std::string_view input_
   ::close(input);
   for (const Pipe& pipe : pipes) ::close(pipe.write);
   if (process < 0) fail("start " + argv.front());
-  std::array<std::string, 3> texts;
+  std::array<std::string, kStreams> texts;
   read_all(pipes, texts, [&] {
     while (const auto line = first_line(texts[2])) take_event(*line);
   });
