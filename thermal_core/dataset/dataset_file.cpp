@@ -23,23 +23,35 @@ Json read_as_data(const Path& file) {
 }
 
 /// A value that other rooms read without asking: its place, and what it must be.
-struct RequiredValue {
+struct KnownValue {
   const char* place;
   bool (Json::*is_right)() const noexcept;
   const char* rule;
+  bool may_lack = false;
 };
-constexpr std::array<RequiredValue, 5> kRequired = {
+constexpr std::array<KnownValue, 10> kKnown = {
     {{.place = "/veldt_version", .is_right = &Json::is_string, .rule = "text"},
      {.place = "/config", .is_right = &Json::is_object, .rule = "an object"},
      {.place = "/config/name", .is_right = &Json::is_string, .rule = "text"},
      {.place = "/config/seed", .is_right = &Json::is_number_integer, .rule = "a whole number"},
-     {.place = "/config/sensor/kelvin_per_count", .is_right = &Json::is_number, .rule = "a number"}}};
+     {.place = "/config/camera/width_px",
+      .is_right = &Json::is_number_integer,
+      .rule = "a whole number",
+      .may_lack = true},
+     {.place = "/config/camera/height_px",
+      .is_right = &Json::is_number_integer,
+      .rule = "a whole number",
+      .may_lack = true},
+     {.place = "/config/sensor/kelvin_per_count", .is_right = &Json::is_number, .rule = "a number"},
+     {.place = "/config/sensor/preset", .is_right = &Json::is_string, .rule = "text", .may_lack = true},
+     {.place = "/config/sensor/model", .is_right = &Json::is_string, .rule = "text", .may_lack = true},
+     {.place = "/annotations_sha256", .is_right = &Json::is_string, .rule = "text", .may_lack = true}}};
 
 void check_values(const Json& dataset, const std::string& file) {
-  for (const RequiredValue& value : kRequired) {
+  for (const KnownValue& value : kKnown) {
     const Json::json_pointer place(value.place);
     const bool is_there = dataset.contains(place);
-    if (is_there && (dataset.at(place).*value.is_right)()) continue;
+    if (is_there ? (dataset.at(place).*value.is_right)() : value.may_lack) continue;
     std::string name = &value.place[1];
     std::ranges::replace(name, '/', '.');
     throw DataError(

@@ -36,6 +36,9 @@ TEST_CASE("A value that others rely on is named if it is missing or of another k
   CHECK(clips_fault("[]") == ": veldt_version = nothing; expected text");
   CHECK(clips_fault(R"([], "veldt_version": "1", "config": {"name": 7})") ==
         ": config.name = 7; expected text");
+  CHECK(clips_fault(R"([], "veldt_version": "1", "annotations_sha256": [], "config": {"name": "n", "seed": 1,
+                        "sensor": {"kelvin_per_count": 0.01}})") ==
+        ": annotations_sha256 = []; expected text");
   CHECK(clips_fault(R"([{"id": "a", "status": "done"}])") ==
         ": clips[0].record_sha256 = nothing; expected one");
   CHECK(clips_fault(R"([{"id": "a", "status": "pending", "frames": "9"}])") ==

@@ -23,15 +23,28 @@ std::string camera_name(const Json& config) {
   return sensor.value("preset", sensor.value("model", ""));
 }
 
+/// Json's own conversion of a fraction, or of a number that is too large, says nothing.
+int whole_number(const Json& value, const char* name, int most) {
+  const bool is_whole = value.is_number_integer() && value.get<std::int64_t>() >= 0;
+  if (!is_whole || value.get<std::int64_t>() > most)
+    throw DataError(fault(name, brief(value), "", fmt::format("a whole number from 0 to {}", most)));
+  return value.get<int>();
+}
+
 FilmFrame read_frame(const Json& json) {
+  constexpr int kMostFrames = 1'000'000'000;
+  constexpr int kMostCounts = 65535;
   FilmFrame frame;
-  frame.frame_index = json.at("frame_index");
+  frame.frame_index = whole_number(json.at("frame_index"), "frame_index", kMostFrames);
   frame.time_s = json.at("time_s");
   if (json.contains("agl_m")) frame.agl_m = json["agl_m"].get<double>();
   if (json.contains("camera_to_world"))
     frame.camera_to_world = json["camera_to_world"].get<std::array<double, 16>>();
   frame.shutter_closed = json.at("ffc");
-  frame.thresholds = json.at("agc").at("thresholds").get<std::array<std::uint16_t, kLevels - 1>>();
+  const Json& thresholds = json.at("agc").at("thresholds");
+  for (std::size_t k = 0; k < frame.thresholds.size(); ++k)
+    frame.thresholds[k] =
+        static_cast<std::uint16_t>(whole_number(thresholds.at(k), "agc.thresholds", kMostCounts));
   if (!std::ranges::is_sorted(frame.thresholds))
     throw DataError("agc.thresholds fall; expected them in rising order");
   return frame;
