@@ -68,6 +68,9 @@ LabelBox JsonEntry::box(const char* key) const {
   const auto side = [&value](std::size_t i) { return value[i].get<double>(); };
   if (!is_box || side(2) < 0 || side(3) < 0)
     throw fault_of(key, "x, y, width and height in px, the last two not negative");
+  constexpr double kMostPx = 1e9;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (std::abs(side(i)) > kMostPx) throw fault_of(key, "numbers of at most 1e9 px");
   return {side(0), side(1), side(2), side(3)};
 }
 

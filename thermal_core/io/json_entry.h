@@ -32,7 +32,7 @@ class JsonEntry {
   [[nodiscard]] std::optional<double> optional_number(const char* key) const;
   /// COCO writes 0 and 1, others false and true; missing is false.
   [[nodiscard]] bool flag(const char* key) const;
-  /// [x, y, width, height] in px, width and height not negative.
+  /// [x, y, width, height] in px, at most 1e9 in size, width and height not negative.
   [[nodiscard]] LabelBox box(const char* key) const;
 
   [[nodiscard]] DataError fault_of(const char* key, const std::string& rule) const;

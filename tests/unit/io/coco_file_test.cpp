@@ -128,6 +128,8 @@ TEST_CASE("A box is four numbers and in its picture") {
   CHECK(fault_with("/annotations/1/bbox", {1, 2, 3}) == "annotations[1].bbox = [1,2,3]" + rule);
   CHECK(fault_with("/annotations/1/bbox", {1, 2, -3, 4}) == "annotations[1].bbox = [1,2,-3,4]" + rule);
   CHECK(fault_with("/annotations/1/bbox", {1, 2, nullptr, 4}) == "annotations[1].bbox = [1,2,null,4]" + rule);
+  CHECK(fault_with("/annotations/1/bbox", {1, 2, 1e308, 4}) ==
+        "annotations[1].bbox = [1,2,1e+308,4]; expected numbers of at most 1e9 px");
   CHECK(fault_with("/annotations/0/bbox", {8, 0, 2, 2}) ==
         "annotations[0].bbox = [8, 0, 2, 2] px; expected a box inside its picture, 8 x 6 px");
   CHECK(fault_with("/annotations/0/bbox", {-3, 0, 2, 2}) ==

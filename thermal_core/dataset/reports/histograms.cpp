@@ -21,10 +21,13 @@ double quantile(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(std::lround(share * last))];
 }
 
+/// Values that hardly differ get fewer bins, so that the numbers of the bins stay exact.
 std::vector<double> linear_edges(double low, double high) {
   constexpr double kBins = 15;  // at least, and fewer than 40
-  const double step =
-      high > low ? round_width((high - low) / kBins) : round_width(std::max(1e-3, 0.1 * std::abs(low)));
+  constexpr double kFinest = 1e-9;  // share of the larger value or of the unit: nothing is measured finer
+  const double finest = kFinest * std::max({1.0, std::abs(low), std::abs(high)});
+  const double step = high > low ? round_width(std::max(high / kBins - low / kBins, finest))
+                                 : round_width(std::max(1e-3, 0.1 * std::abs(low)));
   const auto first = std::floor(low / step);
   const auto last = std::max(first + 1, std::ceil(high / step));
   std::vector<double> edges;

@@ -1,6 +1,8 @@
 #include "dataset/reports/histograms.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "support/catch.h"
 
@@ -73,6 +75,19 @@ TEST_CASE("A far outlier does not stretch the axis, and is counted separately") 
   CHECK(histogram.at("above") == 1);
   CHECK(histogram.at("most") == 1e6);
   CHECK(sum_of(histogram.at("counts")[0]) == 1000);
+}
+
+TEST_CASE("Values of any finite size have few bins") {
+  for (const auto& [low, high] :
+       {std::pair{1e17, 1e17 + 64}, {-1e308, 1e308}, {1e308, 1.01e308}, {0.0, 5e-324}}) {
+    CAPTURE(low, high);
+    const std::vector<double> edges = bin_edges({low, high}, Bins::linear);
+    CHECK(edges.size() >= 2);
+    CHECK(edges.size() <= 40);
+    CHECK(std::ranges::is_sorted(edges));
+    CHECK(edges.front() <= low);
+    CHECK(edges.back() >= high);
+  }
 }
 
 TEST_CASE("Labels without a value are counted and nothing else") {
