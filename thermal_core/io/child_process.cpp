@@ -47,6 +47,8 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   ::dup2(out, STDOUT_FILENO);
   ::dup2(error, STDERR_FILENO);
   if (events >= 0) ::dup2(events, ChildProcess::kEventDescriptor);
+  const int first_foreign = events >= 0 ? ChildProcess::kEventDescriptor + 1 : STDERR_FILENO + 1;
+  ::close_range(static_cast<unsigned>(first_foreign), ~0U, 0);  // what this process itself was given
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
