@@ -24,9 +24,9 @@ Json read_as_data(const Path& file) {
 
 /// A value that other rooms read without asking: its place, and what it must be.
 struct KnownValue {
-  const char* place;
-  bool (Json::*is_right)() const noexcept;
-  const char* rule;
+  const char* place = "";
+  bool (Json::*is_right)() const noexcept = nullptr;
+  const char* rule = "";
   bool may_lack = false;
 };
 constexpr std::array<KnownValue, 10> kKnown = {

@@ -23,7 +23,7 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 /// Values that hardly differ get fewer bins, so that the numbers of the bins stay exact.
 std::vector<double> linear_edges(double low, double high) {
-  constexpr double kBins = 15;  // at least, and fewer than 40
+  constexpr double kBins = 15;      // at least, and fewer than 40
   constexpr double kFinest = 1e-9;  // share of the larger value or of the unit: nothing is measured finer
   const double finest = kFinest * std::max({1.0, std::abs(low), std::abs(high)});
   const double step = high > low ? round_width(std::max(high / kBins - low / kBins, finest))
