@@ -9,14 +9,17 @@
 
 namespace thermal {
 
+int thread_count(int threads) {
+  return threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 struct ThreadLimit::Impl {
   explicit Impl(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
   tbb::global_control control;
 };
 
 ThreadLimit::ThreadLimit(int threads)
-    : impl_(std::make_unique<Impl>(threads > 0 ? static_cast<std::size_t>(threads)
-                                               : std::max(1U, std::thread::hardware_concurrency()))) {}
+    : impl_(std::make_unique<Impl>(static_cast<std::size_t>(thread_count(threads)))) {}
 
 ThreadLimit::~ThreadLimit() = default;
 

@@ -6,6 +6,9 @@
 
 namespace thermal {
 
+/// `threads`, or one per core if it is 0.
+[[nodiscard]] int thread_count(int threads);
+
 /// Limits the number of threads the library uses while it lives. 0: one per core.
 class ThreadLimit {
  public:

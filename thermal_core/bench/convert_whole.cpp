@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <thread>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -89,8 +88,7 @@ std::string bound_of(const Spent& spent, int threads, const std::vector<ConvertR
 ConvertRow convert_whole_row(const ConvertJob& job, bool physical, int frames, int threads,
                              const std::vector<ConvertRow>& stages, const Path& folder) {
   const ThreadLimit limit(threads);
-  const int used =
-      threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int used = thread_count(threads);
   ClipTask task = physical ? job.physical : job.published;
   task.layout = {folder / "whole"};
   const Spent spent = make(job, task, frames);

@@ -1,8 +1,8 @@
 #include "dataset/passes_room.h"
 
 #include <algorithm>
-#include <thread>
 
+#include "base/parallel.h"
 #include "dataset/render_crew.h"
 #include "io/output_folder.h"
 
@@ -34,7 +34,7 @@ void end_passes(const Layout& layout, const std::vector<std::string>& clips) {
 std::vector<RenderJob::Task> passes_tasks(const GenerateOptions& options, const Layout& layout,
                                           const std::vector<std::string>& clips, RunBoard& board) {
   const auto hands = deal_clips(clips, options.jobs);
-  const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int cores = thread_count(0);
   std::vector<RenderJob::Task> tasks;
   for (const std::vector<std::string>& hand : hands) {
     // Runs that share the folder never share a clip, so the clip's name keeps their logs apart.

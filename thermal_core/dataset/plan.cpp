@@ -1,13 +1,12 @@
 #include "dataset/plan.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <sstream>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/printable.h"
 #include "io/child_process.h"
 #include "io/resources.h"
@@ -35,12 +34,11 @@ void show_event(const std::string& line, const PlanOptions& options) {
 
 Output run_planning(const Json& resolved_config, const Path& python, const Path& script,
                     const PlanOptions& options) {
-  const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  const int processes = std::max(1, options.threads > 0 ? options.threads : cores);
-  return run_program(
-      {python.string(), "-I", "-B", script.string(), "--config", "-", "--json", "--processes",
-       std::to_string(processes), "--events-fd", std::to_string(ChildProcess::kEventDescriptor)},
-      to_text(resolved_config), [&options](const std::string& line) { show_event(line, options); });
+  return run_program({python.string(), "-I", "-B", script.string(), "--config", "-", "--json", "--processes",
+                      std::to_string(thread_count(options.threads)), "--events-fd",
+                      std::to_string(ChildProcess::kEventDescriptor)},
+                     to_text(resolved_config),
+                     [&options](const std::string& line) { show_event(line, options); });
 }
 
 }  // namespace

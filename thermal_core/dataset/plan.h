@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,8 @@ struct DatasetPlan {
 /// How a plan is made.
 struct PlanOptions {
   Path home;
-  int threads =
-      0;  ///< flights planned at once, each in a process; 0: one per core. The plan does not depend on it.
+  /// Flights planned at once, each in a process; 0: one per core. The plan does not depend on it.
+  int threads = 0;
   /// Called for each planned clip or flight; `clip` is its id.
   std::function<void(const Progress&)> show = {};
 };
