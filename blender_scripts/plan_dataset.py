@@ -43,7 +43,7 @@ def _plan(options: argparse.Namespace) -> None:
     events = Events(options.events_fd)
 
     def each(act: Callable, entries: list) -> Iterator:
-        for k, result in enumerate(in_order(act, entries, min(options.processes, len(entries)))):
+        for k, result in enumerate(in_order(act, entries, options.processes)):
             events.report("planned", id=entries[k]["id"], done=k + 1, total=len(entries))
             yield result
 

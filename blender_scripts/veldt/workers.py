@@ -26,13 +26,12 @@ def in_order(act: Callable[[Item], Result], items: Sequence[Item], processes: in
     alone.
     """
     done = 0
+    processes = min(processes, len(items))
     if processes > 1:
         try:
             for result in _by_workers(act, items, processes):
                 yield result
                 done += 1
-        except GeneratorExit:
-            return
         except ConfigError:
             raise
         except Exception:  # pylint: disable=broad-exception-caught

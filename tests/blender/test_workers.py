@@ -7,11 +7,11 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
+from processes import wait_until
 from scenes import tiny
 from veldt.config import ROOT
 from veldt.faults import ConfigError
@@ -70,10 +70,10 @@ def test_no_worker_outlives_a_killed_planner(tmp_path):
         "list(in_order(act, range(8), 2))\n"
     )
     with subprocess.Popen([sys.executable, "-B", "-c", script, str(tmp_path)]) as planner:
-        _wait_until(lambda: len(list(tmp_path.iterdir())) == 2)
+        assert wait_until(lambda: len(list(tmp_path.iterdir())) == 2, 30)
         planner.kill()
     workers = [int(path.name) for path in tmp_path.iterdir()]
-    _wait_until(lambda: not any(_is_running(worker) for worker in workers))
+    assert wait_until(lambda: not any(_is_running(worker) for worker in workers), 30)
 
 
 def _is_running(process: int) -> bool:
@@ -82,14 +82,6 @@ def _is_running(process: int) -> bool:
     except FileNotFoundError:
         return False
     return state.rpartition(")")[2].split()[0] != "Z"
-
-
-def _wait_until(is_so) -> None:
-    for _ in range(300):
-        if is_so():
-            return
-        time.sleep(0.1)
-    pytest.fail("not within 30 s")
 
 
 def _plan(config: dict, processes: int) -> tuple[str, list[dict]]:

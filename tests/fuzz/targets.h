@@ -6,12 +6,11 @@
 /// exception that leaves it is a fault of the reader, and so is a sanitizer's report.
 namespace fuzz {
 
-void birdsai(Bytes bytes);      ///< annotations of one video, CSV
-void calibration(Bytes bytes);  ///< a camera's calibration: OpenCV's YAML, XML or JSON, or ROS'
-void coco(Bytes bytes);         ///< a COCO file
-void config(Bytes bytes);       ///< a config; or settings as for --set, one per line
-void dataset(
-    Bytes bytes);  ///< the files and links of a dataset, as JSON, for validate, merge, export and report
+void birdsai(Bytes bytes);        ///< annotations of one video, CSV
+void calibration(Bytes bytes);    ///< a camera's calibration: OpenCV's YAML, XML or JSON, or ROS'
+void coco(Bytes bytes);           ///< a COCO file
+void config(Bytes bytes);         ///< a config; or settings as for --set, one per line
+void dataset(Bytes bytes);        ///< files and links of a dataset, as JSON
 void detections(Bytes bytes);     ///< COCO results; or YOLO's of one picture
 void exr_passes(Bytes bytes);     ///< an EXR file; its last byte chooses the manifest
 void index_picture(Bytes bytes);  ///< a PNG; its last byte chooses the manifest

@@ -21,9 +21,8 @@ OURS = (str(ROOT / "assets"), str(ROOT / "configs"), str(PROGRAM.parents[1]))
 def _traced(veldt):
     """traced(arguments…) -> how it ended, and the places that were opened in or beside the working folder."""
     (veldt.folder / "scratch").mkdir()
-    home = (
-        veldt.folder.parent / "home"
-    )  # OpenImageIO 2.5 lists the user's folders when it draws text: are there fonts?
+    # OpenImageIO 2.5 lists the user's folders when it draws text, in search of fonts.
+    home = veldt.folder.parent / "home"
     home.mkdir(exist_ok=True)
     log = veldt.folder.parent / "strace.log"
 

@@ -59,13 +59,6 @@ void check_names(const ClipRecord& record, const Path& file) {
   }
 }
 
-std::uint32_t read_seed(const JsonEntry& record) {
-  const std::int64_t seed = record.integer("seed");
-  if (seed < 0 || seed > std::numeric_limits<std::uint32_t>::max())
-    throw record.fault_of("seed", "a whole number from 0 to 4294967295");
-  return static_cast<std::uint32_t>(seed);
-}
-
 }  // namespace
 
 void add_unusable(const ClipRecord& record, Json& json) {
@@ -92,13 +85,14 @@ Json to_json(const ClipRecord& record) {
 
 ClipRecord read_clip_record(const Path& file) {
   check_has_no_links(file.parent_path());
+  constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
   const std::string name = file.string();
   try {
     const Json json = read_json(file);
     const JsonEntry entry(json, name);
     ClipRecord record = {.clip = entry.text("clip"),
                          .season = entry.text("season"),
-                         .seed = read_seed(entry),
+                         .seed = static_cast<std::uint32_t>(entry.whole_number("seed", kMostSeed)),
                          .frames = entry.count("frames"),
                          .annotations = entry.count("annotations"),
                          .frame_rate_hz = entry.number("frame_rate_hz"),

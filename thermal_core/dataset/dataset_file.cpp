@@ -22,7 +22,7 @@ Json read_as_data(const Path& file) {
   }
 }
 
-/// A value that other rooms read without asking: its place, and what it must be.
+/// A value that commands read without a check of their own: its place, and what it must be.
 struct KnownValue {
   const char* place = "";
   bool (Json::*is_right)() const noexcept = nullptr;

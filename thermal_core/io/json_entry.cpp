@@ -30,9 +30,13 @@ std::int64_t JsonEntry::integer(const char* key) const {
 
 int JsonEntry::count(const char* key) const {
   constexpr std::int64_t kMost = 1'000'000'000;
+  return static_cast<int>(whole_number(key, kMost));
+}
+
+std::int64_t JsonEntry::whole_number(const char* key, std::int64_t most) const {
   const std::int64_t value = integer(key);
-  if (value < 0 || value > kMost) throw fault_of(key, "a whole number from 0 to 1000000000");
-  return static_cast<int>(value);
+  if (value < 0 || value > most) throw fault_of(key, fmt::format("a whole number from 0 to {}", most));
+  return value;
 }
 
 std::string JsonEntry::text(const char* key) const {

@@ -23,6 +23,8 @@ class JsonEntry {
   [[nodiscard]] bool has(const char* key) const { return json_.contains(key) && !json_[key].is_null(); }
   /// Up to 2^63 - 1.
   [[nodiscard]] std::int64_t integer(const char* key) const;
+  /// 0 to `most`.
+  [[nodiscard]] std::int64_t whole_number(const char* key, std::int64_t most) const;
   /// A size or a number of frames: 0 to 1e9.
   [[nodiscard]] int count(const char* key) const;
   /// Not empty.

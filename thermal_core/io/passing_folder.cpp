@@ -73,10 +73,12 @@ PassingFolder::~PassingFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
   ::close(lock_);
-  ::close(life_);
-  if (guard_ > 0) ::kill(guard_, SIGKILL);
-  while (guard_ > 0 && ::waitpid(guard_, nullptr, 0) < 0 && errno == EINTR) {
+  if (guard_ > 0) {
+    ::kill(guard_, SIGKILL);
+    while (::waitpid(guard_, nullptr, 0) < 0 && errno == EINTR) {
+    }
   }
+  ::close(life_);
 }
 
 /// Without a guard, where the system refuses one, the next run removes the folder.

@@ -33,7 +33,7 @@ TEST_CASE("An invalid record is a DataError with the file") {
   };
   CHECK(fault_of("{}") == ": clip = nothing; expected one");
   CHECK(fault_of("[]") == " = []; expected an object");
-  Json record = to_json(ClipRecord{.clip = "a", .season = "winter", .pixels_sha256 = "0", .files = {}});
+  const Json record = to_json(ClipRecord{.clip = "a", .season = "winter", .pixels_sha256 = "0", .files = {}});
   const auto with = [&](const char* key, const Json& value) {
     Json changed = record;
     changed[key] = value;
