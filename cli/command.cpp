@@ -40,7 +40,10 @@ std::string unknown_option(const CLI::App& command) {
   std::vector<std::string> known;
   for (const CLI::Option* one : command.get_options({})) known.push_back(one->get_single_name());
   const std::string meant = thermal::near_miss(name.substr(2), known);
-  return "unknown option " + name + (meant.empty() ? "" : "; did you mean --" + meant + "?");
+  if (meant.empty()) return "unknown option " + name;
+  const bool is_option = command.get_option_no_throw("--" + meant) != nullptr;
+  return "unknown option " + name + "; did you mean " + (is_option ? "--" + meant : meant + ", without --") +
+         "?";
 }
 
 /// What is wrong with a command line, as one line.

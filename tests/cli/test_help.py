@@ -110,6 +110,10 @@ USAGE_FAULTS = {
         ["generate", "config.json", "--uot", "x"],
         "unknown option --uot; did you mean --out?; see veldt generate --help",
     ),
+    "argument as an option": (
+        ["generate", "--config", "config.json", "--out", "x"],
+        "unknown option --config; did you mean config, without --?; see veldt generate --help",
+    ),
     "option like no other": (
         ["generate", "config.json", "--out=x", "--colour=red"],
         "unknown option --colour; see veldt generate --help",
