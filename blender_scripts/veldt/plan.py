@@ -7,12 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .camera import Intrinsics, edge_tangents, project
 from .cuts import clips_of, cut
 from .faults import ConfigError
-from .flight.poses import Flight
-from .geometry.rotations import left_of
-from .groups.actors import Actor, Track, track
+from .sightings import sightings
 from .world import World
 
 
@@ -59,7 +56,7 @@ def _outlooks(world: World, each: Each) -> Iterator[Outlook]:
 def _outlooks_of(world: World, entry: dict) -> list[Outlook]:
     """Of a clip, or of the clips cut from a flight."""
     flight = world.flight(entry)
-    seen = _sightings(world, flight)
+    seen = sightings(world.intrinsics, flight, world.actors)
     if "keep" not in entry:  # a clip
         return [Outlook(entry, seen, flight.agl_m)]
     stretches = cut(entry, seen, world.config["seed"])
@@ -93,50 +90,3 @@ def _described(outlook: Outlook) -> dict:
         "min_agl_m": round(float(outlook.agl_m.min()), 3),
         "max_agl_m": round(float(outlook.agl_m.max()), 3),
     }
-
-
-def _sightings(world: World, flight: Flight) -> np.ndarray:
-    """Mask of frames (n,) in which the box of an actor overlaps the picture; occlusion is ignored."""
-    seen = np.zeros(len(flight.time_s), bool)
-    for actor in world.actors:
-        seen |= is_in_frame(world.intrinsics, flight, actor)
-    return seen
-
-
-def is_in_frame(intrinsics: Intrinsics, flight: Flight, actor: Actor) -> np.ndarray:
-    """Mask of frames (n,) in which the actor's box overlaps the picture."""
-    walk = track(actor, flight.time_s)
-    inside = _may_be_in_frame(intrinsics, flight, actor, walk)
-    near = np.flatnonzero(inside)
-    corners_m = box_corners_m(actor, Track(walk.position_m[near], walk.heading[near]))
-    corners_px, depth_m = project(intrinsics, flight.camera_to_world[near], corners_m)
-    low, high = corners_px.min(axis=1), corners_px.max(axis=1)
-    size_px = np.array([intrinsics.width_px, intrinsics.height_px])
-    inside[near] = ((low < size_px) & (high > 0)).all(axis=1) & (depth_m > 0).all(axis=1)
-    return inside
-
-
-def _may_be_in_frame(intrinsics: Intrinsics, flight: Flight, actor: Actor, walk: Track) -> np.ndarray:
-    """Mask of frames (n,) in which a sphere around the actor's origin that contains its box is not outside the picture.
-
-    Cheap and conservative: never false where the box is in the picture.
-    """
-    radius_m = np.linalg.norm(np.abs(actor.bounds_m).max(axis=0))
-    pose = flight.camera_to_world
-    local = ((walk.position_m - pose[:, :3, 3])[:, None, :] @ pose[:, :3, :3])[:, 0]
-    near = local[:, 2] > -radius_m
-    for side, tangents in zip((-1.0, 1.0), np.array(edge_tangents(intrinsics))):
-        outside_m = (side * local[:, :2] - tangents * local[:, 2:]) / np.sqrt(1.0 + tangents * tangents)
-        near &= (outside_m < radius_m).all(axis=1)
-    return near
-
-
-def box_corners_m(actor: Actor, walk: Track) -> np.ndarray:
-    """World positions (n, 8, 3) of the corners of an actor's box along a track."""
-    low, high = actor.bounds_m
-    pick = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
-    corners = np.where(pick == 0, low, high)
-    forward = walk.heading[:, None, :]
-    level = corners[:, 0:1] * forward + corners[:, 1:2] * left_of(forward)
-    height = np.broadcast_to(corners[:, 2:3], level.shape[:2] + (1,))
-    return walk.position_m[:, None, :] + np.concatenate([level, height], axis=-1)

@@ -10,8 +10,9 @@ import numpy as np
 
 from veldt import assets
 from veldt.flight.poses import Flight
-from veldt.groups.actors import Actor, poses, track
-from veldt.plants.views import spheres_seen
+from veldt.frusta import frusta_of
+from veldt.groups.actors import Actor, poses
+from veldt.sightings import may_be_in_frame
 from veldt.world import World
 
 from . import models
@@ -86,15 +87,8 @@ def add_actors(actors: list[Actor], materials: dict[tuple[str, str], bpy.types.M
 
 def needed(world: World, flight: Flight) -> np.ndarray:
     """Mask (actors, n) of the frames of a flight in which each actor may be in the picture."""
-    seen = [
-        spheres_seen(
-            world.passes_intrinsics,
-            flight.camera_to_world,
-            track(actor, flight.time_s).position_m,
-            _SLACK * float(np.linalg.norm(np.abs(actor.bounds_m).max(axis=0))),
-        )
-        for actor in world.actors
-    ]
+    frusta = frusta_of(world.passes_intrinsics, flight.camera_to_world)
+    seen = [may_be_in_frame(frusta, flight.time_s, actor, _SLACK) for actor in world.actors]
     return np.array(seen, bool).reshape(len(world.actors), len(flight.time_s))
 
 

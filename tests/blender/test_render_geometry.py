@@ -9,7 +9,7 @@ from scenes import flat, tiny
 from veldt import assets, ids
 from veldt.camera import project
 from veldt.groups.actors import track
-from veldt.plan import box_corners_m
+from veldt.sightings import box_corners_m
 from veldt.world import plan_world
 
 pytestmark = needs_blender

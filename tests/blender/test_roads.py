@@ -41,6 +41,16 @@ def test_it_is_a_loop_with_a_fork_that_reaches_for_the_border(places):
     assert np.abs(ends[1]).max() > 0.5 * 700 - 60
 
 
+def test_it_lies_within_the_range_of_the_ground():
+    _, terrain = _place(relief_m=0, water_radius_m=0)
+    low_m, high_m = terrain.range_m
+    offsets_m = np.linspace(-4, 4, 81)
+    points_m = np.concatenate([_across(terrain.road, at_m, offsets_m) for at_m in np.linspace(0, 900, 200)])
+    height_m = terrain.height_m(*points_m.T)
+    assert height_m.min() < -0.15
+    assert low_m - 1e-12 <= height_m.min() < low_m + 0.01 and height_m.max() <= high_m + 1e-12
+
+
 def test_it_keeps_off_water_and_steep_ground(places):
     bare, terrain = places
     for line in terrain.road.lines:

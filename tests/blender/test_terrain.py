@@ -75,6 +75,20 @@ def test_water_lies_in_the_middle_and_nowhere_else(terrain):
     assert (ground[disc & (shore > 0)] > terrain.waters[0].level_m).all()
 
 
+def test_water_is_within_its_shore(wild):
+    x, y = _grid()
+    for water in wild.waters:
+        wet = water.basin.is_wet(x, y)
+        assert wet.any() and np.array_equal(wet, water.basin.shore_m(x, y) < 0)
+        assert water.basin.is_wet(*water.basin.centre_m) and not water.basin.is_wet(1e4, 0.0)
+
+
+def test_the_ground_is_within_its_range(wild):
+    low_m, high_m = wild.range_m
+    height_m = wild.height_m(*_grid())
+    assert (height_m.min(), height_m.max()) == pytest.approx((low_m, high_m), abs=1e-12)
+
+
 def test_smoothed_ground_stays_within_the_ground(terrain):
     x, y = _grid()
     smooth = terrain.smooth_surface_m(x, y)

@@ -5,7 +5,7 @@ import pytest
 
 from veldt.camera import Intrinsics, centred, look, project
 from veldt.noise import stream
-from veldt.plants.views import circles_seen, held_circles, spheres_seen
+from veldt.plants.views import circles_seen, held_circles
 
 LENS = centred(640, 512, 765.0)
 OFF_CENTRE = Intrinsics(640, 512, (765.0, 820.0), (250.0, 300.0))
@@ -34,22 +34,6 @@ def test_all_that_is_seen_between_two_heights_is_in_the_circle(height_m, depress
 def test_a_view_of_the_horizon_has_no_end(depression_deg):
     (centre_m,), (radius_m,) = circles_seen(LENS, _pose(61, depression_deg), -5.0, 20.0)
     assert radius_m == np.inf and np.isfinite(centre_m).all()
-
-
-@pytest.mark.parametrize("height_m, depression_deg", [(61, 90), (122, 45), (15, 30), (30, 5)])
-@pytest.mark.parametrize("radius_m", [0.5, 8.0])
-@pytest.mark.parametrize("lens", [LENS, OFF_CENTRE])
-def test_a_sphere_of_which_anything_is_seen_is_needed(height_m, depression_deg, radius_m, lens):
-    pose = np.repeat(_pose(height_m, depression_deg), 20_000, axis=0)
-    draw = stream(3, "spheres")
-    centres_m = draw.uniform([-200, -200, -5], [300, 300, 60], (20_000, 3))
-    aside = draw.normal(size=(20_000, 3))
-    points_m = centres_m + radius_m * aside / np.linalg.norm(aside, axis=1, keepdims=True)
-    place_px, depth_m = project(lens, pose[0], points_m)
-    seen = (depth_m > 0) & ((place_px > 0) & (place_px < [640, 512])).all(axis=1)
-    needed = spheres_seen(lens, pose, centres_m, radius_m)
-    assert seen.sum() > 10 and needed[seen].all()
-    assert needed.mean() < 0.5
 
 
 def test_held_circles_hold_and_stay():

@@ -122,8 +122,10 @@ def _ordered(plan: dict, course: Course, around: Surroundings, time_s: np.ndarra
     ride = course.at(time_s)
     wanted_m = _wanted_m(plan, ride, around.terrain)
     if plan["aircraft"] == MULTIROTOR:
-        ride = course.at(slowed_times(wanted_m, STEP_S, plan["climb_rate_m_s"]))
-        wanted_m = _wanted_m(plan, ride, around.terrain)
+        flown_s = slowed_times(wanted_m, STEP_S, plan["climb_rate_m_s"])
+        if not np.array_equal(flown_s, time_s):
+            ride = course.at(flown_s)
+            wanted_m = _wanted_m(plan, ride, around.terrain)
     locked_rad = np.radians(plan["gimbal"].get("heading_deg", plan["heading_deg"]))
     is_locked = plan["gimbal"]["heading"] == "lock"
     look_rad = np.full(len(time_s), locked_rad) if is_locked else ride.course_rad

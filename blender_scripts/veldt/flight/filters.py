@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -21,11 +22,9 @@ def states(kept: np.ndarray, added: np.ndarray) -> np.ndarray:
     blocks = -(-moments // block)
     padded = np.pad(series, ((0, 0), (0, 0), (0, blocks * block - moments)))
     state = np.ascontiguousarray(np.reshape(padded, (size, -1, block)).transpose(2, 0, 1))
-    left = np.empty((block, *kept.shape))  # of the state before a block, at each of its moments
-    left[0] = kept
     for k in range(1, block):
         state[k] += product(kept, state[k - 1])
-        left[k] = product(kept, left[k - 1])
+    left = _powers(tuple(map(tuple, kept.tolist())), block)  # what is left of the state before a block
     ends = np.split(state[-1], series.shape[1], axis=1)
     before = np.hstack([_ends_before(left[-1].tolist(), end.T.tolist()) for end in ends])
     for column in range(size):
@@ -39,17 +38,32 @@ def lag_error(values: np.ndarray, lag_s: float, step_s: float) -> np.ndarray:
     It starts settled on the first value, and is exact for values that are linear between moments: the error
     e' = values' - e / lag_s then decays by a = exp(-step / lag) and gains (1 - a) lag / step of each difference.
     """
-    if lag_s == 0:
+    changes = np.diff(values, axis=0, prepend=values[:1])
+    if lag_s == 0 or not changes.any():
         return np.zeros(values.shape)
     steps = step_s / lag_s
-    gained = np.diff(values, axis=0, prepend=values[:1]) * (-math.expm1(-steps) / steps)
+    gained = changes * (-math.expm1(-steps) / steps)
     kept = np.array([[math.exp(-steps)]])
     return states(kept, gained.reshape(1, len(values), -1).transpose(0, 2, 1))[0].T.reshape(values.shape)
 
 
 def product(matrix: np.ndarray, columns: np.ndarray) -> np.ndarray:
     """Matrix (m, m) times columns (m, n), summed in a fixed order; the rounding of a library's product may vary."""
-    return sum(matrix[:, k, None] * columns[k] for k in range(len(matrix)))
+    total = matrix[:, 0, None] * columns[0]
+    for k in range(1, len(matrix)):
+        total += matrix[:, k, None] * columns[k]
+    return total
+
+
+@lru_cache(maxsize=32)
+def _powers(rows: tuple[tuple[float, ...], ...], count: int) -> np.ndarray:
+    """The first to the count-th power (count, m, m) of a matrix, by its rows."""
+    matrix = np.array(rows)
+    powers = np.empty((count, *matrix.shape))
+    powers[0] = matrix
+    for k in range(1, count):
+        powers[k] = product(matrix, powers[k - 1])
+    return powers
 
 
 def _ends_before(kept: list[list[float]], added: list[list[float]]) -> np.ndarray:

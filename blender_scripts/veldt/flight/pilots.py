@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -13,6 +14,8 @@ from .autopilot import Surroundings, plan_trajectory
 from .flight_checks import check_height
 from .poses import Flight, Trajectory, flight_of
 
+_KEPT = 16  # trajectories; more than the flights of most configs, and few enough for thousands of flights
+
 
 def frames_of(entry: dict) -> int:
     """How many frames a clip or a flight of a config has."""
@@ -22,30 +25,31 @@ def frames_of(entry: dict) -> int:
 
 
 class Pilot:
-    """Computes a config's clips and flights, each on first use."""
+    """Computes a config's clips and flights; it keeps the trajectories of the latest few flights."""
 
     def __init__(self, config: dict, terrain: Terrain, actors: Sequence[Actor], intrinsics: Intrinsics):
         self._terrain, self._actors = terrain, actors
         self._intrinsics, self._seed = intrinsics, config["seed"]
         self._until_s: dict[str, float] = {}
         self._where: dict[str, str] = {}
-        self._trajectories: dict[str, Trajectory] = {}
+        self._plans: dict[str, dict] = {}
+        self._trajectory = lru_cache(_KEPT)(self._planned)
         for kind in ("clips", "flights"):
             for k, entry in enumerate(config[kind]):
                 name = _name(entry)
                 self._where.setdefault(name, f"{kind}[{k}]")
+                self._plans.setdefault(name, entry["flight"])
                 self._until_s[name] = max(self._until_s.get(name, 0.0), _times(entry)[-1])
 
     def flight(self, entry: dict) -> Flight:
         """The frames of one of the clips or flights, or of a clip cut from one; ConfigError if it cannot be flown."""
         name = _name(entry)
-        if name not in self._trajectories:
-            self._trajectories[name] = self._plan(entry["flight"], name)
-        flight = flight_of(self._trajectories[name], _times(entry), self._terrain)
+        flight = flight_of(self._trajectory(name), _times(entry), self._terrain)
         check_height(self._where[name], flight)
         return flight
 
-    def _plan(self, plan: dict, name: str) -> Trajectory:
+    def _planned(self, name: str) -> Trajectory:
+        plan = self._plans[name]
         target = plan.get("target")
         actors = [actor for actor in self._actors if target in (actor.name, actor.group)]
         around = Surroundings(self._terrain, actors, self._intrinsics, self._seed)

@@ -70,10 +70,15 @@ class Track:
         return np.arctan2(self.heading[:, 1], self.heading[:, 0])
 
 
+def ground_path(actor: Actor, time_s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The actor's points (n, 2) and headings (n, 2) at times (n,)."""
+    return actor.path(actor.start_m + actor.schedule.at(time_s).walked_m)
+
+
 def track(actor: Actor, time_s: np.ndarray) -> Track:
     """The actor's track on the ground at times (n,)."""
-    xy, heading = actor.path(actor.start_m + actor.schedule.at(time_s).walked_m)
-    return Track(np.column_stack([xy, actor.terrain.height_m(xy[:, 0], xy[:, 1])]), heading)
+    point, heading = ground_path(actor, time_s)
+    return Track(np.column_stack([point, actor.terrain.height_m(*point.T)]), heading)
 
 
 def poses(actor: Actor, time_s: np.ndarray) -> Poses:

@@ -45,6 +45,11 @@ class Road:
         """The loop, and the spur if there is one."""
         return (self.loop,) if self.spur is None else (self.loop, self.spur)
 
+    @property
+    def heights_m(self) -> list[np.ndarray]:
+        """Heights between which all of the road lies: along each line, its borders and the bottom of its tracks."""
+        return [bed - depth for bed in self.bed_m for depth in (_CUT_M, _CUT_M + _TRACK_DEPTH_M)]
+
     def distance_m(self, x_m, y_m) -> np.ndarray:
         """Distance (n,) to the road's border, negative on it; infinite beyond reach_m from its centre line."""
         distance = np.full(np.shape(x_m), np.inf)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -37,6 +38,12 @@ class Terrain:
     waters: tuple[Water, ...]
     crag: Crag | None
     road: Road | None = None
+
+    @cached_property
+    def range_m(self) -> tuple[float, float]:
+        """The least and the greatest height of the ground, up to rounding; of the road, bounds."""
+        heights = [self.heights_m, *([] if self.road is None else self.road.heights_m)]
+        return min(float(h.min()) for h in heights), max(float(h.max()) for h in heights)
 
     def height_m(self, x_m, y_m) -> np.ndarray:
         """Height of the ground at (x, y); positions beyond the border are clamped to it.

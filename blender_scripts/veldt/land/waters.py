@@ -11,6 +11,9 @@ from ..noise import fractal_noise
 
 REACH = 2.5  # radii of the water over which the surrounding land blends into its basin
 _RAGGEDNESS = 0.45  # of the radius: amplitude of the shoreline's irregularity
+_OCTAVES = 3
+# In radii, of a circle that contains the water: the octaves of the noise add up to at most 2 - 0.5^(octaves - 1).
+_OUTERMOST = 1.0 + _RAGGEDNESS * (2.0 - 0.5 ** (_OCTAVES - 1))
 _BANK_M = 0.4  # height of the basin's rim above the water
 
 
@@ -31,8 +34,18 @@ class Basin:
     def shore_m(self, x_m, y_m) -> np.ndarray:
         """Approximate distance to the shoreline, negative in the water."""
         x_m, y_m = np.asarray(x_m, float) - self.centre_m[0], np.asarray(y_m, float) - self.centre_m[1]
-        wander = fractal_noise(self.seed, self.name, x_m, y_m, 1.3 * self.radius_m, octaves=3)
+        wander = fractal_noise(self.seed, self.name, x_m, y_m, 1.3 * self.radius_m, _OCTAVES)
         return np.sqrt(x_m**2 + y_m**2) + _RAGGEDNESS * self.radius_m * wander - self.radius_m
+
+    def is_wet(self, x_m, y_m) -> np.ndarray:
+        """shore_m < 0, without the cost of the shoreline's noise far from the water."""
+        x_m, y_m = np.broadcast_arrays(np.asarray(x_m, float), np.asarray(y_m, float))
+        wet = np.asarray(
+            np.hypot(x_m - self.centre_m[0], y_m - self.centre_m[1]) < _OUTERMOST * self.radius_m
+        )
+        if wet.any():
+            wet[wet] = self.shore_m(x_m[wet], y_m[wet]) < 0
+        return wet
 
 
 @dataclass(frozen=True)
@@ -63,7 +76,7 @@ def lay_water(basin: Basin, land_m: np.ndarray, x_m, y_m) -> tuple[Water, np.nda
 def surface_m(ground_m, waters: tuple[Water, ...], x_m, y_m) -> np.ndarray:
     """Height of ground or water, whichever is higher; water lies only inside its own basin."""
     for water in waters:
-        wet = water.basin.shore_m(x_m, y_m) < 0
+        wet = water.basin.is_wet(x_m, y_m)
         ground_m = np.where(wet, np.maximum(ground_m, water.level_m), ground_m)
     return ground_m
 

@@ -53,21 +53,6 @@ def _around(centres_m: np.ndarray, radii_m: np.ndarray) -> tuple[np.ndarray, flo
     return middle_m, float((np.linalg.norm(centres_m - middle_m, axis=1) + radii_m).max())
 
 
-def spheres_seen(
-    intrinsics: Intrinsics, camera_to_world: np.ndarray, centres_m: np.ndarray, radius_m: float
-) -> np.ndarray:
-    """Mask (n,) of the poses (n, 4, 4) in which a sphere, at centres (n, 3), may be in the picture.
-
-    False only where it is entirely beyond one side of the picture or behind the camera.
-    """
-    local = np.einsum("nij,ni->nj", camera_to_world[:, :3, :3], centres_m - camera_to_world[:, :3, 3])
-    seen = local[:, 2] > -radius_m
-    for side, tangents in zip((-1.0, 1.0), edge_tangents(intrinsics)):
-        for across, edge in zip(local[:, :2].T, tangents):
-            seen &= side * across - edge * local[:, 2] < radius_m * np.hypot(1.0, edge)
-    return seen
-
-
 def _corner_rays(intrinsics: Intrinsics, camera_to_world: np.ndarray) -> np.ndarray:
     """World directions (n, 4, 3) through the corners of the picture."""
     (left, top), (right, bottom) = edge_tangents(intrinsics)
