@@ -3,6 +3,7 @@
 import pytest
 
 import passes
+from program import NO_LINKS
 
 NAME = "expected 1 to 200 letters, digits, _ or -, not beginning with -"
 
@@ -79,8 +80,6 @@ def test_a_clip_name_of_a_config_that_is_a_path(veldt, name):
 
 # --- links ------------------------------------------------------------------------------------------------------------
 
-LEADS = "expected a path that is not a link; nothing elsewhere is read or written"
-
 
 def _link(veldt, place, target):
     link = veldt.folder / "out" / place
@@ -96,7 +95,7 @@ def test_a_link_where_things_are_made_is_refused(veldt, elsewhere, place, target
     before = _around(veldt)
     done = veldt("convert", "one", "--out", "out", "--quiet")
     link = f"out/{place} = a link to {veldt.folder / target}"
-    assert (done.code, done.err) == (1, f"veldt: {link}; {LEADS}\n")
+    assert (done.code, done.err) == (1, f"veldt: {link}; {NO_LINKS}\n")
     assert _around(veldt) == before and elsewhere.exists()
     assert not (veldt.folder / "nowhere").exists()
 
@@ -109,7 +108,7 @@ def test_a_link_instead_of_a_variants_folder_is_refused(veldt, elsewhere, target
     before = _around(veldt)
     done = veldt("convert", "one", "--out", "out", "--variants", "variants.json", "--quiet")
     link = f"out/wet = a link to {veldt.folder / target}"
-    assert (done.code, done.err) == (1, f"veldt: {link}; {LEADS}\n")
+    assert (done.code, done.err) == (1, f"veldt: {link}; {NO_LINKS}\n")
     assert _around(veldt) == before and elsewhere.exists()
     assert not (veldt.folder / "nowhere").exists()
 
@@ -150,7 +149,7 @@ def test_an_index_that_is_a_link_is_refused(veldt, elsewhere, target):
     done = veldt("convert", "one", "--out", "out", "--quiet")
     assert (done.code, done.err) == (
         1,
-        f"veldt: out/dataset.json = a link to {veldt.folder / target}; {LEADS}\n",
+        f"veldt: out/dataset.json = a link to {veldt.folder / target}; {NO_LINKS}\n",
     )
     assert _around(veldt) == before and elsewhere.exists()
 
@@ -166,7 +165,7 @@ def test_a_clip_that_is_a_link_is_neither_read_nor_made_again(veldt):
         done = veldt(*command)
         assert (done.code, done.err) == (
             1,
-            f"veldt: out/clips/one = a link to {veldt.folder / 'moved'}; {LEADS}\n",
+            f"veldt: out/clips/one = a link to {veldt.folder / 'moved'}; {NO_LINKS}\n",
         )
     assert _around(veldt) == before
 
