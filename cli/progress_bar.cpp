@@ -51,7 +51,7 @@ ProgressBar::Style ProgressBar::style_of(const CommonOptions& options) {
 
 void ProgressBar::show(const thermal::Progress& progress) {
   const auto now = Clock::now();
-  if (now < begin_) return;
+  if (now < begin_ && style_ != Style::json) return;
   if (progress.done > 0 && first_ == 0) {
     first_ = progress.done;
     first_at_ = now;

@@ -12,7 +12,7 @@ namespace veldt {
 /// seconds elsewhere, or one JSON object per line for machines.
 class ProgressBar {
  public:
-  /// `opening` is what the run does before its first frame. Nothing is shown for runs shorter than `patience`.
+  /// `opening` is what the run does before its first frame. Nothing is shown to people of runs shorter than `patience`.
   explicit ProgressBar(const CommonOptions& options, std::string opening = "starting",
                        std::string unit = "frames", std::chrono::seconds patience = {});
   ~ProgressBar();

@@ -1,9 +1,11 @@
 #include "dataset/reports/report.h"
 
+#include <chrono>
 #include <memory>
 
 #include "cli/command.h"
 #include "cli/output.h"
+#include "cli/progress_bar.h"
 #include "io/resources.h"
 
 namespace veldt {
@@ -15,11 +17,18 @@ struct ReportArguments {
   bool unfinished = false;
 };
 
+thermal::ReportOutcome report(const ReportArguments& options, const CommonOptions& common) {
+  constexpr std::chrono::seconds kPatience(2);
+  ProgressBar bar(common, "starting", "clips", kPatience);
+  return thermal::write_report({.source = options.source,
+                                .out = options.out,
+                                .home = thermal::find_home(),
+                                .unfinished_too = options.unfinished,
+                                .show = [&bar](const thermal::Progress& progress) { bar.show(progress); }});
+}
+
 int run_report(const ReportArguments& options, const CommonOptions& common) {
-  const thermal::ReportOutcome outcome = thermal::write_report({.source = options.source,
-                                                                .out = options.out,
-                                                                .home = thermal::find_home(),
-                                                                .unfinished_too = options.unfinished});
+  const thermal::ReportOutcome outcome = report(options, common);
   if (common.quiet) return kDone;
   print("{}: {} {}, {} frames, {} labels, {} kB\n", outcome.out.string(), outcome.clips,
         outcome.clips == 1 ? "clip" : "clips", outcome.images, outcome.labels, (outcome.bytes + 999) / 1000);

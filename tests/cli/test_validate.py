@@ -1,5 +1,7 @@
 """`validate` finds all changes to a dataset since it was made, and names the file."""
 
+import json
+
 import pytest
 
 import passes
@@ -119,6 +121,14 @@ def test_a_clip_that_is_not_made_yet_is_named(veldt, dataset):
     assert (done.code, done.err) == (1, "")
     assert done.out.splitlines()[0] == "unfinished/clips/two: not made yet (status failed)"
     assert dataset.exists()
+
+
+@pytest.mark.parametrize("command", ["validate", "report"])
+def test_progress_is_of_clips(veldt, dataset, command):
+    done = veldt(command, dataset, "--progress", "json")
+    events = [json.loads(line) for line in done.err.splitlines()]
+    counts = [(event["clip"], event["clips_done"], event["clips_total"]) for event in events]
+    assert counts == [("one", 1, 2), ("two", 2, 2)]
 
 
 NO_DATASETS = {

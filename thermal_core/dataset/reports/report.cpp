@@ -19,22 +19,28 @@ Path default_out(const Path& source) {
                                                : source.parent_path() / "report.html";
 }
 
-std::vector<FlightTrack> tracks_of(const Layout& layout, const Json& record) {
+std::vector<FlightTrack> tracks_of(const ReportRequest& request, const Json& record) {
+  const Layout layout{request.source};
+  const Json& clips = record.at("clips");
   std::vector<FlightTrack> tracks;
-  for (const Json& clip : record.at("clips")) {
+  Progress progress = {.clip = "", .done = 0, .total = static_cast<int>(clips.size())};
+  for (const Json& clip : clips) {
+    progress.clip = clip.at("id");
     if (clip.at("status") == "done")
-      tracks.push_back(read_track(layout.clip(clip.at("id")) / "frames.jsonl", clip.at("id")));
+      tracks.push_back(read_track(layout.clip(progress.clip) / "frames.jsonl", progress.clip));
+    ++progress.done;
+    if (request.show) request.show(progress);
   }
   return tracks;
 }
 
 /// Figures that only Veldt datasets have; `record` is the dataset.json.
-void add_dataset(const Layout& layout, const Path& home, Json& figures) {
-  Json record = read_dataset_file(layout.root);
+void add_dataset(const ReportRequest& request, Json& figures) {
+  Json record = read_dataset_file(request.source);
   try {
-    figures["flights"] = flight_figures(tracks_of(layout, record), record.at("config"), home);
+    figures["flights"] = flight_figures(tracks_of(request, record), record.at("config"), request.home);
   } catch (const Json::exception& error) {
-    throw DataError(layout.dataset_json().string() + ": " + error.what());
+    throw DataError(Layout{request.source}.dataset_json().string() + ": " + error.what());
   }
   figures["record"] = std::move(record);
 }
@@ -43,14 +49,13 @@ void add_dataset(const Layout& layout, const Path& home, Json& figures) {
 
 ReportOutcome write_report(const ReportRequest& request) {
   const LabelSet set = read_labels(request.source, request.unfinished_too);
-  const Layout layout{request.source};
-  const bool ours = layout.is_begun();
+  const bool ours = Layout{request.source}.is_begun();
   Json figures = {{"format", "veldt-report"},
                   {"version", 1},
                   {"name", set.name},
                   {"labels", label_figures(set)},
                   {"samples", sample_figures(set, ours)}};
-  if (ours) add_dataset(layout, request.home, figures);
+  if (ours) add_dataset(request, figures);
   const std::string page = report_page(figures, set.name, request.home);
   const Path out = request.out.empty() ? default_out(request.source) : request.out;
   write_file_atomically(out, page);

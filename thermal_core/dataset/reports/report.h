@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
+#include "dataset/progress.h"
 #include "io/files.h"
 
 namespace thermal {
@@ -11,6 +13,8 @@ struct ReportRequest {
   Path out;     ///< the page; empty: report.html in the dataset, or beside a COCO file
   Path home;
   bool unfinished_too = false;  ///< accept a dataset with missing clips
+  /// Called for each clip of a Veldt dataset, when its track is read.
+  std::function<void(const Progress&)> show = {};
 };
 
 struct ReportOutcome {
