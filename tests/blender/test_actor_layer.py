@@ -5,11 +5,9 @@ import shutil
 import numpy as np
 import pytest
 
-from rendering import PLANES, Run, needs_blender, render
+from rendering import PLANES, Run, render
 from scenes import tiny
 from veldt import ids
-
-pytestmark = needs_blender
 
 LAYER = "Actors.IndexOB.X"
 CLIPS = ("down", "side")

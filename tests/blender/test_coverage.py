@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 
-from rendering import needs_blender, render
+from rendering import render
 from scenes import tiny
 from veldt.world import plan_world
-
-pytestmark = needs_blender
 
 AREA_M = [-40, -35, 40, 35]
 CELL_M = 1.0

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import numpy as np
+import OpenImageIO as oiio
 import pytest
 
 from scenes import tiny
@@ -14,8 +15,6 @@ from veldt.land.terrain import build_terrain
 from veldt.plants.density import plan_density
 from veldt.png_files import is_whole, rgb_png
 from veldt.preview.ground_picture import Window, draw_ground, whole_place, window_round
-
-oiio = pytest.importorskip("OpenImageIO")
 
 
 def _rich(config: dict) -> None:

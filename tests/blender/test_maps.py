@@ -5,6 +5,7 @@ import struct
 import zlib
 
 import numpy as np
+import OpenImageIO as oiio
 import pytest
 
 from scenes import tiny
@@ -13,8 +14,6 @@ from veldt.plants.density import plan_density
 from veldt.faults import ConfigError
 from veldt.land.grey_images import read_grey, sample
 from veldt.land.terrain import build_terrain
-
-oiio = pytest.importorskip("OpenImageIO")
 
 
 def _write(path, values, form):

@@ -5,13 +5,11 @@ from pathlib import Path
 
 import numpy as np
 
-from rendering import PLANES, Run, needs_blender, render
+from rendering import PLANES, Run, render
 from scenes import tiny
 from veldt import ids
 from veldt.exr_files import is_whole
 from veldt.manifest import build_manifest
-
-pytestmark = needs_blender
 
 CLIPS = ("down", "side")
 

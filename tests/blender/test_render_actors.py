@@ -6,13 +6,11 @@ import subprocess
 import numpy as np
 import pytest
 
-from rendering import BLENDER, needs_blender
+from rendering import BLENDER
 from scenes import tiny
 from veldt.groups.actors import poses
 from veldt.config import ROOT
 from veldt.world import plan_world
-
-pytestmark = needs_blender
 
 FRAMES = (0, 70)  # the second beyond the frames that are posed at once
 

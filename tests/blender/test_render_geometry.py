@@ -4,15 +4,13 @@ import numpy as np
 import pytest
 
 from raster import draw, farthest_from_an_edge, plant_triangles, world_triangles
-from rendering import PLANES, needs_blender, render
+from rendering import PLANES, render
 from scenes import flat, tiny
 from veldt import assets, ids
 from veldt.camera import project
 from veldt.groups.actors import track
 from veldt.sightings import box_corners_m
 from veldt.world import plan_world
-
-pytestmark = needs_blender
 
 CLIPS = ("down", "side")
 

@@ -11,5 +11,5 @@ def _blender() -> str:
     """The Blender on PATH, or the one that BLENDER names."""
     found = os.environ.get("BLENDER") or shutil.which("blender")
     if found is None:
-        pytest.skip("no Blender: neither on PATH nor named by BLENDER")
+        pytest.fail("no Blender: neither on PATH nor named by BLENDER")
     return found

@@ -7,6 +7,8 @@ import shutil
 from pathlib import Path
 
 import pytest
+from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
 
 DESKTOP = (1280, 800)
 PHONE = (390, 844)
@@ -16,10 +18,6 @@ class Browser:
     """Shows one page after another; `scheme` is light or dark."""
 
     def __init__(self, profile: Path):
-        # Imported late: without it these tests are skipped, and others of the same file need not be.
-        from selenium import webdriver  # pylint: disable=import-outside-toplevel
-        from selenium.webdriver.chrome.service import Service  # pylint: disable=import-outside-toplevel
-
         options = webdriver.ChromeOptions()
         options.binary_location = shutil.which("chromium")
         for flag in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "disable-gpu", "hide-scrollbars"):
@@ -67,9 +65,8 @@ class Browser:
 
 
 def open_browser(profile: Path) -> Browser:
-    """A browser; where none can be had, the test is skipped with the reason."""
+    """A browser; where none can be had, the test fails with the reason."""
     for program in ("chromium", "chromedriver"):
         if shutil.which(program) is None:
-            pytest.skip(f"no {program} on PATH; install chromium and chromium-driver")
-    pytest.importorskip("selenium", reason="no selenium; install python3-selenium")
+            pytest.fail(f"no {program} on PATH; install chromium and chromium-driver")
     return Browser(profile)
