@@ -11,9 +11,7 @@ thermal::DatasetPlan plan_with_progress(const thermal::Json& resolved_config, co
   constexpr std::chrono::seconds kPatience(10);
   ProgressBar bar(common, "planning", "flights", kPatience);
   return thermal::plan_dataset(resolved_config, name,
-                               {.home = home,
-                                .threads = common.threads,
-                                .show = [&bar](const thermal::Progress& progress) { bar.show(progress); }});
+                               {.home = home, .threads = common.threads, .show = hooks_for(bar).progress});
 }
 
 }  // namespace veldt

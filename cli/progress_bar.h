@@ -8,6 +8,9 @@
 
 namespace veldt {
 
+/// Commands that only read a dataset's clips show no progress to people before this time.
+inline constexpr std::chrono::seconds kClipPatience(2);
+
 /// Shows the progress of a run on standard error: a bar with rate and time left on a terminal, a line every few
 /// seconds elsewhere, or one JSON object per line for machines.
 class ProgressBar {

@@ -1,6 +1,5 @@
 #include "dataset/reports/report.h"
 
-#include <chrono>
 #include <memory>
 
 #include "cli/command.h"
@@ -18,13 +17,12 @@ struct ReportArguments {
 };
 
 thermal::ReportOutcome report(const ReportArguments& options, const CommonOptions& common) {
-  constexpr std::chrono::seconds kPatience(2);
-  ProgressBar bar(common, "starting", "clips", kPatience);
+  ProgressBar bar(common, "starting", "clips", kClipPatience);
   return thermal::write_report({.source = options.source,
                                 .out = options.out,
                                 .home = thermal::find_home(),
                                 .unfinished_too = options.unfinished,
-                                .show = [&bar](const thermal::Progress& progress) { bar.show(progress); }});
+                                .show = hooks_for(bar).progress});
 }
 
 int run_report(const ReportArguments& options, const CommonOptions& common) {

@@ -1,6 +1,5 @@
 #include "dataset/validate.h"
 
-#include <chrono>
 #include <memory>
 
 #include <fmt/format.h>
@@ -22,10 +21,8 @@ struct ValidateArguments {
 };
 
 thermal::DatasetCheck check_dataset(const std::string& folder, const CommonOptions& common) {
-  constexpr std::chrono::seconds kPatience(2);
-  ProgressBar bar(common, "starting", "clips", kPatience);
-  const auto show = [&bar](const thermal::Progress& progress) { bar.show(progress); };
-  return thermal::validate_dataset(folder, {.progress = show, .cancelled = {}});
+  ProgressBar bar(common, "starting", "clips", kClipPatience);
+  return thermal::validate_dataset(folder, {.progress = hooks_for(bar).progress, .cancelled = {}});
 }
 
 int validate_dataset(const ValidateArguments& options, const CommonOptions& common) {

@@ -11,9 +11,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("VELDT_PROGRAM") or ROOT / "build" / "release" / "bin" / "veldt")
-NO_LINKS = (
-    "expected a path that is not a link; nothing elsewhere is read or written"  # of each fault about a link
-)
+# The end of each fault about a link.
+NO_LINKS = "expected a path that is not a link; nothing elsewhere is read or written"
 
 
 @dataclass(frozen=True)

@@ -126,5 +126,5 @@ def _direction(rng: np.random.Generator) -> np.ndarray:
 def _shoreline_m(water: Water, outward: np.ndarray) -> float:
     """Distance of the shore from the middle of the water in a direction; the largest if there are several."""
     away_m = np.arange(0.0, water.basin.disc_radius_m + _MARCH_M, _MARCH_M)
-    wet = water.basin.shore_m(*(water.basin.centre_m + away_m[:, None] * outward).T) < 0
+    wet = water.basin.is_wet(*(water.basin.centre_m + away_m[:, None] * outward).T)
     return float(away_m[wet][-1]) if wet.any() else 0.0

@@ -164,7 +164,7 @@ def _drained(settings: dict, seed: int, land_m: np.ndarray, basins: Sequence[Bas
         return land_m
     is_sink = np.zeros(land_m.shape, bool)
     for basin in basins:
-        is_sink |= basin.shore_m(x_m, y_m) < 0
+        is_sink |= basin.is_wet(x_m, y_m)
     return carve(
         land_m,
         settings["size_m"],
