@@ -245,7 +245,7 @@ def test_jobs_render_at_the_same_time_and_share_the_threads(veldt, usual):
 def test_progress_of_jobs_is_of_all_together(veldt):
     done = veldt(*_run(veldt, "--jobs", "2", "--progress", "json"))
     events = [json.loads(line) for line in done.err.splitlines()]
-    lines = [event for event in events if "flights_done" not in event]  # where planning takes long
+    lines = [event for event in events if "flights_done" not in event]
     assert [line["frames_done"] for line in lines] == sorted(line["frames_done"] for line in lines)
     assert {line["frames_total"] for line in lines} == {2 * FRAMES}
     assert lines[-1]["frames_done"] == 2 * FRAMES

@@ -37,7 +37,10 @@ def test_quiet_says_nothing(veldt, blender):
 def test_progress_counts_pictures(veldt, blender):
     done = veldt(*_run(blender, "--progress", "json"))
     lines = [json.loads(line) for line in done.err.splitlines()]
-    assert [(line["clip"], line["frames_done"], line["frames_total"]) for line in lines] == [
+    planned = [line for line in lines if "flights_done" in line]
+    rendered = lines[len(planned) :]
+    assert [line["flights_done"] for line in planned] == list(range(1, len(planned) + 1))
+    assert [(line["clip"], line["frames_done"], line["frames_total"]) for line in rendered] == [
         ("preview", 0, 2),
         ("preview", 1, 2),
         ("preview", 2, 2),
