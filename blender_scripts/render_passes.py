@@ -1,10 +1,11 @@
-"""Render the passes of a dataset's clips. Blender runs it:
+"""Render the passes of a plan's clips. Blender runs it:
 
     blender -b --factory-startup --disable-autoexec --python-exit-code 1 --python render_passes.py --
-            --config FILE --out DIR [--clip ID ...] [--preview] [--events-fd N]
+            --plan DIR --out DIR (--clip ID ... [--supersample N] [--actor-layer] | --preview) [--events-fd N]
 
 For each clip, writes DIR/<clip>/manifest.json and then DIR/<clip>/000000.exr and so on; a file with such a name is
-complete. A second run resumes at a clip's first missing frame. Exit codes: 0 done, 1 failed, 2 the config is at fault.
+complete. A second run resumes at a clip's first missing frame. Exit codes: 0 done, 1 failed, 2 the folder holds frames
+of another plan.
 """
 
 from __future__ import annotations
@@ -13,7 +14,6 @@ import argparse
 import os
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing is written into the folder of the scripts, whoever owns it
@@ -25,11 +25,9 @@ from veldt.faults import ConfigError
 from veldt_bl.entry import own_arguments, reported_imports, run
 
 with reported_imports():
-    from veldt.config import load
+    from veldt.bake.baked import clip_of, read_plan, read_scene, read_sheet, read_track
     from veldt.manifest import build_manifest, frame_file, to_json
-    from veldt.plan import with_flights_cut
-    from veldt.world import clip_of, plan_world
-    from veldt_bl.preview import plan_pictures, render_pictures
+    from veldt_bl.preview import pictures_of, render_pictures
     from veldt_bl.render import first_missing, render_frames, render_frames_and_actors, set_up_renderer
     from veldt_bl.scene import Stage, build_stage
 
@@ -43,13 +41,15 @@ def main(arguments: list[str]) -> int:
 
 def _parse(arguments: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
-        prog="render_passes.py", description="Renders the passes of a dataset's clips."
+        prog="render_passes.py", description="Renders the passes of a plan's clips."
     )
-    parser.add_argument("--config", type=Path, required=True)
+    parser.add_argument("--plan", type=Path, required=True, help="the folder that plan_scene.py has written")
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument(
-        "--clip", action="extend", nargs="+", metavar="ID", help="only these clips; default all"
+        "--clip", action="extend", nargs="+", default=[], metavar="ID", help="the clips to render"
     )
+    parser.add_argument("--supersample", type=int, default=1, help="rays along each side of a pixel")
+    parser.add_argument("--actor-layer", action="store_true", help="also render the actors alone")
     parser.add_argument(
         "--preview", action="store_true", help="instead of passes: DIR/map.png and colour stills beside it"
     )
@@ -59,25 +59,24 @@ def _parse(arguments: list[str]) -> argparse.Namespace:
 
 def _render(options: argparse.Namespace, events: Events) -> None:
     started_s = time.monotonic()
-    world = with_flights_cut(plan_world(load(options.config)))
-    config = world.config
-    clips = [clip_of(config, name) for name in options.clip] if options.clip else config["clips"]
-    stage = build_stage(world)
+    clips = [clip_of(read_plan(options.plan), name) for name in options.clip]
+    stage = build_stage(read_scene(options.plan / "scene"))
     events.report("scene_built", seconds=round(time.monotonic() - started_s, 3))
     if options.preview:
-        _render_preview(stage, options.out, events)
+        _render_preview(stage, options.plan / "preview", options.out, events)
         return
-    set_up_renderer(stage.world.passes_intrinsics, config["render"]["supersample"])
+    set_up_renderer(stage.scene.passes_intrinsics, options.supersample)
     for clip in clips:
-        _render_clip(stage, clip, options.out / clip["id"], events)
+        _render_clip(stage, clip, options, events)
 
 
-def _render_preview(stage: Stage, folder: Path, events: Events) -> None:
+def _render_preview(stage: Stage, plan: Path, folder: Path, events: Events) -> None:
     """Write a map and stills, and report them as the frames of a clip `preview`."""
-    pictures = plan_pictures(stage)
+    pictures = pictures_of(stage, read_sheet(plan / "sheet"))
     events.report("clip", clip="preview", first_frame=0, frames=len(pictures))
     render_pictures(
         stage,
+        read_track(plan / "moment", stage.scene),
         pictures,
         folder,
         lambda k: events.report("frame", clip="preview", index=k, file=pictures[k].file),
@@ -85,37 +84,33 @@ def _render_preview(stage: Stage, folder: Path, events: Events) -> None:
     events.report("clip_done", clip="preview")
 
 
-def _render_clip(stage: Stage, clip: dict, folder: Path, events: Events) -> None:
+def _render_clip(stage: Stage, clip: dict, options: argparse.Namespace, events: Events) -> None:
     """Write a clip's manifest, then the frames it lacks."""
-    name, frames = clip["id"], clip["frames"]
+    name, frames, folder = clip["id"], clip["frames"], options.out / clip["id"]
     folder.mkdir(parents=True, exist_ok=True)
     first = first_missing(folder, frames)
-    _write_manifest(
-        folder / "manifest.json", to_json(build_manifest(stage.world, clip)), has_frames=first > 0
-    )
+    track = read_track(options.plan / "tracks" / name, stage.scene)
+    manifest = build_manifest(stage.scene, track, clip, options.supersample, options.actor_layer)
+    _write_manifest(folder / "manifest.json", to_json(manifest), has_frames=first > 0)
     events.report("clip", clip=name, first_frame=first, frames=frames)
     if first < frames:
-        stage.animate(clip)
-        _render_frames(
-            stage,
-            folder,
-            range(first, frames),
-            lambda k: events.report("frame", clip=name, index=k, file=frame_file(k)),
-        )
+        stage.animate(track)
+        left = range(first, frames)
+
+        def on_frame(k: int) -> None:
+            events.report("frame", clip=name, index=k, file=frame_file(k))
+
+        if options.actor_layer:
+            render_frames_and_actors(folder, left, stage, on_frame)
+        else:
+            render_frames(folder, left, stage.pose, on_frame)
     events.report("clip_done", clip=name)
-
-
-def _render_frames(stage: Stage, folder: Path, frames: range, on_frame: Callable[[int], None]) -> None:
-    if stage.world.config["render"]["actor_layer"]:
-        render_frames_and_actors(folder, frames, stage, on_frame)
-    else:
-        render_frames(folder, frames, stage.pose, on_frame)
 
 
 def _write_manifest(path: Path, text: str, has_frames: bool) -> None:
     """Write the manifest atomically; existing frames must belong to the same manifest."""
     if has_frames and (not path.exists() or path.read_text(encoding="utf-8") != text):
-        raise ConfigError(f"--out = {path.parent}; expected no frames there, or frames of this config")
+        raise ConfigError(f"--out = {path.parent}; expected no frames there, or frames of this plan")
     part = path.with_suffix(".part")
     part.write_text(text, encoding="utf-8")
     os.replace(part, path)

@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/output.h"
+#include "cli/planning.h"
 #include "dataset/outline.h"
 #include "dataset/physics.h"
 #include "io/material_files.h"
@@ -48,11 +49,13 @@ struct BudgetArguments {
   bool json = false;
 };
 
-int run_budget(const BudgetArguments& options) {
+int run_budget(const BudgetArguments& options, const CommonOptions& common) {
   const thermal::Path home = thermal::find_home();
-  const thermal::Config config = load_config(options.config, options.settings, home);
+  const thermal::Config given = load_config(options.config, options.settings, home);
   const thermal::MaterialLibrary materials = thermal::read_materials(home);
-  const thermal::SceneOutline outline = thermal::outline_of(config, materials, home);
+  const thermal::DatasetPlan plan = plan_with_progress(common, home, given, options.config);
+  const thermal::Config config = thermal::with_flights_cut(given, plan);
+  const thermal::SceneOutline outline = thermal::outline_of(config, plan, materials);
   const thermal::Budget budget = thermal::weigh_terms(outline, config.terms);
   if (options.json) {
     print_json(thermal::to_json(budget));
@@ -71,7 +74,9 @@ void add_budget(CLI::App& app, Session& session) {
   command->add_option("config", options->config, "Config of a dataset, JSON")->required();
   add_settings(command, options->settings);
   command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &session] { session.run = [options] { return run_budget(*options); }; });
+  command->callback([options, &session] {
+    session.run = [options, &session] { return run_budget(*options, session.common); };
+  });
 }
 
 }  // namespace veldt

@@ -19,9 +19,9 @@ namespace veldt {
 namespace {
 
 /// The one table of commands, in the order help shows them.
-constexpr std::array kCommands = {add_generate, add_render,   add_convert,  add_merge,    add_export,
-                                  add_inspect,  add_validate, add_balance,  add_evaluate, add_report,
-                                  add_video,    add_budget,   add_radiance, add_bench,    add_doctor};
+constexpr std::array kCommands = {
+    add_generate, add_plan,     add_render, add_convert, add_merge,  add_export,   add_inspect, add_validate,
+    add_balance,  add_evaluate, add_report, add_video,   add_budget, add_radiance, add_bench,   add_doctor};
 
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;

@@ -35,6 +35,7 @@ struct Session {
 /// Each adds one command to the parser; parsing it sets session.run.
 void add_generate(CLI::App& app, Session& session);
 void add_render(CLI::App& app, Session& session);
+void add_plan(CLI::App& app, Session& session);
 void add_convert(CLI::App& app, Session& session);
 void add_merge(CLI::App& app, Session& session);
 void add_export(CLI::App& app, Session& session);

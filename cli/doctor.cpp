@@ -5,7 +5,7 @@
 #include "base/version.h"
 #include "cli/command.h"
 #include "cli/output.h"
-#include "dataset/plan.h"
+#include "dataset/plan/planning.h"
 #include "io/child_process.h"
 #include "io/resources.h"
 #include "io/versions.h"

@@ -17,8 +17,15 @@
 namespace veldt {
 namespace {
 
-using Run = thermal::RunOutcome (*)(const thermal::Config&, const thermal::GenerateOptions&,
-                                    const thermal::RunHooks&);
+/// What generate and render do differently.
+struct Work {
+  std::function<thermal::DatasetPlan(const thermal::Path& out, const thermal::Config&,
+                                     const std::string& name, const thermal::PlanOptions&)>
+      plan;
+  std::function<thermal::RunOutcome(const thermal::Config&, const thermal::DatasetPlan&,
+                                    const thermal::GenerateOptions&, const thermal::RunHooks&)>
+      run;
+};
 
 struct GenerateArguments {
   std::string config;
@@ -46,8 +53,13 @@ thermal::Shard parse_shard(const std::string& text) {
   throw thermal::ConfigError(thermal::fault("--shard", text, "", "I/N with I from 0 to N - 1"));
 }
 
-int make_preview(const thermal::Config& config, const thermal::GenerateOptions& request,
-                 const CommonOptions& common) {
+int make_preview(const thermal::Config& config, const std::string& name,
+                 const thermal::GenerateOptions& request, const CommonOptions& common) {
+  (void)plan_with_progress(common, request.home, [&](thermal::PlanOptions options) {
+    options.blender = request.blender;
+    return thermal::plan_to_preview(request.out, config, name, options);
+  });
+  watch_for_stop();
   int pictures = 0;
   {
     ProgressBar bar(common, "building the scene");
@@ -59,7 +71,17 @@ int make_preview(const thermal::Config& config, const thermal::GenerateOptions& 
   return kDone;
 }
 
-int run_generate(const GenerateArguments& options, const CommonOptions& common, Run work) {
+thermal::DatasetPlan plan_of_run(const thermal::Config& config, const GenerateArguments& options,
+                                 const thermal::GenerateOptions& request, const CommonOptions& common,
+                                 const Work& work) {
+  if (options.dry_run) return plan_with_progress(common, request.home, config, options.config);
+  return plan_with_progress(common, request.home, [&](thermal::PlanOptions planning) {
+    planning.blender = request.blender;
+    return work.plan(request.out, config, options.config, planning);
+  });
+}
+
+int run_generate(const GenerateArguments& options, const CommonOptions& common, const Work& work) {
   check_max_unusable(options.max_unusable_share);
   const thermal::Path home = thermal::find_home();
   const thermal::Config given = load_config(options.config, options.settings, home);
@@ -71,26 +93,27 @@ int run_generate(const GenerateArguments& options, const CommonOptions& common, 
                                             .jobs = options.jobs,
                                             .threads = common.threads,
                                             .keep_passes = options.keep_passes};
-  if (given.resolved["flights"].empty())  // then wrong --clips can be reported at once
+  if (given.flights.empty())  // then wrong --clips can be reported at once
     (void)thermal::choose_clips(given, request.clips, request.shard);
-  const thermal::DatasetPlan plan = plan_with_progress(given.resolved, options.config, home, common);
-  const thermal::Config config = thermal::with_flights_cut(given, plan.cut_clips);
+  if (options.preview && !options.dry_run) return make_preview(given, options.config, request, common);
+  const thermal::DatasetPlan plan = plan_of_run(given, options, request, common, work);
+  const thermal::Config config = thermal::with_flights_cut(given, plan);
   const std::vector<thermal::ClipConfig> chosen = thermal::choose_clips(config, request.clips, request.shard);
   if (options.dry_run) {
     print_plan(config, plan, chosen);
     return kDone;
   }
   watch_for_stop();
-  if (options.preview) return make_preview(config, request, common);
   thermal::RunOutcome outcome;
   {
     ProgressBar bar(common, "building the scene");
-    outcome = work(config, request, hooks_for(bar));
+    outcome = work.run(config, plan, request, hooks_for(bar));
   }
   return summarise(outcome, options.out, common, "made", options.max_unusable_share);
 }
 
-void add(CLI::App& app, Session& session, const std::string& name, const std::string& description, Run work) {
+void add(CLI::App& app, Session& session, const std::string& name, const std::string& description,
+         const Work& work) {
   CLI::App* command = add_command(app, session, name, description);
   auto options = std::make_shared<GenerateArguments>();
   command->add_option("config", options->config, "Config of the dataset, JSON")->required();
@@ -128,11 +151,15 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
 
 void add_generate(CLI::App& app, Session& session) {
   add(app, session, "generate", "Make a dataset from a config; resumes where an earlier run stopped",
-      thermal::generate);
+      {.plan = thermal::plan_to_generate, .run = thermal::generate});
 }
 
 void add_render(CLI::App& app, Session& session) {
-  add(app, session, "render", "Render passes and manifests only", thermal::render);
+  add(app, session, "render", "Render passes and manifests only",
+      {.plan = thermal::plan_to_render,
+       .run = [](const thermal::Config& config, const thermal::DatasetPlan&,
+                 const thermal::GenerateOptions& options,
+                 const thermal::RunHooks& hooks) { return thermal::render(config, options, hooks); }});
 }
 
 }  // namespace veldt

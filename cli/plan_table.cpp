@@ -60,7 +60,7 @@ void print_plan(const thermal::Config& config, const thermal::DatasetPlan& plan,
   PlanRow row;
   for (const thermal::ClipPlan& clip : plan.clips) {
     if (!ids.contains(clip.id)) continue;
-    const std::string name = clip.flight.empty() ? clip.id : clip.flight;
+    const std::string name = clip.of_flight.empty() ? clip.id : clip.of_flight;
     if (name != row.name && row.clips > 0) print_row(row);
     if (name != row.name) row = PlanRow{.name = name};
     row.add(clip);

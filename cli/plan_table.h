@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "dataset/plan.h"
+#include "dataset/plan/plan.h"
 #include "io/config.h"
 
 namespace veldt {

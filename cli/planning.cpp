@@ -3,15 +3,26 @@
 #include <chrono>
 
 #include "cli/progress_bar.h"
+#include "io/resources.h"
 
 namespace veldt {
 
-thermal::DatasetPlan plan_with_progress(const thermal::Json& resolved_config, const std::string& name,
-                                        const thermal::Path& home, const CommonOptions& common) {
+thermal::DatasetPlan plan_with_progress(
+    const CommonOptions& common, const thermal::Path& home,
+    const std::function<thermal::DatasetPlan(const thermal::PlanOptions& options)>& plan) {
   constexpr std::chrono::seconds kPatience(10);
   ProgressBar bar(common, "planning", "flights", kPatience);
-  return thermal::plan_dataset(resolved_config, name,
-                               {.home = home, .threads = common.threads, .show = hooks_for(bar).progress});
+  return plan({.home = home,
+               .threads = common.threads,
+               .blender = thermal::find_program("blender"),
+               .show = hooks_for(bar).progress});
+}
+
+thermal::DatasetPlan plan_with_progress(const CommonOptions& common, const thermal::Path& home,
+                                        const thermal::Config& config, const std::string& name) {
+  return plan_with_progress(common, home, [&](const thermal::PlanOptions& options) {
+    return thermal::plan_dataset(config, name, options);
+  });
 }
 
 }  // namespace veldt

@@ -1,15 +1,20 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "cli/command.h"
-#include "dataset/plan.h"
+#include "dataset/plan/planning.h"
 
 namespace veldt {
 
-/// plan_dataset() on --threads cores. A plan that takes longer than ten seconds shows how far it is.
-[[nodiscard]] thermal::DatasetPlan plan_with_progress(const thermal::Json& resolved_config,
-                                                      const std::string& name, const thermal::Path& home,
-                                                      const CommonOptions& common);
+/// Calls `plan` with options for --threads cores. Planning that takes longer than ten seconds shows how far it is.
+[[nodiscard]] thermal::DatasetPlan plan_with_progress(
+    const CommonOptions& common, const thermal::Path& home,
+    const std::function<thermal::DatasetPlan(const thermal::PlanOptions& options)>& plan);
+
+/// plan_dataset(), which writes nothing.
+[[nodiscard]] thermal::DatasetPlan plan_with_progress(const CommonOptions& common, const thermal::Path& home,
+                                                      const thermal::Config& config, const std::string& name);
 
 }  // namespace veldt

@@ -49,7 +49,7 @@ int validate_dataset(const ValidateArguments& options, const CommonOptions& comm
 int validate_config(const ValidateArguments& options, const CommonOptions& common) {
   const thermal::Path home = thermal::find_home();
   const thermal::Config config = load_config(options.what, options.settings, home);
-  const auto plan = plan_with_progress(config.resolved, options.what, home, common).clips;
+  const auto plan = plan_with_progress(common, home, config, options.what).clips;
   int frames = 0;
   int with_actors = 0;
   for (const thermal::ClipPlan& clip : plan) {

@@ -9,8 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .faults import ConfigError
-
 
 @dataclass(frozen=True)
 class Intrinsics:
@@ -27,37 +25,14 @@ def centred(width_px: int, height_px: int, f_px: float) -> Intrinsics:
     return Intrinsics(width_px, height_px, (f_px, f_px), (width_px / 2, height_px / 2))
 
 
-def intrinsics_of(settings: dict) -> Intrinsics:
-    """Intrinsics of the config's `camera`, as thermal_core/io/lens_config has them.
-
-    Where they are not given, fx_px = focal length / pixel pitch, fy_px = fx_px and the middle of the picture.
-    ConfigError if it names a calibration: `veldt` puts that file's numbers in its place before it starts Blender.
-    """
-    if "calibration" in settings:
-        raise ConfigError(
-            f'camera.calibration = "{settings["calibration"]}"; expected its numbers, which veldt fills in'
-        )
-    width_px, height_px = settings["width_px"], settings["height_px"]
-    fx_px = settings.get("fx_px", settings["focal_length_m"] / (settings["pixel_pitch_um"] * 1e-6))
+def intrinsics_of(camera: dict) -> Intrinsics:
+    """Intrinsics from the keys of a manifest's or a plan's `camera`."""
     return Intrinsics(
-        width_px,
-        height_px,
-        (fx_px, settings.get("fy_px", fx_px)),
-        (settings.get("cx_px", width_px / 2), settings.get("cy_px", height_px / 2)),
+        camera["width_px"],
+        camera["height_px"],
+        (camera["fx_px"], camera["fy_px"]),
+        (camera["cx_px"], camera["cy_px"]),
     )
-
-
-def overscan_of(config: dict) -> int:
-    """How many px a config's passes reach beyond the picture on every side, for the lens to draw on.
-
-    ConfigError if the lens distorts and the value is missing: `veldt` computes it before it starts Blender.
-    """
-    given_px = config["render"].get("overscan_px")
-    if given_px is None and any(config["camera"]["distortion"].values()):
-        raise ConfigError(
-            "render.overscan_px is missing; expected what camera.distortion needs, which veldt fills in"
-        )
-    return given_px or 0
 
 
 def widened(intrinsics: Intrinsics, overscan_px: int) -> Intrinsics:

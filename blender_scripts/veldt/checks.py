@@ -24,10 +24,6 @@ def check_names(config: dict) -> None:
     """Check that everything named exists and that names are unique where they must be."""
     groups = config["scene"]["groups"]
     _check_unique([group["name"] for group in groups], "scene.groups[{}].name", "a name no other group has")
-    _check_unique([clip["id"] for clip in config["clips"]], "clips[{}].id", "an id no other clip has")
-    _check_unique(
-        [flight["id"] for flight in config["flights"]], "flights[{}].id", "an id no other flight has"
-    )
     targets = _targets(groups)
     for kind in ("clips", "flights"):
         for k, entry in enumerate(config[kind]):

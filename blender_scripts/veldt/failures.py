@@ -5,6 +5,7 @@ This module imports nothing but Python's standard library, because it also repor
 
 from __future__ import annotations
 
+import errno
 import sys
 import traceback
 from collections.abc import Callable, Iterator
@@ -14,6 +15,7 @@ from pathlib import Path
 
 from veldt.faults import ConfigError
 
+_TRY_AGAIN = 75
 _SCRIPTS = Path(__file__).resolve().parents[1]
 
 
@@ -21,7 +23,7 @@ _SCRIPTS = Path(__file__).resolve().parents[1]
 class Failure:
     """Why a script failed, in one line each; `hint` may be empty."""
 
-    exit_code: int  # 2 for a fault of the config, else 1
+    exit_code: int  # 2 for a fault of the config, 75 for a full disk, else 1
     message: str  # "ModuleNotFoundError: No module named 'numpy'"; the bare message for a fault of the config
     where: str  # "blender_scripts/veldt/noise.py:8"
     hint: str  # "install NumPy …"
@@ -42,12 +44,14 @@ def failure_of(error: BaseException) -> Failure:
     """Describes an exception that ended a script; call it while the exception is being handled."""
     if isinstance(error, ConfigError):
         return Failure(2, str(error), _place(error), "")
-    return Failure(1, _last_line(error), _place(error), _hint(error))
+    is_full = isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
+    return Failure(_TRY_AGAIN if is_full else 1, _last_line(error), _place(error), _hint(error))
 
 
 def run(act: Callable[[], None], report: Callable[[BaseException], int] | None = None) -> int:
-    """Acts, reports a failure, and returns the exit code: 0 done, 1 failed, 2 the config is at fault. `report` returns
-    the code of a failure; without it, stderr gets the failure, the last line of which sums it up."""
+    """Acts, reports a failure, and returns the exit code: 0 done, 1 failed, 2 the config is at fault, 75 the disk is
+    full. `report` returns the code of a failure; without it, the failure goes to stderr, summed up in its last line.
+    """
     try:
         act()
     except BaseException as error:  # pylint: disable=broad-exception-caught

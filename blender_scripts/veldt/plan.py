@@ -1,56 +1,54 @@
-"""Predict what a config will show without rendering it, and cut its long flights into clips."""
+"""Plan the clips of a config: cut its long flights, and find out what each clip will show."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
 from .cuts import clips_of, cut
 from .faults import ConfigError
+from .flight.poses import Flight
 from .sightings import sightings
+from .workers import Cores
 from .world import World
 
 
 @dataclass(frozen=True)
 class Outlook:
-    """A clip, and for each frame whether an actor's box overlaps the picture, and the height above ground."""
+    """A clip, its flight, and for each frame whether an actor's box overlaps the picture."""
 
     clip: dict
+    flight: Flight
     seen: np.ndarray
-    agl_m: np.ndarray
 
 
-# How a function is applied to each entry of a config: map, or one that uses more cores. Results keep the order.
-Each = Callable[[Callable, list], Iterable]
+def plan_clips(
+    world: World,
+    cores: Cores = Cores(),
+    bake: Callable[[Outlook], None] = lambda outlook: None,
+    planned: Callable[[str, int, int], None] = lambda name, done, total: None,
+) -> list[dict]:
+    """What is known of each clip before it is rendered: the config's own clips, then those cut from its flights.
 
+    `bake` is called with each clip where it is planned, which may be in another process; `planned` with the id of each
+    clip or flight of the config, and how many of them are planned.
+    """
 
-def plan_dataset(world: World, each: Each = map) -> dict:
-    """Frames and heights of each clip, including those cut from flights, and the numbers of actors and plants."""
-    outlooks = list(_outlooks(world, each))
-    _check_ids([outlook.clip["id"] for outlook in outlooks])
-    return {
-        "clips": [_described(outlook) for outlook in outlooks],
-        "cut_clips": [outlook.clip for outlook in outlooks[len(world.config["clips"]) :]],
-        "objects": len(world.actors),
-        "plants": sum(len(planting.scale) for planting in world.plantings.values()),
-    }
+    def plan_entry(entry: dict) -> list[dict]:
+        outlooks = _outlooks_of(world, entry)
+        for outlook in outlooks:
+            bake(outlook)
+        return [_described(outlook) for outlook in outlooks]
 
-
-def with_flights_cut(world: World) -> World:
-    """The same world with the flights of its config replaced by clips."""
-    if not world.config["flights"]:
-        return world
-    clips = [outlook.clip for outlook in _outlooks(world, map)]
-    return replace(world, config={**world.config, "clips": clips, "flights": []})
-
-
-def _outlooks(world: World, each: Each) -> Iterator[Outlook]:
-    """Of the clips, then of those cut from flights."""
     entries = [*world.config["clips"], *world.config["flights"]]
-    for outlooks in each(lambda entry: _outlooks_of(world, entry), entries):
-        yield from outlooks
+    clips = []
+    for k, found in enumerate(cores.map(plan_entry, entries)):
+        clips += found
+        planned(entries[k]["id"], k + 1, len(entries))
+    _check_ids([clip["id"] for clip in clips])
+    return clips
 
 
 def _outlooks_of(world: World, entry: dict) -> list[Outlook]:
@@ -58,7 +56,7 @@ def _outlooks_of(world: World, entry: dict) -> list[Outlook]:
     flight = world.flight(entry)
     seen = sightings(world.intrinsics, flight, world.actors)
     if "keep" not in entry:  # a clip
-        return [Outlook(entry, seen, flight.agl_m)]
+        return [Outlook(entry, flight, seen)]
     stretches = cut(entry, seen, world.config["seed"])
     if not stretches:
         place = world.config["flights"].index(entry)
@@ -66,9 +64,8 @@ def _outlooks_of(world: World, entry: dict) -> list[Outlook]:
             f'flights[{place}].keep = "{entry["keep"]}": no actor comes into the picture; expected one, or "all"'
         )
     parts = [slice(first, first + frames) for first, frames in stretches]
-    return [
-        Outlook(clip, seen[part], flight.agl_m[part]) for clip, part in zip(clips_of(entry, stretches), parts)
-    ]
+    clips = clips_of(entry, stretches)
+    return [Outlook(clip, world.flight(clip), seen[part]) for clip, part in zip(clips, parts)]
 
 
 def _check_ids(ids: list[str]) -> None:
@@ -80,13 +77,17 @@ def _check_ids(ids: list[str]) -> None:
 
 
 def _described(outlook: Outlook) -> dict:
-    clip = outlook.clip
+    clip, flight = outlook.clip, outlook.flight
     return {
         "id": clip["id"],
-        "flight": clip.get("of_flight", ""),
+        "of_flight": clip.get("of_flight", ""),
+        "start_s": clip["start_s"],
         "frames": clip["frames"],
+        "frame_rate_hz": clip["frame_rate_hz"],
         "duration_s": round(clip["frames"] / clip["frame_rate_hz"], 3),
         "frames_with_actors": int(outlook.seen.sum()),
-        "min_agl_m": round(float(outlook.agl_m.min()), 3),
-        "max_agl_m": round(float(outlook.agl_m.max()), 3),
+        "min_agl_m": round(float(flight.agl_m.min()), 3),
+        "max_agl_m": round(float(flight.agl_m.max()), 3),
+        "mean_agl_m": round(float(flight.agl_m.mean()), 3),
+        "mean_look_angle_deg": round(float(flight.look_angle_deg.mean()), 3),
     }

@@ -1,4 +1,4 @@
-"""The complete plan of a config's scene, with all indices, before anything is built in Blender."""
+"""The complete plan of a config's scene, with all indices."""
 
 from __future__ import annotations
 
@@ -6,28 +6,32 @@ from dataclasses import dataclass
 
 from . import assets, checks, ids
 from .anatomy.skeleton import part_names
-from .camera import Intrinsics, intrinsics_of, overscan_of, widened
-from .faults import check_known
+from .camera import Intrinsics, intrinsics_of, widened
 from .flight.pilots import Pilot
 from .flight.poses import Flight
-from .groups.actors import Actor
+from .groups.actors import Actor, measure
 from .groups.cast import plan_cast
 from .groups.group_checks import check_groups
 from .groups.routes import plan_loops
 from .groups.venues import Land
 from .land.covers import SOIL, Layer, plan_covers
+from .land.ground_maps import Ground, lay_ground
 from .land.road_plan import plan_road
 from .land.terrain import Terrain, build_terrain
 from .plants.density import plan_density
 from .plants.placement import Planting, Site, place_plants
 from .plants.plant_shapes import plant_parts
+from .workers import Cores
 
 WATER = "water"
 
 
 @dataclass(frozen=True)
 class World:
-    """The scene of a config; plantings by species name, material indices by (material, part)."""
+    """The scene of a config; plantings by species name, material indices by (material, part).
+
+    ground is None if it was not asked for.
+    """
 
     config: dict
     intrinsics: Intrinsics
@@ -39,6 +43,7 @@ class World:
     actors: list[Actor]
     material_indices: dict[tuple[str, str], int]
     pilot: Pilot
+    ground: Ground | None
 
     @property
     def passes_intrinsics(self) -> Intrinsics:
@@ -50,8 +55,8 @@ class World:
         return self.pilot.flight(entry)
 
 
-def plan_world(config: dict) -> World:
-    """Plan the scene of a config with defaults; ConfigError if the config makes no sense."""
+def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) -> World:
+    """Plan the scene of a resolved config; ConfigError if the config makes no sense."""
     checks.check_names(config)
     scene, seed = config["scene"], config["seed"]
     checks.check_size(scene)
@@ -60,34 +65,30 @@ def plan_world(config: dict) -> World:
     terrain = build_terrain(scene["terrain"], seed)
     checks.check_road(scene["terrain"], lambda x_m, y_m: terrain.shore_m(x_m, y_m) < 0)
     terrain = terrain.with_road(plan_road(scene["terrain"]["road"], terrain, seed))
+    covers = plan_covers(terrain, scene["terrain"], seed)
+    ground = cores.start(lambda: lay_ground(terrain, covers)) if with_ground else lambda: None
     loops = plan_loops(scene["paths"], terrain, seed)
     check_groups(scene["groups"], loops)
     checks.check_loops(scene, loops)
     cast = plan_cast(scene["groups"], Land(terrain, loops), seed)
     areas = plan_density(terrain, scene["terrain"], seed)
-    covers = plan_covers(terrain, scene["terrain"], seed)
+    site = Site(terrain, areas.shares, terrain.road_m, cast.corridors)
+    plantings = cores.start(lambda: place_plants(scene["plants"], site, seed))
+    measure(cast.actors, cores)
     intrinsics = intrinsics_of(config["camera"])
     return World(
         config=config,
         intrinsics=intrinsics,
-        overscan_px=overscan_of(config),
+        overscan_px=config["render"]["overscan_px"],
         terrain=terrain,
         covers=covers,
-        plantings=place_plants(
-            scene["plants"], Site(terrain, areas.shares, terrain.road_m, cast.corridors), seed
-        ),
+        plantings=plantings(),
         plant_indices=ids.plan_plant_indices(sorted(scene["plants"])),
         actors=cast.actors,
         material_indices=ids.plan_material_indices(_materials(terrain, covers, scene["plants"], cast.actors)),
         pilot=Pilot(config, terrain, cast.actors, intrinsics),
+        ground=ground(),
     )
-
-
-def clip_of(config: dict, clip_id: str) -> dict:
-    """The config's clip with the given id."""
-    known = {clip["id"]: clip for clip in config["clips"]}
-    check_known(clip_id, known, "--clip", "a clip of the config")
-    return known[clip_id]
 
 
 def _materials(

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import bpy
+import numpy as np
 
-from veldt.preview.colours import linear
+from veldt.bake.baked import BakedSheet
 from veldt.ids import GROUND
-from veldt.preview.labels import Label
-from veldt.preview.legend import FlatLayer
-from veldt.preview.map_layers import INK, MapSheet
+from veldt.preview.colours import INK, linear
 
 from . import compat
 from .meshes import new_mesh, new_object
@@ -16,33 +15,33 @@ from .meshes import new_mesh, new_object
 _STEP_M = 1.0  # between layers
 
 
-def add_sheet(sheet: MapSheet, height_m: float) -> float:
+def add_sheet(sheet: BakedSheet, height_m: float) -> float:
     """Add all layers above a height, with the labels on top; return the height of the labels."""
-    for k, layer in enumerate(sheet.layers):
-        _add_layer(layer, height_m + k * _STEP_M)
-    top_m = height_m + len(sheet.layers) * _STEP_M
+    for k, layer in enumerate(sheet.header["layers"]):
+        _add_layer(layer, *sheet.mesh(k), height_m + k * _STEP_M)
+    top_m = height_m + len(sheet.header["layers"]) * _STEP_M
     ink = _glow("ink", INK, 1.0)
-    for label in sheet.labels:
-        if label.text:
+    for label in sheet.header["labels"]:
+        if label["text"]:
             _add_label(label, top_m, ink)
     return top_m
 
 
-def _add_layer(layer: FlatLayer, height_m: float) -> None:
-    if len(layer.mesh.triangles) > 0:
-        mesh = new_mesh(
-            layer.name, layer.mesh, [_glow(layer.name, layer.colour, layer.opacity)], smooth=False
-        )
-        _float(new_object(layer.name, mesh, GROUND), height_m)
+def _add_layer(layer: dict, points_m: np.ndarray, triangles: np.ndarray, height_m: float) -> None:
+    if len(triangles) > 0:
+        glow = _glow(layer["name"], layer["colour"], layer["opacity"])
+        slot = np.zeros(len(triangles), np.int32)
+        mesh = new_mesh(layer["name"], points_m, triangles, slot, [glow], smooth=False)
+        _float(new_object(layer["name"], mesh, GROUND), height_m)
 
 
-def _add_label(label: Label, height_m: float, ink: bpy.types.Material) -> None:
-    words = bpy.data.curves.new(f"label {label.text}", "FONT")
-    words.body, words.size = label.text, label.size_m
+def _add_label(label: dict, height_m: float, ink: bpy.types.Material) -> None:
+    words = bpy.data.curves.new(f"label {label['text']}", "FONT")
+    words.body, words.size = label["text"], label["size_m"]
     words.align_x, words.align_y = "LEFT", "CENTER"
     words.materials.append(ink)
-    shown = new_object(f"label {label.text}", words, GROUND)
-    shown.location.x, shown.location.y = label.x_m, label.y_m
+    shown = new_object(f"label {label['text']}", words, GROUND)
+    shown.location.x, shown.location.y = label["x_m"], label["y_m"]
     _float(shown, height_m)
 
 

@@ -7,8 +7,6 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from veldt.geometry.shapes import Mesh
-
 from . import compat
 
 _TWIN_DEPTH_M = 10000.0
@@ -27,15 +25,20 @@ def new_material(name: str, index: int) -> bpy.types.Material:
 
 
 def new_mesh(
-    name: str, mesh: Mesh, materials: Sequence[bpy.types.Material], smooth: bool = True
+    name: str,
+    points_m: np.ndarray,
+    triangles: np.ndarray,
+    slot: np.ndarray,
+    materials: Sequence[bpy.types.Material],
+    smooth: bool = True,
 ) -> bpy.types.Mesh:
-    """A Blender mesh; materials[k] fills slot k."""
-    data = new_points(name, mesh.points_m)
-    compat.fill_triangles(data, mesh.triangles)
+    """A Blender mesh of points (n, 3) and triangles (m, 3); slot (m,) numbers their materials."""
+    data = new_points(name, points_m)
+    compat.fill_triangles(data, triangles)
     for material in materials:
         data.materials.append(material)
-    data.polygons.foreach_set("material_index", mesh.slot.astype(np.int32))
-    data.polygons.foreach_set("use_smooth", np.full(len(mesh.triangles), smooth))
+    data.polygons.foreach_set("material_index", slot.astype(np.int32))
+    data.polygons.foreach_set("use_smooth", np.full(len(triangles), smooth))
     data.update(calc_edges=True)
     return data
 

@@ -8,14 +8,11 @@ import bpy
 import mathutils
 import numpy as np
 
-from veldt import assets
-from veldt.plants.placement import Planting
-from veldt.plants.plant_shapes import build_variants, plant_parts
+from veldt.bake.baked import BakedScene
 from veldt.plants.views import circles_seen, held_circles
-from veldt.world import World
 
-from . import compat, models
-from .meshes import add_twin, new_mesh, new_object, new_points
+from . import compat
+from .meshes import add_twin, new_object, new_points
 
 EVERYWHERE_M = 1e6
 
@@ -32,28 +29,29 @@ class Flora:
     reach_m: float
 
 
-def add_flora(world: World, materials: dict[tuple[str, str], bpy.types.Material]) -> Flora:
-    """Add all plants of a world to the scene."""
+def add_flora(scene: BakedScene, meshes: list[bpy.types.Mesh]) -> Flora:
+    """Add all plants of a baked scene to Blender's."""
     view = bpy.data.objects.new("view", None)
     bpy.context.scene.collection.objects.link(view)
     places, reach_m = [], 0.0
-    for name, planting in world.plantings.items():
-        if len(planting.scale) > 0:
-            data = assets.load("plants", name)
-            variants = _variants(name, data, world.config["seed"], materials)
-            places.append(_add_species(name, planting, variants, world.plant_indices[name], view))
-            reach_m = max(reach_m, planting.scale.max() * max(_reach_m(mesh) for mesh in variants))
+    for plants in scene.header["plants"]:
+        kind, upright = _instances(scene, plants)
+        variants = np.unique(kind)
+        places.append(_add_species(plants, meshes, variants, _points(plants["name"], upright, kind), view))
+        reach_m = max(reach_m, upright.size.max() * max(_reach_m(meshes[k]) for k in variants))
     return Flora(places, view, float(reach_m))
 
 
-def circles_needed(flora: Flora, world: World, camera_to_world: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def circles_needed(
+    flora: Flora, scene: BakedScene, camera_to_world: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Centres (n, 2) and radii (n,) of circles that contain all plants that poses (n, 4, 4) may see.
 
     Cycles synchronises all meshes again, including the ground, whenever the number of instances changes; therefore one
     circle is kept for many frames.
     """
-    low_m, high_m = world.terrain.heights_m.min(), world.terrain.heights_m.max() + flora.reach_m
-    centres_m, radii_m = circles_seen(world.passes_intrinsics, camera_to_world, low_m, high_m)
+    low_m, high_m = scene.heights_m
+    centres_m, radii_m = circles_seen(scene.passes_intrinsics, camera_to_world, low_m, high_m + flora.reach_m)
     return held_circles(centres_m, np.minimum(radii_m + flora.reach_m, EVERYWHERE_M))
 
 
@@ -68,16 +66,25 @@ def show_within(flora: Flora, centre_m: np.ndarray, radius_m: float) -> None:
         flora.view.location, flora.view.scale = place, scale
 
 
-def _variants(
-    name: str, data: dict, seed: int, materials: dict[tuple[str, str], bpy.types.Material]
-) -> list[bpy.types.Mesh]:
-    """The meshes of a species' variants at its drawn size, standing at the origin."""
-    slots = [materials[data["material"], part] for part in plant_parts(data)]
-    if "model" in data:
-        meshes = [models.load(f"assets/plants/{name}.json", data)]
-    else:
-        meshes = build_variants(name, data, seed)
-    return [new_mesh(name, mesh, slots, smooth=False) for mesh in meshes]
+@dataclass(frozen=True)
+class _Upright:
+    """Instances that are turned about z by turn_rad (n,), scaled by size (n,) and moved to points_m (n, 3)."""
+
+    points_m: np.ndarray
+    turn_rad: np.ndarray
+    size: np.ndarray
+
+
+def _instances(scene: BakedScene, plants: dict) -> tuple[np.ndarray, _Upright]:
+    """The mesh (n,) of each plant of a species, and how it stands.
+
+    Angles and sizes are single-precision numbers in the plan, so that they come out of its matrices exactly.
+    """
+    matrix = scene.arrays[plants["transform"]]
+    cos, sin = matrix[:, 0, 0], matrix[:, 1, 0]
+    turn_rad = np.arctan2(sin, cos)
+    turn_rad = np.where(turn_rad < 0, turn_rad + 2.0 * np.pi, turn_rad)
+    return scene.arrays[plants["mesh"]], _Upright(matrix[:, :, 3], turn_rad, matrix[:, 2, 2])
 
 
 def _reach_m(mesh: bpy.types.Mesh) -> float:
@@ -86,34 +93,35 @@ def _reach_m(mesh: bpy.types.Mesh) -> float:
 
 
 def _add_species(
-    name: str, planting: Planting, variants: list[bpy.types.Mesh], index: int, view: bpy.types.Object
+    plants: dict, meshes: list[bpy.types.Mesh], variants: np.ndarray, points: bpy.types.Mesh, view
 ) -> bpy.types.Object:
     """Add one species to the scene; instances have the object index of the variant they copy."""
+    name, index = plants["name"], plants["object"]
     # Not linked to the scene: only its instances are visible.
     variants_of = bpy.data.collections.new(f"{name} variants")
-    for k, mesh in enumerate(variants):
+    for k, number in enumerate(variants):
         # Instances refer to the collection's objects by index, in the order of their names.
-        new_object(f"{name} {k:03d}", mesh, index, variants_of)
+        new_object(f"{name} {k:03d}", meshes[number], index, variants_of)
         # If a mesh has a single user, Cycles transforms its points to world space, which changes the last bits of
         # depth. Two more users that no camera ray meets keep depths the same for any number of plants of a species.
         for _ in range(2):
-            add_twin(mesh, index)
-    points = new_object(f"{name} places", _points(name, planting), index)
-    points.modifiers.new("plants", "NODES").node_group = _instancer(name, variants_of, view)
+            add_twin(meshes[number], index)
+    placed = new_object(f"{name} places", points, index)
+    placed.modifiers.new("plants", "NODES").node_group = _instancer(name, variants_of, view)
     # The points themselves have no faces; otherwise Cycles would synchronise them, and all meshes, when they change.
-    points.show_instancer_for_render = False
-    return points
+    placed.show_instancer_for_render = False
+    return placed
 
 
-def _points(name: str, planting: Planting) -> bpy.types.Mesh:
+def _points(name: str, plants: _Upright, mesh: np.ndarray) -> bpy.types.Mesh:
     """One point per plant, with attributes `turn`, `size` and `variant`."""
-    points = new_points(f"{name} places", planting.points_m)
-    turn = np.zeros((len(planting.scale), 3), np.float32)
-    turn[:, 2] = planting.yaw_rad
+    points = new_points(f"{name} places", plants.points_m)
+    turn = np.zeros((len(mesh), 3), np.float32)
+    turn[:, 2] = plants.turn_rad
     points.attributes.new("turn", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", turn.ravel())
-    size = planting.scale.astype(np.float32)
+    size = plants.size.astype(np.float32)
     points.attributes.new("size", "FLOAT", "POINT").data.foreach_set("value", size)
-    variant = planting.variant.astype(np.int32)
+    variant = np.unique(mesh, return_inverse=True)[1].astype(np.int32)
     points.attributes.new("variant", "INT", "POINT").data.foreach_set("value", variant)
     return points
 

@@ -10,12 +10,11 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+from veldt.bake.baked import BakedScene, BakedSheet, BakedTrack
 from veldt.camera import look
 from veldt.preview.colours import SKY, linear, surface_colour
-from veldt.preview.map_layers import MapSheet, plan_map
 from veldt.png_files import is_whole
-from veldt.preview.stills import INTRINSICS, Still, plan_stills
-from veldt.world import World
+from veldt.preview.views import INTRINSICS
 
 from . import compat
 from .camera import add_camera, place
@@ -40,43 +39,34 @@ class Picture:
     set_up: Callable[[], None]
 
 
-def plan_pictures(stage: Stage) -> list[Picture]:
-    """The stills and then the map, all at the first moment of the first clip."""
-    world = stage.world
-    time_s = _moment_s(world)
-    sheet, stills = plan_map(world, time_s), plan_stills(world, time_s)
+def pictures_of(stage: Stage, sheet: BakedSheet) -> list[Picture]:
+    """The stills and then the map."""
     return [
-        *(Picture(f"{still.name}.png", lambda still=still: _set_up_still(still)) for still in stills),
+        *(
+            Picture(f"{still['name']}.png", lambda still=still: _set_up_still(still))
+            for still in sheet.header["stills"]
+        ),
         # Last, because the map's objects stay in the scene.
         Picture("map.png", lambda: _set_up_map(stage, sheet)),
     ]
 
 
 def render_pictures(
-    stage: Stage, pictures: list[Picture], folder: Path, on_picture: Callable[[int], None]
+    stage: Stage, moment: BakedTrack, pictures: list[Picture], folder: Path, on_picture: Callable[[int], None]
 ) -> None:
-    """Write NAME.png for each picture and call on_picture(k) when the k-th is complete. OSError if writing fails."""
+    """Write NAME.png for each picture, with all actors as in the only frame of `moment`, and call on_picture(k) when
+    the k-th is complete. OSError if writing fails."""
     folder.mkdir(parents=True, exist_ok=True)
     _remove_pictures(folder)
-    _set_up_colours(stage.world)
+    _set_up_colours(stage.scene)
     _set_up_renderer()
     _add_light()
-    _show(stage, _moment_s(stage.world))
+    stage.rigs.pose(moment, 0)
+    show_within(stage.flora, np.zeros(2), EVERYWHERE_M)
     for k, picture in enumerate(pictures):
         picture.set_up()
         _render(folder / picture.file)
         on_picture(k)
-
-
-def _moment_s(world: World) -> float:
-    return float(world.config["clips"][0]["start_s"])
-
-
-def _show(stage: Stage, time_s: float) -> None:
-    """Show all actors at a time, and all plants."""
-    stage.troupe.rehearse(np.array([time_s]))
-    stage.troupe.pose(0)
-    show_within(stage.flora, np.zeros(2), EVERYWHERE_M)
 
 
 def _remove_pictures(folder: Path) -> None:
@@ -112,9 +102,11 @@ def _set_up_renderer() -> None:
     scene.view_settings.view_transform = "Standard"
 
 
-def _set_up_colours(world: World) -> None:
+def _set_up_colours(scene: BakedScene) -> None:
     """Give every surface a matte colour."""
-    pairs = {index: pair for pair, index in world.material_indices.items()}
+    pairs = {
+        entry["index"]: (entry["material"], entry.get("part", "")) for entry in scene.header["materials"]
+    }
     for material in bpy.data.materials:
         if material.pass_index in pairs:
             tree = compat.use_nodes(material)
@@ -139,21 +131,22 @@ def _add_light() -> None:
     bpy.context.scene.world = sky
 
 
-def _set_up_still(still: Still) -> None:
+def _set_up_still(still: dict) -> None:
     scene = bpy.context.scene
     scene.render.resolution_x, scene.render.resolution_y = INTRINSICS.width_px, INTRINSICS.height_px
     scene.cycles.samples, scene.cycles.max_bounces = _STILL_SAMPLES, 1
-    place(add_camera(INTRINSICS), still.camera_to_world)
+    place(add_camera(INTRINSICS), np.array(still["camera_to_world"]))
 
 
-def _set_up_map(stage: Stage, sheet: MapSheet) -> None:
+def _set_up_map(stage: Stage, sheet: BakedSheet) -> None:
     scene = bpy.context.scene
+    width_m, height_m = sheet.header["width_m"], sheet.header["height_m"]
     scene.render.resolution_x = _MAP_WIDTH_PX
-    scene.render.resolution_y = round(_MAP_WIDTH_PX * sheet.height_m / sheet.width_m)
+    scene.render.resolution_y = round(_MAP_WIDTH_PX * height_m / width_m)
     scene.cycles.samples, scene.cycles.max_bounces = _MAP_SAMPLES, 0
-    ground_m = float(stage.world.terrain.heights_m.max())
+    _, ground_m = stage.scene.heights_m
     top_m = add_sheet(sheet, ground_m + stage.flora.reach_m + _CLEARANCE_M)
     camera = add_camera(INTRINSICS)
-    camera.data.type, camera.data.ortho_scale = "ORTHO", sheet.width_m
-    above_m = np.array([[*sheet.centre_m, top_m + _CLEARANCE_M]])
+    camera.data.type, camera.data.ortho_scale = "ORTHO", width_m
+    above_m = np.array([[*sheet.header["centre_m"], top_m + _CLEARANCE_M]])
     place(camera, look(above_m, np.array([[0.0, 1.0]]), np.array([0.5 * np.pi]))[0])

@@ -1,45 +1,37 @@
-"""Build a planned world in Blender once, and animate it clip by clip."""
+"""Build a baked scene in Blender once, and animate it clip by clip."""
 
 from __future__ import annotations
 
 import bpy
 import numpy as np
 
-from veldt import ids
-from veldt.land.covers import SOIL
-from veldt.land.ground import build_ground
-from veldt.geometry.shapes import Mesh, facets
-from veldt.land.waters import Water
-from veldt.world import WATER, World
+from veldt.bake.baked import BakedScene, BakedTrack
 
 from . import actors, camera, plants
 from .meshes import add_twin, new_material, new_mesh, new_object
 
-_SHEET_CORNERS = 64
 _OUT_OF_SIGHT_M = -1e5  # several times the range of a camera
 
 
 class Stage:
-    """A world built in Blender's current scene."""
+    """A baked scene, built in Blender's current scene."""
 
     def __init__(
         self,
-        world: World,
+        scene: BakedScene,
         place: list[bpy.types.Object],
         flora: plants.Flora,
-        troupe: actors.Troupe,
+        rigs: actors.ActorRigs,
         eye: bpy.types.Object,
     ):
-        self.world, self.place, self.flora, self.troupe, self.camera = world, place, flora, troupe, eye
-        self._camera_to_world = np.eye(4)[None]
+        self.scene, self.place, self.flora, self.rigs, self.camera = scene, place, flora, rigs, eye
+        self._track: BakedTrack | None = None
         self._circles = np.zeros((1, 2)), np.zeros(1)
 
-    def animate(self, clip: dict) -> None:
-        """Select the clip whose frames, counted from 0, `pose` shows."""
-        flight = self.world.flight(clip)
-        self._camera_to_world = flight.camera_to_world
-        self._circles = plants.circles_needed(self.flora, self.world, flight.camera_to_world)
-        self.troupe.rehearse(flight.time_s, actors.needed(self.world, flight))
+    def animate(self, track: BakedTrack) -> None:
+        """Select the track whose frames `pose` shows."""
+        self._track = track
+        self._circles = plants.circles_needed(self.flora, self.scene, track.camera_to_world)
 
     def pose(self, frame: int) -> None:
         """Move the camera, and everything it may see, to their positions in a frame of the clip.
@@ -47,14 +39,14 @@ class Stage:
         Positions are set directly and not keyed: the keys of a long clip would fill memory and take longer than
         rendering.
         """
-        camera.place(self.camera, self._camera_to_world[frame])
+        camera.place(self.camera, self._track.camera_to_world[frame])
         centres_m, radii_m = self._circles
         plants.show_within(self.flora, centres_m[frame], radii_m[frame])
-        self.troupe.pose(frame)
+        self.rigs.pose(self._track, frame)
 
     def has_actors(self, frame: int) -> bool:
         """Whether actors may be in the picture."""
-        return bool(self.troupe.needed[:, frame].any())
+        return bool(self._track.posed[:, frame].any())
 
     def show_place(self, is_there: bool) -> None:
         """Move everything but the actors to its position, or out of sight, which is faster than hiding it."""
@@ -64,18 +56,18 @@ class Stage:
                 thing.location.z = height_m
 
 
-def build_stage(world: World) -> Stage:
-    """Build the world as objects of an empty scene."""
+def build_stage(scene: BakedScene) -> Stage:
+    """Build a baked scene as objects of an empty one."""
     _empty_scene()
     materials = {
-        (material, part): new_material(f"{material} {part}".strip(), index)
-        for (material, part), index in world.material_indices.items()
+        entry["index"]: new_material(f"{entry['material']} {entry.get('part', '')}".strip(), entry["index"])
+        for entry in scene.header["materials"]
     }
-    place = [_add_ground(world, materials)]
-    place += [_add_water(water, materials[WATER, ""]) for water in world.terrain.waters]
-    flora = plants.add_flora(world, materials)
-    troupe = actors.add_actors(world.actors, materials)
-    return Stage(world, place + flora.places, flora, troupe, camera.add_camera(world.passes_intrinsics))
+    meshes = [_add_mesh(scene, entry, materials) for entry in scene.header["meshes"]]
+    place = [_add_surface(entry, meshes) for entry in scene.header["surfaces"]]
+    flora = plants.add_flora(scene, meshes)
+    rigs = actors.add_actors(scene, meshes)
+    return Stage(scene, place + flora.places, flora, rigs, camera.add_camera(scene.passes_intrinsics))
 
 
 def _empty_scene() -> None:
@@ -84,23 +76,20 @@ def _empty_scene() -> None:
     bpy.context.scene.world = None
 
 
-def _add_ground(world: World, materials: dict) -> bpy.types.Object:
-    ground = build_ground(world.terrain, world.covers, SOIL)
-    slots = [materials[material, ""] for material in ground.materials]
-    mesh = new_mesh("ground", Mesh(ground.points_m, ground.triangles, ground.cover), slots)
-    ground = new_object("ground", mesh, ids.GROUND)
+def _add_mesh(scene: BakedScene, entry: dict, materials: dict[int, bpy.types.Material]) -> bpy.types.Mesh:
+    points_m, triangles, index = (
+        scene.arrays[entry[key]] for key in ("points_m", "triangles", "material_index")
+    )
+    used, slot = np.unique(index, return_inverse=True)
+    return new_mesh(
+        entry["name"], points_m, triangles, slot, [materials[k] for k in used.tolist()], entry["smooth"]
+    )
+
+
+def _add_surface(entry: dict, meshes: list[bpy.types.Mesh]) -> bpy.types.Object:
+    mesh = meshes[entry["mesh"]]
     # Cycles merges a mesh with a single user into the BVH that it rebuilds each frame, which for the ground takes
-    # longer than rendering. A second user, far below where no camera ray meets it, keeps a separate BVH.
-    add_twin(mesh, ids.GROUND)
-    return ground
-
-
-def _add_water(water: Water, material: bpy.types.Material) -> bpy.types.Object:
-    """Add a flat disc; its rim lies below the banks, so the shoreline is where the ground rises through it."""
-    angle = 2.0 * np.pi * np.arange(_SHEET_CORNERS) / _SHEET_CORNERS
-    rim = water.basin.centre_m + water.basin.disc_radius_m * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    points = np.column_stack([rim, np.full(_SHEET_CORNERS, water.level_m)])
-    fan = np.array([[0, k, k + 1] for k in range(1, _SHEET_CORNERS - 1)])
-    mesh = new_mesh("water", facets(points, fan), [material])
-    add_twin(mesh, ids.WATER)  # the same as the ground's, for when the place is moved out of sight
-    return new_object("water", mesh, ids.WATER)
+    # longer than rendering. A second user, far below where no camera ray meets it, keeps a separate BVH. Waters have
+    # one too, for when the place is moved out of sight.
+    add_twin(mesh, entry["object"])
+    return new_object(mesh.name, mesh, entry["object"])

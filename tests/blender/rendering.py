@@ -6,6 +6,7 @@ import resource
 import shutil
 import signal
 import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -51,6 +52,14 @@ def _limit_files(size_bytes: int | None) -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (size_bytes, size_bytes))
 
 
+def plan(folder: Path, config: dict, *options: str) -> subprocess.CompletedProcess:
+    """Plan a resolved config into `folder`/plan."""
+    (folder / "plan").mkdir(parents=True)
+    command = [sys.executable, "-B", str(ROOT / "blender_scripts" / "plan_scene.py"), "--config", "-"]
+    command += ["--out", str(folder / "plan"), "--processes", "2", "--blender", BLENDER, *options]
+    return subprocess.run(command, input=json.dumps(config), capture_output=True, text=True, check=False)
+
+
 def render(
     folder: Path,
     config: dict,
@@ -60,15 +69,25 @@ def render(
     largest_file_bytes: int | None = None,
     script: Path | None = None,
 ) -> Run:
-    """Render a config, by default into `folder`/out; `options` go to render_passes.py, or to `script` instead."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "config.json").write_text(json.dumps(config))
+    """Plan a resolved config and render all its clips, by default into `folder`/out.
+
+    `options` go to render_passes.py, or to `script` instead; with --clip among them, only those clips are rendered.
+    """
+    planned = plan(folder, config)
+    assert planned.returncode == 0, planned.stderr
     out = out or folder / "out"
     script = script or ROOT / "blender_scripts" / "render_passes.py"
+    clips = (
+        []
+        if "--clip" in options
+        else ["--clip", *(clip["id"] for clip in json.loads(planned.stdout)["clips"])]
+    )
+    settings = ["--supersample", str(config["render"]["supersample"])]
+    settings += ["--actor-layer"] if config["render"]["actor_layer"] else []
     reader, writer = os.pipe()
     command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "-t", str(threads)]
-    command += ["--python", str(script), "--", "--config", str(folder / "config.json"), "--out", str(out)]
-    command += ["--events-fd", str(writer), *options]
+    command += ["--python", str(script), "--", "--plan", str(folder / "plan"), "--out", str(out)]
+    command += ["--events-fd", str(writer), *settings, *options, *clips]
     with open(reader, encoding="utf-8") as events:  # a pipe holds 64 KiB, far more than these few events
         done = subprocess.run(
             command,

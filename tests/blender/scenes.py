@@ -1,8 +1,7 @@
 """Small configs for the tests."""
 
-from veldt.config import resolve
-
 import configs
+from resolved import resolve
 
 
 def tiny(change=None) -> dict:

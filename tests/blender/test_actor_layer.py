@@ -69,7 +69,7 @@ def test_the_layer_shows_actors_whole(tmp_path):
 def test_a_layered_clip_goes_on_where_it_stopped(layered, tmp_path):
     first = render(tmp_path, tiny(_with_layer), "--clip", "side", threads=1)
     (first.out / "side" / "000001.exr").unlink()
-    again = render(tmp_path, tiny(_with_layer), "--clip", "side", out=first.out)
+    again = render(tmp_path / "again", tiny(_with_layer), "--clip", "side", out=first.out)
     assert again.code == 0, again.log
     for frame in range(3):
         one, other = again.planes("side", frame), layered.planes("side", frame)

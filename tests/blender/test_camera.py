@@ -11,34 +11,17 @@ from veldt.camera import (
     intrinsics_of,
     lens_shift,
     look,
-    overscan_of,
     pixel_aspect,
     project,
     widened,
 )
-from veldt.faults import ConfigError
 
 LENS = centred(640, 512, 1000.0)
 CALIBRATED = Intrinsics(640, 512, (800.0, 1000.0), (300.0, 272.0))
 
 
-def test_focal_length_in_pixels():
-    lens = intrinsics_of(tiny()["camera"] | {"width_px": 640, "height_px": 512, "pixel_pitch_um": 17})
-    assert lens.focal_px == pytest.approx((0.013 / 17e-6, 0.013 / 17e-6))
-    assert lens.centre_px == (320, 256)
-
-
-def test_what_is_given_goes_before_focal_length_and_middle():
-    camera = tiny()["camera"] | {"width_px": 640, "height_px": 512, "fx_px": 800}
-    assert intrinsics_of(camera) == Intrinsics(640, 512, (800, 800), (320, 256))
-    camera |= {"fy_px": 1000, "cx_px": 300, "cy_px": 272}
-    assert intrinsics_of(camera) == CALIBRATED
-
-
-def test_calibrations_are_not_read_here():
-    with pytest.raises(ConfigError) as fault:
-        intrinsics_of(tiny()["camera"] | {"calibration": "cal.yml"})
-    assert str(fault.value) == ('camera.calibration = "cal.yml"; expected its numbers, which veldt fills in')
+def test_intrinsics_are_those_of_the_config():
+    assert intrinsics_of(tiny()["camera"]) == Intrinsics(96, 80, (130, 130), (48, 40))
 
 
 def test_points_are_projected_with_both_focal_lengths_about_the_principal_point():
@@ -98,16 +81,3 @@ def test_a_widened_camera_sees_the_same_with_more_around_it():
     assert shift == pytest.approx(np.array([[7, 7]]))
     off = widened(CALIBRATED, 7)
     assert off == Intrinsics(654, 526, (800, 1000), (307, 279))
-
-
-def test_overscan_is_the_configs_or_none():
-    assert overscan_of(tiny()) == 0
-    assert overscan_of(tiny(lambda config: config.update(render={"overscan_px": 12}))) == 12
-
-
-def test_a_lens_that_distorts_needs_to_know_its_overscan():
-    with pytest.raises(ConfigError) as fault:
-        overscan_of(tiny(lambda config: config["camera"].update(distortion={"p2": -0.001})))
-    assert str(fault.value) == (
-        "render.overscan_px is missing; expected what camera.distortion needs, which veldt fills in"
-    )

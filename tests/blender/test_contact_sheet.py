@@ -6,9 +6,10 @@ import re
 import numpy as np
 import pytest
 
+from resolved import load
 from veldt import assets
 from veldt.camera import project
-from veldt.config import ROOT, load
+from veldt.config import ROOT
 from veldt.world import World, plan_world
 
 CONFIG = ROOT / "configs" / "contact_sheet.json"

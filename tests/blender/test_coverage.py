@@ -16,7 +16,8 @@ def _survey(look_angle_deg: float, aircraft: str, duration_s: int):
         plan = {"pattern": "zigzag", "area_m": AREA_M, "altitude_m": 30, "heading_deg": 20}
         plan |= {"look_angle_deg": look_angle_deg, "aircraft": aircraft, "speed_m_s": 10}
         clip = {"frames": 2 * duration_s, "frame_rate_hz": 2, "flight": plan}
-        config["camera"] = {"width_px": 64, "height_px": 52, "pixel_pitch_um": 170}
+        config["camera"] = {"width_px": 64, "height_px": 52, "pixel_pitch_um": 85}
+        config["camera"]["focal_length_m"] = 0.007
         config["scene"] |= {"plants": {}, "groups": []}
         config["scene"]["terrain"].update(size_m=300, relief_m=12)
         config["clips"] = [config["clips"][0] | clip]

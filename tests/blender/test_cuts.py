@@ -87,7 +87,6 @@ def test_a_flight_without_actors_gives_no_clip():
 def test_clips_have_the_format_of_a_config():
     assert clips_of(FLIGHT, [(0, 250), (250, 250)])[1] == {
         "id": "flight_0001",
-        "season": "winter",
         "start_s": 30.0,
         "frames": 250,
         "frame_rate_hz": 10,

@@ -85,7 +85,7 @@ def _is_import_of_numpy(where: str) -> bool:
     return (ROOT / file).read_text().splitlines()[int(line) - 1].strip() == "import numpy as np"
 
 
-@pytest.mark.parametrize("script", ["plan_dataset.py", "draw_map.py"])
+@pytest.mark.parametrize("script", ["plan_scene.py", "draw_map.py"])
 def test_a_python_without_numpy_says_so_in_its_last_line(bare_python, script):
     done = subprocess.run(
         [bare_python, "-I", "-B", SCRIPTS / script, "--config", "none", "--out", "none"],
@@ -111,7 +111,7 @@ def _events_of(python: Path, script: Path) -> tuple[int, list[dict]]:
             "-B",
             script,
             "--",
-            "--config",
+            "--plan",
             "none",
             "--out",
             "none",
@@ -145,7 +145,8 @@ def test_a_syntax_error_is_placed_where_it_is(bare_python, tmp_path):
     for name in ("veldt/__init__", "veldt/events", "veldt/failures", "veldt/faults", "veldt_bl/entry"):
         (scripts / f"{name}.py").write_text((SCRIPTS / f"{name}.py").read_text())
     (scripts / "render_passes.py").write_text((SCRIPTS / "render_passes.py").read_text())
-    (scripts / "veldt" / "config.py").write_text("A = 1\nB = = 2\n")
+    (scripts / "veldt" / "bake").mkdir()
+    (scripts / "veldt" / "bake" / "baked.py").write_text("A = 1\nB = = 2\n")
     code, events = _events_of(bare_python, scripts / "render_passes.py")
     assert (code, events) == (
         1,
@@ -154,7 +155,7 @@ def test_a_syntax_error_is_placed_where_it_is(bare_python, tmp_path):
                 "event": "error",
                 "kind": "internal",
                 "message": "SyntaxError: invalid syntax",
-                "where": "blender_scripts/veldt/config.py:2",
+                "where": "blender_scripts/veldt/bake/baked.py:2",
             }
         ],
     )

@@ -4,7 +4,7 @@ import pytest
 
 from scenes import tiny
 from veldt.faults import ConfigError
-from veldt.plan import plan_dataset
+from veldt.plan import plan_clips
 from veldt.world import plan_world
 
 CENTRE = {"pattern": "orbit", "centre_m": [0, 0], "radius_m": 40}
@@ -83,7 +83,7 @@ FAULTS = {  # of the plan of the first clip
 
 
 def _plan(change) -> None:
-    plan_dataset(plan_world(tiny(change)))
+    plan_clips(plan_world(tiny(change)))
 
 
 @pytest.mark.parametrize("plan, words", FAULTS.values(), ids=FAULTS.keys())
@@ -148,12 +148,6 @@ def test_flights(changes, words):
         assert str(fault.value).startswith("flights[0].flight: the camera is ")
     else:
         assert str(fault.value) == words
-
-
-def test_two_flights_of_one_id():
-    with pytest.raises(ConfigError) as fault:
-        _plan(lambda config: config.update(flights=[FLIGHT, FLIGHT]))
-    assert str(fault.value) == 'flights[1].id = "long"; expected an id no other flight has'
 
 
 def test_a_clip_named_as_one_cut_from_a_flight():

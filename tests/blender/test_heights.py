@@ -5,7 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from veldt import config as configs
+from resolved import resolve
+from veldt.config import ROOT
 from veldt.flight.heights import follow_heights, look_ahead_s, nearest_heights
 from veldt.land.terrain import build_terrain
 
@@ -31,8 +32,8 @@ def _least_deviation(wanted: np.ndarray, most_change: int) -> float:
 
 @pytest.fixture(scope="module", name="savanna")
 def _savanna():
-    text = (configs.ROOT / "configs" / "savanna.json").read_text(encoding="utf-8")
-    config = configs.resolve(json.loads(text))
+    text = (ROOT / "configs" / "savanna.json").read_text(encoding="utf-8")
+    config = resolve(json.loads(text))
     return build_terrain(config["scene"]["terrain"], config["seed"])
 
 

@@ -8,8 +8,9 @@ import numpy as np
 import OpenImageIO as oiio
 import pytest
 
+import configs
+from resolved import load
 from scenes import tiny
-from veldt.config import load
 from veldt.plants.density import plan_density
 from veldt.faults import ConfigError
 from veldt.land.grey_images import read_grey, sample
@@ -120,7 +121,8 @@ def test_a_density_map_defines_the_areas(tmp_path):
 
 
 def test_files_are_relative_to_the_config(tmp_path):
-    config = {"scene": {"terrain": {"heightmap": {"file": "maps/hill.png", "height_m": [0, 9]}}}}
+    heightmap = {"file": "maps/hill.png", "height_m": [0, 9]}
+    config = configs.LEAST | {"scene": {"terrain": {"heightmap": heightmap}}}
     (tmp_path / "a.json").write_text(json.dumps(config), encoding="utf-8")
     assert load(tmp_path / "a.json")["scene"]["terrain"]["heightmap"]["file"] == str(
         tmp_path / "maps/hill.png"

@@ -183,7 +183,7 @@ def test_a_broken_file_stops_everything_before_it_is_rendered(made, tmp_path):
     home = _home(tmp_path / "home", made)
     (home / "assets" / "species" / "okapi.glb").write_bytes(b"")
     (tmp_path / "config.json").write_text(json.dumps(_config()))
-    script = home / "blender_scripts" / "plan_dataset.py"
+    script = home / "blender_scripts" / "plan_scene.py"
     done = subprocess.run(
         [sys.executable, str(script), "--config", str(tmp_path / "config.json")],
         capture_output=True,

@@ -5,9 +5,10 @@ import itertools
 import numpy as np
 import pytest
 
+import configs
+from resolved import resolve
 from scenes import tiny
 from veldt import assets
-from veldt.config import resolve
 from veldt.geometry.neighbours import pairs_within
 from veldt.plants.placement import AREAS, Corridor, Site, by_area, place_plants, slope_deg
 from veldt.geometry.splines import Loop
@@ -15,7 +16,7 @@ from veldt.land.terrain import build_terrain
 
 SIZE_M = 1609.0
 SEED = 9
-SAVANNA = resolve({"name": "x", "clips": []})["scene"]["plants"]
+SAVANNA = resolve(configs.LEAST)["scene"]["plants"]
 LEVEL = build_terrain(
     tiny()["scene"]["terrain"] | {"size_m": SIZE_M, "cell_m": 20, "relief_m": 0, "water_radius_m": 0}, SEED
 )

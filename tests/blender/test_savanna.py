@@ -6,7 +6,8 @@ import json
 import numpy as np
 import pytest
 
-from veldt import config as configs
+from resolved import resolve
+from veldt.config import ROOT
 from veldt.groups.actors import poses, track
 from veldt.world import plan_world
 
@@ -15,10 +16,10 @@ POACHERS = ("northern_poachers", "western_poachers", "eastern_poachers")
 
 
 def _savanna(change=None) -> dict:
-    config = json.loads((configs.ROOT / "configs" / "savanna.json").read_text(encoding="utf-8"))
+    config = json.loads((ROOT / "configs" / "savanna.json").read_text(encoding="utf-8"))
     if change is not None:
         change(config)
-    return configs.resolve(config)
+    return resolve(config)
 
 
 @pytest.fixture(scope="module", name="savanna")

@@ -9,15 +9,16 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from processes import wait_until
 from scenes import tiny
 from veldt.config import ROOT
 from veldt.faults import ConfigError
-from veldt.workers import in_order
+from veldt.workers import Cores, in_order
 
-SCRIPT = ROOT / "blender_scripts" / "plan_dataset.py"
+SCRIPT = ROOT / "blender_scripts" / "plan_scene.py"
 
 
 def _square(value: int) -> int:
@@ -87,7 +88,7 @@ def _is_running(process: int) -> bool:
 def _plan(config: dict, processes: int) -> tuple[str, list[dict]]:
     reader, writer = os.pipe()
     with open(reader, encoding="utf-8") as events:
-        command = [sys.executable, "-B", str(SCRIPT), "--config", "-", "--json"]
+        command = [sys.executable, "-B", str(SCRIPT), "--config", "-"]
         done = subprocess.run(
             [*command, "--processes", str(processes), "--events-fd", str(writer)],
             input=json.dumps(config),
@@ -108,3 +109,47 @@ def test_a_plan_is_the_same_on_any_number_of_cores_and_says_how_far_it_is():
     assert _plan(config, 3) == (alone, events)
     assert [event["id"] for event in events] == [f"c{k}" for k in range(9)]
     assert events[-1] == {"event": "planned", "id": "c8", "done": 9, "total": 9}
+
+
+@pytest.mark.parametrize("processes", [1, 2])
+def test_started_work_has_the_same_result_anywhere(processes):
+    assert Cores(processes).start(lambda: np.arange(1000) ** 2)().tolist() == [k * k for k in range(1000)]
+
+
+def test_started_work_goes_on_here_if_its_process_is_killed():
+    here = os.getpid()
+
+    def act() -> str:
+        if os.getpid() != here:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return "done"
+
+    assert Cores(2).start(act)() == "done"
+
+
+def test_a_fault_in_started_work_is_raised_with_its_own_place():
+    with pytest.raises(ZeroDivisionError) as fault:
+        Cores(2).start(lambda: 1 // 0)()
+    assert fault.traceback[-1].path == Path(__file__)
+
+
+def test_a_baked_plan_is_the_same_on_any_number_of_cores(tmp_path):
+    config = tiny()
+    for processes in (1, 3):
+        (tmp_path / str(processes)).mkdir()
+        command = [
+            sys.executable,
+            "-B",
+            str(SCRIPT),
+            "--config",
+            "-",
+            "--out",
+            str(tmp_path / str(processes)),
+        ]
+        command += ["--processes", str(processes)]
+        subprocess.run(command, input=json.dumps(config), capture_output=True, text=True, check=True)
+    alone, together = (
+        {file.relative_to(tmp_path / name): file.read_bytes() for file in (tmp_path / name).rglob("*.*")}
+        for name in ("1", "3")
+    )
+    assert len(alone) == 7 and alone == together

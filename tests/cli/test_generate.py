@@ -73,8 +73,10 @@ def test_the_dataset_is_laid_out_as_documented(usual):
     pictures = [f"{kind}/{k:06d}.png" for kind in ("ir8", "ir16") for k in range(FRAMES)]
     of_a_clip = ["clip.json", "frames.jsonl", "labels.json", "preview.mp4", *pictures]
     expected = [f"clips/{clip}/{name}" for clip in CLIPS for name in of_a_clip]
+    baked = ["scene", *(f"tracks/{clip}" for clip in CLIPS)]
+    plan = ["plan/plan.json", *(f"plan/{name}.{kind}" for name in baked for kind in ("json", "bin"))]
     assert files_below(usual.folder / "out") == sorted(
-        [".lock", "annotations.json", "dataset.json", *expected]
+        [".lock", "annotations.json", "dataset.json", *expected, *plan]
     )
     assert usual("validate", "out").code == 0
     assert len(set(usual.pixels("out").values())) == 3

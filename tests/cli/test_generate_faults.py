@@ -13,6 +13,7 @@ import pytest
 from configs import tiny
 from fake_blender import generate
 from program import ROOT, check_fault, files_below
+from small_disk import BLOCK
 
 # --- the request ------------------------------------------------------------------------------------------------------
 
@@ -95,7 +96,7 @@ def test_a_python_that_fails_to_plan(veldt, blender, said, reported):
     python.chmod(0o755)
     done = generate(veldt, blender, env={"VELDT_PYTHON": str(python)})
     why = "" if reported is None else ": ModuleNotFoundError: No module (veldt/noise.py:8)"
-    check_fault(done, 1, f"{python} plan_dataset.py ended with exit code 1{why}")
+    check_fault(done, 1, f"{python} plan_scene.py ended with exit code 1{why}")
 
 
 @pytest.mark.parametrize("command", [["validate"], ["generate", "--out", "out", "--dry-run"]])
@@ -192,8 +193,12 @@ def test_the_folder_of_another_config(veldt, blender, command, option, what):
 # --- disk space -------------------------------------------------------------------------------------------------------
 
 
-def _on_a_small_disk(veldt, size: str) -> list[str]:
-    """A command that mounts a disk of the given size as `out` and copies it to `kept` afterwards."""
+def _on_a_small_disk(veldt, beside_plan: int) -> list[str]:
+    """A command that mounts a disk as `out` and copies it to `kept` afterwards. On the disk is space for the plan and
+    this many bytes."""
+    assert veldt("plan", "config.json", "--out", "planned", "--quiet").code == 0
+    planned = [file.stat().st_size for file in (veldt.folder / "planned").rglob("*.*")]
+    size = beside_plan + sum(-(-one // BLOCK) * BLOCK for one in planned)
     script = f'mount -t tmpfs -o size={size} none out && "$@"; code=$?; cp -r out/. kept; exit $code'
     under = ["unshare", "--map-root-user", "--mount", "sh", "-c", script, "sh"]
     for folder in ("out", "kept"):
@@ -204,7 +209,7 @@ def _on_a_small_disk(veldt, size: str) -> list[str]:
 
 
 def test_too_little_disk_space_for_a_clip_is_reported_before_it_is_begun(veldt, blender):
-    under = _on_a_small_disk(veldt, "64k")
+    under = _on_a_small_disk(veldt, 64 << 10)
     done = generate(veldt, blender, "--progress", "none", under=under)
     # 8 frames of 96 x 80 pixels, 40 bytes of passes and 4 of pictures each
     wanted = "expected at least 2 x the 2.7 MB that clip down still needs"
@@ -214,13 +219,13 @@ def test_too_little_disk_space_for_a_clip_is_reported_before_it_is_begun(veldt, 
 
 def test_a_full_disk_ends_the_run_and_finished_clips_stay(veldt, blender):
     """Disk space would suffice if another process did not use it while the second clip is rendered."""
-    under = _on_a_small_disk(veldt, "7m")
+    under = _on_a_small_disk(veldt, 7 << 20)
     good = blender.read_text()
     shutil.copytree(ROOT / "tests" / "support", veldt.folder / "support")
     stand_in = veldt.folder / "support" / "fake_blender.py"
     taking = (
         'while frame == 2 and clip == "side" and not Path("out/clips/down").exists(): time.sleep(0.02)\n'
-        '        clip == "side" and frame == 2 and Path("out/other").write_bytes(bytes(7145728))\n'
+        '        clip == "side" and frame == 2 and Path("out/other").write_bytes(bytes(7000000))\n'
     )
     held = "        _hold(clip, frame)\n"
     assert held in stand_in.read_text()

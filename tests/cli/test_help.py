@@ -8,6 +8,7 @@ COMMON = {"--help", "--quiet", "--progress", "--threads"}
 RENDERING = {"--out", "--clips", "--shard", "--jobs", "--blender", "--set", "--dry-run"}
 OPTIONS = {
     "generate": RENDERING | {"--keep-passes", "--max-unusable-share"},
+    "plan": {"--out", "--blender", "--set"},
     "render": RENDERING | {"--preview"},
     "convert": {
         "--out",

@@ -12,6 +12,8 @@ from processes import running_with, wait_until
 from program import files_below
 
 MADE = ["config.json", "map.png", "overview.png"]
+_BAKED = ["scene", "tracks/down", "tracks/side", "preview/sheet", "preview/moment"]
+PLANNED = ["plan/plan.json", *(f"plan/{name}.{kind}" for name in _BAKED for kind in ("json", "bin"))]
 
 
 def _run(blender, *options, out="out") -> list[str]:
@@ -24,7 +26,7 @@ def test_it_makes_pictures_and_no_passes(veldt, blender):
     assert done.out == "out/preview: 2 pictures; map.png shows the place from above\n"
     assert files_below(veldt.folder / "out") == [
         ".lock",
-        *sorted(f"preview/{name}" for name in [*MADE, "blender.log"]),
+        *sorted(f"preview/{name}" for name in [*MADE, "blender.log", *PLANNED]),
     ]
     assert veldt.read("out/preview/config.json")["seed"] == 7
 

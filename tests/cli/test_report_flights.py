@@ -9,8 +9,8 @@ import pytest
 
 import passes
 from program import Veldt
+from resolved import resolve
 from reports import Page, change, flown_config, make_dataset, terrain_of
-from veldt.config import resolve
 
 
 def _flights(veldt: Veldt) -> dict:

@@ -8,8 +8,8 @@ import pytest
 from configs import tiny
 from pictures import read_planes
 from program import Veldt
+from resolved import resolve
 from veldt.preview.colours import surface_colour
-from veldt.config import resolve
 from veldt.preview.map_layers import MapSheet, plan_map
 from veldt.world import World, plan_world
 

@@ -8,6 +8,19 @@ from collections.abc import Callable
 FRAMES = 8
 CLIPS = ("down", "side")
 
+# The least that makes a config: everything else is a default.
+LEAST = {
+    "name": "least",
+    "clips": [
+        {
+            "id": "only",
+            "season": "winter",
+            "frames": 1,
+            "flight": {"pattern": "zigzag", "area_m": [0, 0, 9, 9]},
+        }
+    ],
+}
+
 _TINY = {
     "name": "tiny",
     "seed": 7,

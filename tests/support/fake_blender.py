@@ -53,25 +53,29 @@ def die_after(folder: Path, clip: str, frame: int, times: int = 1) -> None:
 
 def _main() -> None:
     parser = argparse.ArgumentParser()
-    parser.add_argument("--config", type=Path, required=True)
+    parser.add_argument("--plan", type=Path, required=True)
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--clip", action="append", default=[])
+    parser.add_argument("--supersample", type=int)
+    parser.add_argument("--actor-layer", action="store_true")
     parser.add_argument("--preview", action="store_true")
     parser.add_argument("--events-fd", type=int, required=True)
     options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
-    frames = {clip["id"]: clip["frames"] for clip in json.loads(options.config.read_text())["clips"]}
+    plan = json.loads((options.plan / "plan.json").read_text())
+    clips = {clip["id"]: clip for clip in plan["clips"]}
     with open(options.events_fd, "w", encoding="utf-8", buffering=1) as events:
         _hold("scene", -1)
         print(json.dumps({"event": "scene_built", "seconds": 0}), file=events)
         if options.preview:
             _preview(options.out, events)
         for clip in options.clip:
-            _render(options.out / clip, clip, frames[clip], events)
+            _render(options.out / clip, clips[clip], events)
 
 
-def _render(folder: Path, clip: str, frames: int, events) -> None:
+def _render(folder: Path, planned: dict, events) -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    passes.write_manifest(folder, passes.manifest(clip, frames))
+    clip, frames = planned["id"], planned["frames"]
+    passes.write_manifest(folder, passes.manifest(clip, frames) | {"of_flight": planned["of_flight"]})
     first = next(k for k in range(frames + 1) if not (folder / f"{k:06d}.exr").exists())
     print(json.dumps({"event": "clip", "clip": clip, "first_frame": first, "frames": frames}), file=events)
     _hold(clip, -1)

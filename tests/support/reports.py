@@ -11,7 +11,7 @@ import numpy as np
 import configs
 import passes
 from program import Veldt
-from veldt.config import resolve
+from resolved import resolve
 from veldt.land.road_plan import plan_road
 from veldt.land.terrain import Terrain, build_terrain
 

@@ -18,7 +18,8 @@ std::vector<std::string> command_of(const ProfileTask& task, const char* script)
                                       "--disable-autoexec",  "--python-exit-code", "1"};
   if (task.threads > 0) command.insert(command.end(), {"--threads", std::to_string(task.threads)});
   command.insert(command.end(), {"--python", (task.home / "blender_scripts" / script).string(), "--",
-                                 "--config", task.config.string(), "--out", task.out.string(), "--events-fd",
+                                 "--plan", task.plan.string(), "--out", task.out.string(), "--supersample",
+                                 std::to_string(task.supersample), "--events-fd",
                                  std::to_string(ChildProcess::kEventDescriptor)});
   return command;
 }
@@ -78,7 +79,7 @@ Profile profile_frames(const ProfileTask& task) {
 double rendered_per_s(const ProfileTask& task, const std::string& clip) {
   using Clock = std::chrono::steady_clock;
   std::vector<std::string> command = command_of(task, "render_passes.py");
-  command.insert(command.end(), {"--clip", clip});
+  command.insert(command.end(), {"--clip", clip, "--actor-layer"});
   std::vector<Clock::time_point> whole_at;
   run_blender(command, task, [&whole_at](const std::string& kind, const Json&) {
     if (kind == "frame") whole_at.push_back(Clock::now());

@@ -12,10 +12,11 @@ namespace thermal {
 struct ProfileTask {
   Path blender;
   Path home;
-  Path config;
+  Path plan;        ///< folder of a plan
   Path out;         ///< receives the frames; Blender's log is beside it
   int threads = 0;  ///< 0: one per core
-  int frames = 8;   ///< of the config's first clip; the first of them is not counted
+  int frames = 8;   ///< of the plan's first clip; the first of them is not counted
+  int supersample = 1;
 };
 
 /// Mean time of a frame [s].
@@ -29,7 +30,7 @@ struct Profile {
 /// Runs profile_render.py to completion. IoError with Blender's reason if it fails or reports nothing.
 [[nodiscard]] Profile profile_frames(const ProfileTask& task);
 
-/// Frames/s of render_passes.py, from one complete frame to the next; they are in a folder of the clip's name.
+/// Frames/s of render_passes.py with actor layers, from one complete frame to the next; they are in a folder of the clip's name.
 [[nodiscard]] double rendered_per_s(const ProfileTask& task, const std::string& clip);
 
 /// The steps of a frame, in order.

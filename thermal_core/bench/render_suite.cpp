@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "bench/measure.h"
 #include "bench/render_profile.h"
+#include "dataset/plan/planning.h"
 #include "io/exr_passes.h"
 #include "io/json_file.h"
 #include "io/passing_folder.h"
@@ -16,13 +17,12 @@
 namespace thermal {
 namespace {
 
-/// A config of the project with other `render` settings, as a file in `folder`.
-Path config_with(const Path& home, const std::string& name, const Json& render, const Path& folder) {
-  Json config = read_json(home / "configs" / (name + ".json"));
-  config["render"] = render;
-  Path file = folder / fmt::format("{}.json", name);
-  write_file_atomically(file, to_text(config));
-  return file;
+/// Plans a config of the project into a folder.
+Path plan_of_config(const Path& home, const std::string& name, Path folder) {
+  const Path file = home / "configs" / (name + ".json");
+  (void)plan_into(folder, resolve_config(read_json(file), file.string(), home), file.string(),
+                  {.home = home});
+  return folder;
 }
 
 RenderRow scene_row(const std::string& scene, int supersample, const Profile& profile) {
@@ -79,14 +79,13 @@ RenderRow process_row(const char* name, double frames_per_s, int differing_px) {
 /// Frames/s of one process with two threads and of two with one each, including actor layers; then a frame as a file.
 std::vector<RenderRow> process_rows(const RenderSuiteTask& task, const Path& folder) {
   constexpr int kFrames = 12;
-  Json config = read_json(task.home / "configs" / "demo.json");
-  config["render"] = {{"actor_layer", true}};
-  config["clips"][0]["frames"] = kFrames;
-  const std::string clip = config["clips"][0]["id"];
-  const Path file = folder / "layers.json";
-  write_file_atomically(file, to_text(config));
+  Json document = read_json(task.home / "configs" / "demo.json");
+  document["clips"][0]["frames"] = kFrames;
+  const std::string clip = document["clips"][0]["id"];
+  const Path plan = folder / "layers";
+  (void)plan_into(plan, resolve_config(std::move(document), "demo", task.home), "demo", {.home = task.home});
   const auto rate = [&](const char* out, int threads) {
-    return rendered_per_s({task.blender, task.home, file, folder / out, threads}, clip);
+    return rendered_per_s({task.blender, task.home, plan, folder / out, threads}, clip);
   };
   const auto frame = [&](const char* out) { return folder / out / clip / "000001.exr"; };
   task.announce("demo with actor layers, one process of two threads");
@@ -108,11 +107,13 @@ std::vector<RenderRow> run_render_suite(const RenderSuiteTask& task) {
   const PassingFolder folder;
   std::vector<RenderRow> rows;
   for (const char* scene : {"demo", "savanna"}) {
+    task.announce(fmt::format("{}, planning", scene));
+    const Path plan = plan_of_config(task.home, scene, folder.path() / scene);
     for (const int supersample : {1, 2}) {
       task.announce(fmt::format("{}, {}x{} rays per pixel", scene, supersample, supersample));
-      const Path config = config_with(task.home, scene, {{"supersample", supersample}}, folder.path());
       const Path out = folder.path() / fmt::format("{}_{}", scene, supersample);
-      const Profile profile = profile_frames({task.blender, task.home, config, out});
+      const Profile profile = profile_frames(
+          {.blender = task.blender, .home = task.home, .plan = plan, .out = out, .supersample = supersample});
       rows.push_back(scene_row(scene, supersample, profile));
     }
   }

@@ -31,13 +31,12 @@ Json default_document(const std::vector<ClipPasses>& sources) {
           {"clips", std::move(clips)}};
 }
 
-/// The clip of a manifest, if it is cut from one of the config's flights: FLIGHT_0012 is, from FLIGHT.
+/// The clip of a manifest, if it is cut from one of the config's flights.
 std::optional<Json> clip_of_flight(const Config& config, const Manifest& manifest) {
-  const std::string flight_id = manifest.clip.substr(0, manifest.clip.rfind('_'));
   for (const Json& flight : config.resolved["flights"]) {
-    if (flight["id"] != flight_id) continue;
+    if (flight["id"] != manifest.of_flight) continue;
     return Json{{"id", manifest.clip},
-                {"of_flight", flight_id},
+                {"of_flight", manifest.of_flight},
                 {"season", flight["season"]},
                 {"start_s", manifest.frames.front().time_s},
                 {"frames", manifest.frames.size()},
@@ -63,7 +62,7 @@ Config only_clips_of(Config config, const std::vector<ClipPasses>& sources) {
   }
   config.clips.clear();
   config.resolved["clips"] = Json::array();
-  return with_flights_cut(std::move(config), documents);
+  return with_clips(std::move(config), documents);
 }
 
 /// The folder of a file that names others. Without a file, names are relative to the working folder.
@@ -72,7 +71,7 @@ Path folder_of(const std::string& file) { return std::filesystem::absolute(file)
 /// The passes were rendered with the manifest's camera. A config that gives intrinsics, directly or by a calibration, must
 /// give the same ones: ConfigError if not.
 void check_cameras(const Config& config, const std::vector<ClipPasses>& sources, const std::string& name) {
-  const CameraIntrinsics given = read_intrinsics(config.resolved["camera"]);
+  const CameraIntrinsics& given = config.camera;
   for (const ClipPasses& source : sources) {
     const CameraIntrinsics& there = source.manifest.camera;
     const auto check = [&](const char* key, double given_px, double there_px) {

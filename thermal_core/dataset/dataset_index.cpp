@@ -136,6 +136,10 @@ std::vector<UnusableShare> DatasetIndex::unusable(const std::vector<std::string>
   return shares;
 }
 
+void check_same_dataset(const Layout& layout, const Config& config) {
+  if (layout.is_begun()) check_same_config(layout, config.resolved, read_started(layout));
+}
+
 DatasetIndex open_dataset(const Layout& layout, const Config& config) {
   DatasetIndex index{.config = config.resolved, .physics = {}, .clips = {}, .finished = {}, .failed = {}};
   const bool begun = layout.is_begun();

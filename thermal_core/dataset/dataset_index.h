@@ -42,6 +42,9 @@ struct DatasetIndex {
 /// it was made from another config.
 [[nodiscard]] DatasetIndex open_dataset(const Layout& layout, const Config& config);
 
+/// Only the check: ConfigError with the keys that differ if the folder holds a dataset made from another config.
+void check_same_dataset(const Layout& layout, const Config& config);
+
 /// Adds what other runs have made of the dataset meanwhile. `own` clips belong to this run, which knows their state.
 void catch_up(const Layout& layout, const std::set<std::string>& own, DatasetIndex& index);
 

@@ -15,8 +15,7 @@ double square(double value) { return value * value; }
 
 Estimate estimate_run(const Config& config, int clips, int frames) {
   const double pixels = static_cast<double>(config.width_px) * config.height_px;
-  const double rays = square(config.resolved["render"]["supersample"].get<double>()) *
-                      (config.width_px + 2.0 * config.overscan_px) *
+  const double rays = square(config.supersample) * (config.width_px + 2.0 * config.overscan_px) *
                       (config.height_px + 2.0 * config.overscan_px);
   return {.seconds = kStartS + clips * kSecondsPerClip + frames * (kSecondsPerFrame + rays * kSecondsPerRay),
           .bytes = frames * pixels * kBytesPerPixel};

@@ -26,7 +26,8 @@ using Stop = std::function<bool()>;
 /// Makes clips from the output of render jobs.
 class Generator {
  public:
-  Generator(const Config& config, const GenerateOptions& options, const RunHooks& hooks)
+  Generator(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
+            const RunHooks& hooks)
       : config_(config),
         options_(options),
         hooks_(hooks),
@@ -34,7 +35,7 @@ class Generator {
         chosen_(choose_clips(config, options.clips, options.shard)),
         lock_(options.out, places_of(config, chosen_)),
         materials_(read_materials(options.home)),
-        budget_(weigh_terms(outline_of(config, materials_, options.home), config.terms)) {}
+        budget_(weigh_terms(outline_of(config, plan, materials_), config.terms)) {}
 
   RunOutcome run() {
     lock_.in_turn([this] {
@@ -76,7 +77,7 @@ class Generator {
     const ClipWork work = [this, &board](const std::string& id, RenderJob& job, const Stop& stop_wanted) {
       try_make(config_.clip(id, "clips"), job, stop_wanted, board);
     };
-    run_crew(passes_tasks(options_, layout_, ids_of(pending_), board), work,
+    run_crew(passes_tasks(config_, options_, ids_of(pending_), board), work,
              [&board] { return board.stop_wanted(); });
   }
 
@@ -200,9 +201,10 @@ class Generator {
 
 }  // namespace
 
-RunOutcome generate(const Config& config, const GenerateOptions& options, const RunHooks& hooks) {
+RunOutcome generate(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
+                    const RunHooks& hooks) {
   const ThreadLimit limit(options.threads);
-  return Generator(config, options, hooks).run();
+  return Generator(config, plan, options, hooks).run();
 }
 
 }  // namespace thermal

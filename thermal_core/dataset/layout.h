@@ -23,6 +23,7 @@ struct Layout {
   [[nodiscard]] Path passes_config() const { return passes() / "config.json"; }
   /// Marks a clip whose passes could not be converted: the next run renders them anew.
   [[nodiscard]] Path unusable(const std::string& id) const { return passes(id) / "unusable.txt"; }
+  [[nodiscard]] Path plan() const { return root / "plan"; }
   [[nodiscard]] Path preview() const { return root / "preview"; }
 };
 

@@ -4,15 +4,16 @@
 #include <vector>
 
 #include "dataset/clip_maker.h"
+#include "dataset/plan/plan.h"
 #include "imaging/budget.h"
 #include "io/config.h"
 
 namespace thermal {
 
-/// What a config's pictures will show: its ground, plants and species, and the viewing directions of its clips.
-/// Shares of the pictures are estimates from densities and sizes; actors together count for 3 %.
-[[nodiscard]] SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
-                                      const Path& home);
+/// What the pictures of a planned dataset will show: its ground, plants and species, and the viewing directions of its
+/// clips, one for each metre and degree. `config` has the plan's clips (with_flights_cut). Actors together count for 3 %. `materials` must outlive the result.
+[[nodiscard]] SceneOutline outline_of(const Config& config, const DatasetPlan& plan,
+                                      const MaterialLibrary& materials);
 
 /// Information from the files of a clip besides its manifest.
 struct PassesView {

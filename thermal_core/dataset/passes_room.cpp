@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "base/parallel.h"
 #include "dataset/render_crew.h"
 #include "io/output_folder.h"
@@ -25,14 +28,24 @@ void begin_passes(const Layout& layout, const Config& config, const std::vector<
   write_file_atomically(layout.passes_config(), to_text(config.resolved));
 }
 
+void check_same_passes(const Layout& layout, const Config& config) {
+  if (!std::filesystem::exists(layout.passes_config())) return;
+  const std::vector<std::string> found = differences(config.resolved, read_json(layout.passes_config()));
+  if (found.empty()) return;
+  throw ConfigError(
+      fmt::format("{} holds passes of another config: {}; expected the same config, or another folder",
+                  layout.passes().string(), fmt::join(found, ", ")));
+}
+
 void end_passes(const Layout& layout, const std::vector<std::string>& clips) {
   if (!std::filesystem::is_directory(layout.passes())) return;
   for (const std::string& clip : clips) std::filesystem::remove_all(layout.passes(clip));
   if (!has_clips(layout.passes())) std::filesystem::remove_all(layout.passes());
 }
 
-std::vector<RenderJob::Task> passes_tasks(const GenerateOptions& options, const Layout& layout,
+std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,
                                           const std::vector<std::string>& clips, RunBoard& board) {
+  const Layout layout{options.out};
   const auto hands = deal_clips(clips, options.jobs);
   const int cores = thread_count(0);
   std::vector<RenderJob::Task> tasks;
@@ -40,11 +53,13 @@ std::vector<RenderJob::Task> passes_tasks(const GenerateOptions& options, const 
     // Runs that share the folder never share a clip, so the clip's name keeps their logs apart.
     tasks.push_back({.blender = options.blender,
                      .home = options.home,
-                     .config = layout.passes_config(),
+                     .plan = layout.plan(),
                      .passes = layout.passes(),
                      .log = layout.passes() / (hand.front() + ".log"),
                      .clips = hand,
                      .threads = threads_each(options.threads, cores, static_cast<int>(hands.size())),
+                     .supersample = config.supersample,
+                     .actor_layer = config.actor_layer,
                      .preview = false,
                      .restarted = [&board](const std::string& clip, const std::string& why) {
                        board.restarted(clip, why);

@@ -13,11 +13,14 @@ namespace thermal {
 /// resolved config beside them. A clip's folder shows other runs that the clip is being made.
 void begin_passes(const Layout& layout, const Config& config, const std::vector<std::string>& clips);
 
+/// A folder for passes belongs to one config, like a dataset's. ConfigError with the keys that differ.
+void check_same_passes(const Layout& layout, const Config& config);
+
 /// Removes the passes of these clips, and with the last clip's everything beside them.
 void end_passes(const Layout& layout, const std::vector<std::string>& clips);
 
 /// The render jobs for these clips, one task each. They report restarts to the board.
-[[nodiscard]] std::vector<RenderJob::Task> passes_tasks(const GenerateOptions& options, const Layout& layout,
+[[nodiscard]] std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,
                                                         const std::vector<std::string>& clips,
                                                         RunBoard& board);
 

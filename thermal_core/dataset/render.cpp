@@ -7,20 +7,9 @@
 #include "dataset/render_crew.h"
 #include "dataset/room_watch.h"
 #include "dataset/run_board.h"
-#include "io/output_folder.h"
 
 namespace thermal {
 namespace {
-
-/// A folder for passes belongs to one config, like a dataset's.
-void check_same_passes(const Config& config, const Layout& layout) {
-  if (!std::filesystem::exists(layout.passes_config())) return;
-  const std::vector<std::string> found = differences(config.resolved, read_json(layout.passes_config()));
-  if (found.empty()) return;
-  throw ConfigError(
-      fmt::format("{} holds passes of another config: {}; expected the same config, or another folder",
-                  layout.passes().string(), fmt::join(found, ", ")));
-}
 
 void render_clip(const ClipConfig& clip, RenderJob& job, const std::function<bool()>& stop_wanted,
                  RoomWatch& room, RunBoard& board) {
@@ -33,15 +22,16 @@ void render_clip(const ClipConfig& clip, RenderJob& job, const std::function<boo
 
 RenderJob::Task preview_task(const Config& config, const GenerateOptions& options) {
   const Path folder = Layout{options.out}.preview();
-  make_own_folder(folder);
   write_file_atomically(folder / "config.json", to_text(config.resolved));
   return {.blender = options.blender,
           .home = options.home,
-          .config = folder / "config.json",
+          .plan = folder / "plan",
           .passes = folder,
           .log = folder / "blender.log",
           .clips = {},
           .threads = options.threads,
+          .supersample = 1,
+          .actor_layer = false,
           .preview = true,
           .restarted = {}};
 }
@@ -54,7 +44,7 @@ RunOutcome render(const Config& config, const GenerateOptions& options, const Ru
   const FolderLock lock(options.out, places_of(config, clips));
   if (clips.empty()) return {};
   lock.in_turn([&] {
-    check_same_passes(config, layout);
+    check_same_passes(layout, config);
     begin_passes(layout, config, ids_of(clips));
   });
   RunBoard board(hooks, options.out, frames_of(clips));
@@ -69,7 +59,7 @@ RunOutcome render(const Config& config, const GenerateOptions& options, const Ru
       board.lost(clip, fault.what(), fault.killed());
     }
   };
-  run_crew(passes_tasks(options, layout, ids_of(clips), board), work,
+  run_crew(passes_tasks(config, options, ids_of(clips), board), work,
            [&board] { return board.stop_wanted(); });
   RunOutcome outcome = board.outcome();
   outcome.complete = outcome.failed.empty();

@@ -36,10 +36,15 @@ std::vector<std::string> render_command(const RenderJob::Task& task) {
   if (task.threads > 0) command.insert(command.end(), {"--threads", std::to_string(task.threads)});
   const std::string script = (task.home / "blender_scripts" / "render_passes.py").string();
   command.insert(command.end(),
-                 {"--python", script, "--", "--config", task.config.string(), "--out", task.passes.string(),
+                 {"--python", script, "--", "--plan", task.plan.string(), "--out", task.passes.string(),
                   "--events-fd", std::to_string(ChildProcess::kEventDescriptor)});
   for (const std::string& clip : task.clips) command.insert(command.end(), {"--clip", clip});
-  if (task.preview) command.emplace_back("--preview");
+  if (task.preview) {
+    command.emplace_back("--preview");
+    return command;
+  }
+  command.insert(command.end(), {"--supersample", std::to_string(task.supersample)});
+  if (task.actor_layer) command.emplace_back("--actor-layer");
   return command;
 }
 

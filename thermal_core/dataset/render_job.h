@@ -37,11 +37,13 @@ class RenderJob {
   struct Task {
     Path blender;
     Path home;
-    Path config;  ///< resolved
+    Path plan;    ///< folder of a plan with its baked scene
     Path passes;  ///< gets a folder for each clip
     Path log;     ///< what the Blenders of this job print, one after another
     std::vector<std::string> clips;
-    int threads = 0;       ///< 0: one a core
+    int threads = 0;      ///< 0: one a core
+    int supersample = 1;  ///< rays along each side of a pixel
+    bool actor_layer = false;
     bool preview = false;  ///< pictures for people instead: the frames of one clip, kPreview
     /// Called from a thread of its own when Blender died and is started again: over which clip, and why it died.
     std::function<void(const std::string& clip, const std::string& why)> restarted;

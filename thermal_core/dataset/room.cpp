@@ -27,7 +27,7 @@ std::int64_t ClipRoom::needed_bytes() const {
 }
 
 ClipRoom room_for(const Config& config, const ClipConfig& clip, bool pictures) {
-  const std::int64_t finer = config.resolved.at("render").at("supersample").get<std::int64_t>();
+  const std::int64_t finer = config.supersample;
   const std::int64_t wide_px = finer * (config.width_px + 2 * config.overscan_px);
   const std::int64_t high_px = finer * (config.height_px + 2 * config.overscan_px);
   const std::int64_t picture_px = std::int64_t{config.width_px} * config.height_px;

@@ -56,16 +56,14 @@ void check_ids(const char* list, const std::vector<std::string>& ids, std::vecto
 }
 
 /// Checks that there is something to make, and that ids are unique.
-void check_flown(const Json& flights, const std::vector<ClipConfig>& clips,
+void check_flown(const std::vector<std::string>& flights, const std::vector<ClipConfig>& clips,
                  std::vector<std::string>& faults) {
   if (clips.empty() && flights.empty())
     faults.emplace_back("clips and flights are empty; expected at least one of either");
   std::vector<std::string> ids;
   for (const ClipConfig& clip : clips) ids.push_back(clip.id);
   check_ids("clips", ids, faults);
-  ids.clear();
-  for (const Json& flight : flights) ids.push_back(flight["id"]);
-  check_ids("flights", ids, faults);
+  check_ids("flights", flights, faults);
 }
 
 /// One step of a setting's key: "clips[0]" is the member "clips", then entry 0.
@@ -166,11 +164,12 @@ void root_calibration(Json& document, const Path& folder) {
   root_file(document, "/camera/calibration", folder);
 }
 
-Config with_flights_cut(Config config, const Json& clips) {
+Config with_clips(Config config, const Json& clips) {
   for (const Json& clip : clips) {
     config.clips.push_back(read_clip(clip));
     config.resolved["clips"].push_back(clip);
   }
+  config.flights.clear();
   config.resolved["flights"] = Json::array();
   return config;
 }
@@ -198,12 +197,16 @@ Config resolve_config(Json document, const std::string& name, const Path& home) 
   config.cloud_fraction = read_optional(document["weather"], "cloud_fraction");
   config.vehicle_stopped_s = document["weather"]["vehicle_stopped_s"];
   for (const Json& clip : document["clips"]) config.clips.push_back(read_clip(clip));
-  check_flown(document["flights"], config.clips, faults);
-  check_intrinsics(read_intrinsics(document["camera"]), faults);
+  for (const Json& flight : document["flights"]) config.flights.push_back(flight["id"]);
+  check_flown(config.flights, config.clips, faults);
+  config.camera = read_intrinsics(document["camera"]);
+  check_intrinsics(config.camera, faults);
   throw_faults(faults, name);
   fill_overscan(document, faults);
   throw_faults(faults, name);
   config.overscan_px = document["render"]["overscan_px"];
+  config.supersample = document["render"]["supersample"];
+  config.actor_layer = document["render"]["actor_layer"];
   document.erase("$schema");
   config.resolved = std::move(document);
   return config;

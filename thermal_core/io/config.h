@@ -8,6 +8,7 @@
 #include "io/json_file.h"
 #include "labels/label_parameters.h"
 #include "scene/lens_distortion.h"
+#include "scene/manifest.h"
 #include "scene/season.h"
 #include "scene/terms.h"
 #include "scene/weather.h"
@@ -28,8 +29,11 @@ struct Config {
   std::uint32_t seed = 1;
   int width_px = 640;
   int height_px = 512;
+  CameraIntrinsics camera;
   LensDistortion distortion;
   int overscan_px = 0;  ///< how far the passes extend beyond the picture on every side
+  int supersample = 1;  ///< rays of the passes along each side of a pixel
+  bool actor_layer = false;
   SensorParameters sensor;
   LabelParameters labels;
   bool physical = false;  ///< every term the scene needs; otherwise the published model
@@ -40,7 +44,8 @@ struct Config {
   std::optional<double> cloud_fraction;
   double vehicle_stopped_s = 3600;
   std::vector<ClipConfig> clips;
-  Json resolved;
+  std::vector<std::string> flights;  ///< ids of long flights, from which clips are cut
+  Json resolved;                     ///< for the record; computations use the fields above
 
   /// ConfigError with the nearest id if the clip is unknown. `where` names the source of the id.
   [[nodiscard]] const ClipConfig& clip(const std::string& id, const std::string& where) const;
@@ -62,8 +67,8 @@ void root_files(Json& document, const Path& folder);
 /// The same for the calibration alone, which is what converting existing passes needs.
 void root_calibration(Json& document, const Path& folder);
 
-/// The same config with its flights cut into these clips, which follow its own.
-[[nodiscard]] Config with_flights_cut(Config config, const Json& clips);
+/// The same config with these clips, which follow its own, instead of its flights.
+[[nodiscard]] Config with_clips(Config config, const Json& clips);
 
 /// Checks a document against configs/schema/config.schema.json and fills in its defaults. The numbers of a camera's
 /// calibration replace the name of its file. ConfigError with one line per fault, each starting with `name`.

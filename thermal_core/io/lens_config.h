@@ -12,8 +12,7 @@ namespace thermal {
 [[nodiscard]] LensDistortion read_distortion(const Json& json);
 
 /// The pinhole of a config's `camera`, whose defaults are filled in. Where it does not give them, fx_px is focal length /
-/// pixel pitch, fy_px is fx_px, and the principal point is the picture's middle: as blender_scripts/veldt/camera.py
-/// has it.
+/// pixel pitch, fy_px is fx_px, and the principal point is the picture's middle.
 [[nodiscard]] CameraIntrinsics read_intrinsics(const Json& camera);
 
 /// Whether a config's `camera` gives any of fx_px, fy_px, cx_px and cy_px.

@@ -73,6 +73,7 @@ ManifestFrame read_frame(const Json& json) {
 Manifest read_document(const Json& json) {
   Manifest manifest;
   manifest.clip = json["clip"];
+  manifest.of_flight = json["of_flight"];
   manifest.scene = json["scene"];
   manifest.seed = json["seed"];
   manifest.frame_rate_hz = json["frame_rate_hz"];

@@ -75,6 +75,7 @@ struct ManifestFrame {
 /// Meaning of the passes of one clip.
 struct Manifest {
   std::string clip;
+  std::string of_flight;  ///< the flight that the clip is cut from; empty if there is none
   std::string scene;
   std::uint32_t seed = 1;
   double frame_rate_hz = 9;

@@ -28,7 +28,8 @@ def split_edges(triangles: np.ndarray, edges: np.ndarray, first_new: int) -> tup
     if len(edges) == 0:
         return triangles, np.arange(len(triangles))
     middle = _new_vertices(triangles, edges, first_new)
-    count = (middle >= 0).sum(axis=1)
+    a, b, c = (middle >= 0).T.astype(np.int8)
+    count = a + b + c
     whole = np.flatnonzero(count == 0)
     parts, parents = [triangles[whole]], [whole]
     for number, pattern in _PATTERNS.items():
@@ -54,10 +55,16 @@ def _six_points(triangles: np.ndarray, middle: np.ndarray, number: int) -> np.nd
 
 def _new_vertices(triangles: np.ndarray, edges: np.ndarray, first_new: int) -> np.ndarray:
     """For each triangle's edges 0-1, 1-2, 2-0, the index of the new vertex on it, or -1."""
+    middle = np.full(triangles.shape, -1, triangles.dtype)
+    touched = np.zeros(first_new, bool)
+    touched[edges] = True
+    a, b, c = (touched[corner] for corner in triangles.T)
+    about = np.flatnonzero(a & b | b & c | c & a)  # others cannot have any of the edges
     wanted = _packed(edges)
-    keys = _packed(np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2))
+    keys = _packed(np.sort(triangles[about][:, [[0, 1], [1, 2], [2, 0]]], axis=2))
     place = np.minimum(np.searchsorted(wanted, keys), len(wanted) - 1)
-    return np.where(wanted[place] == keys, place + first_new, -1)
+    middle[about] = np.where(wanted[place] == keys, place + first_new, -1)
+    return middle
 
 
 def _packed(pairs: np.ndarray) -> np.ndarray:

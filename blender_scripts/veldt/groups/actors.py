@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -12,6 +13,7 @@ from ..anatomy.pose import Motion, Poses, Walker, pose
 from ..geometry.rotations import facing, left_of
 from ..geometry.splines import Loop, Spot
 from ..land.terrain import Terrain
+from ..workers import Cores
 from .behaviours import Draft
 
 _PLACES = 64  # positions along an actor's path at which its bounding box is measured
@@ -55,6 +57,12 @@ class Actor(Draft):
         origin = np.column_stack([point, self.terrain.height_m(*point.T)])
         low, high = body.extent_m(self.body, origin, facing(heading))
         return np.stack([low - _MARGIN * (high - low), high + _MARGIN * (high - low)])
+
+
+def measure(actors: Sequence[Actor], cores: Cores) -> None:
+    """Find the boxes of all actors at once."""
+    for actor, box in zip(actors, cores.map(lambda actor: actor.bounds_m, actors)):
+        vars(actor)["bounds_m"] = box  # where cached_property keeps it
 
 
 @dataclass(frozen=True)

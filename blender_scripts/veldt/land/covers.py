@@ -20,6 +20,7 @@ _OUTCROP_M = 14.0  # size of outcrops
 _OUTCROPS = 0.85  # higher values leave less rock on the crag
 
 _FAR_M = -100.0  # instead of infinity off the road, so that borders can be interpolated between two points
+_NEAR_M = 10.0  # from a shore: beyond its wet margin
 
 Value = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
@@ -46,8 +47,9 @@ def plan_covers(terrain: Terrain, settings: dict, seed: int) -> list[Layer]:
 
 
 def _wetness(terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:
+    shore_m = terrain.shore_m(x_m, y_m, _NEAR_M + 2.0 * terrain.cell_m)  # to the far corners of triangles
     ragged_m = _WET_RAGGED_M * fractal_noise(seed, "wet", x_m, y_m, 4.0 * _WET_RAGGED_M, octaves=2)
-    return _WET_MARGIN_M + ragged_m - terrain.shore_m(x_m, y_m)
+    return np.maximum(_WET_MARGIN_M + ragged_m - shore_m, _FAR_M)
 
 
 def _rockiness(terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:
@@ -60,7 +62,7 @@ def _plan_grass(terrain: Terrain, settings: dict, seed: int) -> Value | None:
     axis_m = grid_axis(terrain.size_m, terrain.heights_m.shape[0] - 1)
     x_m, y_m = np.meshgrid(axis_m, axis_m)
     patch_m = settings["grass_patch_m"]
-    shore_m = terrain.shore_m(x_m, y_m)
+    shore_m = terrain.shore_m(x_m, y_m, 2.0 * _BARE_MARGIN_M)
     can_grow = shore_m > _BARE_MARGIN_M
     if settings["grass_fraction"] <= 0 or not can_grow.any():
         return None
@@ -68,8 +70,10 @@ def _plan_grass(terrain: Terrain, settings: dict, seed: int) -> Value | None:
     values = _patches(seed, patch_m, x_m[can_grow], y_m[can_grow])
     threshold = float(np.quantile(values, 1.0 - share)) if share < 1.0 else -np.inf
 
+    near_m = _BARE_MARGIN_M + 4.0 * patch_m  # where the margin is less than the patches' value can be
+
     def value(x_m, y_m) -> np.ndarray:
-        margin = (terrain.shore_m(x_m, y_m) - _BARE_MARGIN_M) / patch_m
+        margin = (terrain.shore_m(x_m, y_m, near_m) - _BARE_MARGIN_M) / patch_m
         return np.minimum(np.minimum(_patches(seed, patch_m, x_m, y_m) - threshold, margin), 1e3)
 
     return value

@@ -36,10 +36,11 @@ def build_ground(terrain: Terrain, layers: Sequence[Layer], bare: str) -> Ground
     """
     points, triangles = _grid_mesh(terrain)
     points, triangles = _with_road(terrain, points, triangles)
-    cover = np.zeros(len(triangles), np.int64)
+    cover = np.zeros(len(triangles), np.int8)
     for number, layer in enumerate(layers, start=1):
         points, triangles, cover = _laid(terrain, layer, number, points, triangles, cover)
-    return GroundMesh(points, triangles, cover, (bare, *(layer.material for layer in layers)))
+    materials = (bare, *(layer.material for layer in layers))
+    return GroundMesh(points, triangles, cover, materials)
 
 
 def _grid_mesh(terrain: Terrain) -> tuple[np.ndarray, np.ndarray]:
@@ -49,7 +50,7 @@ def _grid_mesh(terrain: Terrain) -> tuple[np.ndarray, np.ndarray]:
     x_m, y_m = np.meshgrid(axis_m, axis_m)
     heights_m = terrain.heights_m if terrain.road is None else terrain.road.cut(terrain.heights_m, x_m, y_m)
     points = np.stack([x_m, y_m, heights_m], axis=-1).reshape(-1, 3)
-    corner = np.arange(lines * lines).reshape(lines, lines)
+    corner = np.arange(lines * lines, dtype=np.int32).reshape(lines, lines)
     p00, p10, p01, p11 = (corner[:-1, :-1], corner[:-1, 1:], corner[1:, :-1], corner[1:, 1:])
     lower, upper = np.stack([p00, p10, p11], axis=-1), np.stack([p00, p11, p01], axis=-1)
     return points, np.concatenate([lower.reshape(-1, 3), upper.reshape(-1, 3)])
@@ -73,7 +74,8 @@ def _with_road(terrain: Terrain, points: np.ndarray, triangles: np.ndarray) -> t
 
 def _coarse_on_road(points: np.ndarray, triangles: np.ndarray, off_m: np.ndarray) -> np.ndarray:
     """Indices of triangles near the road that are too large; off_m (n,) is the distance of each point to the road."""
-    nearest_m = off_m[triangles].min(axis=1)
+    a, b, c = _at_corners(off_m, triangles)
+    nearest_m = np.minimum(np.minimum(a, b), c)
     about = np.flatnonzero(np.isfinite(nearest_m))
     edge_m, nearest_m = _longest_m(points, triangles[about]), nearest_m[about]
     on_road = (nearest_m < 0.5 * edge_m) & (edge_m > _ROAD_EDGE_M)
@@ -99,19 +101,26 @@ def _laid(
     points = np.concatenate([points, _crossings(points, values, edges)])
     values, cover = np.concatenate([values, np.zeros(len(edges))]), cover[parent]
     # No bare triangle has corners on both sides any more, so its highest value decides.
-    return points, triangles, np.where((cover == 0) & (values[triangles].max(axis=1) > 0), number, cover)
+    a, b, c = _at_corners(values > 0, triangles)
+    return points, triangles, np.where((cover == 0) & (a | b | c), np.int8(number), cover)
 
 
 def _is_cut(values: np.ndarray, triangles: np.ndarray, cover: np.ndarray) -> np.ndarray:
     """Which bare triangles a border runs through."""
-    inside = values[triangles] > 0
-    return (cover == 0) & inside.any(axis=1) & ~inside.all(axis=1)
+    a, b, c = _at_corners(values > 0, triangles)
+    return (cover == 0) & ((a != b) | (b != c))
 
 
 def _longest_m(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Length (m,) of each triangle's longest edge, seen from above."""
-    corners = points[triangles, :2]
-    return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    (ax, bx, cx), (ay, by, cy) = (_at_corners(along, triangles) for along in points.T[:2])
+    sides = [(ax - cx, ay - cy), (bx - ax, by - ay), (cx - bx, cy - by)]
+    return np.sqrt(np.maximum.reduce([dx**2 + dy**2 for dx, dy in sides]))
+
+
+def _at_corners(values: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, ...]:
+    """The values (n,) of points at the three corners (m,) of each triangle."""
+    return tuple(values[corner] for corner in triangles.T)
 
 
 def _on_ground(terrain: Terrain, points: np.ndarray) -> np.ndarray:

@@ -78,12 +78,16 @@ class Road:
         """Flat indices (k,) of positions within reach_m of a line, their distances, and the heights of its bed."""
         x_m, y_m = (np.asarray(v, float).ravel() for v in np.broadcast_arrays(x_m, y_m))
         near = np.flatnonzero(self._is_about(x_m, y_m))
-        places = np.column_stack([x_m[near], y_m[near]])
+        if len(near) == 0:
+            return near, np.zeros(0), np.zeros(0)
         start, along, low, high = self._segments[line]
+        places = np.column_stack([x_m[near], y_m[near]])
         i, j = pairs_within(places, start + 0.5 * along, self.reach_m + _STEP_M)
-        length2 = (along[j] ** 2).sum(axis=1)
-        share = np.clip(((places[i] - start[j]) * along[j]).sum(axis=1) / length2, 0.0, 1.0)
-        off = np.linalg.norm(places[i] - start[j] - share[:, None] * along[j], axis=1)
+        along_x, along_y = along.T[:, j]
+        from_x, from_y = (of[i] - begin[j] for of, begin in zip(places.T, start.T))
+        length2 = along_x**2 + along_y**2
+        share = np.clip((from_x * along_x + from_y * along_y) / length2, 0.0, 1.0)
+        off = np.sqrt((from_x - share * along_x) ** 2 + (from_y - share * along_y) ** 2)
         best = _least_of_each(i, off)
         best = best[off[best] < self.reach_m]
         bed_m = low[j[best]] + share[best] * (high[j[best]] - low[j[best]])
@@ -148,13 +152,18 @@ def lay_road(
 def _least_of_each(number: np.ndarray, value: np.ndarray) -> np.ndarray:
     """Positions (k,) of the smallest value, the first if several, for each distinct number, ascending."""
     order = np.argsort(number, kind="stable")
-    _, first, count = np.unique(number[order], return_index=True, return_counts=True)
-    if len(first) == 0:
+    if len(order) == 0:
         return order
+    first = _starts(number[order])
+    count = np.diff(first, append=len(order))
     ordered = value[order]
     least = np.flatnonzero(ordered == np.repeat(np.minimum.reduceat(ordered, first), count))
-    group = np.repeat(np.arange(len(first)), count)[least]
-    return order[least[np.unique(group, return_index=True)[1]]]
+    return order[least[_starts(number[order[least]])]]
+
+
+def _starts(ordered: np.ndarray) -> np.ndarray:
+    """Where each distinct number of an ascending array appears first."""
+    return np.flatnonzero(np.diff(ordered, prepend=ordered[0] - 1))
 
 
 def _tracks_m(off_m: np.ndarray) -> np.ndarray:

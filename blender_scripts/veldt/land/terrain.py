@@ -61,9 +61,9 @@ class Terrain:
         """The surface smoothed by a Gaussian of 40 m, which separates low land from high land."""
         return self._triangle_height(self.smooth_m, x_m, y_m)
 
-    def shore_m(self, x_m, y_m) -> np.ndarray:
-        """Approximate distance to the nearest shoreline, negative in the water; infinite if there is no water."""
-        return nearest_shore_m(self.waters, x_m, y_m)
+    def shore_m(self, x_m, y_m, within_m: float = np.inf) -> np.ndarray:
+        """Approximate distance to the nearest shoreline, negative in the water; infinite if there is none within_m."""
+        return nearest_shore_m(self.waters, x_m, y_m, within_m)
 
     def road_m(self, x_m, y_m) -> np.ndarray:
         """Distance (n,) to the road's border, negative on it; infinite far from it, or if there is no road."""

@@ -39,13 +39,17 @@ class Basin:
 
     def is_wet(self, x_m, y_m) -> np.ndarray:
         """shore_m < 0, without the cost of the shoreline's noise far from the water."""
+        return self.near_shore_m(x_m, y_m, 0.0) < 0
+
+    def near_shore_m(self, x_m, y_m, within_m: float) -> np.ndarray:
+        """shore_m where it may be less than within_m; infinite elsewhere, without the cost of the shoreline's noise."""
         x_m, y_m = np.broadcast_arrays(np.asarray(x_m, float), np.asarray(y_m, float))
-        wet = np.asarray(
-            np.hypot(x_m - self.centre_m[0], y_m - self.centre_m[1]) < _OUTERMOST * self.radius_m
-        )
-        if wet.any():
-            wet[wet] = self.shore_m(x_m[wet], y_m[wet]) < 0
-        return wet
+        off_m = np.hypot(x_m - self.centre_m[0], y_m - self.centre_m[1])
+        near = off_m < _OUTERMOST * self.radius_m + within_m
+        shore_m = np.full(x_m.shape, np.inf)
+        if near.any():
+            shore_m[near] = self.shore_m(x_m[near], y_m[near])
+        return shore_m
 
 
 @dataclass(frozen=True)
@@ -81,9 +85,9 @@ def surface_m(ground_m, waters: tuple[Water, ...], x_m, y_m) -> np.ndarray:
     return ground_m
 
 
-def nearest_shore_m(waters: tuple[Water, ...], x_m, y_m) -> np.ndarray:
-    """Approximate distance to the nearest shoreline, negative in the water; infinite if there is no water."""
+def nearest_shore_m(waters: tuple[Water, ...], x_m, y_m, within_m: float = np.inf) -> np.ndarray:
+    """Approximate distance to the nearest shoreline, negative in the water; infinite if there is none within_m."""
     nearest = np.full(np.broadcast(np.asarray(x_m), np.asarray(y_m)).shape, np.inf)
     for water in waters:
-        nearest = np.minimum(nearest, water.basin.shore_m(x_m, y_m))
+        nearest = np.minimum(nearest, water.basin.near_shore_m(x_m, y_m, within_m))
     return nearest

@@ -6,6 +6,7 @@ from .. import assets
 
 UNKNOWN = "#8a8078"  # default of a material: a stony grey
 SKY = "#a9c8e8"
+INK = "#101010"  # of letters and lines
 _PALETTE = (
     "#e6194b",
     "#1f5fd0",

@@ -10,14 +10,14 @@ import numpy as np
 from .. import assets
 from ..geometry.shapes import Mesh, joined
 from ..world import World
-from .colours import mixed, surface_colour
+from .colours import INK, mixed, surface_colour
 from .flat_shapes import box, polygon
 from .labels import Label
 
 AREA_TINTS = {"open": "#ffe9a0", "dense": "#0b4a20"}  # mid areas are left as they are
 AREA_OPACITY = 0.22
 LEGEND_WIDTH, MARGIN = 0.3, 0.02  # shares of the place's side, like all below
-_INK, _PAPER = "#101010", "#f4f1ea"
+_PAPER = "#f4f1ea"
 _SURFACES = ("soil", "grass", "wet_soil", "rock", "road", "water")
 _LEFT, _ROW, _LETTERS = 0.03, 0.026, 0.0145
 _FOOT = 0.12  # for the scale bar and the arrow
@@ -138,7 +138,7 @@ def _foot(side: float, left: float, letters: float) -> tuple[FlatLayer, list[Lab
         Label(f"{length:g} m", left, low + 0.022 * side, letters),
         Label("N", x - 0.35 * letters, y + 0.06 * side, letters),
     ]
-    return FlatLayer("scale and north", _INK, joined([bar, *ends, arrow, other])), words
+    return FlatLayer("scale and north", INK, joined([bar, *ends, arrow, other])), words
 
 
 def round_length_m(most_m: float) -> float:

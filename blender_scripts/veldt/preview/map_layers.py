@@ -11,12 +11,12 @@ from ..groups.actors import Actor, track
 from ..groups.routes import plan_loops
 from ..plants.density import plan_density
 from ..world import World
-from .colours import signal_colours
+from .colours import INK, signal_colours
 from .flat_shapes import band, box, disc, filled
 from .labels import Anchor, Label, place_labels
 from .legend import AREA_OPACITY, AREA_TINTS, LEGEND_WIDTH, MARGIN, FlatLayer, plan_legend
 
-INK, PAPER, PATH_PAPER, UNUSED = "#101010", "#ffffff", "#fff3c4", "#5a5a5a"
+PAPER, PATH_PAPER, UNUSED = "#ffffff", "#fff3c4", "#5a5a5a"
 _TINT_CELLS = 800
 # Shares of the place's side:
 _PATH_WIDTH, _CASING, _BORDER = 0.0022, 0.0042, 0.0014

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import assets
-from ..camera import centred, look
+from ..camera import look
 from ..groups.actors import Actor, track
 from ..world import World
+from .views import INTRINSICS
 
-INTRINSICS = centred(960, 540, 480 / np.tan(np.radians(25.0)))  # 50 deg wide
 _CLOSE_VIEWS = 4
 _OVERVIEW_M = 122.0
 _EYE_M = 1.7

@@ -24,7 +24,7 @@ std::vector<RenderJob::Task> idle_tasks(const TemporaryFolder& folder, const Han
   for (const auto& hand : hands)
     tasks.push_back({.blender = program,
                      .home = folder.path(),
-                     .config = {},
+                     .plan = {},
                      .passes = folder.path(),
                      .log = folder / (hand.front() + ".log"),
                      .clips = hand,

@@ -216,7 +216,7 @@ TEST_CASE("The clips of flights follow a config's own") {
   clip["id"] = "long_0000";
   clip["of_flight"] = "long";
   clip["frames"] = 7;
-  const Config cut = with_flights_cut(config, Json::array({clip}));
+  const Config cut = with_clips(config, Json::array({clip}));
   REQUIRE(cut.clips.size() == 3);
   CHECK(cut.clips[2].id == "long_0000");
   CHECK(cut.clips[2].frames == 7);

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/printable.h"
-#include "dataset/plan.h"
+#include "dataset/plan/planning.h"
 #include "io/base64.h"
 #include "io/child_process.h"
 #include "io/jpeg.h"

@@ -1,0 +1,59 @@
+#include <memory>
+
+#include "base/error.h"
+#include "cli/command.h"
+#include "cli/output.h"
+#include "cli/plan_table.h"
+#include "cli/planning.h"
+#include "io/resources.h"
+
+namespace veldt {
+namespace {
+
+struct PlanArguments {
+  std::string config;
+  std::string out;
+  std::string blender;
+  std::vector<std::string> settings;
+};
+
+/// Only a plan may be replaced.
+void check_out(const thermal::Path& out) {
+  const bool is_taken = std::filesystem::exists(out) &&
+                        (!std::filesystem::is_directory(out) || !std::filesystem::is_empty(out));
+  if (!is_taken || std::filesystem::exists(out / "plan.json")) return;
+  throw thermal::ConfigError(thermal::fault("--out", out.string(), "", "an empty folder, or a plan"));
+}
+
+int run_plan(const PlanArguments& options, const CommonOptions& common) {
+  const thermal::Path home = thermal::find_home();
+  const thermal::Config given = load_config(options.config, options.settings, home);
+  // Without the slash that a shell may add: the plan is made beside the folder.
+  const thermal::Path out = std::filesystem::absolute(options.out + "/").lexically_normal().parent_path();
+  check_out(options.out);
+  const thermal::DatasetPlan plan = plan_with_progress(common, home, [&](thermal::PlanOptions planning) {
+    if (!options.blender.empty()) planning.blender = find_blender(options.blender);
+    return thermal::plan_into(out, given, options.config, planning);
+  });
+  const thermal::Config config = thermal::with_flights_cut(given, plan);
+  if (!common.quiet) print_plan(config, plan, config.clips);
+  return kDone;
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, Session& session) {
+  CLI::App* command =
+      add_command(app, session, "plan", "Plan a dataset and bake its scene, without a renderer");
+  auto options = std::make_shared<PlanArguments>();
+  command->add_option("config", options->config, "Config of a dataset, JSON")->required();
+  command->add_option("--out", options->out, "Folder of the plan")->required();
+  command->add_option("--blender", options->blender, "Blender that reads 3D models, if not the one on PATH")
+      ->type_name("PATH");
+  add_settings(command, options->settings);
+  command->callback([options, &session] {
+    session.run = [options, &session] { return run_plan(*options, session.common); };
+  });
+}
+
+}  // namespace veldt

@@ -1,0 +1,13 @@
+"""Plans with their baked scenes, for the tests."""
+
+from pathlib import Path
+
+from veldt.bake.folder import bake_plan
+from veldt.model_meshes import ModelMeshes
+
+
+def bake(config: dict, folder: Path) -> Path:
+    """Bake the plan of a resolved config into a new folder, which is returned."""
+    folder.mkdir()
+    bake_plan(config, folder, ModelMeshes(folder / "models", None, ""))
+    return folder

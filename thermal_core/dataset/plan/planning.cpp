@@ -1,0 +1,146 @@
+#include "dataset/plan/planning.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/printable.h"
+#include "io/child_process.h"
+#include "io/output_folder.h"
+#include "io/resources.h"
+#include "io/sha256.h"
+
+namespace thermal {
+namespace {
+
+[[noreturn]] void throw_faults(const std::string& text, const std::string& name) {
+  std::string message;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty()) continue;
+    message += (message.empty() ? "" : "\n") + name + ": " + line;
+  }
+  throw ConfigError(message);
+}
+
+/// Passes on an event of the script; a line that is none would be its fault, not the user's.
+void show_event(const std::string& line, const PlanOptions& options) {
+  const Json event = Json::parse(line, nullptr, false);
+  if (options.show && event.is_object() && event.value("event", "") == "planned")
+    options.show(
+        {.clip = event.value("id", ""), .done = event.value("done", 0), .total = event.value("total", 0)});
+}
+
+/// Runs the script with additional arguments, and returns what it prints.
+std::string run_planning(const Config& config, const std::string& name, const PlanOptions& options,
+                         const std::vector<std::string>& arguments) {
+  const Path python = find_python();
+  if (python.empty()) throw IoError("no python3 on PATH; install it (apt-get install python3-numpy)");
+  const Path script = options.home / "blender_scripts" / "plan_scene.py";
+  std::vector<std::string> command = {python.string(),
+                                      "-I",
+                                      "-B",
+                                      script.string(),
+                                      "--config",
+                                      "-",
+                                      "--processes",
+                                      std::to_string(thread_count(options.threads)),
+                                      "--events-fd",
+                                      std::to_string(ChildProcess::kEventDescriptor)};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const Output output = run_program(command, to_text(planned_part(config)),
+                                    [&options](const std::string& line) { show_event(line, options); });
+  constexpr int kConfigFault = 2;
+  constexpr int kDiskFull = 75;
+  if (output.status.signal == 0 && output.status.code == kConfigFault) throw_faults(output.error, name);
+  if (output.status.signal != 0 || output.status.code != 0) {
+    const std::string why = printable(output.last_words());
+    const std::string message = fmt::format("{} {} {}{}", python.string(), script.filename().string(),
+                                            output.status.in_words(), why.empty() ? "" : ": " + why);
+    if (output.status.code == kDiskFull) throw TryAgainError(message);
+    throw IoError(message);
+  }
+  return output.out;
+}
+
+Path part_of(const Path& folder) {
+  Path part = folder;
+  return part += ".part";
+}
+
+/// The plan in a folder, if there is a complete one of this version.
+std::optional<DatasetPlan> plan_in(const Path& folder, const Path& home) {
+  const Path file = folder / "plan.json";
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  try {
+    return plan_of(read_json(file), file.string(), home);
+  } catch (const Error&) {  // of another version, or damaged: it is made again
+    return std::nullopt;
+  }
+}
+
+bool is_unchanged(const std::string& file, const std::string& sha256, const Path& home) {
+  try {
+    return sha256_of_file(home / file) == sha256;  // an absolute path replaces `home`
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+bool is_made_from(const DatasetPlan& plan, const Config& config, const Path& home) {
+  return plan.config == planned_part(config) && std::ranges::all_of(plan.files, [&home](const auto& file) {
+           return is_unchanged(file.first, file.second, home);
+         });
+}
+
+std::vector<std::string> baking_arguments(const Path& part, const Path& earlier, const PlanOptions& options) {
+  std::vector<std::string> arguments = {"--out", part.string(), "--earlier", earlier.string()};
+  if (!options.blender.empty()) arguments.insert(arguments.end(), {"--blender", options.blender.string()});
+  if (options.preview) arguments.emplace_back("--preview");
+  return arguments;
+}
+
+}  // namespace
+
+Path find_python() {
+  if (const char* named = std::getenv("VELDT_PYTHON"); named != nullptr && *named != '\0')
+    return find_program(named);
+  const Path system = find_program("/usr/bin/python3");
+  return system.empty() ? find_program("python3") : system;
+}
+
+DatasetPlan plan_dataset(const Config& config, const std::string& name, const PlanOptions& options) {
+  constexpr const char* kScript = "plan_scene.py";
+  return plan_of(parse_json(run_planning(config, name, options, {}), kScript), kScript, options.home);
+}
+
+bool is_current(const Path& folder, const Config& config, const PlanOptions& options) {
+  const auto plan = plan_in(folder, options.home);
+  const bool has_pictures = !options.preview || std::filesystem::exists(folder / "preview");
+  return plan && has_pictures && is_made_from(*plan, config, options.home);
+}
+
+DatasetPlan plan_into(const Path& folder, const Config& config, const std::string& name,
+                      const PlanOptions& options,
+                      const std::function<void(const DatasetPlan&)>& may_replace) {
+  if (is_current(folder, config, options)) return *plan_in(folder, options.home);
+  const Path part = part_of(folder);
+  make_fresh_folder(part);
+  try {
+    (void)run_planning(config, name, options, baking_arguments(part, folder, options));
+    DatasetPlan plan = plan_of(read_json(part / "plan.json"), (part / "plan.json").string(), options.home);
+    if (may_replace) may_replace(plan);
+    replace_folder(part, folder);
+    return plan;
+  } catch (...) {
+    sweep_folder(part);
+    throw;
+  }
+}
+
+}  // namespace thermal

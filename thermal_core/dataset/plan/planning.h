@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "dataset/plan/plan.h"
+#include "dataset/progress.h"
+
+namespace thermal {
+
+/// How a plan is made.
+struct PlanOptions {
+  Path home;
+  /// Work done at once, in processes; 0: one per core. The plan does not depend on it.
+  int threads = 0;
+  Path blender = {};  ///< reads models of other programs; empty: there is none
+  /// Called for each planned clip or flight; `clip` is its id.
+  std::function<void(const Progress&)> show = {};
+  /// Also bakes what a preview needs.
+  bool preview = false;
+};
+
+/// Plans a dataset by running blender_scripts/plan_scene.py, which does not need Blender: checks the meaning of a config
+/// (paths, species, targets, the camera above ground), cuts its flights and plans its clips. Writes nothing.
+/// ConfigError, starting with `name`, for an invalid config; IoError if Python or NumPy is missing.
+[[nodiscard]] DatasetPlan plan_dataset(const Config& config, const std::string& name,
+                                       const PlanOptions& options);
+
+/// The same with the baked scene and the tracks of all clips, in `folder`. A plan that is already there is used again if
+/// nothing that it depends on has changed; otherwise `may_replace` is called with the new one, and it takes the old
+/// one's place in one step unless that throws. Not for two runs at once.
+[[nodiscard]] DatasetPlan plan_into(const Path& folder, const Config& config, const std::string& name,
+                                    const PlanOptions& options,
+                                    const std::function<void(const DatasetPlan&)>& may_replace = {});
+
+/// Whether the plan in `folder` is complete, and made from this config by this version of the scripts.
+[[nodiscard]] bool is_current(const Path& folder, const Config& config, const PlanOptions& options);
+
+/// The Python that runs the planning: $VELDT_PYTHON, /usr/bin/python3, or python3 on $PATH; empty if there is none.
+[[nodiscard]] Path find_python();
+
+}  // namespace thermal
