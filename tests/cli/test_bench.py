@@ -193,29 +193,49 @@ with open(int(options["--events-fd"]), "w") as events:
     if Path(__file__).with_name("fails").exists():
         report(event="error", kind="internal", message="ValueError: out of trees", where="blender_scripts/a.py:7")
         sys.exit(1)
-    config = json.loads(Path(options["--config"]).read_text())
+    plan = json.loads((Path(options["--plan"]) / "plan.json").read_text())
     if options["--python"].endswith("profile_render.py"):
-        size = config["render"]["supersample"]
+        size = int(options["--supersample"])
         split_s = {{"pose": 0.001, "scene": 0.02, "sync_and_trees": 0.03, "trace": 0.125 * size, "write": 0.0625}}
         report(event="profile", clip="one", pixels=24 * size**2, objects=7, frames=7, split_s=split_s, frame_s=0.25)
         sys.exit(0)
-    assert config["render"] == {{"actor_layer": True}}
+    assert "--actor-layer" in sys.argv
     folder = Path(options["--out"]) / options["--clip"]
     folder.mkdir(parents=True)
     channels = ("IndexOB.X", "IndexMA.X", "Depth.Z", "Normal.X", "Normal.Y", "Normal.Z")
     planes = {{f"Scene.{{name}}": numpy.ones((4, 6)) for name in channels}}
     planes["Actors.IndexOB.X"] = numpy.ones((4, 6))
     planes["Scene.Depth.Z"][0, :2] += options["--threads"] == "1"
-    for frame in range(config["clips"][0]["frames"]):
+    for frame in range(plan["clips"][0]["frames"]):
         write_exr(folder / f"{{frame:06d}}.exr", planes)
         report(event="frame", clip=options["--clip"], index=frame)
 """
 
 
+# Stands in for Python: writes the least that is a plan, without its scene.
+FAKE_PLANNER = f"""#!{sys.executable} -B
+import json, sys
+from pathlib import Path
+
+config = json.load(sys.stdin)
+known = {{"duration_s": 1, "frames_with_actors": 0, "min_agl_m": 1, "max_agl_m": 1, "mean_agl_m": 1}}
+clips = [
+    {{"id": clip["id"], "of_flight": "", "start_s": 0, "frames": clip["frames"], "frame_rate_hz": 9, **known}}
+    | {{"mean_look_angle_deg": 90}}
+    for clip in config["clips"]
+]
+plan = {{"format": "veldt-plan", "version": 1, "config": config, "files": {{}}, "clips": clips, "actors": 0}}
+plan |= {{"plants": 0, "outline": {{"covers": {{}}, "actors": []}}}}
+(Path(sys.argv[sys.argv.index("--out") + 1]) / "plan.json").write_text(json.dumps(plan))
+"""
+
+
 @pytest.fixture(name="fake")
-def _fake(veldt) -> Path:
-    file = veldt.write("fake_blender", FAKE)
-    file.chmod(0o755)
+def _fake(veldt, monkeypatch) -> Path:
+    planner, file = veldt.write("fake_python", FAKE_PLANNER), veldt.write("fake_blender", FAKE)
+    for program in (planner, file):
+        program.chmod(0o755)
+    monkeypatch.setenv("VELDT_PYTHON", str(planner))
     return file
 
 
@@ -225,8 +245,10 @@ def test_rendering_is_reported_by_scene_step_and_processes(veldt, fake):
     assert done.err == "".join(
         f"measuring {what}\n"
         for what in (
+            "demo, planning",
             "demo, 1x1 rays per pixel",
             "demo, 2x2 rays per pixel",
+            "savanna, planning",
             "savanna, 1x1 rays per pixel",
             "savanna, 2x2 rays per pixel",
             "demo with actor layers, one process of two threads",

@@ -1,6 +1,7 @@
 """`render --preview` with a real Blender: a map that matches the plan, and stills."""
 
 import re
+import shutil
 
 import numpy as np
 import pytest
@@ -74,7 +75,7 @@ def _pixels(sheet: MapSheet, picture: np.ndarray, points_m) -> tuple[np.ndarray,
 
 def test_only_pictures_of_earlier_previews_are_removed(made):
     there = sorted(file.name for file in (made.folder / "out" / "preview").iterdir())
-    assert there == sorted([*PICTURES, "blender.log", "config.json", "notes.txt"])
+    assert there == sorted([*PICTURES, "blender.log", "config.json", "notes.txt", "plan"])
 
 
 def test_map_has_the_sheets_shape(made, sheet):
@@ -156,7 +157,8 @@ def test_a_place_with_an_empty_path_has_a_map_and_an_overview(made, blender):
 
 
 def test_a_disk_that_fills_up_leaves_no_broken_picture(made, blender):
-    """Files are cut at 64 KiB (128 blocks), as on a full disk; a picture is more."""
+    """Files are cut at 64 KiB (128 blocks), as on a full disk; a picture is more. The plan is there already."""
+    shutil.copytree(made.folder / "out" / "preview" / "plan", made.folder / "cut" / "preview" / "plan")
     cut = ["sh", "-c", 'trap "" XFSZ; ulimit -f 128; exec "$@"', "sh"]
     done = made(
         "render", "config.json", "--out", "cut", "--preview", "--blender", blender, "--quiet", under=cut

@@ -10,15 +10,6 @@
 namespace thermal {
 namespace {
 
-CameraIntrinsics read_camera(const Json& json) {
-  return {.width_px = json["width_px"],
-          .height_px = json["height_px"],
-          .fx_px = json["fx_px"],
-          .fy_px = json["fy_px"],
-          .cx_px = json["cx_px"],
-          .cy_px = json["cy_px"]};
-}
-
 PassChannels read_channels(const Json& json) {
   return {.object_index = json["object_index"],
           .material_index = json["material_index"],
@@ -30,26 +21,6 @@ ObjectClass read_class(const std::string& name) {
   if (name == "actor") return ObjectClass::actor;
   if (name == "plant") return ObjectClass::plant;
   return name == "water" ? ObjectClass::water : ObjectClass::ground;
-}
-
-ManifestObject read_object(const Json& json) {
-  ManifestObject object;
-  object.index = json["index"];
-  object.name = json["name"];
-  object.object_class = read_class(json["class"]);
-  object.material = json["material"];
-  object.category = json.value("category", "");
-  object.species = json.value("species", "");
-  object.track_id = json.value("track_id", 0);
-  if (json.contains("colour")) object.colour = json["colour"].get<Colour>();
-  if (json.contains("mattes")) object.mattes = json["mattes"].get<std::vector<std::string>>();
-  if (json.contains("bounds_m"))
-    object.bounds_m = json["bounds_m"].get<std::array<ManifestObject::Corner, 2>>();
-  return object;
-}
-
-ManifestMaterial read_material(const Json& json) {
-  return {.index = json["index"], .material = json["material"], .part = json.value("part", "")};
 }
 
 ActorPose read_pose(const Json& json) {
@@ -85,14 +56,43 @@ Manifest read_document(const Json& json) {
   manifest.sequence = json["sequence"];
   manifest.supersample = json["supersample"];
   manifest.overscan_px = json["overscan_px"];
-  manifest.camera = read_camera(json["camera"]);
-  for (const Json& object : json["objects"]) manifest.objects.push_back(read_object(object));
-  for (const Json& material : json["materials"]) manifest.materials.push_back(read_material(material));
+  manifest.camera = intrinsics_of(json["camera"]);
+  for (const Json& object : json["objects"]) manifest.objects.push_back(manifest_object_of(object));
+  for (const Json& material : json["materials"]) manifest.materials.push_back(manifest_material_of(material));
   for (const Json& frame : json["frames"]) manifest.frames.push_back(read_frame(frame));
   return manifest;
 }
 
 }  // namespace
+
+CameraIntrinsics intrinsics_of(const Json& json) {
+  return {.width_px = json.at("width_px"),
+          .height_px = json.at("height_px"),
+          .fx_px = json.at("fx_px"),
+          .fy_px = json.at("fy_px"),
+          .cx_px = json.at("cx_px"),
+          .cy_px = json.at("cy_px")};
+}
+
+ManifestObject manifest_object_of(const Json& json) {
+  ManifestObject object;
+  object.index = json.at("index");
+  object.name = json.at("name");
+  object.object_class = read_class(json.at("class"));
+  object.material = json.at("material");
+  object.category = json.value("category", "");
+  object.species = json.value("species", "");
+  object.track_id = json.value("track_id", 0);
+  if (json.contains("colour")) object.colour = json["colour"].get<Colour>();
+  if (json.contains("mattes")) object.mattes = json["mattes"].get<std::vector<std::string>>();
+  if (json.contains("bounds_m"))
+    object.bounds_m = json["bounds_m"].get<std::array<ManifestObject::Corner, 2>>();
+  return object;
+}
+
+ManifestMaterial manifest_material_of(const Json& json) {
+  return {.index = json.at("index"), .material = json.at("material"), .part = json.value("part", "")};
+}
 
 Manifest read_manifest(const Path& file, const Path& home) {
   const Json schema = read_json(home / "configs" / "schema" / "manifest.schema.json");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/files.h"
+#include "io/json_file.h"
 #include "scene/manifest.h"
 
 namespace thermal {
@@ -8,5 +9,10 @@ namespace thermal {
 /// Reads and checks a manifest.json (configs/schema/manifest.schema.json). DataError with one line per fault, each
 /// starting with the file's name; IoError if it cannot be read.
 [[nodiscard]] Manifest read_manifest(const Path& file, const Path& home);
+
+/// Entries of a manifest, or of a baked scene, that conform to its schema.
+[[nodiscard]] CameraIntrinsics intrinsics_of(const Json& json);
+[[nodiscard]] ManifestObject manifest_object_of(const Json& json);
+[[nodiscard]] ManifestMaterial manifest_material_of(const Json& json);
 
 }  // namespace thermal

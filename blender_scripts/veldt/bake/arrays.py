@@ -7,6 +7,7 @@ and offsets in `arrays`, the size of the binary file in `bytes`, and whatever el
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -77,7 +78,7 @@ def _array(path: Path, name: str, entry: dict, data: np.ndarray) -> np.ndarray:
         raise BadBake(f'{where}.type = "{entry["type"]}"; expected one of {", ".join(TYPES)}')
     kind = np.dtype(entry["type"])
     shape, offset = entry["shape"], entry["offset"]
-    size = int(np.prod(shape, dtype=np.int64)) * kind.itemsize
+    size = math.prod(shape) * kind.itemsize
     if offset % _ALIGNMENT_BYTES or offset < 0 or min(shape, default=0) < 0 or offset + size > len(data):
         raise BadBake(
             f"{where}.offset = {offset} with {size} bytes; expected a multiple of {_ALIGNMENT_BYTES}"

@@ -105,6 +105,9 @@ def read_scene(path: Path) -> BakedScene:
     known = {entry["index"] for entry in header["materials"]}
     for mesh in header["meshes"]:
         check_finite(path, mesh["points_m"], arrays[mesh["points_m"]])
+        _check_below(
+            path, mesh["triangles"], arrays[mesh["triangles"]], len(arrays[mesh["points_m"]]), "points"
+        )
         unnamed = set(np.unique(arrays[mesh["material_index"]]).tolist()) - known
         if unnamed:
             raise BadBake(
@@ -115,8 +118,10 @@ def read_scene(path: Path) -> BakedScene:
         for k, entry in enumerate(header[kind]):
             if entry["object"] not in objects:
                 raise BadBake(f"{path}: {kind}[{k}].object = {entry['object']}; expected an index of objects")
+    meshes = len(header["meshes"])
     for plants in header["plants"]:
         check_finite(path, plants["transform"], arrays[plants["transform"]])
+        _check_below(path, plants["mesh"], arrays[plants["mesh"]], meshes, "meshes")
     return BakedScene(header, arrays)
 
 
@@ -140,6 +145,12 @@ def read_track(path: Path, scene: BakedScene) -> BakedTrack:
         all_bones=arrays.pop("bones"),
         **arrays,
     )
+
+
+def _check_below(path: Path, name: str, numbers: np.ndarray, count: int, what: str) -> None:
+    most = int(numbers.max(initial=0))
+    if len(numbers) and most >= count:
+        raise BadBake(f"{path}.json: {name} = {most}; expected one of the {count} {what}")
 
 
 def _track_shapes(actors: int, frames: int, bones: int) -> dict[str, tuple[int, ...]]:

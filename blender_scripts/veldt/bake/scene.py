@@ -156,7 +156,7 @@ def _transforms(planting: Planting) -> np.ndarray:
 def _actor(
     actor: Actor, bodies: dict[tuple[str, str], list[dict]], model_mesh: ModelMesh, meshes: _Meshes
 ) -> dict:
-    """An actor with its box and its bones that have a mesh; actors of one variant share their meshes."""
+    """An actor and its bones that have a mesh; actors of one variant share their meshes."""
     kind = actor.species, actor.variant
     if kind not in bodies:
         bodies[kind] = _body(actor, model_mesh, meshes)
@@ -164,7 +164,6 @@ def _actor(
         "object": actor.index,
         "name": actor.name,
         "group": actor.group,
-        "bounds_m": actor.bounds_m.tolist(),
         "bones": bodies[kind],
     }
 

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "io/files.h"
+#include "io/json_file.h"
+
+namespace thermal {
+
+/// Flat little-endian arrays in NAME.bin, described by NAME.json beside it.
+class ArrayFile {
+ public:
+  /// Reads both. `schema` is that of the JSON. DataError with the file's name if it does not conform to the schema, or
+  /// if an array lies outside the binary file; IoError if one cannot be read.
+  ArrayFile(const Path& json, const Json& schema);
+
+  [[nodiscard]] const Json& header() const { return header_; }
+
+  /// An array of `count` elements of a type that the description gives as `type` and `shape`, such as "<f4" and [n, 3].
+  /// DataError if it is described otherwise. In the shape, kAny stands for the length to be found out.
+  template <typename Element>
+  [[nodiscard]] std::span<const Element> array(const std::string& name, std::string_view type,
+                                               const std::vector<std::size_t>& shape) const {
+    const std::span<const std::byte> bytes = bytes_of(name, type, shape, sizeof(Element));
+    return {reinterpret_cast<const Element*>(bytes.data()), bytes.size() / sizeof(Element)};
+  }
+  static constexpr std::size_t kAny = ~std::size_t{0};
+
+  /// DataError if a value of an array is NaN or infinite.
+  void check_finite(const std::string& name, std::span<const float> values) const;
+  void check_finite(const std::string& name, std::span<const double> values) const;
+
+  /// A fault of the file, to be thrown: "FILE: <fault>".
+  [[nodiscard]] DataError fault_at(const std::string& where, const std::string& value,
+                                   const std::string& rule) const;
+
+  /// The bytes that all arrays refer to, which move on with the caller.
+  [[nodiscard]] std::vector<std::byte> take_data() { return std::move(data_); }
+
+ private:
+  [[nodiscard]] std::span<const std::byte> bytes_of(const std::string& name, std::string_view type,
+                                                    const std::vector<std::size_t>& shape,
+                                                    std::size_t element_bytes) const;
+
+  Path file_;
+  Json header_;
+  std::vector<std::byte> data_;
+};
+
+}  // namespace thermal

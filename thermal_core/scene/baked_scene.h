@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/manifest.h"
+
+namespace thermal {
+
+/// Row-major 3 x 4: the first three columns rotate and scale, the last one moves; in m.
+template <typename Number>
+using Transform = std::array<Number, 12>;
+
+struct BakedMesh {
+  std::string name;
+  bool smooth = false;                                      ///< normals are interpolated between vertices
+  std::span<const std::array<float, 3>> points_m;           ///< single precision, as Blender keeps them
+  std::span<const std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise from outside
+  std::span<const std::uint16_t> material_index;            ///< of each triangle
+};
+
+/// A mesh in its place: the ground, a water surface.
+struct BakedSurface {
+  std::uint16_t object = 0;
+  std::size_t mesh = 0;
+};
+
+/// The plants of one species. Every transform turns about z and scales evenly.
+struct BakedPlants {
+  std::string name;
+  std::uint16_t object = 0;
+  std::span<const Transform<double>> transform;
+  std::span<const std::uint32_t> mesh;
+};
+
+struct BakedBone {
+  std::string name;
+  std::size_t mesh = 0;
+};
+
+struct BakedActor {
+  std::uint16_t object = 0;
+  std::string name;
+  std::string group;
+  std::vector<BakedBone> bones;  ///< those with a mesh
+};
+
+/// Maps of the ground [row of y, column of x], from south and west, of cells x cells squares.
+struct BakedGround {
+  double size_m = 0;
+  std::size_t cells = 0;
+  std::vector<std::string> covers;  ///< materials
+  std::span<const float> height_m;  ///< (cells + 1)^2, where grid lines cross
+  std::span<const float>
+      shore_m;  ///< (cells + 1)^2, to the nearest shoreline, negative in water; empty: no water
+  std::span<const std::uint8_t> cover;   ///< covers x cells^2: share of each cell, of which 255 is all
+  std::span<const std::uint8_t> canopy;  ///< cells^2: share of each cell below crowns
+};
+
+/// A place with everything on it, as every engine draws it (configs/schema/scene.schema.json).
+struct BakedScene {
+  std::string name;
+  std::uint32_t seed = 0;
+  CameraIntrinsics camera;
+  int overscan_px = 0;
+  std::vector<ManifestObject> objects;
+  std::vector<ManifestMaterial> materials;
+  std::vector<BakedMesh> meshes;
+  std::vector<BakedSurface> surfaces;
+  std::vector<BakedPlants> plants;
+  std::vector<BakedActor> actors;
+  BakedGround ground;
+  std::vector<std::byte> data;  ///< what the spans refer to
+};
+
+/// A clip's camera and actors, frame by frame (configs/schema/track.schema.json).
+struct BakedTrack {
+  std::string clip;
+  std::size_t frames = 0;
+  std::span<const double> time_s;
+  std::span<const std::array<double, 16>> camera_to_world;  ///< row-major 4 x 4, OpenCV camera axes
+  std::span<const double> agl_m;
+  std::span<const double> look_angle_deg;
+  std::span<const std::array<double, 3>> actor_position_m;  ///< [actor, frame], on the ground
+  std::span<const double> actor_heading_rad;                ///< [actor, frame]
+  std::span<const std::uint8_t> posed;      ///< [actor, frame]: whether it may be in the picture
+  std::span<const Transform<float>> bones;  ///< of posed actors: actor by actor, frame by frame, bone by bone
+  std::vector<std::byte> data;              ///< what the spans refer to
+};
+
+}  // namespace thermal
