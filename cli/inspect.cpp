@@ -54,7 +54,7 @@ Inspection inspect(const InspectArguments& options, const CommonOptions& common)
 
 void write_starter(const Inspection& inspection, const InspectArguments& options) {
   const thermal::StarterManifest starter =
-      thermal::starter_manifest(inspection, thermal::KnownThings(thermal::find_home()));
+      thermal::starter_manifest(inspection, thermal::NameGuesser(thermal::find_home()));
   thermal::write_file_atomically(options.starter, thermal::to_text(starter.document));
   if (!options.json) print(starter, inspection, options.starter);
 }

@@ -13,7 +13,7 @@ from .groups.actors import Actor, measure
 from .groups.cast import plan_cast
 from .groups.group_checks import check_groups
 from .groups.routes import plan_loops
-from .groups.venues import Land
+from .groups.site_rules import Land
 from .land.covers import SOIL, Layer, plan_covers
 from .land.ground_maps import Ground, lay_ground
 from .land.road_plan import plan_road

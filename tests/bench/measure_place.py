@@ -1,8 +1,9 @@
-"""Measure how long Blender takes to build and render a config's place, with and without its plants.
+"""Measure how long it takes to plan a config's place, and Blender to build and render it, with and without its plants.
 
     python3 tests/bench/measure_place.py [configs/savanna.json] [--frames 12]
 
-Prints the seconds to build, the seconds per frame (without the first of each clip, which builds BVHs) and peak memory.
+Prints the seconds to plan, to build and to the first frame, the seconds per frame (without the first of each clip,
+which builds BVHs), and peak memory. The plan is made by the built program.
 """
 
 from __future__ import annotations
@@ -19,29 +20,37 @@ from collections.abc import Iterator
 from pathlib import Path
 
 _ROOT = Path(__file__).resolve().parents[2]
+_VELDT = _ROOT / "build" / "release" / "bin" / "veldt"
 
 
 def measure(config: dict, folder: Path) -> dict:
-    """Build seconds, seconds of each frame of each clip, and the peak memory in MiB of any Blender so far."""
+    """Seconds to plan, to build and to the first frame, seconds of each frame of each clip, and the peak memory in MiB
+    of any program so far."""
     (folder / "config.json").write_text(json.dumps(config), encoding="utf-8")
-    built_s, clips, last_s = 0.0, [], 0.0
-    for event, at_s in _events(folder):
+    started_s = time.monotonic()
+    subprocess.run([_VELDT, "plan", folder / "config.json", "--out", folder / "plan", "--quiet"], check=True)
+    begun_s = time.monotonic()
+    built_s, first_s, clips, last_s = 0.0, 0.0, [], 0.0
+    for event, at_s in _events(folder, [clip["id"] for clip in config["clips"]]):
         if event["event"] == "scene_built":
             built_s = event["seconds"]
         elif event["event"] == "clip":
             clips.append([])
         elif event["event"] == "frame":
             clips[-1].append(at_s - last_s)
+            first_s = first_s or at_s - begun_s
         last_s = at_s
     peak_mib = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-    return {"built_s": built_s, "clips_s": clips, "peak_mib": peak_mib}
+    seconds = {"planned_s": begun_s - started_s, "built_s": built_s, "first_s": first_s}
+    return {**seconds, "clips_s": clips, "peak_mib": peak_mib}
 
 
-def _events(folder: Path) -> Iterator[tuple[dict, float]]:
-    """The events of Blender while it renders folder/config.json, with their times."""
+def _events(folder: Path, clips: list[str]) -> Iterator[tuple[dict, float]]:
+    """The events of Blender while it renders the plan in folder/plan, with their times."""
     command = ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "-t", "2"]
     command += ["--python", str(_ROOT / "blender_scripts" / "render_passes.py"), "--"]
-    command += ["--config", str(folder / "config.json"), "--out", str(folder / "passes"), "--events-fd", "1"]
+    command += ["--plan", str(folder / "plan"), "--out", str(folder / "passes"), "--events-fd", "1"]
+    command += ["--clip", *clips]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as blender:
         for line in blender.stdout:
             if line.startswith('{"event"'):
@@ -53,7 +62,9 @@ def _events(folder: Path) -> Iterator[tuple[dict, float]]:
 def _in_words(measured: dict) -> str:
     frames_s = [frame_s for clip in measured["clips_s"] for frame_s in clip[1:]]
     return (
-        f"{measured['built_s']:.1f} s to build; {statistics.mean(frames_s):.2f} s a frame, {min(frames_s):.2f} to"
+        f"{measured['planned_s']:.1f} s to plan, {measured['built_s']:.1f} to build,"
+        f" {measured['first_s']:.1f} to the first frame; {statistics.mean(frames_s):.2f} s a frame,"
+        f" {min(frames_s):.2f} to"
         f" {max(frames_s):.2f}; {measured['peak_mib']:.0f} MiB at most"
     )
 

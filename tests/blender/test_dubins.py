@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from veldt.flight.dubins import shortest
-from veldt.flight.pieces import Arc, Straight
+from veldt.flight.path_segments import Arc, Straight
 
 ORIGIN = (0.0, 0.0)
 SIDES = [(1, 1), (-1, -1), (1, -1), (-1, 1)]

@@ -12,9 +12,9 @@
 #include "dataset/outline.h"
 #include "dataset/passes_room.h"
 #include "dataset/physics.h"
-#include "dataset/render_crew.h"
 #include "dataset/room_watch.h"
-#include "dataset/run_board.h"
+#include "dataset/run_monitor.h"
+#include "dataset/worker_pool.h"
 #include "io/manifest_file.h"
 #include "io/material_files.h"
 
@@ -43,9 +43,9 @@ class Generator {
       if (pending_.empty()) end();
     });
     if (pending_.empty()) return outcome_of({});
-    RunBoard board(hooks_, options_.out, frames_of(pending_));
+    RunMonitor monitor(hooks_, options_.out, frames_of(pending_));
     try {
-      make_pending(board);
+      make_pending(monitor);
     } catch (...) {
       end_after_fault();
       throw;
@@ -55,7 +55,7 @@ class Generator {
       index_.recorded = false;
       end();
     });
-    return outcome_of(board.outcome());
+    return outcome_of(monitor.outcome());
   }
 
  private:
@@ -73,33 +73,33 @@ class Generator {
     begin_passes(layout_, config_, ids_of(pending_));
   }
 
-  void make_pending(RunBoard& board) {
-    const ClipWork work = [this, &board](const std::string& id, RenderJob& job, const Stop& stop_wanted) {
-      try_make(config_.clip(id, "clips"), job, stop_wanted, board);
+  void make_pending(RunMonitor& monitor) {
+    const ClipWork work = [this, &monitor](const std::string& id, RenderJob& job, const Stop& stop_wanted) {
+      try_make(config_.clip(id, "clips"), job, stop_wanted, monitor);
     };
-    run_crew(passes_tasks(config_, options_, ids_of(pending_), board), work,
-             [&board] { return board.stop_wanted(); });
+    run_workers(passes_tasks(config_, options_, ids_of(pending_), monitor), work,
+                [&monitor] { return monitor.stop_wanted(); });
   }
 
-  void try_make(const ClipConfig& clip, RenderJob& job, const Stop& stop_wanted, RunBoard& board) {
+  void try_make(const ClipConfig& clip, RenderJob& job, const Stop& stop_wanted, RunMonitor& monitor) {
     try {
-      const ClipRecord record = make(clip, job, stop_wanted, board);
+      const ClipRecord record = make(clip, job, stop_wanted, monitor);
       if (!options_.keep_passes) std::filesystem::remove_all(layout_.passes(clip.id));
       change_index([&] { index_.add(clip.id, record); });
-      board.made(clip);
+      monitor.made(clip);
     } catch (const ClipLost& fault) {
-      lose(clip, fault.what(), fault.killed(), board);
+      lose(clip, fault.what(), fault.killed(), monitor);
     } catch (const DataError& fault) {
-      reject(clip, fault.what(), board);
+      reject(clip, fault.what(), monitor);
     } catch (const IoError& fault) {
       job.rethrow_fault();
-      reject(clip, fault.what(), board);
+      reject(clip, fault.what(), monitor);
     }
   }
 
-  ClipRecord make(const ClipConfig& clip, RenderJob& job, const Stop& stop_wanted, RunBoard& board) {
-    board.begin(clip);
-    RoomWatch room(config_, clip, layout_, true, board);
+  ClipRecord make(const ClipConfig& clip, RenderJob& job, const Stop& stop_wanted, RunMonitor& monitor) {
+    monitor.begin(clip);
+    RoomWatch room(config_, clip, layout_, true, monitor);
     job.wait_for_frame(clip.id, -1, stop_wanted);
     const Path folder = layout_.passes(clip.id);
     const ClipPasses passes = {.manifest = read_manifest(folder / "manifest.json", options_.home),
@@ -120,7 +120,7 @@ class Generator {
                                   .frame_done =
                                       [&] {
                                         room.pictures_written();
-                                        board.frame_done(clip.id);
+                                        monitor.frame_done(clip.id);
                                       },
                                   .cancelled = stop_wanted};
     try {
@@ -133,14 +133,14 @@ class Generator {
   }
 
   /// Useless passes are rendered anew by the next run; until then they can be inspected.
-  void reject(const ClipConfig& clip, const std::string& why, RunBoard& board) {
+  void reject(const ClipConfig& clip, const std::string& why, RunMonitor& monitor) {
     write_file_atomically(layout_.unusable(clip.id), why + "\n");
-    lose(clip, why, false, board);
+    lose(clip, why, false, monitor);
   }
 
-  void lose(const ClipConfig& clip, const std::string& why, bool killed, RunBoard& board) {
+  void lose(const ClipConfig& clip, const std::string& why, bool killed, RunMonitor& monitor) {
     change_index([&] { index_.failed[clip.id] = why; });
-    board.lost(clip, why, killed);
+    monitor.lost(clip, why, killed);
   }
 
   /// Updates the dataset's record, including what other runs have made.

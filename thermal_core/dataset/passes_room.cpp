@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "dataset/render_crew.h"
+#include "dataset/worker_pool.h"
 #include "io/output_folder.h"
 
 namespace thermal {
@@ -44,7 +44,7 @@ void end_passes(const Layout& layout, const std::vector<std::string>& clips) {
 }
 
 std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,
-                                          const std::vector<std::string>& clips, RunBoard& board) {
+                                          const std::vector<std::string>& clips, RunMonitor& monitor) {
   const Layout layout{options.out};
   const auto hands = deal_clips(clips, options.jobs);
   const int cores = thread_count(0);
@@ -61,8 +61,8 @@ std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOp
                      .supersample = config.supersample,
                      .actor_layer = config.actor_layer,
                      .preview = false,
-                     .restarted = [&board](const std::string& clip, const std::string& why) {
-                       board.restarted(clip, why);
+                     .restarted = [&monitor](const std::string& clip, const std::string& why) {
+                       monitor.restarted(clip, why);
                      }});
   }
   return tasks;

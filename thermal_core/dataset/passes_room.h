@@ -5,7 +5,7 @@
 
 #include "dataset/generate.h"
 #include "dataset/render_job.h"
-#include "dataset/run_board.h"
+#include "dataset/run_monitor.h"
 
 namespace thermal {
 
@@ -19,9 +19,9 @@ void check_same_passes(const Layout& layout, const Config& config);
 /// Removes the passes of these clips, and with the last clip's everything beside them.
 void end_passes(const Layout& layout, const std::vector<std::string>& clips);
 
-/// The render jobs for these clips, one task each. They report restarts to the board.
+/// The render jobs for these clips, one task each. They report restarts to the monitor.
 [[nodiscard]] std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,
                                                         const std::vector<std::string>& clips,
-                                                        RunBoard& board);
+                                                        RunMonitor& monitor);
 
 }  // namespace thermal

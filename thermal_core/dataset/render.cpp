@@ -4,19 +4,19 @@
 #include "dataset/clip_choice.h"
 #include "dataset/generate.h"
 #include "dataset/passes_room.h"
-#include "dataset/render_crew.h"
 #include "dataset/room_watch.h"
-#include "dataset/run_board.h"
+#include "dataset/run_monitor.h"
+#include "dataset/worker_pool.h"
 
 namespace thermal {
 namespace {
 
 void render_clip(const ClipConfig& clip, RenderJob& job, const std::function<bool()>& stop_wanted,
-                 RoomWatch& room, RunBoard& board) {
+                 RoomWatch& room, RunMonitor& monitor) {
   for (int frame = 0; frame < clip.frames; ++frame) {
     job.wait_for_frame(clip.id, frame, stop_wanted);
     room.passes_ready(job.frames_ready(clip.id));
-    board.frame_done(clip.id);
+    monitor.frame_done(clip.id);
   }
 }
 
@@ -47,21 +47,21 @@ RunOutcome render(const Config& config, const GenerateOptions& options, const Ru
     check_same_passes(layout, config);
     begin_passes(layout, config, ids_of(clips));
   });
-  RunBoard board(hooks, options.out, frames_of(clips));
+  RunMonitor monitor(hooks, options.out, frames_of(clips));
   const ClipWork work = [&](const std::string& id, RenderJob& job, const std::function<bool()>& stop_wanted) {
     const ClipConfig& clip = config.clip(id, "clips");
-    board.begin(clip);
+    monitor.begin(clip);
     try {
-      RoomWatch room(config, clip, layout, false, board);
-      render_clip(clip, job, stop_wanted, room, board);
-      board.made(clip);
+      RoomWatch room(config, clip, layout, false, monitor);
+      render_clip(clip, job, stop_wanted, room, monitor);
+      monitor.made(clip);
     } catch (const ClipLost& fault) {
-      board.lost(clip, fault.what(), fault.killed());
+      monitor.lost(clip, fault.what(), fault.killed());
     }
   };
-  run_crew(passes_tasks(config, options, ids_of(clips), board), work,
-           [&board] { return board.stop_wanted(); });
-  RunOutcome outcome = board.outcome();
+  run_workers(passes_tasks(config, options, ids_of(clips), monitor), work,
+              [&monitor] { return monitor.stop_wanted(); });
+  RunOutcome outcome = monitor.outcome();
   outcome.complete = outcome.failed.empty();
   return outcome;
 }

@@ -15,8 +15,8 @@ std::int64_t size_bytes(const Path& file) {
 }  // namespace
 
 RoomWatch::RoomWatch(const Config& config, const ClipConfig& clip, const Layout& layout, bool pictures,
-                     RunBoard& board)
-    : id_(clip.id), layout_(layout), board_(board), room_(room_for(config, clip, pictures)) {
+                     RunMonitor& monitor)
+    : id_(clip.id), layout_(layout), monitor_(monitor), room_(room_for(config, clip, pictures)) {
   int there = 0;
   while (there < clip.frames && std::filesystem::exists(layout_.passes(id_) / passes_name(there))) ++there;
   passes_ready(there);
@@ -37,6 +37,6 @@ void RoomWatch::pictures_written() {
   report();
 }
 
-void RoomWatch::report() { board_.needs(id_, room_.needed_bytes()); }
+void RoomWatch::report() { monitor_.needs(id_, room_.needed_bytes()); }
 
 }  // namespace thermal

@@ -4,7 +4,7 @@
 
 #include "dataset/layout.h"
 #include "dataset/room.h"
-#include "dataset/run_board.h"
+#include "dataset/run_monitor.h"
 
 namespace thermal {
 
@@ -14,7 +14,7 @@ class RoomWatch {
  public:
   /// Counts the passes left by an earlier run. `pictures`: whether they are also converted.
   RoomWatch(const Config& config, const ClipConfig& clip, const Layout& layout, bool pictures,
-            RunBoard& board);
+            RunMonitor& monitor);
 
   /// Records that this many leading frames of the passes are complete.
   void passes_ready(int frames);
@@ -26,7 +26,7 @@ class RoomWatch {
 
   std::string id_;
   Layout layout_;
-  RunBoard& board_;
+  RunMonitor& monitor_;
   std::mutex mutex_;
   ClipRoom room_;
 };

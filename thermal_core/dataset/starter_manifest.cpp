@@ -48,7 +48,7 @@ std::string_view class_name(ObjectClass object_class) {
 /// Fills a starter manifest, entry by entry.
 class Writer {
  public:
-  Writer(const Inspection& inspection, const KnownThings& known) : inspection_(inspection), known_(known) {}
+  Writer(const Inspection& inspection, const NameGuesser& known) : inspection_(inspection), known_(known) {}
 
   StarterManifest write() {
     Json& json = made_.document;
@@ -151,14 +151,14 @@ class Writer {
   }
 
   const Inspection& inspection_;
-  const KnownThings& known_;
+  const NameGuesser& known_;
   StarterManifest made_;
   int tracks_ = 0;
 };
 
 }  // namespace
 
-StarterManifest starter_manifest(const Inspection& inspection, const KnownThings& known) {
+StarterManifest starter_manifest(const Inspection& inspection, const NameGuesser& known) {
   if (!inspection.obstacle.empty())
     throw DataError(fmt::format("{}: {}{}", inspection.file.string(), inspection.obstacle,
                                 inspection.layers.empty() ? "" : ", or --layer"));

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dataset/inspection.h"
-#include "dataset/known_things.h"
+#include "dataset/name_guesser.h"
 
 namespace thermal {
 
@@ -20,6 +20,6 @@ struct StarterManifest {
 /// by words in its name, the ground by its area, the camera's lens and frame rate by Blender's defaults. Everything
 /// else is kFillIn, which a conversion reports.
 /// DataError if the passes cannot be converted, or show only sky.
-[[nodiscard]] StarterManifest starter_manifest(const Inspection& inspection, const KnownThings& known);
+[[nodiscard]] StarterManifest starter_manifest(const Inspection& inspection, const NameGuesser& known);
 
 }  // namespace thermal

@@ -45,7 +45,7 @@ using Groups = std::map<std::string, std::map<std::string, std::int64_t>>;
 
 /// Groups `mattes` into objects: everything of one kind of ground or plant, otherwise single names unless a name has
 /// many copies.
-Groups group_mattes(const std::map<std::uint32_t, PassSurvey::Matte>& mattes, const KnownThings& known) {
+Groups group_mattes(const std::map<std::uint32_t, PassSurvey::Matte>& mattes, const NameGuesser& known) {
   std::map<std::string, std::size_t> copies;
   for (const auto& [hash, matte] : mattes) ++copies[original(matte.name)];
   Groups groups;
@@ -64,7 +64,7 @@ Groups group_mattes(const std::map<std::uint32_t, PassSurvey::Matte>& mattes, co
 }
 
 std::vector<StarterObject> objects_by_matte(const std::map<std::uint32_t, PassSurvey::Matte>& mattes,
-                                            const KnownThings& known) {
+                                            const NameGuesser& known) {
   std::vector<StarterObject> objects;
   for (const auto& [name, members] : group_mattes(mattes, known)) {
     StarterObject object{.index = 0, .name = name, .pixels = 0};
@@ -104,7 +104,7 @@ void guess_ground(std::vector<StarterObject>& objects) {
 
 }  // namespace
 
-std::vector<StarterObject> starter_objects(const Inspection& inspection, const KnownThings& known) {
+std::vector<StarterObject> starter_objects(const Inspection& inspection, const NameGuesser& known) {
   const PassSurvey& survey = inspection.survey;
   std::vector<StarterObject> objects;
   if (!inspection.cryptomatte.empty()) {

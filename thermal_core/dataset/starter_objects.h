@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dataset/inspection.h"
-#include "dataset/known_things.h"
+#include "dataset/name_guesser.h"
 
 namespace thermal {
 
@@ -25,6 +25,6 @@ struct StarterObject {
 /// pixels first. Mattes of one kind of ground or plant are one object, and so are more than twenty copies of
 /// anything.
 [[nodiscard]] std::vector<StarterObject> starter_objects(const Inspection& inspection,
-                                                         const KnownThings& known);
+                                                         const NameGuesser& known);
 
 }  // namespace thermal

@@ -22,7 +22,7 @@ from .poses import STEP_S, LoggedTrajectory, Poses, SteppedTrajectory, Trajector
 from .pursuits import follow, orbit
 from .rides import Course, Ride
 from .slowing import slowed_times
-from .sway import lagged_angles, sway, tilt_rad, unsteadiness_rad
+from .disturbance_response import lagged_angles, disturbance_response, tilt_rad, unsteadiness_rad
 from .waypoint_files import read_waypoints
 from .waypoints import Waypoint
 
@@ -190,7 +190,7 @@ def _blown(plan: dict, name: str, nose_rad: np.ndarray, seed: int) -> tuple[np.n
         return np.zeros((len(nose_rad), 3)), np.zeros((len(nose_rad), 3))
     airspeed_m_s = float(np.hypot(plan["speed_m_s"], WIND_M_S[plan["turbulence"]]))
     gusts = gusts_m_s(seed, name, plan["turbulence"], plan["altitude_m"], airspeed_m_s, len(nose_rad), STEP_S)
-    swayed = sway(gusts, STEP_S, plan["aircraft"])
+    swayed = disturbance_response(gusts, STEP_S, plan["aircraft"])
     return _turned(swayed.offset_m, nose_rad), _turned(swayed.control_m_s2, nose_rad)
 
 

@@ -6,12 +6,12 @@ import math
 from collections.abc import Sequence
 
 from .aircraft import FIXED_WING, Aircraft
-from .fly_bys import fly_bys
+from .fly_by_turns import fly_by_turns
 from .footprints import Footprint
 from .lanes import Lane, round_of_lanes
-from .pieces import Straight
+from .path_segments import Straight
 from .places import SurfaceAt, merged
-from .rounds import hovering_round, winged_round
+from .lane_loops import hovering_round, winged_round
 from .timetables import Timetable
 from .visits import visits
 from .waypoints import Waypoint
@@ -49,11 +49,11 @@ def waypoint_course(
 
     Between two waypoints the height changes linearly, in the height reference of the second; height_at(x (n,), y (n,))
     gives the height (n,) of ground or water to convert the first one's. A multirotor flies straight and stops at each
-    (`visits`); a fixed wing rounds the corners (`fly_bys`). ConfigError, without its place in the config, if it cannot.
+    (`visits`); a fixed wing rounds the corners (`fly_by_turns`). ConfigError, without its place in the config, if it cannot.
     """
     places = merged(waypoints, aircraft.speed_m_s)
     if aircraft.kind == FIXED_WING:
-        return Timetable(fly_bys(places, aircraft, height_at), repeats=False)
+        return Timetable(fly_by_turns(places, aircraft, height_at), repeats=False)
     return Timetable(visits(places, aircraft.acceleration_m_s2, height_at, nose_turns), repeats=False)
 
 

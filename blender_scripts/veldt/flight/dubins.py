@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from .pieces import NOTHING_M, Arc, Piece, Point, Straight, beside
+from .path_segments import NOTHING_M, Arc, Piece, Point, Straight, beside
 
 _WHOLE_TURN = 2.0 * math.pi
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..faults import ConfigError
 from .footprints import Footprint
-from .pieces import Point, beside
+from .path_segments import Point, beside
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .pieces import Point, distance_m
+from .path_segments import Point, distance_m
 from .timetables import Climb
 from .waypoints import Waypoint
 

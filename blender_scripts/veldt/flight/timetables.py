@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .laws import Law
-from .pieces import Piece, Point, turn_rad
+from .speed_profile import Law
+from .path_segments import Piece, Point, turn_rad
 from .rides import Ride
 
 _WHOLE_TURN = 2.0 * math.pi

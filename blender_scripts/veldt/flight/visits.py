@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from .laws import StopToStop
-from .pieces import Straight
+from .speed_profile import StopToStop
+from .path_segments import Straight
 from .places import Place, SurfaceAt, climb_between
 from .timetables import Leg, Stay, Step, spin
 

@@ -13,11 +13,11 @@ from ..geometry.splines import Loop
 from ..plants.placement import Corridor
 from .actors import Actor
 from .behaviours import Draft, draft_members, member_names
-from .crowds import TIMES_S, Crowd, cover, gather
+from .collision_discs import TIMES_S, Crowd, cover, gather
 from .herds import plan_places
 from .meetings import choose_start
-from .spots import find_spots
-from .venues import Land, venue
+from .placement import find_spots
+from .site_rules import Land, venue
 
 _CORRIDOR_STEP_M = 0.8
 _TIGHTEST = (

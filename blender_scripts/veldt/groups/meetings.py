@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from ..noise import stream
-from .crowds import HORIZON_S, Crowd, clear_until_s, nearest_m
+from .collision_discs import HORIZON_S, Crowd, clear_until_s, nearest_m
 
 _STARTS = 96  # candidates, evenly spaced along the path, tried in an order drawn from the seed
 _GAP_M = 0.5

@@ -1,4 +1,4 @@
-#include "dataset/known_things.h"
+#include "dataset/name_guesser.h"
 
 #include <array>
 #include <utility>
@@ -48,7 +48,7 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-KnownThings::KnownThings(const Path& home) {
+NameGuesser::NameGuesser(const Path& home) {
   for_each_json(home / "assets" / "species", [this](const std::string& name, const Json& species) {
     things_[name] = {.object_class = ObjectClass::actor,
                      .material = species.at("material"),
@@ -67,13 +67,13 @@ KnownThings::KnownThings(const Path& home) {
     if (const auto known = things_.find(thing); known != things_.end()) things_[word] = known->second;
 }
 
-const KnownThing* KnownThings::find_word(const std::string& word) const {
+const KnownThing* NameGuesser::find_word(const std::string& word) const {
   auto known = things_.find(word);
   if (known == things_.end() && word.ends_with('s')) known = things_.find(word.substr(0, word.size() - 1));
   return known == things_.end() ? nullptr : &known->second;
 }
 
-std::optional<KnownThing> KnownThings::find(std::string_view name) const {
+std::optional<KnownThing> NameGuesser::find(std::string_view name) const {
   const std::vector<std::string> words = words_of(name);
   for (std::size_t i = 0; i + 1 < words.size(); ++i)
     if (const KnownThing* known = find_word(words[i] + "_" + words[i + 1])) return *known;

@@ -1,4 +1,4 @@
-#include "dataset/render_crew.h"
+#include "dataset/worker_pool.h"
 
 #include <atomic>
 #include <set>
@@ -7,7 +7,7 @@
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
-namespace render_crew_test {
+namespace worker_pool_test {
 
 using namespace thermal;
 
@@ -66,7 +66,7 @@ TEST_CASE("An exception in one task stops all, and is the one that is thrown") {
     }
   };
   CHECK(message_of<DataError>([&] {
-          run_crew(idle_tasks(folder, {{"a"}, {"b"}, {"c"}}), work, {});
+          run_workers(idle_tasks(folder, {{"a"}, {"b"}, {"c"}}), work, {});
         }) == "of b");
   CHECK(stopped == 2);
 }
@@ -76,7 +76,7 @@ TEST_CASE("All tasks stop on request") {
   const ClipWork work = [](const std::string& clip, RenderJob& job, const std::function<bool()>& cancelled) {
     job.wait_for_frame(clip, 0, cancelled);
   };
-  CHECK_THROWS_AS(run_crew(idle_tasks(folder, {{"a"}, {"b"}}), work, [] { return true; }), Cancelled);
+  CHECK_THROWS_AS(run_workers(idle_tasks(folder, {{"a"}, {"b"}}), work, [] { return true; }), Cancelled);
 }
 
-}  // namespace render_crew_test
+}  // namespace worker_pool_test

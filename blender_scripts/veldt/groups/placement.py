@@ -12,7 +12,7 @@ from ..land.terrain import Terrain
 from ..land.waters import Water
 from ..noise import stream
 from ..plants.placement import Corridor
-from .crowds import Crowd, centres, cover
+from .collision_discs import Crowd, centres, cover
 from .herds import Room
 
 _TRIES = 400  # of places, for each member

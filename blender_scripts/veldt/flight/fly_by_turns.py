@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 from ..faults import ConfigError
 from .aircraft import Aircraft
-from .laws import Steady
-from .pieces import NOTHING_M, Arc, Piece, Point, Straight, beside, distance_m, turn_rad
+from .speed_profile import Steady
+from .path_segments import NOTHING_M, Arc, Piece, Point, Straight, beside, distance_m, turn_rad
 from .places import Place, SurfaceAt, climb_between
 from .timetables import Leg, Step
 
@@ -25,7 +25,7 @@ class _Corner:
     turn_rad: float
 
 
-def fly_bys(places: Sequence[Place], aircraft: Aircraft, surface_at: SurfaceAt) -> list[Step]:
+def fly_by_turns(places: Sequence[Place], aircraft: Aircraft, surface_at: SurfaceAt) -> list[Step]:
     """Past all places but the first and the last on arcs tangent to the legs, each leg at its own speed.
 
     The radius of an arc is that of the faster leg. A leg, and the change of height along it, extends from the middle of

@@ -1,4 +1,4 @@
-#include "dataset/run_board.h"
+#include "dataset/run_monitor.h"
 
 #include <vector>
 
@@ -9,18 +9,18 @@
 
 namespace thermal {
 
-RunBoard::RunBoard(const RunHooks& hooks, const Path& out, int frames_total) : hooks_(hooks), out_(out) {
+RunMonitor::RunMonitor(const RunHooks& hooks, const Path& out, int frames_total) : hooks_(hooks), out_(out) {
   progress_.total = frames_total;
 }
 
-void RunBoard::begin(const ClipConfig& clip) {
+void RunMonitor::begin(const ClipConfig& clip) {
   const std::lock_guard lock(mutex_);
   frames_done_[clip.id] = 0;
   progress_.clip = clip.id;
   hooks_.report(progress_);
 }
 
-void RunBoard::frame_done(const std::string& clip) {
+void RunMonitor::frame_done(const std::string& clip) {
   const std::lock_guard lock(mutex_);
   ++frames_done_[clip];
   ++progress_.done;
@@ -28,14 +28,14 @@ void RunBoard::frame_done(const std::string& clip) {
   hooks_.report(progress_);
 }
 
-void RunBoard::made(const ClipConfig& clip) {
+void RunMonitor::made(const ClipConfig& clip) {
   const std::lock_guard lock(mutex_);
   outcome_.made.push_back(clip.id);
   outcome_.frames_made += clip.frames;
   end(clip);
 }
 
-void RunBoard::lost(const ClipConfig& clip, const std::string& why, bool killed) {
+void RunMonitor::lost(const ClipConfig& clip, const std::string& why, bool killed) {
   const std::lock_guard lock(mutex_);
   outcome_.failed[clip.id] = why;
   all_killed_ = all_killed_ && killed;
@@ -44,17 +44,17 @@ void RunBoard::lost(const ClipConfig& clip, const std::string& why, bool killed)
   hooks_.report(progress_);
 }
 
-void RunBoard::end(const ClipConfig& clip) {
+void RunMonitor::end(const ClipConfig& clip) {
   frames_done_.erase(clip.id);
   needs_.erase(clip.id);
 }
 
-void RunBoard::restarted(const std::string& clip, const std::string& why) {
+void RunMonitor::restarted(const std::string& clip, const std::string& why) {
   const std::lock_guard lock(mutex_);
   if (hooks_.restarted) hooks_.restarted(clip, why);
 }
 
-void RunBoard::needs(const std::string& clip, std::int64_t bytes) {
+void RunMonitor::needs(const std::string& clip, std::int64_t bytes) {
   const std::lock_guard lock(mutex_);
   needs_[clip] = bytes;
   std::int64_t all_bytes = 0;
@@ -67,12 +67,12 @@ void RunBoard::needs(const std::string& clip, std::int64_t bytes) {
   check_room(room_left_bytes(out_), all_bytes, out_.string(), whose);
 }
 
-bool RunBoard::stop_wanted() {
+bool RunMonitor::stop_wanted() {
   const std::lock_guard lock(mutex_);
   return hooks_.stop_wanted();
 }
 
-RunOutcome RunBoard::outcome() {
+RunOutcome RunMonitor::outcome() {
   const std::lock_guard lock(mutex_);
   RunOutcome outcome = outcome_;
   outcome.try_again = outcome.made.empty() && !outcome.failed.empty() && all_killed_;

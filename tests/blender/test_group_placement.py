@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.groups.crowds import cover, gather
+from veldt.groups.collision_discs import cover, gather
 from veldt.groups.herds import Room
 from veldt.plants.placement import Corridor
-from veldt.groups.spots import about, afloat, at_shore, find_spots, in_water, on_land
+from veldt.groups.placement import about, afloat, at_shore, find_spots, in_water, on_land
 from veldt.land.terrain import build_terrain
 
 ZEBRA, HIPPO = Room(1.25, 0.33), Room(1.9, 0.75)

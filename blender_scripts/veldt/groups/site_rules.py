@@ -10,7 +10,7 @@ from ..geometry.splines import Loop
 from ..land.terrain import Terrain
 from ..land.waters import Water
 from ..plants.placement import Corridor
-from . import spots
+from . import placement
 from .behaviours import Draft, behaviour_of
 
 _WATERS = {"water": 0, "shore": 0, "pan": 1, "pan_shore": 1}
@@ -28,12 +28,14 @@ class Land:
 
 def venue(
     where: str, group: dict, drafts: Sequence[Draft], land: Land, corridors: Sequence[Corridor], seed: int
-) -> tuple[spots.Draw, spots.Allowed]:
+) -> tuple[placement.Draw, placement.Allowed]:
     """Functions that draw spots at a group's place and test them; `where` is the group's place in the config."""
     place, rooms = group["place"], [draft.room for draft in drafts]
     floats = behaviour_of(group) == "float"
     if not isinstance(place, str):
-        return spots.about(place, rooms, group.get("spread_m")), spots.on_land(land.terrain, corridors)
+        return placement.about(place, rooms, group.get("spread_m")), placement.on_land(
+            land.terrain, corridors
+        )
     if place not in PLACES:
         raise ConfigError(
             f'{where}.place = "{place}"; expected [x, y] or one of {listing(PLACES)}{did_you_mean(place, PLACES)}'
@@ -48,8 +50,8 @@ def venue(
     water = _water(where, place, land.terrain)
     if floats:
         depths_m = [draft.scale * draft.body.postures["float"].waterline_m for draft in drafts]
-        return spots.in_water(water), spots.afloat(land.terrain, max(depths_m))
-    return spots.at_shore(water, seed, group["name"]), spots.on_land(land.terrain, corridors)
+        return placement.in_water(water), placement.afloat(land.terrain, max(depths_m))
+    return placement.at_shore(water, seed, group["name"]), placement.on_land(land.terrain, corridors)
 
 
 def _water(where: str, place: str, terrain: Terrain) -> Water:
@@ -68,4 +70,4 @@ def _by_the_road(where: str, rooms, land: Land, corridors: Sequence[Corridor]):
         )
     widest_m = max(room.half_width_m for room in rooms)
     aside_m = 0.5 * road.width_m + widest_m + _SIDE_GAP_M
-    return spots.along(road.lines[-1], aside_m), spots.on_land(land.terrain, corridors)
+    return placement.along(road.lines[-1], aside_m), placement.on_land(land.terrain, corridors)

@@ -10,9 +10,9 @@ namespace thermal {
 
 /// Collects reports of a run's workers, from any thread, and passes them one by one to the run's hooks, its outcome
 /// and its check of disk space.
-class RunBoard {
+class RunMonitor {
  public:
-  RunBoard(const RunHooks& hooks, const Path& out, int frames_total);
+  RunMonitor(const RunHooks& hooks, const Path& out, int frames_total);
 
   void begin(const ClipConfig& clip);
   void frame_done(const std::string& clip);

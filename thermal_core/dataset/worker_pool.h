@@ -23,7 +23,7 @@ using ClipWork =
 
 /// Renders tasks at the same time, with one Blender process and one thread each, and returns when `work` has had all
 /// their clips. If `work` or a job throws, all stop, and the first exception is rethrown.
-void run_crew(const std::vector<RenderJob::Task>& tasks, const ClipWork& work,
-              const std::function<bool()>& cancelled);
+void run_workers(const std::vector<RenderJob::Task>& tasks, const ClipWork& work,
+                 const std::function<bool()>& cancelled);
 
 }  // namespace thermal

@@ -25,10 +25,10 @@ struct KnownThing {
 [[nodiscard]] std::vector<std::string> words_of(std::string_view name);
 
 /// Guesses what things are from their names.
-class KnownThings {
+class NameGuesser {
  public:
   /// Knows the species and plants of `home`/assets, kinds of ground, and common words for them.
-  explicit KnownThings(const Path& home);
+  explicit NameGuesser(const Path& home);
 
   /// By one or two words of the name: the first known, two before one; plurals too. Empty if none is known.
   [[nodiscard]] std::optional<KnownThing> find(std::string_view name) const;

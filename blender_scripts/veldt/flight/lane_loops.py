@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from .aircraft import Aircraft
 from .dubins import shortest
 from .lanes import Lane
-from .laws import Steady, StopToStop
-from .pieces import NOTHING_M, Straight, distance_m
+from .speed_profile import Steady, StopToStop
+from .path_segments import NOTHING_M, Straight, distance_m
 from .timetables import Leg, Step, spin
 
 

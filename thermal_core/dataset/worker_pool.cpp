@@ -1,4 +1,4 @@
-#include "dataset/render_crew.h"
+#include "dataset/worker_pool.h"
 
 #include <algorithm>
 #include <atomic>
@@ -57,8 +57,8 @@ int threads_each(int threads, int cores, int jobs) {
   return std::max(1, (threads > 0 ? threads : cores) / jobs);
 }
 
-void run_crew(const std::vector<RenderJob::Task>& tasks, const ClipWork& work,
-              const std::function<bool()>& cancelled) {
+void run_workers(const std::vector<RenderJob::Task>& tasks, const ClipWork& work,
+                 const std::function<bool()>& cancelled) {
   Crew(work, cancelled).run(tasks);
 }
 

@@ -6,12 +6,18 @@ import pytest
 from veldt.flight.aircraft import FIXED_WING, MULTIROTOR
 from veldt.flight.filters import lag_error, states
 from veldt.flight.gusts import WIND_M_S, gusts_m_s, intensities_m_s, scales_m
-from veldt.flight.sway import _HOLDS, lagged_angles, sway, tilt_rad, unsteadiness_rad
+from veldt.flight.disturbance_response import (
+    _HOLDS,
+    lagged_angles,
+    disturbance_response,
+    tilt_rad,
+    unsteadiness_rad,
+)
 from veldt.geometry.rotations import by_vector
 
 STEP_S = 0.02
 SPEED_M_S = {MULTIROTOR: 8.0, FIXED_WING: 16.0}
-# Standard deviations of offsets in m, as the docstring of `sway` gives them: along the nose, left, up.
+# Standard deviations of offsets in m, as the docstring of `disturbance_response` gives them: along the nose, left, up.
 OFFSETS_M = {
     (MULTIROTOR, "light"): (0.23, 0.23, 0.11),
     (MULTIROTOR, "moderate"): (0.45, 0.44, 0.21),
@@ -54,7 +60,7 @@ def test_states_are_those_of_the_recursion():
 @pytest.mark.parametrize("hz", [0.02, 0.1, 0.5])
 def test_a_sine_gust_moves_it_as_the_equation_says(kind: str, hz: float):
     time_s, omega = STEP_S * np.arange(10_000), 2.0 * np.pi * hz
-    swayed = sway(np.tile(np.sin(omega * time_s)[:, None], 3), STEP_S, kind)
+    swayed = disturbance_response(np.tile(np.sin(omega * time_s)[:, None], 3), STEP_S, kind)
     turning = np.exp(1j * omega * time_s)
     for axis, hold in enumerate(_HOLDS[kind]):
         offset = _response(hold, omega) * turning
@@ -72,7 +78,7 @@ def test_it_is_exact_between_moments_for_gusts_that_are_linear_there():
     coarse = gusts_m_s(1, "a", "severe", 60.0, 20.0, 500, 0.1)
     fine = np.stack([np.interp(np.arange(4_991) / 10.0, np.arange(500), axis) for axis in coarse.T], axis=-1)
     for kind in (MULTIROTOR, FIXED_WING):
-        expected, seen = sway(coarse, 0.1, kind), sway(fine, 0.01, kind)
+        expected, seen = disturbance_response(coarse, 0.1, kind), disturbance_response(fine, 0.01, kind)
         assert seen.offset_m[::10] == pytest.approx(expected.offset_m, abs=1e-10)
         assert seen.control_m_s2[::10] == pytest.approx(expected.control_m_s2, abs=1e-9)
 
@@ -83,30 +89,30 @@ def test_offsets_are_as_large_as_documented(kind: str, severity: str):
     expected = [_offset_m(hold, axis, severity, airspeed_m_s) for axis, hold in enumerate(_HOLDS[kind])]
     assert OFFSETS_M[kind, severity] == pytest.approx(expected, abs=0.006)
     for offset in OFFSETS_M[kind, severity]:
-        assert f"{offset:.2f}" in sway.__doc__
+        assert f"{offset:.2f}" in disturbance_response.__doc__
 
 
 def test_offsets_in_flown_turbulence_are_as_large():
     """Five standard deviations of a mean square over an hour of a process that forgets within 15 s, 240 times."""
     airspeed_m_s = float(np.hypot(8.0, WIND_M_S["light"]))
     gusts = gusts_m_s(3, "hour", "light", 60.0, airspeed_m_s, 180_000, STEP_S)
-    mean_square = (sway(gusts, STEP_S, MULTIROTOR).offset_m ** 2).mean(axis=0)
+    mean_square = (disturbance_response(gusts, STEP_S, MULTIROTOR).offset_m ** 2).mean(axis=0)
     share = mean_square / np.square(OFFSETS_M[MULTIROTOR, "light"])
     assert np.all(np.abs(share - 1.0) < 5.0 * np.sqrt(2.0 / 240.0))
 
 
 def test_it_starts_at_rest_and_stays_there_in_still_air():
-    swayed = sway(np.zeros((100, 3)), STEP_S, FIXED_WING)
+    swayed = disturbance_response(np.zeros((100, 3)), STEP_S, FIXED_WING)
     assert not swayed.offset_m.any() and not swayed.control_m_s2.any()
-    assert not sway(np.ones((2, 3)), STEP_S, MULTIROTOR).offset_m[0].any()
+    assert not disturbance_response(np.ones((2, 3)), STEP_S, MULTIROTOR).offset_m[0].any()
 
 
 def test_later_gusts_change_no_bit():
     gusts = gusts_m_s(1, "a", "severe", 60.0, 20.0, 3_000, STEP_S)
-    whole = sway(gusts, STEP_S, MULTIROTOR)
+    whole = disturbance_response(gusts, STEP_S, MULTIROTOR)
     lean = tilt_rad(whole.control_m_s2[:, :2])
     for moments in (2, 256, 1_111):
-        part = sway(gusts[:moments], STEP_S, MULTIROTOR)
+        part = disturbance_response(gusts[:moments], STEP_S, MULTIROTOR)
         assert np.array_equal(part.offset_m, whole.offset_m[:moments])
         assert np.array_equal(part.control_m_s2, whole.control_m_s2[:moments])
         part_rad = unsteadiness_rad(lean[:moments], 0.1, STEP_S)

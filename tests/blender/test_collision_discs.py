@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veldt.groups.crowds import HORIZON_S, TIMES_S, clear_until_s, cover, gather, nearest_m
+from veldt.groups.collision_discs import HORIZON_S, TIMES_S, clear_until_s, cover, gather, nearest_m
 from veldt.groups.meetings import choose_start
 
 STEP_S = TIMES_S[1] - TIMES_S[0]

@@ -1,8 +1,8 @@
-#include "dataset/known_things.h"
+#include "dataset/name_guesser.h"
 
 #include "support/catch.h"
 
-namespace known_things_test {
+namespace name_guesser_test {
 
 using thermal::KnownThing;
 using thermal::ObjectClass;
@@ -26,7 +26,7 @@ TEST_CASE("words of a name") {
 }
 
 TEST_CASE("things are recognised by their names") {
-  const thermal::KnownThings known(VELDT_SOURCE_DIR);
+  const thermal::NameGuesser known(VELDT_SOURCE_DIR);
   CHECK(known.find("Elephant.001") == thing(ObjectClass::actor, "elephant", "elephant", "elephant"));
   CHECK(known.find("two zebras") == thing(ObjectClass::actor, "zebra", "zebra", "zebra"));
   CHECK(known.find("Poacher_A") == thing(ObjectClass::actor, "human", "human", "human"));
@@ -41,10 +41,10 @@ TEST_CASE("things are recognised by their names") {
 }
 
 TEST_CASE("two words take precedence over one, and the first over the second") {
-  const thermal::KnownThings known(VELDT_SOURCE_DIR);
+  const thermal::NameGuesser known(VELDT_SOURCE_DIR);
   CHECK(known.find("Elephant Grass 3") == thing(ObjectClass::plant, "elephant_grass"));
   CHECK(known.find("dry termite mound") == thing(ObjectClass::plant, "termite_mound"));
   CHECK(known.find("human on elephant")->material == "human");
 }
 
-}  // namespace known_things_test
+}  // namespace name_guesser_test

@@ -35,14 +35,14 @@ _HOLDS = {
 
 
 @dataclass(frozen=True)
-class Sway:
+class Disturbance:
     """At n moments: offset_m (n, 3) from the wanted position; control_m_s2 (n, 3), the acceleration back towards it."""
 
     offset_m: np.ndarray
     control_m_s2: np.ndarray
 
 
-def sway(gusts_m_s: np.ndarray, step_s: float, kind: str) -> Sway:
+def disturbance_response(gusts_m_s: np.ndarray, step_s: float, kind: str) -> Disturbance:
     """The response of a kind of aircraft to gusts (n, 3) forward, left and up, in these axes.
 
     x'' = (w - x') / drag - damping x' - stiffness x along each axis, starting at rest at the wanted position. Exact for
@@ -55,7 +55,7 @@ def sway(gusts_m_s: np.ndarray, step_s: float, kind: str) -> Sway:
     """
     held = [_held(gusts, step_s, hold) for gusts, hold in zip(gusts_m_s.T, _HOLDS[kind])]
     offset_m, control_m_s2 = (np.stack(each, axis=-1) for each in zip(*held))
-    return Sway(offset_m, control_m_s2)
+    return Disturbance(offset_m, control_m_s2)
 
 
 def tilt_rad(acceleration_m_s2: np.ndarray) -> np.ndarray:
