@@ -12,6 +12,8 @@
 #include "cli/progress_bar.h"
 #include "cli/run_summary.h"
 #include "cli/stop_signal.h"
+#include "dataset/clip_choice.h"
+#include "dataset/layout.h"
 #include "io/resources.h"
 
 namespace veldt {

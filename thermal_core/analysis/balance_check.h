@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/balance.h"
+#include "analysis/balance_program.h"
 
 namespace thermal {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/balance.h"
+#include "analysis/balance_program.h"
 #include "analysis/balance_solver.h"
 
 namespace thermal {

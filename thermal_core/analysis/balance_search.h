@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "analysis/balance.h"
+#include "analysis/balance_program.h"
 
 namespace thermal {
 

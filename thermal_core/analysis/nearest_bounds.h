@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "analysis/balance.h"
+#include "analysis/balance_program.h"
 
 namespace thermal {
 

@@ -4,9 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "dataset/generate.h"
+#include "dataset/run_options.h"
+#include "io/config.h"
 
 namespace thermal {
+
+/// The config's clips that a run makes. ConfigError for an unknown id.
+[[nodiscard]] std::vector<ClipConfig> choose_clips(const Config& config, const std::vector<std::string>& ids,
+                                                   const Shard& shard);
 
 [[nodiscard]] std::vector<std::string> ids_of(const std::vector<ClipConfig>& clips);
 

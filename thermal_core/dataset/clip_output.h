@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "dataset/annotations.h"
-#include "dataset/clip_maker.h"
+#include "dataset/clip_record.h"
+#include "dataset/clip_task.h"
 #include "imaging/frame_converter.h"
 #include "io/output_file.h"
 #include "io/png.h"

@@ -4,7 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "dataset/clip_maker.h"
+#include "dataset/clip_record.h"
+#include "dataset/clip_task.h"
 #include "imaging/frame_converter.h"
 #include "radiometry/temperature_table.h"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "dataset/clip_maker.h"
-#include "dataset/convert.h"
+#include "dataset/clip_task.h"
+#include "dataset/convert_options.h"
 #include "io/config.h"
 
 namespace thermal {

@@ -4,7 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "dataset/clip_maker.h"
+#include "dataset/clip_record.h"
+#include "dataset/clip_task.h"
+#include "io/pass_reader.h"
+#include "scene/material.h"
 
 namespace thermal {
 

@@ -7,6 +7,7 @@
 #include "dataset/pass_survey.h"
 #include "dataset/passes_groups.h"
 #include "dataset/progress.h"
+#include "io/exr_header.h"
 #include "io/json_file.h"
 #include "scene/manifest.h"
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/cryptomatte.h"
+#include "io/exr_header.h"
 #include "io/exr_passes.h"
 #include "io/index_picture.h"
 #include "io/pass_reader.h"

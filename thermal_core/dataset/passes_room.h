@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "dataset/generate.h"
+#include "dataset/layout.h"
 #include "dataset/render_job.h"
 #include "dataset/run_monitor.h"
+#include "dataset/run_options.h"
 
 namespace thermal {
 

@@ -4,7 +4,8 @@
 #include <mutex>
 #include <string>
 
-#include "dataset/generate.h"
+#include "dataset/progress.h"
+#include "dataset/run_options.h"
 
 namespace thermal {
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/exr_header.h"
 #include "io/exr_passes.h"
 #include "io/matte_names.h"
 #include "scene/manifest.h"

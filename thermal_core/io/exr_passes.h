@@ -1,28 +1,11 @@
 #pragma once
 
-#include <string>
-
-#include "io/exr_header.h"
-#include "io/exr_scan.h"
+#include "io/exr_layout.h"
 #include "io/files.h"
 #include "io/pass_buffer.h"
-#include "scene/manifest.h"
 #include "scene/passes.h"
 
 namespace thermal {
-
-/// Depth of pixels outside a file's data window: what Blender writes where there is only sky.
-inline constexpr float kDepthOutsideM = 1e10F;
-
-/// Where to find the planes of a clip's EXR files.
-struct ExrLayout {
-  std::string layer = {};        ///< empty: the only one
-  std::string actor_layer = {};  ///< empty: none
-  PassChannels channels = {};    ///< those with unusual names
-  int width_px = 0;              ///< 0: any size
-  int height_px = 0;
-  ExrLimits limits = {};
-};
 
 /// Reads the planes of one frame that are needed, and no others, at the size of the file's display window. Size and
 /// limits are checked before memory is allocated. Pixels outside the data window have index 0, normal 0 and

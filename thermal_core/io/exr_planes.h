@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "io/exr_header.h"
-#include "io/exr_passes.h"
+#include "io/exr_layout.h"
 #include "io/exr_spellings.h"
+#include "scene/passes.h"
 
 namespace thermal {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/exr_header.h"
+#include "io/exr_channel.h"
 
 namespace thermal {
 

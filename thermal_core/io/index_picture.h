@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "io/files.h"
-#include "io/pass_reader.h"
 #include "io/picture_rows.h"
+#include "io/read_limits.h"
 #include "scene/manifest.h"
 #include "scene/passes.h"
 

@@ -1,19 +1,14 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 
 #include "io/files.h"
 #include "io/pass_buffer.h"
+#include "io/read_limits.h"
 #include "scene/manifest.h"
 #include "scene/passes.h"
 
 namespace thermal {
-
-/// Limits on what a file of passes may claim, checked before memory is allocated for it.
-struct ReadLimits {
-  std::int64_t pixels = 256'000'000;  ///< of a plane
-};
 
 /// Reads the frames of one clip in any format that its manifest declares: EXR index planes, an EXR cryptomatte, or
 /// pictures (PNG) of index numbers or of colours.

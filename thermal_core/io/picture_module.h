@@ -5,7 +5,7 @@
 #include "io/encoded_picture.h"
 #include "io/files.h"
 #include "io/picture_size.h"
-#include "io/text_picture.h"
+#include "io/text_coverage.h"
 
 namespace thermal {
 

@@ -1,18 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 
-#include "base/image.h"
 #include "io/files.h"
+#include "io/text_coverage.h"
 
 namespace thermal {
-
-/// A line of text as a picture: how much of each pixel the letters cover, 0 to 255.
-struct TextPicture {
-  Plane<std::uint8_t> coverage;  ///< from the first letter's left edge; empty for text that shows nothing
-  int baseline_px = 0;           ///< the row of `coverage` that letters stand on
-};
 
 /// Draws a line of text with FreeType, anti-aliased. The bits depend on FreeType's version. A character that is not ASCII
 /// shows as "?": OpenImageIO 2.4 takes "·" for "7".

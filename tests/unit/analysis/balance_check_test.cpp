@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "analysis/balance.h"
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"

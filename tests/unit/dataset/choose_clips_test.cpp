@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "dataset/generate.h"
+#include "dataset/clip_choice.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 

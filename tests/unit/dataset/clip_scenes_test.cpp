@@ -4,6 +4,7 @@
 
 #include "io/manifest_file.h"
 #include "io/material_files.h"
+#include "io/pass_reader.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_clip.h"

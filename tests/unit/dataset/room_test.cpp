@@ -15,7 +15,7 @@ Config small_pictures(int supersample) {
   config.width_px = 100;
   config.height_px = 50;
   config.overscan_px = 5;
-  config.resolved = {{"render", {{"supersample", supersample}}}};
+  config.supersample = supersample;
   return config;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "base/error.h"
+#include "io/exr_header.h"
 #include "io/exr_passes.h"
 #include "support/catch.h"
 #include "support/exr_forms.h"

@@ -1,30 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "dataset/exports/split_shares.h"
+#include "dataset/exports/export_options.h"
 #include "dataset/progress.h"
-#include "io/link_files.h"
 
 namespace thermal {
-
-enum class ExportFormat { coco, yolo, mot, birdsai };
-
-struct ExportOptions {
-  Path source;  ///< as read_labels() accepts it
-  ExportFormat format = ExportFormat::coco;
-  Path out;  ///< empty or not existing yet
-  Linking linking = Linking::hard;
-  bool ir16 = false;                  ///< 16-bit pictures, which only Veldt datasets have
-  std::vector<SplitShare> splits;     ///< empty: no split
-  std::optional<std::uint32_t> seed;  ///< seed of the splits; empty: the dataset's own, or 1
-  Path selection;                     ///< frames to export; empty: all
-  bool unfinished_too = false;
-};
 
 struct ExportedSplit {
   std::string name;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "dataset/exports/export.h"
+#include "dataset/exports/export_options.h"
 #include "dataset/exports/plan.h"
 
 namespace thermal {
