@@ -119,9 +119,9 @@ def test_shards_merged_make_the_undivided_dataset(veldt, command, usual, blender
     done = veldt("merge", *shards, "--out", "out", "--progress", "none")
     assert (done.code, done.err) == (0, "")
     assert done.out == "out: 2 clips merged, 16 frames\n"
-    _check_same(veldt, "out", usual)
-    done = veldt(*command)
+    done = veldt(*command)  # plans, and finds all clips
     assert done.out == f"{veldt.folder}/out: nothing to do, 2 clips already existed\n"
+    _check_same(veldt, "out", usual)
 
 
 # --- disturbed --------------------------------------------------------------------------------------------------------

@@ -54,7 +54,8 @@ def test_a_tripod_five_metres_up_needs_no_air(veldt):
         _physical(config)
         config["scene"]["groups"] = []
         config["clips"] = config["clips"][:1]
-        config["clips"][0]["flight"]["altitude_m"] = 5
+        # Lanes as far apart as the picture is wide there.
+        config["clips"][0]["flight"].update(altitude_m=5, lane_spacing_m=3)
 
     lines, _ = _budget(veldt, tripod)
     assert not lines["path"]["kept"]
