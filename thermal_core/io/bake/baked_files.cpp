@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t kAny = ArrayFile::kAny;
 
-template <typename Number, std::size_t kCount>
-std::span<const Number> flat(std::span<const std::array<Number, kCount>> rows) {
-  return {rows.empty() ? nullptr : rows.front().data(), kCount * rows.size()};
+template <typename Number, std::size_t Count>
+std::span<const Number> flat(std::span<const std::array<Number, Count>> rows) {
+  return {rows.empty() ? nullptr : rows.front().data(), Count * rows.size()};
 }
 
 /// DataError if a number of `what` is not below `count`.
