@@ -49,7 +49,8 @@ def waypoint_course(
 
     Between two waypoints the height changes linearly, in the height reference of the second; height_at(x (n,), y (n,))
     gives the height (n,) of ground or water to convert the first one's. A multirotor flies straight and stops at each
-    (`visits`); a fixed wing rounds the corners (`fly_by_turns`). ConfigError, without its place in the config, if it cannot.
+    (`visits`); a fixed wing rounds the corners (`fly_by_turns`). ConfigError, without its place in the config,
+    if it cannot.
     """
     places = merged(waypoints, aircraft.speed_m_s)
     if aircraft.kind == FIXED_WING:
