@@ -12,8 +12,8 @@
 #include "bench/sensor_suite.h"
 #include "cli/command.h"
 #include "cli/output.h"
-#include "io/material_files.h"
-#include "io/resources.h"
+#include "io/config/materials.h"
+#include "io/system/resources.h"
 
 namespace veldt {
 namespace {

@@ -5,10 +5,9 @@
 #include "cli/command.h"
 #include "cli/output.h"
 #include "cli/planning.h"
-#include "dataset/outline.h"
-#include "dataset/physics.h"
-#include "io/material_files.h"
-#include "io/resources.h"
+#include "dataset/passes/outline.h"
+#include "io/config/materials.h"
+#include "io/system/resources.h"
 
 namespace veldt {
 namespace {

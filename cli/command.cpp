@@ -13,7 +13,7 @@
 #include "base/version.h"
 #include "cli/output.h"
 #include "cli/stop_signal.h"
-#include "io/resources.h"
+#include "io/system/resources.h"
 
 namespace veldt {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "io/config.h"
+#include "io/config/config.h"
 
 namespace veldt {
 

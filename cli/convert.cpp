@@ -1,4 +1,4 @@
-#include "dataset/convert.h"
+#include "dataset/run/convert.h"
 
 #include <memory>
 
@@ -9,7 +9,7 @@
 #include "cli/read_limits.h"
 #include "cli/run_summary.h"
 #include "cli/stop_signal.h"
-#include "io/resources.h"
+#include "io/system/resources.h"
 
 namespace veldt {
 namespace {

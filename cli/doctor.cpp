@@ -6,9 +6,9 @@
 #include "cli/command.h"
 #include "cli/output.h"
 #include "dataset/plan/planning.h"
-#include "io/child_process.h"
-#include "io/resources.h"
-#include "io/versions.h"
+#include "io/system/child_process.h"
+#include "io/system/resources.h"
+#include "io/system/versions.h"
 
 namespace veldt {
 namespace {

@@ -9,7 +9,7 @@
 #include "cli/evaluation_table.h"
 #include "cli/output.h"
 #include "dataset/label_source.h"
-#include "io/detections_files.h"
+#include "io/label_files/detections.h"
 
 namespace veldt {
 namespace {

@@ -1,4 +1,4 @@
-#include "dataset/generate.h"
+#include "dataset/run/generate.h"
 
 #include <algorithm>
 #include <charconv>
@@ -12,9 +12,11 @@
 #include "cli/progress_bar.h"
 #include "cli/run_summary.h"
 #include "cli/stop_signal.h"
-#include "dataset/clip_choice.h"
 #include "dataset/layout.h"
-#include "io/resources.h"
+#include "dataset/run/clip_choice.h"
+#include "dataset/run/planning.h"
+#include "dataset/run/render.h"
+#include "io/system/resources.h"
 
 namespace veldt {
 namespace {

@@ -7,7 +7,7 @@
 #include "cli/progress_bar.h"
 #include "cli/read_limits.h"
 #include "cli/stop_signal.h"
-#include "io/resources.h"
+#include "io/system/resources.h"
 
 namespace veldt {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dataset/inspection.h"
-#include "dataset/starter_manifest.h"
+#include "dataset/inspect/inspection.h"
+#include "dataset/inspect/starter_manifest.h"
 
 namespace veldt {
 

@@ -1,4 +1,4 @@
-#include "dataset/merge.h"
+#include "dataset/run/merge.h"
 
 #include <cstdio>
 #include <memory>

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/printable.h"
-#include "io/json_file.h"
+#include "io/json/file.h"
 
 /// All that the command prints goes through these functions, because names in files may hold what terminals obey.
 namespace veldt {

@@ -5,7 +5,7 @@
 #include "cli/output.h"
 #include "cli/plan_table.h"
 #include "cli/planning.h"
-#include "io/resources.h"
+#include "io/system/resources.h"
 
 namespace veldt {
 namespace {

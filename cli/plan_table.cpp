@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/output.h"
-#include "dataset/estimate.h"
+#include "dataset/run/estimate.h"
 
 namespace veldt {
 namespace {

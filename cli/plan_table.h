@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dataset/plan/plan.h"
-#include "io/config.h"
+#include "io/config/config.h"
 
 namespace veldt {
 

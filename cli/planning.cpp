@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "cli/progress_bar.h"
-#include "io/resources.h"
+#include "io/system/resources.h"
 
 namespace veldt {
 

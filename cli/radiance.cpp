@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "cli/command.h"
 #include "cli/output.h"
-#include "io/spectrum_files.h"
+#include "io/config/spectra.h"
 #include "radiometry/band_radiance.h"
 #include "radiometry/radiance_table.h"
 

@@ -5,7 +5,7 @@
 #include "cli/command.h"
 #include "cli/output.h"
 #include "cli/progress_bar.h"
-#include "io/resources.h"
+#include "io/system/resources.h"
 
 namespace veldt {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "dataset/convert.h"
+#include "dataset/run/convert.h"
 
 namespace veldt {
 

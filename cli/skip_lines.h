@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dataset/convert.h"
+#include "dataset/run/convert.h"
 
 namespace veldt {
 

@@ -1,4 +1,4 @@
-#include "dataset/validate.h"
+#include "dataset/inspect/validate.h"
 
 #include <memory>
 
@@ -9,7 +9,7 @@
 #include "cli/output.h"
 #include "cli/planning.h"
 #include "cli/progress_bar.h"
-#include "io/resources.h"
+#include "io/system/resources.h"
 
 namespace veldt {
 namespace {

@@ -9,7 +9,7 @@
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
 #include "dataset/videos/palette.h"
-#include "io/resources.h"
+#include "io/system/resources.h"
 
 namespace veldt {
 namespace {

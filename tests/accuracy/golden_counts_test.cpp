@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "imaging/frame_converter.h"
-#include "io/material_files.h"
+#include "io/config/materials.h"
 #include "sensor/thermal_camera.h"
 #include "support/catch.h"
 

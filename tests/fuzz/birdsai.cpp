@@ -1,6 +1,7 @@
+#include "io/label_files/birdsai.h"
+
 #include "fuzz/label_demands.h"
 #include "fuzz/targets.h"
-#include "io/birdsai_files.h"
 
 void fuzz::birdsai(Bytes bytes) {
   static const TemporaryFolder folder;

@@ -2,7 +2,7 @@
 #include <initializer_list>
 
 #include "fuzz/targets.h"
-#include "io/calibration_file.h"
+#include "io/config/calibration_file.h"
 
 namespace {
 

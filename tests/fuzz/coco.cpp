@@ -1,6 +1,7 @@
+#include "io/label_files/coco.h"
+
 #include "fuzz/label_demands.h"
 #include "fuzz/targets.h"
-#include "io/coco_file.h"
 
 void fuzz::coco(Bytes bytes) {
   const auto file = as_file(bytes, "labels.json");

@@ -8,12 +8,12 @@
 #include "base/relative_name.h"
 #include "base/version.h"
 #include "dataset/exports/export.h"
-#include "dataset/merge.h"
+#include "dataset/inspect/validate.h"
 #include "dataset/reports/report.h"
-#include "dataset/validate.h"
+#include "dataset/run/merge.h"
 #include "fuzz/targets.h"
-#include "io/json_file.h"
-#include "io/sha256.h"
+#include "io/json/file.h"
+#include "io/system/sha256.h"
 
 namespace {
 

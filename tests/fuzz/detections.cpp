@@ -1,8 +1,9 @@
+#include "io/label_files/detections.h"
+
 #include <cmath>
 
 #include "fuzz/label_demands.h"
 #include "fuzz/targets.h"
-#include "io/detections_files.h"
 
 namespace {
 

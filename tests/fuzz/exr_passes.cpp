@@ -1,9 +1,8 @@
-#include "io/exr_passes.h"
-
 #include "fuzz/pass_demands.h"
 #include "fuzz/pass_manifests.h"
 #include "fuzz/targets.h"
-#include "io/cryptomatte.h"
+#include "io/exr/cryptomatte.h"
+#include "io/exr/passes.h"
 
 void fuzz::exr_passes(Bytes bytes) {
   static const std::vector<thermal::Manifest> kManifests = small_manifests();

@@ -1,4 +1,4 @@
-#include "io/index_picture.h"
+#include "io/image/index_picture.h"
 
 #include "fuzz/pass_demands.h"
 #include "fuzz/pass_manifests.h"

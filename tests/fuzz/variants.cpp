@@ -1,7 +1,7 @@
-#include "io/variants.h"
+#include "io/config/variants.h"
 
 #include "fuzz/targets.h"
-#include "io/config.h"
+#include "io/config/config.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "io/bake/baked_files.h"
-#include "io/json_file.h"
+#include "io/json/file.h"
 
 namespace {
 

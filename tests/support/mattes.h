@@ -10,7 +10,7 @@
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
-#include "io/matte_names.h"
+#include "io/exr/mattes.h"
 #include "scene/manifest.h"
 #include "support/exr.h"
 

@@ -1,4 +1,4 @@
-"""The setting of NumPy in the environment that the program gives to Blender and Python (io/child_environment.h)."""
+"""The setting of NumPy in the environment that the program gives to Blender and Python (io/system/child_process.h)."""
 
 from pathlib import Path
 

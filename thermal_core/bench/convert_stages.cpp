@@ -11,14 +11,14 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "bench/measure.h"
-#include "dataset/annotations.h"
-#include "dataset/tone_record.h"
+#include "dataset/clip/annotations.h"
+#include "dataset/clip/tone_record.h"
 #include "imaging/frame_converter.h"
 #include "imaging/target_contrast.h"
+#include "io/image/png.h"
 #include "io/pass_reader.h"
-#include "io/png.h"
-#include "io/preview_video.h"
-#include "io/sha256.h"
+#include "io/system/sha256.h"
+#include "io/video/preview_video.h"
 
 namespace thermal {
 namespace {

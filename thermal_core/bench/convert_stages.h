@@ -4,7 +4,7 @@
 
 #include "bench/bench_scene.h"
 #include "bench/convert_row.h"
-#include "dataset/clip_maker.h"
+#include "dataset/clip/maker.h"
 
 namespace thermal {
 

@@ -1,14 +1,116 @@
 #include "bench/convert_suite.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "base/parallel.h"
 #include "bench/convert_stages.h"
-#include "bench/convert_whole.h"
 #include "bench/passes_file.h"
 #include "bench/sensor_scene.h"
-#include "io/passing_folder.h"
+#include "io/system/passing_folder.h"
 
 namespace thermal {
+namespace {
+
+/// Processor time of this process so far, over all its threads.
+double processor_s() {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+double peak_mb() {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  return std::round(1024e-6 * static_cast<double>(used.ru_maxrss));  // Linux counts in KiB
+}
+
+struct Spent {
+  double wall_ms = 0;
+  double processor_ms = 0;
+};
+
+/// Cost per frame of a clip of that many.
+Spent make(const ConvertJob& job, const ClipTask& task, int frames) {
+  ClipPasses passes{.manifest = job.scene.manifest,
+                    .folder = job.file.parent_path(),
+                    .limits = {},
+                    .bad_frames = BadFrames::fail};
+  passes.manifest.frames.assign(static_cast<std::size_t>(frames), job.scene.manifest.frames[0]);
+  for (ManifestFrame& frame : passes.manifest.frames) frame.file = job.file.filename().string();
+  const double before_s = processor_s();
+  const auto begin = std::chrono::steady_clock::now();
+  (void)make_clip(passes, task, job.materials, {});
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - begin;
+  return {.wall_ms = wall.count() / frames, .processor_ms = 1e3 * (processor_s() - before_s) / frames};
+}
+
+/// Stages of the model among the rows; rows that name no model belong to both.
+std::vector<ConvertRow> stages_of(bool physical, const std::vector<ConvertRow>& stages) {
+  std::vector<ConvertRow> own = stages;
+  std::erase_if(own, [physical](const ConvertRow& row) {
+    return row.name.ends_with(physical ? "published" : "physical") || row.limit.empty();
+  });
+  return own;
+}
+
+/// The slowest of the stages that process frames in order: the camera, and the preview collected beside it.
+const ConvertRow& slowest_in_order(const std::vector<ConvertRow>& stages) {
+  const auto in_order_ms = [](const ConvertRow& row) {
+    return row.name.starts_with("expose") || row.name == "preview" ? row.ms : 0;
+  };
+  return *std::max_element(stages.begin(), stages.end(), [&](const ConvertRow& one, const ConvertRow& other) {
+    return in_order_ms(one) < in_order_ms(other);
+  });
+}
+
+std::string bound_of(const Spent& spent, int threads, const std::vector<ConvertRow>& stages) {
+  constexpr double kNearly = 0.8;
+  double sum_ms = 0;
+  for (const ConvertRow& row : stages) sum_ms += row.ms;
+  const ConvertRow& in_order = slowest_in_order(stages);
+  const ConvertRow& largest =
+      *std::max_element(stages.begin(), stages.end(),
+                        [](const ConvertRow& one, const ConvertRow& other) { return one.ms < other.ms; });
+  if (threads > 1 && in_order.ms > kNearly * spent.wall_ms)
+    return fmt::format("{}, which processes frames one by one", in_order.name);
+  if (spent.processor_ms > kNearly * threads * spent.wall_ms)
+    return fmt::format("the processors; {} is {:.0f} % of the stages' {:.1f} ms", largest.name,
+                       100 * largest.ms / sum_ms, sum_ms);
+  return "waiting: for the disk, or for processors used by other programs";
+}
+
+}  // namespace
+
+ConvertRow convert_whole_row(const ConvertJob& job, bool physical, int frames, int threads,
+                             const std::vector<ConvertRow>& stages, const Path& folder) {
+  const ThreadLimit limit(threads);
+  const int used = thread_count(threads);
+  ClipTask task = physical ? job.physical : job.published;
+  task.layout = {folder / "whole"};
+  const Spent spent = make(job, task, frames);
+  const CameraIntrinsics& camera = job.scene.manifest.camera;
+  const auto file_bytes = static_cast<double>(std::filesystem::file_size(job.file));
+  return {
+      .group = fmt::format("{} x {}, from files to a clip", camera.width_px, camera.height_px),
+      .name = fmt::format("{}, {} thread{}", physical ? "physical" : "published", used, used == 1 ? "" : "s"),
+      .ms = spent.wall_ms,
+      .mb_per_s = file_bytes / 1e3 / spent.wall_ms,
+      .limit = "",
+      .times_limit = 0,
+      .bound = bound_of(spent, used, stages_of(physical, stages)),
+      .figures = {{"frames_per_s", 1e3 / spent.wall_ms},
+                  {"processor_ms", spent.processor_ms},
+                  {"peak_mb", peak_mb()}}};
+}
+
 namespace {
 
 ClipTask task_of(const BenchScene& scene) {

@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "bench/sensor_scene.h"
-#include "dataset/annotations.h"
+#include "dataset/clip/annotations.h"
 #include "imaging/actor_labeller.h"
 #include "imaging/target_contrast.h"
 #include "radiometry/band_radiance.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/bench_scene.h"
-#include "io/files.h"
+#include "io/system/files.h"
 
 namespace thermal {
 

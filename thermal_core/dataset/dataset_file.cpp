@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/relative_name.h"
 #include "dataset/layout.h"
-#include "io/json_entry.h"
+#include "io/json/entry.h"
 
 namespace thermal {
 namespace {

@@ -10,7 +10,7 @@
 #include "base/version.h"
 #include "dataset/dataset_file.h"
 #include "dataset/joined_annotations.h"
-#include "io/sha256.h"
+#include "io/system/sha256.h"
 
 namespace thermal {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "dataset/clip_record.h"
+#include "dataset/clip/record.h"
 #include "dataset/layout.h"
-#include "io/config.h"
+#include "io/config/config.h"
 
 namespace thermal {
 

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "dataset/annotations.h"
-#include "io/json_entry.h"
-#include "io/output_file.h"
+#include "dataset/clip/annotations.h"
+#include "io/json/entry.h"
+#include "io/system/files.h"
 #include "labels/categories.h"
 
 namespace thermal {

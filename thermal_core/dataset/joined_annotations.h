@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "dataset/layout.h"
-#include "io/json_stream.h"
-#include "io/spool.h"
+#include "io/json/stream.h"
+#include "io/system/spool.h"
 
 namespace thermal {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/files.h"
+#include "io/system/files.h"
 #include "labels/label_set.h"
 
 namespace thermal {

@@ -8,9 +8,9 @@
 #include "base/text.h"
 #include "dataset/dataset_file.h"
 #include "dataset/layout.h"
-#include "io/birdsai_files.h"
-#include "io/coco_file.h"
-#include "io/json_file.h"
+#include "io/json/file.h"
+#include "io/label_files/birdsai.h"
+#include "io/label_files/coco.h"
 
 namespace thermal {
 namespace {

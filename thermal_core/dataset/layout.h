@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "io/files.h"
+#include "io/system/files.h"
 
 namespace thermal {
 

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "io/json_file.h"
-#include "io/json_schema.h"
+#include "io/json/file.h"
+#include "io/json/schema.h"
 
 namespace thermal {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/files.h"
+#include "io/system/files.h"
 
 namespace thermal {
 

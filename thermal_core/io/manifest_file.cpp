@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "io/json_file.h"
-#include "io/json_schema.h"
-#include "io/sha256.h"
+#include "io/json/file.h"
+#include "io/json/schema.h"
+#include "io/system/sha256.h"
 
 namespace thermal {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/files.h"
-#include "io/json_file.h"
+#include "io/json/file.h"
+#include "io/system/files.h"
 #include "scene/manifest.h"
 
 namespace thermal {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <utility>
 
-#include "io/cryptomatte.h"
-#include "io/exr_passes.h"
-#include "io/index_picture.h"
+#include "io/exr/cryptomatte.h"
+#include "io/exr/passes.h"
+#include "io/image/index_picture.h"
 #include "scene/camera_geometry.h"
 
 namespace thermal {

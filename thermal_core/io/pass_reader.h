@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "io/files.h"
 #include "io/pass_buffer.h"
-#include "io/read_limits.h"
+#include "io/system/files.h"
+#include "io/system/read_limits.h"
 #include "scene/manifest.h"
 #include "scene/passes.h"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
 
-#include "io/calibration_file.h"
+#include "io/config/calibration_file.h"
 #include "support/catch.h"
 
 namespace calibrations_test {

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "io/material_files.h"
-#include "io/spectrum_files.h"
+#include "io/config/materials.h"
+#include "io/config/spectra.h"
 #include "radiometry/emissivity.h"
 #include "radiometry/spectral_response.h"
 

@@ -2,7 +2,7 @@
 
 #include "accuracy/physical/assets.h"
 #include "base/error.h"
-#include "io/json_file.h"
+#include "io/json/file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"

@@ -1,7 +1,7 @@
 #include "accuracy/physical/assets.h"
 #include "base/error.h"
-#include "dataset/physics.h"
-#include "io/config.h"
+#include "dataset/passes/outline.h"
+#include "io/config/config.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 

@@ -1,6 +1,6 @@
 #include "dataset/joined_annotations.h"
 
-#include "io/sha256.h"
+#include "io/system/sha256.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"

@@ -1,7 +1,7 @@
 #include "io/manifest_file.h"
 
 #include "base/error.h"
-#include "io/json_file.h"
+#include "io/json/file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "io/birdsai_files.h"
+#include "io/label_files/birdsai.h"
 
 namespace thermal {
 namespace {

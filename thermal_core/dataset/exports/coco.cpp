@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "io/json_file.h"
+#include "io/json/file.h"
 
 namespace thermal {
 namespace {

@@ -17,8 +17,8 @@
 #include "dataset/exports/source.h"
 #include "dataset/exports/yolo.h"
 #include "dataset/label_pictures.h"
-#include "io/json_file.h"
-#include "io/sha256.h"
+#include "io/json/file.h"
+#include "io/system/files.h"
 
 namespace thermal {
 namespace {

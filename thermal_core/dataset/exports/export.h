@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dataset/exports/export_options.h"
-#include "dataset/progress.h"
+#include "dataset/run/progress.h"
 
 namespace thermal {
 

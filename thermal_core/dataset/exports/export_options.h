@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dataset/exports/split_shares.h"
-#include "io/link_files.h"
+#include "io/system/files.h"
 
 namespace thermal {
 

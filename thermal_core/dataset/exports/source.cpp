@@ -11,8 +11,8 @@
 #include "dataset/label_pictures.h"
 #include "dataset/label_source.h"
 #include "dataset/layout.h"
-#include "io/picture_size.h"
-#include "io/sha256.h"
+#include "io/image/picture_size.h"
+#include "io/system/sha256.h"
 
 namespace thermal {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "io/json_file.h"
+#include "io/json/file.h"
 
 namespace thermal {
 namespace {

@@ -2,8 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "dataset/outline.h"
-#include "dataset/outline_parts.h"
+#include "dataset/passes/outline.h"
 
 namespace thermal {
 

@@ -1,7 +1,7 @@
 #include "dataset/plan/plan.h"
 
 #include "base/error.h"
-#include "io/json_schema.h"
+#include "io/json/schema.h"
 
 namespace thermal {
 namespace {

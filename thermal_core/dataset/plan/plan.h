@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "io/config.h"
-#include "io/files.h"
-#include "io/json_file.h"
+#include "io/config/config.h"
+#include "io/json/file.h"
+#include "io/system/files.h"
 
 namespace thermal {
 

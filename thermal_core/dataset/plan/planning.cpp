@@ -10,10 +10,10 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/printable.h"
-#include "io/child_process.h"
-#include "io/output_folder.h"
-#include "io/resources.h"
-#include "io/sha256.h"
+#include "io/system/child_process.h"
+#include "io/system/files.h"
+#include "io/system/resources.h"
+#include "io/system/sha256.h"
 
 namespace thermal {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "dataset/plan/plan.h"
-#include "dataset/progress.h"
+#include "dataset/run/progress.h"
 
 namespace thermal {
 

@@ -2,18 +2,80 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/printable.h"
 #include "dataset/plan/planning.h"
-#include "io/base64.h"
-#include "io/child_process.h"
-#include "io/jpeg.h"
-#include "io/passing_folder.h"
+#include "io/config/lens.h"
+#include "io/image/jpeg.h"
+#include "io/system/base64.h"
+#include "io/system/child_process.h"
+#include "io/system/passing_folder.h"
 
 namespace thermal {
+
+std::vector<std::array<double, 2>> seen_ground(const std::array<double, 16>& camera_to_world, double agl_m,
+                                               const Json& camera) {
+  constexpr double kFarthest = 5;
+  const auto& m = camera_to_world;
+  const CameraIntrinsics pinhole = read_intrinsics(camera);
+  const double left = -pinhole.cx_px / pinhole.fx_px;
+  const double up = -pinhole.cy_px / pinhole.fy_px;
+  const double right = (pinhole.width_px - pinhole.cx_px) / pinhole.fx_px;
+  const double down = (pinhole.height_px - pinhole.cy_px) / pinhole.fy_px;
+  std::vector<std::array<double, 2>> corners;
+  for (const auto& [x, y] : {std::array{left, up}, {right, up}, {right, down}, {left, down}}) {
+    const std::array ray = {m[0] * x + m[1] * y + m[2], m[4] * x + m[5] * y + m[6],
+                            m[8] * x + m[9] * y + m[10]};
+    const double run = std::hypot(ray[0], ray[1]);
+    if (ray[2] >= 0 || run > -kFarthest * ray[2]) return {};
+    corners.push_back({m[3] - ray[0] / ray[2] * agl_m, m[7] - ray[1] / ray[2] * agl_m});
+  }
+  return corners;
+}
+
+namespace {
+
+void add_frame(const Json& frame, FlightTrack& track) {
+  if (!frame.contains("camera_to_world")) return;
+  track.camera_to_world.push_back(frame["camera_to_world"].get<std::array<double, 16>>());
+  if (frame.contains("agl_m")) track.agl_m.push_back(frame["agl_m"]);
+}
+
+}  // namespace
+
+FlightTrack read_track(const Path& file, const std::string& clip) {
+  FlightTrack track{.clip = clip, .camera_to_world = {}, .agl_m = {}};
+  std::istringstream lines(read_file(file));
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    try {
+      add_frame(Json::parse(line), track);
+    } catch (const Json::exception& error) {
+      throw DataError(fmt::format("{}:{}: not a frame of a clip: {}", file.string(), number, error.what()));
+    }
+  }
+  if (track.agl_m.size() != track.camera_to_world.size()) track.agl_m.clear();
+  return track;
+}
+
+std::vector<std::size_t> spread(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> places;
+  const std::size_t steps = std::min(count, most);
+  for (std::size_t k = 0; k < steps; ++k) places.push_back(steps == 1 ? 0 : k * (count - 1) / (steps - 1));
+  return places;
+}
+
+std::vector<std::array<double, 2>> seen_halfway(const FlightTrack& track, const Json& config) {
+  if (track.agl_m.empty()) return {};
+  const std::size_t middle = track.agl_m.size() / 2;
+  return seen_ground(track.camera_to_world[middle], track.agl_m[middle], config.at("camera"));
+}
+
 namespace {
 
 /// A centimetre is finer than a pixel of any map.

@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "dataset/label_pictures.h"
 #include "dataset/reports/labels.h"
-#include "io/base64.h"
-#include "io/jpeg.h"
+#include "io/image/jpeg.h"
+#include "io/system/base64.h"
 
 namespace thermal {
 namespace {

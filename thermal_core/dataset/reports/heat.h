@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/json_file.h"
+#include "io/json/file.h"
 #include "labels/label_set.h"
 
 namespace thermal {

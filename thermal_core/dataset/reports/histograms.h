@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/json_file.h"
+#include "io/json/file.h"
 
 namespace thermal {
 

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "base/error.h"
-#include "io/base64.h"
-#include "io/sha256.h"
+#include "io/system/base64.h"
+#include "io/system/sha256.h"
 
 namespace thermal {
 namespace {

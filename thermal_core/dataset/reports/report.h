@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <functional>
 
-#include "dataset/progress.h"
-#include "io/files.h"
+#include "dataset/run/progress.h"
+#include "io/system/files.h"
 
 namespace thermal {
 

@@ -8,12 +8,12 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "dataset/clip_record.h"
+#include "dataset/clip/record.h"
 #include "dataset/dataset_file.h"
-#include "io/coco_file.h"
-#include "io/json_file.h"
-#include "io/picture_size.h"
-#include "io/png.h"
+#include "io/image/picture_size.h"
+#include "io/image/png.h"
+#include "io/json/file.h"
+#include "io/label_files/coco.h"
 
 namespace thermal {
 namespace {

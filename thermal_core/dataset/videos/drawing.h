@@ -11,7 +11,7 @@
 
 #include "dataset/videos/grid.h"
 #include "dataset/videos/palette.h"
-#include "io/text_picture.h"
+#include "io/image/text_picture.h"
 
 namespace thermal {
 

@@ -13,9 +13,9 @@
 #include "base/printable.h"
 #include "base/text.h"
 #include "dataset/videos/cell_painter.h"
-#include "io/encoded_picture.h"
-#include "io/h264_file.h"
-#include "io/temporary_file.h"
+#include "io/image/encoded_picture.h"
+#include "io/system/temporary_file.h"
+#include "io/video/h264_file.h"
 
 namespace thermal {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "dataset/progress.h"
+#include "dataset/run/progress.h"
 #include "dataset/videos/kelvin_scale.h"
-#include "io/files.h"
+#include "io/system/files.h"
 
 namespace thermal {
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "io/json_schema.h"
+#include "io/json/schema.h"
 
 namespace thermal {
 namespace {

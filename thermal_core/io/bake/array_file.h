@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "io/files.h"
-#include "io/json_file.h"
+#include "io/json/file.h"
+#include "io/system/files.h"
 
 namespace thermal {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/files.h"
+#include "io/system/files.h"
 #include "scene/baked_scene.h"
 
 namespace thermal {

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "dataset/exports/selection.h"
-#include "io/json_file.h"
+#include "io/json/file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "unit/dataset/exports/export_input.h"

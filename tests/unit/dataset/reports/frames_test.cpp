@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "dataset/reports/flights.h"
 #include "dataset/reports/labels.h"
-#include "dataset/reports/seen_ground.h"
 #include "support/catch.h"
 
 namespace frames_test {

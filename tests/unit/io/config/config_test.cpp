@@ -1,0 +1,228 @@
+#include "io/config/config.h"
+
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+
+namespace config_test {
+
+using namespace thermal;
+
+namespace {
+
+/// A minimal config.
+Json least() {
+  return parse_json(R"({"name": "night", "clips": [
+      {"id": "a", "season": "winter", "frames": 3, "flight": {"pattern": "zigzag"}},
+      {"id": "b", "season": "summer", "frames": 4, "flight": {"pattern": "zigzag"}}]})",
+                    "");
+}
+
+/// The same with a flight to cut.
+Json with_flight() {
+  Json document = least();
+  document["flights"] = parse_json(
+      R"([{"id": "long", "season": "winter", "duration_s": 60, "flight": {"pattern": "zigzag"}}])", "");
+  return document;
+}
+
+Config resolved(const Json& document) { return resolve_config(document, "night.json", VELDT_SOURCE_DIR); }
+
+std::string fault_in(const Json& document) {
+  return message_of<ConfigError>([&] { (void)resolved(document); });
+}
+
+Json with_setting(const std::string& assignment) {
+  Json document = least();
+  apply_setting(document, assignment);
+  return document;
+}
+
+std::string fault_in_setting(const std::string& assignment) {
+  return message_of<ConfigError>([&] { (void)with_setting(assignment); });
+}
+
+}  // namespace
+
+TEST_CASE("A minimal config is valid, and all defaults are filled in") {
+  const Config config = resolved(least());
+  CHECK(config.name == "night");
+  CHECK(config.seed == 1);
+  CHECK(config.width_px == 640);
+  CHECK(config.height_px == 512);
+  REQUIRE(config.clips.size() == 2);
+  CHECK(config.clips[1].id == "b");
+  CHECK(config.clips[1].season == Season::summer);
+  CHECK(config.clips[1].frames == 4);
+  CHECK(config.clips[1].frame_rate_hz == 9);
+  CHECK(config.resolved["sensor"]["kelvin_per_count"] == 0.01);
+  CHECK(config.resolved["clips"][0]["flight"]["altitude_m"] == 61);
+}
+
+TEST_CASE("Label thresholds are read, and are nearly off by default") {
+  CHECK(resolved(least()).labels == LabelParameters());
+  Json document = least();
+  document["labels"] = {
+      {"occluded_below_visibility", 0.5}, {"ignore_below_visibility", 0.25}, {"ignore_below_area_px", 12}};
+  CHECK(resolved(document).labels == LabelParameters{.occluded_below_visibility = 0.5,
+                                                     .ignore_below_visibility = 0.25,
+                                                     .ignore_below_area_px = 12});
+}
+
+TEST_CASE("Resolving a resolved config changes nothing") {
+  const Config config = resolved(least());
+  CHECK(resolved(config.resolved).resolved == config.resolved);
+}
+
+TEST_CASE("Every fault has a line starting with the config's name") {
+  Json document = least();
+  document["clips"][0]["frames"] = 0;
+  document["clips"][1]["flight"]["patern"] = "follow";
+  document["camera"]["width_px"] = "640";
+  CHECK_THAT(
+      fault_in(document),
+      StartsWith("night.json: clips[0].frames = 0; expected at least 1 and at most 1000000\n"
+                 "night.json: clips[1].flight.patern is not a known key; expected one of pattern, ") &&
+          EndsWith("; did you mean \"pattern\"?\nnight.json: camera.width_px = \"640\"; expected a whole "
+                   "number"));
+}
+
+TEST_CASE("Clip ids are unique") {
+  CHECK(fault_in(with_setting("clips[1].id=a")) == "night.json: clips[1].id = \"a\"; expected each id once");
+}
+
+TEST_CASE("A setting changes one value, as JSON or as plain text") {
+  CHECK(with_setting("seed=7")["seed"] == 7);
+  CHECK(with_setting("name=other")["name"] == "other");
+  CHECK(with_setting("name=\"7\"")["name"] == "7");
+  CHECK(with_setting("clips[1].flight.altitude_m=30.5")["clips"][1]["flight"]["altitude_m"] == 30.5);
+  CHECK(with_setting("sensor.netd_mk=50")["sensor"]["netd_mk"] == 50);  // creates missing members on the way
+  CHECK(with_setting("name=a=b")["name"] == "a=b");
+  CHECK(with_setting("name=")["name"].get<std::string>().empty());
+}
+
+TEST_CASE("The season setting applies to every clip") {
+  const Json document = with_setting("season=summer");
+  CHECK(document["clips"][0]["season"] == "summer");
+  CHECK(document["clips"][1]["season"] == "summer");
+}
+
+TEST_CASE("An invalid setting is an error") {
+  CHECK(fault_in_setting("seed") == "--set = \"seed\"; expected KEY=VALUE");
+  CHECK(fault_in_setting("=7") == "--set = \"=7\"; expected KEY=VALUE");
+  CHECK(fault_in_setting("name.first=7") ==
+        "--set = \"name.first=7\"; expected KEY=VALUE with the key of an object");
+  CHECK(fault_in_setting("sensor..x=7") ==
+        "--set = \"sensor..x=7\"; expected KEY=VALUE with the key of an object");
+  CHECK(fault_in_setting("clips[2].id=c") ==
+        "--set = \"clips[2].id=c\"; expected an entry of clips, [0] to [1]");
+  CHECK(fault_in_setting("clips[x].id=c") ==
+        "--set = \"clips[x].id=c\"; expected an entry of clips, [0] to [1]");
+  CHECK(fault_in_setting("clips[].id=c") ==
+        "--set = \"clips[].id=c\"; expected an entry of clips, [0] to [1]");
+}
+
+TEST_CASE("A setting's value is checked like any other") {
+  CHECK(fault_in(with_setting("sensor.optics.blur_sigma_px=-1")) ==
+        "night.json: sensor.optics.blur_sigma_px = -1 px; expected at least 0 and at most 10 px");
+}
+
+TEST_CASE("An unknown clip is an error with the nearest id") {
+  Json document = least();
+  document["clips"][0]["id"] = "winter_zigzag";
+  const Config config = resolved(document);
+  CHECK(config.clip("b", "--clips").frames == 4);
+  CHECK(message_of<ConfigError>([&] { (void)config.clip("winter_zigzg", "--clips"); }) ==
+        "--clips = \"winter_zigzg\"; expected one of winter_zigzag, b; did you mean \"winter_zigzag\"?");
+}
+
+TEST_CASE("Maps are relative to the config that names them") {
+  Json document = least();
+  document["scene"]["terrain"]["heightmap"] = {{"file", "maps/hill.png"}, {"height_m", {0, 30}}};
+  document["scene"]["terrain"]["density_map"] = {{"file", "/abroad/areas.png"}};
+  root_files(document, "/ranger");
+  const Json terrain = resolved(document).resolved["scene"]["terrain"];
+  CHECK(terrain["heightmap"]["file"] == "/ranger/maps/hill.png");
+  CHECK(terrain["density_map"]["file"] == "/abroad/areas.png");
+}
+
+TEST_CASE("A map that is not a file name is left to the schema") {
+  Json document = least();
+  document["scene"]["terrain"]["density_map"] = {{"file", 3}};
+  root_files(document, "/ranger");
+  CHECK(fault_in(document) == "night.json: scene.terrain.density_map.file = 3; expected a string");
+}
+
+TEST_CASE("A mission's file is relative to the config, for clips and for flights") {
+  Json document = with_flight();
+  document["clips"][0]["flight"] = {{"pattern", "waypoints"}, {"waypoints", {{"file", "lake.plan"}}}};
+  document["flights"][0]["flight"] = {{"pattern", "waypoints"}, {"waypoints", {{"file", "/abroad/log.csv"}}}};
+  root_files(document, "/ranger");
+  const Json found = resolved(document).resolved;
+  CHECK(found["clips"][0]["flight"]["waypoints"]["file"] == "/ranger/lake.plan");
+  CHECK(found["flights"][0]["flight"]["waypoints"]["file"] == "/abroad/log.csv");
+}
+
+TEST_CASE("A view is shorthand for a height and an angle, which can be overridden") {
+  Json document = least();
+  document["clips"][0]["flight"] = {{"pattern", "zigzag"}, {"view", "122m_oblique"}};
+  document["clips"][1]["flight"] = {{"pattern", "zigzag"}, {"view", "122m_oblique"}, {"look_angle_deg", 60}};
+  const Json clips = resolved(document).resolved["clips"];
+  CHECK(clips[0]["flight"]["altitude_m"] == 122);
+  CHECK(clips[0]["flight"]["look_angle_deg"] == 45);
+  CHECK(clips[1]["flight"]["altitude_m"] == 122);
+  CHECK(clips[1]["flight"]["look_angle_deg"] == 60);
+}
+
+TEST_CASE("A setting whose value is not valid JSON is a string") {
+  const std::string deep(100, '[');
+  CHECK(with_setting("name=" + deep + std::string(100, ']'))["name"].is_string());
+  CHECK(with_setting(R"(name={"a": 1, "a": 2})")["name"] == R"({"a": 1, "a": 2})");
+}
+
+TEST_CASE("A config of flights needs no clips, and one with neither is an error") {
+  Json document = with_flight();
+  document.erase("clips");
+  CHECK(resolved(document).clips.empty());
+  document.erase("flights");
+  CHECK(fault_in(document) == "night.json: clips and flights are empty; expected at least one of either");
+}
+
+TEST_CASE("Flight ids are unique") {
+  Json document = with_flight();
+  document["flights"].push_back(document["flights"][0]);
+  CHECK(fault_in(document) == "night.json: flights[1].id = \"long\"; expected each id once");
+}
+
+TEST_CASE("The season setting applies to every flight as well") {
+  Json document = with_flight();
+  apply_setting(document, "season=summer");
+  CHECK(document["flights"][0]["season"] == "summer");
+}
+
+TEST_CASE("An entry that is neither clip nor flight has no season, and is still reported") {
+  Json document = least();
+  document["clips"] = {"a", document["clips"][0]};
+  document["flights"] = "b";
+  apply_setting(document, "season=summer");
+  CHECK(document["clips"][0] == "a");
+  CHECK(document["clips"][1]["season"] == "summer");
+  CHECK_THAT(fault_in(document), StartsWith("night.json: "));
+}
+
+TEST_CASE("The clips of flights follow a config's own") {
+  const Config config = resolved(with_flight());
+  Json clip = config.resolved["clips"][0];
+  clip["id"] = "long_0000";
+  clip["of_flight"] = "long";
+  clip["frames"] = 7;
+  const Config cut = with_clips(config, Json::array({clip}));
+  REQUIRE(cut.clips.size() == 3);
+  CHECK(cut.clips[2].id == "long_0000");
+  CHECK(cut.clips[2].frames == 7);
+  CHECK(cut.resolved["clips"][2] == clip);
+  CHECK(cut.resolved["flights"].empty());
+  CHECK(resolved(cut.resolved).resolved == cut.resolved);
+}
+
+}  // namespace config_test

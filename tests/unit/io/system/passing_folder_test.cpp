@@ -1,0 +1,81 @@
+#include "io/system/passing_folder.h"
+
+#include <csignal>
+#include <cstdlib>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "support/catch.h"
+#include "support/temporary_folder.h"
+
+namespace passing_folder_test {
+
+using namespace thermal;
+
+namespace {
+
+/// Folders for temporary files are made in this one, as long as it exists.
+class OwnTemporaries {
+ public:
+  OwnTemporaries() { ::setenv("TMPDIR", folder.path().c_str(), 1); }
+  ~OwnTemporaries() { ::unsetenv("TMPDIR"); }
+  OwnTemporaries(const OwnTemporaries&) = delete;
+  OwnTemporaries& operator=(const OwnTemporaries&) = delete;
+
+  TemporaryFolder folder;
+};
+
+}  // namespace
+
+TEST_CASE("A passing folder goes with its contents") {
+  const OwnTemporaries temporaries;
+  Path path;
+  {
+    const PassingFolder passing;
+    path = passing.path();
+    CHECK(std::filesystem::is_empty(path));
+    write_file(path / "file", {});
+  }
+  CHECK_FALSE(std::filesystem::exists(path));
+}
+
+TEST_CASE("A passing folder goes with its contents if its process is interrupted or killed") {
+  const OwnTemporaries temporaries;
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    const int process = ::fork();
+    if (process == 0) {
+      const PassingFolder passing;
+      make_folder(passing.path() / "deep");
+      write_file(passing.path() / "deep" / "file", {});
+      ::signal(signal, SIG_DFL);
+      ::raise(signal);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(process, &status, 0) == process);
+    CHECK(WTERMSIG(status) == signal);
+    bool is_gone = false;
+    for (int tries = 0; tries < 1000 && !is_gone; ++tries) {
+      ::usleep(10000);
+      is_gone = std::filesystem::is_empty(temporaries.folder.path());
+    }
+    CHECK(is_gone);
+  }
+}
+
+TEST_CASE("A passing folder removes what a killed run has left, and nothing that is in use or of others") {
+  const OwnTemporaries temporaries;
+  const Path left = temporaries.folder / ".veldt-passing-aaaaaa";
+  const Path foreign = temporaries.folder / "veldt-demo";
+  const Path kept = temporaries.folder / "elsewhere";
+  for (const Path& folder : {left, foreign, kept}) make_folder(folder / "inside");
+  std::filesystem::create_directory_symlink(kept, temporaries.folder / ".veldt-passing-link");
+  const PassingFolder used;
+  CHECK_FALSE(std::filesystem::exists(left));
+  const PassingFolder second;
+  CHECK(std::filesystem::exists(used.path()));
+  CHECK(std::filesystem::exists(foreign / "inside"));
+  CHECK(std::filesystem::exists(kept / "inside"));
+}
+
+}  // namespace passing_folder_test

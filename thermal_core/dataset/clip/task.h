@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "dataset/layout.h"
+#include "imaging/scene_radiance.h"
+#include "io/config/config.h"
+#include "io/system/read_limits.h"
+#include "labels/label_parameters.h"
+#include "scene/lens_distortion.h"
+#include "scene/manifest.h"
+
+namespace thermal {
+
+/// What to do with a clip if a frame cannot be read or converted: reject the clip, or make it without that frame.
+enum class BadFrames { fail, skip };
+
+/// One rendered clip, and how to read it.
+struct ClipPasses {
+  Manifest manifest;
+  Path folder;  ///< of the EXR files
+  ReadLimits limits = {};
+  BadFrames bad_frames = BadFrames::fail;
+  std::string identity_sha256 = {};  ///< identity_of() them; empty if they are rendered for the dataset
+};
+
+/// What a dataset makes from a clip's passes: all settings for frames and labels.
+struct ClipTask {
+  std::string variant;  ///< start of messages about the request; empty if there is only one task
+  ClipConfig clip;
+  std::uint32_t seed = 1;
+  SensorParameters sensor;
+  LensDistortion distortion;
+  LabelParameters labels;
+  std::optional<PhysicsSettings> physics;  ///< empty: the published model
+  Layout layout;                           ///< its folder
+  std::string made_from_sha256 = {};       ///< for the clip's record
+};
+
+}  // namespace thermal

@@ -1,0 +1,229 @@
+#include "dataset/inspect/inspection.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "io/exr/header.h"
+#include "io/manifest_file.h"
+#include "scene/camera_geometry.h"
+
+namespace thermal {
+namespace {
+
+PassesGroup only_group(const std::vector<Path>& passes) {
+  std::vector<PassesGroup> groups = group_passes(passes);
+  if (groups.size() == 1) return std::move(groups.front());
+  std::vector<std::string> folders;
+  for (const PassesGroup& group : groups) folders.push_back(group.folder.string());
+  throw ConfigError(fault("passes", list_names(folders), "", "one folder of passes, or files in one"));
+}
+
+std::optional<Manifest> manifest_of(const PassesGroup& group, const InspectOptions& options) {
+  if (options.for_starter) return std::nullopt;
+  if (!options.manifest.empty()) return read_manifest(options.manifest, options.home);
+  const Path beside = group.folder / "manifest.json";
+  if (!std::filesystem::exists(beside)) return std::nullopt;
+  return read_manifest(beside, options.home);
+}
+
+/// Named files, whatever a manifest lists: inspection is meant for users who do not know what their files hold.
+FrameSequence sequence_to_inspect(const PassesGroup& group, const std::optional<Manifest>& manifest) {
+  const bool says = manifest && (!manifest->frames.empty() || !manifest->sequence.empty());
+  if (!says || !group.files.empty()) return frames_of(group);
+  FrameSequence sequence = frames_of(group, *manifest, group.folder / "manifest.json", true);
+  for (FrameSequence::Frame& frame : sequence.frames)
+    frame.is_gap = !std::filesystem::exists(group.folder / frame.name.name);
+  return sequence;
+}
+
+/// As the user would type it: without the folder where one is given.
+Path file_in(const PassesGroup& group, const std::string& name) {
+  return group.folder == "." ? Path(name) : group.folder / name;
+}
+
+Path first_file(const PassesGroup& group, const FrameSequence& sequence) {
+  const auto first = std::find_if(sequence.frames.begin(), sequence.frames.end(),
+                                  [](const FrameSequence::Frame& frame) { return !frame.is_gap; });
+  if (first != sequence.frames.end()) return file_in(group, first->name.name);
+  throw IoError(fmt::format("{} holds none of the {} files that its manifest lists", group.folder.string(),
+                            sequence.frames.size()));
+}
+
+ExrLayout layout_of(const std::optional<Manifest>& manifest, const InspectOptions& options) {
+  ExrLayout layout;
+  if (manifest) {
+    const CameraIntrinsics camera = passes_camera(*manifest);
+    layout.layer = manifest->layer;
+    layout.actor_layer = manifest->actor_layer;
+    layout.channels = manifest->channels;
+    layout.width_px = camera.width_px;
+    layout.height_px = camera.height_px;
+  }
+  if (!options.layer.empty()) layout.layer = options.layer;
+  layout.limits.pixels = options.limits.pixels;
+  return layout;
+}
+
+/// A picture's kind and size in the form of EXR headers.
+ExrHeader header_of_picture(const Path& file, const ReadLimits& limits) {
+  const PictureSurvey picture = survey_picture(file, limits);
+  ExrHeader header;
+  header.width_px = picture.width_px;
+  header.height_px = picture.height_px;
+  return header;
+}
+
+void read_header(Inspection& inspection, const ReadLimits& limits) {
+  if (is_index_picture(inspection.file)) {
+    inspection.header = header_of_picture(inspection.file, limits);
+    return;
+  }
+  inspection.header = read_exr_header(inspection.file, inspection.layout.limits);
+  const ExrWindow whole = {
+      .x_px = 0, .y_px = 0, .width_px = inspection.header.width_px, .height_px = inspection.header.height_px};
+  if (inspection.header.data_window != whole) inspection.window = inspection.header.data_window;
+}
+
+/// The cryptomatte to read without an object index: that of objects, if one is named so.
+std::string best_cryptomatte(const std::vector<Cryptomatte>& all, const std::string& layer) {
+  const Cryptomatte* best = nullptr;
+  for (const Cryptomatte& one : all) {
+    const bool elsewhere = !layer.empty() && !one.name.starts_with(layer + ".");
+    if (!one.fault.empty() || elsewhere) continue;
+    if (best == nullptr || one.name.ends_with("Object")) best = &one;
+  }
+  return best == nullptr ? "" : best->name;
+}
+
+std::vector<std::string> index_layers(const ExrHeader& header) {
+  std::set<std::string> layers;
+  for (const ExrChannel& channel : header.channels)
+    if (pass_kind_of(channel.pass) == PassKind::object_index) layers.insert(channel.layer);
+  return {layers.begin(), layers.end()};
+}
+
+/// Decides what a conversion of EXR files would read, or why it is impossible.
+class Choice {
+ public:
+  Choice(Inspection& inspection, const InspectOptions& options)
+      : inspection_(inspection), options_(options), cryptomattes_(cryptomattes_in(inspection.header)) {}
+
+  void make() {
+    for (const Cryptomatte& one : cryptomattes_) {
+      auto& faults = inspection_.cryptomatte_faults;
+      if (!one.fault.empty()) faults.push_back(one.fault);
+      if (!one.names_fault.empty())
+        faults.push_back(fmt::format("cryptomatte {}: {}", one.name, one.names_fault));
+    }
+    try {
+      take_what_is_named();
+    } catch (const DataError& error) {
+      inspection_.obstacle = error.what();
+      const ExrLayout& layout = inspection_.layout;
+      if (!layout.channels.object_index.empty()) return;
+      const std::vector<std::string> layers = index_layers(inspection_.header);
+      if (layers.empty()) take_what_there_is();
+      if (layers.size() > 1 && layout.layer.empty()) inspection_.layers = layers;
+    }
+  }
+
+  /// An index plane that is all sky has never been set.
+  void reconsider() {
+    const auto& objects = inspection_.survey.objects;
+    const bool only_sky = objects.size() == 1 && objects.begin()->first == kSkyIndex;
+    const std::string cryptomatte = best_cryptomatte(cryptomattes_, inspection_.layout.layer);
+    if (only_sky && !inspection_.manifest && !cryptomatte.empty()) take_cryptomatte(cryptomatte);
+  }
+
+ private:
+  void take_what_is_named() {
+    const std::string wanted = inspection_.manifest ? inspection_.manifest->cryptomatte : "";
+    if (wanted.empty()) {
+      inspection_.planes = choose_planes(inspection_.header, inspection_.layout);
+    } else {
+      take_cryptomatte(choose_cryptomatte(cryptomattes_, wanted, inspection_.layout.layer).name);
+    }
+  }
+
+  /// Other planes are in its layer.
+  void take_cryptomatte(const std::string& name) {
+    inspection_.cryptomatte = name;
+    const std::size_t dot = name.rfind('.');
+    const std::string layer = dot == std::string::npos ? inspection_.layout.layer : name.substr(0, dot);
+    const auto name_of = [](const ExrChannel* channel) {
+      return channel == nullptr ? "" : channel->full_name();
+    };
+    inspection_.planes = {.objects = "",
+                          .materials = name_of(inspection_.header.find_material_index(layer)),
+                          .depth = name_of(inspection_.header.find_depth(layer)),
+                          .normals = name_of(inspection_.header.find_normal(layer, "X"))};
+  }
+
+  void take_what_there_is() {
+    const std::string cryptomatte = best_cryptomatte(cryptomattes_, inspection_.layout.layer);
+    if (!cryptomatte.empty()) {
+      take_cryptomatte(cryptomatte);
+    } else {
+      inspection_.likely = likely_indices(inspection_.file, inspection_.header, options_.limits);
+      if (!options_.for_starter || inspection_.likely.size() != 1) return;
+      inspection_.layout.channels.object_index = inspection_.likely.front();
+      inspection_.planes = choose_planes(inspection_.header, inspection_.layout);
+    }
+    inspection_.obstacle.clear();
+  }
+
+  Inspection& inspection_;
+  const InspectOptions& options_;
+  std::vector<Cryptomatte> cryptomattes_;
+};
+
+void survey(Inspection& inspection, const InspectOptions& options, const RunHooks& hooks) {
+  PassSurveyor surveyor(inspection.layout, options.limits);
+  const auto& frames = inspection.sequence.frames;
+  Progress progress{.clip = inspection.group.folder.filename().string(),
+                    .done = 0,
+                    .total = options.all_frames ? static_cast<int>(frames.size()) : 1};
+  for (const auto& [name, is_gap] : frames) {
+    if (hooks.stop_wanted()) throw Cancelled();
+    if (!is_gap) surveyor.add(file_in(inspection.group, name.name));
+    if (!is_gap && !options.all_frames) break;
+    ++progress.done;
+    if (options.all_frames) hooks.report(progress);
+  }
+  inspection.survey = surveyor.found();
+  const auto& bad = inspection.survey.bad_frames;
+  if (inspection.obstacle.empty() && inspection.survey.frames == 0 && !bad.empty())
+    inspection.obstacle = bad.front().reason;
+}
+
+}  // namespace
+
+Inspection inspect(const InspectOptions& options, const RunHooks& hooks) {
+  Inspection inspection;
+  inspection.group = only_group(options.passes);
+  inspection.manifest = manifest_of(inspection.group, options);
+  inspection.sequence = sequence_to_inspect(inspection.group, inspection.manifest);
+  inspection.file = first_file(inspection.group, inspection.sequence);
+  inspection.layout = layout_of(inspection.manifest, options);
+  read_header(inspection, options.limits);
+  Choice choice(inspection, options);
+  if (!is_index_picture(inspection.file)) choice.make();
+  survey(inspection, options, hooks);
+  choice.reconsider();
+  return inspection;
+}
+
+std::string object_name(const Inspection& inspection, int index) {
+  if (index == kSkyIndex) return "sky";
+  if (!inspection.manifest) return "";
+  for (const ManifestObject& object : inspection.manifest->objects)
+    if (object.index == index) return object.name;
+  return "not in the manifest";
+}
+
+}  // namespace thermal

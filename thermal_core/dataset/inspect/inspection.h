@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dataset/passes/groups.h"
+#include "dataset/passes/survey.h"
+#include "dataset/run/progress.h"
+#include "io/exr/header.h"
+#include "io/json/file.h"
+#include "scene/manifest.h"
+
+namespace thermal {
+
+struct InspectOptions {
+  Path home;
+  std::vector<Path> passes;  ///< a folder, or files and patterns of one folder
+  Path manifest;             ///< empty: the folder's, if any
+  std::string layer;         ///< empty: the manifest's
+  bool all_frames = false;   ///< read the pixels of every frame, not only of the first
+  bool for_starter = false;  ///< ignore any manifest, and accept the only likely index plane as one
+  ReadLimits limits;
+};
+
+/// Contents of passes, and what a conversion would do with them.
+struct Inspection {
+  PassesGroup group;
+  FrameSequence sequence;            ///< gaps: frames without a file
+  Path file;                         ///< the first existing one: headers are described for it
+  std::optional<Manifest> manifest;  ///< given, or in the folder
+  ExrLayout layout;                  ///< determines which planes are chosen
+  ExrHeader header;                  ///< of a picture (PNG) only the size
+  std::optional<ExrWindow> window;   ///< with pixels, where it is not the whole picture
+  std::vector<std::string> cryptomatte_faults;
+  PassSurvey survey;
+  ChosenPlanes planes;              ///< empty if the conversion has no object index
+  std::string cryptomatte;          ///< that a conversion would read instead of an object index
+  std::string obstacle;             ///< why these passes cannot be converted; empty if they can
+  std::vector<std::string> layers;  ///< candidates to choose from; empty: unambiguous
+  std::vector<std::string> likely;  ///< channels that could be an object index although none is named so
+};
+
+/// Inspects passes; reports faults of their contents instead of throwing. ConfigError for names that match no files,
+/// or files of several folders; IoError if the first file cannot be read; DataError for an invalid manifest. Progress
+/// counts frames.
+[[nodiscard]] Inspection inspect(const InspectOptions& options, const RunHooks& hooks);
+
+/// All of it, as JSON.
+[[nodiscard]] Json to_json(const Inspection& inspection);
+
+/// Name of an object index; empty: unknown.
+[[nodiscard]] std::string object_name(const Inspection& inspection, int index);
+
+}  // namespace thermal

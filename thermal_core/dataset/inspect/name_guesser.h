@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/system/files.h"
+#include "scene/manifest.h"
+
+namespace thermal {
+
+/// What an object most likely is, in terms of a manifest.
+struct KnownThing {
+  ObjectClass object_class = ObjectClass::ground;
+  std::string material;
+  std::string category;  ///< actors
+  std::string species;   ///< actors
+
+  [[nodiscard]] bool operator==(const KnownThing&) const = default;
+};
+
+/// The words of a name, in lower case: "Elephant_bull.001" and "elephantBull" have elephant and bull.
+[[nodiscard]] std::vector<std::string> words_of(std::string_view name);
+
+/// Guesses what things are from their names.
+class NameGuesser {
+ public:
+  /// Knows the species and plants of `home`/assets, kinds of ground, and common words for them.
+  explicit NameGuesser(const Path& home);
+
+  /// By one or two words of the name: the first known, two before one; plurals too. Empty if none is known.
+  [[nodiscard]] std::optional<KnownThing> find(std::string_view name) const;
+
+ private:
+  [[nodiscard]] const KnownThing* find_word(const std::string& word) const;
+
+  std::map<std::string, KnownThing> things_;  ///< by word, or two joined by _
+};
+
+}  // namespace thermal

@@ -1,0 +1,45 @@
+#include "dataset/passes/identity.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "io/system/sha256.h"
+
+namespace thermal {
+namespace {
+
+/// "-" if there is no such file: a frame that is skipped.
+std::string bytes_text(const Path& file) {
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+  return error ? "-" : std::to_string(bytes);
+}
+
+bool is_newer(const Path& file, std::filesystem::file_time_type than) {
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(file, error);
+  return !error && written > than;
+}
+
+}  // namespace
+
+std::string identity_of(const ClipPasses& passes) {
+  Sha256 sum;
+  sum.add(passes.manifest.document_sha256 + "\n");
+  for (const ManifestFrame& frame : passes.manifest.frames)
+    sum.add(fmt::format("{}\n{}\n", frame.file, bytes_text(passes.folder / frame.file)));
+  return sum.hex();
+}
+
+bool has_changed(const ClipPasses& passes, const std::string& made_from_sha256, const Path& record_file) {
+  if (made_from_sha256 != passes.identity_sha256) return true;
+  std::error_code error;
+  const auto recorded = std::filesystem::last_write_time(record_file, error);
+  return error || std::ranges::any_of(passes.manifest.frames, [&](const ManifestFrame& frame) {
+           return is_newer(passes.folder / frame.file, recorded);
+         });
+}
+
+}  // namespace thermal

@@ -1,0 +1,85 @@
+#include "dataset/passes/outline.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace thermal {
+namespace {
+
+/// Rays over the picture: a grid of five by five.
+std::vector<SceneOutline::Look> looks_from(double height_m, double look_angle_rad,
+                                           const CameraIntrinsics& camera) {
+  const double half_width = 0.5 * camera.width_px / camera.fx_px;
+  const double half_height = 0.5 * camera.height_px / camera.fy_px;
+  const double x_middle = (0.5 * camera.width_px - camera.cx_px) / camera.fx_px;
+  const double y_middle = (0.5 * camera.height_px - camera.cy_px) / camera.fy_px;
+  std::vector<SceneOutline::Look> looks;
+  for (int row = -2; row <= 2; ++row) {
+    for (int column = -2; column <= 2; ++column) {
+      const double x = x_middle + half_width * column / 2;
+      const double y = y_middle + half_height * row / 2;
+      const double length = std::sqrt(x * x + y * y + 1);
+      // Downward part of the ray (x, y, 1) of a camera pitched down by the look angle.
+      const double down = (std::sin(look_angle_rad) + y * std::cos(look_angle_rad)) / length;
+      if (down <= 0.01) continue;  // at the sky
+      looks.push_back({.range_m = height_m / down, .ground_cosine = down, .axis_cosine = 1 / length});
+    }
+  }
+  return looks;
+}
+
+}  // namespace
+
+SceneOutline empty_outline(const Config& config) {
+  return {.covers = {}, .nights = {}, .response = config.sensor.response, .netd_k = config.netd_k};
+}
+
+void add_actors(const std::set<std::string>& names, const MaterialLibrary& materials, SceneOutline& outline) {
+  for (const std::string& name : names) {
+    outline.covers.push_back({.material = &materials.find(name, "species: material"),
+                              .share = kActorShare / static_cast<double>(names.size()),
+                              .actor = true});
+  }
+}
+
+void Nights::add(Season season, double height_m, double look_angle_deg, const CameraIntrinsics& camera) {
+  if (!seen_.insert({season, height_m, look_angle_deg}).second) return;  // many clips fly alike
+  const double angle = look_angle_deg * std::numbers::pi / 180;
+  add(season, looks_from(height_m, angle, camera));
+}
+
+void Nights::add(Season season, const std::vector<SceneOutline::Look>& looks) {
+  auto& all = looks_[season];
+  all.insert(all.end(), looks.begin(), looks.end());
+}
+
+std::vector<SceneOutline::Night> Nights::list() const {
+  std::vector<SceneOutline::Night> nights;
+  for (const auto& [season, looks] : looks_) {
+    nights.push_back({.weather = weather_of(config_, season), .looks = looks});
+  }
+  return nights;
+}
+
+std::optional<PhysicsSettings> physics_of(const Config& config, const ClipConfig& clip, const Terms& terms) {
+  if (!config.physical) return std::nullopt;
+  return PhysicsSettings{.terms = terms,
+                         .weather = weather_of(config, clip.season),
+                         .response = config.sensor.response,
+                         .seed = config.seed};
+}
+
+Json to_json(const Budget& budget) {
+  Json terms = Json::array();
+  for (const TermEffect& effect : budget.effects) {
+    terms.push_back({{"term", effect.name},
+                     {"choice", choice_name(effect.choice)},
+                     {"spread_mk", 1e3 * effect.spread_k},
+                     {"actor_shift_mk", 1e3 * effect.actor_shift_k},
+                     {"kept", effect.kept}});
+    if (!effect.impossible.empty()) terms.back()["impossible"] = effect.impossible;
+  }
+  return {{"terms", std::move(terms)}, {"dropped_mk", 1e3 * budget.dropped_k}};
+}
+
+}  // namespace thermal

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "dataset/clip/maker.h"
+#include "dataset/plan/plan.h"
+#include "imaging/budget.h"
+#include "imaging/scene_radiance.h"
+#include "io/config/config.h"
+#include "scene/manifest.h"
+
+namespace thermal {
+
+inline constexpr double kActorShare = 0.03;  ///< of the pictures; *estimate*
+
+/// An empty outline, seen by the config's camera.
+[[nodiscard]] SceneOutline empty_outline(const Config& config);
+
+/// Adds the materials of actors, which share kActorShare evenly.
+void add_actors(const std::set<std::string>& names, const MaterialLibrary& materials, SceneOutline& outline);
+
+/// Collects the viewing directions of cameras, by season.
+class Nights {
+ public:
+  explicit Nights(const Config& config) : config_(config) {}
+
+  /// A camera above level ground, `look_angle_deg` below the horizon.
+  void add(Season season, double height_m, double look_angle_deg, const CameraIntrinsics& camera);
+
+  /// Other known viewing directions.
+  void add(Season season, const std::vector<SceneOutline::Look>& looks);
+
+  [[nodiscard]] std::vector<SceneOutline::Night> list() const;
+
+ private:
+  const Config& config_;
+  std::map<Season, std::vector<SceneOutline::Look>> looks_;
+  std::set<std::tuple<Season, double, double>> seen_;
+};
+
+/// What the pictures of a planned dataset will show: its ground, plants and species, and the viewing directions of its
+/// clips, one for each metre and degree. `config` has the plan's clips (with_flights_cut). Actors together count for 3 %. `materials` must outlive the result.
+[[nodiscard]] SceneOutline outline_of(const Config& config, const DatasetPlan& plan,
+                                      const MaterialLibrary& materials);
+
+/// Information from the files of a clip besides its manifest.
+struct PassesView {
+  std::optional<PassNeeds> planes;        ///< of its first readable frame; empty: none is readable
+  std::vector<SceneOutline::Look> looks;  ///< from that frame's depths, if the manifest has no height
+};
+
+/// Inspects the first readable frame of each clip.
+[[nodiscard]] std::vector<PassesView> view_passes(const std::vector<ClipPasses>& sources);
+
+/// The same for passes, whose scene no config describes: their manifests' materials, heights and angles. The physical
+/// model also considers `views`: terms that need planes or poses missing from some passes are impossible. `materials`
+/// must outlive the result.
+[[nodiscard]] SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
+                                      const std::vector<ClipPasses>& sources,
+                                      const std::vector<PassesView>& views);
+
+/// Physics of one clip with the terms a dataset keeps; empty for the published model.
+[[nodiscard]] std::optional<PhysicsSettings> physics_of(const Config& config, const ClipConfig& clip,
+                                                        const Terms& terms);
+
+/// The entry of dataset.json on terms: the budget of a physical dataset, emission alone for the published model.
+[[nodiscard]] Json to_json(const Budget& budget);
+
+}  // namespace thermal

@@ -1,0 +1,41 @@
+#include "dataset/run/clip_choice.h"
+
+#include <algorithm>
+
+namespace thermal {
+
+std::vector<ClipConfig> choose_clips(const Config& config, const std::vector<std::string>& ids,
+                                     const Shard& shard) {
+  for (const std::string& id : ids) (void)config.clip(id, "--clips");
+  std::vector<ClipConfig> chosen;
+  for (std::size_t i = 0; i < config.clips.size(); ++i) {
+    const ClipConfig& clip = config.clips[i];
+    const bool named = ids.empty() || std::find(ids.begin(), ids.end(), clip.id) != ids.end();
+    if (named && static_cast<int>(i) % shard.count == shard.index) chosen.push_back(clip);
+  }
+  return chosen;
+}
+
+std::vector<std::string> ids_of(const std::vector<ClipConfig>& clips) {
+  std::vector<std::string> ids;
+  for (const ClipConfig& clip : clips) ids.push_back(clip.id);
+  return ids;
+}
+
+int frames_of(const std::vector<ClipConfig>& clips) {
+  int frames = 0;
+  for (const ClipConfig& clip : clips) frames += clip.frames;
+  return frames;
+}
+
+std::vector<std::size_t> places_of(const Config& config, const std::vector<ClipConfig>& clips) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < config.clips.size(); ++i) {
+    const std::string& id = config.clips[i].id;
+    if (std::ranges::any_of(clips, [&id](const ClipConfig& clip) { return clip.id == id; }))
+      places.push_back(i);
+  }
+  return places;
+}
+
+}  // namespace thermal

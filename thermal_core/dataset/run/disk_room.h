@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "dataset/layout.h"
+#include "io/config/config.h"
+
+namespace thermal {
+
+/// Disk space used by a clip, and an estimate of what it still needs.
+struct ClipRoom {
+  /// Files of one kind, one per frame.
+  struct Files {
+    std::int64_t worst_bytes = 0;  ///< size of one, used until the first exists
+    std::int64_t bytes = 0;        ///< of the existing ones
+    int count = 0;
+
+    void add(std::int64_t file_bytes) {
+      bytes += file_bytes;
+      ++count;
+    }
+    /// The mean of the existing ones, rounded up; the worst case without any.
+    [[nodiscard]] std::int64_t bytes_a_frame() const;
+  };
+
+  int frames = 0;
+  Files passes;
+  Files pictures;  ///< ir8 and ir16 together
+
+  /// Bytes of the frames still to be made.
+  [[nodiscard]] std::int64_t needed_bytes() const;
+};
+
+/// A clip without any files yet. `pictures`: whether it is also converted.
+[[nodiscard]] ClipRoom room_for(const Config& config, const ClipConfig& clip, bool pictures);
+
+/// "850 kB", "85 MB", "1.2 GB": two digits or more; kB is 1000 bytes and the smallest unit.
+[[nodiscard]] std::string bytes_in_words(std::int64_t bytes);
+
+/// TryAgainError if less than twice the needed space is left. `folder` and `whose` are for the message.
+void check_room(std::int64_t left_bytes, std::int64_t needed_bytes, const std::string& folder,
+                const std::string& whose);
+
+/// Follows the files of a clip as they are written, and reports the disk space it still needs; from any thread.
+/// Exceptions of the report pass through.
+class RoomWatch {
+ public:
+  using Report = std::function<void(std::int64_t needed_bytes)>;
+
+  /// Counts the passes left by an earlier run. `pictures`: whether they are also converted.
+  RoomWatch(const Config& config, const ClipConfig& clip, const Layout& layout, bool pictures, Report report);
+
+  /// Records that this many leading frames of the passes are complete.
+  void passes_ready(int frames);
+  /// Records one more frame's pictures.
+  void pictures_written();
+
+ private:
+  void report() const { report_(room_.needed_bytes()); }
+
+  std::string id_;
+  Layout layout_;
+  Report report_;
+  std::mutex mutex_;
+  ClipRoom room_;
+};
+
+}  // namespace thermal

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "io/config/config.h"
+
+namespace thermal {
+
+/// Estimated cost of a run.
+struct Estimate {
+  double seconds = 0;  ///< on two cores of a typical machine of 2020 or later
+  double bytes = 0;    ///< of the finished dataset, without passes
+};
+
+/// Estimates a run over `frames` frames of a config's camera, in this many clips. From measurements of the savanna
+/// and the demo (`veldt bench --suite render`): within a factor of two, unless the place is far larger or emptier.
+[[nodiscard]] Estimate estimate_run(const Config& config, int clips, int frames);
+
+}  // namespace thermal

@@ -1,0 +1,229 @@
+#include "dataset/run/merge.h"
+
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/version.h"
+#include "dataset/clip/record.h"
+#include "dataset/dataset_file.h"
+#include "dataset/dataset_index.h"
+#include "io/system/files.h"
+
+namespace thermal {
+namespace {
+
+/// A dataset to merge.
+struct Source {
+  Path root;
+  Json document;                                          ///< its dataset.json
+  std::map<std::string, std::string> record_sha256 = {};  ///< of clip.json, by clip, as dataset.json has it
+};
+
+/// A complete clip in some folder.
+struct FoundClip {
+  Path folder;
+  ClipRecord record;
+  std::string record_sha256;  ///< its entry in dataset.json; empty without one
+};
+
+/// Lacks clips that a run renamed before it was killed, and did not record.
+std::map<std::string, std::string> recorded_sums(const Json& document) {
+  std::map<std::string, std::string> sums;
+  for (const Json& clip : document.at("clips"))
+    sums[clip.at("id")] = clip.value("record_sha256", std::string());
+  return sums;
+}
+
+Source open_source(const Path& root) {
+  if (!Layout{root}.is_begun())
+    throw ConfigError(fault("DIR", root.string(), "", "a dataset, with a dataset.json"));
+  Json document = read_dataset_file(root);
+  const auto version = document.at("veldt_version").get<std::string>();
+  if (version != kVersion)
+    throw ConfigError(fault(root.string() + ": veldt_version", version, "",
+                            std::string(kVersion) + ", this program's version"));
+  std::map<std::string, std::string> sums = recorded_sums(document);
+  return {.root = root, .document = std::move(document), .record_sha256 = std::move(sums)};
+}
+
+/// Checks that all have one config: `document.physics` follows from it.
+std::vector<Source> open_sources(const MergeOptions& options) {
+  std::vector<Source> sources;
+  for (const Path& root : options.sources) {
+    if (std::error_code error; std::filesystem::equivalent(root, options.out, error) && !error)
+      throw ConfigError(
+          fault("--out", options.out.string(), "",
+                "a folder that is not among DIR; to add the others to it, leave it out of DIR"));
+    sources.push_back(open_source(root));
+    const std::vector<std::string> found =
+        differences(sources.front().document.at("config"), sources.back().document.at("config"));
+    if (found.empty()) continue;
+    constexpr std::size_t kMost = 8;
+    throw ConfigError(fmt::format("{} and {} have different configs: {}; expected shards of one config",
+                                  sources.front().root.string(), root.string(), list_names(found, kMost)));
+  }
+  return sources;
+}
+
+/// What the index of a merged dataset needs from a config.
+Config config_of(const Source& source) {
+  Config config;
+  config.resolved = source.document.at("config");
+  for (const Json& clip : source.document.at("clips"))
+    config.clips.push_back({.id = clip.at("id"), .frames = clip.value("frames", 0)});
+  return config;
+}
+
+std::optional<FoundClip> find_clip(const Source& source, const std::string& id) {
+  const Path folder = Layout{source.root}.clip(id);
+  if (!std::filesystem::exists(folder / "clip.json")) return std::nullopt;
+  const auto recorded = source.record_sha256.find(id);
+  return FoundClip{.folder = folder,
+                   .record = read_clip_record(folder / "clip.json"),
+                   .record_sha256 = recorded == source.record_sha256.end() ? "" : recorded->second};
+}
+
+/// Pictures and labels; their encoding in files may differ between machines' libraries.
+bool same_content(const ClipRecord& one, const ClipRecord& other) {
+  const auto sum = [](const ClipRecord& record, const char* name) {
+    const auto file = record.files.find(name);
+    return file == record.files.end() ? std::string() : file->second;
+  };
+  return one.pixels_sha256 == other.pixels_sha256 && sum(one, "labels.json") == sum(other, "labels.json");
+}
+
+/// The clip in each folder that has it. DataError if they differ.
+std::vector<FoundClip> find_in_all(const std::vector<Source>& sources, const std::string& id) {
+  std::vector<FoundClip> all;
+  for (const Source& source : sources) {
+    std::optional<FoundClip> found = find_clip(source, id);
+    if (!found) continue;
+    if (!all.empty() && !same_content(all.front().record, found->record))
+      throw DataError(fmt::format("{} and {} differ; expected the same pixels and labels",
+                                  all.front().folder.string(), found->folder.string()));
+    all.push_back(*std::move(found));
+  }
+  return all;
+}
+
+void check_file(const Path& file, const std::string& sum) {
+  if (!std::filesystem::exists(file)) throw DataError(file.string() + ": missing");
+  if (sha256_of_file(file) != sum) throw DataError(file.string() + ": changed since it was written");
+}
+
+class Merger {
+ public:
+  Merger(const MergeOptions& options, const RunHooks& hooks)
+      : options_(options),
+        hooks_(hooks),
+        sources_(open_sources(options)),
+        layout_{options.out},
+        lock_(options.out),
+        index_(open_dataset(layout_, config_of(sources_.front()))) {
+    index_.physics = sources_.front().document.value("physics", Json());
+  }
+
+  MergeOutcome run() {
+    plan();
+    if (!plan_.empty()) write_progress(layout_, index_);
+    try {
+      for (const auto& [id, found] : plan_) try_add(id, found);
+    } catch (...) {
+      write_dataset_after_fault(layout_, index_);
+      throw;
+    }
+    if (!plan_.empty() || !index_.recorded) write_dataset(layout_, index_);
+    outcome_.run.complete = index_.complete();
+    return outcome_;
+  }
+
+ private:
+  /// Finds every clip, and every fault of the request, before anything is written.
+  void plan() {
+    std::vector<Source> with_out = {{.root = options_.out, .document = Json::object()}};
+    with_out.insert(with_out.end(), sources_.begin(), sources_.end());
+    for (const std::string& id : index_.clips) {
+      const std::vector<FoundClip> found = find_in_all(with_out, id);
+      if (found.empty()) {
+        outcome_.missing.push_back(id);
+      } else if (index_.finished.contains(id)) {
+        outcome_.run.already_there.push_back(id);
+      } else {
+        progress_.total += found.front().record.frames;
+        plan_.emplace_back(id, found);
+      }
+    }
+  }
+
+  /// From the first folder with unchanged files of the clip.
+  void try_add(const std::string& id, const std::vector<FoundClip>& found) {
+    progress_.clip = id;
+    hooks_.report(progress_);
+    const int before = progress_.done;
+    std::string why;
+    for (const FoundClip& clip : found) {
+      progress_.done = before;
+      try {
+        add(clip);
+        return;
+      } catch (const DataError& fault) {
+        if (why.empty()) why = fault.what();
+      }
+    }
+    std::filesystem::remove_all(layout_.unfinished_clip(id));
+    outcome_.run.failed[id] = why;
+    progress_.done = before + found.front().record.frames;
+    hooks_.report(progress_);
+  }
+
+  void add(const FoundClip& clip) {
+    const std::string& id = clip.record.clip;
+    const Path part = layout_.unfinished_clip(id);
+    std::filesystem::remove_all(part);
+    for (const auto& [name, sum] : clip.record.files) add_file(clip.folder / name, part / name, sum);
+    const Path record = clip.folder / "clip.json";
+    if (!clip.record_sha256.empty()) check_file(record, clip.record_sha256);
+    link_file(record, part / "clip.json", options_.linking);
+    std::filesystem::remove_all(layout_.clip(id));
+    std::filesystem::rename(part, layout_.clip(id));
+    sync_folder(layout_.clip(id).parent_path());
+    index_.add(id, clip.record);
+    outcome_.run.made.push_back(id);
+    outcome_.run.frames_made += clip.record.frames;
+    pace_.pass([this] { write_progress(layout_, index_); });
+  }
+
+  void add_file(const Path& file, const Path& as, const std::string& sum) {
+    if (hooks_.stop_wanted()) throw Cancelled();
+    check_file(file, sum);
+    link_file(file, as, options_.linking);
+    if (as.parent_path().filename() != "ir8") return;
+    ++progress_.done;
+    hooks_.report(progress_);
+  }
+
+  const MergeOptions& options_;
+  const RunHooks& hooks_;
+  std::vector<Source> sources_;
+  Layout layout_;
+  FolderLock lock_;
+  DatasetIndex index_;
+  std::vector<std::pair<std::string, std::vector<FoundClip>>> plan_;
+  MergeOutcome outcome_;
+  Progress progress_;
+  ProgressPace pace_;
+};
+
+}  // namespace
+
+MergeOutcome merge(const MergeOptions& options, const RunHooks& hooks) {
+  return Merger(options, hooks).run();
+}
+
+}  // namespace thermal

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dataset/run/options.h"
+#include "dataset/run/progress.h"
+#include "io/system/files.h"
+
+namespace thermal {
+
+struct MergeOptions {
+  std::vector<Path> sources;        ///< datasets, each with some of one config's clips
+  Path out;                         ///< not one of them; may hold some of the clips already
+  Linking linking = Linking::hard;  ///< where the file system supports them; otherwise copies
+};
+
+struct MergeOutcome {
+  RunOutcome run;                    ///< `made` are the merged clips
+  std::vector<std::string> missing;  ///< clips of the config that are complete nowhere
+};
+
+/// Joins datasets that were made as shards into one, with the same bytes as a dataset made in one run. Sources are
+/// only read; every file is checked against its SHA-256 before its clip, which has a temporary name until then, is
+/// committed. A clip may be in several of them if its pixels and labels are the same. A clip with changed files is
+/// listed in the outcome, and the others are still merged. Existing contents of `out` are kept.
+/// ConfigError if a source is not a dataset, or differs from the first in config or program version; DataError with
+/// both if two have different versions of a clip; IoError, TryAgainError or Cancelled.
+MergeOutcome merge(const MergeOptions& options, const RunHooks& hooks);
+
+}  // namespace thermal

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "dataset/dataset_index.h"
+#include "io/system/files.h"
+
+namespace thermal {
+
+/// One part of a dataset's clips: those whose position in the config, modulo `count`, is `index`.
+struct Shard {
+  int index = 0;
+  int count = 1;
+};
+
+struct GenerateOptions {
+  Path home;
+  Path out;
+  Path blender;
+  std::vector<std::string> clips;  ///< only these; empty: all
+  Shard shard;
+  int jobs = 1;     ///< number of Blender processes
+  int threads = 0;  ///< for all of them together, and for the conversion; 0: one per core
+  bool keep_passes = false;
+};
+
+/// Result of a run.
+struct RunOutcome {
+  std::vector<std::string> made;              ///< clips made in this run
+  std::vector<std::string> already_there;     ///< clips that were complete before
+  std::map<std::string, std::string> failed;  ///< clips that could not be made, with the reason
+  bool try_again = false;                     ///< none could be made, and only because Blender was killed
+  int frames_made = 0;
+  bool complete = false;                     ///< the dataset now has all its clips
+  std::vector<UnusableShare> unusable = {};  ///< of clips made and already there
+};
+
+}  // namespace thermal

@@ -1,0 +1,71 @@
+#include "dataset/run/passes_folder.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "dataset/run/worker_pool.h"
+#include "io/system/files.h"
+
+namespace thermal {
+namespace {
+
+bool has_clips(const Path& passes) {
+  return std::ranges::any_of(std::filesystem::directory_iterator(passes),
+                             [](const auto& entry) { return entry.is_directory(); });
+}
+
+}  // namespace
+
+void begin_passes(const Layout& layout, const Config& config, const std::vector<std::string>& clips) {
+  make_own_folder(layout.passes());
+  for (const std::string& clip : clips) {
+    if (std::filesystem::exists(layout.unusable(clip))) std::filesystem::remove_all(layout.passes(clip));
+    make_folder(layout.passes(clip));
+  }
+  write_file_atomically(layout.passes_config(), to_text(config.resolved));
+}
+
+void check_same_passes(const Layout& layout, const Config& config) {
+  if (!std::filesystem::exists(layout.passes_config())) return;
+  const std::vector<std::string> found = differences(config.resolved, read_json(layout.passes_config()));
+  if (found.empty()) return;
+  throw ConfigError(
+      fmt::format("{} holds passes of another config: {}; expected the same config, or another folder",
+                  layout.passes().string(), fmt::join(found, ", ")));
+}
+
+void end_passes(const Layout& layout, const std::vector<std::string>& clips) {
+  if (!std::filesystem::is_directory(layout.passes())) return;
+  for (const std::string& clip : clips) std::filesystem::remove_all(layout.passes(clip));
+  if (!has_clips(layout.passes())) std::filesystem::remove_all(layout.passes());
+}
+
+std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,
+                                          const std::vector<std::string>& clips, RunMonitor& monitor) {
+  const Layout layout{options.out};
+  const auto hands = deal_clips(clips, options.jobs);
+  const int cores = thread_count(0);
+  std::vector<RenderJob::Task> tasks;
+  for (const std::vector<std::string>& hand : hands) {
+    // Runs that share the folder never share a clip, so the clip's name keeps their logs apart.
+    tasks.push_back({.blender = options.blender,
+                     .home = options.home,
+                     .plan = layout.plan(),
+                     .passes = layout.passes(),
+                     .log = layout.passes() / (hand.front() + ".log"),
+                     .clips = hand,
+                     .threads = threads_each(options.threads, cores, static_cast<int>(hands.size())),
+                     .supersample = config.supersample,
+                     .actor_layer = config.actor_layer,
+                     .preview = false,
+                     .restarted = [&monitor](const std::string& clip, const std::string& why) {
+                       monitor.restarted(clip, why);
+                     }});
+  }
+  return tasks;
+}
+
+}  // namespace thermal

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dataset/layout.h"
+#include "dataset/run/monitor.h"
+#include "dataset/run/options.h"
+#include "dataset/run/render_job.h"
+
+namespace thermal {
+
+/// Prepares the folders for the passes of a run's clips: one each, without unusable passes of earlier runs, and the
+/// resolved config beside them. A clip's folder shows other runs that the clip is being made.
+void begin_passes(const Layout& layout, const Config& config, const std::vector<std::string>& clips);
+
+/// A folder for passes belongs to one config, like a dataset's. ConfigError with the keys that differ.
+void check_same_passes(const Layout& layout, const Config& config);
+
+/// Removes the passes of these clips, and with the last clip's everything beside them.
+void end_passes(const Layout& layout, const std::vector<std::string>& clips);
+
+/// The render jobs for these clips, one task each. They report restarts to the monitor.
+[[nodiscard]] std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,
+                                                        const std::vector<std::string>& clips,
+                                                        RunMonitor& monitor);
+
+}  // namespace thermal

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "dataset/run/options.h"
+#include "dataset/run/progress.h"
+#include "io/config/config.h"
+
+namespace thermal {
+
+/// Renders passes and manifests only, into passes/<clip>; otherwise like generate(). `config` has the clips of the
+/// plan, which plan_to_render() has written.
+RunOutcome render(const Config& config, const GenerateOptions& options, const RunHooks& hooks);
+
+/// Renders a map of the config's place, and colour stills of it, into preview/; overwrites earlier ones. Returns the
+/// number of pictures. plan_to_preview() has written the plan.
+int preview(const Config& config, const GenerateOptions& options, const RunHooks& hooks);
+
+}  // namespace thermal

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/error.h"
+#include "io/json/file.h"
+#include "io/system/child_process.h"
+#include "io/system/files.h"
+
+namespace thermal {
+
+/// A clip that Blender died over twice. Other clips may go well.
+class ClipLost : public Error {
+ public:
+  ClipLost(const std::string& why, bool killed) : Error(why), killed_(killed) {}
+  /// A signal ended Blender: what was asked for is not to blame, and it may go well another time.
+  [[nodiscard]] bool killed() const noexcept { return killed_; }
+
+ private:
+  bool killed_;
+};
+
+/// Renders the passes of some clips, one after another, in the background. A Blender that dies is started again, once
+/// a clip, on the frames that are not there yet; if it dies once more, the clip is lost and another Blender goes on
+/// with the next.
+class RenderJob {
+ public:
+  struct Task {
+    Path blender;
+    Path home;
+    Path plan;    ///< folder of a plan with its baked scene
+    Path passes;  ///< gets a folder for each clip
+    Path log;     ///< what the Blenders of this job print, one after another
+    std::vector<std::string> clips;
+    int threads = 0;      ///< 0: one a core
+    int supersample = 1;  ///< rays along each side of a pixel
+    bool actor_layer = false;
+    bool preview = false;  ///< pictures for people instead: the frames of one clip, kPreview
+    /// Called from a thread of its own when Blender died and is started again: over which clip, and why it died.
+    std::function<void(const std::string& clip, const std::string& why)> restarted;
+  };
+  static constexpr const char* kPreview = "preview";
+
+  /// Starts Blender. It dies with this process.
+  explicit RenderJob(const Task& task);
+  /// Ends Blender.
+  ~RenderJob();
+  RenderJob(const RenderJob&) = delete;
+  RenderJob& operator=(const RenderJob&) = delete;
+
+  /// Returns when the frame's file is whole (frame -1: when the clip's manifest is). Otherwise says in words
+  /// why it never will be: ClipLost; or what ends the job, of which no clip is to blame: ConfigError; TryAgainError if
+  /// Blender was killed as it built the scene or the disk is full; else IoError. Cancelled when `cancelled` says so.
+  void wait_for_frame(const std::string& clip, int frame, const std::function<bool()>& cancelled);
+
+  /// How many frames a clip has, as Blender reported with its manifest; 0 before.
+  [[nodiscard]] int frames_of(const std::string& clip);
+
+  /// How many leading frames of a clip are whole.
+  [[nodiscard]] int frames_ready(const std::string& clip);
+
+  /// Waits until nothing is left to render; only what ends the job is a fault here.
+  void wait_for_end(const std::function<bool()>& cancelled);
+
+  /// Throws what ended the job, if something did.
+  void rethrow_fault();
+
+ private:
+  /// Whose doing an early end is.
+  enum class Blame { config, blender, circumstances };
+  /// What is known of the Blender that runs.
+  struct Run {
+    bool scene_built = false;
+    Blame blame = Blame::blender;
+    std::string failure;           ///< why it ended early, in one line
+    std::uintmax_t log_begin = 0;  ///< where its part of the log begins
+    std::string doing = "building the scene";
+  };
+
+  void run(const std::stop_token& stop);
+  [[nodiscard]] bool run_once(const std::stop_token& stop);
+  [[nodiscard]] Task task_left();
+  void take_line(const std::string& line);
+  void take_event(const Json& event);
+  void leave_if_whole(const std::string& clip);
+  [[nodiscard]] bool take_end(const ExitStatus& status);
+  void explain(const ExitStatus& status);
+  [[nodiscard]] bool may_try_again();
+  void wait_until(const std::function<bool()>& done, const std::function<bool()>& cancelled,
+                  const std::string& clip);
+  [[noreturn]] void throw_failure() const;
+
+  Task task_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::string> left_;      ///< clips that are not rendered, in order
+  std::map<std::string, int> ready_;  ///< leading whole frames of a clip, counting the manifest as one
+  std::map<std::string, int> frames_;
+  std::map<std::string, ClipLost> lost_;
+  Run run_;
+  int deaths_in_clip_ = 0;   ///< over the first of left_
+  int deaths_in_scene_ = 0;  ///< one after another, before a scene was built
+  bool ended_ = false;
+  std::exception_ptr fault_;  ///< what ended the job
+  std::jthread runner_;       ///< starts the Blenders, which die with it, and listens to them
+};
+
+/// The arguments Blender is started with.
+[[nodiscard]] std::vector<std::string> render_command(const RenderJob::Task& task);
+
+}  // namespace thermal

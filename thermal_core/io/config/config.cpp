@@ -1,0 +1,215 @@
+#include "io/config/config.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "io/config/lens.h"
+#include "io/config/sensor.h"
+#include "io/json/schema.h"
+
+namespace thermal {
+namespace {
+
+/// `otherwise` is the model's choice for terms that the config leaves open.
+TermChoices read_terms(const Json& json, TermChoice otherwise) {
+  TermChoices choices;
+  for (const TermInfo& term : kTerms) {
+    const std::string choice = json.value(std::string(term.name), "");
+    TermChoice& chosen = choices.*term.choice;
+    chosen = otherwise;
+    if (choice == "on") chosen = TermChoice::on;
+    if (choice == "off") chosen = TermChoice::off;
+    if (choice == "auto") chosen = TermChoice::automatic;
+  }
+  return choices;
+}
+
+std::optional<double> read_optional(const Json& json, const char* key) {
+  return json.contains(key) ? std::optional<double>(json[key].get<double>()) : std::nullopt;
+}
+
+LabelParameters read_label_parameters(const Json& json) {
+  return {.occluded_below_visibility = json["occluded_below_visibility"],
+          .ignore_below_visibility = json["ignore_below_visibility"],
+          .ignore_below_area_px = json["ignore_below_area_px"]};
+}
+
+ClipConfig read_clip(const Json& json) {
+  return {.id = json["id"],
+          .season = season_of(json["season"].get<std::string>()),
+          .frames = json["frames"],
+          .frame_rate_hz = json["frame_rate_hz"]};
+}
+
+void check_ids(const char* list, const std::vector<std::string>& ids, std::vector<std::string>& faults) {
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (seen.insert(ids[i]).second) continue;
+    faults.push_back(
+        fault(fmt::format("{}[{}].id", list, i), fmt::format("\"{}\"", ids[i]), "", "each id once"));
+  }
+}
+
+/// Checks that there is something to make, and that ids are unique.
+void check_flown(const std::vector<std::string>& flights, const std::vector<ClipConfig>& clips,
+                 std::vector<std::string>& faults) {
+  if (clips.empty() && flights.empty())
+    faults.emplace_back("clips and flights are empty; expected at least one of either");
+  std::vector<std::string> ids;
+  for (const ClipConfig& clip : clips) ids.push_back(clip.id);
+  check_ids("clips", ids, faults);
+  check_ids("flights", flights, faults);
+}
+
+/// One step of a setting's key: "clips[0]" is the member "clips", then entry 0.
+Json& step_into(Json& at, const std::string& part, const std::string& assignment) {
+  const std::size_t bracket = part.find('[');
+  const std::string member = part.substr(0, bracket);
+  if (member.empty() || !(at.is_object() || at.is_null())) {
+    throw ConfigError(
+        fault("--set", fmt::format("\"{}\"", assignment), "", "KEY=VALUE with the key of an object"));
+  }
+  Json& value = at[member];
+  if (bracket == std::string::npos) return value;
+  std::size_t entry = 0;
+  const char* begin = part.data() + bracket + 1;
+  const auto [end, error] = std::from_chars(begin, part.data() + part.size(), entry);
+  const bool whole = error == std::errc() && end != begin && std::string_view(end) == "]";
+  if (!whole || !value.is_array() || entry >= value.size()) {
+    throw ConfigError(fault("--set", fmt::format("\"{}\"", assignment), "",
+                            fmt::format("an entry of {}, [0] to [{}]", member,
+                                        value.is_array() && !value.empty() ? value.size() - 1 : 0)));
+  }
+  return value[entry];
+}
+
+/// Makes the path of a file that a document names relative to `folder` absolute, if it names one.
+void root_file(Json& document, const char* place, const Path& folder) {
+  const Json::json_pointer file(place);
+  if (!document.contains(file) || !document[file].is_string()) return;  // the schema reports it
+  document[file] = (folder / document[file].get<std::string>()).string();
+}
+
+/// Anything that is not JSON is a string; the schema reports it if it is wrong.
+Json parse_value(const std::string& text) {
+  try {
+    return parse_json(text, "--set");
+  } catch (const ConfigError&) {
+    return Json(text);
+  }
+}
+
+}  // namespace
+
+const ClipConfig& Config::clip(const std::string& id, const std::string& where) const {
+  const auto found = std::ranges::find(clips, id, &ClipConfig::id);
+  if (found != clips.end()) return *found;
+  std::vector<std::string> known;
+  for (const ClipConfig& clip : clips) known.push_back(clip.id);
+  throw ConfigError(fault(where, fmt::format("\"{}\"", id), "", "one of " + list_names(known)) +
+                    did_you_mean(id, known));
+}
+
+Weather weather_of(const Config& config, Season season) {
+  Weather weather = weather_of(season);
+  weather.air.temperature_k = config.air_temperature_k.value_or(weather.air.temperature_k);
+  weather.air.relative_humidity = config.relative_humidity.value_or(weather.air.relative_humidity);
+  weather.air.cloud_fraction = config.cloud_fraction.value_or(weather.air.cloud_fraction);
+  weather.vehicle_stopped_s = config.vehicle_stopped_s;
+  return weather;
+}
+
+void set_season(Json& document, const Json& season) {
+  for (const char* flown : {"clips", "flights"}) {
+    if (!document.contains(flown)) continue;
+    for (Json& one : document[flown]) {
+      if (one.is_object()) one["season"] = season;  // the schema reports entries of other types
+    }
+  }
+}
+
+void apply_setting(Json& document, const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw ConfigError(fault("--set", fmt::format("\"{}\"", assignment), "", "KEY=VALUE"));
+  }
+  const std::string key = assignment.substr(0, equals);
+  const Json value = parse_value(assignment.substr(equals + 1));
+  if (key == "season") return set_season(document, value);
+  Json* at = &document;
+  for (std::size_t begin = 0; begin <= key.size();) {
+    const std::size_t dot = std::min(key.find('.', begin), key.size());
+    at = &step_into(*at, key.substr(begin, dot - begin), assignment);
+    begin = dot + 1;
+  }
+  *at = value;
+}
+
+void root_files(Json& document, const Path& folder) {
+  root_calibration(document, folder);
+  root_file(document, "/scene/terrain/heightmap/file", folder);
+  root_file(document, "/scene/terrain/density_map/file", folder);
+  for (const char* flown : {"clips", "flights"}) {
+    if (!document.contains(flown)) continue;
+    for (Json& one : document[flown]) root_file(one, "/flight/waypoints/file", folder);
+  }
+}
+
+void root_calibration(Json& document, const Path& folder) {
+  root_file(document, "/camera/calibration", folder);
+}
+
+Config with_clips(Config config, const Json& clips) {
+  for (const Json& clip : clips) {
+    config.clips.push_back(read_clip(clip));
+    config.resolved["clips"].push_back(clip);
+  }
+  config.flights.clear();
+  config.resolved["flights"] = Json::array();
+  return config;
+}
+
+Config resolve_config(Json document, const std::string& name, const Path& home) {
+  const Json schema = read_json(home / "configs" / "schema" / "config.schema.json");
+  apply_preset(document, schema, name, home);
+  std::vector<std::string> faults = check_and_fill(document, schema);
+  throw_faults(faults, name);
+  apply_calibration(document, schema, faults);
+  throw_faults(faults, name);
+  Config config;
+  config.name = document["name"];
+  config.seed = document["seed"];
+  config.width_px = document["camera"]["width_px"];
+  config.height_px = document["camera"]["height_px"];
+  config.distortion = read_distortion(document["camera"]["distortion"]);
+  config.sensor = read_sensor(document, name, home);
+  config.labels = read_label_parameters(document["labels"]);
+  config.physical = document["sensor"]["model"] == "physical";
+  config.terms = read_terms(document["terms"], config.physical ? TermChoice::automatic : TermChoice::off);
+  config.netd_k = config.sensor.netd_k();
+  config.air_temperature_k = read_optional(document["weather"], "air_temperature_k");
+  config.relative_humidity = read_optional(document["weather"], "relative_humidity");
+  config.cloud_fraction = read_optional(document["weather"], "cloud_fraction");
+  config.vehicle_stopped_s = document["weather"]["vehicle_stopped_s"];
+  for (const Json& clip : document["clips"]) config.clips.push_back(read_clip(clip));
+  for (const Json& flight : document["flights"]) config.flights.push_back(flight["id"]);
+  check_flown(config.flights, config.clips, faults);
+  config.camera = read_intrinsics(document["camera"]);
+  check_intrinsics(config.camera, faults);
+  throw_faults(faults, name);
+  fill_overscan(document, faults);
+  throw_faults(faults, name);
+  config.overscan_px = document["render"]["overscan_px"];
+  config.supersample = document["render"]["supersample"];
+  config.actor_layer = document["render"]["actor_layer"];
+  document.erase("$schema");
+  config.resolved = std::move(document);
+  return config;
+}
+
+}  // namespace thermal

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/json/file.h"
+#include "labels/label_parameters.h"
+#include "scene/lens_distortion.h"
+#include "scene/manifest.h"
+#include "scene/season.h"
+#include "scene/terms.h"
+#include "scene/weather.h"
+#include "sensor/sensor_parameters.h"
+
+namespace thermal {
+
+struct ClipConfig {
+  std::string id;
+  Season season = Season::winter;
+  int frames = 0;
+  double frame_rate_hz = 9;
+};
+
+/// A dataset config: the parts that the thermal side uses, and the whole document with all defaults filled in.
+struct Config {
+  std::string name;
+  std::uint32_t seed = 1;
+  int width_px = 640;
+  int height_px = 512;
+  CameraIntrinsics camera;
+  LensDistortion distortion;
+  int overscan_px = 0;  ///< how far the passes extend beyond the picture on every side
+  int supersample = 1;  ///< rays of the passes along each side of a pixel
+  bool actor_layer = false;
+  SensorParameters sensor;
+  LabelParameters labels;
+  bool physical = false;  ///< every term the scene needs; otherwise the published model
+  TermChoices terms;
+  double netd_k = 0.04;
+  std::optional<double> air_temperature_k;  ///< overrides the season's
+  std::optional<double> relative_humidity;
+  std::optional<double> cloud_fraction;
+  double vehicle_stopped_s = 3600;
+  std::vector<ClipConfig> clips;
+  std::vector<std::string> flights;  ///< ids of long flights, from which clips are cut
+  Json resolved;                     ///< for the record; computations use the fields above
+
+  /// ConfigError with the nearest id if the clip is unknown. `where` names the source of the id.
+  [[nodiscard]] const ClipConfig& clip(const std::string& id, const std::string& where) const;
+};
+
+/// The weather of a clip: its season's, overridden by the config's.
+[[nodiscard]] Weather weather_of(const Config& config, Season season);
+
+/// Sets the season of every clip and flight of a document.
+void set_season(Json& document, const Json& season);
+
+/// Changes one value of a document before it is checked. `assignment` is "key.other[2].last=value", with the value as
+/// JSON or a plain string; "season=…" sets the season of every clip and flight. ConfigError if the form is invalid.
+void apply_setting(Json& document, const std::string& assignment);
+
+/// Makes paths that a document gives relative to `folder` absolute: a calibration, maps of the terrain.
+void root_files(Json& document, const Path& folder);
+
+/// The same for the calibration alone, which is what converting existing passes needs.
+void root_calibration(Json& document, const Path& folder);
+
+/// The same config with these clips, which follow its own, instead of its flights.
+[[nodiscard]] Config with_clips(Config config, const Json& clips);
+
+/// Checks a document against configs/schema/config.schema.json and fills in its defaults. The numbers of a camera's
+/// calibration replace the name of its file. ConfigError with one line per fault, each starting with `name`.
+[[nodiscard]] Config resolve_config(Json document, const std::string& name, const Path& home);
+
+}  // namespace thermal

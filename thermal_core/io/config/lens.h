@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/json/file.h"
+#include "scene/lens_distortion.h"
+
+namespace thermal {
+
+/// The lens of a config's `camera.distortion`.
+[[nodiscard]] LensDistortion read_distortion(const Json& json);
+
+/// The pinhole of a config's `camera`, whose defaults are filled in. Where it does not give them, fx_px is focal length /
+/// pixel pitch, fy_px is fx_px, and the principal point is the picture's middle.
+[[nodiscard]] CameraIntrinsics read_intrinsics(const Json& camera);
+
+/// Whether a config's `camera` gives any of fx_px, fy_px, cx_px and cy_px.
+[[nodiscard]] bool gives_intrinsics(const Json& camera);
+
+/// Puts the numbers of the file that `camera.calibration` names in its place, so that the document speaks for itself.
+/// `schema`: that of configs. Adds faults, with the file's name, if it cannot be read, is of another size of picture, or
+/// holds what a config must not; and if the document gives one of the numbers, too.
+void apply_calibration(Json& document, const Json& schema, std::vector<std::string>& faults);
+
+/// Adds a fault if the principal point is outside the picture, or one focal length more than ten times the other.
+void check_intrinsics(const CameraIntrinsics& camera, std::vector<std::string>& faults);
+
+/// Writes what the lens needs as the config's render.overscan_px, where that says nothing of it. Adds a fault if it
+/// says too little, or if no overscan is enough.
+void fill_overscan(Json& document, std::vector<std::string>& faults);
+
+}  // namespace thermal

@@ -1,0 +1,63 @@
+#include "io/config/materials.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/relative_name.h"
+#include "io/config/spectra.h"
+#include "io/json/file.h"
+#include "io/json/schema.h"
+
+namespace thermal {
+namespace {
+
+AngularLaw read_law(const std::string& name) {
+  if (name == "water") return AngularLaw::water;
+  return name == "soil" ? AngularLaw::soil : AngularLaw::none;
+}
+
+MaterialPart read_part(const Json& json) {
+  return {.excess_factor = json["excess_factor"],
+          .offset_k = json["offset_k"],
+          .cooling_excess_k = json["cooling_excess_k"],
+          .cooling_time_s = json["cooling_time_s"]};
+}
+
+Path spectrum_file(const std::string& text, const Path& material) {
+  const auto name = RelativeName::of(text);
+  if (!name) throw ConfigError(fault(material.string() + ": spectrum", brief(text), "", RelativeName::kRule));
+  return material.parent_path() / name->text();
+}
+
+Material read_material(const Json& json, const Path& file) {
+  Material material;
+  material.name = file.stem().string();
+  material.emissivity = json["emissivity"];
+  material.winter_k = json["winter_k"];
+  material.summer_k = json["summer_k"];
+  material.in_table_1 = json["in_table_1"];
+  if (json.contains("spectrum")) material.spectrum = read_emissivity(spectrum_file(json["spectrum"], file));
+  material.angular = read_law(json["angular"]);
+  material.variation = {.stddev_k = json["variation"]["stddev_k"],
+                        .correlation_length_m = json["variation"]["correlation_length_m"]};
+  for (const auto& [part, values] : json["parts"].items()) material.parts[part] = read_part(values);
+  return material;
+}
+
+}  // namespace
+
+MaterialLibrary read_materials(const Path& home) {
+  const Json schema = read_json(home / "configs" / "schema" / "material.schema.json");
+  MaterialLibrary library;
+  for (const auto& entry : std::filesystem::directory_iterator(home / "assets" / "materials")) {
+    const Path& file = entry.path();
+    if (file.extension() != ".json") continue;
+    Json document = read_json(file);
+    const std::vector<std::string> faults = check_and_fill(document, schema);
+    if (!faults.empty()) throw ConfigError(fmt::format("{}: {}", file.string(), faults.front()));
+    library.add(read_material(document, file));
+  }
+  return library;
+}
+
+}  // namespace thermal

@@ -1,0 +1,144 @@
+#include "io/config/sensor.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "io/config/spectra.h"
+#include "io/json/schema.h"
+
+namespace thermal {
+namespace {
+
+constexpr const char* kDefaultPreset = "airsim_w";
+
+/// Path of the file of assets/`kind` that a key names; ConfigError with the available ones.
+Path find_asset(const Path& folder, const std::string& extension, const std::string& asset,
+                const std::string& where) {
+  std::vector<std::string> known;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == extension) known.push_back(entry.path().stem().string());
+  }
+  std::sort(known.begin(), known.end());
+  if (std::binary_search(known.begin(), known.end(), asset)) return folder / (asset + extension);
+  throw ConfigError(fault(where, fmt::format("\"{}\"", asset), "", "one of " + list_names(known)) +
+                    did_you_mean(asset, known));
+}
+
+/// Adds missing members from another object, at every depth.
+void fill_missing(Json& object, const Json& from) {
+  for (const auto& [key, value] : from.items()) {
+    if (!object.contains(key)) {
+      object[key] = value;
+    } else if (object[key].is_object() && value.is_object()) {
+      fill_missing(object[key], value);
+    }
+  }
+}
+
+/// Checks a preset as part of an otherwise empty config.
+Json read_preset(const Path& file, const Json& schema) {
+  const Json& keys = schema["properties"];
+  const Json rules = {{"type", "object"},
+                      {"additionalProperties", false},
+                      {"properties",
+                       {{"description", {{"type", "string"}}},
+                        {"camera", keys["camera"]},
+                        {"sensor", keys["sensor"]},
+                        {"sources", {{"type", "object"}}}}}};
+  Json preset = read_json(file);
+  Json filled = preset;
+  const std::vector<std::string> faults = check_and_fill(filled, rules);
+  if (faults.empty()) return preset;
+  throw ConfigError(fmt::format("{}: {}", file.string(), fmt::join(faults, "\n" + file.string() + ": ")));
+}
+
+OpticsParameters read_optics(const Json& json, const Json& camera) {
+  return {.psf = json["psf"] == "physical" ? Psf::physical : Psf::gaussian,
+          .blur_sigma_px = json["blur_sigma_px"],
+          .f_number = json["f_number"],
+          .aberration_sigma_px = json["aberration_sigma_px"],
+          .pixel_pitch_um = camera["pixel_pitch_um"]};
+}
+
+NoiseParameters read_noise(const Json& json) {
+  return {.amount = json["amount"],
+          .flicker_knee_hz = json["flicker_knee_hz"],
+          .fixed_pattern_ratio = json["fixed_pattern_ratio"],
+          .row_ratio = json["row_ratio"],
+          .column_ratio = json["column_ratio"],
+          .temporal_row_ratio = json["temporal_row_ratio"],
+          .temporal_column_ratio = json["temporal_column_ratio"],
+          .frame_ratio = json["frame_ratio"],
+          .drift_ratio = json["drift_ratio"],
+          .first_frame_ratio = json["first_frame_ratio"],
+          .banding_ratio = json["banding_ratio"],
+          .banding_period_px = json["banding_period_px"],
+          .banding_hz = json["banding_hz"]};
+}
+
+BadPixelParameters read_bad_pixels(const Json& json) {
+  return {.dead_share = json["dead_share"],
+          .replace_dead = json["replace_dead"],
+          .blinking_share = json["blinking_share"],
+          .blinking_ratio = json["blinking_ratio"],
+          .blinking_hz = json["blinking_hz"]};
+}
+
+AgcMode read_mode(const std::string& name) {
+  if (name == "table_max") return AgcMode::table_max;
+  if (name == "linear") return AgcMode::linear;
+  if (name == "percentile") return AgcMode::percentile;
+  return name == "plateau" ? AgcMode::plateau : AgcMode::scene_max;
+}
+
+AgcParameters read_agc(const Json& json) {
+  return {.mode = read_mode(json["mode"]),
+          .polarity = json["polarity"] == "black_hot" ? Polarity::black_hot : Polarity::white_hot,
+          .low_k = json["low_k"],
+          .high_k = json["high_k"],
+          .tail_percent = json["tail_percent"],
+          .plateau_percent = json["plateau_percent"],
+          .max_gain_dn_per_netd = json["max_gain_dn_per_netd"],
+          .damping_s = json["damping_s"]};
+}
+
+}  // namespace
+
+void apply_preset(Json& document, const Json& schema, const std::string& name, const Path& home) {
+  if (!document.is_object()) return;  // the schema reports it
+  for (const char* key : {"sensor", "camera"}) {
+    if (!document.contains(key)) document[key] = Json::object();
+    if (!document[key].is_object()) return;
+  }
+  Json& sensor = document["sensor"];
+  if (!sensor.contains("preset")) sensor["preset"] = kDefaultPreset;
+  if (!sensor["preset"].is_string()) return;
+  const Path file =
+      find_asset(home / "assets" / "sensors", ".json", sensor["preset"], name + ": sensor.preset");
+  const Json preset = read_preset(file, schema);
+  fill_missing(sensor, preset.value("sensor", Json::object()));
+  fill_missing(document["camera"], preset.value("camera", Json::object()));
+}
+
+SensorParameters read_sensor(const Json& document, const std::string& name, const Path& home) {
+  const Json& json = document["sensor"];
+  const Path response =
+      find_asset(home / "assets" / "responses", ".csv", json["response"], name + ": sensor.response");
+  return {.response = read_response(response),
+          .radiance = json["radiance"] == "script" ? RadianceModel::script : RadianceModel::exact,
+          .optics = read_optics(json["optics"], document["camera"]),
+          .time_constant_s = json["time_constant_s"],
+          .netd_mk = json["netd_mk"],
+          .netd_f_number = json["netd_f_number"],
+          .noise = read_noise(json["noise"]),
+          .shutter = {.interval_s = json["shutter"]["interval_s"], .freeze_s = json["shutter"]["freeze_s"]},
+          .bad_pixels = read_bad_pixels(json["bad_pixels"]),
+          .kelvin_per_count = json["kelvin_per_count"],
+          .agc = read_agc(json["agc"])};
+}
+
+}  // namespace thermal

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "io/json/file.h"
+#include "sensor/sensor_parameters.h"
+
+namespace thermal {
+
+/// Fills in missing values of `camera` and `sensor` from the config's preset, a file in assets/sensors. `schema` is
+/// that of configs. ConfigError if the preset is unknown (starting with `name`) or violates the schema (starting with
+/// its file). Faults of the document itself are left to the schema check.
+void apply_preset(Json& document, const Json& schema, const std::string& name, const Path& home);
+
+/// The sensor of a resolved config. ConfigError, starting with `name`, if the spectral response is unknown.
+[[nodiscard]] SensorParameters read_sensor(const Json& document, const std::string& name, const Path& home);
+
+}  // namespace thermal

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "io/exr/scan.h"
+#include "scene/manifest.h"
+
+namespace thermal {
+
+/// Depth of pixels outside a file's data window: what Blender writes where there is only sky.
+inline constexpr float kDepthOutsideM = 1e10F;
+
+/// Where to find the planes of a clip's EXR files.
+struct ExrLayout {
+  std::string layer = {};        ///< empty: the only one
+  std::string actor_layer = {};  ///< empty: none
+  PassChannels channels = {};    ///< those with unusual names
+  int width_px = 0;              ///< 0: any size
+  int height_px = 0;
+  ExrLimits limits = {};
+};
+
+}  // namespace thermal

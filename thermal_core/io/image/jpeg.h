@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "io/system/files.h"
+
+namespace thermal {
+
+/// Encodes a picture of any format as a JPEG for viewing; wider than `most_px` it is scaled down. IoError if it
+/// cannot be read, DataError if it is damaged.
+[[nodiscard]] std::string as_jpeg(const Path& picture, int most_px);
+
+}  // namespace thermal

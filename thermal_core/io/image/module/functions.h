@@ -1,0 +1,13 @@
+#pragma once
+
+#include "io/image/picture_module.h"
+
+namespace thermal::pictures {
+
+/// As as_jpeg() in io/image/jpeg.h.
+[[nodiscard]] std::string as_jpeg(const Path& picture, int most_px);
+
+/// As draw_text() in io/image/text_picture.h, of printable ASCII that is not all spaces, with a font that exists.
+[[nodiscard]] TextPicture draw_text(const Path& font, const std::string& ascii, int size_px);
+
+}  // namespace thermal::pictures

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "io/image/encoded_picture.h"
+#include "io/image/picture_size.h"
+#include "io/image/text_coverage.h"
+#include "io/system/files.h"
+
+namespace thermal {
+
+/// What OpenImageIO and OpenCV's imgcodecs do for Veldt. They bring 230 libraries that take .3 s to load, so they are in
+/// a module (io/pictures/), and programs load it when they need it. These functions throw as their callers say.
+struct PictureModule {
+  std::string (*as_jpeg)(const Path& picture, int most_px);
+  PictureSize (*read_picture_size)(const Path& file);
+  TextPicture (*draw_text)(const Path& font, const std::string& ascii, int size_px);
+  std::string (*encode_picture)(const cv::Mat& bgr, PictureFormat format);
+  std::string (*openimageio_version)();
+};
+
+/// The module, loaded by the first call. IoError if it is not where the program was built or installed.
+[[nodiscard]] const PictureModule& picture_module();
+
+}  // namespace thermal

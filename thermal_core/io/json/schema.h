@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/json/file.h"
+
+namespace thermal {
+
+/// Checks a document against a JSON schema (the keywords that our schemas use: type, properties,
+/// additionalProperties, required, enum, minimum, maximum, exclusiveMinimum, pattern, minItems, maxItems, items) and
+/// fills in every default. Returns all faults as "<where> = <value> <unit>; expected <rule>", with the unit from the
+/// key's suffix; empty if there are none.
+/// Our own implementation, because errors are part of the interface: a library's messages say which rule failed, not
+/// what to write.
+[[nodiscard]] std::vector<std::string> check_and_fill(Json& document, const Json& schema);
+
+/// Unit of a key's suffix, as in "speed_m_s" -> "m/s"; empty if it has none.
+[[nodiscard]] std::string unit_of_key(std::string_view key);
+
+}  // namespace thermal

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/system/sha256.h"
+
+namespace thermal {
+
+using Path = std::filesystem::path;
+
+/// An error of the system by its number: "cannot DOING PLACE: reason". TryAgainError if the disk is full, otherwise
+/// IoError.
+[[noreturn]] void fail_at(std::string_view doing, const Path& place, int error);
+
+/// Content of a file or a pipe in pieces of at most 64 KiB, in order. A pipe without a writer is empty. IoError with the
+/// file and the system's reason, or if it is a folder or a device.
+void read_pieces(const Path& file, const std::function<void(std::string_view piece)>& take);
+
+/// Whole content, at most 1 GiB. IoError as read_pieces(), or if it is larger.
+[[nodiscard]] std::string read_file(const Path& file);
+
+/// SHA-256 of a file's content, of any size, in constant memory. IoError as read_pieces().
+[[nodiscard]] std::string sha256_of_file(const Path& file);
+
+/// Refuses anything that is not a regular file: a folder, or a pipe or device, on which reading might block or never
+/// end. IoError "cannot read FILE: " with the reason, also if it does not exist.
+void check_is_file(const Path& file);
+
+/// Refuses a symbolic link: reading or writing would follow it elsewhere. IoError with link and target.
+void check_is_no_link(const Path& place);
+
+/// The same for a folder with all that is in it and in the folders in it. What does not exist is no link.
+void check_has_no_links(const Path& folder);
+
+/// Writes under a temporary name beside `file`, syncs, renames: the file is complete or unchanged. Links of either
+/// name are replaced, not followed.
+/// IoError with the file and the system's reason; TryAgainError if the disk is full.
+void write_file_atomically(const Path& file, std::string_view content);
+
+/// A new file, without the temporary name, inside a folder that is itself renamed when complete. IoError as above, also
+/// if there is a file or a link of this name.
+void write_file(const Path& file, std::span<const std::byte> content);
+
+/// A new file with the content of another, of any size, in constant memory. Errors as read_pieces() and write_file().
+void copy_content(const Path& from, const Path& to);
+
+/// mkdir -p. IoError with the folder and the system's reason.
+void make_folder(const Path& folder);
+
+/// Whether so little disk space is left at this folder (under 64 KiB) that it explains a failed write.
+[[nodiscard]] bool is_disk_full(const Path& folder);
+
+/// Flushes a folder's entries to disk, so that a rename in it survives a power failure.
+void sync_folder(const Path& folder);
+
+/// Bytes that this user may still write at this folder. IoError with the folder and the system's reason.
+[[nodiscard]] std::int64_t room_left_bytes(const Path& folder);
+
+/// A lock on a folder, or on parts of it, held for the object's lifetime; the system releases it when the process
+/// ends. A folder belongs to one run, or is shared by several runs that each lock their own parts.
+class FolderLock {
+ public:
+  /// Locks all of it. Creates `folder` if needed. TryAgainError if another run holds any of it.
+  explicit FolderLock(const Path& folder);
+  /// Locks these parts of it, possibly none. TryAgainError if another run holds all of it or one of them.
+  FolderLock(const Path& folder, const std::vector<std::size_t>& places);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+  /// Waits for exclusive access to the files that all runs sharing the folder write, then calls the function. Not for
+  /// two threads at once.
+  void in_turn(const std::function<void()>& change) const;
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// A file written piece by piece together with its checksum; nothing of it stays in memory. All functions may throw
+/// an IoError with the file and the system's reason, or a TryAgainError if the disk is full.
+class OutputFile {
+ public:
+  /// Creates a file. An existing file of that name is removed; an existing link is replaced, not followed.
+  explicit OutputFile(const Path& file);
+  /// Removes the file if it was not closed.
+  ~OutputFile();
+  OutputFile(OutputFile&&) noexcept = default;
+  OutputFile& operator=(OutputFile&&) noexcept = delete;
+
+  void add(std::string_view text);
+
+  /// Ends the file. Returns its SHA-256.
+  std::string close();
+
+  /// close(), with the file flushed to disk and renamed to `place`, which is complete or unchanged.
+  std::string close_as(const Path& place);
+
+ private:
+  struct Close {
+    void operator()(std::FILE* stream) const { std::fclose(stream); }
+  };
+  using Stream = std::unique_ptr<std::FILE, Close>;
+
+  Path file_;
+  Stream stream_;
+  Sha256 sum_;
+};
+
+/// Creates an empty folder of this name, and its parents. Existing contents are removed; of a link, only the link
+/// itself. IoError if its parent is a link to elsewhere, or with the system's reason; TryAgainError if the disk is
+/// full.
+void make_fresh_folder(const Path& folder);
+
+/// Creates a folder, unless it exists, in which other programs will write files by their names. IoError if it, or
+/// anything in it at any depth, is a link to elsewhere, or with the system's reason; TryAgainError if the disk is full.
+void make_own_folder(const Path& folder);
+
+/// Renames a complete folder to `place`, replacing an existing one in one step: a reader, or a run killed in between,
+/// finds either the old one or the new one. IoError or TryAgainError with the place.
+void replace_folder(const Path& whole, const Path& place);
+
+/// Removes a folder with its contents; of links, only the links. Failure is not reported.
+void sweep_folder(const Path& folder) noexcept;
+
+/// How to give a file a second location.
+enum class Linking { hard, symlink, copy };
+
+/// Makes `as` the same file as `file`, creating missing folders: a hard link, a symbolic link to its absolute path,
+/// or a copy. If `file` is a symbolic link, its target is linked. Falls back to a copy where the file system cannot
+/// link: across file systems, past its limit of links. Returns what was done. Never replaces or writes through what is at
+/// `as`. IoError with the file and the system's reason; TryAgainError if the disk is full.
+Linking link_file(const Path& file, const Path& as, Linking wanted);
+
+}  // namespace thermal

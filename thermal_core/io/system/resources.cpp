@@ -1,0 +1,57 @@
+#include "io/system/resources.h"
+
+#include <cstdlib>
+#include <sstream>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+namespace thermal {
+namespace {
+
+/// What this user may not look into is not there.
+bool is_home(const Path& folder) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(folder / "assets", ignored) &&
+         std::filesystem::is_directory(folder / "blender_scripts", ignored);
+}
+
+bool can_run(const Path& file) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0;
+}
+
+}  // namespace
+
+Path find_home() {
+  if (const char* named = std::getenv("VELDT_HOME"); named != nullptr && *named != '\0') {
+    if (is_home(named)) return named;
+    throw IoError(
+        fault("VELDT_HOME", fmt::format("\"{}\"", named), "", "a folder with assets and blender_scripts"));
+  }
+  const Path program = std::filesystem::read_symlink("/proc/self/exe");
+  for (Path folder = program.parent_path();; folder = folder.parent_path()) {
+    if (is_home(folder)) return folder;
+    if (folder == folder.root_path()) break;
+  }
+  Path installed = program.parent_path().parent_path() / "share" / "veldt";
+  if (is_home(installed)) return installed;
+  throw IoError(fmt::format("no folder with assets and blender_scripts at or above {}; set VELDT_HOME to it",
+                            program.parent_path().string()));
+}
+
+Path find_program(const std::string& name) {
+  if (name.find('/') != std::string::npos) return can_run(name) ? std::filesystem::absolute(name) : Path();
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const Path candidate = Path(folder) / name;
+    if (can_run(candidate)) return std::filesystem::absolute(candidate);
+  }
+  return {};
+}
+
+}  // namespace thermal

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "io/system/files.h"
+
+namespace thermal {
+
+/// Largest table of numbers that is read: ten times what a million lines take [bytes].
+inline constexpr std::size_t kMostTableBytes = std::size_t{256} << 20;
+
+/// Whole content of a regular file of text, without a UTF-8 byte-order mark (Excel writes one). Line ends are as they are.
+/// IoError if it is missing, a folder, a pipe or a device, unreadable, or larger than `most_bytes`: the message
+/// names file, size and limit.
+[[nodiscard]] std::string read_text_file(const Path& file, std::size_t most_bytes = kMostTableBytes);
+
+}  // namespace thermal

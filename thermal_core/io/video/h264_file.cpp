@@ -1,0 +1,147 @@
+#include "io/video/h264_file.h"
+
+#include <cerrno>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/log.h>
+#include <libavutil/opt.h>
+}
+
+namespace thermal {
+namespace {
+
+/// H.264 stores colour at half size, so sides are even; a picture of odd size shows its edge twice.
+int even(int size_px) { return size_px + size_px % 2; }
+
+std::string reason_of(int error) {
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
+  return av_make_error_string(text.data(), text.size(), error);
+}
+
+struct FreeFormat {
+  void operator()(AVFormatContext* format) const {
+    if (format->pb != nullptr) avio_closep(&format->pb);
+    avformat_free_context(format);
+  }
+};
+struct FreeEncoder {
+  void operator()(AVCodecContext* encoder) const { avcodec_free_context(&encoder); }
+};
+struct FreePicture {
+  void operator()(AVFrame* picture) const { av_frame_free(&picture); }
+};
+struct FreePacket {
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+};
+
+}  // namespace
+
+struct H264File::Impl {
+  Path file;
+  H264Settings settings;
+  std::unique_ptr<AVFormatContext, FreeFormat> format;
+  std::unique_ptr<AVCodecContext, FreeEncoder> encoder;
+  std::unique_ptr<AVFrame, FreePicture> picture{av_frame_alloc()};
+  std::unique_ptr<AVPacket, FreePacket> packet{av_packet_alloc()};
+
+  void check(int result) const {
+    if (result >= 0) return;
+    const bool full = result == AVERROR(ENOSPC) || result == AVERROR(EDQUOT);
+    if (full) throw TryAgainError(fmt::format("cannot write {}: {}", file.string(), reason_of(result)));
+    throw IoError(fmt::format("cannot write {}: {}", file.string(), reason_of(result)));
+  }
+
+  void open_file() {
+    AVFormatContext* made = nullptr;
+    check(avformat_alloc_output_context2(&made, nullptr, "mp4", file.c_str()));
+    format.reset(made);
+    format->flags |= AVFMT_FLAG_BITEXACT;  // no name of a library's version in the file
+    check(avio_open(&format->pb, file.c_str(), AVIO_FLAG_WRITE));
+  }
+
+  void open_encoder() {
+    const AVCodec* codec = avcodec_find_encoder_by_name("libx264");
+    encoder.reset(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
+    if (!encoder) throw IoError(fmt::format("cannot write {}: FFmpeg has no libx264", file.string()));
+    encoder->width = even(settings.width_px);
+    encoder->height = even(settings.height_px);
+    encoder->pix_fmt = AV_PIX_FMT_YUV420P;  // what every browser plays
+    encoder->framerate = av_d2q(settings.frame_rate_hz, 100000);
+    encoder->time_base = av_inv_q(encoder->framerate);
+    encoder->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+    encoder->thread_count = settings.threads;
+    check(av_opt_set(encoder->priv_data, "preset", settings.preset.c_str(), 0));
+    check(av_opt_set_int(encoder->priv_data, "crf", settings.quality, 0));
+    check(avcodec_open2(encoder.get(), codec, nullptr));
+  }
+
+  void begin() const {
+    AVStream* stream = avformat_new_stream(format.get(), nullptr);
+    check(stream == nullptr ? AVERROR(ENOMEM) : 0);
+    stream->time_base = encoder->time_base;
+    stream->avg_frame_rate = encoder->framerate;
+    check(avcodec_parameters_from_context(stream->codecpar, encoder.get()));
+    if (settings.streamable) check(av_opt_set(format->priv_data, "movflags", "+faststart", 0));
+    check(avformat_write_header(format.get(), nullptr));
+    picture->format = encoder->pix_fmt;
+    picture->width = encoder->width;
+    picture->height = encoder->height;
+    picture->pts = 0;
+    check(av_frame_get_buffer(picture.get(), 0));
+  }
+
+  [[nodiscard]] Planes planes() const {
+    return {.data = {picture->data[0], picture->data[1], picture->data[2]},
+            .stride_px = {picture->linesize[0], picture->linesize[1], picture->linesize[2]},
+            .width_px = picture->width,
+            .height_px = picture->height};
+  }
+
+  /// `what` null: there are no more.
+  void encode(const AVFrame* what) const {
+    check(avcodec_send_frame(encoder.get(), what));
+    for (;;) {
+      const int result = avcodec_receive_packet(encoder.get(), packet.get());
+      if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
+      check(result);
+      packet->duration = 1;
+      av_packet_rescale_ts(packet.get(), encoder->time_base, format->streams[0]->time_base);
+      check(av_interleaved_write_frame(format.get(), packet.get()));
+    }
+  }
+};
+
+H264File::H264File(const Path& file, const H264Settings& settings) : impl_(std::make_unique<Impl>()) {
+  av_log_set_level(AV_LOG_QUIET);  // an exception reports what goes wrong
+  impl_->file = file;
+  impl_->settings = settings;
+  impl_->open_file();
+  impl_->open_encoder();
+  impl_->begin();
+}
+
+H264File::~H264File() = default;
+H264File::H264File(H264File&&) noexcept = default;
+H264File& H264File::operator=(H264File&&) noexcept = default;
+
+void H264File::add(const std::function<void(const Planes&)>& draw) {
+  impl_->check(av_frame_make_writable(impl_->picture.get()));
+  draw(impl_->planes());
+  impl_->encode(impl_->picture.get());
+  ++impl_->picture->pts;
+}
+
+void H264File::close() {
+  impl_->encode(nullptr);
+  impl_->check(av_write_trailer(impl_->format.get()));
+  impl_->check(avio_closep(&impl_->format->pb));
+}
+
+}  // namespace thermal
