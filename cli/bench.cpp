@@ -12,8 +12,8 @@
 #include "bench/sensor_suite.h"
 #include "cli/command.h"
 #include "cli/output.h"
+#include "io/assets.h"
 #include "io/config/materials.h"
-#include "io/system/resources.h"
 
 namespace veldt {
 namespace {
@@ -150,7 +150,7 @@ std::function<void(const std::string&)> teller(bool quiet) {
 }
 
 std::vector<thermal::RenderRow> measure_rendering(const BenchArguments& options, bool quiet) {
-  return thermal::run_render_suite({find_blender(options.blender), thermal::find_home(), teller(quiet)});
+  return thermal::run_render_suite({find_blender(options.blender), thermal::Assets::find(), teller(quiet)});
 }
 
 int run_bench(const BenchArguments& options, bool quiet) {
@@ -159,7 +159,7 @@ int run_bench(const BenchArguments& options, bool quiet) {
   if (options.suite == "balance")
     return show(options.suite, thermal::run_balance_suite(teller(quiet)), options.json);
   if (options.suite == "render") return show(options.suite, measure_rendering(options, quiet), options.json);
-  const thermal::MaterialLibrary materials = thermal::read_materials(thermal::find_home());
+  const thermal::MaterialLibrary materials = thermal::read_materials(thermal::Assets::find());
   if (options.suite == "convert")
     return show(options.suite, thermal::run_convert_suite(materials, teller(quiet)), options.json);
   return show(options.suite, thermal::run_radiance_suite(materials), options.json);

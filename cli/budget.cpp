@@ -6,8 +6,8 @@
 #include "cli/output.h"
 #include "cli/planning.h"
 #include "dataset/passes/outline.h"
+#include "io/assets.h"
 #include "io/config/materials.h"
-#include "io/system/resources.h"
 
 namespace veldt {
 namespace {
@@ -49,10 +49,10 @@ struct BudgetArguments {
 };
 
 int run_budget(const BudgetArguments& options, const CommonOptions& common) {
-  const thermal::Path home = thermal::find_home();
-  const thermal::Config given = load_config(options.config, options.settings, home);
-  const thermal::MaterialLibrary materials = thermal::read_materials(home);
-  const thermal::DatasetPlan plan = plan_with_progress(common, home, given, options.config);
+  const thermal::Assets assets = thermal::Assets::find();
+  const thermal::Config given = load_config(options.config, options.settings, assets);
+  const thermal::MaterialLibrary materials = thermal::read_materials(assets);
+  const thermal::DatasetPlan plan = plan_with_progress(common, assets, given, options.config);
   const thermal::Config config = thermal::with_flights_cut(given, plan);
   const thermal::SceneOutline outline = thermal::outline_of(config, plan, materials);
   const thermal::Budget budget = thermal::weigh_terms(outline, config.terms);

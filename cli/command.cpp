@@ -13,7 +13,8 @@
 #include "base/version.h"
 #include "cli/output.h"
 #include "cli/stop_signal.h"
-#include "io/system/resources.h"
+#include "io/assets.h"
+#include "io/system/child_process.h"
 
 namespace veldt {
 namespace {
@@ -127,12 +128,12 @@ void add_settings(CLI::App* command, std::vector<std::string>& settings) {
 }
 
 thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
-                            const thermal::Path& home) {
+                            const thermal::Assets& assets) {
   try {
     thermal::Json document = thermal::read_json(file);
     for (const std::string& setting : settings) thermal::apply_setting(document, setting);
     thermal::root_files(document, std::filesystem::absolute(file).parent_path());
-    return thermal::resolve_config(std::move(document), file.string(), home);
+    return thermal::resolve_config(std::move(document), file.string(), assets);
   } catch (const thermal::IoError& error) {
     throw thermal::ConfigError(error.what());
   }

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "io/assets.h"
 #include "io/config/config.h"
 
 namespace veldt {
@@ -59,7 +60,7 @@ void add_settings(CLI::App* command, std::vector<std::string>& settings);
 
 /// Reads a config, applies `settings` and checks it. Any fault of the file is a ConfigError.
 [[nodiscard]] thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
-                                          const thermal::Path& home);
+                                          const thermal::Assets& assets);
 
 /// The Blender to use: `named`, or "blender" on PATH where that is empty. ConfigError or IoError says what to do.
 [[nodiscard]] thermal::Path find_blender(const std::string& named);

@@ -9,7 +9,7 @@
 #include "cli/read_limits.h"
 #include "cli/run_summary.h"
 #include "cli/stop_signal.h"
-#include "io/system/resources.h"
+#include "io/assets.h"
 
 namespace veldt {
 namespace {
@@ -64,7 +64,7 @@ void print_forecast(const thermal::ConvertForecast& forecast) {
 
 int run_convert(const ConvertArguments& options, const CommonOptions& common) {
   check_max_unusable(options.max_unusable_share);
-  thermal::ConvertOptions request = {.home = thermal::find_home(),
+  thermal::ConvertOptions request = {.assets = thermal::Assets::find(),
                                      .passes = {options.passes.begin(), options.passes.end()},
                                      .manifest = options.manifest,
                                      .config = read_document(options.config),

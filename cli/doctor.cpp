@@ -6,8 +6,8 @@
 #include "cli/command.h"
 #include "cli/output.h"
 #include "dataset/plan/planning.h"
+#include "io/assets.h"
 #include "io/system/child_process.h"
-#include "io/system/resources.h"
 #include "io/system/versions.h"
 
 namespace veldt {
@@ -30,7 +30,7 @@ std::string first_line(const std::vector<std::string>& argv) {
 
 Finding find_home() {
   try {
-    return {"assets and scripts", thermal::find_home().string(), ""};
+    return {"assets and scripts", thermal::Assets::find().home().string(), ""};
   } catch (const thermal::IoError& error) {
     return {"assets and scripts", "", error.what()};
   }

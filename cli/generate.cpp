@@ -16,7 +16,7 @@
 #include "dataset/run/clip_choice.h"
 #include "dataset/run/planning.h"
 #include "dataset/run/render.h"
-#include "io/system/resources.h"
+#include "io/assets.h"
 
 namespace veldt {
 namespace {
@@ -59,7 +59,7 @@ thermal::Shard parse_shard(const std::string& text) {
 
 int make_preview(const thermal::Config& config, const std::string& name,
                  const thermal::GenerateOptions& request, const CommonOptions& common) {
-  (void)plan_with_progress(common, request.home, [&](thermal::PlanOptions options) {
+  (void)plan_with_progress(common, request.assets, [&](thermal::PlanOptions options) {
     options.blender = request.blender;
     return thermal::plan_to_preview(request.out, config, name, options);
   });
@@ -78,8 +78,8 @@ int make_preview(const thermal::Config& config, const std::string& name,
 thermal::DatasetPlan plan_of_run(const thermal::Config& config, const GenerateArguments& options,
                                  const thermal::GenerateOptions& request, const CommonOptions& common,
                                  const Work& work) {
-  if (options.dry_run) return plan_with_progress(common, request.home, config, options.config);
-  return plan_with_progress(common, request.home, [&](thermal::PlanOptions planning) {
+  if (options.dry_run) return plan_with_progress(common, request.assets, config, options.config);
+  return plan_with_progress(common, request.assets, [&](thermal::PlanOptions planning) {
     planning.blender = request.blender;
     return work.plan(request.out, config, options.config, planning);
   });
@@ -87,9 +87,9 @@ thermal::DatasetPlan plan_of_run(const thermal::Config& config, const GenerateAr
 
 int run_generate(const GenerateArguments& options, const CommonOptions& common, const Work& work) {
   check_max_unusable(options.max_unusable_share);
-  const thermal::Path home = thermal::find_home();
-  const thermal::Config given = load_config(options.config, options.settings, home);
-  const thermal::GenerateOptions request = {.home = home,
+  const thermal::Assets assets = thermal::Assets::find();
+  const thermal::Config given = load_config(options.config, options.settings, assets);
+  const thermal::GenerateOptions request = {.assets = assets,
                                             .out = options.out,
                                             .blender = options.dry_run ? "" : find_blender(options.blender),
                                             .clips = options.clips,

@@ -7,7 +7,7 @@
 #include "cli/progress_bar.h"
 #include "cli/read_limits.h"
 #include "cli/stop_signal.h"
-#include "io/system/resources.h"
+#include "io/assets.h"
 
 namespace veldt {
 namespace {
@@ -26,7 +26,7 @@ struct InspectArguments {
 };
 
 thermal::InspectOptions request_of(const InspectArguments& options) {
-  return {.home = thermal::find_home(),
+  return {.assets = thermal::Assets::find(),
           .passes = {options.passes.begin(), options.passes.end()},
           .manifest = options.manifest,
           .layer = options.layer,
@@ -54,7 +54,7 @@ Inspection inspect(const InspectArguments& options, const CommonOptions& common)
 
 void write_starter(const Inspection& inspection, const InspectArguments& options) {
   const thermal::StarterManifest starter =
-      thermal::starter_manifest(inspection, thermal::NameGuesser(thermal::find_home()));
+      thermal::starter_manifest(inspection, thermal::NameGuesser(thermal::Assets::find()));
   thermal::write_file_atomically(options.starter, thermal::to_text(starter.document));
   if (!options.json) print(starter, inspection, options.starter);
 }

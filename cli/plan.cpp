@@ -5,7 +5,7 @@
 #include "cli/output.h"
 #include "cli/plan_table.h"
 #include "cli/planning.h"
-#include "io/system/resources.h"
+#include "io/assets.h"
 
 namespace veldt {
 namespace {
@@ -26,12 +26,12 @@ void check_out(const thermal::Path& out) {
 }
 
 int run_plan(const PlanArguments& options, const CommonOptions& common) {
-  const thermal::Path home = thermal::find_home();
-  const thermal::Config given = load_config(options.config, options.settings, home);
+  const thermal::Assets assets = thermal::Assets::find();
+  const thermal::Config given = load_config(options.config, options.settings, assets);
   // Without the slash that a shell may add: the plan is made beside the folder.
   const thermal::Path out = std::filesystem::absolute(options.out + "/").lexically_normal().parent_path();
   check_out(options.out);
-  const thermal::DatasetPlan plan = plan_with_progress(common, home, [&](thermal::PlanOptions planning) {
+  const thermal::DatasetPlan plan = plan_with_progress(common, assets, [&](thermal::PlanOptions planning) {
     if (!options.blender.empty()) planning.blender = find_blender(options.blender);
     return thermal::plan_into(out, given, options.config, planning);
   });

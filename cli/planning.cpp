@@ -3,24 +3,25 @@
 #include <chrono>
 
 #include "cli/progress_bar.h"
-#include "io/system/resources.h"
+#include "io/assets.h"
+#include "io/system/child_process.h"
 
 namespace veldt {
 
 thermal::DatasetPlan plan_with_progress(
-    const CommonOptions& common, const thermal::Path& home,
+    const CommonOptions& common, const thermal::Assets& assets,
     const std::function<thermal::DatasetPlan(const thermal::PlanOptions& options)>& plan) {
   constexpr std::chrono::seconds kPatience(10);
   ProgressBar bar(common, "planning", "flights", kPatience);
-  return plan({.home = home,
+  return plan({.assets = assets,
                .threads = common.threads,
                .blender = thermal::find_program("blender"),
                .show = hooks_for(bar).progress});
 }
 
-thermal::DatasetPlan plan_with_progress(const CommonOptions& common, const thermal::Path& home,
+thermal::DatasetPlan plan_with_progress(const CommonOptions& common, const thermal::Assets& assets,
                                         const thermal::Config& config, const std::string& name) {
-  return plan_with_progress(common, home, [&](const thermal::PlanOptions& options) {
+  return plan_with_progress(common, assets, [&](const thermal::PlanOptions& options) {
     return thermal::plan_dataset(config, name, options);
   });
 }

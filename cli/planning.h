@@ -5,16 +5,18 @@
 
 #include "cli/command.h"
 #include "dataset/plan/planning.h"
+#include "io/assets.h"
 
 namespace veldt {
 
 /// Calls `plan` with options for --threads cores. Planning that takes longer than ten seconds shows how far it is.
 [[nodiscard]] thermal::DatasetPlan plan_with_progress(
-    const CommonOptions& common, const thermal::Path& home,
+    const CommonOptions& common, const thermal::Assets& assets,
     const std::function<thermal::DatasetPlan(const thermal::PlanOptions& options)>& plan);
 
 /// plan_dataset(), which writes nothing.
-[[nodiscard]] thermal::DatasetPlan plan_with_progress(const CommonOptions& common, const thermal::Path& home,
+[[nodiscard]] thermal::DatasetPlan plan_with_progress(const CommonOptions& common,
+                                                      const thermal::Assets& assets,
                                                       const thermal::Config& config, const std::string& name);
 
 }  // namespace veldt

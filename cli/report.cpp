@@ -5,7 +5,7 @@
 #include "cli/command.h"
 #include "cli/output.h"
 #include "cli/progress_bar.h"
-#include "io/system/resources.h"
+#include "io/assets.h"
 
 namespace veldt {
 namespace {
@@ -20,7 +20,7 @@ thermal::ReportOutcome report(const ReportArguments& options, const CommonOption
   ProgressBar bar(common, "starting", "clips", kClipPatience);
   return thermal::write_report({.source = options.source,
                                 .out = options.out,
-                                .home = thermal::find_home(),
+                                .assets = thermal::Assets::find(),
                                 .unfinished_too = options.unfinished,
                                 .show = hooks_for(bar).progress});
 }

@@ -9,7 +9,7 @@
 #include "cli/output.h"
 #include "cli/planning.h"
 #include "cli/progress_bar.h"
-#include "io/system/resources.h"
+#include "io/assets.h"
 
 namespace veldt {
 namespace {
@@ -47,9 +47,9 @@ int validate_dataset(const ValidateArguments& options, const CommonOptions& comm
 }
 
 int validate_config(const ValidateArguments& options, const CommonOptions& common) {
-  const thermal::Path home = thermal::find_home();
-  const thermal::Config config = load_config(options.what, options.settings, home);
-  const auto plan = plan_with_progress(common, home, config, options.what).clips;
+  const thermal::Assets assets = thermal::Assets::find();
+  const thermal::Config config = load_config(options.what, options.settings, assets);
+  const auto plan = plan_with_progress(common, assets, config, options.what).clips;
   int frames = 0;
   int with_actors = 0;
   for (const thermal::ClipPlan& clip : plan) {

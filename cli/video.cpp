@@ -9,7 +9,7 @@
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
 #include "dataset/videos/palette.h"
-#include "io/system/resources.h"
+#include "io/assets.h"
 
 namespace veldt {
 namespace {
@@ -40,7 +40,7 @@ thermal::VideoRequest request_of(const VideoArguments& options, bool frame_given
                                 .range = std::nullopt,
                                 .frame = std::nullopt,
                                 .width_px = options.width_px,
-                                .home = thermal::find_home()};
+                                .assets = thermal::Assets::find()};
   if (!options.range.empty()) request.range = thermal::parse_kelvin_range(options.range);
   if (frame_given) request.frame = options.frame;
   return request;

@@ -7,6 +7,7 @@
 #include "imaging/frame_converter.h"
 #include "io/config/materials.h"
 #include "sensor/thermal_camera.h"
+#include "support/assets.h"
 #include "support/catch.h"
 
 namespace golden_counts_test {
@@ -54,7 +55,7 @@ SensorParameters script_parameters(RadianceModel model) {
 Counts counts_of(RadianceModel model, Season season) {
   const Manifest manifest = twelve_objects();
   const SensorParameters parameters = script_parameters(model);
-  const FrameConverter converter(manifest, read_materials(VELDT_SOURCE_DIR), season, parameters);
+  const FrameConverter converter(manifest, read_materials(kAssets), season, parameters);
   Passes passes;
   passes.object_index = Plane<std::uint16_t>(kRows, 1);
   for (int i = 0; i < kRows; ++i) passes.object_index.at(i, 0) = static_cast<std::uint16_t>(i + 1);

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "fuzz/targets.h"
+#include "support/assets.h"
 
 namespace {
 
@@ -9,8 +10,8 @@ const std::string kName = "config.json";
 
 /// A resolved config is valid; a resumed run compares it with the resolved form of the new one.
 void resolve_twice(thermal::Json document) {
-  const thermal::Config config = thermal::resolve_config(std::move(document), kName, VELDT_SOURCE_DIR);
-  const thermal::Config again = thermal::resolve_config(config.resolved, kName, VELDT_SOURCE_DIR);
+  const thermal::Config config = thermal::resolve_config(std::move(document), kName, kAssets);
+  const thermal::Config again = thermal::resolve_config(config.resolved, kName, kAssets);
   demand(again.resolved == config.resolved, "a resolved config is resolved to itself");
 }
 

@@ -14,6 +14,7 @@
 #include "fuzz/targets.h"
 #include "io/json/file.h"
 #include "io/system/sha256.h"
+#include "support/assets.h"
 
 namespace {
 
@@ -124,9 +125,7 @@ void use(const Place& place) {
       options.out = place.at(thermal::format_name(format));
       thermal::export_dataset(options, {});
     });
-  tolerate([&] {
-    thermal::write_report({.source = set, .out = place.at("page.html"), .home = VELDT_SOURCE_DIR});
-  });
+  tolerate([&] { thermal::write_report({.source = set, .out = place.at("page.html"), .assets = kAssets}); });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "fuzz/targets.h"
 #include "io/config/config.h"
+#include "support/assets.h"
 
 namespace {
 
@@ -15,8 +16,7 @@ const thermal::Json& demo() {
 void fuzz::variants(Bytes bytes) {
   tolerate([bytes] {
     const thermal::Json document = thermal::parse_json(text_of(bytes), "variants.json");
-    for (const thermal::Variant& variant :
-         thermal::read_variants(document, "variants.json", VELDT_SOURCE_DIR))
-      (void)thermal::resolve_config(thermal::changed_by(variant, demo()), variant.where, VELDT_SOURCE_DIR);
+    for (const thermal::Variant& variant : thermal::read_variants(document, "variants.json", kAssets))
+      (void)thermal::resolve_config(thermal::changed_by(variant, demo()), variant.where, kAssets);
   });
 }

@@ -154,14 +154,14 @@ void write_track(const thermal::BakedTrack& track, std::size_t actors, const the
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   try {
-    const thermal::Path home = words.at(0);
+    const thermal::Assets assets(words.at(0));
     const thermal::Path plan = words.at(1);
     const thermal::Path out = words.at(2);
-    const thermal::BakedScene scene = thermal::read_baked_scene(plan, home);
+    const thermal::BakedScene scene = thermal::read_baked_scene(plan, assets);
     std::filesystem::create_directories(out / "tracks");
     write_scene(scene, out);
     for (std::size_t k = 3; k < words.size(); ++k)
-      write_track(thermal::read_baked_track(plan, words[k], scene, home), scene.actors.size(), out);
+      write_track(thermal::read_baked_track(plan, words[k], scene, assets), scene.actors.size(), out);
     return 0;
   } catch (const thermal::Error& error) {
     std::cerr << error.what() << "\n";

@@ -17,25 +17,24 @@ struct Judged {
   std::array<Outcome, kIouSteps> outcomes{};
 };
 
-void judge(Encounter encounter, std::vector<Judged>& judged) {
-  encounter.detections = encounter.detections.first(std::min(encounter.detections.size(), kMostDetections));
+void judge(EvaluationCell cell, std::vector<Judged>& judged) {
+  cell.detections = cell.detections.first(std::min(cell.detections.size(), kMostDetections));
   const std::size_t before = judged.size();
-  for (const Detection& detection : encounter.detections) judged.push_back({.score = detection.score});
+  for (const Detection& detection : cell.detections) judged.push_back({.score = detection.score});
   const auto steps = iou_steps();
   for (std::size_t step = 0; step < kIouSteps; ++step) {
-    const std::vector<std::size_t> found = match(encounter, steps[step]);
+    const std::vector<std::size_t> found = match(cell, steps[step]);
     for (std::size_t d = 0; d < found.size(); ++d) {
       if (found[d] == kNoTarget) continue;
-      judged[before + d].outcomes[step] =
-          encounter.targets[found[d]].ignored ? Outcome::ignored : Outcome::found;
+      judged[before + d].outcomes[step] = cell.targets[found[d]].ignored ? Outcome::ignored : Outcome::found;
     }
   }
 }
 
-std::size_t counted_targets(std::span<const Encounter> encounters) {
+std::size_t counted_targets(std::span<const EvaluationCell> cells) {
   std::size_t count = 0;
-  for (const Encounter& encounter : encounters) {
-    count += static_cast<std::size_t>(std::count_if(encounter.targets.begin(), encounter.targets.end(),
+  for (const EvaluationCell& cell : cells) {
+    count += static_cast<std::size_t>(std::count_if(cell.targets.begin(), cell.targets.end(),
                                                     [](const Target& target) { return !target.ignored; }));
   }
   return count;
@@ -88,11 +87,11 @@ double average_precision(const std::vector<bool>& found, std::size_t targets) {
   return sum / kRecallSteps;
 }
 
-AveragePrecision average_precision_of(std::span<const Encounter> encounters) {
-  const std::size_t targets = counted_targets(encounters);
+AveragePrecision average_precision_of(std::span<const EvaluationCell> cells) {
+  const std::size_t targets = counted_targets(cells);
   if (targets == 0) return {};
   std::vector<Judged> judged;
-  for (const Encounter& encounter : encounters) judge(encounter, judged);
+  for (const EvaluationCell& cell : cells) judge(cell, judged);
   std::stable_sort(judged.begin(), judged.end(),
                    [](const Judged& a, const Judged& b) { return a.score > b.score; });
   AveragePrecision result{.at_50 = 0, .at_50_to_95 = 0};

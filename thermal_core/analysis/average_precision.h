@@ -29,8 +29,8 @@ inline constexpr std::size_t kIouSteps = 10;
 /// Average precision of one category as COCO defines it (pycocotools 2.0, COCOeval, boxes, all areas, the 100
 /// detections of highest score per picture). Equal scores are ranked by the ids of their pictures, then in the order
 /// given.
-/// @param encounters  all of this category, as Encounters has them
-[[nodiscard]] AveragePrecision average_precision_of(std::span<const Encounter> encounters);
+/// @param cells  all of this category, as EvaluationCells has them
+[[nodiscard]] AveragePrecision average_precision_of(std::span<const EvaluationCell> cells);
 
 /// Means over the categories with figures; empty without any.
 [[nodiscard]] AveragePrecision mean_of(std::span<const AveragePrecision> categories);

@@ -23,47 +23,46 @@ void add(SizeCounts& to, const SizeCounts& more) {
 }
 
 /// The leading detections with a sufficient score.
-Encounter above_score(Encounter encounter, double score) {
-  const auto end = std::find_if(encounter.detections.begin(), encounter.detections.end(),
+EvaluationCell above_score(EvaluationCell cell, double score) {
+  const auto end = std::find_if(cell.detections.begin(), cell.detections.end(),
                                 [score](const Detection& detection) { return detection.score < score; });
-  encounter.detections =
-      encounter.detections.first(static_cast<std::size_t>(end - encounter.detections.begin()));
-  return encounter;
+  cell.detections = cell.detections.first(static_cast<std::size_t>(end - cell.detections.begin()));
+  return cell;
 }
 
-/// Adds the counts of one encounter.
-void count(const Encounter& encounter, const LabelSet& truth, double iou, Evaluation& evaluation) {
-  SizeCounts& counts = evaluation.counts[truth.images[encounter.image].video][encounter.category];
-  for (const Target& target : encounter.targets) {
+/// Adds the counts of one cell.
+void count(const EvaluationCell& cell, const LabelSet& truth, double iou, Evaluation& evaluation) {
+  SizeCounts& counts = evaluation.counts[truth.images[cell.image].video][cell.category];
+  for (const Target& target : cell.targets) {
     if (target.ignored) {
       ++evaluation.ignored_targets;
     } else {
       ++of_size(counts, truth.labels[target.label].size).false_negatives;  // until it is found
     }
   }
-  const std::vector<std::size_t> found = match(encounter, iou);
+  const std::vector<std::size_t> found = match(cell, iou);
   for (std::size_t d = 0; d < found.size(); ++d) {
     if (found[d] == kNoTarget) {
-      ++of_size(counts, size_class_of(encounter.detections[d].box.area_px())).false_positives;
-    } else if (encounter.targets[found[d]].ignored) {
+      ++of_size(counts, size_class_of(cell.detections[d].box.area_px())).false_positives;
+    } else if (cell.targets[found[d]].ignored) {
       ++evaluation.ignored_detections;
     } else {
-      Counts& of_target = of_size(counts, truth.labels[encounter.targets[found[d]].label].size);
+      Counts& of_target = of_size(counts, truth.labels[cell.targets[found[d]].label].size);
       ++of_target.true_positives;
       --of_target.false_negatives;
     }
   }
 }
 
-/// Average precision of each category; encounters are sorted by category.
-std::vector<AveragePrecision> by_category(std::span<const Encounter> encounters, std::size_t categories) {
+/// Average precision of each category; cells are sorted by category.
+std::vector<AveragePrecision> by_category(std::span<const EvaluationCell> cells, std::size_t categories) {
   std::vector<AveragePrecision> result;
   for (std::size_t category = 0; category < categories; ++category) {
-    const auto end = std::find_if(encounters.begin(), encounters.end(),
-                                  [category](const Encounter& e) { return e.category != category; });
-    const auto own = static_cast<std::size_t>(end - encounters.begin());
-    result.push_back(average_precision_of(encounters.first(own)));
-    encounters = encounters.subspan(own);
+    const auto end = std::find_if(cells.begin(), cells.end(),
+                                  [category](const EvaluationCell& e) { return e.category != category; });
+    const auto own = static_cast<std::size_t>(end - cells.begin());
+    result.push_back(average_precision_of(cells.first(own)));
+    cells = cells.subspan(own);
   }
   return result;
 }
@@ -114,13 +113,13 @@ SizeCounts Evaluation::overall() const {
 Evaluation evaluate(const LabelSet& truth, std::span<const Detection> detections,
                     const EvaluateOptions& options) {
   options.validate();
-  const Encounters encounters(truth, detections, options.count_ignored);
+  const EvaluationCells cells(truth, detections, options.count_ignored);
   Evaluation evaluation;
   evaluation.counts.assign(truth.videos.size(), std::vector<SizeCounts>(truth.categories.size()));
-  for (const Encounter& encounter : encounters.all()) {
-    count(above_score(encounter, options.score), truth, options.iou, evaluation);
+  for (const EvaluationCell& cell : cells.all()) {
+    count(above_score(cell, options.score), truth, options.iou, evaluation);
   }
-  evaluation.average_precision = by_category(encounters.all(), truth.categories.size());
+  evaluation.average_precision = by_category(cells.all(), truth.categories.size());
   evaluation.mean_average_precision = mean_of(evaluation.average_precision);
   return evaluation;
 }

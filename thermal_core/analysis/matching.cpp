@@ -67,7 +67,8 @@ std::span<const Item> take_while(std::span<const Item>& rest, const Belongs& bel
 
 }  // namespace
 
-Encounters::Encounters(const LabelSet& truth, std::span<const Detection> detections, bool count_ignored) {
+EvaluationCells::EvaluationCells(const LabelSet& truth, std::span<const Detection> detections,
+                                 bool count_ignored) {
   const std::vector<std::size_t> ranks = ranks_of(truth.images);
   detections_ = sorted_detections(detections, ranks);
   targets_ = sorted_targets(truth, ranks, count_ignored);
@@ -81,7 +82,7 @@ Encounters::Encounters(const LabelSet& truth, std::span<const Detection> detecti
   while (!seen.empty() || !there.empty()) {
     auto next = seen.empty() ? place_of_target(there.front()) : place(seen.front());
     if (!there.empty()) next = std::min(next, place_of_target(there.front()));
-    encounters_.push_back(
+    cells_.push_back(
         {.image = std::get<2>(next),
          .category = std::get<0>(next),
          .detections = take_while(seen, [&](const Detection& d) { return place(d) == next; }),
@@ -103,16 +104,16 @@ double overlap(const LabelBox& detection, const Target& target) noexcept {
   return shared_px / whole_px;
 }
 
-std::vector<std::size_t> match(const Encounter& encounter, double iou) {
-  const std::span<const Target> targets = encounter.targets;
-  std::vector<std::size_t> found(encounter.detections.size(), kNoTarget);
+std::vector<std::size_t> match(const EvaluationCell& cell, double iou) {
+  const std::span<const Target> targets = cell.targets;
+  std::vector<std::size_t> found(cell.detections.size(), kNoTarget);
   std::vector<bool> taken(targets.size());
   for (std::size_t d = 0; d < found.size(); ++d) {
     double best = std::min(iou, 1 - 1e-10);
     for (std::size_t t = 0; t < targets.size(); ++t) {
       if (taken[t] && !targets[t].crowd) continue;
       if (found[d] != kNoTarget && !targets[found[d]].ignored && targets[t].ignored) break;
-      const double here = overlap(encounter.detections[d].box, targets[t]);
+      const double here = overlap(cell.detections[d].box, targets[t]);
       if (!(here >= best)) continue;  // also false if areas too small or large to represent made it NaN
       best = here;
       found[d] = t;

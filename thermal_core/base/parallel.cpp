@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <thread>
 
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -13,15 +12,10 @@ int thread_count(int threads) {
   return threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-struct ThreadLimit::Impl {
-  explicit Impl(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
-  tbb::global_control control;
-};
-
-ThreadLimit::ThreadLimit(int threads)
-    : impl_(std::make_unique<Impl>(static_cast<std::size_t>(thread_count(threads)))) {}
-
-ThreadLimit::~ThreadLimit() = default;
+void run_with_threads(int threads, const std::function<void()>& work) {
+  tbb::task_arena arena(thread_count(threads));
+  arena.execute(work);
+}
 
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {

@@ -2,25 +2,30 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
+#include <optional>
+#include <type_traits>
 
 namespace thermal {
 
 /// `threads`, or one per core if it is 0.
 [[nodiscard]] int thread_count(int threads);
 
-/// Limits the number of threads the library uses while it lives. 0: one per core.
-class ThreadLimit {
- public:
-  explicit ThreadLimit(int threads);
-  ~ThreadLimit();
-  ThreadLimit(const ThreadLimit&) = delete;
-  ThreadLimit& operator=(const ThreadLimit&) = delete;
+/// Calls `work` on this thread; the library's loops in it use at most this many threads, this one among them. 0: one
+/// per core. Threads that `work` starts itself are not limited, nor is anything else in the program.
+void run_with_threads(int threads, const std::function<void()>& work);
 
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
+/// The same for work with a result.
+template <typename Work>
+auto with_threads(int threads, const Work& work) {
+  using Result = std::invoke_result_t<const Work&>;
+  if constexpr (std::is_void_v<Result>) {
+    run_with_threads(threads, work);
+  } else {
+    std::optional<Result> result;
+    run_with_threads(threads, [&] { result.emplace(work()); });
+    return *std::move(result);
+  }
+}
 
 /// Calls body(begin, end) on chunks that cover [0, count) exactly once, in any order and on any thread. Chunks depend
 /// only on `count` and `grain`, so work that is a function of its chunk is deterministic.

@@ -266,8 +266,7 @@ class Stages {
 }  // namespace
 
 std::vector<ConvertRow> convert_stage_rows(const ConvertJob& job, const Path& folder) {
-  const ThreadLimit one_thread(1);
-  std::vector<ConvertRow> rows = Stages(job, folder).rows();
+  std::vector<ConvertRow> rows = with_threads(1, [&] { return Stages(job, folder).rows(); });
   std::stable_partition(rows.begin(), rows.end(),
                         [](const ConvertRow& row) { return row.group.ends_with("limits of this machine"); });
   return rows;

@@ -91,11 +91,10 @@ std::string bound_of(const Spent& spent, int threads, const std::vector<ConvertR
 
 ConvertRow convert_whole_row(const ConvertJob& job, bool physical, int frames, int threads,
                              const std::vector<ConvertRow>& stages, const Path& folder) {
-  const ThreadLimit limit(threads);
   const int used = thread_count(threads);
   ClipTask task = physical ? job.physical : job.published;
-  task.layout = {folder / "whole"};
-  const Spent spent = make(job, task, frames);
+  task.folder = folder / "whole";
+  const Spent spent = with_threads(threads, [&] { return make(job, task, frames); });
   const CameraIntrinsics& camera = job.scene.manifest.camera;
   const auto file_bytes = static_cast<double>(std::filesystem::file_size(job.file));
   return {

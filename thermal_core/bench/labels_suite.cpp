@@ -188,10 +188,7 @@ StageRow row_of(const std::string& name, std::vector<Figure> figures) {
   return {.group = "labels", .name = name, .figures = std::move(figures)};
 }
 
-}  // namespace
-
-std::vector<StageRow> run_labels_suite() {
-  const ThreadLimit one_thread(1);
+std::vector<StageRow> labels_rows() {
   const LabelScene scene;
   const IndexPlane& plane = scene.passes.object_index;
   const std::vector<IndexUse> uses = survey_indices(plane);
@@ -215,5 +212,9 @@ std::vector<StageRow> run_labels_suite() {
           timed(row_of("everything", {{"labels", labels}}), kAllBytes,
                 [&] { (void)scene.text_of(scene.measured()); })};
 }
+
+}  // namespace
+
+std::vector<StageRow> run_labels_suite() { return with_threads(1, labels_rows); }
 
 }  // namespace thermal

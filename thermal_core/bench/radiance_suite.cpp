@@ -7,13 +7,14 @@
 namespace thermal {
 
 std::vector<BenchRow> run_radiance_suite(const MaterialLibrary& materials) {
-  const ThreadLimit one_thread(1);
-  std::vector<BenchRow> rows = evaluator_rows();
-  for (const auto& part : {term_rows(materials), supersample_rows(materials)}) {
-    rows.insert(rows.end(), part.begin(), part.end());
-  }
-  mark_dominated(rows);
-  return rows;
+  return with_threads(1, [&] {
+    std::vector<BenchRow> rows = evaluator_rows();
+    for (const auto& part : {term_rows(materials), supersample_rows(materials)}) {
+      rows.insert(rows.end(), part.begin(), part.end());
+    }
+    mark_dominated(rows);
+    return rows;
+  });
 }
 
 }  // namespace thermal

@@ -12,6 +12,7 @@
 #include "bench/measure.h"
 #include "dataset/plan/planning.h"
 #include "dataset/run/blender_failure.h"
+#include "io/assets.h"
 #include "io/exr/passes.h"
 #include "io/json/file.h"
 #include "io/system/child_process.h"
@@ -24,10 +25,10 @@ std::vector<std::string> command_of(const ProfileTask& task, const char* script)
   std::vector<std::string> command = {task.blender.string(), "--background",       "--factory-startup",
                                       "--disable-autoexec",  "--python-exit-code", "1"};
   if (task.threads > 0) command.insert(command.end(), {"--threads", std::to_string(task.threads)});
-  command.insert(command.end(), {"--python", (task.home / "blender_scripts" / script).string(), "--",
-                                 "--plan", task.plan.string(), "--out", task.out.string(), "--supersample",
-                                 std::to_string(task.supersample), "--events-fd",
-                                 std::to_string(ChildProcess::kEventDescriptor)});
+  command.insert(command.end(),
+                 {"--python", (task.assets.script(script)).string(), "--", "--plan", task.plan.string(),
+                  "--out", task.out.string(), "--supersample", std::to_string(task.supersample),
+                  "--events-fd", std::to_string(ChildProcess::kEventDescriptor)});
   return command;
 }
 
@@ -99,10 +100,10 @@ double rendered_per_s(const ProfileTask& task, const std::string& clip) {
 namespace {
 
 /// Plans a config of the project into a folder.
-Path plan_of_config(const Path& home, const std::string& name, Path folder) {
-  const Path file = home / "configs" / (name + ".json");
-  (void)plan_into(folder, resolve_config(read_json(file), file.string(), home), file.string(),
-                  {.home = home});
+Path plan_of_config(const Assets& assets, const std::string& name, Path folder) {
+  const Path file = assets.config(name);
+  (void)plan_into(folder, resolve_config(read_json(file), file.string(), assets), file.string(),
+                  {.assets = assets});
   return folder;
 }
 
@@ -160,13 +161,14 @@ RenderRow process_row(const char* name, double frames_per_s, int differing_px) {
 /// Frames/s of one process with two threads and of two with one each, including actor layers; then a frame as a file.
 std::vector<RenderRow> process_rows(const RenderSuiteTask& task, const Path& folder) {
   constexpr int kFrames = 12;
-  Json document = read_json(task.home / "configs" / "demo.json");
+  Json document = read_json(task.assets.config("demo"));
   document["clips"][0]["frames"] = kFrames;
   const std::string clip = document["clips"][0]["id"];
   const Path plan = folder / "layers";
-  (void)plan_into(plan, resolve_config(std::move(document), "demo", task.home), "demo", {.home = task.home});
+  (void)plan_into(plan, resolve_config(std::move(document), "demo", task.assets), "demo",
+                  {.assets = task.assets});
   const auto rate = [&](const char* out, int threads) {
-    return rendered_per_s({task.blender, task.home, plan, folder / out, threads}, clip);
+    return rendered_per_s({task.blender, task.assets, plan, folder / out, threads}, clip);
   };
   const auto frame = [&](const char* out) { return folder / out / clip / "000001.exr"; };
   task.announce("demo with actor layers, one process of two threads");
@@ -189,12 +191,15 @@ std::vector<RenderRow> run_render_suite(const RenderSuiteTask& task) {
   std::vector<RenderRow> rows;
   for (const char* scene : {"demo", "savanna"}) {
     task.announce(fmt::format("{}, planning", scene));
-    const Path plan = plan_of_config(task.home, scene, folder.path() / scene);
+    const Path plan = plan_of_config(task.assets, scene, folder.path() / scene);
     for (const int supersample : {1, 2}) {
       task.announce(fmt::format("{}, {}x{} rays per pixel", scene, supersample, supersample));
       const Path out = folder.path() / fmt::format("{}_{}", scene, supersample);
-      const Profile profile = profile_frames(
-          {.blender = task.blender, .home = task.home, .plan = plan, .out = out, .supersample = supersample});
+      const Profile profile = profile_frames({.blender = task.blender,
+                                              .assets = task.assets,
+                                              .plan = plan,
+                                              .out = out,
+                                              .supersample = supersample});
       rows.push_back(scene_row(scene, supersample, profile));
     }
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/stage_row.h"
+#include "io/assets.h"
 #include "io/system/files.h"
 
 namespace thermal {
@@ -13,7 +14,7 @@ namespace thermal {
 /// Frames for Blender to render.
 struct ProfileTask {
   Path blender;
-  Path home;
+  Assets assets;
   Path plan;        ///< folder of a plan
   Path out;         ///< receives the frames; Blender's log is beside it
   int threads = 0;  ///< 0: one per core
@@ -47,7 +48,7 @@ struct RenderRow {
 
 struct RenderSuiteTask {
   Path blender;
-  Path home;
+  Assets assets;
   std::function<void(const std::string&)> announce = {};  ///< the next measurement
 };
 

@@ -9,12 +9,13 @@
 namespace thermal {
 
 std::vector<StageRow> run_sensor_suite() {
-  const ThreadLimit one_thread(1);
-  std::vector<StageRow> rows = optics_rows();
-  for (const auto& part : {detector_rows(), flicker_rows(), picture_rows()}) {
-    rows.insert(rows.end(), part.begin(), part.end());
-  }
-  return rows;
+  return with_threads(1, [&] {
+    std::vector<StageRow> rows = optics_rows();
+    for (const auto& part : {detector_rows(), flicker_rows(), picture_rows()}) {
+      rows.insert(rows.end(), part.begin(), part.end());
+    }
+    return rows;
+  });
 }
 
 }  // namespace thermal

@@ -1,6 +1,5 @@
 #include "dataset/dataset_index.h"
 
-#include <exception>
 #include <utility>
 
 #include <fmt/format.h>
@@ -168,13 +167,6 @@ void write_dataset(const Layout& layout, const DatasetIndex& index) {
   const std::string annotations_sha256 =
       write_joined_annotations(layout, index.config.at("name"), finished_clips(index));
   write_file_atomically(layout.dataset_json(), to_text(document_of(index, annotations_sha256)));
-}
-
-void write_dataset_after_fault(const Layout& layout, const DatasetIndex& index) noexcept {
-  try {
-    write_dataset(layout, index);
-  } catch (const std::exception&) {  // the next run detects that it is not recorded
-  }
 }
 
 }  // namespace thermal

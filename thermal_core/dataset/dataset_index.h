@@ -74,7 +74,4 @@ class ProgressPace {
 /// Writes annotations.json, from the complete clips, and dataset.json: at the end of a run.
 void write_dataset(const Layout& layout, const DatasetIndex& index);
 
-/// The same after a fault: another one, such as a full disk, must not hide the first.
-void write_dataset_after_fault(const Layout& layout, const DatasetIndex& index) noexcept;
-
 }  // namespace thermal

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "io/assets.h"
 #include "io/json/file.h"
 #include "io/json/schema.h"
 #include "io/system/sha256.h"
@@ -94,8 +95,8 @@ ManifestMaterial manifest_material_of(const Json& json) {
   return {.index = json.at("index"), .material = json.at("material"), .part = json.value("part", "")};
 }
 
-Manifest read_manifest(const Path& file, const Path& home) {
-  const Json schema = read_json(home / "configs" / "schema" / "manifest.schema.json");
+Manifest read_manifest(const Path& file, const Assets& assets) {
+  const Json schema = assets.schema("manifest");
   try {
     Json document = read_json(file);
     const std::string sum = sha256_of(document.dump());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/assets.h"
 #include "io/json/file.h"
 #include "io/system/files.h"
 #include "scene/manifest.h"
@@ -8,7 +9,7 @@ namespace thermal {
 
 /// Reads and checks a manifest.json (configs/schema/manifest.schema.json). DataError with one line per fault, each
 /// starting with the file's name; IoError if it cannot be read.
-[[nodiscard]] Manifest read_manifest(const Path& file, const Path& home);
+[[nodiscard]] Manifest read_manifest(const Path& file, const Assets& assets);
 
 /// Entries of a manifest, or of a baked scene, that conform to its schema.
 [[nodiscard]] CameraIntrinsics intrinsics_of(const Json& json);

@@ -7,10 +7,11 @@
 #include "io/config/spectra.h"
 #include "radiometry/emissivity.h"
 #include "radiometry/spectral_response.h"
+#include "support/assets.h"
 
 /// The materials in assets.
 inline const thermal::MaterialLibrary& materials() {
-  static const thermal::MaterialLibrary kLibrary = thermal::read_materials(VELDT_SOURCE_DIR);
+  static const thermal::MaterialLibrary kLibrary = thermal::read_materials(kAssets);
   return kLibrary;
 }
 

@@ -31,7 +31,7 @@ class Home {
     (void)folder_.file("assets/materials/odd.csv", content);
   }
 
-  [[nodiscard]] MaterialLibrary read() const { return read_materials(folder_.path()); }
+  [[nodiscard]] MaterialLibrary read() const { return read_materials(Assets(folder_.path())); }
 
   /// The error message; "ODD" stands for the file's full name without extension.
   [[nodiscard]] std::string fault() const {

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "dataset/passes/outline.h"
 #include "io/config/config.h"
+#include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 
@@ -17,7 +18,7 @@ Config config_with(const std::vector<std::string>& settings) {
                                  "clips": [{"id": "a", "season": "winter", "frames": 1}]})",
                              "test.json");
   for (const std::string& setting : settings) apply_setting(document, setting);
-  return resolve_config(std::move(document), "test.json", VELDT_SOURCE_DIR);
+  return resolve_config(std::move(document), "test.json", kAssets);
 }
 
 std::string fault_of(const std::string& setting) {

@@ -46,8 +46,8 @@ TEST_CASE("The mean over IoU steps falls with the overlap") {
   const std::vector<Target> targets = {{.box = kBox}};
   // 8 of 12: an overlap of 2/3 is enough at 0.5, 0.55, 0.6 and 0.65.
   const std::vector<Detection> detections = {detection(0.5, {2, 0, 10, 10})};
-  const std::vector<Encounter> encounters = {{.detections = detections, .targets = targets}};
-  const AveragePrecision precision = average_precision_of(encounters);
+  const std::vector<EvaluationCell> cells = {{.detections = detections, .targets = targets}};
+  const AveragePrecision precision = average_precision_of(cells);
   CHECK(precision.at_50 == 1);
   CHECK(precision.at_50_to_95 == 0.4);
 }
@@ -56,16 +56,16 @@ TEST_CASE("Scores are ranked over all pictures; equal ones in the order of the p
   const std::vector<Target> targets = {{.box = kBox}};
   const std::vector<Detection> wrong = {detection(0.5)};
   const std::vector<Detection> right = {detection(0.5)};
-  const std::vector<Encounter> wrong_first = {{.detections = wrong, .targets = {}},
-                                              {.detections = right, .targets = targets}};
-  const std::vector<Encounter> right_first = {{.detections = right, .targets = targets},
-                                              {.detections = wrong, .targets = {}}};
+  const std::vector<EvaluationCell> wrong_first = {{.detections = wrong, .targets = {}},
+                                                   {.detections = right, .targets = targets}};
+  const std::vector<EvaluationCell> right_first = {{.detections = right, .targets = targets},
+                                                   {.detections = wrong, .targets = {}}};
   CHECK(average_precision_of(wrong_first).at_50 == 0.5);
   CHECK(average_precision_of(right_first).at_50 == 1);
 
   const std::vector<Detection> surer = {detection(0.6)};
-  const std::vector<Encounter> surest_last = {{.detections = wrong, .targets = {}},
-                                              {.detections = surer, .targets = targets}};
+  const std::vector<EvaluationCell> surest_last = {{.detections = wrong, .targets = {}},
+                                                   {.detections = surer, .targets = targets}};
   CHECK(average_precision_of(surest_last).at_50 == 1);
 }
 
@@ -74,26 +74,26 @@ TEST_CASE("The hundred detections of highest score per picture count") {
   for (const std::size_t wrong : {99U, 100U}) {
     std::vector<Detection> detections(wrong, detection(0.9, {100, 100, 5, 5}));
     detections.push_back(detection(0.8));
-    const std::vector<Encounter> encounters = {{.detections = detections, .targets = targets}};
-    CHECK_THAT(*average_precision_of(encounters).at_50, WithinRel(wrong == 99 ? 0.01 : 0, kSumming));
+    const std::vector<EvaluationCell> cells = {{.detections = detections, .targets = targets}};
+    CHECK_THAT(*average_precision_of(cells).at_50, WithinRel(wrong == 99 ? 0.01 : 0, kSumming));
   }
 }
 
 TEST_CASE("Ignored targets and their detections leave no trace") {
   const std::vector<Target> targets = {{.box = kBox}, {.box = {50, 50, 10, 10}, .ignored = true}};
   const std::vector<Detection> detections = {detection(0.9, {50, 50, 10, 10}), detection(0.8)};
-  const std::vector<Encounter> encounters = {{.detections = detections, .targets = targets}};
-  CHECK(average_precision_of(encounters).at_50 == 1);
-  CHECK(average_precision_of(encounters).at_50_to_95 == 1);
+  const std::vector<EvaluationCell> cells = {{.detections = detections, .targets = targets}};
+  CHECK(average_precision_of(cells).at_50 == 1);
+  CHECK(average_precision_of(cells).at_50_to_95 == 1);
 }
 
 TEST_CASE("Without targets that count there is no average precision") {
   CHECK_FALSE(average_precision_of({}).at_50);
   const std::vector<Target> targets = {{.box = kBox, .ignored = true}};
   const std::vector<Detection> detections = {detection(0.9)};
-  const std::vector<Encounter> encounters = {{.detections = detections, .targets = targets}};
-  CHECK_FALSE(average_precision_of(encounters).at_50);
-  CHECK_FALSE(average_precision_of(encounters).at_50_to_95);
+  const std::vector<EvaluationCell> cells = {{.detections = detections, .targets = targets}};
+  CHECK_FALSE(average_precision_of(cells).at_50);
+  CHECK_FALSE(average_precision_of(cells).at_50_to_95);
 }
 
 TEST_CASE("The mean leaves out categories without figures") {

@@ -101,7 +101,7 @@ TEST_CASE("Without targets or detections nothing matches") {
   CHECK(found({}, {kTarget}).empty());
 }
 
-TEST_CASE("Encounters are sorted by category, then by the pictures' ids") {
+TEST_CASE("EvaluationCells are sorted by category, then by the pictures' ids") {
   LabelSet truth;
   truth.categories = {{1, "human"}, {2, "elephant"}};
   truth.videos = {{"one"}};
@@ -113,14 +113,14 @@ TEST_CASE("Encounters are sorted by category, then by the pictures' ids") {
   const std::vector<Detection> detections = {
       {0, 0, {}, 0.1}, {1, 1, {}, 0.2}, {0, 0, {}, 0.9}, {1, 0, {}, 0.3}, {0, 0, kBox, 0.9}};
 
-  const Encounters encounters(truth, detections, false);
+  const EvaluationCells cells(truth, detections, false);
   std::vector<std::vector<std::size_t>> shapes;  // category, image, detections, targets
-  for (const Encounter& one : encounters.all())
+  for (const EvaluationCell& one : cells.all())
     shapes.push_back({one.category, one.image, one.detections.size(), one.targets.size()});
   CHECK(shapes == std::vector<std::vector<std::size_t>>{
                       {0, 1, 1, 0}, {0, 2, 0, 1}, {0, 0, 3, 2}, {1, 1, 1, 0}, {1, 0, 0, 1}});
 
-  const Encounter& both = encounters.all()[2];
+  const EvaluationCell& both = cells.all()[2];
   CHECK(both.detections[0].score == 0.9);  // in the order given: the one without a box first
   CHECK(both.detections[0].box == LabelBox{});
   CHECK(both.detections[1].box == kBox);
@@ -130,7 +130,7 @@ TEST_CASE("Encounters are sorted by category, then by the pictures' ids") {
   CHECK(both.targets[1].label == 0);
   CHECK(both.targets[1].ignored);
 
-  const Encounters counted(truth, detections, true);
+  const EvaluationCells counted(truth, detections, true);
   CHECK(counted.all()[2].targets[0].label == 0);
   CHECK_FALSE(counted.all()[2].targets[0].ignored);
 }
@@ -141,9 +141,9 @@ TEST_CASE("Crowds are ignored even if ignored targets count") {
   truth.labels = {label(0, 0)};
   truth.labels[0].crowd = true;
   for (const bool count_ignored : {false, true}) {
-    const Encounters encounters(truth, {}, count_ignored);
-    CHECK(encounters.all()[0].targets[0].ignored);
-    CHECK(encounters.all()[0].targets[0].crowd);
+    const EvaluationCells cells(truth, {}, count_ignored);
+    CHECK(cells.all()[0].targets[0].ignored);
+    CHECK(cells.all()[0].targets[0].crowd);
   }
 }
 

@@ -42,32 +42,27 @@ TEST_CASE("Chunks cover every index exactly once") {
 }
 
 TEST_CASE("Chunks are the same whatever the number of threads") {
-  const auto chunks_with = [](int threads) {
-    const ThreadLimit limit(threads);
-    std::set<std::pair<std::size_t, std::size_t>> chunks;
+  const auto chunks = [] {
+    std::set<std::pair<std::size_t, std::size_t>> found;
     std::mutex mutex;
     parallel_for(1001, 10, [&](std::size_t begin, std::size_t end) {
       const std::lock_guard lock(mutex);
-      chunks.emplace(begin, end);
+      found.emplace(begin, end);
     });
-    return chunks;
+    return found;
   };
-  const auto alone = chunks_with(1);
+  const auto alone = with_threads(1, chunks);
   CHECK(alone.size() == 101);
   CHECK(alone.contains({1000, 1001}));  // the last is shorter
-  CHECK(chunks_with(4) == alone);
+  CHECK(with_threads(4, chunks) == alone);
 }
 
 TEST_CASE("A limit of one thread keeps all work on the caller's") {
-  const ThreadLimit limit(1);
-  CHECK(threads_at_work() == std::set<std::thread::id>{std::this_thread::get_id()});
+  CHECK(with_threads(1, threads_at_work) == std::set<std::thread::id>{std::this_thread::get_id()});
 }
 
-TEST_CASE("A limit bounds the threads at work, and ends with its scope") {
-  {
-    const ThreadLimit limit(2);
-    CHECK(threads_at_work().size() <= 2);
-  }
+TEST_CASE("A limit bounds the threads at work, and ends with its work") {
+  CHECK(with_threads(2, threads_at_work).size() <= 2);
   if (std::thread::hardware_concurrency() > 1) CHECK(threads_at_work().size() > 1);
 }
 

@@ -97,17 +97,6 @@ TEST_CASE("At the end dataset.json is the same as after a single run") {
   CHECK(once["annotations"] == 2);
 }
 
-TEST_CASE("After a fault complete clips are recorded, and another fault is not reported") {
-  const Place place;
-  DatasetIndex index = place.open();
-  index.add("a", place.finish("a"));
-  write_dataset_after_fault(place.layout, index);
-  CHECK(place.open().recorded);
-  std::filesystem::remove(place.layout.clip("a") / "labels.json");
-  CHECK_THROWS_AS(write_dataset(place.layout, index), IoError);
-  write_dataset_after_fault(place.layout, index);
-}
-
 TEST_CASE("Clips made or failed by other runs meanwhile are added, but none of this run's own") {
   const Place place;
   DatasetIndex index = place.open();

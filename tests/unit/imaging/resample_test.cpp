@@ -129,14 +129,13 @@ TEST_CASE("Values that are not finite affect only pixels that use them") {
 }
 
 TEST_CASE("The bits do not depend on the number of threads") {
-  const auto run = [](int threads) {
-    const ThreadLimit limit(threads);
+  const auto run = [] {
     const Lens lens;
     Plane<float> plane(lens.width, lens.height);
     for (std::size_t i = 0; i < plane.size(); ++i) plane.pixels()[i] = std::sin(static_cast<float>(i));
     return linear(lens.map, plane);
   };
-  CHECK(run(1) == run(4));
+  CHECK(with_threads(1, run) == with_threads(4, run));
 }
 
 TEST_CASE("A picture of one pixel has no neighbours to interpolate with") {

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/json/file.h"
+#include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
@@ -31,7 +32,7 @@ Json example() {
 std::string fault_in(const Json& document) {
   const TemporaryFolder folder;
   const Path file = folder.file("manifest.json", document.dump());
-  const std::string message = message_of<DataError>([&] { (void)read_manifest(file, VELDT_SOURCE_DIR); });
+  const std::string message = message_of<DataError>([&] { (void)read_manifest(file, kAssets); });
   const std::string name = file.string() + ": ";
   return message.starts_with(name) ? message.substr(name.size()) : "not named: " + message;
 }
@@ -40,7 +41,7 @@ std::string fault_in(const Json& document) {
 
 TEST_CASE("All fields of a manifest are read") {
   const TemporaryFolder folder;
-  const Manifest manifest = read_manifest(folder.file("manifest.json", example().dump()), VELDT_SOURCE_DIR);
+  const Manifest manifest = read_manifest(folder.file("manifest.json", example().dump()), kAssets);
   CHECK(manifest.clip == "night_1");
   CHECK(manifest.seed == 4294967295);
   CHECK(manifest.frame_rate_hz == 5);
@@ -72,7 +73,7 @@ TEST_CASE("Passes can be finer than the camera and extend further") {
   document["supersample"] = 2;
   document["overscan_px"] = 12;
   const TemporaryFolder folder;
-  const Manifest manifest = read_manifest(folder.file("manifest.json", document.dump()), VELDT_SOURCE_DIR);
+  const Manifest manifest = read_manifest(folder.file("manifest.json", document.dump()), kAssets);
   CHECK(manifest.supersample == 2);
   CHECK(manifest.overscan_px == 12);
 }
@@ -109,12 +110,12 @@ TEST_CASE("Faults of a manifest are reported with their place") {
 TEST_CASE("A manifest that is not JSON is a DataError, with line and column") {
   const TemporaryFolder folder;
   const Path file = folder.file("manifest.json", "{\n");
-  CHECK_THAT(message_of<DataError>([&] { (void)read_manifest(file, VELDT_SOURCE_DIR); }),
+  CHECK_THAT(message_of<DataError>([&] { (void)read_manifest(file, kAssets); }),
              StartsWith(file.string() + ":2:1: not JSON: "));
 }
 
 TEST_CASE("A missing manifest cannot be read") {
-  CHECK(message_of<IoError>([] { (void)read_manifest("/nowhere/manifest.json", VELDT_SOURCE_DIR); }) ==
+  CHECK(message_of<IoError>([] { (void)read_manifest("/nowhere/manifest.json", kAssets); }) ==
         "cannot read /nowhere/manifest.json: No such file or directory");
 }
 

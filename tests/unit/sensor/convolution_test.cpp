@@ -196,8 +196,7 @@ TEST_CASE("A NaN affects pixels within the kernel's radius, and no others") {
 TEST_CASE("Threads change nothing") {
   const Plane<float> picture = random_picture(128, 100);
   const auto blurred_with = [&picture](int threads) {
-    const ThreadLimit limit(threads);
-    return blurred(picture, 1.3);
+    return with_threads(threads, [&picture] { return blurred(picture, 1.3); });
   };
   CHECK(blurred_with(1) == blurred_with(2));
 }

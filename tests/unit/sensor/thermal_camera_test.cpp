@@ -46,8 +46,7 @@ std::vector<SensorFrame> frames_of(const SensorParameters& parameters, const cam
   return frames;
 }
 
-std::vector<SensorFrame> frames_with(int threads, int count) {
-  const ThreadLimit limit(threads);
+std::vector<SensorFrame> frames_of(int count) {
   cameras::ClipOf large = clip();
   large.width_px = 301;  // several chunks of pixels
   large.height_px = 207;
@@ -57,6 +56,10 @@ std::vector<SensorFrame> frames_with(int threads, int count) {
     frames.push_back(camera.expose(uniform_scene(301, 207, 280 + frame % 4)));
   }
   return frames;
+}
+
+std::vector<SensorFrame> frames_with(int threads, int count) {
+  return with_threads(threads, [count] { return frames_of(count); });
 }
 
 bool same(const std::vector<SensorFrame>& a, const std::vector<SensorFrame>& b) {

@@ -15,7 +15,6 @@
 #include "dataset/clip/frame_faults.h"
 #include "dataset/clip/output.h"
 #include "dataset/clip/scenes.h"
-#include "io/system/files.h"
 
 namespace thermal {
 namespace {
@@ -97,7 +96,6 @@ class ClipMaker {
     if (frames_skipped_ == frame_count()) throw DataError(no_frame_left(first_fault_, frames_skipped_));
     std::vector<ClipRecord> records;
     for (ClipResult& output : outputs_) records.push_back(output.clip.finish());
-    for (const ClipResult& output : outputs_) output.clip.move_into_place();
     return records;
   }
 
@@ -198,12 +196,7 @@ class ClipMaker {
 
 std::vector<ClipRecord> make_clips(const ClipPasses& passes, const std::vector<ClipTask>& tasks,
                                    const MaterialLibrary& materials, const ClipHooks& hooks) {
-  try {
-    return ClipMaker(passes, tasks, materials, hooks).make();
-  } catch (...) {  // an incomplete clip is useless, and takes disk space
-    for (const ClipTask& task : tasks) sweep_folder(task.layout.unfinished_clip(task.clip.id));
-    throw;
-  }
+  return ClipMaker(passes, tasks, materials, hooks).make();
 }
 
 ClipRecord make_clip(const ClipPasses& passes, const ClipTask& task, const MaterialLibrary& materials,

@@ -17,15 +17,14 @@ struct ClipHooks {
   std::function<void(const SkippedFrame&)> frame_skipped = {};  ///< for each frame before it is done
 };
 
-/// Makes clips/<clip> of one dataset per task, and reads the passes once for all of them. Each is made under a
-/// temporary name and renamed when complete, so that a clip exists completely or not at all; after a failure, nothing
-/// is left of it. Frames are read, labelled and written in parallel and pass the sensor in order; at most eight are
+/// Makes one clip of one dataset per task, each in the task's folder, and reads the passes once for all of them. All
+/// are complete on return; after a failure all are useless (DatasetTransaction removes them). Frames are read, labelled and written in parallel and pass the sensor in order; at most eight are
 /// in memory. For 640 x 512 pixels a task uses 8 MB in those, and about 100 MB with its camera's state and its
 /// preview encoder; a scene, which tasks that differ only in the sensor share, uses 10 MB. The planes of frames being
 /// read are shared by all.
 /// A bad frame is bad for all tasks, because they share its file and the manifest. The first one of a clip, by
 /// number, is reported.
-/// DataError or IoError with the file, and then no task has its clip: for the first bad frame or, if those are
+/// DataError or IoError with the file: for the first bad frame or, if those are
 /// skipped, if no frame is left; ConfigError; TryAgainError; Cancelled on request.
 /// Pixels of a task depend only on the passes and that task. Returns one record per task, in their order.
 std::vector<ClipRecord> make_clips(const ClipPasses& passes, const std::vector<ClipTask>& tasks,

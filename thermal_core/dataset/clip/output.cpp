@@ -44,7 +44,7 @@ ClipOutput::ClipOutput(const ClipTask& task, const Manifest& manifest, float bri
                        std::shared_ptr<const TemperatureTable> temperatures)
     : task_(task),
       manifest_(manifest),
-      folder_(fresh_folder(task.layout.unfinished_clip(task.clip.id))),
+      folder_(fresh_folder(task.folder)),
       brightest_w_m2_sr_(brightest_w_m2_sr),
       camera_(task.sensor, sensor_clip(task, manifest), brightest_w_m2_sr, std::move(temperatures)),
       video_(folder_ / "preview.mp4", manifest.frame_rate_hz, manifest.camera.width_px,
@@ -99,11 +99,6 @@ ClipRecord ClipOutput::finish() {
   if (checks_.normal.pixels > 0) record_.unusable_normal_share = checks_.normal.share();
   write_file_atomically(folder_ / "clip.json", to_text(to_json(record_)));
   return record_;
-}
-
-void ClipOutput::move_into_place() const {
-  const Path finished = task_.layout.clip(task_.clip.id);
-  replace_folder(folder_, finished);
 }
 
 const ManifestFrame& ClipOutput::frame_of(int number) const {

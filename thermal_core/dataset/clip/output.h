@@ -16,7 +16,7 @@
 
 namespace thermal {
 
-/// One task's clip while it is made: its camera and its files, in the task's unfinished folder. A frame of its scene
+/// One task's clip while it is made: its camera and its files, in the task's folder. A frame of its scene
 /// goes through expose, write and collect; different frames may be written at the same time, expose and collect must
 /// be called one by one and in order.
 class ClipOutput {
@@ -36,7 +36,7 @@ class ClipOutput {
     std::vector<std::byte> png;
   };
 
-  /// Creates the task's unfinished folder, or empties it. `task` and `manifest` must outlive this object.
+  /// Creates the task's folder, or empties it. `task` and `manifest` must outlive this object.
   /// @param brightest_w_m2_sr  of the task's scene: FrameConverter::brightest_w_m2_sr()
   /// @param temperatures  for its camera; see ThermalCamera
   ClipOutput(const ClipTask& task, const Manifest& manifest, float brightest_w_m2_sr,
@@ -53,9 +53,6 @@ class ClipOutput {
 
   /// Writes the files of the clip as a whole.
   ClipRecord finish();
-
-  /// Renames the finished clip's folder.
-  void move_into_place() const;
 
  private:
   [[nodiscard]] const ManifestFrame& frame_of(int number) const;

@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "dataset/layout.h"
 #include "imaging/scene_radiance.h"
 #include "io/config/config.h"
 #include "io/system/read_limits.h"
@@ -35,7 +34,7 @@ struct ClipTask {
   LensDistortion distortion;
   LabelParameters labels;
   std::optional<PhysicsSettings> physics;  ///< empty: the published model
-  Layout layout;                           ///< its folder
+  Path folder;                             ///< to make the clip in; emptied first
   std::string made_from_sha256 = {};       ///< for the clip's record
 };
 

@@ -25,10 +25,10 @@ PassesGroup only_group(const std::vector<Path>& passes) {
 
 std::optional<Manifest> manifest_of(const PassesGroup& group, const InspectOptions& options) {
   if (options.for_starter) return std::nullopt;
-  if (!options.manifest.empty()) return read_manifest(options.manifest, options.home);
+  if (!options.manifest.empty()) return read_manifest(options.manifest, options.assets);
   const Path beside = group.folder / "manifest.json";
   if (!std::filesystem::exists(beside)) return std::nullopt;
-  return read_manifest(beside, options.home);
+  return read_manifest(beside, options.assets);
 }
 
 /// Named files, whatever a manifest lists: inspection is meant for users who do not know what their files hold.

@@ -7,6 +7,7 @@
 #include "dataset/passes/groups.h"
 #include "dataset/passes/survey.h"
 #include "dataset/run/progress.h"
+#include "io/assets.h"
 #include "io/exr/header.h"
 #include "io/json/file.h"
 #include "scene/manifest.h"
@@ -14,7 +15,7 @@
 namespace thermal {
 
 struct InspectOptions {
-  Path home;
+  Assets assets;
   std::vector<Path> passes;  ///< a folder, or files and patterns of one folder
   Path manifest;             ///< empty: the folder's, if any
   std::string layer;         ///< empty: the manifest's

@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "io/assets.h"
 #include "io/json/file.h"
 
 namespace thermal {
@@ -48,14 +49,14 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-NameGuesser::NameGuesser(const Path& home) {
-  for_each_json(home / "assets" / "species", [this](const std::string& name, const Json& species) {
+NameGuesser::NameGuesser(const Assets& assets) {
+  for_each_json(assets.folder("species"), [this](const std::string& name, const Json& species) {
     things_[name] = {.object_class = ObjectClass::actor,
                      .material = species.at("material"),
                      .category = species.at("category"),
                      .species = name};
   });
-  for_each_json(home / "assets" / "plants", [this](const std::string& name, const Json& plant) {
+  for_each_json(assets.folder("plants"), [this](const std::string& name, const Json& plant) {
     things_[name] = {
         .object_class = ObjectClass::plant, .material = plant.at("material"), .category = "", .species = ""};
   });

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/assets.h"
 #include "io/system/files.h"
 #include "scene/manifest.h"
 
@@ -27,8 +28,8 @@ struct KnownThing {
 /// Guesses what things are from their names.
 class NameGuesser {
  public:
-  /// Knows the species and plants of `home`/assets, kinds of ground, and common words for them.
-  explicit NameGuesser(const Path& home);
+  /// Knows the species and plants among the assets, kinds of ground, and common words for them.
+  explicit NameGuesser(const Assets& assets);
 
   /// By one or two words of the name: the first known, two before one; plurals too. Empty if none is known.
   [[nodiscard]] std::optional<KnownThing> find(std::string_view name) const;

@@ -11,6 +11,7 @@
 #include "dataset/inspect/filled_in.h"
 #include "dataset/passes/groups.h"
 #include "dataset/passes/identity.h"
+#include "io/assets.h"
 #include "io/manifest_file.h"
 
 namespace thermal {
@@ -52,10 +53,10 @@ std::vector<PassesGroup> groups_of(const std::vector<Path>& named, const Path& m
   return clips;
 }
 
-Manifest read_meaning(const PassesGroup& group, const Path& file, const Path& home) {
+Manifest read_meaning(const PassesGroup& group, const Path& file, const Assets& assets) {
   if (is_there(file)) {
     if (file.parent_path() == group.folder) check_is_file(file);  // --manifest may well name a pipe: <(…)
-    return read_manifest(file, home);
+    return read_manifest(file, assets);
   }
   throw IoError(
       fmt::format("cannot read {}: no such file; expected one that says what the passes mean, "
@@ -88,11 +89,11 @@ void check_clips(const std::vector<ClipPasses>& all) {
 }  // namespace
 
 std::vector<ClipPasses> find_passes(const std::vector<Path>& named, const Path& manifest,
-                                    const MaterialLibrary& materials, const Path& home) {
+                                    const MaterialLibrary& materials, const Assets& assets) {
   std::vector<ClipPasses> all;
   for (const PassesGroup& group : groups_of(named, manifest)) {
     const Path file = manifest.empty() ? group.folder / kManifest : manifest;
-    Manifest meaning = read_meaning(group, file, home);
+    Manifest meaning = read_meaning(group, file, assets);
     check_filled_in(meaning, file, materials);
     take_frames(meaning, frames_of(group, meaning, file, !manifest.empty()));
     all.push_back({.manifest = std::move(meaning), .folder = group.folder});

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dataset/clip/maker.h"
+#include "io/assets.h"
 #include "io/system/files.h"
 #include "scene/material.h"
 
@@ -15,6 +16,6 @@ namespace thermal {
 /// manifest; DataError for one that is invalid or names an unknown material, for names that cannot be sorted, and for
 /// two folders with one clip.
 [[nodiscard]] std::vector<ClipPasses> find_passes(const std::vector<Path>& named, const Path& manifest,
-                                                  const MaterialLibrary& materials, const Path& home);
+                                                  const MaterialLibrary& materials, const Assets& assets);
 
 }  // namespace thermal

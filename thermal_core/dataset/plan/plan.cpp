@@ -1,6 +1,7 @@
 #include "dataset/plan/plan.h"
 
 #include "base/error.h"
+#include "io/assets.h"
 #include "io/json/schema.h"
 
 namespace thermal {
@@ -54,10 +55,9 @@ Json planned_part(const Config& config) {
           {"flights", without_season(all.at("flights"))}};
 }
 
-DatasetPlan plan_of(const Json& document, const std::string& name, const Path& home) {
+DatasetPlan plan_of(const Json& document, const std::string& name, const Assets& assets) {
   Json checked = document;
-  const std::vector<std::string> faults =
-      check_and_fill(checked, read_json(home / "configs" / "schema" / "plan.schema.json"));
+  const std::vector<std::string> faults = check_and_fill(checked, assets.schema("plan"));
   if (!faults.empty()) throw DataError(name + ": " + faults.front());
   const Json& outline = checked.at("outline");
   DatasetPlan plan{.clips = {},

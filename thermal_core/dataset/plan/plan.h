@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/assets.h"
 #include "io/config/config.h"
 #include "io/json/file.h"
 #include "io/system/files.h"
@@ -40,7 +41,7 @@ inline constexpr int kPlanVersion = 1;
 [[nodiscard]] Json planned_part(const Config& config);
 
 /// Reads a plan. DataError with `name` if it is damaged or of another version.
-[[nodiscard]] DatasetPlan plan_of(const Json& document, const std::string& name, const Path& home);
+[[nodiscard]] DatasetPlan plan_of(const Json& document, const std::string& name, const Assets& assets);
 
 /// The same config with its flights cut into the clips of its plan, which follow its own.
 [[nodiscard]] Config with_flights_cut(Config config, const DatasetPlan& plan);

@@ -10,9 +10,9 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/printable.h"
+#include "io/assets.h"
 #include "io/system/child_process.h"
 #include "io/system/files.h"
-#include "io/system/resources.h"
 #include "io/system/sha256.h"
 
 namespace thermal {
@@ -41,7 +41,7 @@ std::string run_planning(const Config& config, const std::string& name, const Pl
                          const std::vector<std::string>& arguments) {
   const Path python = find_python();
   if (python.empty()) throw IoError("no python3 on PATH; install it (apt-get install python3-numpy)");
-  const Path script = options.home / "blender_scripts" / "plan_scene.py";
+  const Path script = options.assets.script("plan_scene.py");
   std::vector<std::string> command = {python.string(),
                                       "-I",
                                       "-B",
@@ -74,28 +74,37 @@ Path part_of(const Path& folder) {
 }
 
 /// The plan in a folder, if there is a complete one of this version.
-std::optional<DatasetPlan> plan_in(const Path& folder, const Path& home) {
+std::optional<DatasetPlan> plan_in(const Path& folder, const Assets& assets) {
   const Path file = folder / "plan.json";
   if (!std::filesystem::exists(file)) return std::nullopt;
   try {
-    return plan_of(read_json(file), file.string(), home);
+    return plan_of(read_json(file), file.string(), assets);
   } catch (const Error&) {  // of another version, or damaged: it is made again
     return std::nullopt;
   }
 }
 
-bool is_unchanged(const std::string& file, const std::string& sha256, const Path& home) {
+bool is_unchanged(const std::string& file, const std::string& sha256, const Assets& assets) {
   try {
-    return sha256_of_file(home / file) == sha256;  // an absolute path replaces `home`
+    return sha256_of_file(assets.home() / file) == sha256;  // an absolute path replaces home()
   } catch (const IoError&) {
     return false;
   }
 }
 
-bool is_made_from(const DatasetPlan& plan, const Config& config, const Path& home) {
-  return plan.config == planned_part(config) && std::ranges::all_of(plan.files, [&home](const auto& file) {
-           return is_unchanged(file.first, file.second, home);
+bool is_made_from(const DatasetPlan& plan, const Config& config, const Assets& assets) {
+  return plan.config == planned_part(config) && std::ranges::all_of(plan.files, [&assets](const auto& file) {
+           return is_unchanged(file.first, file.second, assets);
          });
+}
+
+/// The plan in a folder, unless it is of another config or was made from other files.
+std::optional<DatasetPlan> current_plan(const Path& folder, const Config& config,
+                                        const PlanOptions& options) {
+  std::optional<DatasetPlan> plan = plan_in(folder, options.assets);
+  const bool has_pictures = !options.preview || std::filesystem::exists(folder / "preview");
+  if (plan && has_pictures && is_made_from(*plan, config, options.assets)) return plan;
+  return std::nullopt;
 }
 
 std::vector<std::string> baking_arguments(const Path& part, const Path& earlier, const PlanOptions& options) {
@@ -116,24 +125,18 @@ Path find_python() {
 
 DatasetPlan plan_dataset(const Config& config, const std::string& name, const PlanOptions& options) {
   constexpr const char* kScript = "plan_scene.py";
-  return plan_of(parse_json(run_planning(config, name, options, {}), kScript), kScript, options.home);
-}
-
-bool is_current(const Path& folder, const Config& config, const PlanOptions& options) {
-  const auto plan = plan_in(folder, options.home);
-  const bool has_pictures = !options.preview || std::filesystem::exists(folder / "preview");
-  return plan && has_pictures && is_made_from(*plan, config, options.home);
+  return plan_of(parse_json(run_planning(config, name, options, {}), kScript), kScript, options.assets);
 }
 
 DatasetPlan plan_into(const Path& folder, const Config& config, const std::string& name,
                       const PlanOptions& options,
                       const std::function<void(const DatasetPlan&)>& may_replace) {
-  if (is_current(folder, config, options)) return *plan_in(folder, options.home);
+  if (auto plan = current_plan(folder, config, options)) return *std::move(plan);
   const Path part = part_of(folder);
   make_fresh_folder(part);
   try {
     (void)run_planning(config, name, options, baking_arguments(part, folder, options));
-    DatasetPlan plan = plan_of(read_json(part / "plan.json"), (part / "plan.json").string(), options.home);
+    DatasetPlan plan = plan_of(read_json(part / "plan.json"), (part / "plan.json").string(), options.assets);
     if (may_replace) may_replace(plan);
     replace_folder(part, folder);
     return plan;

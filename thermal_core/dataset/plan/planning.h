@@ -5,12 +5,13 @@
 
 #include "dataset/plan/plan.h"
 #include "dataset/run/progress.h"
+#include "io/assets.h"
 
 namespace thermal {
 
 /// How a plan is made.
 struct PlanOptions {
-  Path home;
+  Assets assets;
   /// Work done at once, in processes; 0: one per core. The plan does not depend on it.
   int threads = 0;
   Path blender = {};  ///< reads models of other programs; empty: there is none
@@ -32,9 +33,6 @@ struct PlanOptions {
 [[nodiscard]] DatasetPlan plan_into(const Path& folder, const Config& config, const std::string& name,
                                     const PlanOptions& options,
                                     const std::function<void(const DatasetPlan&)>& may_replace = {});
-
-/// Whether the plan in `folder` is complete, and made from this config by this version of the scripts.
-[[nodiscard]] bool is_current(const Path& folder, const Config& config, const PlanOptions& options);
 
 /// The Python that runs the planning: $VELDT_PYTHON, /usr/bin/python3, or python3 on $PATH; empty if there is none.
 [[nodiscard]] Path find_python();

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/printable.h"
 #include "dataset/plan/planning.h"
+#include "io/assets.h"
 #include "io/config/lens.h"
 #include "io/image/jpeg.h"
 #include "io/system/base64.h"
@@ -133,7 +134,7 @@ Json drawn(const Json& answer, const Path& folder) {
   return {{"place", picture(folder, "place", answer)}, {"window", picture(folder, "window", answer)}};
 }
 
-Json map_of(const std::vector<FlightTrack>& tracks, const Json& config, const Path& home) {
+Json map_of(const std::vector<FlightTrack>& tracks, const Json& config, const Assets& assets) {
   const Path python = find_python();
   if (python.empty()) return absent("The place could not be drawn: no python3 on PATH.");
   const PassingFolder folder;
@@ -141,8 +142,8 @@ Json map_of(const std::vector<FlightTrack>& tracks, const Json& config, const Pa
   write_file_atomically(folder.path() / "points.json", ground_points(tracks, config).dump());
   const std::string at = folder.path().string();
   const Output output =
-      run_program({python.string(), "-I", "-B", (home / "blender_scripts" / "draw_map.py").string(),
-                   "--config", at + "/config.json", "--points", at + "/points.json", "--out", at});
+      run_program({python.string(), "-I", "-B", assets.script("draw_map.py").string(), "--config",
+                   at + "/config.json", "--points", at + "/points.json", "--out", at});
   if (output.status.signal != 0 || output.status.code != 0) {
     const std::string why = printable(output.last_words());
     return absent("The place could not be drawn: " + (why.empty() ? output.status.in_words() : why));
@@ -156,7 +157,7 @@ bool has_heights(const FlightTrack& track) {
 
 }  // namespace
 
-Json flight_figures(const std::vector<FlightTrack>& tracks, const Json& config, const Path& home) {
+Json flight_figures(const std::vector<FlightTrack>& tracks, const Json& config, const Assets& assets) {
   std::vector<FlightTrack> flown;
   Json json = {{"tracks", Json::array()}};
   for (const FlightTrack& track : tracks) {
@@ -170,7 +171,7 @@ Json flight_figures(const std::vector<FlightTrack>& tracks, const Json& config, 
         "The passes do not say how high the camera flew above ground, so it is unknown whether they show the "
         "place of the config, and it is not drawn.");
   } else {
-    json["map"] = map_of(flown, config, home);
+    json["map"] = map_of(flown, config, assets);
   }
   return json;
 }

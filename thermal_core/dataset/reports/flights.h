@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/assets.h"
 #include "io/json/file.h"
 
 namespace thermal {
@@ -40,6 +41,6 @@ inline constexpr std::size_t kX = 3, kY = 7, kZ = 11;
 /// sentence with the reason. The map is drawn by blender_scripts/draw_map.py from the config, and shown only if the
 /// camera's heights match its ground.
 [[nodiscard]] Json flight_figures(const std::vector<FlightTrack>& tracks, const Json& config,
-                                  const Path& home);
+                                  const Assets& assets);
 
 }  // namespace thermal

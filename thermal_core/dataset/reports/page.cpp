@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "io/assets.h"
 #include "io/system/base64.h"
 #include "io/system/sha256.h"
 
@@ -73,8 +74,8 @@ std::string filled(const std::string& page, const Pieces& pieces) {
 
 }  // namespace
 
-std::string report_page(const Json& figures, const std::string& title, const Path& home) {
-  const Path folder = home / "assets" / "report";
+std::string report_page(const Json& figures, const std::string& title, const Assets& assets) {
+  const Path folder = assets.folder("report");
   Pieces pieces = {{"title", as_html(title)},
                    {"style", read_file(folder / "style.css")},
                    {"library", read_file(folder / "chart.umd.min.js")},

@@ -38,7 +38,7 @@ std::vector<FlightTrack> tracks_of(const ReportRequest& request, const Json& rec
 void add_dataset(const ReportRequest& request, Json& figures) {
   Json record = read_dataset_file(request.source);
   try {
-    figures["flights"] = flight_figures(tracks_of(request, record), record.at("config"), request.home);
+    figures["flights"] = flight_figures(tracks_of(request, record), record.at("config"), request.assets);
   } catch (const Json::exception& error) {
     throw DataError(Layout{request.source}.dataset_json().string() + ": " + error.what());
   }
@@ -56,7 +56,7 @@ ReportOutcome write_report(const ReportRequest& request) {
                   {"labels", label_figures(set)},
                   {"samples", sample_figures(set, ours)}};
   if (ours) add_dataset(request, figures);
-  const std::string page = report_page(figures, set.name, request.home);
+  const std::string page = report_page(figures, set.name, request.assets);
   const Path out = request.out.empty() ? default_out(request.source) : request.out;
   write_file_atomically(out, page);
   return {.out = out,

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "dataset/run/progress.h"
+#include "io/assets.h"
 #include "io/system/files.h"
 
 namespace thermal {
@@ -11,7 +12,7 @@ namespace thermal {
 struct ReportRequest {
   Path source;  ///< anything that read_labels() reads
   Path out;     ///< the page; empty: report.html in the dataset, or beside a COCO file
-  Path home;
+  Assets assets;
   bool unfinished_too = false;  ///< accept a dataset with missing clips
   /// Called for each clip of a Veldt dataset, when its track is read.
   std::function<void(const Progress&)> show = {};

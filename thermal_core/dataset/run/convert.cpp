@@ -14,6 +14,7 @@
 #include "dataset/passes/identity.h"
 #include "dataset/passes/outline.h"
 #include "dataset/run/convert_requests.h"
+#include "dataset/run/transaction.h"
 #include "io/config/materials.h"
 
 namespace thermal {
@@ -51,91 +52,127 @@ std::vector<std::string> terms_left_out(const Budget& budget) {
   return left_out;
 }
 
-/// Whether a run makes datasets, or only says what it would make.
-enum class Intent { make, forecast };
+/// How a dataset makes a clip, but for the folder to make it in.
+ClipTask task_for(const ConvertRequest& request, const Terms& kept, const ClipPasses& source) {
+  const Config& config = request.config;
+  const ClipConfig& clip = config.clip(source.manifest.clip, source.folder.string());
+  return {.variant = request.where,
+          .clip = clip,
+          .seed = config.seed,
+          .sensor = config.sensor,
+          .distortion = config.distortion,
+          .labels = config.labels,
+          .physics = physics_of(config, clip, kept),
+          .folder = {},
+          .made_from_sha256 = source.identity_sha256};
+}
 
-/// A dataset being made. Its folder is created and locked for that alone.
+bool has_new_passes(const DatasetIndex& index, const Layout& layout, const ClipPasses& source) {
+  const auto found = index.made_from_sha256.find(source.manifest.clip);
+  return found != index.made_from_sha256.end() &&
+         has_changed(source, found->second, layout.clip(source.manifest.clip) / "clip.json");
+}
+
+/// Whether an existing clip can be remade with more of its frames. In strict mode, making it reports what is bad.
+bool is_to_mend(const DatasetIndex& index, const ClipPasses& source, const ClipTask& task,
+                const MaterialLibrary& materials) {
+  const auto found = index.skipped.find(source.manifest.clip);
+  if (found == index.skipped.end() || found->second.empty()) return false;
+  return source.bad_frames == BadFrames::fail || can_be_mended(source, task, materials, found->second);
+}
+
+/// The clips that a dataset lacks, or has from passes that were different.
+struct Backlog {
+  std::set<std::string> missing;
+  std::set<std::string> changed;  ///< their passes have changed since
+  std::set<std::string> mended;   ///< can be made with more of their frames
+
+  [[nodiscard]] bool has(const std::string& clip) const {
+    return missing.contains(clip) || changed.contains(clip) || mended.contains(clip);
+  }
+  [[nodiscard]] bool empty() const { return missing.empty() && changed.empty() && mended.empty(); }
+};
+
+Backlog backlog_of(const ConvertRequest& request, const DatasetIndex& index, const Terms& kept,
+                   const std::vector<ClipPasses>& sources, const MaterialLibrary& materials) {
+  Backlog backlog;
+  for (const ClipPasses& source : sources) {
+    const std::string& clip = source.manifest.clip;
+    if (!index.finished.contains(clip)) {
+      backlog.missing.insert(clip);
+    } else if (has_new_passes(index, Layout{request.out}, source)) {
+      backlog.changed.insert(clip);
+    } else if (is_to_mend(index, source, task_for(request, kept, source), materials)) {
+      backlog.mended.insert(clip);
+    }
+  }
+  return backlog;
+}
+
+ConvertForecast forecast_of(const ConvertRequest& request, const Budget& budget,
+                            const std::vector<ClipPasses>& sources, const MaterialLibrary& materials) {
+  const DatasetIndex index = open_dataset(own_layout(request), request.config);
+  const Backlog backlog = backlog_of(request, index, budget.kept, sources, materials);
+  ConvertForecast forecast{
+      .variant = request.variant, .out = request.out, .steps = {}, .left_out = terms_left_out(budget)};
+  for (const ClipPasses& source : sources) {
+    const std::string& clip = source.manifest.clip;
+    const auto make =
+        backlog.missing.contains(clip) ? ConvertStep::Action::make : ConvertStep::Action::make_again;
+    forecast.steps.push_back({.clip = clip,
+                              .frames = static_cast<int>(source.manifest.frames.size()),
+                              .action = backlog.has(clip) ? make : ConvertStep::Action::keep});
+  }
+  return forecast;
+}
+
+/// A dataset being made.
 class Dataset {
  public:
   Dataset(ConvertRequest request, const Budget& budget, const MaterialLibrary& materials,
-          const std::vector<ClipPasses>& sources, Intent intent)
+          const std::vector<ClipPasses>& sources)
       : request_(std::move(request)),
-        layout_(own_layout(request_)),
-        lock_(intent == Intent::make ? std::make_unique<FolderLock>(layout_.root) : nullptr),
-        index_(open_dataset(layout_, request_.config)),
         kept_(budget.kept),
         left_out_(terms_left_out(budget)),
-        behind_(!index_.complete() || !index_.recorded) {
-    index_.physics = to_json(budget);
+        transaction_(own_layout(request_), request_.config, to_json(budget)),
+        backlog_(backlog_of(request_, transaction_.index(), kept_, sources, materials)) {
     for (const ClipPasses& source : sources) {
-      if (has_new_passes(source)) {
-        changed_.insert(source.manifest.clip);
-      } else if (is_to_mend(source, materials)) {
-        mended_.insert(source.manifest.clip);
-      }
       if (!lacks(source)) outcome_.already_there.push_back(source.manifest.clip);
     }
-    behind_ = behind_ || !mended_.empty() || !changed_.empty();
   }
 
-  [[nodiscard]] bool has_changed_passes(const std::string& clip) const { return changed_.contains(clip); }
-
-  [[nodiscard]] bool lacks(const ClipPasses& source) const {
-    const std::string& clip = source.manifest.clip;
-    return !index_.finished.contains(clip) || mended_.contains(clip) || changed_.contains(clip);
+  [[nodiscard]] bool has_changed_passes(const std::string& clip) const {
+    return backlog_.changed.contains(clip);
   }
 
-  [[nodiscard]] ConvertForecast forecast(const std::vector<ClipPasses>& sources) const {
-    ConvertForecast forecast{
-        .variant = request_.variant, .out = request_.out, .steps = {}, .left_out = left_out_};
-    for (const ClipPasses& source : sources) {
-      const std::string& clip = source.manifest.clip;
-      const auto make =
-          index_.finished.contains(clip) ? ConvertStep::Action::make_again : ConvertStep::Action::make;
-      forecast.steps.push_back({.clip = clip,
-                                .frames = static_cast<int>(source.manifest.frames.size()),
-                                .action = lacks(source) ? make : ConvertStep::Action::keep});
-    }
-    return forecast;
+  [[nodiscard]] bool lacks(const ClipPasses& source) const { return backlog_.has(source.manifest.clip); }
+
+  void begin() {
+    if (!backlog_.empty()) transaction_.begin();
   }
 
-  /// From here on the folder belongs to this config.
-  void begin() const {
-    if (!index_.complete()) write_progress(layout_, index_);
+  [[nodiscard]] ClipTask task_for_clip(const ClipPasses& source) const {
+    ClipTask task = task_for(request_, kept_, source);
+    task.folder = transaction_.unfinished(source.manifest.clip);
+    return task;
   }
 
-  [[nodiscard]] ClipTask task_for(const ClipPasses& source) const {
-    const Config& config = request_.config;
-    const ClipConfig& clip = config.clip(source.manifest.clip, source.folder.string());
-    return {.variant = request_.where,
-            .clip = clip,
-            .seed = config.seed,
-            .sensor = config.sensor,
-            .distortion = config.distortion,
-            .labels = config.labels,
-            .physics = physics_of(config, clip, kept_),
-            .layout = layout_,
-            .made_from_sha256 = source.identity_sha256};
-  }
-
-  void add(const ClipRecord& record) {
-    index_.add(record.clip, record);
+  void commit(const ClipRecord& record) {
+    transaction_.commit(record);
     outcome_.made.push_back(record.clip);
     outcome_.frames_made += record.frames;
-    pace_.pass([this] { write_progress(layout_, index_); });
   }
 
   void reject(const std::string& clip, const std::string& why) {
-    index_.failed[clip] = printable(why);
+    transaction_.reject(clip, why);
     outcome_.failed[clip] = printable(why);
-    pace_.pass([this] { write_progress(layout_, index_); });
   }
 
-  ConvertOutcome end(const std::vector<ClipPasses>& sources) {
-    if (behind_) write_dataset(layout_, index_);
-    outcome_.complete = index_.complete();
+  ConvertOutcome close(const std::vector<ClipPasses>& sources) {
+    transaction_.close();
+    outcome_.complete = transaction_.index().complete();
     for (const ClipPasses& source : sources) {
-      const std::vector<UnusableShare> shares = index_.unusable({source.manifest.clip});
+      const std::vector<UnusableShare> shares = transaction_.index().unusable({source.manifest.clip});
       outcome_.unusable.insert(outcome_.unusable.end(), shares.begin(), shares.end());
     }
     return {.variant = request_.variant,
@@ -145,56 +182,34 @@ class Dataset {
             .left_out = left_out_};
   }
 
-  void end_after_fault() const noexcept {
-    if (behind_) write_dataset_after_fault(layout_, index_);
-  }
-
  private:
-  [[nodiscard]] bool has_new_passes(const ClipPasses& source) const {
-    const auto found = index_.made_from_sha256.find(source.manifest.clip);
-    return found != index_.made_from_sha256.end() &&
-           has_changed(source, found->second, layout_.clip(source.manifest.clip) / "clip.json");
-  }
-
-  /// Whether an existing clip can be remade with more of its frames. In strict mode, making it reports what is bad.
-  [[nodiscard]] bool is_to_mend(const ClipPasses& source, const MaterialLibrary& materials) const {
-    const auto found = index_.skipped.find(source.manifest.clip);
-    if (found == index_.skipped.end() || found->second.empty()) return false;
-    return source.bad_frames == BadFrames::fail ||
-           can_be_mended(source, task_for(source), materials, found->second);
-  }
-
   [[nodiscard]] std::vector<ClipSkips> skips_of(const std::vector<ClipPasses>& sources) const {
+    const auto& skipped = transaction_.index().skipped;
     std::vector<ClipSkips> skips;
     for (const ClipPasses& source : sources) {
-      const auto found = index_.skipped.find(source.manifest.clip);
-      if (found == index_.skipped.end() || found->second.empty()) continue;
+      const auto found = skipped.find(source.manifest.clip);
+      if (found == skipped.end() || found->second.empty()) continue;
       skips.push_back({.clip = source.manifest.clip, .folder = source.folder, .frames = found->second});
     }
     return skips;
   }
 
   ConvertRequest request_;
-  Layout layout_;
-  std::unique_ptr<FolderLock> lock_;
-  DatasetIndex index_;
   Terms kept_;
   std::vector<std::string> left_out_;
-  bool behind_;                    ///< clips are missing, or the files do not list all
-  std::set<std::string> changed_;  ///< existing clips whose passes have changed since
-  std::set<std::string> mended_;   ///< existing clips that can be made with more of their frames
+  DatasetTransaction transaction_;
+  Backlog backlog_;
   RunOutcome outcome_;
-  ProgressPace pace_;
 };
 
 std::vector<std::unique_ptr<Dataset>> open_datasets(const std::vector<ConvertRequest>& requests,
                                                     const std::vector<ClipPasses>& sources,
-                                                    const MaterialLibrary& materials, Intent intent) {
+                                                    const MaterialLibrary& materials) {
   // First, because a required term that is impossible is a fault, and then no folder is touched.
   const std::vector<Budget> budgets = budgets_of(requests, materials, sources);
   std::vector<std::unique_ptr<Dataset>> datasets;
   for (std::size_t i = 0; i < requests.size(); ++i)
-    datasets.push_back(std::make_unique<Dataset>(requests[i], budgets[i], materials, sources, intent));
+    datasets.push_back(std::make_unique<Dataset>(requests[i], budgets[i], materials, sources));
   return datasets;
 }
 
@@ -206,17 +221,12 @@ class Converter {
       : sources_(sources),
         materials_(materials),
         hooks_(hooks),
-        datasets_(open_datasets(requests, sources, materials, Intent::make)) {}
+        datasets_(open_datasets(requests, sources, materials)) {}
 
   std::vector<ConvertOutcome> run() {
-    try {
-      make_all();
-    } catch (...) {
-      for (const auto& dataset : datasets_) dataset->end_after_fault();
-      throw;
-    }
+    make_all();
     std::vector<ConvertOutcome> outcomes;
-    for (const auto& dataset : datasets_) outcomes.push_back(dataset->end(sources_));
+    for (const auto& dataset : datasets_) outcomes.push_back(dataset->close(sources_));
     return outcomes;
   }
 
@@ -257,7 +267,7 @@ class Converter {
     } catch (const IoError& fault) {
       reject(source, wanted, fault.what());
     }
-    for (std::size_t i = 0; i < records.size(); ++i) wanted[i]->add(records[i]);
+    for (std::size_t i = 0; i < records.size(); ++i) wanted[i]->commit(records[i]);
     if (records.empty()) progress_.done = before + static_cast<int>(source.manifest.frames.size());
   }
 
@@ -269,7 +279,7 @@ class Converter {
 
   std::vector<ClipRecord> make(const ClipPasses& source, const std::vector<Dataset*>& wanted) {
     std::vector<ClipTask> tasks;
-    for (const Dataset* dataset : wanted) tasks.push_back(dataset->task_for(source));
+    for (const Dataset* dataset : wanted) tasks.push_back(dataset->task_for_clip(source));
     const ClipHooks hooks = {.wait_for_frame = {},
                              .frame_done =
                                  [this] {
@@ -292,7 +302,7 @@ class Converter {
 };
 
 std::vector<ClipPasses> read_sources(const ConvertOptions& options, const MaterialLibrary& materials) {
-  std::vector<ClipPasses> sources = find_passes(options.passes, options.manifest, materials, options.home);
+  std::vector<ClipPasses> sources = find_passes(options.passes, options.manifest, materials, options.assets);
   for (ClipPasses& source : sources) {
     source.limits = options.limits;
     source.bad_frames = options.strict ? BadFrames::fail : BadFrames::skip;
@@ -303,21 +313,24 @@ std::vector<ClipPasses> read_sources(const ConvertOptions& options, const Materi
 }  // namespace
 
 std::vector<ConvertForecast> forecast_convert(const ConvertOptions& options) {
-  const ThreadLimit limit(options.threads);
-  const MaterialLibrary materials = read_materials(options.home);
-  const std::vector<ClipPasses> sources = read_sources(options, materials);
-  std::vector<ConvertForecast> forecasts;
-  for (const auto& dataset :
-       open_datasets(convert_requests(options, sources), sources, materials, Intent::forecast))
-    forecasts.push_back(dataset->forecast(sources));
-  return forecasts;
+  return with_threads(options.threads, [&] {
+    const MaterialLibrary materials = read_materials(options.assets);
+    const std::vector<ClipPasses> sources = read_sources(options, materials);
+    const std::vector<ConvertRequest> requests = convert_requests(options, sources);
+    const std::vector<Budget> budgets = budgets_of(requests, materials, sources);
+    std::vector<ConvertForecast> forecasts;
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      forecasts.push_back(forecast_of(requests[i], budgets[i], sources, materials));
+    return forecasts;
+  });
 }
 
 std::vector<ConvertOutcome> convert(const ConvertOptions& options, const RunHooks& hooks) {
-  const ThreadLimit limit(options.threads);
-  const MaterialLibrary materials = read_materials(options.home);
-  const std::vector<ClipPasses> sources = read_sources(options, materials);
-  return Converter(convert_requests(options, sources), sources, materials, hooks).run();
+  return with_threads(options.threads, [&] {
+    const MaterialLibrary materials = read_materials(options.assets);
+    const std::vector<ClipPasses> sources = read_sources(options, materials);
+    return Converter(convert_requests(options, sources), sources, materials, hooks).run();
+  });
 }
 
 }  // namespace thermal

@@ -121,8 +121,8 @@ std::vector<ConvertRequest> convert_requests(const ConvertOptions& options,
   const std::string name = options.config ? options.config_name : "--set";
   root_calibration(document, folder_of(options.config ? options.config_name : "."));
   // Resolved even if only variants are made, so that shared faults are not attributed to the first variant.
-  Config shared = only_clips_of(resolve_config(document, name, options.home), sources);
-  if (gives_intrinsics(shared.resolved["camera"])) {
+  Config shared = only_clips_of(resolve_config(document, name, options.assets), sources);
+  if (shared.gives_intrinsics) {
     check_cameras(shared, sources, name);
   } else {
     check_settings(options, sources);
@@ -133,8 +133,8 @@ std::vector<ConvertRequest> convert_requests(const ConvertOptions& options,
     return requests;
   }
   check_out(options.out);
-  for (const Variant& variant : read_variants(*options.variants, options.variants_name, options.home)) {
-    Config config = resolve_config(changed_by(variant, document), variant.where, options.home);
+  for (const Variant& variant : read_variants(*options.variants, options.variants_name, options.assets)) {
+    Config config = resolve_config(changed_by(variant, document), variant.where, options.assets);
     requests.push_back({.variant = variant.name,
                         .where = variant.where,
                         .config = only_clips_of(std::move(config), sources),

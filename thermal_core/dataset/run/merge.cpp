@@ -12,7 +12,7 @@
 #include "base/version.h"
 #include "dataset/clip/record.h"
 #include "dataset/dataset_file.h"
-#include "dataset/dataset_index.h"
+#include "dataset/run/transaction.h"
 #include "io/system/files.h"
 
 namespace thermal {
@@ -123,23 +123,15 @@ class Merger {
       : options_(options),
         hooks_(hooks),
         sources_(open_sources(options)),
-        layout_{options.out},
-        lock_(options.out),
-        index_(open_dataset(layout_, config_of(sources_.front()))) {
-    index_.physics = sources_.front().document.value("physics", Json());
-  }
+        transaction_({options.out}, config_of(sources_.front()),
+                     sources_.front().document.value("physics", Json())) {}
 
   MergeOutcome run() {
     plan();
-    if (!plan_.empty()) write_progress(layout_, index_);
-    try {
-      for (const auto& [id, found] : plan_) try_add(id, found);
-    } catch (...) {
-      write_dataset_after_fault(layout_, index_);
-      throw;
-    }
-    if (!plan_.empty() || !index_.recorded) write_dataset(layout_, index_);
-    outcome_.run.complete = index_.complete();
+    if (!plan_.empty()) transaction_.begin();
+    for (const auto& [id, found] : plan_) try_add(id, found);
+    transaction_.close();
+    outcome_.run.complete = transaction_.index().complete();
     return outcome_;
   }
 
@@ -148,11 +140,11 @@ class Merger {
   void plan() {
     std::vector<Source> with_out = {{.root = options_.out, .document = Json::object()}};
     with_out.insert(with_out.end(), sources_.begin(), sources_.end());
-    for (const std::string& id : index_.clips) {
+    for (const std::string& id : transaction_.index().clips) {
       const std::vector<FoundClip> found = find_in_all(with_out, id);
       if (found.empty()) {
         outcome_.missing.push_back(id);
-      } else if (index_.finished.contains(id)) {
+      } else if (transaction_.index().finished.contains(id)) {
         outcome_.run.already_there.push_back(id);
       } else {
         progress_.total += found.front().record.frames;
@@ -176,7 +168,7 @@ class Merger {
         if (why.empty()) why = fault.what();
       }
     }
-    std::filesystem::remove_all(layout_.unfinished_clip(id));
+    transaction_.reject(id, why);
     outcome_.run.failed[id] = why;
     progress_.done = before + found.front().record.frames;
     hooks_.report(progress_);
@@ -184,19 +176,15 @@ class Merger {
 
   void add(const FoundClip& clip) {
     const std::string& id = clip.record.clip;
-    const Path part = layout_.unfinished_clip(id);
-    std::filesystem::remove_all(part);
+    const Path part = transaction_.unfinished(id);
+    make_fresh_folder(part);
     for (const auto& [name, sum] : clip.record.files) add_file(clip.folder / name, part / name, sum);
     const Path record = clip.folder / "clip.json";
     if (!clip.record_sha256.empty()) check_file(record, clip.record_sha256);
     link_file(record, part / "clip.json", options_.linking);
-    std::filesystem::remove_all(layout_.clip(id));
-    std::filesystem::rename(part, layout_.clip(id));
-    sync_folder(layout_.clip(id).parent_path());
-    index_.add(id, clip.record);
+    transaction_.commit(clip.record);
     outcome_.run.made.push_back(id);
     outcome_.run.frames_made += clip.record.frames;
-    pace_.pass([this] { write_progress(layout_, index_); });
   }
 
   void add_file(const Path& file, const Path& as, const std::string& sum) {
@@ -211,13 +199,10 @@ class Merger {
   const MergeOptions& options_;
   const RunHooks& hooks_;
   std::vector<Source> sources_;
-  Layout layout_;
-  FolderLock lock_;
-  DatasetIndex index_;
+  DatasetTransaction transaction_;
   std::vector<std::pair<std::string, std::vector<FoundClip>>> plan_;
   MergeOutcome outcome_;
   Progress progress_;
-  ProgressPace pace_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dataset/dataset_index.h"
+#include "io/assets.h"
 #include "io/system/files.h"
 
 namespace thermal {
@@ -16,7 +17,7 @@ struct Shard {
 };
 
 struct GenerateOptions {
-  Path home;
+  Assets assets;
   Path out;
   Path blender;
   std::vector<std::string> clips;  ///< only these; empty: all

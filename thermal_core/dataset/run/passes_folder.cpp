@@ -52,7 +52,7 @@ std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOp
   for (const std::vector<std::string>& hand : hands) {
     // Runs that share the folder never share a clip, so the clip's name keeps their logs apart.
     tasks.push_back({.blender = options.blender,
-                     .home = options.home,
+                     .assets = options.assets,
                      .plan = layout.plan(),
                      .passes = layout.passes(),
                      .log = layout.passes() / (hand.front() + ".log"),

@@ -25,7 +25,7 @@ RenderJob::Task preview_task(const Config& config, const GenerateOptions& option
   const Path folder = Layout{options.out}.preview();
   write_file_atomically(folder / "config.json", to_text(config.resolved));
   return {.blender = options.blender,
-          .home = options.home,
+          .assets = options.assets,
           .plan = folder / "plan",
           .passes = folder,
           .log = folder / "blender.log",
@@ -60,7 +60,7 @@ RunOutcome render(const Config& config, const GenerateOptions& options, const Ru
       monitor.lost(clip, fault.what(), fault.killed());
     }
   };
-  run_workers(passes_tasks(config, options, ids_of(clips), monitor), work,
+  run_workers(passes_tasks(config, options, ids_of(clips), monitor), options.threads, work,
               [&monitor] { return monitor.stop_wanted(); });
   RunOutcome outcome = monitor.outcome();
   outcome.complete = outcome.failed.empty();

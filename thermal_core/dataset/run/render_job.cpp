@@ -34,7 +34,7 @@ std::vector<std::string> render_command(const RenderJob::Task& task) {
   std::vector<std::string> command = {task.blender.string(), "--background",       "--factory-startup",
                                       "--disable-autoexec",  "--python-exit-code", "1"};
   if (task.threads > 0) command.insert(command.end(), {"--threads", std::to_string(task.threads)});
-  const std::string script = (task.home / "blender_scripts" / "render_passes.py").string();
+  const std::string script = (task.assets.script("render_passes.py")).string();
   command.insert(command.end(),
                  {"--python", script, "--", "--plan", task.plan.string(), "--out", task.passes.string(),
                   "--events-fd", std::to_string(ChildProcess::kEventDescriptor)});

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/assets.h"
 #include "io/json/file.h"
 #include "io/system/child_process.h"
 #include "io/system/files.h"
@@ -36,7 +37,7 @@ class RenderJob {
  public:
   struct Task {
     Path blender;
-    Path home;
+    Assets assets;
     Path plan;    ///< folder of a plan with its baked scene
     Path passes;  ///< gets a folder for each clip
     Path log;     ///< what the Blenders of this job print, one after another

@@ -6,13 +6,15 @@
 #include <mutex>
 #include <thread>
 
+#include "base/parallel.h"
+
 namespace thermal {
 namespace {
 
 /// Threads that all stop when the first of them throws.
-class Crew {
+class WorkerPool {
  public:
-  Crew(const ClipWork& work, const std::function<bool()>& cancelled)
+  WorkerPool(const ClipWork& work, const std::function<bool()>& cancelled)
       : work_(work), stop_wanted_([this, &cancelled] { return failed_ || (cancelled && cancelled()); }) {}
 
   void run(const std::vector<RenderJob::Task>& tasks) {
@@ -57,9 +59,13 @@ int threads_each(int threads, int cores, int jobs) {
   return std::max(1, (threads > 0 ? threads : cores) / jobs);
 }
 
-void run_workers(const std::vector<RenderJob::Task>& tasks, const ClipWork& work,
+void run_workers(const std::vector<RenderJob::Task>& tasks, int threads, const ClipWork& work,
                  const std::function<bool()>& cancelled) {
-  Crew(work, cancelled).run(tasks);
+  const int share = threads == 0 ? 0 : threads_each(threads, threads, static_cast<int>(tasks.size()));
+  const ClipWork limited = [&](const std::string& clip, RenderJob& job, const std::function<bool()>& stop) {
+    with_threads(share, [&] { work(clip, job, stop); });
+  };
+  WorkerPool(limited, cancelled).run(tasks);
 }
 
 }  // namespace thermal

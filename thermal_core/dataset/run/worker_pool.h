@@ -22,8 +22,8 @@ using ClipWork =
     std::function<void(const std::string& clip, RenderJob& job, const std::function<bool()>& cancelled)>;
 
 /// Renders tasks at the same time, with one Blender process and one thread each, and returns when `work` has had all
-/// their clips. If `work` or a job throws, all stop, and the first exception is rethrown.
-void run_workers(const std::vector<RenderJob::Task>& tasks, const ClipWork& work,
+/// their clips. `work` may use `threads` threads in total (0: one per core, which they share). If `work` or a job throws, all stop, and the first exception is rethrown.
+void run_workers(const std::vector<RenderJob::Task>& tasks, int threads, const ClipWork& work,
                  const std::function<bool()>& cancelled);
 
 }  // namespace thermal

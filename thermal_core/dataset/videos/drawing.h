@@ -11,6 +11,7 @@
 
 #include "dataset/videos/grid.h"
 #include "dataset/videos/palette.h"
+#include "io/assets.h"
 #include "io/image/text_picture.h"
 
 namespace thermal {
@@ -24,8 +25,7 @@ struct Ink {
 /// Lines of text as pictures, kept for the next frame.
 class Letters {
  public:
-  /// `home`: the folder that holds assets/.
-  explicit Letters(const Path& home) : fonts_(home / "assets" / "fonts") {}
+  explicit Letters(const Assets& assets) : fonts_(assets.folder("fonts")) {}
 
   /// Good until trim().
   [[nodiscard]] const TextPicture& picture(const std::string& text, int size_px, bool bold = false);

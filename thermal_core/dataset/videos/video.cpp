@@ -179,7 +179,7 @@ class Painter {
                .tracks = request.tracks,
                .range = request.range,
                .text_px = grid_.text_px},
-        letters_(request.home),
+        letters_(request.assets),
         picture_(grid_.height_px, grid_.width_px, CV_8UC3) {
     fill(picture_, {0, 0, grid_.width_px, grid_.height_px}, {kBackground, 1});
     for (std::size_t k = 0; k < programme.films.size(); ++k)

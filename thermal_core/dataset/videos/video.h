@@ -7,6 +7,7 @@
 
 #include "dataset/run/progress.h"
 #include "dataset/videos/kelvin_scale.h"
+#include "io/assets.h"
 #include "io/system/files.h"
 
 namespace thermal {
@@ -26,7 +27,7 @@ struct VideoRequest {
   std::optional<KelvinRange> range;  ///< ir16 on a fixed scale, instead of ir8
   std::optional<int> frame;          ///< of pictures: which; none: the middle one
   int width_px = 0;                  ///< of the whole; 0: 1280 for one column of clips, else 1920
-  Path home;                         ///< the folder that holds assets/
+  Assets assets;
 };
 
 struct VideoOutcome {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "io/assets.h"
 #include "io/bake/array_file.h"
 #include "io/manifest_file.h"
 
@@ -28,8 +29,7 @@ void check_below(const ArrayFile& file, const std::string& where, std::size_t nu
 
 class SceneReader {
  public:
-  SceneReader(const Path& file, const Path& home)
-      : file_(file, read_json(home / "configs" / "schema" / "scene.schema.json")) {}
+  SceneReader(const Path& file, const Assets& assets) : file_(file, assets.schema("scene")) {}
 
   BakedScene read() {
     const Json& json = file_.header();
@@ -165,14 +165,13 @@ std::size_t count_bones(const BakedScene& scene, std::size_t frames, std::span<c
 
 }  // namespace
 
-BakedScene read_baked_scene(const Path& folder, const Path& home) {
-  return SceneReader(folder / "scene.json", home).read();
+BakedScene read_baked_scene(const Path& folder, const Assets& assets) {
+  return SceneReader(folder / "scene.json", assets).read();
 }
 
 BakedTrack read_baked_track(const Path& folder, const std::string& clip, const BakedScene& scene,
-                            const Path& home) {
-  ArrayFile file(folder / "tracks" / (clip + ".json"),
-                 read_json(home / "configs" / "schema" / "track.schema.json"));
+                            const Assets& assets) {
+  ArrayFile file(folder / "tracks" / (clip + ".json"), assets.schema("track"));
   if (file.header().at("clip") != clip)
     throw file.fault_at("clip", brief(file.header().at("clip")), fmt::format("\"{}\"", clip));
   const std::size_t frames = file.header().at("frames");

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/assets.h"
 #include "io/config/lens.h"
 #include "io/config/sensor.h"
 #include "io/json/schema.h"
@@ -174,9 +175,9 @@ Config with_clips(Config config, const Json& clips) {
   return config;
 }
 
-Config resolve_config(Json document, const std::string& name, const Path& home) {
-  const Json schema = read_json(home / "configs" / "schema" / "config.schema.json");
-  apply_preset(document, schema, name, home);
+Config resolve_config(Json document, const std::string& name, const Assets& assets) {
+  const Json schema = assets.schema("config");
+  apply_preset(document, schema, name, assets);
   std::vector<std::string> faults = check_and_fill(document, schema);
   throw_faults(faults, name);
   apply_calibration(document, schema, faults);
@@ -187,7 +188,7 @@ Config resolve_config(Json document, const std::string& name, const Path& home) 
   config.width_px = document["camera"]["width_px"];
   config.height_px = document["camera"]["height_px"];
   config.distortion = read_distortion(document["camera"]["distortion"]);
-  config.sensor = read_sensor(document, name, home);
+  config.sensor = read_sensor(document, name, assets);
   config.labels = read_label_parameters(document["labels"]);
   config.physical = document["sensor"]["model"] == "physical";
   config.terms = read_terms(document["terms"], config.physical ? TermChoice::automatic : TermChoice::off);
@@ -200,6 +201,7 @@ Config resolve_config(Json document, const std::string& name, const Path& home) 
   for (const Json& flight : document["flights"]) config.flights.push_back(flight["id"]);
   check_flown(config.flights, config.clips, faults);
   config.camera = read_intrinsics(document["camera"]);
+  config.gives_intrinsics = gives_intrinsics(document["camera"]);
   check_intrinsics(config.camera, faults);
   throw_faults(faults, name);
   fill_overscan(document, faults);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/assets.h"
 #include "io/json/file.h"
 #include "labels/label_parameters.h"
 #include "scene/lens_distortion.h"
@@ -30,6 +31,7 @@ struct Config {
   int width_px = 640;
   int height_px = 512;
   CameraIntrinsics camera;
+  bool gives_intrinsics = false;  ///< the document gives some of the camera's, directly or by a calibration
   LensDistortion distortion;
   int overscan_px = 0;  ///< how far the passes extend beyond the picture on every side
   int supersample = 1;  ///< rays of the passes along each side of a pixel
@@ -72,6 +74,6 @@ void root_calibration(Json& document, const Path& folder);
 
 /// Checks a document against configs/schema/config.schema.json and fills in its defaults. The numbers of a camera's
 /// calibration replace the name of its file. ConfigError with one line per fault, each starting with `name`.
-[[nodiscard]] Config resolve_config(Json document, const std::string& name, const Path& home);
+[[nodiscard]] Config resolve_config(Json document, const std::string& name, const Assets& assets);
 
 }  // namespace thermal

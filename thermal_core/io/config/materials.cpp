@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/relative_name.h"
+#include "io/assets.h"
 #include "io/config/spectra.h"
 #include "io/json/file.h"
 #include "io/json/schema.h"
@@ -46,10 +47,10 @@ Material read_material(const Json& json, const Path& file) {
 
 }  // namespace
 
-MaterialLibrary read_materials(const Path& home) {
-  const Json schema = read_json(home / "configs" / "schema" / "material.schema.json");
+MaterialLibrary read_materials(const Assets& assets) {
+  const Json schema = assets.schema("material");
   MaterialLibrary library;
-  for (const auto& entry : std::filesystem::directory_iterator(home / "assets" / "materials")) {
+  for (const auto& entry : std::filesystem::directory_iterator(assets.folder("materials"))) {
     const Path& file = entry.path();
     if (file.extension() != ".json") continue;
     Json document = read_json(file);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "io/assets.h"
 #include "io/config/config.h"
 #include "io/json/schema.h"
 
@@ -32,8 +33,8 @@ void merge(Json& into, const Json& changes) {
 
 }  // namespace
 
-std::vector<Variant> read_variants(Json document, const std::string& name, const Path& home) {
-  const Json schema = read_json(home / "configs" / "schema" / "variants.schema.json");
+std::vector<Variant> read_variants(Json document, const std::string& name, const Assets& assets) {
+  const Json schema = assets.schema("variants");
   std::vector<std::string> faults = check_and_fill(document, schema);
   throw_faults(faults, name);
   Json& list = document["variants"];

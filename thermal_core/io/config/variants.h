@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "io/assets.h"
 #include "io/json/file.h"
 
 namespace thermal {
@@ -16,7 +17,8 @@ struct Variant {
 
 /// Checks a list of variants against configs/schema/variants.schema.json. A variant's changes are checked when they
 /// are part of a config (changed_by, resolve_config). ConfigError with one line per fault, each starting with `name`.
-[[nodiscard]] std::vector<Variant> read_variants(Json document, const std::string& name, const Path& home);
+[[nodiscard]] std::vector<Variant> read_variants(Json document, const std::string& name,
+                                                 const Assets& assets);
 
 /// A config's document with the variant's changes: objects are merged key by key, anything else is replaced.
 [[nodiscard]] Json changed_by(const Variant& variant, Json document);

@@ -292,4 +292,24 @@ Output run_program(const std::vector<std::string>& argv, std::string_view input_
   return {.status = to_status(raw), .out = std::move(texts[0]), .error = std::move(texts[1])};
 }
 
+namespace {
+
+bool can_run(const Path& file) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0;
+}
+
+}  // namespace
+
+Path find_program(const std::string& name) {
+  if (name.find('/') != std::string::npos) return can_run(name) ? std::filesystem::absolute(name) : Path();
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const Path candidate = Path(folder) / name;
+    if (can_run(candidate)) return std::filesystem::absolute(candidate);
+  }
+  return {};
+}
+
 }  // namespace thermal

@@ -85,4 +85,7 @@ struct Output {
 [[nodiscard]] Output run_program(const std::vector<std::string>& argv, std::string_view input = {},
                                  const std::function<void(const std::string& line)>& take_event = {});
 
+/// Full path of a program: a path as given, or the first of that name on $PATH. Empty if no executable is found.
+[[nodiscard]] Path find_program(const std::string& name);
+
 }  // namespace thermal

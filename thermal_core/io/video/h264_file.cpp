@@ -17,6 +17,9 @@ extern "C" {
 namespace thermal {
 namespace {
 
+/// Keeps the encoder's messages below any level that FFmpeg prints; an exception reports what goes wrong.
+constexpr int kSilent = 100;
+
 /// H.264 stores colour at half size, so sides are even; a picture of odd size shows its edge twice.
 int even(int size_px) { return size_px + size_px % 2; }
 
@@ -70,6 +73,7 @@ struct H264File::Impl {
     const AVCodec* codec = avcodec_find_encoder_by_name("libx264");
     encoder.reset(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
     if (!encoder) throw IoError(fmt::format("cannot write {}: FFmpeg has no libx264", file.string()));
+    encoder->log_level_offset = kSilent;
     encoder->width = even(settings.width_px);
     encoder->height = even(settings.height_px);
     encoder->pix_fmt = AV_PIX_FMT_YUV420P;  // what every browser plays
@@ -119,7 +123,6 @@ struct H264File::Impl {
 };
 
 H264File::H264File(const Path& file, const H264Settings& settings) : impl_(std::make_unique<Impl>()) {
-  av_log_set_level(AV_LOG_QUIET);  // an exception reports what goes wrong
   impl_->file = file;
   impl_->settings = settings;
   impl_->open_file();
@@ -143,5 +146,7 @@ void H264File::close() {
   impl_->check(av_write_trailer(impl_->format.get()));
   impl_->check(avio_closep(&impl_->format->pb));
 }
+
+void silence_ffmpeg() noexcept { av_log_set_level(AV_LOG_QUIET); }
 
 }  // namespace thermal

@@ -49,4 +49,8 @@ class H264File {
   std::unique_ptr<Impl> impl_;
 };
 
+/// For programs, since it changes the whole process: FFmpeg prints no messages of its own from here on. Exceptions
+/// report what goes wrong. Without it, the writer of MP4 files prints a line for each streamable file.
+void silence_ffmpeg() noexcept;
+
 }  // namespace thermal

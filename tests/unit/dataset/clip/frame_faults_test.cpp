@@ -2,6 +2,7 @@
 
 #include "io/config/materials.h"
 #include "io/manifest_file.h"
+#include "support/assets.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_clip.h"
@@ -26,9 +27,8 @@ TEST_CASE("A clip without any good frame is reported with its first fault and th
 TEST_CASE("A clip can be remade once any of its skipped frames can be converted") {
   const TemporaryFolder folder;
   const Path passes = tiny_clip::write(folder / "passes", "a");
-  const ClipPasses clip = {.manifest = read_manifest(passes / "manifest.json", VELDT_SOURCE_DIR),
-                           .folder = passes};
-  const MaterialLibrary materials = read_materials(VELDT_SOURCE_DIR);
+  const ClipPasses clip = {.manifest = read_manifest(passes / "manifest.json", kAssets), .folder = passes};
+  const MaterialLibrary materials = read_materials(kAssets);
   const auto can = [&](std::initializer_list<int> frames) {
     std::vector<SkippedFrame> skipped;
     for (const int frame : frames) skipped.push_back({.frame_index = frame, .file = "", .reason = ""});

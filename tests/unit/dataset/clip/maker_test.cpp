@@ -7,6 +7,7 @@
 #include "io/config/materials.h"
 #include "io/image/png.h"
 #include "io/manifest_file.h"
+#include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
@@ -22,32 +23,31 @@ namespace {
 struct Workplace {
   TemporaryFolder folder;
   Path passes = tiny_clip::write(folder / "passes", "a");
-  Layout layout{folder / "dataset"};
+  Path clip = folder / "clip";  ///< where task() makes it
 
   [[nodiscard]] ClipPasses rendered() const {
-    return {.manifest = read_manifest(passes / "manifest.json", VELDT_SOURCE_DIR), .folder = passes};
+    return {.manifest = read_manifest(passes / "manifest.json", kAssets), .folder = passes};
   }
-  /// For a dataset in a folder other than `layout`, if one is given.
-  [[nodiscard]] ClipTask task(const std::string& dataset = "dataset") const {
+  [[nodiscard]] ClipTask task(const std::string& made_in = "clip") const {
     ClipTask task;
     task.clip.id = "a";
     task.clip.frames = tiny_clip::kFrames;
-    task.layout = {folder / dataset};
+    task.folder = folder / made_in;
     return task;
   }
   [[nodiscard]] ClipRecord make(const ClipTask& task, const ClipHooks& hooks = {}) const {
-    return make_clip(rendered(), task, read_materials(VELDT_SOURCE_DIR), hooks);
+    return make_clip(rendered(), task, read_materials(kAssets), hooks);
   }
   [[nodiscard]] ClipRecord make(const ClipHooks& hooks = {}) const { return make(task(), hooks); }
   [[nodiscard]] std::vector<ClipRecord> make_all(const std::vector<ClipTask>& tasks) const {
-    return make_clips(rendered(), tasks, read_materials(VELDT_SOURCE_DIR), {});
+    return make_clips(rendered(), tasks, read_materials(kAssets), {});
   }
   /// The same, skipping bad frames.
   [[nodiscard]] std::vector<ClipRecord> make_without_bad(const std::vector<ClipTask>& tasks,
                                                          const ClipHooks& hooks = {}) const {
     ClipPasses lenient = rendered();
     lenient.bad_frames = BadFrames::skip;
-    return make_clips(lenient, tasks, read_materials(VELDT_SOURCE_DIR), hooks);
+    return make_clips(lenient, tasks, read_materials(kAssets), hooks);
   }
   [[nodiscard]] Path frame(int number) const { return passes / tiny_clip::file_name(number); }
   void remove(int number) const { std::filesystem::remove(frame(number)); }
@@ -56,9 +56,6 @@ struct Workplace {
     ExrChannels planes = tiny_clip::planes(number);
     planes.at("Scene.IndexOB.X")[41] = 99;
     write_exr(frame(number), tiny_clip::kWidth, tiny_clip::kHeight, planes);
-  }
-  [[nodiscard]] bool has_anything_of_the_clip() const {
-    return std::filesystem::exists(layout.clip("a")) || std::filesystem::exists(layout.unfinished_clip("a"));
   }
 };
 
@@ -77,30 +74,26 @@ TEST_CASE(
   CHECK(record.files.size() == 2 * 3 + 3);
   for (const auto& [name, sum] : record.files) {
     CAPTURE(name);
-    CHECK(std::filesystem::exists(place.layout.clip("a") / name));
+    CHECK(std::filesystem::exists(place.clip / name));
     CHECK(sum.size() == 64);
   }
-  CHECK(to_json(read_clip_record(place.layout.clip("a") / "clip.json")) == to_json(record));
-  CHECK_FALSE(std::filesystem::exists(place.layout.unfinished_clip("a")));
+  CHECK(to_json(read_clip_record(place.clip / "clip.json")) == to_json(record));
 }
 
 TEST_CASE("Pictures have the camera's size, and the elephant is warmer than the ground") {
   const Workplace place;
   (void)place.make();
-  const auto ir16 = read_png16(place.layout.clip("a") / "ir16/000000.png");
+  const auto ir16 = read_png16(place.clip / "ir16/000000.png");
   CHECK(ir16.width_px() == tiny_clip::kWidth);
   CHECK(ir16.height_px() == tiny_clip::kHeight);
   CHECK(ir16.at(17, 14) > ir16.at(5, 5) + 300);  // 290 K against 278 K, of .01 K each
-  CHECK(read_png8(place.layout.clip("a") / "ir8/000000.png").width_px() == tiny_clip::kWidth);
+  CHECK(read_png8(place.clip / "ir8/000000.png").width_px() == tiny_clip::kWidth);
 }
 
 TEST_CASE("A clip made twice has the same pixels, with one thread or two") {
-  const auto record_with = [](int threads) {
-    const ThreadLimit limit(threads);
-    return Workplace().make();
-  };
-  const ClipRecord once = record_with(1);
-  const ClipRecord twice = record_with(2);
+  const auto record = [] { return Workplace().make(); };
+  const ClipRecord once = with_threads(1, record);
+  const ClipRecord twice = with_threads(2, record);
   CHECK(once.pixels_sha256 == twice.pixels_sha256);
   for (const auto& [name, sum] : once.files) {
     if (name == "preview.mp4") continue;  // lossy, and the encoder's own
@@ -136,7 +129,6 @@ TEST_CASE("A cancelled clip does not exist") {
   int asked = 0;
   hooks.cancelled = [&] { return ++asked == 3; };
   CHECK_THROWS_AS(place.make(hooks), Cancelled);
-  CHECK_FALSE(place.has_anything_of_the_clip());
 }
 
 TEST_CASE("A clip with a missing frame does not exist, and the file is named") {
@@ -144,7 +136,6 @@ TEST_CASE("A clip with a missing frame does not exist, and the file is named") {
   place.remove(2);
   CHECK(message_of<IoError>([&] { (void)place.make(); }) ==
         fmt::format("cannot read {}: no such file", place.frame(2).string()));
-  CHECK_FALSE(place.has_anything_of_the_clip());
 }
 
 TEST_CASE("A frame with an index missing from the manifest is named") {
@@ -178,20 +169,19 @@ TEST_CASE("A clip skips its bad frames: their numbers stay unused, and its recor
   CHECK(record.frames == 2);
   CHECK(record.files.size() == 2 * 2 + 3);
   CHECK(record.files.contains("ir16/000002.png"));
-  CHECK_FALSE(std::filesystem::exists(place.layout.clip("a") / "ir8/000001.png"));
-  const Json labels = read_json(place.layout.clip("a") / "labels.json");
+  CHECK_FALSE(std::filesystem::exists(place.clip / "ir8/000001.png"));
+  const Json labels = read_json(place.clip / "labels.json");
   CHECK(labels["images"].size() == 2);
   CHECK(labels["images"][1]["id"] == 3);
   CHECK(labels["images"][1]["frame_index"] == 2);
-  CHECK(read_clip_record(place.layout.clip("a") / "clip.json").skipped == record.skipped);
+  CHECK(read_clip_record(place.clip / "clip.json").skipped == record.skipped);
 }
 
 TEST_CASE("Pictures of the other frames do not depend on threads, nor on why one is skipped") {
   const auto record_with = [](int threads, bool missing) {
-    const ThreadLimit limit(threads);
     const Workplace place;
     missing ? place.remove(1) : place.put_unknown_index(1);
-    return place.make_without_bad({place.task()}).front();
+    return with_threads(threads, [&place] { return place.make_without_bad({place.task()}).front(); });
   };
   const ClipRecord once = record_with(1, true);
   const ClipRecord twice = record_with(2, true);
@@ -214,13 +204,12 @@ TEST_CASE("A bad frame is skipped in all tasks") {
   }
 }
 
-TEST_CASE("A clip without any good frame does not exist; the first is named, and the number of others") {
+TEST_CASE("A clip without any good frame is a fault; the first is named, and the number of others") {
   const Workplace place;
   for (int frame = 0; frame < tiny_clip::kFrames; ++frame) place.remove(frame);
   CHECK(message_of<DataError>([&] { (void)place.make_without_bad({place.task()}); }) ==
         fmt::format("cannot read {}: no such file; its 2 other frames cannot be converted either",
                     place.frame(0).string()));
-  CHECK_FALSE(place.has_anything_of_the_clip());
 }
 
 TEST_CASE("Faults that are not a frame's are not skipped") {
@@ -229,12 +218,10 @@ TEST_CASE("Faults that are not a frame's are not skipped") {
   hooks.wait_for_frame = [](int) { throw TryAgainError("no room"); };
   CHECK(message_of<TryAgainError>([&] { (void)place.make_without_bad({place.task()}, hooks); }) == "no room");
   hooks.wait_for_frame = [&](int) {  // a folder in the way of the first picture
-    make_folder(place.layout.unfinished_clip("a") / "ir8/000000.png");
+    make_folder(place.clip / "ir8/000000.png");
   };
   CHECK(message_of<IoError>([&] { (void)place.make_without_bad({place.task()}, hooks); }) ==
-        fmt::format("cannot write {}: File exists",
-                    (place.layout.unfinished_clip("a") / "ir8/000000.png").string()));
-  CHECK_FALSE(place.has_anything_of_the_clip());
+        fmt::format("cannot write {}: File exists", (place.clip / "ir8/000000.png").string()));
 }
 
 TEST_CASE("A picture larger than the limit is refused before memory of that size is allocated") {
@@ -243,20 +230,18 @@ TEST_CASE("A picture larger than the limit is refused before memory of that size
   passes.manifest.camera.width_px = 100'000;
   passes.manifest.camera.height_px = 100'000;
   passes.manifest.supersample = 16;
-  CHECK(message_of<DataError>([&] {
-          (void)make_clip(passes, place.task(), read_materials(VELDT_SOURCE_DIR), {});
-        }) == fmt::format("{}: size of the passes = 1600000 x 1600000 px; expected at most 256000000 pixels "
-                          "(--max-megapixels)",
-                          place.passes.string()));
-  CHECK_FALSE(place.has_anything_of_the_clip());
+  CHECK(message_of<DataError>([&] { (void)make_clip(passes, place.task(), read_materials(kAssets), {}); }) ==
+        fmt::format("{}: size of the passes = 1600000 x 1600000 px; expected at most 256000000 pixels "
+                    "(--max-megapixels)",
+                    place.passes.string()));
 }
 
 TEST_CASE("Leftovers of an earlier run are removed") {
   const Workplace place;
-  make_folder(place.layout.unfinished_clip("a") / "ir8");
-  write_file(place.layout.unfinished_clip("a") / "ir8/000099.png", {});
+  make_folder(place.clip / "ir8");
+  write_file(place.clip / "ir8/000099.png", {});
   const ClipRecord record = place.make();
-  CHECK_FALSE(std::filesystem::exists(place.layout.clip("a") / "ir8/000099.png"));
+  CHECK_FALSE(std::filesystem::exists(place.clip / "ir8/000099.png"));
   CHECK(record.pixels_sha256 == Workplace().make().pixels_sha256);
 }
 
@@ -279,19 +264,19 @@ TEST_CASE("Tasks made together give the same files as each alone, with one threa
   const Workplace together;
   const Workplace alone;
   const std::vector<ClipTask> tasks = three_tasks(together);
-  const ThreadLimit limit(GENERATE(1, 2));
-  const std::vector<ClipRecord> records = together.make_all(tasks);
+  const std::vector<ClipRecord> records =
+      with_threads(GENERATE(1, 2), [&] { return together.make_all(tasks); });
   REQUIRE(records.size() == 3);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     CAPTURE(i);
     ClipTask task = tasks[i];
-    task.layout = alone.layout;
+    task.folder = alone.clip;
     Json expected = to_json(alone.make(task));
     Json found = to_json(records[i]);
     expected["files"].erase("preview.mp4");  // lossy, and the encoder's own
     found["files"].erase("preview.mp4");
     CHECK(found == expected);
-    const Path folder = tasks[i].layout.clip("a");
+    const Path folder = tasks[i].folder;
     CHECK(to_json(read_clip_record(folder / "clip.json")) == to_json(records[i]));
     for (const auto& [name, sum] : records[i].files) CHECK(std::filesystem::exists(folder / name));
   }
@@ -306,17 +291,17 @@ TEST_CASE("A frame is waited for and reported once, however many tasks there are
   ClipHooks hooks;
   hooks.wait_for_frame = [&](int frame) { CHECK(frame == waited++); };
   hooks.frame_done = [&] { ++done; };
-  (void)make_clips(place.rendered(), three_tasks(place), read_materials(VELDT_SOURCE_DIR), hooks);
+  (void)make_clips(place.rendered(), three_tasks(place), read_materials(kAssets), hooks);
   CHECK(waited == 3);
   CHECK(done == 3);
 }
 
-TEST_CASE("With a missing frame no task has its clip") {
+TEST_CASE("With a missing frame no task's clip is complete") {
   const Workplace place;
   std::filesystem::remove(place.passes / tiny_clip::file_name(2));
   const std::vector<ClipTask> tasks = three_tasks(place);
   CHECK_THROWS_AS(place.make_all(tasks), IoError);
-  for (const ClipTask& task : tasks) CHECK_FALSE(std::filesystem::exists(task.layout.clip("a")));
+  for (const ClipTask& task : tasks) CHECK_FALSE(std::filesystem::exists(task.folder / "clip.json"));
 }
 
 TEST_CASE("An impossible request of a task is reported with its variant") {

@@ -5,6 +5,7 @@
 #include "io/config/materials.h"
 #include "io/manifest_file.h"
 #include "io/pass_reader.h"
+#include "support/assets.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_clip.h"
@@ -19,8 +20,8 @@ namespace {
 struct Clip {
   TemporaryFolder folder;
   Path passes = tiny_clip::write(folder / "passes", "a");
-  Manifest manifest = read_manifest(passes / "manifest.json", VELDT_SOURCE_DIR);
-  MaterialLibrary materials = read_materials(VELDT_SOURCE_DIR);
+  Manifest manifest = read_manifest(passes / "manifest.json", kAssets);
+  MaterialLibrary materials = read_materials(kAssets);
   ClipScenes scenes{manifest, materials};
 };
 

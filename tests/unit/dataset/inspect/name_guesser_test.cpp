@@ -1,5 +1,6 @@
 #include "dataset/inspect/name_guesser.h"
 
+#include "support/assets.h"
 #include "support/catch.h"
 
 namespace name_guesser_test {
@@ -26,7 +27,7 @@ TEST_CASE("words of a name") {
 }
 
 TEST_CASE("things are recognised by their names") {
-  const thermal::NameGuesser known(VELDT_SOURCE_DIR);
+  const thermal::NameGuesser known(kAssets);
   CHECK(known.find("Elephant.001") == thing(ObjectClass::actor, "elephant", "elephant", "elephant"));
   CHECK(known.find("two zebras") == thing(ObjectClass::actor, "zebra", "zebra", "zebra"));
   CHECK(known.find("Poacher_A") == thing(ObjectClass::actor, "human", "human", "human"));
@@ -41,7 +42,7 @@ TEST_CASE("things are recognised by their names") {
 }
 
 TEST_CASE("two words take precedence over one, and the first over the second") {
-  const thermal::NameGuesser known(VELDT_SOURCE_DIR);
+  const thermal::NameGuesser known(kAssets);
   CHECK(known.find("Elephant Grass 3") == thing(ObjectClass::plant, "elephant_grass"));
   CHECK(known.find("dry termite mound") == thing(ObjectClass::plant, "termite_mound"));
   CHECK(known.find("human on elephant")->material == "human");

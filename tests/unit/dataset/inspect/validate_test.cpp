@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "dataset/run/convert.h"
+#include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
@@ -20,8 +21,7 @@ using Faults = std::vector<std::string>;
 /// A dataset of two clips on disk.
 struct Dataset {
   Dataset() {
-    ConvertOptions options;
-    options.home = VELDT_SOURCE_DIR;
+    ConvertOptions options{.assets = kAssets};
     options.passes = {tiny_clip::write(folder / "passes", "a"), tiny_clip::write(folder / "passes", "b")};
     options.out = root;
     REQUIRE(convert(options, {}).front().run.complete);

@@ -23,7 +23,7 @@ std::vector<RenderJob::Task> idle_tasks(const TemporaryFolder& folder, const Han
   std::vector<RenderJob::Task> tasks;
   for (const auto& hand : hands)
     tasks.push_back({.blender = program,
-                     .home = folder.path(),
+                     .assets = Assets(folder.path()),
                      .plan = {},
                      .passes = folder.path(),
                      .log = folder / (hand.front() + ".log"),
@@ -66,7 +66,7 @@ TEST_CASE("An exception in one task stops all, and is the one that is thrown") {
     }
   };
   CHECK(message_of<DataError>([&] {
-          run_workers(idle_tasks(folder, {{"a"}, {"b"}, {"c"}}), work, {});
+          run_workers(idle_tasks(folder, {{"a"}, {"b"}, {"c"}}), 0, work, {});
         }) == "of b");
   CHECK(stopped == 2);
 }
@@ -76,7 +76,7 @@ TEST_CASE("All tasks stop on request") {
   const ClipWork work = [](const std::string& clip, RenderJob& job, const std::function<bool()>& cancelled) {
     job.wait_for_frame(clip, 0, cancelled);
   };
-  CHECK_THROWS_AS(run_workers(idle_tasks(folder, {{"a"}, {"b"}}), work, [] { return true; }), Cancelled);
+  CHECK_THROWS_AS(run_workers(idle_tasks(folder, {{"a"}, {"b"}}), 0, work, [] { return true; }), Cancelled);
 }
 
 }  // namespace worker_pool_test

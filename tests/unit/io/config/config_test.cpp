@@ -1,6 +1,7 @@
 #include "io/config/config.h"
 
 #include "base/error.h"
+#include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 
@@ -26,7 +27,7 @@ Json with_flight() {
   return document;
 }
 
-Config resolved(const Json& document) { return resolve_config(document, "night.json", VELDT_SOURCE_DIR); }
+Config resolved(const Json& document) { return resolve_config(document, "night.json", kAssets); }
 
 std::string fault_in(const Json& document) {
   return message_of<ConfigError>([&] { (void)resolved(document); });

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/config/config.h"
+#include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
@@ -21,7 +22,7 @@ Json config_with(const std::string& distortion, const std::string& render = "{}"
                     "");
 }
 
-Config resolved(const Json& document) { return resolve_config(document, "night.json", VELDT_SOURCE_DIR); }
+Config resolved(const Json& document) { return resolve_config(document, "night.json", kAssets); }
 
 std::string fault_in(const Json& document) {
   return message_of<ConfigError>([&] { (void)resolved(document); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
@@ -21,6 +22,7 @@ struct Home {
     std::filesystem::copy(Path(VELDT_SOURCE_DIR) / "configs/schema", folder / "configs/schema");
     file = folder.file("assets/materials/clay.json", content);
   }
+  [[nodiscard]] Assets assets() const { return Assets(folder.path()); }
   TemporaryFolder folder;
   Path file;
 };
@@ -40,7 +42,7 @@ TEST_CASE("The materials in assets contain Table 1") {
       {"acacia", 273, 293, .952},   {"human", 292, 301, .985},     {"elephant", 290, 298, .96},
       {"zebra", 298, 307, .98},     {"rhinoceros", 291, 299, .96}, {"hippopotamus", 290, 298, .96},
       {"crocodile", 295, 303, .96}, {"water", 273, 293, .96},      {"truck", 273, 293, .80}};
-  const MaterialLibrary library = read_materials(VELDT_SOURCE_DIR);
+  const MaterialLibrary library = read_materials(kAssets);
   for (const Row& row : table_1) {
     CAPTURE(row.name);
     const Material& material = library.find(row.name, "test");
@@ -57,17 +59,17 @@ TEST_CASE("The materials in assets contain Table 1") {
 
 TEST_CASE("A material's name is its file's") {
   const Home home(R"({"emissivity": 0.9, "winter_k": 270, "summer_k": 290, "source": "a test"})");
-  const MaterialLibrary library = read_materials(home.folder.path());
+  const MaterialLibrary library = read_materials(home.assets());
   CHECK(library.names() == std::vector<std::string>{"clay"});
   CHECK(library.find("clay", "test").winter_k == 270);
 }
 
 TEST_CASE("A fault in a material names its file") {
   const Home too_bright(R"({"emissivity": 1.2, "winter_k": 270, "summer_k": 290, "source": "a test"})");
-  CHECK_THAT(message_of<ConfigError>([&] { (void)read_materials(too_bright.folder.path()); }),
+  CHECK_THAT(message_of<ConfigError>([&] { (void)read_materials(too_bright.assets()); }),
              StartsWith(too_bright.file.string() + ": emissivity = 1.2; expected ") && EndsWith("at most 1"));
   const Home no_source(R"({"emissivity": 0.9, "winter_k": 270, "summer_k": 290})");
-  CHECK(message_of<ConfigError>([&] { (void)read_materials(no_source.folder.path()); }) ==
+  CHECK(message_of<ConfigError>([&] { (void)read_materials(no_source.assets()); }) ==
         no_source.file.string() + ": source is missing; expected a value");
 }
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "io/config/config.h"
 #include "io/json/schema.h"
+#include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
@@ -25,15 +26,13 @@ Json with_sensor(const std::string& sensor) {
                     "");
 }
 
-Json config_schema() {
-  return read_json(Path(VELDT_SOURCE_DIR) / "configs" / "schema" / "config.schema.json");
-}
+Json config_schema() { return kAssets.schema("config"); }
 
-Config resolved(const Json& document) { return resolve_config(document, "night.json", VELDT_SOURCE_DIR); }
+Config resolved(const Json& document) { return resolve_config(document, "night.json", kAssets); }
 
 std::vector<Path> presets() {
   std::vector<Path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(Path(VELDT_SOURCE_DIR) / "assets" / "sensors"))
+  for (const auto& entry : std::filesystem::directory_iterator(kAssets.folder("sensors")))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   return files;
 }
@@ -64,7 +63,7 @@ double field_of_view_deg(double size_px, const Json& camera) {
 TEST_CASE("Defaults of schema and library are the same") {
   Json document = with_sensor("{}");
   REQUIRE(check_and_fill(document, config_schema()).empty());
-  CHECK(same_figures(read_sensor(document, "night.json", VELDT_SOURCE_DIR), SensorParameters()));
+  CHECK(same_figures(read_sensor(document, "night.json", kAssets), SensorParameters()));
 }
 
 TEST_CASE("Every value of a config's sensor reaches the library") {
@@ -73,12 +72,12 @@ TEST_CASE("Every value of a config's sensor reaches the library") {
   const auto changes_something = [](const Json::json_pointer& key, const Json& rule) {
     Json document = with_sensor("{}");
     REQUIRE(check_and_fill(document, config_schema()).empty());
-    const SensorParameters before = read_sensor(document, "", VELDT_SOURCE_DIR);
+    const SensorParameters before = read_sensor(document, "", kAssets);
     Json& value = document["sensor"][key];
     if (value.is_number()) value = value.get<double>() + 0.25;
     if (value.is_boolean()) value = !value.get<bool>();
     if (value.is_string()) value = rule["enum"].back();
-    return !same_figures(read_sensor(document, "", VELDT_SOURCE_DIR), before);
+    return !same_figures(read_sensor(document, "", kAssets), before);
   };
   for (const char* key : {"radiance", "netd_mk", "netd_f_number", "time_constant_s", "kelvin_per_count"}) {
     CAPTURE(key);
@@ -167,7 +166,7 @@ TEST_CASE("Faults of a preset are reported with its file") {
     const Path file = home.file("assets/sensors/airsim_w.json", preset);
     const std::string message = message_of<ConfigError>([&] {
       Json document = with_sensor("{}");
-      apply_preset(document, config_schema(), "night.json", home.path());
+      apply_preset(document, config_schema(), "night.json", Assets(home.path()));
     });
     REQUIRE(message.starts_with(file.string() + ": "));
     return message.substr(file.string().size() + 2);

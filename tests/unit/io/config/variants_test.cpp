@@ -1,6 +1,7 @@
 #include "io/config/variants.h"
 
 #include "base/error.h"
+#include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 
@@ -11,7 +12,7 @@ using namespace thermal;
 namespace {
 
 std::vector<Variant> variants_in(const std::string& text) {
-  return read_variants(parse_json(text, "list.json"), "list.json", VELDT_SOURCE_DIR);
+  return read_variants(parse_json(text, "list.json"), "list.json", kAssets);
 }
 
 std::string fault_in(const std::string& text) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "io/system/resources.h"
+#include "support/assets.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 
@@ -13,7 +13,7 @@ using namespace thermal;
 
 namespace {
 
-Path font() { return find_home() / "assets/fonts/B612-Regular.otf"; }
+Path font() { return kAssets.folder("fonts") / "B612-Regular.otf"; }
 
 }  // namespace
 
@@ -41,7 +41,7 @@ TEST_CASE("A character that is not ASCII shows as a question mark, and no text a
 TEST_CASE("A font that cannot be used is named") {
   CHECK(message_of<IoError>([] { (void)draw_text("none.otf", "H", 40); }) ==
         "cannot read none.otf: no such file");
-  const Path not_a_font = find_home() / "assets/fonts/LICENSE";
+  const Path not_a_font = kAssets.folder("fonts") / "LICENSE";
   CHECK(message_of<IoError>([&] {
           (void)draw_text(not_a_font, "H", 40);
         }).starts_with("cannot use the font " + not_a_font.string() + ": "));

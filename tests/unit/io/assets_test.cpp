@@ -1,13 +1,14 @@
-#include "io/system/resources.h"
+#include "io/assets.h"
 
 #include <cstdlib>
 
 #include "base/error.h"
+#include "io/system/child_process.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
-namespace resources_test {
+namespace assets_test {
 
 using namespace thermal;
 
@@ -61,16 +62,16 @@ TEST_CASE("A program with a folder is that one or none") {
 TEST_CASE("The home is VELDT_HOME, if that is one") {
   const TemporaryFolder folder;
   const Environment home("VELDT_HOME", folder.path().string());
-  CHECK(message_of<IoError>([] { (void)find_home(); }) ==
+  CHECK(message_of<IoError>([] { (void)Assets::find(); }) ==
         "VELDT_HOME = \"" + folder.path().string() + "\"; expected a folder with assets and blender_scripts");
   std::filesystem::create_directory(folder / "assets");
   std::filesystem::create_directory(folder / "blender_scripts");
-  CHECK(find_home() == folder.path());
+  CHECK(Assets::find().home() == folder.path());
 }
 
 TEST_CASE("Without VELDT_HOME it is the checkout of the build") {
   const Environment home("VELDT_HOME", "");
-  CHECK(std::filesystem::equivalent(find_home(), VELDT_SOURCE_DIR));
+  CHECK(std::filesystem::equivalent(Assets::find().home(), VELDT_SOURCE_DIR));
 }
 
-}  // namespace resources_test
+}  // namespace assets_test

@@ -1,11 +1,9 @@
-#include "io/system/resources.h"
+#include "io/assets.h"
 
 #include <cstdlib>
-#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "base/error.h"
 
@@ -18,13 +16,6 @@ bool is_home(const Path& folder) {
   return std::filesystem::is_directory(folder / "assets", ignored) &&
          std::filesystem::is_directory(folder / "blender_scripts", ignored);
 }
-
-bool can_run(const Path& file) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0;
-}
-
-}  // namespace
 
 Path find_home() {
   if (const char* named = std::getenv("VELDT_HOME"); named != nullptr && *named != '\0') {
@@ -43,15 +34,12 @@ Path find_home() {
                             program.parent_path().string()));
 }
 
-Path find_program(const std::string& name) {
-  if (name.find('/') != std::string::npos) return can_run(name) ? std::filesystem::absolute(name) : Path();
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const Path candidate = Path(folder) / name;
-    if (can_run(candidate)) return std::filesystem::absolute(candidate);
-  }
-  return {};
+}  // namespace
+
+Assets Assets::find() { return Assets(find_home()); }
+
+Json Assets::schema(const std::string& name) const {
+  return read_json(home_ / "configs" / "schema" / (name + ".schema.json"));
 }
 
 }  // namespace thermal

@@ -1,0 +1,196 @@
+#include "dataset/run/transaction.h"
+
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+#include "support/temporary_folder.h"
+
+namespace transaction_test {
+
+using namespace thermal;
+
+namespace {
+
+Config two_clips() {
+  Config config;
+  config.name = "night";
+  config.clips = {{.id = "a"}, {.id = "b"}};
+  config.resolved = {{"name", "night"}, {"seed", 1}, {"sensor", {{"kelvin_per_count", 0.01}}}};
+  return config;
+}
+
+/// Makes the files of a clip without pictures, as ClipOutput does.
+ClipRecord make(const DatasetTransaction& transaction, const std::string& id, int frames = 2) {
+  ClipRecord record;
+  record.clip = id;
+  record.season = "winter";
+  record.frames = frames;
+  record.pixels_sha256 = "of " + id;
+  const Path folder = transaction.unfinished(id);
+  make_fresh_folder(folder);
+  const Json labels = {{"categories", Json::array()},
+                       {"videos", {{{"id", 1}, {"name", id}}}},
+                       {"images", Json::array()},
+                       {"annotations", Json::array()}};
+  write_file_atomically(folder / "clip.json", to_text(to_json(record)));
+  write_file_atomically(folder / "labels.json", to_text(labels));
+  return record;
+}
+
+struct Place {
+  TemporaryFolder folder;
+  Layout layout{folder / "set"};
+  Config config = two_clips();
+
+  /// One that has the whole folder.
+  [[nodiscard]] DatasetTransaction whole() const { return {layout, config, Json()}; }
+  /// One that has this clip alone.
+  [[nodiscard]] DatasetTransaction only(std::size_t place) const {
+    return {layout, config, Json(), {config.clips[place]}};
+  }
+  [[nodiscard]] Json document() const { return read_json(layout.dataset_json()); }
+  [[nodiscard]] std::string status(std::size_t place) const { return document()["clips"][place]["status"]; }
+  [[nodiscard]] bool is_there(const std::string& id) const {
+    return std::filesystem::exists(layout.clip(id));
+  }
+  [[nodiscard]] bool is_unfinished(const std::string& id) const {
+    return std::filesystem::exists(layout.unfinished_clip(id));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("A committed clip is in its place, and the closed dataset lists it") {
+  const Place place;
+  {
+    DatasetTransaction transaction = place.whole();
+    transaction.begin();
+    transaction.commit(make(transaction, "a"));
+    CHECK(place.is_there("a"));
+    CHECK_FALSE(place.is_unfinished("a"));
+    CHECK_FALSE(std::filesystem::exists(place.layout.annotations_json()));
+    transaction.commit(make(transaction, "b"));
+    transaction.close();
+  }
+  CHECK(place.document()["status"] == "complete");
+  CHECK(place.document().contains("annotations_sha256"));
+  CHECK(place.whole().index().recorded);
+}
+
+TEST_CASE("A clip made again replaces the one that is there") {
+  const Place place;
+  DatasetTransaction transaction = place.whole();
+  transaction.begin();
+  transaction.commit(make(transaction, "a", 2));
+  transaction.commit(make(transaction, "a", 3));
+  transaction.close();
+  CHECK(place.document()["frames"] == 3);
+  CHECK(read_clip_record(place.layout.clip("a") / "clip.json").frames == 3);
+}
+
+TEST_CASE("Nothing is left of a rejected clip but the reason, as one line of plain text") {
+  const Place place;
+  DatasetTransaction transaction = place.whole();
+  transaction.begin();
+  (void)make(transaction, "a");
+  transaction.reject("a", "no\nlight");
+  CHECK_FALSE(place.is_unfinished("a"));
+  transaction.close();
+  CHECK(place.document()["clips"][0] == Json{{"id", "a"}, {"status", "failed"}, {"reason", "no; light"}});
+  CHECK(place.status(1) == "pending");
+}
+
+TEST_CASE("A fault leaves what was committed, recorded, and nothing incomplete") {
+  const Place place;
+  try {
+    DatasetTransaction transaction = place.whole();
+    transaction.begin();
+    transaction.commit(make(transaction, "a"));
+    (void)make(transaction, "b");
+    throw Cancelled();
+  } catch (const Cancelled&) {
+  }
+  CHECK(place.is_there("a"));
+  CHECK_FALSE(place.is_unfinished("b"));
+  CHECK(place.document().contains("annotations_sha256"));
+  CHECK(place.whole().index().recorded);
+}
+
+TEST_CASE("A second fault does not hide the first") {
+  const Place place;
+  const auto run = [&place] {
+    DatasetTransaction transaction = place.whole();
+    transaction.begin();
+    transaction.commit(make(transaction, "a"));
+    std::filesystem::remove(place.layout.clip("a") / "labels.json");  // cannot be joined any more
+    throw DataError("the first");
+  };
+  CHECK(message_of<DataError>(run) == "the first");
+}
+
+TEST_CASE("Before it begins, a transaction changes nothing") {
+  const Place place;
+  { const DatasetTransaction transaction = place.whole(); }
+  CHECK_FALSE(place.layout.is_begun());
+  make_folder(place.layout.unfinished_clip("a"));
+  { const DatasetTransaction transaction = place.whole(); }
+  CHECK(place.is_unfinished("a"));
+}
+
+TEST_CASE("What a killed run left is found or removed when the next one begins") {
+  const Place place;
+  {
+    DatasetTransaction transaction = place.whole();
+    transaction.begin();
+    (void)make(transaction, "a");
+    std::filesystem::rename(place.layout.unfinished_clip("a"), place.layout.clip("a"));  // and not recorded
+    (void)make(transaction, "b");
+    std::filesystem::copy(place.layout.root, place.folder / "killed",
+                          std::filesystem::copy_options::recursive);
+  }
+  const Layout killed{place.folder / "killed"};
+  DatasetTransaction next(killed, place.config, Json());
+  CHECK(next.index().finished.contains("a"));
+  CHECK_FALSE(next.index().recorded);
+  CHECK(std::filesystem::exists(killed.unfinished_clip("b")));
+  next.begin();
+  CHECK_FALSE(std::filesystem::exists(killed.unfinished_clip("b")));
+  next.close();
+  CHECK(read_json(killed.dataset_json())["clips"][0]["status"] == "done");
+}
+
+TEST_CASE("Two runs have clips of one dataset at the same time, and each learns what the other made") {
+  const Place place;
+  DatasetTransaction one = place.only(0);
+  DatasetTransaction other = place.only(1);
+  one.begin();
+  other.begin();
+  (void)make(other, "b");
+  one.commit(make(one, "a"));
+  CHECK(place.is_unfinished("b"));  // not the first one's to remove
+  one.close();
+  CHECK(place.status(1) == "pending");
+  other.commit(make(other, "b"));
+  other.close();
+  CHECK(place.document()["status"] == "complete");
+  CHECK(read_json(place.layout.annotations_json())["videos"].size() == 2);
+}
+
+TEST_CASE("A folder, or a clip of it, belongs to one run") {
+  const Place place;
+  const DatasetTransaction one = place.only(0);
+  CHECK_THROWS_AS(place.only(0), TryAgainError);
+  CHECK_THROWS_AS(place.whole(), TryAgainError);
+}
+
+TEST_CASE("A link in place of the clips' folder is refused before anything is written") {
+  const Place place;
+  const TemporaryFolder elsewhere;
+  make_folder(place.layout.root);
+  std::filesystem::create_directory_symlink(elsewhere.path(), place.layout.clips());
+  DatasetTransaction transaction = place.whole();
+  CHECK_THROWS_AS(transaction.begin(), IoError);
+  CHECK_FALSE(place.layout.is_begun());
+}
+
+}  // namespace transaction_test
