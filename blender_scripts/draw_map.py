@@ -27,10 +27,10 @@ with reported_imports():
     import numpy as np
 
     from veldt.config import load
+    from veldt.images import write_rgb
     from veldt.land.road_plan import plan_road
     from veldt.land.terrain import Terrain, build_terrain
     from veldt.plants.density import plan_density
-    from veldt.png_files import rgb_png
     from veldt.preview.ground_picture import draw_ground, whole_place, window_round
 
 PLACE_PX, WINDOW_PX = 320, 640
@@ -59,7 +59,7 @@ def draw(config: dict, out: Path, points_m: np.ndarray) -> dict:
     areas = plan_density(terrain, settings, seed)
     answer = {"off_m": _off_m(terrain, points_m)}
     for name, (window, side_px) in views.items():
-        (out / f"{name}.png").write_bytes(rgb_png(draw_ground(terrain, areas, window, side_px)))
+        write_rgb(out / f"{name}.png", draw_ground(terrain, areas, window, side_px))
         answer[name] = asdict(window)
     return answer
 

@@ -1,6 +1,6 @@
 """How a failed script reaches the user: the exception's own last line, its place in these scripts, and a hint.
 
-This module imports nothing but Python's standard library, because it also reports that NumPy is missing.
+This module imports nothing but Python's standard library, because it also reports that others are missing.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from veldt.faults import ConfigError
 
 _TRY_AGAIN = 75
 _SCRIPTS = Path(__file__).resolve().parents[1]
+_MODULES = {"numpy": ("NumPy", "python3-numpy"), "OpenImageIO": ("OpenImageIO", "python3-openimageio")}
 
 
 @dataclass(frozen=True)
@@ -96,7 +97,9 @@ def _place(error: BaseException) -> str:
 
 
 def _hint(error: BaseException) -> str:
-    if not isinstance(error, ModuleNotFoundError) or (error.name or "").partition(".")[0] != "numpy":
+    module = (error.name or "").partition(".")[0] if isinstance(error, ModuleNotFoundError) else ""
+    if module not in _MODULES:
         return ""
+    name, package = _MODULES[module]
     version = f"{sys.version_info.major}.{sys.version_info.minor}"
-    return f"install NumPy for the Python {version} in {sys.prefix} (apt-get install python3-numpy)"
+    return f"install {name} for the Python {version} in {sys.prefix} (apt-get install {package})"

@@ -11,9 +11,9 @@ import bpy
 import numpy as np
 
 from veldt.bake.baked import BakedScene, BakedSheet, BakedTrack
+from veldt.blender_images import is_whole_png
 from veldt.camera import look
 from veldt.preview.colours import SKY, linear, surface_colour
-from veldt.png_files import is_whole
 from veldt.preview.views import INTRINSICS
 
 from . import compat
@@ -83,7 +83,7 @@ def _render(picture: Path) -> None:
         bpy.ops.render.render(write_still=True)
     except RuntimeError as error:  # its text ends with a line break
         raise OSError(f"{picture}: {str(error).strip()}") from error
-    if not is_whole(part):
+    if not is_whole_png(part):
         raise OSError(f"{picture}: Blender could not write all of it; is the disk full?")
     os.replace(part, picture)
 

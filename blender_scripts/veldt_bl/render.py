@@ -8,9 +8,8 @@ from pathlib import Path
 
 import bpy
 
+from veldt.blender_images import add_layer, is_whole_exr
 from veldt.camera import Intrinsics, pixel_aspect
-from veldt.exr_files import is_whole
-from veldt.exr_layers import add_layer
 from veldt.manifest import ACTOR_LAYER, LAYER, frame_file
 
 from . import compat
@@ -53,7 +52,7 @@ def first_missing(folder: Path, frames: int) -> int:
     """Index of the first missing or damaged frame, or `frames`; removes leftovers of killed renders."""
     for leftover in folder.glob(f"{_PART}*"):
         leftover.unlink()
-    return next((k for k in range(frames) if not is_whole(folder / frame_file(k))), frames)
+    return next((k for k in range(frames) if not is_whole_exr(folder / frame_file(k))), frames)
 
 
 def render_frames(
@@ -173,5 +172,5 @@ def _finish_frame(frame: Path, part: Path) -> None:
 
 
 def _check_whole(frame: Path, part: Path) -> None:
-    if not is_whole(part):
+    if not is_whole_exr(part):
         raise OSError(f"{frame}: Blender could not write all of it; is the disk full?")

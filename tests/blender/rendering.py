@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exr import read_planes
+from pictures import read_planes
 from veldt.config import ROOT
 
 BLENDER = os.environ.get("BLENDER") or shutil.which("blender") or "blender"

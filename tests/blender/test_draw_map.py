@@ -10,11 +10,12 @@ import pytest
 
 from scenes import tiny
 from veldt.config import ROOT
+from veldt.images import write_rgb
 from veldt.land.road_plan import plan_road
 from veldt.land.terrain import build_terrain
 from veldt.plants.density import plan_density
-from veldt.png_files import is_whole, rgb_png
 from veldt.preview.ground_picture import Window, draw_ground, whole_place, window_round
+from veldt.blender_images import is_whole_png
 
 
 def _rich(config: dict) -> None:
@@ -53,8 +54,8 @@ def _middles(window: Window, side_px: int):
 def test_a_png_is_what_others_read(tmp_path):
     colours = np.random.Generator(np.random.PCG64(3)).integers(0, 256, (5, 7, 3), np.uint8)
     file = tmp_path / "colours.png"
-    file.write_bytes(rgb_png(colours))
-    assert is_whole(file)
+    write_rgb(file, colours)
+    assert is_whole_png(file)
     assert np.array_equal(_read(file), colours)
 
 

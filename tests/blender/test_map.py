@@ -12,7 +12,7 @@ from veldt.preview.flat_shapes import band, box, disc, filled
 from veldt.preview.labels import Anchor, Label, place_labels
 from veldt.preview.legend import round_length_m
 from veldt.preview.map_layers import plan_map
-from veldt.png_files import is_whole
+from veldt.blender_images import is_whole_png
 from veldt.preview.stills import INTRINSICS, plan_stills
 
 
@@ -239,5 +239,5 @@ def test_a_png_file_is_whole_from_its_signature_to_its_end(tmp_path):
     file = tmp_path / "picture.png"
     for written, expected in ((content, True), (content[:-1], False), (content[1:], False), (b"", False)):
         file.write_bytes(written)
-        assert is_whole(file) == expected
-    assert not is_whole(tmp_path / "nowhere.png")
+        assert is_whole_png(file) == expected
+    assert not is_whole_png(tmp_path / "nowhere.png")

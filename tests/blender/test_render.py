@@ -8,7 +8,7 @@ import numpy as np
 from rendering import PLANES, Run, render
 from scenes import tiny
 from veldt import ids
-from veldt.exr_files import is_whole
+from veldt.blender_images import is_whole_exr
 
 CLIPS = ("down", "side")
 
@@ -181,5 +181,5 @@ def test_truncated_files_are_detected(full, tmp_path):
         zeroed,
     ):
         copy.write_bytes(content)
-        assert is_whole(copy) == (content is whole)
-    assert not is_whole(tmp_path / "none.exr")
+        assert is_whole_exr(copy) == (content is whole)
+    assert not is_whole_exr(tmp_path / "none.exr")

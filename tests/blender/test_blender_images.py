@@ -3,9 +3,8 @@
 import numpy as np
 import OpenImageIO
 
-from exr import read_planes
-from veldt.exr_files import is_whole
-from veldt.exr_layers import add_layer
+from pictures import read_planes
+from veldt.blender_images import add_layer, is_whole_exr
 
 
 def _write(path, names: list[str], pixels: np.ndarray) -> None:
@@ -30,7 +29,7 @@ def test_the_other_frames_channel_is_added_and_the_picture_left_out(tmp_path):
     add_layer(
         tmp_path / "a.exr", "Actors.IndexOB.X", tmp_path / "b.exr", "Scene.IndexOB.X", tmp_path / "c.exr"
     )
-    assert is_whole(tmp_path / "c.exr")
+    assert is_whole_exr(tmp_path / "c.exr")
     planes = read_planes(tmp_path / "c.exr")
     assert list(planes) == ["Actors.IndexOB.X", "Scene.Depth.Z", "Scene.IndexOB.X"]
     assert np.array_equal(planes["Actors.IndexOB.X"], other[..., 0])
