@@ -5,7 +5,7 @@ import pytest
 
 from veldt.flight.aircraft import Aircraft, aircraft_of
 from veldt.flight.courses import transect_course, waypoint_course, zigzag_course
-from veldt.flight.footprints import Footprint
+from veldt.flight.lanes import Footprint
 from veldt.flight.waypoints import Waypoint
 
 PLAN = {"area_m": [-60, -40, 60, 40], "heading_deg": 0, "lane_spacing_m": 20}

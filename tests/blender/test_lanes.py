@@ -7,8 +7,14 @@ from veldt.camera import Intrinsics, centred, look, project
 from veldt.faults import ConfigError
 from veldt.flight.aircraft import Aircraft
 from veldt.flight.courses import zigzag_course
-from veldt.flight.footprints import Footprint, footprint
-from veldt.flight.lanes import check_lane_spacing, half_extents_m, lane_spacing_m, round_of_lanes
+from veldt.flight.lanes import (
+    Footprint,
+    check_lane_spacing,
+    footprint,
+    half_extents_m,
+    lane_spacing_m,
+    round_of_lanes,
+)
 
 CAMERA = centred(640, 512, 1100.0)
 OFF_CENTRE = Intrinsics(640, 512, (1100.0, 1000.0), (250.0, 300.0))

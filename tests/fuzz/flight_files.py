@@ -28,7 +28,7 @@ MODULES = (
     "flight.qgc_commands",
     "flight.qgc_plans",
 )
-MODULES += ("flight.log_tables", "flight.logs")
+MODULES += ("flight.logs",)
 ODD = (
     None,
     True,

@@ -13,15 +13,13 @@ from ..groups.actors import Actor
 from ..land.terrain import Terrain
 from .aircraft import FIXED_WING, MULTIROTOR, aircraft_of
 from .courses import transect_course, waypoint_course, zigzag_course
-from .footprints import footprint
 from .gusts import WIND_M_S, gusts_m_s
-from .heights import follow_heights, look_ahead_s
-from .lanes import check_lane_spacing
+from .heights import follow_heights, look_ahead_s, slowed_times
+from .lanes import check_lane_spacing, footprint
 from .logs import Log
 from .poses import STEP_S, LoggedTrajectory, Poses, SteppedTrajectory, Trajectory
 from .pursuits import follow, orbit
-from .rides import Course, Ride
-from .slowing import slowed_times
+from .timetables import Course, Ride
 from .disturbance_response import lagged_angles, disturbance_response, tilt_rad, unsteadiness_rad
 from .waypoint_files import read_waypoints
 from .waypoints import Waypoint

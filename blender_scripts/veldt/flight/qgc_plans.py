@@ -9,11 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from ..faults import ConfigError
-from .places import SurfaceAt
 from .qgc_commands import ENDS, IGNORED, SPEED, Home, changed_speed, check_command, waypoint_of
 from .qgc_items import commands_of, part
 from .texts import checked_number, read_text, shown
-from .waypoints import Waypoint
+from .waypoints import SurfaceAt, Waypoint
 
 
 def read_plan(file: str, home_m, ground_m: SurfaceAt, where: str) -> list[Waypoint]:

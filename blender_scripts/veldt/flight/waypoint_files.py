@@ -6,9 +6,8 @@ from pathlib import Path
 
 from ..faults import ConfigError
 from .logs import Log, read_log
-from .places import SurfaceAt
 from .qgc_plans import read_plan
-from .waypoints import Waypoint
+from .waypoints import SurfaceAt, Waypoint
 
 
 def read_waypoints(file: str, home_m, ground_m: SurfaceAt, where: str) -> list[Waypoint] | Log:
