@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import ctypes
 import hashlib
 import json
 import shutil
-import signal
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,11 +15,11 @@ from .bake import arrays
 from .config import ROOT
 from .faults import ConfigError
 from .geometry.shapes import Mesh
+from .workers import die_with_parent
 
 FORMAT, VERSION = "veldt-model", 1
 _SCRIPT = ROOT / "blender_scripts" / "import_model.py"
 _CONFIG_FAULT = 2
-_PR_SET_PDEATHSIG = 1
 
 
 @dataclass(frozen=True)
@@ -77,7 +75,7 @@ class ModelMeshes:
             capture_output=True,
             text=True,
             check=False,
-            preexec_fn=_die_with_parent,
+            preexec_fn=die_with_parent,
         )
         answer = next((line for line in done.stdout.splitlines() if line.startswith("{")), None)
         if done.returncode == _CONFIG_FAULT and answer is not None:
@@ -104,7 +102,3 @@ def _key(data: dict) -> str:
     entry = {key: value for key, value in data["model"].items() if key != "path"}
     digest.update(json.dumps(entry, sort_keys=True).encode())
     return digest.hexdigest()[:32]
-
-
-def _die_with_parent() -> None:
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)

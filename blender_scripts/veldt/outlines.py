@@ -6,7 +6,6 @@ import numpy as np
 
 from . import assets
 from .land.covers import SOIL
-from .land.terrain import grid_axis
 from .world import WATER, World
 
 _MOST = 0.9  # share of the ground that plants of one species hide; beyond it, their crowns overlap
@@ -39,8 +38,7 @@ def _ground_names(world: World) -> list[str]:
 def _ground_shares(world: World) -> dict[str, float]:
     """Shares of the place without its plants: of water, and of soil and its covers, the first of which wins."""
     terrain = world.terrain
-    axis_m = grid_axis(terrain.size_m, terrain.heights_m.shape[0] - 1)
-    x_m, y_m = (grid.ravel() for grid in np.meshgrid(axis_m, axis_m))
+    x_m, y_m = (lines_m.ravel() for lines_m in terrain.grid())
     bare = np.ones(len(x_m), bool)
     shares = {}
     if terrain.waters:

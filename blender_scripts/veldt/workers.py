@@ -79,14 +79,15 @@ def _multiprocessing():
 
 
 def _send(act: Callable, writer) -> None:
-    _die_with_parent()
+    die_with_parent()
     try:
         writer.send(act())
     except Exception:  # pylint: disable=broad-exception-caught
         writer.close()  # the parent acts itself, where a traceback leads to the place
 
 
-def _die_with_parent() -> None:
+def die_with_parent() -> None:
+    """Have the kernel kill this process when the one that started it ends."""
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
@@ -101,7 +102,7 @@ def _by_workers(act: Callable[[Item], Result], items: Sequence[Item], processes:
 
 
 def _begin(act: Callable, items: Sequence) -> None:
-    _die_with_parent()
+    die_with_parent()
     _work.update(act=act, items=items)
 
 

@@ -66,7 +66,7 @@ def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
         "version": VERSION,
         "name": world.config["name"],
         "seed": world.config["seed"],
-        "camera": _camera(world),
+        "camera": world.config["camera"],
         "overscan_px": world.overscan_px,
         "materials": _materials(world),
         "objects": [*_place(world), *(_object(actor) for actor in world.actors)],
@@ -182,19 +182,6 @@ def _body(actor: Actor, model_mesh: ModelMesh, meshes: _Meshes) -> list[dict]:
         for bone in actor.body.bones
         if len(bone.mesh.triangles) > 0
     ]
-
-
-def _camera(world: World) -> dict:
-    intrinsics = world.intrinsics
-    (fx_px, fy_px), (cx_px, cy_px) = intrinsics.focal_px, intrinsics.centre_px
-    return {
-        "width_px": intrinsics.width_px,
-        "height_px": intrinsics.height_px,
-        "fx_px": fx_px,
-        "fy_px": fy_px,
-        "cx_px": cx_px,
-        "cy_px": cy_px,
-    }
 
 
 def _materials(world: World) -> list[dict]:

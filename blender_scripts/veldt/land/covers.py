@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..noise import fractal_noise
-from .terrain import Terrain, grid_axis
+from .terrain import Terrain
 
 SOIL = "soil"
 
@@ -59,8 +59,7 @@ def _rockiness(terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:
 
 def _plan_grass(terrain: Terrain, settings: dict, seed: int) -> Value | None:
     """Patches that cover grass_fraction of the grid's dry ground, except where the margin of the water is bare."""
-    axis_m = grid_axis(terrain.size_m, terrain.heights_m.shape[0] - 1)
-    x_m, y_m = np.meshgrid(axis_m, axis_m)
+    x_m, y_m = terrain.grid()
     patch_m = settings["grass_patch_m"]
     shore_m = terrain.shore_m(x_m, y_m, 2.0 * _BARE_MARGIN_M)
     can_grow = shore_m > _BARE_MARGIN_M

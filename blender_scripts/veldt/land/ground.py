@@ -10,7 +10,7 @@ import numpy as np
 from ..geometry.triangles import edges_of, split_edges
 from .covers import Layer
 from .roads import SHOULDER_M
-from .terrain import Terrain, grid_axis
+from .terrain import Terrain
 
 _BORDER_EDGE_M = 0.8  # triangles at a border are halved until their edges are about this short
 _COARSE = 1.5  # tolerance on that length: the diagonal of a square of 0.8 m passes
@@ -46,8 +46,7 @@ def build_ground(terrain: Terrain, layers: Sequence[Layer], bare: str) -> Ground
 def _grid_mesh(terrain: Terrain) -> tuple[np.ndarray, np.ndarray]:
     """Two triangles per cell, split along the diagonal that `Terrain.height_m` uses for interpolation."""
     lines = terrain.heights_m.shape[0]
-    axis_m = grid_axis(terrain.size_m, lines - 1)
-    x_m, y_m = np.meshgrid(axis_m, axis_m)
+    x_m, y_m = terrain.grid()
     heights_m = terrain.heights_m if terrain.road is None else terrain.road.cut(terrain.heights_m, x_m, y_m)
     points = np.stack([x_m, y_m, heights_m], axis=-1).reshape(-1, 3)
     corner = np.arange(lines * lines, dtype=np.int32).reshape(lines, lines)

@@ -9,7 +9,7 @@ import numpy as np
 
 from .covers import SOIL, Layer
 from .ground import GroundMesh, build_ground
-from .terrain import Terrain, grid_axis
+from .terrain import Terrain
 
 _WHOLE = 255  # of a share stored in a byte
 
@@ -30,7 +30,7 @@ class Ground:
 
 def lay_ground(terrain: Terrain, layers: Sequence[Layer]) -> Ground:
     """The ground of a terrain with its covers."""
-    x_m, y_m = grid(terrain)
+    x_m, y_m = terrain.grid()
     mesh = build_ground(terrain, layers, SOIL)
     return Ground(
         mesh=mesh,
@@ -38,12 +38,6 @@ def lay_ground(terrain: Terrain, layers: Sequence[Layer]) -> Ground:
         cover=_cover(terrain, mesh),
         shore_m=terrain.shore_m(x_m, y_m).astype("<f4") if terrain.waters else None,
     )
-
-
-def grid(terrain: Terrain) -> tuple[np.ndarray, np.ndarray]:
-    """x_m and y_m (n + 1, n + 1) where the lines of a terrain's grid cross."""
-    axis_m = grid_axis(terrain.size_m, terrain.heights_m.shape[0] - 1)
-    return tuple(np.meshgrid(axis_m, axis_m))
 
 
 def as_bytes(share: np.ndarray) -> np.ndarray:

@@ -45,6 +45,10 @@ class Terrain:
         heights = [self.heights_m, *([] if self.road is None else self.road.heights_m)]
         return min(float(h.min()) for h in heights), max(float(h.max()) for h in heights)
 
+    def grid(self) -> tuple[np.ndarray, np.ndarray]:
+        """x_m and y_m (n + 1, n + 1) where the lines of the grid cross."""
+        return _grid(self.size_m, self.heights_m.shape[0] - 1)
+
     def height_m(self, x_m, y_m) -> np.ndarray:
         """Height of the ground at (x, y); positions beyond the border are clamped to it.
 
@@ -88,7 +92,7 @@ def build_terrain(settings: dict, seed: int) -> Terrain:
     """The terrain of `scene.terrain`, without its road; cells are stretched slightly so that a whole number fits."""
     size_m = settings["size_m"]
     cells = max(1, round(size_m / settings["cell_m"]))
-    x_m, y_m = np.meshgrid(grid_axis(size_m, cells), grid_axis(size_m, cells))
+    x_m, y_m = _grid(size_m, cells)
     crag, land_m = _land(settings, seed, x_m, y_m)
     is_crag = np.zeros(land_m.shape, bool) if crag is None else crag.share(x_m, y_m) > 0
     basins = _plan_basins(settings, seed, np.where(is_crag, np.inf, land_m), x_m, y_m)
@@ -102,9 +106,9 @@ def build_terrain(settings: dict, seed: int) -> Terrain:
     return Terrain(seed, size_m, size_m / cells, land_m, smooth_m, tuple(waters), crag)
 
 
-def grid_axis(size_m: float, cells: int) -> np.ndarray:
-    """Coordinates of the grid lines, shape (cells + 1,)."""
-    return (np.arange(cells + 1) / cells - 0.5) * size_m
+def _grid(size_m: float, cells: int) -> tuple[np.ndarray, np.ndarray]:
+    axis_m = (np.arange(cells + 1) / cells - 0.5) * size_m
+    return tuple(np.meshgrid(axis_m, axis_m))
 
 
 def slope_deg(terrain: Terrain, x_m, y_m, step: float = _SLOPE_STEP_M) -> np.ndarray:
