@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "base/version.h"
-#include "bench/balance_suite.h"
 #include "bench/convert_suite.h"
 #include "bench/labels_suite.h"
 #include "bench/radiance_suite.h"
@@ -14,6 +13,9 @@
 #include "cli/output.h"
 #include "io/assets.h"
 #include "io/config/materials.h"
+#if VELDT_BALANCE
+#include "bench/balance_suite.h"
+#endif
 
 namespace veldt {
 namespace {
@@ -137,6 +139,15 @@ int show(const std::string& suite, const std::vector<Row>& rows, bool json) {
   return kDone;
 }
 
+std::vector<std::string> suite_names() {
+  std::vector<std::string> names = {"radiance", "sensor", "labels", "convert"};
+#if VELDT_BALANCE
+  names.emplace_back("balance");
+#endif
+  names.emplace_back("render");
+  return names;
+}
+
 struct BenchArguments {
   std::string suite = "radiance";
   std::string blender;
@@ -156,8 +167,10 @@ std::vector<thermal::RenderRow> measure_rendering(const BenchArguments& options,
 int run_bench(const BenchArguments& options, bool quiet) {
   if (options.suite == "sensor") return show(options.suite, thermal::run_sensor_suite(), options.json);
   if (options.suite == "labels") return show(options.suite, thermal::run_labels_suite(), options.json);
+#if VELDT_BALANCE
   if (options.suite == "balance")
     return show(options.suite, thermal::run_balance_suite(teller(quiet)), options.json);
+#endif
   if (options.suite == "render") return show(options.suite, measure_rendering(options, quiet), options.json);
   const thermal::MaterialLibrary materials = thermal::read_materials(thermal::Assets::find());
   if (options.suite == "convert")
@@ -172,7 +185,7 @@ void add_bench(CLI::App& app, Session& session) {
       add_command(app, session, "bench", "Speed and error of every kernel, measured on this machine");
   auto options = std::make_shared<BenchArguments>();
   command->add_option("--suite", options->suite, "What to measure")
-      ->check(CLI::IsMember({"radiance", "sensor", "labels", "convert", "balance", "render"}))
+      ->check(CLI::IsMember(suite_names()))
       ->capture_default_str();
   command
       ->add_option("--blender", options->blender,

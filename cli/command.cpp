@@ -19,10 +19,25 @@
 namespace veldt {
 namespace {
 
-/// The one table of commands, in the order help shows them.
+/// The one table of commands, in the order help shows them; CMake's options of these names leave some out.
 constexpr std::array kCommands = {
-    add_generate, add_plan,     add_render, add_convert, add_merge,  add_export,   add_inspect, add_validate,
-    add_balance,  add_evaluate, add_report, add_video,   add_budget, add_radiance, add_bench,   add_doctor};
+    add_generate, add_plan,     add_render, add_convert, add_merge, add_export, add_inspect, add_validate,
+#if VELDT_BALANCE
+    add_balance,
+#endif
+    add_evaluate,
+#if VELDT_REPORT
+    add_report,
+#endif
+#if VELDT_VIDEO
+    add_video,
+#endif
+    add_budget,   add_radiance,
+#if VELDT_BENCH
+    add_bench,
+#endif
+    add_doctor,
+};
 
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;

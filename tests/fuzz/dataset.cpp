@@ -9,12 +9,14 @@
 #include "base/version.h"
 #include "dataset/exports/export.h"
 #include "dataset/inspect/validate.h"
-#include "dataset/reports/report.h"
 #include "dataset/run/merge.h"
 #include "fuzz/targets.h"
 #include "io/json/file.h"
 #include "io/system/sha256.h"
 #include "support/assets.h"
+#if VELDT_REPORT
+#include "dataset/reports/report.h"
+#endif
 
 namespace {
 
@@ -125,7 +127,9 @@ void use(const Place& place) {
       options.out = place.at(thermal::format_name(format));
       thermal::export_dataset(options, {});
     });
+#if VELDT_REPORT
   tolerate([&] { thermal::write_report({.source = set, .out = place.at("page.html"), .assets = kAssets}); });
+#endif
 }
 
 }  // namespace
