@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The user's way first, with the packages of `./run demo` alone: build, two frames, `veldt doctor`. Then the linters and
-# all tests, which install more. One build of the library serves all: its warnings are errors from the start.
+# The user's way first, with the packages of `./run demo` alone: build, two frames, `veldt doctor`, installation. Then
+# the linters and all tests, which install more. One build of the library serves all: its warnings are errors from the
+# start.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export VELDT_WERROR=1
