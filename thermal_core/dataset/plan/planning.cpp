@@ -1,6 +1,7 @@
 #include "dataset/plan/planning.h"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <optional>
 #include <sstream>
@@ -37,6 +38,19 @@ void show_event(const std::string& line, const PlanOptions& options) {
 }
 
 /// Runs the script with additional arguments, and returns what it prints.
+/// For a planner that failed, but not because of the config.
+[[noreturn]] void throw_failure(const std::string& planner, const Output& output) {
+  constexpr int kDiskFull = 75;
+  std::string message = fmt::format("{} {}", planner, output.status.in_words());
+  if (output.status.signal == SIGKILL) {
+    message += fmt::format("; {}", kKilledHint);
+  } else if (const std::string why = printable(output.last_words()); !why.empty()) {
+    message += ": " + why;
+  }
+  if (output.status.is_killed() || output.status.code == kDiskFull) throw TryAgainError(message);
+  throw IoError(message);
+}
+
 std::string run_planning(const Config& config, const std::string& name, const PlanOptions& options,
                          const std::vector<std::string>& arguments) {
   const Path python = find_python();
@@ -56,15 +70,9 @@ std::string run_planning(const Config& config, const std::string& name, const Pl
   const Output output = run_program(command, to_text(planned_part(config)),
                                     [&options](const std::string& line) { show_event(line, options); });
   constexpr int kConfigFault = 2;
-  constexpr int kDiskFull = 75;
   if (output.status.signal == 0 && output.status.code == kConfigFault) throw_faults(output.error, name);
-  if (output.status.signal != 0 || output.status.code != 0) {
-    const std::string why = printable(output.last_words());
-    const std::string message = fmt::format("{} {} {}{}", python.string(), script.filename().string(),
-                                            output.status.in_words(), why.empty() ? "" : ": " + why);
-    if (output.status.code == kDiskFull) throw TryAgainError(message);
-    throw IoError(message);
-  }
+  if (output.status.signal != 0 || output.status.code != 0)
+    throw_failure(fmt::format("{} {}", python.string(), script.filename().string()), output);
   return output.out;
 }
 

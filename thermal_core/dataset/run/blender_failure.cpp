@@ -31,9 +31,6 @@ bool says_something(std::string_view line) {
   return line.find_first_not_of(" \t\r") != std::string_view::npos && line != "Blender quit";
 }
 
-/// A signal by which somebody, or the system out of memory, ends a program; others are crashes.
-bool is_kill(int signal) { return signal == SIGKILL || signal == SIGTERM || signal == SIGINT; }
-
 }  // namespace
 
 std::string ReportedFailure::in_words() const {
@@ -66,8 +63,8 @@ std::string unreported_end(const ExitStatus& status, const std::string& doing,
   const std::string how = status.signal == 0 && status.code == 0 ? "ended early" : status.in_words();
   std::string end = fmt::format("Blender {} while {}", how, doing);
   if (status.signal == SIGKILL)
-    return end + "; unless someone killed it, the machine may have run out of memory";
-  if (is_kill(status.signal)) return end;
+    return fmt::format("{}; {}", end, kKilledHint);
+  if (status.is_killed()) return end;
   return end + (last_words.empty() ? "; it printed nothing" : ": " + last_words);
 }
 

@@ -3,7 +3,7 @@
 namespace thermal {
 namespace {
 
-constexpr double kStartS = 50;           ///< planning, Blender, building the scene
+constexpr double kStartS = 35;           ///< planning, baking, Blender, loading the scene
 constexpr double kSecondsPerClip = 0.5;  ///< until the first frame
 constexpr double kSecondsPerFrame = 0.05;
 constexpr double kSecondsPerRay = 0.7e-6;  ///< of a pass pixel: traced, written, read and converted

@@ -179,6 +179,10 @@ ExitStatus to_status(int raw) {
 
 }  // namespace
 
+bool ExitStatus::is_killed() const noexcept {
+  return signal == SIGKILL || signal == SIGTERM || signal == SIGINT;
+}
+
 std::string ExitStatus::in_words() const {
   if (signal != 0) return fmt::format("was killed by signal {} ({})", signal, ::strsignal(signal));
   return fmt::format("ended with exit code {}", code);

@@ -34,7 +34,12 @@ struct ExitStatus {
 
   /// "ended with exit code 1", "was killed by signal 9 (Killed)".
   [[nodiscard]] std::string in_words() const;
+  /// Somebody, or the system out of memory, ended it: no crash, and it may go well another time.
+  [[nodiscard]] bool is_killed() const noexcept;
 };
+
+/// What to say of a program that SIGKILL ended.
+inline constexpr const char* kKilledHint = "unless someone killed it, the machine may have run out of memory";
 
 /// A running program with a channel on which it reports line by line. Its environment is child_environment().
 /// It has its own process group and dies with the thread that started it, even if that one is killed.
