@@ -16,7 +16,8 @@
 
 namespace thermal {
 
-inline constexpr double kActorShare = 0.03;  ///< of the pictures; *estimate*
+inline constexpr double kActorShare =
+    0.03;  ///< of what the budget weighs: a choice, not a figure of the scene
 
 /// An empty outline, seen by the config's camera.
 [[nodiscard]] SceneOutline empty_outline(const Config& config);

@@ -62,8 +62,7 @@ std::string unreported_end(const ExitStatus& status, const std::string& doing,
                            const std::string& last_words) {
   const std::string how = status.signal == 0 && status.code == 0 ? "ended early" : status.in_words();
   std::string end = fmt::format("Blender {} while {}", how, doing);
-  if (status.signal == SIGKILL)
-    return fmt::format("{}; {}", end, kKilledHint);
+  if (status.signal == SIGKILL) return fmt::format("{}; {}", end, kKilledHint);
   if (status.is_killed()) return end;
   return end + (last_words.empty() ? "; it printed nothing" : ": " + last_words);
 }
