@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
+#include "support/two_clips.h"
 
 namespace dataset_index_test {
 
@@ -10,39 +11,15 @@ using namespace thermal;
 
 namespace {
 
-Config two_clips() {
-  Config config;
-  config.name = "night";
-  config.clips = {{.id = "a"}, {.id = "b"}};
-  config.resolved = {{"name", "night"}, {"seed", 1}, {"sensor", {{"kelvin_per_count", 0.01}}}};
-  return config;
-}
-
-/// A dataset of two clips without pictures; their records are synthetic.
 struct Place {
   TemporaryFolder folder;
   Layout layout{folder.path()};
-  Config config = two_clips();
+  Config config = two_clips::config();
 
   /// Writes a complete clip of two frames into the folder.
   [[nodiscard]] ClipRecord finish(const std::string& id) const {
-    ClipRecord record;
-    record.season = "winter";
-    record.clip = id;
-    record.frames = 2;
-    record.annotations = 1;
-    record.pixels_sha256 = "of " + id;
     make_folder(layout.clip(id));
-    write_file_atomically(layout.clip(id) / "clip.json", to_text(to_json(record)));
-    write_file_atomically(layout.clip(id) / "labels.json", to_text(labels(id)));
-    return record;
-  }
-
-  static Json labels(const std::string& id) {
-    return {{"categories", Json::array()},
-            {"videos", {{{"id", 1}, {"name", id}}}},
-            {"images", Json::array()},
-            {"annotations", Json::array()}};
+    return two_clips::write(layout.clip(id), id);
   }
 
   [[nodiscard]] DatasetIndex open() const { return open_dataset(layout, config); }

@@ -69,6 +69,17 @@ std::optional<PhysicsSettings> physics_of(const Config& config, const ClipConfig
                          .seed = config.seed};
 }
 
+ClipTask task_of(const Config& config, const ClipConfig& clip, const Terms& terms) {
+  return {.variant = "",
+          .clip = clip,
+          .seed = config.seed,
+          .sensor = config.sensor,
+          .distortion = config.distortion,
+          .labels = config.labels,
+          .physics = physics_of(config, clip, terms),
+          .folder = {}};
+}
+
 Json to_json(const Budget& budget) {
   Json terms = Json::array();
   for (const TermEffect& effect : budget.effects) {

@@ -69,6 +69,9 @@ struct PassesView {
 [[nodiscard]] std::optional<PhysicsSettings> physics_of(const Config& config, const ClipConfig& clip,
                                                         const Terms& terms);
 
+/// What a dataset that keeps these terms makes of a clip, but for the folder to make it in.
+[[nodiscard]] ClipTask task_of(const Config& config, const ClipConfig& clip, const Terms& terms);
+
 /// The entry of dataset.json on terms: the budget of a physical dataset, emission alone for the published model.
 [[nodiscard]] Json to_json(const Budget& budget);
 

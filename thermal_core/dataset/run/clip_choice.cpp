@@ -1,6 +1,7 @@
 #include "dataset/run/clip_choice.h"
 
 #include <algorithm>
+#include <set>
 
 namespace thermal {
 
@@ -29,11 +30,11 @@ int frames_of(const std::vector<ClipConfig>& clips) {
 }
 
 std::vector<std::size_t> places_of(const Config& config, const std::vector<ClipConfig>& clips) {
+  const std::vector<std::string> listed = ids_of(clips);
+  const std::set<std::string> ids(listed.begin(), listed.end());
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < config.clips.size(); ++i) {
-    const std::string& id = config.clips[i].id;
-    if (std::ranges::any_of(clips, [&id](const ClipConfig& clip) { return clip.id == id; }))
-      places.push_back(i);
+    if (ids.contains(config.clips[i].id)) places.push_back(i);
   }
   return places;
 }

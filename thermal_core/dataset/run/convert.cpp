@@ -54,17 +54,11 @@ std::vector<std::string> terms_left_out(const Budget& budget) {
 
 /// How a dataset makes a clip, but for the folder to make it in.
 ClipTask task_for(const ConvertRequest& request, const Terms& kept, const ClipPasses& source) {
-  const Config& config = request.config;
-  const ClipConfig& clip = config.clip(source.manifest.clip, source.folder.string());
-  return {.variant = request.where,
-          .clip = clip,
-          .seed = config.seed,
-          .sensor = config.sensor,
-          .distortion = config.distortion,
-          .labels = config.labels,
-          .physics = physics_of(config, clip, kept),
-          .folder = {},
-          .made_from_sha256 = source.identity_sha256};
+  const ClipConfig& clip = request.config.clip(source.manifest.clip, source.folder.string());
+  ClipTask task = task_of(request.config, clip, kept);
+  task.variant = request.where;
+  task.made_from_sha256 = source.identity_sha256;
+  return task;
 }
 
 bool has_new_passes(const DatasetIndex& index, const Layout& layout, const ClipPasses& source) {

@@ -78,14 +78,8 @@ class Generator {
     const Path folder = layout_.passes(clip.id);
     const ClipPasses passes = {.manifest = read_manifest(folder / "manifest.json", options_.assets),
                                .folder = folder};
-    const ClipTask task = {.variant = "",
-                           .clip = clip,
-                           .seed = config_.seed,
-                           .sensor = config_.sensor,
-                           .distortion = config_.distortion,
-                           .labels = config_.labels,
-                           .physics = physics_of(config_, clip, budget_.kept),
-                           .folder = transaction_.unfinished(clip.id)};
+    ClipTask task = task_of(config_, clip, budget_.kept);
+    task.folder = transaction_.unfinished(clip.id);
     const ClipHooks clip_hooks = {.wait_for_frame =
                                       [&](int frame) {
                                         job.wait_for_frame(clip.id, frame, stop_wanted);

@@ -4,6 +4,7 @@
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
+#include "support/two_clips.h"
 
 namespace transaction_test {
 
@@ -11,36 +12,17 @@ using namespace thermal;
 
 namespace {
 
-Config two_clips() {
-  Config config;
-  config.name = "night";
-  config.clips = {{.id = "a"}, {.id = "b"}};
-  config.resolved = {{"name", "night"}, {"seed", 1}, {"sensor", {{"kelvin_per_count", 0.01}}}};
-  return config;
-}
-
 /// Makes the files of a clip without pictures, as ClipOutput does.
 ClipRecord make(const DatasetTransaction& transaction, const std::string& id, int frames = 2) {
-  ClipRecord record;
-  record.clip = id;
-  record.season = "winter";
-  record.frames = frames;
-  record.pixels_sha256 = "of " + id;
   const Path folder = transaction.unfinished(id);
   make_fresh_folder(folder);
-  const Json labels = {{"categories", Json::array()},
-                       {"videos", {{{"id", 1}, {"name", id}}}},
-                       {"images", Json::array()},
-                       {"annotations", Json::array()}};
-  write_file_atomically(folder / "clip.json", to_text(to_json(record)));
-  write_file_atomically(folder / "labels.json", to_text(labels));
-  return record;
+  return two_clips::write(folder, id, frames);
 }
 
 struct Place {
   TemporaryFolder folder;
   Layout layout{folder / "set"};
-  Config config = two_clips();
+  Config config = two_clips::config();
 
   /// One that has the whole folder.
   [[nodiscard]] DatasetTransaction whole() const { return {layout, config, Json()}; }
