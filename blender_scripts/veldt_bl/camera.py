@@ -22,15 +22,18 @@ def add_camera(intrinsics: Intrinsics) -> bpy.types.Object:
     lens.shift_x, lens.shift_y = lens_shift(intrinsics)
     lens.clip_start, lens.clip_end = _CLIP_M
     camera = bpy.data.objects.new("camera", lens)
-    camera.rotation_mode = "QUATERNION"
+    camera.parent = bpy.data.objects.new("camera mount", None)
     scene = bpy.context.scene
     scene.collection.objects.link(camera)
+    scene.collection.objects.link(camera.parent)
     scene.camera = camera
     return camera
 
 
 def place(camera: bpy.types.Object, camera_to_world: np.ndarray) -> None:
-    """Move the camera to a pose (4, 4)."""
-    matrix = mathutils.Matrix((camera_to_world @ _FROM_OPENCV).tolist())
-    camera.location = matrix.to_translation()
-    camera.rotation_quaternion = matrix.to_quaternion()
+    """Move the camera to a pose (4, 4), as its matrix in single precision.
+
+    A rotation of Blender's would turn it by up to 2e-7 rad, at silhouettes 2e-4 px. Only the matrix that relates an
+    object to its parent is kept as it is.
+    """
+    camera.matrix_parent_inverse = mathutils.Matrix((camera_to_world @ _FROM_OPENCV).tolist())
