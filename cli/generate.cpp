@@ -17,6 +17,7 @@
 #include "dataset/run/planning.h"
 #include "dataset/run/render.h"
 #include "io/assets.h"
+#include "io/system/child_process.h"
 
 namespace veldt {
 namespace {
@@ -35,6 +36,7 @@ struct GenerateArguments {
   std::string config;
   std::string out;
   std::string blender;
+  std::string engine;
   std::string shard = "0/1";
   std::vector<std::string> clips;
   std::vector<std::string> settings;
@@ -85,13 +87,22 @@ thermal::DatasetPlan plan_of_run(const thermal::Config& config, const GenerateAr
   });
 }
 
+/// Blender renders colour stills for every engine.
+bool needs_blender(const GenerateArguments& options, const thermal::Config& config) {
+  return !options.dry_run && (options.preview || config.engine == thermal::Engine::blender);
+}
+
 int run_generate(const GenerateArguments& options, const CommonOptions& common, const Work& work) {
   check_max_unusable(options.max_unusable_share);
   const thermal::Assets assets = thermal::Assets::find();
-  const thermal::Config given = load_config(options.config, options.settings, assets);
+  std::vector<std::string> settings = options.settings;
+  if (!options.engine.empty()) settings.push_back("render.engine=" + options.engine);
+  const thermal::Config given = load_config(options.config, settings, assets);
   const thermal::GenerateOptions request = {.assets = assets,
                                             .out = options.out,
-                                            .blender = options.dry_run ? "" : find_blender(options.blender),
+                                            .blender = needs_blender(options, given)
+                                                           ? find_blender(options.blender)
+                                                           : thermal::find_program("blender"),
                                             .clips = options.clips,
                                             .shard = parse_shard(options.shard),
                                             .jobs = options.jobs,
@@ -130,9 +141,15 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
   command
       ->add_option("--jobs", options->jobs,
                    "Blender processes to run at once, one clip each; they share --threads, and each holds "
-                   "the place in memory")
+                   "the place in memory (embree uses all threads anyway)")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--engine", options->engine,
+          "What renders: blender, or embree, which is much faster (default: render.engine of the config)")
+      ->check(CLI::IsMember({"blender", "embree"}))
+      ->type_name("NAME");
   command->add_option("--blender", options->blender, "Blender to use instead of the one on PATH")
       ->type_name("PATH");
   if (name == "generate") {
@@ -160,10 +177,7 @@ void add_generate(CLI::App& app, Session& session) {
 
 void add_render(CLI::App& app, Session& session) {
   add(app, session, "render", "Render passes and manifests only",
-      {.plan = thermal::plan_to_render,
-       .run = [](const thermal::Config& config, const thermal::DatasetPlan&,
-                 const thermal::GenerateOptions& options,
-                 const thermal::RunHooks& hooks) { return thermal::render(config, options, hooks); }});
+      {.plan = thermal::plan_to_render, .run = thermal::render});
 }
 
 }  // namespace veldt

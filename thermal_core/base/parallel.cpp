@@ -17,11 +17,13 @@ void run_with_threads(int threads, const std::function<void()>& work) {
   arena.execute(work);
 }
 
+void run_isolated(const std::function<void()>& work) { tbb::this_task_arena::isolate(work); }
+
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
   const std::size_t chunks = (count + grain - 1) / grain;
-  // Isolated: a thread that waits for its chunks must not pick up unrelated work that may block.
-  tbb::this_task_arena::isolate([&] {
+  // Otherwise a thread that waits for its chunks could pick up unrelated work that may block.
+  run_isolated([&] {
     tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
       const std::size_t begin = chunk * grain;
       body(begin, std::min(begin + grain, count));

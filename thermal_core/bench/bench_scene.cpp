@@ -61,6 +61,16 @@ CameraIntrinsics vue_pro_13mm() {
           .cy_px = 256};
 }
 
+template <typename T>
+Plane<T> enlarged_plane(const Plane<T>& plane, int factor) {
+  Plane<T> large(plane.width_px() * factor, plane.height_px() * factor);
+  if (plane.empty()) return large;
+  for (int y = 0; y < large.height_px(); ++y) {
+    for (int x = 0; x < large.width_px(); ++x) large.at(x, y) = plane.at(x / factor, y / factor);
+  }
+  return large;
+}
+
 }  // namespace
 
 BenchScene rolling_ground() {
@@ -122,6 +132,17 @@ BenchScene person_from_above(int factor, double x_px, double y_px) {
     }
   }
   return scene;
+}
+
+BenchScene enlarged(const BenchScene& scene, int factor) {
+  BenchScene large{.manifest = scene.manifest, .passes = {}};
+  large.manifest.camera = finer(scene.manifest.camera, factor);
+  large.passes.object_index = enlarged_plane(scene.passes.object_index, factor);
+  large.passes.material_index = enlarged_plane(scene.passes.material_index, factor);
+  large.passes.depth_m = enlarged_plane(scene.passes.depth_m, factor);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    large.passes.normal[axis] = enlarged_plane(scene.passes.normal[axis], factor);
+  return large;
 }
 
 }  // namespace thermal

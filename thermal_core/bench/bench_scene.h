@@ -19,4 +19,8 @@ struct BenchScene {
 /// camera's pixels.
 [[nodiscard]] BenchScene person_from_above(int factor, double x_px, double y_px);
 
+/// The same scene with every pixel repeated `factor` times in both directions, as from a finer camera with the same
+/// view.
+[[nodiscard]] BenchScene enlarged(const BenchScene& scene, int factor);
+
 }  // namespace thermal

@@ -9,8 +9,8 @@
 
 #include "base/parallel.h"
 #include "bench/convert_stages.h"
-#include "bench/passes_file.h"
 #include "bench/sensor_scene.h"
+#include "io/exr/passes_writer.h"
 #include "io/system/passing_folder.h"
 
 namespace thermal {
@@ -145,7 +145,7 @@ void add_rows(const BenchScene& scene, const MaterialLibrary& materials, const W
                        .materials = materials,
                        .published = task_of(scene),
                        .physical = physical_task_of(scene)};
-  write_passes(job.file, scene.passes);
+  write_passes(job.file, scene.passes, "Scene", "", ExrPacking::none);
   announce(size + ", stages");
   const std::vector<ConvertRow> stages = convert_stage_rows(job, folder.path());
   rows.insert(rows.end(), stages.begin(), stages.end());

@@ -1,5 +1,7 @@
 #include "io/manifest_file.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -64,7 +66,79 @@ Manifest read_document(const Json& json) {
   return manifest;
 }
 
+constexpr std::array kClassNames = {"ground", "water", "plant", "actor"};  // of ObjectClass
+
+Json to_json(const CameraIntrinsics& camera) {
+  return {{"width_px", camera.width_px}, {"height_px", camera.height_px}, {"fx_px", camera.fx_px},
+          {"fy_px", camera.fy_px},       {"cx_px", camera.cx_px},         {"cy_px", camera.cy_px}};
+}
+
+Json to_json(const ManifestObject& object) {
+  Json json = {{"index", object.index},
+               {"name", object.name},
+               {"class", kClassNames.at(static_cast<std::size_t>(object.object_class))},
+               {"material", object.material}};
+  if (object.object_class != ObjectClass::actor) return json;
+  json["category"] = object.category;
+  json["species"] = object.species;
+  json["track_id"] = object.track_id;
+  if (object.bounds_m) json["bounds_m"] = *object.bounds_m;
+  return json;
+}
+
+Json to_json(const ManifestMaterial& material) {
+  Json json = {{"index", material.index}, {"material", material.material}};
+  if (!material.part.empty()) json["part"] = material.part;
+  return json;
+}
+
+Json to_json(const ManifestFrame& frame) {
+  Json json = {{"file", frame.file}, {"time_s", frame.time_s}};
+  if (frame.agl_m) json["agl_m"] = *frame.agl_m;
+  if (frame.look_angle_deg) json["look_angle_deg"] = *frame.look_angle_deg;
+  if (frame.camera_to_world) json["camera_to_world"] = *frame.camera_to_world;
+  json["actors"] = Json::array();
+  for (const ActorPose& actor : frame.actors) {
+    json["actors"].push_back(
+        {{"index", actor.index}, {"position_m", actor.position_m}, {"heading_rad", actor.heading_rad}});
+  }
+  return json;
+}
+
+template <typename Entry>
+Json list_of(const std::vector<Entry>& entries) {
+  Json list = Json::array();
+  for (const Entry& entry : entries) list.push_back(to_json(entry));
+  return list;
+}
+
+/// Without its frames.
+Json head_of(const Manifest& manifest) {
+  Json json = {{"format", "veldt-passes"}, {"version", 1}, {"clip", manifest.clip}};
+  if (!manifest.of_flight.empty()) json["of_flight"] = manifest.of_flight;
+  json["scene"] = manifest.scene;
+  json["seed"] = manifest.seed;
+  json["frame_rate_hz"] = manifest.frame_rate_hz;
+  json["layer"] = manifest.layer;
+  if (!manifest.actor_layer.empty()) json["actor_layer"] = manifest.actor_layer;
+  json["supersample"] = manifest.supersample;
+  json["overscan_px"] = manifest.overscan_px;
+  json["camera"] = to_json(manifest.camera);
+  json["objects"] = list_of(manifest.objects);
+  json["materials"] = list_of(manifest.materials);
+  return json;
+}
+
 }  // namespace
+
+void write_manifest(const Path& file, const Manifest& manifest) {
+  std::string frames;  // one a line
+  for (const ManifestFrame& frame : manifest.frames)
+    frames += (frames.empty() ? "\n  " : ",\n  ") + to_json(frame).dump();
+  std::string text = head_of(manifest).dump(1);
+  text.erase(text.rfind('\n'));
+  write_file_atomically(file, fmt::format("{},\n \"frames\": [{}\n ]\n}}\n", text, frames));
+}
 
 CameraIntrinsics intrinsics_of(const Json& json) {
   return {.width_px = json.at("width_px"),

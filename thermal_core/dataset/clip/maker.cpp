@@ -14,6 +14,7 @@
 #include "base/parallel.h"
 #include "dataset/clip/frame_faults.h"
 #include "dataset/clip/output.h"
+#include "dataset/clip/pass_source.h"
 #include "dataset/clip/scenes.h"
 
 namespace thermal {
@@ -129,8 +130,13 @@ class ClipMaker {
 
   /// A thread that waits in here takes on no other frame (parallel_for()): the buffer belongs to this one.
   void convert(FrameWork& work) {
-    const Path file = file_of(passes_, work.number);
     PassBuffer& buffer = buffers_.local();
+    if (passes_.source) {
+      passes_.source->read(work.number, needs_, buffer.passes);
+      scenes_.convert(buffer.passes, work.number, work.scenes);
+      return;
+    }
+    const Path file = file_of(passes_, work.number);
     reader_.read(file, needs_, buffer);
     try {
       scenes_.convert(buffer.passes, work.number, work.scenes);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -16,10 +17,13 @@ namespace thermal {
 /// What to do with a clip if a frame cannot be read or converted: reject the clip, or make it without that frame.
 enum class BadFrames { fail, skip };
 
-/// One rendered clip, and how to read it.
+class PassSource;
+
+/// One clip's passes, and how to read them.
 struct ClipPasses {
   Manifest manifest;
-  Path folder;  ///< of the EXR files
+  Path folder;                                    ///< of the files
+  std::shared_ptr<const PassSource> source = {};  ///< of the planes; empty: the files
   ReadLimits limits = {};
   BadFrames bad_frames = BadFrames::fail;
   std::string identity_sha256 = {};  ///< identity_of() them; empty if they are rendered for the dataset

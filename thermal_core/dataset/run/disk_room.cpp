@@ -35,14 +35,14 @@ std::int64_t ClipRoom::needed_bytes() const {
          (frames - pictures.count) * pictures.bytes_a_frame();
 }
 
-ClipRoom room_for(const Config& config, const ClipConfig& clip, bool pictures) {
+ClipRoom room_for(const Config& config, const ClipConfig& clip, const ClipFiles& files) {
   const std::int64_t finer = config.supersample;
   const std::int64_t wide_px = finer * (config.width_px + 2 * config.overscan_px);
   const std::int64_t high_px = finer * (config.height_px + 2 * config.overscan_px);
   const std::int64_t picture_px = std::int64_t{config.width_px} * config.height_px;
   return {.frames = clip.frames,
-          .passes = {.worst_bytes = kPassesBytesPerPixel * wide_px * high_px},
-          .pictures = {.worst_bytes = pictures ? kPicturesBytesPerPixel * picture_px : 0}};
+          .passes = {.worst_bytes = files.passes ? kPassesBytesPerPixel * wide_px * high_px : 0},
+          .pictures = {.worst_bytes = files.pictures ? kPicturesBytesPerPixel * picture_px : 0}};
 }
 
 std::string bytes_in_words(std::int64_t bytes) {
@@ -64,9 +64,9 @@ void check_room(std::int64_t left_bytes, std::int64_t needed_bytes, const std::s
                                   bytes_in_words(left_bytes), bytes_in_words(needed_bytes), whose));
 }
 
-RoomWatch::RoomWatch(const Config& config, const ClipConfig& clip, const Layout& layout, bool pictures,
-                     Report report)
-    : id_(clip.id), layout_(layout), report_(std::move(report)), room_(room_for(config, clip, pictures)) {
+RoomWatch::RoomWatch(const Config& config, const ClipConfig& clip, const Layout& layout,
+                     const ClipFiles& files, Report report)
+    : id_(clip.id), layout_(layout), report_(std::move(report)), room_(room_for(config, clip, files)) {
   int there = 0;
   while (there < clip.frames && std::filesystem::exists(layout_.passes(id_) / passes_name(there))) ++there;
   passes_ready(there);

@@ -34,8 +34,14 @@ struct ClipRoom {
   [[nodiscard]] std::int64_t needed_bytes() const;
 };
 
-/// A clip without any files yet. `pictures`: whether it is also converted.
-[[nodiscard]] ClipRoom room_for(const Config& config, const ClipConfig& clip, bool pictures);
+/// Which files of a clip a run writes.
+struct ClipFiles {
+  bool passes = true;
+  bool pictures = true;  ///< whether it is converted
+};
+
+/// A clip without any files yet.
+[[nodiscard]] ClipRoom room_for(const Config& config, const ClipConfig& clip, const ClipFiles& files);
 
 /// "850 kB", "85 MB", "1.2 GB": two digits or more; kB is 1000 bytes and the smallest unit.
 [[nodiscard]] std::string bytes_in_words(std::int64_t bytes);
@@ -50,8 +56,9 @@ class RoomWatch {
  public:
   using Report = std::function<void(std::int64_t needed_bytes)>;
 
-  /// Counts the passes left by an earlier run. `pictures`: whether they are also converted.
-  RoomWatch(const Config& config, const ClipConfig& clip, const Layout& layout, bool pictures, Report report);
+  /// Counts the passes left by an earlier run.
+  RoomWatch(const Config& config, const ClipConfig& clip, const Layout& layout, const ClipFiles& files,
+            Report report);
 
   /// Records that this many leading frames of the passes are complete.
   void passes_ready(int frames);

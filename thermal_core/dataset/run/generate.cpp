@@ -8,6 +8,7 @@
 #include "dataset/run/disk_room.h"
 #include "dataset/run/monitor.h"
 #include "dataset/run/passes_folder.h"
+#include "dataset/run/tracing.h"
 #include "dataset/run/transaction.h"
 #include "dataset/run/worker_pool.h"
 #include "io/config/materials.h"
@@ -24,6 +25,7 @@ class Generator {
   Generator(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
             const RunHooks& hooks)
       : config_(config),
+        plan_(plan),
         options_(options),
         hooks_(hooks),
         layout_{options.out},
@@ -38,7 +40,10 @@ class Generator {
   RunOutcome run() {
     RunMonitor monitor(hooks_, options_.out, frames_of(pending_));
     if (!pending_.empty()) {
-      transaction_.begin([this] { begin_passes(layout_, config_, ids_of(pending_)); });
+      transaction_.begin([this] {
+        if (options_.keep_passes || config_.engine == Engine::blender)
+          begin_passes(layout_, config_, ids_of(pending_));
+      });
       make_pending(monitor);
     }
     transaction_.close([this] {
@@ -49,6 +54,11 @@ class Generator {
 
  private:
   void make_pending(RunMonitor& monitor) {
+    if (config_.engine == Engine::embree) {
+      const PlanTracer tracer(layout_.plan(), config_, plan_, options_.assets);
+      for (const ClipConfig& clip : pending_) try_make(clip, tracer, monitor);
+      return;
+    }
     const ClipWork work = [this, &monitor](const std::string& id, RenderJob& job, const Stop& stop_wanted) {
       try_make(config_.clip(id, "clips"), job, stop_wanted, monitor);
     };
@@ -56,11 +66,19 @@ class Generator {
                 [&monitor] { return monitor.stop_wanted(); });
   }
 
+  void try_make(const ClipConfig& clip, const PlanTracer& tracer, RunMonitor& monitor) {
+    try {
+      commit(clip, make(clip, tracer, monitor), monitor);
+    } catch (const DataError& fault) {
+      lose(clip, fault.what(), false, monitor);
+    } catch (const IoError& fault) {
+      lose(clip, fault.what(), false, monitor);
+    }
+  }
+
   void try_make(const ClipConfig& clip, RenderJob& job, const Stop& stop_wanted, RunMonitor& monitor) {
     try {
-      transaction_.commit(make(clip, job, stop_wanted, monitor));
-      if (!options_.keep_passes) std::filesystem::remove_all(layout_.passes(clip.id));
-      monitor.made(clip);
+      commit(clip, make(clip, job, stop_wanted, monitor), monitor);
     } catch (const ClipLost& fault) {
       lose(clip, fault.what(), fault.killed(), monitor);
     } catch (const DataError& fault) {
@@ -71,15 +89,37 @@ class Generator {
     }
   }
 
+  void commit(const ClipConfig& clip, const ClipRecord& record, RunMonitor& monitor) {
+    transaction_.commit(record);
+    if (!options_.keep_passes) std::filesystem::remove_all(layout_.passes(clip.id));
+    monitor.made(clip);
+  }
+
+  ClipRecord make(const ClipConfig& clip, const PlanTracer& tracer, RunMonitor& monitor) {
+    monitor.begin(clip);
+    const bool keep = options_.keep_passes;
+    RoomWatch room(config_, clip, layout_, {.passes = keep},
+                   [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
+    int done = 0;
+    const ClipHooks clip_hooks = {.wait_for_frame = {},
+                                  .frame_done =
+                                      [&] {
+                                        if (keep) room.passes_ready(++done);
+                                        room.pictures_written();
+                                        monitor.frame_done(clip.id);
+                                      },
+                                  .cancelled = [&monitor] { return monitor.stop_wanted(); }};
+    return make_clip(tracer.trace(clip.id, layout_.passes(clip.id), keep), task_for(clip), materials_,
+                     clip_hooks);
+  }
+
   ClipRecord make(const ClipConfig& clip, RenderJob& job, const Stop& stop_wanted, RunMonitor& monitor) {
     monitor.begin(clip);
-    RoomWatch room(config_, clip, layout_, true, [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
+    RoomWatch room(config_, clip, layout_, {}, [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
     job.wait_for_frame(clip.id, -1, stop_wanted);
     const Path folder = layout_.passes(clip.id);
     const ClipPasses passes = {.manifest = read_manifest(folder / "manifest.json", options_.assets),
                                .folder = folder};
-    ClipTask task = task_of(config_, clip, budget_.kept);
-    task.folder = transaction_.unfinished(clip.id);
     const ClipHooks clip_hooks = {.wait_for_frame =
                                       [&](int frame) {
                                         job.wait_for_frame(clip.id, frame, stop_wanted);
@@ -91,7 +131,13 @@ class Generator {
                                         monitor.frame_done(clip.id);
                                       },
                                   .cancelled = stop_wanted};
-    return make_clip(passes, task, materials_, clip_hooks);
+    return make_clip(passes, task_for(clip), materials_, clip_hooks);
+  }
+
+  [[nodiscard]] ClipTask task_for(const ClipConfig& clip) const {
+    ClipTask task = task_of(config_, clip, budget_.kept);
+    task.folder = transaction_.unfinished(clip.id);
+    return task;
   }
 
   /// Useless passes are rendered anew by the next run; until then they can be inspected.
@@ -121,6 +167,7 @@ class Generator {
   [[nodiscard]] const DatasetIndex& index() const { return transaction_.index(); }
 
   const Config& config_;
+  const DatasetPlan& plan_;
   const GenerateOptions& options_;
   const RunHooks& hooks_;
   Layout layout_;

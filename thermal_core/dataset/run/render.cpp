@@ -1,12 +1,17 @@
 #include "dataset/run/render.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/parallel.h"
+#include "dataset/clip/pass_source.h"
 #include "dataset/run/clip_choice.h"
 #include "dataset/run/disk_room.h"
 #include "dataset/run/monitor.h"
 #include "dataset/run/passes_folder.h"
+#include "dataset/run/tracing.h"
 #include "dataset/run/worker_pool.h"
 
 namespace thermal {
@@ -18,6 +23,38 @@ void render_clip(const ClipConfig& clip, RenderJob& job, const std::function<boo
     job.wait_for_frame(clip.id, frame, stop_wanted);
     room.passes_ready(job.frames_ready(clip.id));
     monitor.frame_done(clip.id);
+  }
+}
+
+using Report = std::function<void(int frames)>;  ///< how many leading frames are there
+
+/// Writes the passes of a clip that are missing, some frames at a time.
+void trace_clip(const ClipConfig& clip, const ClipPasses& passes, RunMonitor& monitor, const Report& report) {
+  constexpr int kFramesAtOnce = 16;
+  for (int first = 0; first < clip.frames; first += kFramesAtOnce) {
+    if (monitor.stop_wanted()) throw Cancelled();
+    const int count = std::min(kFramesAtOnce, clip.frames - first);
+    parallel_for(static_cast<std::size_t>(count), 1, [&](std::size_t begin, std::size_t end) {
+      Passes planes;
+      for (int frame = first + static_cast<int>(begin); frame < first + static_cast<int>(end); ++frame) {
+        if (!std::filesystem::exists(passes.folder / passes_name(frame)))
+          passes.source->read(frame, {}, planes);
+        monitor.frame_done(clip.id);
+      }
+    });
+    report(first + count);
+  }
+}
+
+void trace_clips(const std::vector<ClipConfig>& clips, const PlanTracer& tracer, const Config& config,
+                 const Layout& layout, RunMonitor& monitor) {
+  for (const ClipConfig& clip : clips) {
+    monitor.begin(clip);
+    RoomWatch room(config, clip, layout, {.pictures = false},
+                   [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
+    trace_clip(clip, tracer.trace(clip.id, layout.passes(clip.id), true), monitor,
+               [&room](int frames) { room.passes_ready(frames); });
+    monitor.made(clip);
   }
 }
 
@@ -39,7 +76,8 @@ RenderJob::Task preview_task(const Config& config, const GenerateOptions& option
 
 }  // namespace
 
-RunOutcome render(const Config& config, const GenerateOptions& options, const RunHooks& hooks) {
+RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
+                  const RunHooks& hooks) {
   const Layout layout{options.out};
   const std::vector<ClipConfig> clips = choose_clips(config, options.clips, options.shard);
   const FolderLock lock(options.out, places_of(config, clips));
@@ -49,11 +87,20 @@ RunOutcome render(const Config& config, const GenerateOptions& options, const Ru
     begin_passes(layout, config, ids_of(clips));
   });
   RunMonitor monitor(hooks, options.out, frames_of(clips));
+  if (config.engine == Engine::embree) {
+    with_threads(options.threads, [&] {
+      trace_clips(clips, PlanTracer(layout.plan(), config, plan, options.assets), config, layout, monitor);
+    });
+    RunOutcome outcome = monitor.outcome();
+    outcome.complete = true;
+    return outcome;
+  }
   const ClipWork work = [&](const std::string& id, RenderJob& job, const std::function<bool()>& stop_wanted) {
     const ClipConfig& clip = config.clip(id, "clips");
     monitor.begin(clip);
     try {
-      RoomWatch room(config, clip, layout, false, [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
+      RoomWatch room(config, clip, layout, {.pictures = false},
+                     [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
       render_clip(clip, job, stop_wanted, room, monitor);
       monitor.made(clip);
     } catch (const ClipLost& fault) {

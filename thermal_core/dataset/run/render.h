@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dataset/plan/plan.h"
 #include "dataset/run/options.h"
 #include "dataset/run/progress.h"
 #include "io/config/config.h"
@@ -8,7 +9,8 @@ namespace thermal {
 
 /// Renders passes and manifests only, into passes/<clip>; otherwise like generate(). `config` has the clips of the
 /// plan, which plan_to_render() has written.
-RunOutcome render(const Config& config, const GenerateOptions& options, const RunHooks& hooks);
+RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
+                  const RunHooks& hooks);
 
 /// Renders a map of the config's place, and colour stills of it, into preview/; overwrites earlier ones. Returns the
 /// number of pictures. plan_to_preview() has written the plan.

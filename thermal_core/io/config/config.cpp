@@ -209,6 +209,7 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   config.overscan_px = document["render"]["overscan_px"];
   config.supersample = document["render"]["supersample"];
   config.actor_layer = document["render"]["actor_layer"];
+  config.engine = document["render"]["engine"] == "embree" ? Engine::embree : Engine::blender;
   document.erase("$schema");
   config.resolved = std::move(document);
   return config;

@@ -17,6 +17,9 @@
 
 namespace thermal {
 
+/// What renders the passes: Cycles in Blender, or the library's ray caster (raycast/).
+enum class Engine { blender, embree };
+
 struct ClipConfig {
   std::string id;
   Season season = Season::winter;
@@ -36,6 +39,7 @@ struct Config {
   int overscan_px = 0;  ///< how far the passes extend beyond the picture on every side
   int supersample = 1;  ///< rays of the passes along each side of a pixel
   bool actor_layer = false;
+  Engine engine = Engine::blender;
   SensorParameters sensor;
   LabelParameters labels;
   bool physical = false;  ///< every term the scene needs; otherwise the published model

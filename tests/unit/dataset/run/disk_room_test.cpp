@@ -27,9 +27,9 @@ std::string fault_of(std::int64_t left_bytes, std::int64_t needed_bytes) {
 
 TEST_CASE("Before the first frame a clip needs the worst case: 40 bytes per pixel of passes, 4 of pictures") {
   const ClipConfig clip = {.id = "down", .frames = 10};
-  CHECK(room_for(small_pictures(1), clip, true).needed_bytes() == 10 * (40 * 110 * 60 + 4 * 100 * 50));
-  CHECK(room_for(small_pictures(3), clip, true).needed_bytes() == 10 * (40 * 330 * 180 + 4 * 100 * 50));
-  CHECK(room_for(small_pictures(1), clip, false).needed_bytes() == 10 * 40 * 110 * 60);
+  CHECK(room_for(small_pictures(1), clip, {}).needed_bytes() == 10 * (40 * 110 * 60 + 4 * 100 * 50));
+  CHECK(room_for(small_pictures(3), clip, {}).needed_bytes() == 10 * (40 * 330 * 180 + 4 * 100 * 50));
+  CHECK(room_for(small_pictures(1), clip, {.pictures = false}).needed_bytes() == 10 * 40 * 110 * 60);
 }
 
 TEST_CASE("Existing files predict the size of the others") {

@@ -1,0 +1,126 @@
+#include "dataset/run/tracing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "dataset/clip/pass_source.h"
+#include "dataset/layout.h"
+#include "io/bake/baked_files.h"
+#include "io/exr/passes_writer.h"
+#include "io/manifest_file.h"
+#include "scene/camera_geometry.h"
+
+namespace thermal {
+namespace {
+
+/// The nearest decimal number, as Python's round() has it.
+double round_decimal(double value, int digits) {
+  return std::strtod(fmt::format("{:.{}f}", value, digits).c_str(), nullptr);
+}
+
+/// As NumPy's round() has it, which is faster; without negative zeros.
+double round_scaled(double value, double scale) { return std::nearbyint(value * scale) / scale + 0.0; }
+
+ManifestFrame frame_of(const BakedScene& scene, const BakedTrack& track, std::size_t k) {
+  constexpr double kMicro = 1e6;
+  constexpr double kNano = 1e9;
+  ManifestFrame frame{.file = passes_name(static_cast<int>(k)),
+                      .time_s = round_decimal(track.time_s[k], 9),
+                      .agl_m = round_decimal(track.agl_m[k], 6),
+                      .look_angle_deg = round_decimal(track.look_angle_deg[k], 6),
+                      .camera_to_world = track.camera_to_world[k],
+                      .actors = {}};
+  for (double& entry : *frame.camera_to_world) entry = round_scaled(entry, kNano);
+  for (std::size_t actor = 0; actor < scene.actors.size(); ++actor) {
+    const std::size_t moment = actor * track.frames + k;
+    ActorPose pose{.index = scene.actors[actor].object,
+                   .position_m = track.actor_position_m[moment],
+                   .heading_rad = round_decimal(track.actor_heading_rad[moment], 9)};
+    for (double& coordinate_m : pose.position_m) coordinate_m = round_scaled(coordinate_m, kMicro);
+    frame.actors.push_back(pose);
+  }
+  return frame;
+}
+
+/// Where kept frames are written.
+struct Kept {
+  Path folder;
+  std::string layer;
+  std::string actor_layer;
+};
+
+class TracedPasses : public PassSource {
+ public:
+  TracedPasses(const RayCaster& caster, BakedTrack track, const CameraIntrinsics& camera,
+               std::optional<Kept> kept)
+      : track_(std::move(track)), tracer_(caster, track_, camera), kept_(std::move(kept)) {}
+
+  void read(int frame, const PassNeeds& needs, Passes& out) const override {
+    if (!kept_) {
+      tracer_.trace(static_cast<std::size_t>(frame), needs, out);
+      return;
+    }
+    tracer_.trace(static_cast<std::size_t>(frame),
+                  {.depth = true, .normals = true, .actors = !kept_->actor_layer.empty()}, out);
+    const Path file = kept_->folder / passes_name(frame);
+    if (!std::filesystem::exists(file))
+      write_passes(file, out, kept_->layer, kept_->actor_layer, ExrPacking::run_lengths);
+  }
+
+ private:
+  BakedTrack track_;
+  ClipTracer tracer_;
+  std::optional<Kept> kept_;
+};
+
+}  // namespace
+
+Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const ClipPlan& clip,
+                     const Config& config) {
+  Manifest manifest;
+  manifest.clip = clip.id;
+  manifest.of_flight = clip.of_flight;
+  manifest.scene = scene.name;
+  manifest.seed = scene.seed;
+  manifest.frame_rate_hz = clip.frame_rate_hz;
+  manifest.layer = "Scene";
+  if (config.actor_layer) manifest.actor_layer = "Actors";
+  manifest.camera = scene.camera;
+  manifest.supersample = config.supersample;
+  manifest.overscan_px = scene.overscan_px;
+  manifest.objects = scene.objects;
+  manifest.materials = scene.materials;
+  for (std::size_t k = 0; k < track.frames; ++k) manifest.frames.push_back(frame_of(scene, track, k));
+  return manifest;
+}
+
+PlanTracer::PlanTracer(const Path& folder, const Config& config, const DatasetPlan& plan,
+                       const Assets& assets)
+    : folder_(folder),
+      config_(config),
+      plan_(plan),
+      assets_(assets),
+      scene_(read_baked_scene(folder, assets)),
+      caster_(scene_) {}
+
+ClipPasses PlanTracer::trace(const std::string& clip, const Path& folder, bool keep) const {
+  BakedTrack track = read_baked_track(folder_, clip, scene_, assets_);
+  const auto planned =
+      std::ranges::find_if(plan_.clips, [&clip](const ClipPlan& one) { return one.id == clip; });
+  ClipPasses passes{.manifest = manifest_of(scene_, track, *planned, config_), .folder = folder};
+  std::optional<Kept> kept;
+  if (keep) {
+    make_folder(folder);
+    write_manifest(folder / "manifest.json", passes.manifest);
+    kept = {.folder = folder, .layer = passes.manifest.layer, .actor_layer = passes.manifest.actor_layer};
+  }
+  passes.source = std::make_shared<TracedPasses>(caster_, std::move(track), passes_camera(passes.manifest),
+                                                 std::move(kept));
+  return passes;
+}
+
+}  // namespace thermal

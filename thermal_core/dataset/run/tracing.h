@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+
+#include "dataset/clip/task.h"
+#include "dataset/plan/plan.h"
+#include "dataset/run/options.h"
+#include "raycast/ray_caster.h"
+#include "scene/baked_scene.h"
+
+namespace thermal {
+
+/// The manifest of a clip of a plan, as blender_scripts/veldt/manifest.py has it, with the same roundings.
+[[nodiscard]] Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const ClipPlan& clip,
+                                   const Config& config);
+
+/// The engine `embree` on one plan: renders passes of its clips in memory.
+class PlanTracer {
+ public:
+  /// Reads the baked scene in `folder` and builds its structures. DataError or IoError as read_baked_scene(). Config and
+  /// plan must outlive this object.
+  PlanTracer(const Path& folder, const Config& config, const DatasetPlan& plan, const Assets& assets);
+
+  /// A clip's passes. Each frame is rendered when it is read. `keep` writes the frames read, and the manifest, to
+  /// `folder` as well, as Blender does; frames whose files exist are rendered, but not written again.
+  /// This object must outlive them. DataError or IoError as read_baked_track().
+  [[nodiscard]] ClipPasses trace(const std::string& clip, const Path& folder, bool keep) const;
+
+ private:
+  Path folder_;
+  const Config& config_;
+  const DatasetPlan& plan_;
+  Assets assets_;
+  BakedScene scene_;
+  RayCaster caster_;
+};
+
+}  // namespace thermal

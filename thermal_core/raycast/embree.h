@@ -1,0 +1,52 @@
+#pragma once
+
+// The only file that knows which Embree this is: version 3 in Debian 12, version 4 in Debian 13.
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+
+#if VELDT_EMBREE == 3
+#include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
+
+namespace thermal {
+
+template <auto release>
+struct EmbreeRelease {
+  template <typename Handle>
+  void operator()(Handle* handle) const noexcept {
+    release(handle);
+  }
+};
+template <typename Handle, auto release>
+using EmbreeHandle = std::unique_ptr<std::remove_pointer_t<Handle>, EmbreeRelease<release>>;
+
+using EmbreeDevice = EmbreeHandle<RTCDevice, rtcReleaseDevice>;
+using EmbreeScene = EmbreeHandle<RTCScene, rtcReleaseScene>;
+using EmbreeGeometry = EmbreeHandle<RTCGeometry, rtcReleaseGeometry>;
+
+/// Rays that are traced together: as many as AVX2 has lanes.
+inline constexpr std::size_t kPacketRays = 8;
+using RayPacket = RTCRayHit8;                     ///< aligned to 32 bytes
+using PacketMask = std::array<int, kPacketRays>;  ///< aligned like a packet; -1: trace this ray, 0: do not
+
+/// Finds the first triangle between tnear and tfar of each ray, and sets tfar to where it is hit.
+inline void find_nearest(RTCScene scene, const PacketMask& mask, RayPacket& rays) {
+#if VELDT_EMBREE == 3
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(mask.data(), scene, &context, &rays);
+#else
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect8(mask.data(), scene, &rays, &arguments);
+#endif
+}
+
+}  // namespace thermal

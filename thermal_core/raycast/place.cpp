@@ -1,0 +1,116 @@
+#include "raycast/place.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "raycast/vertex_normals.h"
+
+namespace thermal {
+namespace {
+
+/// One instruction set for all machines. Embree rounds differently with others: with the older ones, which have no fused
+/// multiply-add, one silhouette pixel in 100,000 is another's.
+constexpr const char* kDeviceSettings = "isa=avx2";
+
+void check(RTCDevice device) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw Error("Embree: not enough memory for the scene");
+  throw Error(fmt::format("Embree: error {}", static_cast<int>(error)));
+}
+
+EmbreeDevice new_device() {
+  EmbreeDevice device(rtcNewDevice(kDeviceSettings));
+  check(device.get());
+  return device;
+}
+
+/// Robust: no ray slips through between two triangles that share an edge.
+EmbreeScene new_scene(RTCDevice device) {
+  EmbreeScene scene(rtcNewScene(device));
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  return scene;
+}
+
+/// While it waits, Embree would otherwise take on work of this thread's caller.
+void commit(RTCDevice device, RTCScene scene) {
+  run_isolated([scene] { rtcCommitScene(scene); });
+  check(device);
+}
+
+template <typename Number>
+void fill_buffer(RTCDevice device, RTCGeometry geometry, RTCBufferType type, RTCFormat format,
+                 std::span<const std::array<Number, 3>> values) {
+  auto* buffer = static_cast<Number*>(
+      rtcSetNewGeometryBuffer(geometry, type, 0, format, 3 * sizeof(Number), values.size()));
+  check(device);
+  for (const auto& value : values) buffer = std::copy(value.begin(), value.end(), buffer);
+}
+
+EmbreeScene scene_of(RTCDevice device, const BakedMesh& mesh) {
+  const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+  // Copies, because Embree also reads the four bytes behind the last point.
+  fill_buffer(device, geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.points_m);
+  fill_buffer(device, geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
+  rtcCommitGeometry(geometry.get());
+  EmbreeScene scene = new_scene(device);
+  rtcAttachGeometry(scene.get(), geometry.get());
+  commit(device, scene.get());
+  return scene;
+}
+
+/// As Blender has it, which keeps the angle of a plant and its size, each in single precision.
+Transform<double> upright(const Transform<double>& plant) noexcept {
+  Transform<double> rounded = plant;
+  const double size = plant[10];
+  for (const std::size_t entry : {0U, 1U, 4U, 5U})
+    rounded[entry] = static_cast<double>(static_cast<float>(plant[entry] / size)) * size;
+  return rounded;
+}
+
+std::vector<Piece> surroundings_of(const BakedScene& scene) {
+  constexpr Transform<double> kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  std::vector<Piece> pieces;
+  for (const BakedSurface& surface : scene.surfaces)
+    pieces.push_back({static_cast<std::uint32_t>(surface.mesh), surface.object, kIdentity});
+  for (const BakedPlants& plants : scene.plants) {
+    for (std::size_t k = 0; k < plants.mesh.size(); ++k)
+      pieces.push_back({plants.mesh[k], plants.object, upright(plants.transform[k])});
+  }
+  return pieces;
+}
+
+}  // namespace
+
+Place::Place(const BakedScene& scene) : scene_(scene), device_(new_device()), normals_(scene.meshes.size()) {
+  for (const BakedMesh& mesh : scene.meshes) meshes_.push_back(scene_of(device_.get(), mesh));
+  parallel_for(scene.meshes.size(), 1, [this](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      if (scene_.meshes[k].smooth) normals_[k] = vertex_normals(scene_.meshes[k]);
+    }
+  });
+  surroundings_ = set_of(surroundings_of(scene));
+}
+
+PieceSet Place::set_of(std::vector<Piece> pieces) const {
+  PieceSet set{.pieces = std::move(pieces), .scene = new_scene(device_.get())};
+  for (std::size_t k = 0; k < set.pieces.size(); ++k) {
+    const Piece& piece = set.pieces[k];
+    Transform<float> to_world{};
+    std::ranges::transform(piece.to_world, to_world.begin(),
+                           [](double entry) { return static_cast<float>(entry); });
+    const EmbreeGeometry instance(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+    rtcSetGeometryInstancedScene(instance.get(), meshes_[piece.mesh].get());
+    rtcSetGeometryTransform(instance.get(), 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, to_world.data());
+    rtcCommitGeometry(instance.get());
+    rtcAttachGeometryByID(set.scene.get(), instance.get(), static_cast<unsigned>(k));
+  }
+  commit(device_.get(), set.scene.get());
+  return set;
+}
+
+}  // namespace thermal

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "raycast/embree.h"
+#include "scene/baked_scene.h"
+
+namespace thermal {
+
+/// A mesh in its position: a surface, a plant, or a bone of an actor.
+struct Piece {
+  std::uint32_t mesh = 0;
+  std::uint16_t object = 0;
+  Transform<double> to_world{};
+};
+
+/// Pieces, and the structure that finds which of them a ray hits first. A hit's instID is a piece's position here.
+struct PieceSet {
+  std::vector<Piece> pieces;
+  EmbreeScene scene;
+};
+
+/// A baked scene with everything that its frames share.
+class Place {
+ public:
+  /// The scene must outlive this object. Error if there is not enough memory.
+  explicit Place(const BakedScene& scene);
+
+  [[nodiscard]] const BakedScene& scene() const noexcept { return scene_; }
+
+  /// Ground, waters and plants.
+  [[nodiscard]] const PieceSet& surroundings() const noexcept { return surroundings_; }
+
+  /// Of a mesh's points; empty if the mesh is not smooth.
+  [[nodiscard]] const std::vector<std::array<float, 3>>& normals(std::size_t mesh) const noexcept {
+    return normals_[mesh];
+  }
+
+  /// Builds the structure of these pieces. Safe to call from several threads.
+  [[nodiscard]] PieceSet set_of(std::vector<Piece> pieces) const;
+
+ private:
+  const BakedScene& scene_;
+  EmbreeDevice device_;
+  std::vector<EmbreeScene> meshes_;  ///< each alone
+  std::vector<std::vector<std::array<float, 3>>> normals_;
+  PieceSet surroundings_;
+};
+
+}  // namespace thermal

@@ -1,0 +1,77 @@
+#include "raycast/ray_caster.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "raycast/frame_tracer.h"
+#include "raycast/place.h"
+
+namespace thermal {
+namespace {
+
+std::vector<LensPoint> bent_rays(const CameraIntrinsics& camera, const LensDistortion& lens) {
+  if (lens.is_none()) return {};
+  const auto width = static_cast<std::size_t>(camera.width_px);
+  const auto height = static_cast<std::size_t>(camera.height_px);
+  std::vector<LensPoint> rays(width * height);
+  parallel_for(height, 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin * width; k < end * width; ++k) {
+      rays[k] = unproject(
+          camera, lens,
+          {.u_px = static_cast<double>(k % width) + 0.5, .v_px = static_cast<double>(k / width) + 0.5});
+    }
+  });
+  return rays;
+}
+
+/// Transforms lie in a track actor by actor, frame by frame, bone by bone.
+std::vector<std::size_t> first_bones(const BakedScene& scene, const BakedTrack& track) {
+  std::vector<std::size_t> first;
+  first.reserve(track.posed.size());
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < track.posed.size(); ++k) {
+    first.push_back(next);
+    if (track.posed[k] != 0) next += scene.actors[k / track.frames].bones.size();
+  }
+  return first;
+}
+
+std::vector<Piece> actors_in(const BakedScene& scene, const BakedTrack& track, std::size_t frame,
+                             const std::vector<std::size_t>& first_bone) {
+  std::vector<Piece> pieces;
+  for (std::size_t actor = 0; actor < scene.actors.size(); ++actor) {
+    const std::size_t moment = actor * track.frames + frame;
+    if (track.posed[moment] == 0) continue;
+    const BakedActor& body = scene.actors[actor];
+    for (std::size_t bone = 0; bone < body.bones.size(); ++bone) {
+      Piece& piece = pieces.emplace_back();
+      piece.mesh = static_cast<std::uint32_t>(body.bones[bone].mesh);
+      piece.object = body.object;
+      std::ranges::transform(track.bones[first_bone[moment] + bone], piece.to_world.begin(),
+                             [](float entry) { return static_cast<double>(entry); });
+    }
+  }
+  return pieces;
+}
+
+}  // namespace
+
+RayCaster::RayCaster(const BakedScene& scene) : place_(std::make_unique<const Place>(scene)) {}
+RayCaster::~RayCaster() = default;
+RayCaster::RayCaster(RayCaster&&) noexcept = default;
+RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
+
+ClipTracer::ClipTracer(const RayCaster& caster, const BakedTrack& track, const CameraIntrinsics& camera,
+                       const LensDistortion& lens)
+    : place_(caster.place()),
+      track_(track),
+      camera_(camera),
+      rays_(bent_rays(camera, lens)),
+      first_bone_(first_bones(place_.scene(), track)) {}
+
+void ClipTracer::trace(std::size_t frame, const PassNeeds& needs, Passes& out) const {
+  const PieceSet actors = place_.set_of(actors_in(place_.scene(), track_, frame, first_bone_));
+  trace_frame(place_, actors, view_of(track_.camera_to_world[frame]), PixelRays(camera_, rays_), needs, out);
+}
+
+}  // namespace thermal
