@@ -63,6 +63,6 @@ def _matrices(actor: Actor, time_s: np.ndarray) -> np.ndarray:
     bones = [k for k, bone in enumerate(actor.body.bones) if len(bone.mesh.triangles) > 0]
     posed = poses(actor, time_s)
     matrices = np.zeros((len(time_s), len(bones), 3, 4), "<f4")
-    matrices[..., :3] = posed.scale * posed.rotation[:, bones]
+    matrices[..., :3] = posed.scale[:, None, None, None] * posed.rotation[:, bones]
     matrices[..., 3] = posed.position_m[:, bones]
     return np.reshape(matrices, (-1, 3, 4))

@@ -10,7 +10,8 @@ import numpy as np
 
 from ..anatomy.gait import stride_m
 from ..anatomy.pose import Motion, Poses, Walker, pose
-from ..geometry.rotations import facing, left_of
+from ..geometry.components import facing
+from ..geometry.rotations import left_of
 from ..geometry.splines import Loop, Spot
 from ..land.terrain import Terrain
 from ..workers import Cores
@@ -54,8 +55,8 @@ class Actor(Draft):
         time_s = _UNLIKE_S * np.arange(len(walked_m))
         body = pose(self.walker, Motion(walked_m, time_s, pace, head_down, self.posture))
         point, heading = self.path(walked_m)
-        origin = np.column_stack([point, self.terrain.height_m(*point.T)])
-        low, high = body.extent_m(self.body, origin, facing(heading))
+        origin = np.stack([*point.T, self.terrain.height_m(*point.T)])
+        low, high = body.extent_m(self.body, origin, facing(heading.T))
         return np.stack([low - _MARGIN * (high - low), high + _MARGIN * (high - low)])
 
 
