@@ -23,16 +23,17 @@ class Frusta:
         """Those of some of the poses, by their numbers."""
         return Frusta(self.normals[..., frames], self.offsets_m[..., frames])
 
-    def may_show(self, x_m: np.ndarray, y_m: np.ndarray, z_m: tuple, radius_m: float) -> np.ndarray:
-        """Mask (n,) of the poses in which a ball may be in the picture, wherever it is between two heights.
+    def may_show(self, x_m: np.ndarray, y_m: np.ndarray, z_m: tuple, radius_m) -> np.ndarray:
+        """Mask (..., n) of the poses in which balls may be in the picture, wherever they are between two heights.
 
-        x_m and y_m (n,) are its middle's, z_m the least and the greatest height of its middle, numbers or (n,). False
-        only where the ball is entirely outside one of the planes.
+        x_m and y_m (..., n) are their middles', z_m the least and the greatest height of their middles, numbers or
+        (..., n); radius_m is a number or (..., 1). False only where a ball is entirely outside one of the planes.
         """
         east, north, up = self.normals
-        low_m, high_m = z_m
+        x_m, y_m, low_m, high_m = (np.atleast_1d(along)[..., None, :] for along in (x_m, y_m, *z_m))
         nearest_m = np.minimum(up * low_m, up * high_m) - self.offsets_m
-        return (east * x_m + north * y_m + nearest_m < radius_m).all(axis=0)
+        inside = east * x_m + north * y_m + nearest_m < np.asarray(radius_m)[..., None]
+        return inside.all(axis=-2)
 
 
 def frusta_of(intrinsics: Intrinsics, camera_to_world: np.ndarray) -> Frusta:

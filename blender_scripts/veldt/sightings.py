@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from .camera import Intrinsics, project
@@ -19,34 +21,40 @@ def sightings(intrinsics: Intrinsics, flight: Flight, actors: list[Actor]) -> np
         left = np.flatnonzero(~seen)
         if not len(left):
             break
-        near, walk = _near(frusta.at(left), flight.time_s[left], actor, 1.0)
+        near, walk = _near(frusta.at(left), flight.time_s[left], actor)
         frames = left[near]
         seen[frames] = _is_in_frame(intrinsics, flight.camera_to_world[frames], actor, walk)
     return seen
 
 
-def may_be_in_frame(frusta: Frusta, time_s: np.ndarray, actor: Actor, slack: float) -> np.ndarray:
-    """Mask of frames (n,) in which a ball around the actor's origin may be in the picture.
+def may_be_in_frame(
+    frusta: Frusta, actors: Sequence[Actor], position_m: np.ndarray, slack: float
+) -> np.ndarray:
+    """Mask (actors, n) of frames in which balls around actors' positions (actors, n, 3) may be in the picture.
 
-    At slack 1 the ball just contains the actor's box; its radius grows with slack.
+    At slack 1 a ball just contains an actor's box; its radius grows with slack.
     """
-    mask = np.zeros(len(time_s), bool)
-    mask[_near(frusta, time_s, actor, slack)[0]] = True
-    return mask
+    radii_m = np.array([_radius_m(actor) for actor in actors])[:, None]
+    x_m, y_m, z_m = np.moveaxis(position_m, -1, 0)
+    return frusta.may_show(x_m, y_m, (z_m, z_m), slack * radii_m)
 
 
-def _near(frusta: Frusta, time_s: np.ndarray, actor: Actor, slack: float) -> tuple[np.ndarray, Track]:
-    """The frames of may_be_in_frame, and the actor's track in them.
+def _near(frusta: Frusta, time_s: np.ndarray, actor: Actor) -> tuple[np.ndarray, Track]:
+    """The frames in which a ball that contains an actor's box may be in the picture, and the actor's track in them.
 
     Most frames are ruled out before the height of the ground is computed, which costs most.
     """
-    radius_m = slack * float(np.linalg.norm(np.abs(actor.bounds_m).max(axis=0)))
+    radius_m = _radius_m(actor)
     point, heading = ground_path(actor, time_s)
     frames = np.flatnonzero(frusta.may_show(*point.T, actor.terrain.range_m, radius_m))
     height_m = actor.terrain.height_m(*point[frames].T)
     near = frusta.at(frames).may_show(*point[frames].T, (height_m, height_m), radius_m)
     frames = frames[near]
     return frames, Track(np.column_stack([point[frames], height_m[near]]), heading[frames])
+
+
+def _radius_m(actor: Actor) -> float:
+    return float(np.linalg.norm(np.abs(actor.bounds_m).max(axis=0)))
 
 
 def _is_in_frame(

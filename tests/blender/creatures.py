@@ -4,6 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from veldt.anatomy.gait import Footing
+
+
+def apart(feet: Footing) -> list[Footing]:
+    """The foot of each leg alone: toe_m (n, 3), rotation (n, 3, 3), bearing (n,)."""
+    toes_m, rotations = np.moveaxis(feet.toe_m, 0, -1), np.moveaxis(feet.rotation, (0, 1), (-2, -1))
+    return [Footing(*foot) for foot in zip(toes_m, rotations, feet.bearing)]
+
 
 def _legs(joints_m: list, phases: list, heel_deg: float, name: str) -> tuple[dict, dict]:
     """Bones of a pair of legs drawn through three joints, and the entry for their gait."""

@@ -5,7 +5,7 @@ import pytest
 
 from scenes import tiny
 from veldt.groups.actors import poses, track
-from veldt.geometry.rotations import facing
+from veldt.geometry.components import facing
 from veldt.groups.schedules import StopAndGo
 from veldt.world import plan_world
 
@@ -93,7 +93,7 @@ def test_feet_do_not_move_while_an_animal_stands():
     assert 0.5 < rests.mean() < 0.95
     for leg in actor.body.legs:
         foot, toe_m = leg.bones[2], leg.toe_m - actor.body.bones[leg.bones[2]].joint_m
-        toes_m = body.position_m[:, foot] + body.scale * (body.rotation[:, foot] @ toe_m)
+        toes_m = body.position_m[:, foot] + body.scale[:, None] * (body.rotation[:, foot] @ toe_m)
         assert np.array_equal(toes_m[1:][rests], toes_m[:-1][rests])
         above = toes_m[:, 2] - actor.terrain.height_m(*toes_m[:, :2].T)
         assert above.min() > -1e-9

@@ -41,3 +41,15 @@ def test_some_of_the_poses_see_what_they_see_among_all():
     frusta, some = frusta_of(LENS, poses), np.array([3, 50, 51, 99])
     among_all = frusta.may_show(x_m, y_m, (0.0, 0.0), 2.0)[some]
     assert np.array_equal(frusta.at(some).may_show(x_m[some], y_m[some], (0.0, 0.0), 2.0), among_all)
+
+
+def test_many_balls_are_where_each_of_them_is():
+    poses = look(np.tile([0.0, 0.0, 60.0], (50, 1)), np.tile([0.6, 0.8], (50, 1)), np.linspace(0.5, 1.5, 50))
+    x_m, y_m, z_m = stream(6, "balls").uniform(-80, 80, (3, 20, 50))
+    radii_m, frusta = np.linspace(0.5, 9.0, 20), frusta_of(LENS, poses)
+    together = frusta.may_show(x_m, y_m, (z_m - 1.0, z_m), radii_m[:, None])
+    alone = [
+        frusta.may_show(x_m[k], y_m[k], (z_m[k] - 1.0, z_m[k]), radius_m)
+        for k, radius_m in enumerate(radii_m)
+    ]
+    assert np.array_equal(together, alone) and 0.05 < together.mean() < 0.95

@@ -1,9 +1,11 @@
 """Gait: strides for speeds, and feet that stand still on the ground until they step."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from creatures import PONY, Hills, circle
+from creatures import PONY, Hills, apart, circle
 from veldt.anatomy.bodies import body_of
 from veldt.anatomy.gait import footing, smooth, stride_m
 
@@ -15,7 +17,7 @@ HILLS = Hills(0.4, wave_m=20)
 def _feet(walked_m, pace=1.0):
     """Feet of all legs on a path with a radius of about three body lengths over hills."""
     pace = np.broadcast_to(pace, walked_m.shape)
-    return [footing(leg, BODY.stance, STRIDE_M, 1.0, circle(6.0), HILLS, walked_m, pace) for leg in BODY.legs]
+    return apart(footing(BODY.legs, BODY.stance, STRIDE_M, 1.0, circle(6.0), HILLS, walked_m, pace))
 
 
 def test_a_stride_is_as_long_as_alexander_measured():
@@ -51,12 +53,23 @@ def test_feet_are_on_the_ground_and_never_in_it():
 
 
 def test_a_footprint_is_below_the_hip_in_the_middle_of_its_stance():
-    for leg in BODY.legs:
+    for k, leg in enumerate(BODY.legs):
         walked_m = (np.arange(1, 6) + leg.phase + 0.5 * BODY.stance) * STRIDE_M
-        foot = footing(leg, BODY.stance, STRIDE_M, 1.0, circle(6.0), HILLS, walked_m, np.ones(5))
+        foot = _feet(walked_m)[k]
         point, heading = circle(6.0)(walked_m)
         left = np.stack([-heading[:, 1], heading[:, 0]], axis=1)
         assert foot.toe_m[:, :2] == pytest.approx(point + leg.toe_m[0] * heading + leg.toe_m[1] * left)
+
+
+def test_legs_together_have_the_feet_of_each_alone():
+    walked_m = np.linspace(0, 3 * STRIDE_M, 100)
+    legs = [replace(leg, lift_m=0.1 + 0.02 * k) for k, leg in enumerate(BODY.legs)]
+    given = BODY.stance, STRIDE_M, 1.0, circle(6.0), HILLS, walked_m, np.linspace(0.2, 1.0, 100)
+    for leg, among in zip(legs, apart(footing(legs, *given))):
+        (alone,) = apart(footing([leg], *given))
+        assert np.array_equal(among.toe_m, alone.toe_m)
+        assert np.array_equal(among.rotation, alone.rotation)
+        assert np.array_equal(among.bearing, alone.bearing)
 
 
 def test_feet_move_without_a_jump():

@@ -1,9 +1,11 @@
 """Poses: legs reach the ground and bend the right way, on slopes and in turns, without jumps."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from creatures import CART, PONY, Hills, circle
+from creatures import CART, PONY, Hills, apart, circle
 from veldt import assets
 from veldt.anatomy.bodies import body_of, build_body, variant_names
 from veldt.anatomy.gait import stride_m
@@ -47,10 +49,16 @@ def _walk(walker: Walker, strides=3, steps=200) -> Motion:
     return _motion(walked_m, time_s=walked_m / 1.1)
 
 
+def _moment(motion: Motion, k: int) -> Motion:
+    """One moment of a motion."""
+    values = (motion.walked_m, motion.time_s, motion.pace, motion.head_down)
+    return Motion(*(each[k : k + 1] for each in values), motion.posture)
+
+
 def _end(body, poses, bone: int, point_m: np.ndarray) -> np.ndarray:
     """Where in the world (n, 3) a point of a bone, given in body axes as drawn, is."""
     off = point_m - body.bones[bone].joint_m
-    return poses.position_m[:, bone] + poses.scale * (poses.rotation[:, bone] @ off)
+    return poses.position_m[:, bone] + poses.scale[:, None] * (poses.rotation[:, bone] @ off)
 
 
 @pytest.mark.parametrize("ground", GROUNDS)
@@ -62,7 +70,7 @@ def test_legs_are_whole_and_feet_where_they_should_be(species, variant, ground):
         walker = _walker(body, GROUNDS[ground], speed, scale)
         motion = _walk(walker)
         poses = pose(walker, motion)
-        for leg, foot in zip(body.legs, feet(walker, motion)):
+        for leg, foot in zip(body.legs, apart(feet(walker, motion))):
             toe_m = _end(body, poses, leg.bones[2], leg.toe_m)
             bearing = foot.bearing[1:] & foot.bearing[:-1]
             slide = np.linalg.norm(np.diff(toe_m[:, :2], axis=0), axis=1) / np.diff(motion.walked_m)
@@ -196,10 +204,33 @@ def test_vertices_follow_their_bones():
     assert np.array_equal(mesh.triangles, MARE.rest().triangles)
 
 
+@pytest.mark.parametrize("body, posture", [(MARE, "walk"), (MARE, "lie"), (MARE, "float"), (WAGON, "walk")])
+def test_walkers_of_one_body_are_posed_together_as_alone(body, posture):
+    """Each of many moments has a walker of its own."""
+    count, ground = 40, Hills(STEEPEST, wave_m=60.0, water_m=0.5)
+    walkers = [_walker(body, ground, 0.8 + 0.01 * k, scale=0.8 + 0.01 * k) for k in range(count)]
+
+    def path(walked_m):
+        return tuple(
+            np.stack(parts, axis=-2)
+            for parts in zip(*(walker.path(walked_m[..., k]) for k, walker in enumerate(walkers)))
+        )
+
+    motion = _motion(
+        np.linspace(0, 9, count), np.linspace(0, 1, count), np.linspace(1, 0, count), 2.0, posture
+    )
+    scale, stride_m, phase = np.array([(each.scale, each.stride_m, each.phase) for each in walkers]).T
+    together = pose(Walker(body, scale, stride_m, phase + 0.01 * np.arange(count), path, ground), motion)
+    for k, walker in enumerate(walkers):
+        alone = pose(replace(walker, phase=walker.phase + 0.01 * k), _moment(motion, k))
+        assert np.array_equal(together.position_m[k], alone.position_m[0])
+        assert np.array_equal(together.rotation[k], alone.rotation[0])
+        assert together.scale[k] == alone.scale[0]
+
+
 def test_a_moment_alone_is_the_same_as_among_others():
     walker = _walker(MARE, GROUNDS["hills"])
     motion = _walk(walker)
-    alone = Motion(
-        *(values[7:8] for values in (motion.walked_m, motion.time_s, motion.pace, motion.head_down))
-    )
-    assert np.array_equal(pose(walker, motion).position_m[7], pose(walker, alone).position_m[0])
+    among, alone = pose(walker, motion), pose(walker, _moment(motion, 7))
+    assert np.array_equal(among.position_m[7], alone.position_m[0])
+    assert np.array_equal(among.rotation[7], alone.rotation[0])

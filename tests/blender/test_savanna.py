@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 
 from resolved import resolve
+from veldt.bake.arrays import read
+from veldt.bake.forms import TRACK, VERSION
+from veldt.bake.tracks import bake_track
 from veldt.config import ROOT
 from veldt.groups.actors import poses, track
 from veldt.world import plan_world
@@ -130,6 +133,25 @@ def test_the_savanna_has_all_it_should(savanna):
 def test_people_walk_as_people_do(savanna):
     speeds = {actor.schedule.mean_m_s for actor in savanna.actors if actor.species == "human"}
     assert len(speeds) == 3 and min(speeds) >= 1.2 and max(speeds) <= 1.6
+
+
+def test_a_track_has_every_actor_as_it_is_alone_at_one_moment(savanna, tmp_path):
+    """All species, variants and behaviours."""
+    flight = savanna.flight(savanna.config["clips"][0] | {"frames": 7})
+    bake_track(savanna, "clip", flight, tmp_path / "clip", everyone=True)
+    _, arrays = read(tmp_path / "clip", TRACK, VERSION)
+    baked = iter(arrays["bones"])
+    for k, actor in enumerate(savanna.actors):
+        for frame in range(7):
+            moment_s = flight.time_s[frame : frame + 1]
+            body, walk = poses(actor, moment_s), track(actor, moment_s)
+            assert np.array_equal(arrays["actor_position_m"][k, frame], walk.position_m[0])
+            assert arrays["actor_heading_rad"][k, frame] == walk.heading_rad[0]
+            for bone, position_m, rotation in zip(actor.body.bones, body.position_m[0], body.rotation[0]):
+                if len(bone.mesh.triangles) > 0:
+                    expected = np.column_stack([body.scale[0] * rotation, position_m])
+                    assert np.array_equal(next(baked), expected.astype("<f4"))
+    assert next(baked, None) is None
 
 
 def _hash(world) -> str:

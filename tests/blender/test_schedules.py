@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veldt.groups.schedules import Drinking, Steady, StopAndGo
+from veldt.groups.schedules import Drinking, Steady, StopAndGo, together
 
 TIME_S = np.arange(0.0, 1200.0, 0.02)
 GRAZERS = [StopAndGo(7, "herd", k, 1.1) for k in range(12)]
@@ -65,6 +65,22 @@ def test_a_moment_does_not_depend_on_the_others_asked_for():
     whole = GRAZERS[3].at(TIME_S)
     alone = GRAZERS[3].at(TIME_S[4321:4322])
     assert alone.walked_m[0] == whole.walked_m[4321] and alone.head_down[0] == whole.head_down[4321]
+
+
+@pytest.mark.parametrize(
+    "members",
+    [GRAZERS, [Drinking(0.1 * k) for k in range(9)], [Steady(1.4)] * 3],
+    ids=lambda them: type(them[0]),
+)
+def test_members_together_do_what_each_does_alone(members):
+    of = np.repeat(np.arange(len(members)), 5)
+    time_s = np.linspace(3.0, 300.0, len(of))
+    doing = together(members, of).at(time_s)
+    for k, member in enumerate(of):
+        alone = members[member].at(time_s[k : k + 1])
+        assert doing.walked_m[k] == alone.walked_m[0]
+        assert doing.pace[k] == alone.pace[0]
+        assert doing.head_down[k] == alone.head_down[0]
 
 
 def test_a_drinker_stays_and_lowers_its_head_now_and_then():

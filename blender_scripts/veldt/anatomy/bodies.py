@@ -14,6 +14,7 @@ from .. import assets
 from ..geometry.shapes import Mesh, joined
 from ..noise import stream
 from .gait import Leg
+from .limbs import Limbs, limbs_of
 from .skeleton import SIDES, Bone, build_bones, is_in, part_names
 
 _SHARES = {"pitch": 1.0, "roll": 0.4}  # default fraction of the ground's slope that a body follows
@@ -86,6 +87,21 @@ class Body:
     def reach_m(self) -> np.ndarray:
         """How far (3,) the drawn body extends from its origin: forward or back, to either side, and up."""
         return np.abs(self.rest().points_m).max(axis=0)
+
+    @cached_property
+    def limbs(self) -> Limbs:
+        """The legs, which there must be, as drawn."""
+        return limbs_of(self.legs, self.bones)
+
+    @cached_property
+    def unsupported(self) -> list[int]:
+        """Bones whose places do not depend on the feet: those of no leg, and those that others hang from."""
+        found = set(range(len(self.bones))) - {bone for leg in self.legs for bone in leg.bones}
+        found |= {self.bones[leg.bones[0]].parent for leg in self.legs}
+        for bone in reversed(range(len(self.bones))):  # children before their parents
+            if bone in found:
+                found.add(self.bones[bone].parent)
+        return sorted(found - {-1})
 
     def rest(self) -> Mesh:
         """The mesh of the whole drawn body in actor axes."""

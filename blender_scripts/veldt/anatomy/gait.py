@@ -5,22 +5,21 @@ Everything depends on the distance walked, not on time, so feet stand still when
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..geometry.easing import smooth
-from ..geometry.rotations import about, facing, left_of, unit
+from ..geometry.components import about, facing, product, unit
 from ..land.terrain import Terrain
 
 _GRAVITY_M_S2 = 9.81
 _WALKING_FROUDE = (0.02, 0.3)  # of speeds that walking strides are given for; faster walkers step more often
 _SOLE_M = 0.12  # before and behind a foot, where the ground's slope below it is measured
 
-Path = Callable[
-    [np.ndarray], tuple[np.ndarray, np.ndarray]
-]  # distances (n,) to points (n, 2), headings (n, 2)
+# Distances (..., n) to points (..., n, 2) and headings (..., n, 2).
+Path = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass(frozen=True)
@@ -41,7 +40,10 @@ class Leg:
 
 @dataclass(frozen=True)
 class Footing:
-    """The foot of one leg at n moments: toe_m (n, 3), rotation (n, 3, 3), bearing (n,) true while on the ground."""
+    """The feet of legs at n moments.
+
+    toe_m (3, legs, n), rotation (3, 3, legs, n), bearing (legs, n): true while on the ground.
+    """
 
     toe_m: np.ndarray
     rotation: np.ndarray
@@ -58,43 +60,50 @@ def stride_m(speed_m_s: float, leg_m: float) -> float:
 
 
 def footing(
-    leg: Leg, stance: float, stride: float, scale: float, path: Path, ground: Terrain, walked_m, pace
+    legs: Sequence[Leg], stance: float, stride, scale, path: Path, ground: Terrain, walked_m, pace
 ) -> Footing:
-    """A leg's foot after walked_m (n,) along a path; `stance` is the fraction of a stride that it is on the ground.
+    """The feet of legs after walked_m (n,) along a path; stride and scale are numbers or (n,).
 
+    `stance` is the fraction of a stride that a foot is on the ground.
     Footprint n is where the leg's place below the body is in the middle of the n-th stance. pace (n,), from 0 standing
     to 1 walking, scales how high feet are lifted: a walker that stops in mid-stride puts its feet down.
     """
-    steps = walked_m / stride - leg.phase
+    phase, lift_m, heel_rad = (
+        np.array([getattr(leg, name) for leg in legs])[:, None] for name in ("phase", "lift_m", "heel_rad")
+    )
+    steps = walked_m / stride - phase
     number = np.floor(steps)
     on_ground = np.minimum((steps - number) / stance, 1.0)
     in_air = np.maximum((steps - number - stance) / (1.0 - stance), 0.0)
-    middle_m = (number + leg.phase + 0.5 * stance) * stride
-    from_m, from_heading = _print(leg, scale, path, middle_m)
-    to_m, to_heading = _print(leg, scale, path, middle_m + stride)
-    share = smooth(in_air)[:, None]
-    x_m, y_m = (from_m + share * (to_m - from_m)).T
-    heading = unit(from_heading + share * (to_heading - from_heading))
-    lift_m = leg.lift_m * scale * pace * 16.0 * (in_air * (1.0 - in_air)) ** 2
-    heel = leg.heel_rad * pace * (smooth((on_ground - 0.55) / 0.45) - smooth(in_air / 0.8))
-    return Footing(
-        np.column_stack([x_m, y_m, ground.height_m(x_m, y_m) + lift_m]),
-        _on_slope(ground, x_m, y_m, heading) @ about("y", heel),
-        in_air == 0.0,
-    )
+    middle_m = (number + phase + 0.5 * stance) * stride
+    point_m, heading = _prints(legs, scale, path, np.stack([middle_m, middle_m + stride]))
+    share = smooth(in_air)
+    x_m, y_m = _between(point_m, share)
+    height_m, flat = _soles(ground, x_m, y_m, unit(_between(heading, share)))
+    lift_m = lift_m * scale * pace * 16.0 * (in_air * (1.0 - in_air)) ** 2
+    heel = heel_rad * pace * (smooth((on_ground - 0.55) / 0.45) - smooth(in_air / 0.8))
+    toe_m = np.stack([x_m, y_m, height_m + lift_m])
+    return Footing(toe_m, product(flat, about("y", heel)), in_air == 0.0)
 
 
-def _print(leg: Leg, scale: float, path: Path, middle_m) -> tuple[np.ndarray, np.ndarray]:
-    """Footprints (n, 2) of stances centred on these distances, and their headings (n, 2)."""
-    point, heading = path(middle_m)
-    return point + scale * (facing(heading) @ leg.toe_m)[:, :2], heading
+def _prints(legs: Sequence[Leg], scale, path: Path, middle_m) -> tuple[np.ndarray, np.ndarray]:
+    """Footprints (2, from and to, legs, n) of stances centred on distances (from and to, legs, n); their headings."""
+    point, heading = (np.moveaxis(part, -1, 0) for part in path(middle_m))
+    left = np.stack([-heading[1], heading[0]])
+    ahead_m, aside_m, _ = np.array([leg.toe_m for leg in legs]).T[:, :, None]
+    return point + scale * (heading * ahead_m + left * aside_m), heading
 
 
-def _on_slope(ground: Terrain, x_m, y_m, heading: np.ndarray) -> np.ndarray:
-    """Rotations (n, 3, 3) of feet flat on the ground."""
-    rises = []
-    for along in (heading, left_of(heading)):
-        ahead = ground.height_m(x_m + _SOLE_M * along[:, 0], y_m + _SOLE_M * along[:, 1])
-        behind = ground.height_m(x_m - _SOLE_M * along[:, 0], y_m - _SOLE_M * along[:, 1])
-        rises.append((ahead - behind) / (2.0 * _SOLE_M))
-    return facing(heading) @ about("y", -np.arctan(rises[0])) @ about("x", np.arctan(rises[1]))
+def _between(ends: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """Values (2, legs, n) at shares (legs, n) of the way between their two ends (2, from and to, legs, n)."""
+    return ends[:, 0] + share * (ends[:, 1] - ends[:, 0])
+
+
+def _soles(ground: Terrain, x_m, y_m, heading: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Heights (legs, n) of the ground below feet, and rotations (3, 3, legs, n) of feet flat on it."""
+    ahead, left = _SOLE_M * heading, _SOLE_M * np.stack([-heading[1], heading[0]])
+    off_x, off_y = np.stack([np.zeros_like(ahead), ahead, -ahead, left, -left], axis=1)
+    height_m, *ends_m = ground.height_m(x_m + off_x, y_m + off_y)
+    pitch, roll = ((ends_m[k] - ends_m[k + 1]) / (2.0 * _SOLE_M) for k in (0, 2))
+    turn = product(facing(heading), about("y", -np.arctan(pitch)))
+    return height_m, product(turn, about("x", np.arctan(roll)))

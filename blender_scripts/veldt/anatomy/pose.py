@@ -5,28 +5,32 @@ Legs are solved from both ends: hips move with the body, feet stand on the groun
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry.rotations import about, applied, facing, frame, turned, unit
+from ..geometry.components import about, applied, dot, facing, product, turned
 from ..geometry.shapes import Mesh, joined
 from ..land.terrain import Terrain
 from .bodies import Body
 from .gait import Footing, Path, footing
 
-_LONGEST = 0.995  # of a leg's two bones: a knee is never quite straight
 _NORM = 8  # of the legs' needs to be nearer to the ground: about the largest of them, without its kinks
 
 
 @dataclass(frozen=True)
 class Walker:
-    """A body of a given scale on a path over the ground; `phase` offsets everything that moves periodically."""
+    """A body of a given scale on a path over the ground; `phase` offsets everything that moves periodically.
+
+    scale, stride_m and phase are numbers; or (n,), for n moments of several walkers that have this body. Then `path`
+    gives the place of the walker of each moment.
+    """
 
     body: Body
-    scale: float
-    stride_m: float
-    phase: float
+    scale: float | np.ndarray
+    stride_m: float | np.ndarray
+    phase: float | np.ndarray
     path: Path
     ground: Terrain
 
@@ -48,17 +52,20 @@ class Motion:
 
 @dataclass(frozen=True)
 class Poses:
-    """A body at n moments: vertex v of bone k has world position position_m[:, k] + scale * rotation[:, k] @ v."""
+    """A body at n moments: vertex v of bone k has world position position_m[:, k] + scale * rotation[:, k] @ v.
+
+    position_m (n, bones, 3), rotation (n, bones, 3, 3), scale (n,).
+    """
 
     position_m: np.ndarray
     rotation: np.ndarray
-    scale: float
+    scale: np.ndarray
 
     def points_m(self, body: Body, moment: int) -> np.ndarray:
         """All vertices (v, 3) of the body in the world."""
         return np.concatenate(
             [
-                position + self.scale * bone.mesh.points_m @ rotation.T
+                position + self.scale[moment] * bone.mesh.points_m @ rotation.T
                 for bone, position, rotation in zip(
                     body.bones, self.position_m[moment], self.rotation[moment]
                 )
@@ -66,18 +73,20 @@ class Poses:
         )
 
     def extent_m(self, body: Body, origin_m: np.ndarray, axes: np.ndarray) -> np.ndarray:
-        """Box (2, 3) that contains the body at all moments: coordinates from origins (n, 3) along the columns of `axes`
-        (n, 3, 3). Sums are written out because BLAS may change their order."""
+        """Box (2, 3) that contains the body at all moments: coordinates from origins (3, n) along the columns of `axes`
+        (3, 3, n)."""
         low, high = np.full(3, np.inf), np.full(3, -np.inf)
+        inverse = np.swapaxes(axes, 0, 1)
         for k, bone in enumerate(body.bones):
             if not len(bone.mesh.points_m):
                 continue
             x, y, z = bone.mesh.points_m.T
-            start = _along(axes, (self.position_m[:, k] - origin_m)[..., None])[..., 0]
-            weight = self.scale * _along(axes, self.rotation[:, k])
-            reach = weight[..., 0:1] * x + weight[..., 1:2] * y + weight[..., 2:3] * z  # (n, 3, vertices)
-            low = np.minimum(low, (start + reach.min(axis=-1)).min(axis=0))
-            high = np.maximum(high, (start + reach.max(axis=-1)).max(axis=0))
+            start = applied(inverse, self.position_m[:, k].T - origin_m)
+            along = self.scale * product(inverse, np.moveaxis(self.rotation[:, k], 0, -1))
+            weight = along[..., None]
+            reach = weight[:, 0] * x + weight[:, 1] * y + weight[:, 2] * z  # (3, n, vertices)
+            low = np.minimum(low, (start + reach.min(axis=-1)).min(axis=1))
+            high = np.maximum(high, (start + reach.max(axis=-1)).max(axis=1))
         return np.stack([low, high])
 
     def mesh(self, body: Body, moment: int) -> Mesh:
@@ -86,66 +95,58 @@ class Poses:
         return Mesh(self.points_m(body, moment), whole.triangles, whole.slot)
 
 
-def _along(axes: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """Coordinates (n, 3, c) along the columns of `axes` (n, 3, 3) of the columns of `vectors` (n, 3, c)."""
-    return sum(axes[:, row, :, None] * vectors[:, row, None, :] for row in range(3))
-
-
 def pose(walker: Walker, motion: Motion) -> Poses:
     """The walker's body at each moment of a motion."""
     body, scale = walker.body, walker.scale
     posture = body.postures[motion.posture]
     origin, carriage, residues = _carriage(walker, motion)
-    origin = origin - [0.0, 0.0, scale * posture.sink_m]
-    position, rotation = _hung(walker, motion, origin, carriage)
+    origin[2] -= scale * posture.sink_m
+    on_feet = posture.on_feet and len(body.legs) > 0
+    bones = body.unsupported if on_feet else range(len(body.bones))
+    position, rotation = _hung(walker, motion, origin, carriage, bones)
     for wheel, residue in zip(body.wheels, residues):
-        position[:, wheel.bone, 2] += residue
-    if posture.on_feet:
+        position[2, wheel.bone] += residue
+    if on_feet:
         _set_legs(walker, motion, position, rotation)
-    return Poses(position, rotation, scale)
+    scales = np.broadcast_to(np.asarray(scale, float), motion.walked_m.shape)
+    return Poses(position.transpose(2, 1, 0), rotation.transpose(3, 2, 0, 1), scales)
 
 
-def feet(walker: Walker, motion: Motion) -> list[Footing]:
+def feet(walker: Walker, motion: Motion) -> Footing:
     """The feet of all legs at each moment."""
     body = walker.body
-    return [
-        footing(
-            leg,
-            body.stance,
-            walker.stride_m,
-            walker.scale,
-            walker.path,
-            walker.ground,
-            motion.walked_m,
-            motion.pace,
-        )
-        for leg in body.legs
-    ]
+    return footing(
+        body.legs,
+        body.stance,
+        walker.stride_m,
+        walker.scale,
+        walker.path,
+        walker.ground,
+        motion.walked_m,
+        motion.pace,
+    )
 
 
 def _carriage(walker: Walker, motion: Motion):
-    """The position (n, 3) and rotation (n, 3, 3) of the body, and the height (m, n) of the ground at each of its
+    """The position (3, n) and rotation (3, 3, n) of the body, and the height (contacts, n) of the ground at each of its
     contacts above the plane it stands on."""
     body, scale = walker.body, walker.scale
-    point, heading = walker.path(motion.walked_m)
+    point, heading = (np.moveaxis(part, -1, 0) for part in walker.path(motion.walked_m))
     level = facing(heading)
-    contacts = scale * np.column_stack([body.contacts_m, np.zeros(len(body.contacts_m))])
-    at = point[:, None] + (contacts @ np.swapaxes(level, 1, 2))[..., :2]
-    height = _bearing_m(walker, motion.posture, at[..., 0], at[..., 1])
+    contacts = scale * body.contacts_m[..., None]  # (contacts, 2, 1), or with n moments if scales differ
     middle = contacts.mean(axis=0)
-    x, y = (contacts - middle)[:, 0], (contacts - middle)[:, 1]
+    at = point + (contacts[:, :1] * heading + contacts[:, 1:] * np.stack([-heading[1], heading[0]]))
+    height = _bearing_m(walker, motion.posture, at[:, 0], at[:, 1])
+    x, y = np.swapaxes(contacts - middle, 0, 1)
     pitch, roll = _slope(height, x), _slope(height, y)
-    mean = height.mean(axis=1)
-    residues = (height - (mean[:, None] + pitch[:, None] * x + roll[:, None] * y)).T
-    own = about("y", -np.arctan(body.pitch * pitch)) @ about("x", np.arctan(body.roll * roll))
+    mean = np.ascontiguousarray(height.T).mean(axis=1)  # one memory layout, so that sums have one order
+    residues = height - (mean + pitch * x + roll * y)
+    own = product(about("y", -np.arctan(body.pitch * pitch)), about("x", np.arctan(body.roll * roll)))
     # The body turns about the middle of its hips, which keeps them above the feet on a slope.
-    pivot = middle + [
-        0.0,
-        0.0,
-        scale * np.mean([body.bones[leg.bones[0]].joint_m[2] for leg in body.legs] or 0.0),
-    ]
-    origin = np.column_stack([point, mean]) + applied(level, pivot - own @ pivot)
-    return origin, level @ own, residues
+    hip_m = np.mean([body.bones[leg.bones[0]].joint_m[2] for leg in body.legs] or 0.0)
+    pivot = np.stack(np.broadcast_arrays(*middle, scale * hip_m))
+    origin = np.stack([*point, mean]) + applied(level, pivot - applied(own, pivot))
+    return origin, product(level, own), residues
 
 
 def _bearing_m(walker: Walker, posture: str, x_m, y_m) -> np.ndarray:
@@ -158,32 +159,36 @@ def _bearing_m(walker: Walker, posture: str, x_m, y_m) -> np.ndarray:
 
 
 def _slope(height: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """Least-squares slopes (n,) of heights (n, m) at positions (m,) with mean 0; 0 if all positions are equal."""
-    return height @ place / max(place @ place, 1e-9) * (place @ place > 1e-6)
+    """Least-squares slopes (n,) of heights (m, n) at positions (m, 1) or (m, n) with mean 0; 0 if all are equal."""
+    spread = dot(place, place)
+    return dot(height, place) / np.maximum(spread, 1e-9) * (spread > 1e-6)
 
 
-def _hung(walker: Walker, motion: Motion, origin: np.ndarray, carriage: np.ndarray):
-    """Positions (n, bones, 3) and rotations (n, bones, 3, 3) of bones from their joint angles alone."""
+def _hung(
+    walker: Walker, motion: Motion, origin: np.ndarray, carriage: np.ndarray, bones: Sequence[int]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Positions (3, all bones, n) and rotations (3, 3, all bones, n), those of `bones` from their joint angles."""
     body, scale = walker.body, walker.scale
-    own = turned(_angles_rad(walker, motion))
-    position = np.empty(own.shape[:2] + (3,))
-    rotation = np.empty(own.shape)
-    for k, bone in enumerate(body.bones):
-        if bone.parent < 0:
-            base, turn, from_m = origin, carriage, np.zeros(3)
+    own = turned(_angles_rad(walker, motion)[:, bones])
+    position = np.zeros((3, len(body.bones), own.shape[-1]))
+    rotation = np.zeros((3,) + position.shape)
+    for k, turn in zip(bones, np.moveaxis(own, 2, 0)):
+        parent, joint_m = body.bones[k].parent, body.bones[k].joint_m
+        if parent < 0:
+            base, hung = origin, carriage
         else:
-            base, turn = position[:, bone.parent], rotation[:, bone.parent]
-            from_m = body.bones[bone.parent].joint_m
-        position[:, k] = base + scale * (turn @ (bone.joint_m - from_m))
-        rotation[:, k] = turn @ own[:, k]
+            base, hung = position[:, parent], rotation[:, :, parent]
+            joint_m = joint_m - body.bones[parent].joint_m
+        position[:, k] = base + scale * applied(hung, joint_m)
+        rotation[:, :, k] = product(hung, turn)
     return position, rotation
 
 
 def _angles_rad(walker: Walker, motion: Motion) -> np.ndarray:
-    """Joint angles (n, bones, 3) of all bones."""
+    """Joint angles (3, bones, n) of all bones."""
     body = walker.body
-    angles = motion.head_down[:, None, None] * body.postures["graze"].turn_rad
-    angles = angles + body.postures[motion.posture].turn_rad
+    angles = motion.head_down * body.postures["graze"].turn_rad.T[..., None]
+    angles += body.postures[motion.posture].turn_rad.T[..., None]
     for move in body.moves:
         if move.period_s is not None:
             turns = motion.time_s / move.period_s + walker.phase
@@ -191,63 +196,26 @@ def _angles_rad(walker: Walker, motion: Motion) -> np.ndarray:
         else:
             turns = move.per_stride * motion.walked_m / walker.stride_m
             strength = motion.pace
-        angles[:, move.bone, move.axis] += (
-            strength * move.angle_rad * np.sin(2 * np.pi * (turns + move.phase))
-        )
+        angles[move.axis, move.bone] += strength * move.angle_rad * np.sin(2 * np.pi * (turns + move.phase))
     for wheel in body.wheels:
-        angles[:, wheel.bone, 1] += motion.walked_m / (walker.scale * wheel.radius_m)
+        angles[1, wheel.bone] += motion.walked_m / (walker.scale * wheel.radius_m)
     return angles
 
 
 def _set_legs(walker: Walker, motion: Motion, position: np.ndarray, rotation: np.ndarray) -> None:
     """Place the feet, lower the body until every leg reaches its foot, and bend the knees in between."""
-    body, scale = walker.body, walker.scale
-    ankles, needs = [], []
-    for leg, foot in zip(body.legs, feet(walker, motion)):
-        hip, ankle_rest = leg.bones[0], body.bones[leg.bones[2]].joint_m
-        ankle = foot.toe_m + scale * (foot.rotation @ (ankle_rest - leg.toe_m))
-        below = position[:, 0] + scale * (rotation[:, 0] @ (leg.toe_m - body.bones[0].joint_m))
-        position[:, hip, :2] += leg.glide * (foot.toe_m - below)[:, :2]
-        ankles.append(ankle)
-        needs.append(_need(ankle - position[:, hip], scale * sum(_lengths(body, leg)) * _LONGEST))
-        rotation[:, leg.bones[2]] = foot.rotation
-    if body.legs:
-        position[..., 2] -= (np.sum(np.maximum(needs, 0.0) ** _NORM, axis=0) ** (1.0 / _NORM))[:, None]
-    for leg, ankle in zip(body.legs, ankles):
-        _bend(body, leg, scale, ankle, position, rotation)
-
-
-def _lengths(body: Body, leg) -> tuple[float, float]:
-    hip, knee, ankle = (body.bones[k].joint_m for k in leg.bones)
-    return float(np.linalg.norm(knee - hip)), float(np.linalg.norm(ankle - knee))
-
-
-def _need(reach: np.ndarray, longest_m: float) -> np.ndarray:
-    """How far (n,) a hip must be lowered to be within longest_m of an ankle at offset `reach` (n, 3) from it."""
-    level2 = (reach[:, :2] ** 2).sum(axis=1)
-    return -reach[:, 2] - np.sqrt(np.maximum(longest_m**2 - level2, (0.2 * longest_m) ** 2))
-
-
-def _bend(
-    body: Body, leg, scale: float, ankle: np.ndarray, position: np.ndarray, rotation: np.ndarray
-) -> None:
-    """Two bones from the hip to the ankle, with the knee bent to the side on which it is drawn (law of cosines)."""
-    upper, lower, foot = leg.bones
-    hip_rest, knee_rest, ankle_rest = (body.bones[k].joint_m for k in leg.bones)
-    thigh, shank = (scale * length for length in _lengths(body, leg))
-    along_rest = unit(ankle_rest - hip_rest)
-    out_rest = unit(knee_rest - hip_rest - ((knee_rest - hip_rest) @ along_rest) * along_rest)
-    reach = ankle - position[:, upper]
-    far = np.clip(np.linalg.norm(reach, axis=1), 1.001 * abs(thigh - shank) + 1e-6, 0.9999 * (thigh + shank))
-    along = unit(reach)
-    turn = rotation[:, body.bones[upper].parent]
-    out = turn @ out_rest
-    out = unit(out - (out * along).sum(axis=1, keepdims=True) * along)
-    cos = np.clip((thigh**2 + far**2 - shank**2) / (2.0 * thigh * far), -1.0, 1.0)
-    knee = position[:, upper] + thigh * (cos[:, None] * along + np.sqrt(1.0 - cos**2)[:, None] * out)
-    hinge, hinge_rest = np.cross(along, out), np.cross(along_rest, out_rest)
-    rotation[:, upper] = (
-        frame(unit(knee - position[:, upper]), hinge) @ frame(unit(knee_rest - hip_rest), hinge_rest).T
-    )
-    rotation[:, lower] = frame(unit(ankle - knee), hinge) @ frame(unit(ankle_rest - knee_rest), hinge_rest).T
-    position[:, lower], position[:, foot] = knee, ankle
+    limbs, scale = walker.body.limbs, walker.scale
+    foot = feet(walker, motion)
+    ankle_m = foot.toe_m + scale * applied(foot.rotation, limbs.ankle_m)
+    turn = rotation[:, :, limbs.parents]
+    hip_m = position[:, limbs.parents] + scale * applied(turn, limbs.hip_m)
+    below_m = position[:, :1] + scale * applied(rotation[:, :, :1], limbs.toe_m)
+    hip_m[:2] += limbs.glide * (foot.toe_m - below_m)[:2]
+    needs_m = np.maximum(limbs.needs_m(ankle_m - hip_m, scale), 0.0)
+    lowered_m = sum(needs_m**_NORM) ** (1.0 / _NORM)
+    position[2] -= lowered_m
+    hip_m[2] -= lowered_m
+    knee_m, upper, lower = limbs.bent(hip_m, ankle_m, turn, scale)
+    position[:, limbs.uppers], position[:, limbs.lowers], position[:, limbs.feet] = hip_m, knee_m, ankle_m
+    rotation[:, :, limbs.uppers], rotation[:, :, limbs.lowers] = upper, lower
+    rotation[:, :, limbs.feet] = foot.rotation

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .components import length, unit
 from .neighbours import pairs_within
 
 _SAMPLES = 64  # chords per segment, to measure its length
@@ -15,9 +16,9 @@ class _Curve:
     """A curve of cubic segments, parametrised by the distance along it."""
 
     def __init__(self, segments: np.ndarray):
-        self._segments = segments
+        self._coefficients = np.ascontiguousarray(np.moveaxis(segments, 0, -1))
         t = np.linspace(0.0, len(segments), _SAMPLES * len(segments) + 1)
-        steps_m = np.linalg.norm(np.diff(self._at(t)[0], axis=0), axis=1)
+        steps_m = length(np.diff(self._at(t)[0]))
         self._parameters = t
         self._distances_m = np.concatenate([[0.0], np.cumsum(steps_m)])
 
@@ -36,13 +37,13 @@ class _Curve:
 
     def _walked(self, distance_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         points, slopes = self._at(np.interp(distance_m, self._distances_m, self._parameters))
-        return points, slopes / np.maximum(np.linalg.norm(slopes, axis=-1, keepdims=True), 1e-12)
+        return np.moveaxis(points, 0, -1), np.moveaxis(unit(slopes), 0, -1)
 
     def _at(self, t) -> tuple[np.ndarray, np.ndarray]:
-        count = len(self._segments)
-        segment = np.minimum(np.asarray(t).astype(np.int64), count - 1)
-        u = (t - segment)[..., None]
-        a, b, c, d = np.moveaxis(self._segments[segment], -2, 0)
+        """Points and slopes (2, ...): components come first, so that NumPy works along the others."""
+        segment = np.minimum(np.asarray(t).astype(np.int64), self._coefficients.shape[-1] - 1)
+        u = t - segment
+        a, b, c, d = self._coefficients.take(segment, axis=-1)
         return a + u * (b + u * (c + u * d)), b + u * (2 * c + u * 3 * d)
 
 

@@ -8,13 +8,15 @@ from functools import cached_property
 
 import numpy as np
 
-from ..anatomy.gait import stride_m
+from ..anatomy.gait import Path, stride_m
 from ..anatomy.pose import Motion, Poses, Walker, pose
-from ..geometry.rotations import facing, left_of
+from ..geometry.components import facing
+from ..geometry.rotations import left_of
 from ..geometry.splines import Loop, Spot
 from ..land.terrain import Terrain
 from ..workers import Cores
 from .behaviours import Draft
+from .schedules import Doing, together
 
 _PLACES = 64  # positions along an actor's path at which its bounding box is measured
 _MOMENTS = 24  # steps of a stride, at each of the path's steepest places
@@ -44,8 +46,7 @@ class Actor(Draft):
 
     def path(self, walked_m) -> tuple[np.ndarray, np.ndarray]:
         """Points (n, 2) and headings (n, 2) after distances (n,)."""
-        point, heading = self.route.at(walked_m)
-        return point + self.lateral_m * left_of(heading), heading
+        return _beside(self.route, self.lateral_m, walked_m)
 
     @cached_property
     def bounds_m(self) -> np.ndarray:
@@ -54,8 +55,8 @@ class Actor(Draft):
         time_s = _UNLIKE_S * np.arange(len(walked_m))
         body = pose(self.walker, Motion(walked_m, time_s, pace, head_down, self.posture))
         point, heading = self.path(walked_m)
-        origin = np.column_stack([point, self.terrain.height_m(*point.T)])
-        low, high = body.extent_m(self.body, origin, facing(heading))
+        origin = np.stack([*point.T, self.terrain.height_m(*point.T)])
+        low, high = body.extent_m(self.body, origin, facing(heading.T))
         return np.stack([low - _MARGIN * (high - low), high + _MARGIN * (high - low)])
 
 
@@ -78,22 +79,104 @@ class Track:
         return np.arctan2(self.heading[:, 1], self.heading[:, 0])
 
 
+class Company:
+    """Some actors of a place at n moments at once.
+
+    A moment is an actor and a time: `of` (n,), the actor's place in the company, ascending, and time_s (n,). What holds
+    for a moment does not depend on the others.
+    """
+
+    def __init__(self, actors: Sequence[Actor]):
+        self.actors = actors
+        self._start_m, self._lateral_m = (
+            np.array([getattr(actor, name) for actor in actors]) for name in ("start_m", "lateral_m")
+        )
+        self._group = _numbered([actor.group for actor in actors])
+        self._route = _numbered([id(actor.route) for actor in actors])
+
+    def path(self, of: np.ndarray) -> Path:
+        """The path of the actor of each moment."""
+
+        def path(walked_m):
+            point, heading = np.moveaxis(np.empty((2, 2) + np.shape(walked_m)), 1, -1)
+            for part in _runs(self._route[of]):
+                route, lateral_m = self.actors[of[part.start]].route, self._lateral_m[of[part]]
+                point[..., part, :], heading[..., part, :] = _beside(route, lateral_m, walked_m[..., part])
+            return point, heading
+
+        return path
+
+    def ground_path(self, of: np.ndarray, time_s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Points (n, 2) and headings (n, 2)."""
+        return self.path(of)(self._start_m[of] + self._doing(of, time_s).walked_m)
+
+    def track(self, of: np.ndarray, time_s: np.ndarray) -> Track:
+        """Tracks on the ground, one after the other."""
+        point, heading = self.ground_path(of, time_s)
+        return Track(np.column_stack([point, self.actors[0].terrain.height_m(*point.T)]), heading)
+
+    def poses(self, of: np.ndarray, time_s: np.ndarray) -> Poses:
+        """Bodies in the world, of actors that have the same body and the same posture."""
+        first, doing = self.actors[of[0]], self._doing(of, time_s)
+        scale, stride, phase = self._gaits[:, of]
+        walker = Walker(first.body, scale, stride, phase, self.path(of), first.terrain)
+        walked_m = self._start_m[of] + doing.walked_m
+        return pose(walker, Motion(walked_m, time_s, doing.pace, doing.head_down, first.posture))
+
+    @cached_property
+    def _gaits(self) -> np.ndarray:
+        """The scale, the stride_m and the phase of each actor: (3, actors)."""
+        walkers = [actor.walker for actor in self.actors]
+        return np.array([(walker.scale, walker.stride_m, walker.phase) for walker in walkers]).T
+
+    def _doing(self, of: np.ndarray, time_s: np.ndarray) -> Doing:
+        found = np.empty((3, len(of)))
+        for part in _runs(self._group[of]):
+            first, last = of[part][[0, -1]]
+            schedules = [actor.schedule for actor in self.actors[first : last + 1]]
+            doing = together(schedules, of[part] - first).at(time_s[part])
+            found[:, part] = doing.walked_m, doing.pace, doing.head_down
+        return Doing(*found)
+
+
+def _numbered(keys: Sequence) -> np.ndarray:
+    """For each key, how often keys have changed before it."""
+    return np.cumsum([k > 0 and key != keys[k - 1] for k, key in enumerate(keys)])
+
+
+def _runs(numbers: np.ndarray) -> list[slice]:
+    """Where an array (n,) has equal numbers in succession."""
+    starts = [0, *(np.flatnonzero(np.diff(numbers)) + 1)] if len(numbers) else []
+    return [slice(start, stop) for start, stop in zip(starts, [*starts[1:], len(numbers)])]
+
+
+def _beside(route: Loop | Spot, lateral_m, walked_m) -> tuple[np.ndarray, np.ndarray]:
+    """Points (..., n, 2) to the left of a route by a number or numbers (n,), after distances (..., n), and headings."""
+    point, heading = route.at(walked_m)
+    return point + np.asarray(lateral_m)[..., None] * left_of(heading), heading
+
+
+def _alone(actor: Actor, time_s: np.ndarray) -> tuple[Company, tuple[np.ndarray, np.ndarray]]:
+    """A company of one, and its moments at times (n,)."""
+    return Company([actor]), (np.zeros(len(time_s), np.int64), np.asarray(time_s, float))
+
+
 def ground_path(actor: Actor, time_s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The actor's points (n, 2) and headings (n, 2) at times (n,)."""
-    return actor.path(actor.start_m + actor.schedule.at(time_s).walked_m)
+    company, moments = _alone(actor, time_s)
+    return company.ground_path(*moments)
 
 
 def track(actor: Actor, time_s: np.ndarray) -> Track:
     """The actor's track on the ground at times (n,)."""
-    point, heading = ground_path(actor, time_s)
-    return Track(np.column_stack([point, actor.terrain.height_m(*point.T)]), heading)
+    company, moments = _alone(actor, time_s)
+    return company.track(*moments)
 
 
 def poses(actor: Actor, time_s: np.ndarray) -> Poses:
     """The actor's body in the world at each time (n,)."""
-    doing = actor.schedule.at(time_s)
-    motion = Motion(actor.start_m + doing.walked_m, time_s, doing.pace, doing.head_down, actor.posture)
-    return pose(actor.walker, motion)
+    company, moments = _alone(actor, time_s)
+    return company.poses(*moments)
 
 
 def _telling_moments(actor: Actor) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

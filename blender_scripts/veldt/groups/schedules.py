@@ -1,8 +1,13 @@
-"""When actors walk, stand and lower their heads, as functions of time."""
+"""When actors walk, stand and lower their heads, as functions of time.
+
+The schedules of a group's members differ in a number or a phase alone. Both may be (n,), for n moments of several
+members.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -57,7 +62,7 @@ class StopAndGo:
 
     seed: int
     name: str
-    number: int
+    number: int | np.ndarray
     speed_m_s: float
 
     lowers_head = True
@@ -94,14 +99,14 @@ class StopAndGo:
         return number + _JITTER * (2.0 * self._draw("way", number) - 1.0)
 
     def _draw(self, what: str, number: np.ndarray) -> np.ndarray:
-        return lattice_uniform(self.seed, f"{self.name}/{what}", number, np.full(len(number), self.number))
+        return lattice_uniform(self.seed, f"{self.name}/{what}", number, self.number)
 
 
 @dataclass(frozen=True)
 class Drinking:
     """A drinker's schedule: standing, it lowers its head to the water and raises it, delayed by `phase` (0 to 1)."""
 
-    phase: float
+    phase: float | np.ndarray
 
     reach_m = 0.0
     mean_m_s = 0.0
@@ -115,6 +120,17 @@ class Drinking:
 
 
 Schedule = Steady | StopAndGo | Drinking
+
+
+def together(schedules: Sequence[Schedule], of: np.ndarray) -> Schedule:
+    """The schedule for n moments of several members of a group: schedules[of[k]] for the k-th; of (n,)."""
+    first = schedules[0]
+    own = [
+        field.name
+        for field in fields(first)
+        if any(getattr(schedule, field.name) != getattr(first, field.name) for schedule in schedules)
+    ]
+    return replace(first, **{name: np.array([getattr(each, name) for each in schedules])[of] for name in own})
 
 
 def _plateau(share: np.ndarray, start: float | np.ndarray, rise: float | np.ndarray) -> np.ndarray:

@@ -54,8 +54,10 @@ class Road:
         """Distance (n,) to the road's border, negative on it; infinite beyond reach_m from its centre line."""
         distance = np.full(np.shape(x_m), np.inf)
         flat = distance.reshape(-1)
+        about, places = self._about(x_m, y_m)
         for line in range(len(self.lines)):
-            near, off_m, _ = self._nearest(line, x_m, y_m)
+            k, off_m, _ = self._nearest(line, places)
+            near = about[k]
             flat[near] = np.minimum(flat[near], off_m - 0.5 * self.width_m)
         return distance
 
@@ -63,25 +65,31 @@ class Road:
         """Heights (n,) of the land with the road cut into it; at the fork, both branches blend into each other."""
         height = np.array(height_m, float)
         flat = height.reshape(-1)
-        most, total, weighted = (np.zeros(len(flat)) for _ in range(3))
+        about, places = self._about(x_m, y_m)
+        most, total, weighted = (np.zeros(len(about)) for _ in range(3))
         for line in range(len(self.lines)):
-            near, off_m, bed_m = self._nearest(line, x_m, y_m)
+            k, off_m, bed_m = self._nearest(line, places)
             share = 1.0 - smooth((off_m - 0.5 * self.width_m) / SHOULDER_M)
-            most[near] = np.maximum(most[near], share)
-            total[near] += share
-            weighted[near] += share * (bed_m - _CUT_M - _tracks_m(off_m))
-        cut = total > 0
-        flat[cut] += most[cut] * (weighted[cut] / total[cut] - flat[cut])
+            most[k] = np.maximum(most[k], share)
+            total[k] += share
+            weighted[k] += share * (bed_m - _CUT_M - _tracks_m(off_m))
+        on = total > 0
+        cut = about[on]
+        flat[cut] += most[on] * (weighted[on] / total[on] - flat[cut])
         return height
 
-    def _nearest(self, line: int, x_m, y_m) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Flat indices (k,) of positions within reach_m of a line, their distances, and the heights of its bed."""
+    def _about(self, x_m, y_m) -> tuple[np.ndarray, np.ndarray]:
+        """Flat indices (n,) of the positions that may be within reach_m of the road, and these positions (n, 2)."""
         x_m, y_m = (np.asarray(v, float).ravel() for v in np.broadcast_arrays(x_m, y_m))
-        near = np.flatnonzero(self._is_about(x_m, y_m))
-        if len(near) == 0:
-            return near, np.zeros(0), np.zeros(0)
+        column, row = self._square(x_m, y_m)
+        about = np.flatnonzero(self._raster[row, column])
+        return about, np.column_stack([x_m[about], y_m[about]])
+
+    def _nearest(self, line: int, places: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Indices (k,) of places (n, 2) within reach_m of a line, their distances, and the heights of its bed."""
+        if len(places) == 0:
+            return np.zeros(0, np.int64), np.zeros(0), np.zeros(0)
         start, along, low, high = self._segments[line]
-        places = np.column_stack([x_m[near], y_m[near]])
         i, j = pairs_within(places, start + 0.5 * along, self.reach_m + _STEP_M)
         along_x, along_y = along.T[:, j]
         from_x, from_y = (of[i] - begin[j] for of, begin in zip(places.T, start.T))
@@ -91,7 +99,7 @@ class Road:
         best = _least_of_each(i, off)
         best = best[off[best] < self.reach_m]
         bed_m = low[j[best]] + share[best] * (high[j[best]] - low[j[best]])
-        return near[i[best]], off[best], bed_m
+        return i[best], off[best], bed_m
 
     @cached_property
     def _segments(self) -> list[tuple[np.ndarray, ...]]:
@@ -122,10 +130,6 @@ class Road:
             np.clip(((v + 0.5 * self.size_m) / _RASTER_M).astype(np.int64), 0, last) for v in (x_m, y_m)
         )
         return column, row
-
-    def _is_about(self, x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
-        column, row = self._square(x_m, y_m)
-        return self._raster[row, column]
 
 
 def lay_road(

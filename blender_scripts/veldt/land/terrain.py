@@ -81,8 +81,9 @@ class Terrain:
         cells = heights_m.shape[0] - 1
         column, u = _cell(np.asarray(x_m, float), self.size_m, cells)
         row, v = _cell(np.asarray(y_m, float), self.size_m, cells)
-        h00, h10 = heights_m[row, column], heights_m[row, column + 1]
-        h01, h11 = heights_m[row + 1, column], heights_m[row + 1, column + 1]
+        flat_m, place = heights_m.ravel(), row * (cells + 1) + column
+        h00, h10 = flat_m.take(place), flat_m.take(place + 1)
+        h01, h11 = flat_m.take(place + cells + 1), flat_m.take(place + cells + 2)
         return np.where(
             u >= v, h00 + u * (h10 - h00) + v * (h11 - h10), h00 + v * (h01 - h00) + u * (h11 - h01)
         )
@@ -102,8 +103,8 @@ def build_terrain(settings: dict, seed: int) -> Terrain:
         water, land_m = lay_water(basin, land_m, x_m, y_m)
         waters.append(water)
     surface = surface_m(land_m, tuple(waters), x_m, y_m)
-    smooth_m = _smoothed(surface, _SMOOTHING_M / (size_m / cells))
-    return Terrain(seed, size_m, size_m / cells, land_m, smooth_m, tuple(waters), crag)
+    smooth_m = np.ascontiguousarray(_smoothed(surface, _SMOOTHING_M / (size_m / cells)))
+    return Terrain(seed, size_m, size_m / cells, np.ascontiguousarray(land_m), smooth_m, tuple(waters), crag)
 
 
 def _grid(size_m: float, cells: int) -> tuple[np.ndarray, np.ndarray]:
