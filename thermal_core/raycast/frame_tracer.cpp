@@ -13,18 +13,19 @@ constexpr double kNearestM = 0.1;
 constexpr double kFarthestM = 20000;
 
 constexpr float kSkyDepthM = 1e10F;  // as Blender has it
+static_assert(kLanes == kPacketRays);
 constexpr unsigned kNothing = RTC_INVALID_GEOMETRY_ID;
 
-/// What a ray hits first.
-struct Hit {
-  const Piece* piece = nullptr;  ///< null: nothing
-  unsigned triangle = 0;
+/// What each ray of a block hits first; null: nothing.
+struct Hits {
+  Lanes<const Piece*> piece{};
+  Lanes<unsigned> triangle{};
 };
 
-/// The pixels of a packet: 4 x 2, fewer at the right and lower border.
+/// The pixels of a packet: 4 x 4, fewer at the right and lower border.
 struct Block {
   static constexpr int kWidthPx = 4;
-  static constexpr int kHeightPx = static_cast<int>(kPacketRays) / kWidthPx;
+  static constexpr int kHeightPx = static_cast<int>(kLanes) / kWidthPx;
 
   [[nodiscard]] int x(std::size_t ray) const noexcept { return x_px + static_cast<int>(ray) % kWidthPx; }
   [[nodiscard]] int y(std::size_t ray) const noexcept { return y_px + static_cast<int>(ray) / kWidthPx; }
@@ -60,98 +61,121 @@ class FrameTracer {
   }
 
  private:
-  using Hits = std::array<Hit, kPacketRays>;
-  using Mask = PacketMask;
-
   /// Actors first, which the actor layer shows; their hits then bound the search among the surroundings.
   void trace(const Block& block) const {
-    alignas(RayPacket) Mask mask{};
-    RayPacket packet;
-    for (std::size_t k = 0; k < kPacketRays; ++k) {
+    alignas(RayPacket) PacketMask mask{};
+    Lanes<double> x{};
+    Lanes<double> y{};
+    for (std::size_t k = 0; k < kLanes; ++k) {
       mask[k] = block.x(k) < rays_.width_px() && block.y(k) < rays_.height_px() ? -1 : 0;
-      if (mask[k] != 0) aim(direction(block.x(k), block.y(k)), packet, k);
+      const auto column = static_cast<std::size_t>(std::min(block.x(k), rays_.width_px() - 1));
+      const auto row = static_cast<std::size_t>(std::min(block.y(k), rays_.height_px() - 1));
+      const LensPoint ray = rays_.at(column, row);
+      x[k] = ray.x;
+      y[k] = ray.y;
     }
-    Hits hits{};
+    const VectorLanes<double> direction = directions(view_, x, y);
+    RayPacket packet = aimed(direction);
+    Hits hits;
     if (!actors_.pieces.empty()) find(actors_, mask, packet, hits);
-    if (needs_.actors) {
-      for (std::size_t k = 0; k < kPacketRays; ++k)
-        if (mask[k] != 0) out_.actor_index.at(block.x(k), block.y(k)) = object_of(hits[k]);
-    }
+    if (needs_.actors) put_objects(hits, mask, block, out_.actor_index);
     find(place_.surroundings(), mask, packet, hits);
-    for (std::size_t k = 0; k < kPacketRays; ++k)
-      if (mask[k] != 0) put(hits[k], block.x(k), block.y(k));
-  }
-
-  static std::uint16_t object_of(const Hit& hit) noexcept {
-    return hit.piece == nullptr ? 0 : hit.piece->object;
-  }
-
-  [[nodiscard]] Vector3 direction(int x_px, int y_px) const noexcept {
-    const LensPoint ray = rays_.at(x_px, y_px);
-    return ray.x * view_.right + ray.y * view_.down + view_.forward;
+    put_objects(hits, mask, block, out_.object_index);
+    put_materials(hits, mask, block);
+    if (needs_.depth || needs_.normals) put_sights(direction, hits, mask, block);
   }
 
   /// As in Cycles, a ray has unit length and starts at the nearest depth, in single precision: silhouettes then agree
   /// to 1e-4 px.
-  void aim(const Vector3& direction, RayPacket& packet, std::size_t k) const noexcept {
-    const double size = length(direction);
-    const auto start_m = static_cast<float>(kNearestM * size);
-    const auto end_m = static_cast<float>((kFarthestM - kNearestM) * size);
-    const std::array unit = {static_cast<float>(direction.x / size), static_cast<float>(direction.y / size),
-                             static_cast<float>(direction.z / size)};
-    packet.ray.org_x[k] = static_cast<float>(view_.position_m.x) + start_m * unit[0];
-    packet.ray.org_y[k] = static_cast<float>(view_.position_m.y) + start_m * unit[1];
-    packet.ray.org_z[k] = static_cast<float>(view_.position_m.z) + start_m * unit[2];
-    packet.ray.dir_x[k] = unit[0];
-    packet.ray.dir_y[k] = unit[1];
-    packet.ray.dir_z[k] = unit[2];
-    packet.ray.tnear[k] = 0;
-    packet.ray.tfar[k] = end_m;
-    packet.ray.time[k] = 0;
-    packet.ray.mask[k] = ~0U;
-    packet.ray.id[k] = 0;
-    packet.ray.flags[k] = 0;
-    packet.hit.geomID[k] = kNothing;
-    packet.hit.instID[0][k] = kNothing;
+  [[nodiscard]] RayPacket aimed(const VectorLanes<double>& direction) const noexcept {
+    const UnitLanes unit = units(direction);
+    const auto x_m = static_cast<float>(view_.position_m.x);
+    const auto y_m = static_cast<float>(view_.position_m.y);
+    const auto z_m = static_cast<float>(view_.position_m.z);
+    RayPacket packet;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const auto start_m = static_cast<float>(kNearestM * unit.length[k]);
+      packet.ray.org_x[k] = x_m + start_m * unit.direction[0][k];
+      packet.ray.org_y[k] = y_m + start_m * unit.direction[1][k];
+      packet.ray.org_z[k] = z_m + start_m * unit.direction[2][k];
+      packet.ray.dir_x[k] = unit.direction[0][k];
+      packet.ray.dir_y[k] = unit.direction[1][k];
+      packet.ray.dir_z[k] = unit.direction[2][k];
+      packet.ray.tnear[k] = 0;
+      packet.ray.tfar[k] = static_cast<float>((kFarthestM - kNearestM) * unit.length[k]);
+      packet.ray.time[k] = 0;
+      packet.ray.mask[k] = ~0U;
+      packet.ray.id[k] = 0;
+      packet.ray.flags[k] = 0;
+      packet.hit.geomID[k] = kNothing;
+      packet.hit.instID[0][k] = kNothing;
+    }
+    return packet;
   }
 
-  static void find(const PieceSet& set, const Mask& mask, RayPacket& packet, Hits& hits) {
+  static void find(const PieceSet& set, const PacketMask& mask, RayPacket& packet, Hits& hits) {
     find_nearest(set.scene.get(), mask, packet);
-    for (std::size_t k = 0; k < kPacketRays; ++k) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
       if (mask[k] == 0 || packet.hit.geomID[k] == kNothing) continue;
-      hits[k] = {.piece = &set.pieces[packet.hit.instID[0][k]], .triangle = packet.hit.primID[k]};
+      hits.piece[k] = &set.pieces[packet.hit.instID[0][k]];
+      hits.triangle[k] = packet.hit.primID[k];
       packet.hit.geomID[k] = kNothing;
     }
   }
 
-  void put(const Hit& hit, int x_px, int y_px) const {
-    out_.object_index.at(x_px, y_px) = object_of(hit);
-    out_.material_index.at(x_px, y_px) =
-        hit.piece == nullptr ? std::uint16_t{0}
-                             : place_.scene().meshes[hit.piece->mesh].material_index[hit.triangle];
-    if (!needs_.depth && !needs_.normals) return;
-    const Sight sight = hit.piece == nullptr ? Sight() : see(hit, direction(x_px, y_px));
-    if (needs_.depth) {
-      out_.depth_m.at(x_px, y_px) =
-          hit.piece == nullptr ? kSkyDepthM : static_cast<float>(dot(view_.forward, sight.point_m));
+  static void put_objects(const Hits& hits, const PacketMask& mask, const Block& block,
+                          Plane<std::uint16_t>& plane) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      if (mask[k] == 0) continue;
+      plane.at(block.x(k), block.y(k)) = hits.piece[k] == nullptr ? std::uint16_t{0} : hits.piece[k]->object;
     }
-    if (!needs_.normals) return;
-    out_.normal[0].at(x_px, y_px) = static_cast<float>(sight.normal.x);
-    out_.normal[1].at(x_px, y_px) = static_cast<float>(sight.normal.y);
-    out_.normal[2].at(x_px, y_px) = static_cast<float>(sight.normal.z);
   }
 
-  [[nodiscard]] Sight see(const Hit& hit, const Vector3& ray) const {
-    const BakedMesh& mesh = place_.scene().meshes[hit.piece->mesh];
-    const auto& normals = place_.normals(hit.piece->mesh);
-    PlacedTriangle triangle;
-    triangle.smooth = !normals.empty();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t corner = mesh.triangles[hit.triangle].at(k);
-      triangle.corner_m.at(k) = transformed(hit.piece->to_world, mesh.points_m[corner]) - view_.position_m;
-      if (triangle.smooth) triangle.normal.at(k) = vector_of(normals[corner]);
+  void put_materials(const Hits& hits, const PacketMask& mask, const Block& block) const {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      if (mask[k] == 0) continue;
+      out_.material_index.at(block.x(k), block.y(k)) =
+          hits.piece[k] == nullptr ? std::uint16_t{0}
+                                   : mesh_of(*hits.piece[k]).material_index[hits.triangle[k]];
     }
-    return see_triangle(ray, triangle, hit.piece->to_world);
+  }
+
+  void put_sights(const VectorLanes<double>& direction, const Hits& hits, const PacketMask& mask,
+                  const Block& block) const {
+    TriangleLanes triangles;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      if (hits.piece[k] != nullptr) gather(*hits.piece[k], hits.triangle[k], k, triangles);
+    }
+    SightLanes sights;
+    see_triangles(view_, direction, triangles, sights);
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      if (mask[k] == 0) continue;
+      const bool sky = hits.piece[k] == nullptr;
+      if (needs_.depth) out_.depth_m.at(block.x(k), block.y(k)) = sky ? kSkyDepthM : sights.depth_m[k];
+      for (std::size_t axis = 0; needs_.normals && axis < 3; ++axis)
+        out_.normal[axis].at(block.x(k), block.y(k)) = sky ? 0.0F : sights.normal[axis][k];
+    }
+  }
+
+  [[nodiscard]] const BakedMesh& mesh_of(const Piece& piece) const noexcept {
+    return place_.scene().meshes[piece.mesh];
+  }
+
+  void gather(const Piece& piece, unsigned number, std::size_t k, TriangleLanes& lanes) const noexcept {
+    const BakedMesh& mesh = mesh_of(piece);
+    const auto& corners = mesh.triangles[number];
+    const auto& normals = place_.normals(piece.mesh);
+    for (std::size_t entry = 0; entry < 12; ++entry)
+      lanes.to_world[entry * kLanes + k] = piece.to_world[entry];
+    for (std::size_t which = 0; which < 3; ++which) {
+      const auto& point_m = mesh.points_m[corners[which]];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        lanes.corner_m[which][axis][k] = static_cast<double>(point_m[axis]);
+      if (normals.empty()) continue;
+      const auto& normal = normals[corners[which]];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        lanes.normal[which][axis][k] = static_cast<double>(normal[axis]);
+    }
   }
 
   const Place& place_;
@@ -163,6 +187,18 @@ class FrameTracer {
 };
 
 }  // namespace
+
+PixelRays::PixelRays(const CameraIntrinsics& camera, const LensDistortion& lens)
+    : width_px_(camera.width_px), height_px_(camera.height_px) {
+  for (int x = 0; x < width_px_; ++x) x_.push_back((x + 0.5 - camera.cx_px) / camera.fx_px);
+  for (int y = 0; y < height_px_; ++y) y_.push_back((y + 0.5 - camera.cy_px) / camera.fy_px);
+  if (lens.is_none()) return;
+  bent_.resize(x_.size() * y_.size());
+  parallel_for(y_.size(), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin * x_.size(); k < end * x_.size(); ++k)
+      bent_[k] = undistort(lens, {.x = x_[k % x_.size()], .y = y_[k / x_.size()]});
+  });
+}
 
 View view_of(const std::array<double, 16>& camera_to_world) noexcept {
   std::array<float, 16> m{};

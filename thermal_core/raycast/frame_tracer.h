@@ -10,34 +10,26 @@
 
 namespace thermal {
 
-/// Where the camera is in a frame, and its axes: columns of the pose. In single precision, as Blender keeps them.
-struct View {
-  Vector3 right;
-  Vector3 down;
-  Vector3 forward;
-  Vector3 position_m;
-};
-
+/// The view of a pose, in single precision, as Blender keeps it.
 [[nodiscard]] View view_of(const std::array<double, 16>& camera_to_world) noexcept;
 
-/// The rays of a camera: through pixel (x, y), in camera axes, z being 1.
+/// Where the rays of a camera go: through pixel (x, y), in camera axes, z being 1.
 class PixelRays {
  public:
-  PixelRays(const CameraIntrinsics& camera, const std::vector<LensPoint>& bent)
-      : camera_(camera), bent_(bent) {}
+  PixelRays(const CameraIntrinsics& camera, const LensDistortion& lens);
 
-  [[nodiscard]] int width_px() const noexcept { return camera_.width_px; }
-  [[nodiscard]] int height_px() const noexcept { return camera_.height_px; }
-  [[nodiscard]] LensPoint at(int x, int y) const noexcept {
-    if (bent_.empty())
-      return {.x = (x + 0.5 - camera_.cx_px) / camera_.fx_px, .y = (y + 0.5 - camera_.cy_px) / camera_.fy_px};
-    return bent_[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width_px) +
-                 static_cast<std::size_t>(x)];
+  [[nodiscard]] int width_px() const noexcept { return width_px_; }
+  [[nodiscard]] int height_px() const noexcept { return height_px_; }
+  [[nodiscard]] LensPoint at(std::size_t x_px, std::size_t y_px) const noexcept {
+    return bent_.empty() ? LensPoint{.x = x_[x_px], .y = y_[y_px]} : bent_[y_px * x_.size() + x_px];
   }
 
  private:
-  const CameraIntrinsics& camera_;
-  const std::vector<LensPoint>& bent_;
+  int width_px_;
+  int height_px_;
+  std::vector<double> x_;        ///< a pinhole's, by column
+  std::vector<double> y_;        ///< by row
+  std::vector<LensPoint> bent_;  ///< a lens's, row by row; empty: a pinhole
 };
 
 /// Fills the planes of `out` that are needed with what the rays of one view see.

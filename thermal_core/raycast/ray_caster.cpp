@@ -2,27 +2,11 @@
 
 #include <algorithm>
 
-#include "base/parallel.h"
 #include "raycast/frame_tracer.h"
 #include "raycast/place.h"
 
 namespace thermal {
 namespace {
-
-std::vector<LensPoint> bent_rays(const CameraIntrinsics& camera, const LensDistortion& lens) {
-  if (lens.is_none()) return {};
-  const auto width = static_cast<std::size_t>(camera.width_px);
-  const auto height = static_cast<std::size_t>(camera.height_px);
-  std::vector<LensPoint> rays(width * height);
-  parallel_for(height, 8, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin * width; k < end * width; ++k) {
-      rays[k] = unproject(
-          camera, lens,
-          {.u_px = static_cast<double>(k % width) + 0.5, .v_px = static_cast<double>(k / width) + 0.5});
-    }
-  });
-  return rays;
-}
 
 /// Transforms lie in a track actor by actor, frame by frame, bone by bone.
 std::vector<std::size_t> first_bones(const BakedScene& scene, const BakedTrack& track) {
@@ -65,13 +49,13 @@ ClipTracer::ClipTracer(const RayCaster& caster, const BakedTrack& track, const C
                        const LensDistortion& lens)
     : place_(caster.place()),
       track_(track),
-      camera_(camera),
-      rays_(bent_rays(camera, lens)),
+      rays_(std::make_unique<const PixelRays>(camera, lens)),
       first_bone_(first_bones(place_.scene(), track)) {}
+ClipTracer::~ClipTracer() = default;
 
 void ClipTracer::trace(std::size_t frame, const PassNeeds& needs, Passes& out) const {
   const PieceSet actors = place_.set_of(actors_in(place_.scene(), track_, frame, first_bone_));
-  trace_frame(place_, actors, view_of(track_.camera_to_world[frame]), PixelRays(camera_, rays_), needs, out);
+  trace_frame(place_, actors, view_of(track_.camera_to_world[frame]), *rays_, needs, out);
 }
 
 }  // namespace thermal

@@ -10,6 +10,7 @@
 
 namespace thermal {
 
+class PixelRays;
 class Place;
 
 /// The engine `embree`: a baked scene, ready for rays.
@@ -35,6 +36,7 @@ class ClipTracer {
   /// track, which must belong to its scene, must outlive this object.
   ClipTracer(const RayCaster& caster, const BakedTrack& track, const CameraIntrinsics& camera,
              const LensDistortion& lens = {});
+  ~ClipTracer();
 
   /// The planes of a frame that are needed, and both indices, as Blender's passes have them: what each ray hits first
   /// at depths from 0.1 m to 20 km; the sky has index 0, a depth of 1e10 m and a normal of 0. Depth and normals are
@@ -45,8 +47,7 @@ class ClipTracer {
  private:
   const Place& place_;
   const BakedTrack& track_;
-  CameraIntrinsics camera_;
-  std::vector<LensPoint> rays_;          ///< of a row after the other; empty: those of a pinhole
+  std::unique_ptr<const PixelRays> rays_;
   std::vector<std::size_t> first_bone_;  ///< [actor, frame]: position of its bones in the track
 };
 

@@ -1,35 +1,54 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 
 #include "raycast/vectors.h"
-#include "scene/baked_scene.h"
 
 namespace thermal {
 
-/// A triangle of a mesh in its position.
-struct PlacedTriangle {
-  std::array<Vector3, 3> corner_m;  ///< relative to the camera, in world axes
-  std::array<Vector3, 3> normal;    ///< of a smooth mesh's points, in the mesh's axes
-  bool smooth = false;
+/// Rays that are computed together.
+inline constexpr std::size_t kLanes = 16;
+template <typename Number>
+using Lanes = std::array<Number, kLanes>;
+
+/// A vector of each lane.
+template <typename Number>
+using VectorLanes = std::array<Lanes<Number>, 3>;
+
+/// A transform of each lane, row-major 3 x 4: entry after entry, lane after lane.
+using TransformLanes = std::array<double, 12 * kLanes>;
+
+/// Directions of rays through pixels, in world axes: one unit along the camera's axis.
+[[nodiscard]] VectorLanes<double> directions(const View& view, const Lanes<double>& x,
+                                             const Lanes<double>& y) noexcept;
+
+/// Unit vectors of directions, and their lengths.
+struct UnitLanes {
+  VectorLanes<float> direction;
+  Lanes<double> length;
+};
+[[nodiscard]] UnitLanes units(const VectorLanes<double>& direction) noexcept;
+
+/// The triangles that rays hit: of meshes, in their axes, with the transforms of these.
+struct TriangleLanes {
+  TransformLanes to_world;
+  std::array<VectorLanes<double>, 3> corner_m;
+  std::array<VectorLanes<double>, 3> normal;  ///< of the corners; flat triangles: 0
 };
 
-/// What a ray sees of the triangle that it hits.
-struct Sight {
-  Vector3 point_m;  ///< relative to the camera, in world axes
-  Vector3 normal;   ///< unit, towards the camera
+/// What rays see of triangles.
+struct SightLanes {
+  Lanes<float> depth_m;       ///< along the camera's axis
+  VectorLanes<float> normal;  ///< unit, in world axes, on the camera's side
 };
 
-/// A point under a transform.
-[[nodiscard]] Vector3 transformed(const Transform<double>& to_world,
-                                  const std::array<float, 3>& point) noexcept;
-
-/// Where a ray from the camera meets a triangle that it is known to hit, within rounding. Double precision, in one
-/// order, so that bits do not depend on the machine. A ray in the triangle's plane gets one of its corners.
-/// Of a smooth mesh: the normal between those of the corners, as Cycles has it, also where that faces away.
+/// Where rays from the camera meet triangles that they are known to hit, within rounding: depth and normal there.
+/// Double precision, in one order of operations, so that bits do not depend on the machine. A ray beside its triangle
+/// gets the nearest edge, one in its plane a corner. The normal is the triangle's or, if it is smooth, one between
+/// those of its corners; of both, Cycles has the side of the triangle that the camera sees.
 /// Source: T. Möller and B. Trumbore, Fast, minimum storage ray-triangle intersection, J. Graphics Tools 2(1), 1997.
-[[nodiscard]] Sight see_triangle(const Vector3& ray, const PlacedTriangle& triangle,
-                                 const Transform<double>& to_world) noexcept;
+void see_triangles(const View& view, const VectorLanes<double>& direction, const TriangleLanes& triangle,
+                   SightLanes& out) noexcept;
 
 }  // namespace thermal
