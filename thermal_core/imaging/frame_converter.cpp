@@ -73,6 +73,10 @@ SceneFrame FrameConverter::convert(const Passes& passes, const ManifestFrame& fr
 }
 
 void FrameConverter::convert(const Passes& passes, const ManifestFrame& frame, SceneFrame& out) const {
+  if (passes.fine.factor > 1) {
+    convert_samples(passes, frame, out);
+    return;
+  }
   const std::vector<IndexUse> uses = survey_indices(passes.object_index);
   const SurfaceMap& surfaces = scene_radiance_.surfaces();
   surfaces.check_objects(uses);
@@ -86,6 +90,24 @@ void FrameConverter::convert(const Passes& passes, const ManifestFrame& frame, S
   Plane<float> fine;
   out.checks = radiance(passes, frame, fine);
   reshape(std::move(fine), out.radiance_w_m2_sr);
+}
+
+/// Labels are those of planes with all samples everywhere.
+void FrameConverter::convert_samples(const Passes& passes, const ManifestFrame& frame,
+                                     SceneFrame& out) const {
+  const FineSamples& fine = passes.fine;
+  Passes labelled;
+  labelled.object_index = filled_in(passes.object_index, fine.object_index, fine);
+  labelled.actor_index = filled_in(passes.actor_index, fine.actor_index, fine);
+  if (scene_radiance_.needs().depth) labelled.depth_m = filled_in(passes.depth_m, fine.depth_m, fine);
+  const std::vector<IndexUse> uses = survey_indices(labelled.object_index);
+  scene_radiance_.surfaces().check_objects(uses);
+  scene_radiance_.surfaces().check_materials(survey_indices(passes.material_index));
+  out.instances = labeller_.label(labelled, uses, frame);
+  Plane<float> radiance;
+  out.checks = scene_radiance_.radiance(passes, frame, map_ ? radiance : out.radiance_w_m2_sr);
+  out.checks += scene_radiance_.refine(fine, frame, map_ ? radiance : out.radiance_w_m2_sr);
+  if (map_) map_->resample_linear(radiance, out.radiance_w_m2_sr);
 }
 
 /// At the resolution of the passes.

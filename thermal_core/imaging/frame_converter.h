@@ -54,7 +54,8 @@ class FrameConverter {
 
   /// Converts the passes of one frame, `supersample` times finer than the camera and with overscan if the manifest
   /// says so: physics first, then means of radiance, then the lens. Labels go through the lens like radiance. If the
-  /// passes have ranks, radiance combines all of them (coverage_radiance()), and labels use object_index. Actors are
+  /// passes have ranks, radiance combines all of them (coverage_radiance()), and labels use object_index. Passes that are sampled where it matters (Passes::fine) give
+  /// what those with all samples would, if the other pixels had one value each. Actors are
   /// labelled by ActorLabeller.
   /// DataError if the passes hold an index missing from the manifest. Safe to call from several threads.
   [[nodiscard]] SceneFrame convert(const Passes& passes, const ManifestFrame& frame = {}) const;
@@ -66,6 +67,7 @@ class FrameConverter {
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
 
  private:
+  void convert_samples(const Passes& passes, const ManifestFrame& frame, SceneFrame& out) const;
   PassChecks radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const;
   void reshape(Plane<float> fine, Plane<float>& out) const;
 

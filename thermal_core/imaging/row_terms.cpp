@@ -23,9 +23,9 @@ struct RayLine {
   float across;
 };
 
-RayLine ray_line(const Row& row, const CameraRays& rays, std::size_t axis) {
+RayLine ray_line(const Row& row, std::size_t axis) {
   const auto& r = row.pose->rotation.at(axis);
-  return {r[1] * rays.y()[static_cast<std::size_t>(row.y)] + r[2], r[0]};
+  return {r[1] * row.ray_y + r[2], r[0]};
 }
 
 /// A function of the cosine at which water is seen, tabulated, because its functions are slow; water is rare.
@@ -88,8 +88,7 @@ RowTerm emission(const SurfaceOpticsList& surfaces) {
   };
 }
 
-RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField& field,
-                        const CameraRays& rays) {
+RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField& field) {
   std::vector<float> nodes;
   std::vector<std::int32_t> first_node;
   std::vector<float> position;
@@ -106,23 +105,23 @@ RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField&
       spread.push_back(0);
     }
   }
-  return [&field, &rays, nodes, first_node, position, spread,
+  return [&field, nodes, first_node, position, spread,
           scale = column(surfaces, [](const auto& s) { return s.per_correlation_length; })](Row& row) {
     const std::size_t width = row.surface.size();
     for (auto* scratch : {&row.place_x, &row.place_y, &row.footprint, &row.variation}) scratch->resize(width);
-    const RayLine x = ray_line(row, rays, 0);
-    const RayLine y = ray_line(row, rays, 1);
+    const RayLine x = ray_line(row, 0);
+    const RayLine y = ray_line(row, 1);
     kernels::find_places({.surface = row.surface.data(),
                           .per_correlation_length = scale.data(),
                           .depth_m = row.depth_m.data(),
-                          .ray_x = rays.x().data(),
+                          .ray_x = row.ray_x.data(),
                           .origin_x_m = row.pose->position_m[0],
                           .origin_y_m = row.pose->position_m[1],
                           .x_along = x.along,
                           .x_across = x.across,
                           .y_along = y.along,
                           .y_across = y.across,
-                          .pixel_width = rays.pixel_width()},
+                          .pixel_width = row.sample_width},
                          row.place_x.data(), row.place_y.data(), row.footprint.data(), width);
     field.sample(row.place_x, row.place_y, row.footprint, row.variation);
     kernels::emit_varied({.surface = row.surface.data(),
@@ -136,19 +135,19 @@ RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField&
   };
 }
 
-RowTerm orientation(const CameraRays& rays) {
-  return [&rays](Row& row) {
+RowTerm orientation() {
+  return [](Row& row) {
     const std::size_t width = row.surface.size();
     row.sky_view.resize(width);
     row.cosine.resize(width);
-    const RayLine x = ray_line(row, rays, 0);
-    const RayLine y = ray_line(row, rays, 1);
-    const RayLine z = ray_line(row, rays, 2);
+    const RayLine x = ray_line(row, 0);
+    const RayLine y = ray_line(row, 1);
+    const RayLine z = ray_line(row, 2);
     kernels::orient({.nx = row.normal[0].data(),
                      .ny = row.normal[1].data(),
                      .nz = row.normal[2].data(),
-                     .ray_x = rays.x().data(),
-                     .ray_length = rays.length().row(row.y).data(),
+                     .ray_x = row.ray_x.data(),
+                     .ray_length = row.ray_length.data(),
                      .x_along = x.along,
                      .x_across = x.across,
                      .y_along = y.along,
@@ -212,11 +211,11 @@ RowTerm sky_reflection(const Air& air) {
   };
 }
 
-RowTerm path(const Air& air, float air_radiance_w_m2_sr, const CameraRays& rays) {
-  return [&rays, absorption = fit_absorption(air), air_radiance_w_m2_sr](Row& row) {
+RowTerm path(const Air& air, float air_radiance_w_m2_sr) {
+  return [absorption = fit_absorption(air), air_radiance_w_m2_sr](Row& row) {
     kernels::pass_air({.surface = row.surface.data(),
                        .depth_m = row.depth_m.data(),
-                       .ray_length = rays.length().row(row.y).data(),
+                       .ray_length = row.ray_length.data(),
                        .air_w_m2_sr = air_radiance_w_m2_sr},
                       absorption, row.radiance_w_m2_sr.data(), row.surface.size());
   };

@@ -26,11 +26,15 @@ struct SurfaceOptics {
   const RadianceTable* table = nullptr;  ///< where the temperature varies
 };
 
-/// One row of a frame as the terms process it, with buffers for intermediate results. Surface 0 is the sky.
+/// Some samples on one line of a frame as the terms process them, with buffers for intermediate results. Surface 0 is
+/// the sky.
 struct Row {
-  int y = 0;
   std::span<const std::uint16_t> surface;
-  std::span<const float> depth_m;                ///< empty if no term needs it
+  std::span<const float> ray_x;       ///< of the ray through each sample, z being 1, in camera axes
+  std::span<const float> ray_length;  ///< of that ray
+  float ray_y = 0;                    ///< of all rays
+  float sample_width = 0;             ///< side of a sample at depth 1
+  std::span<const float> depth_m;     ///< empty if no term needs it
   std::array<std::span<const float>, 3> normal;  ///< the same
   const CameraPose* pose = nullptr;
   std::span<float> radiance_w_m2_sr;
@@ -54,12 +58,11 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 
 /// Emission with the fractal temperature field on the surfaces that have one. Where depth is not a positive finite
 /// number below 1e9, a surface has its mean; temperatures are clamped to the tables' 180 to 436 K.
-[[nodiscard]] RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField& field,
-                                      const CameraRays& rays);
+[[nodiscard]] RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField& field);
 
 /// Computes sky_view and cosine from the normals. Normals that face away from the camera are flipped; those that are
 /// zero, NaN or far from unit length count as facing both sky and camera.
-[[nodiscard]] RowTerm orientation(const CameraRays& rays);
+[[nodiscard]] RowTerm orientation();
 
 /// Lists the row's water pixels, which reflect and fall off by functions of their own.
 [[nodiscard]] RowTerm water_pixels(const SurfaceOpticsList& surfaces);
@@ -76,6 +79,6 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 
 /// Transmission and emission of the air over the true range. Depth that is NaN, infinite or beyond the path model
 /// counts as 1000 m; the sky is unaffected.
-[[nodiscard]] RowTerm path(const Air& air, float air_radiance_w_m2_sr, const CameraRays& rays);
+[[nodiscard]] RowTerm path(const Air& air, float air_radiance_w_m2_sr);
 
 }  // namespace thermal

@@ -43,6 +43,23 @@ void require_poses(const Manifest& manifest) {
   }
 }
 
+CameraPose pose_in(const ManifestFrame& frame) {
+  return frame.camera_to_world ? pose_of(*frame.camera_to_world) : CameraPose{};
+}
+
+/// Adds what work(begin, end) returns for chunks of the rows; sums of any order are equal.
+template <typename Work>
+PassChecks sum_over_rows(int rows, const Work& work) {
+  const auto count = static_cast<std::size_t>(rows);
+  std::vector<PassChecks> checks((count + kSceneRowsAChunk - 1) / kSceneRowsAChunk);
+  parallel_for(count, kSceneRowsAChunk, [&](std::size_t begin, std::size_t end) {
+    checks[begin / kSceneRowsAChunk] = work(static_cast<int>(begin), static_cast<int>(end));
+  });
+  PassChecks sum;
+  for (const PassChecks& chunk : checks) sum += chunk;
+  return sum;
+}
+
 }  // namespace
 
 SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials, Season season,
@@ -59,6 +76,7 @@ SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& ma
                              const PhysicsSettings& settings)
     : map_(manifest, materials) {
   held_->rays = std::make_unique<CameraRays>(passes_camera(manifest));
+  if (manifest.supersample > 1) held_->pixel_rays = std::make_unique<CameraRays>(pixels_camera(manifest));
   for (const Surface& surface : map_.surfaces()) add_optics(surface, settings);
   compose(settings);
   const Terms& terms = settings.terms;
@@ -94,23 +112,22 @@ void SceneRadiance::add_optics(const Surface& surface, const PhysicsSettings& se
 void SceneRadiance::compose(const PhysicsSettings& settings) {
   const Terms& terms = settings.terms;
   const SurfaceOpticsList& optics = held_->optics;
-  const CameraRays& rays = *held_->rays;
   if (terms.variation) {
     held_->field = std::make_unique<VariationField>(settings.seed);
-    chain_.push_back(varied_emission(optics, *held_->field, rays));
+    chain_.push_back(varied_emission(optics, *held_->field));
   } else {
     chain_.push_back(emission(optics));
   }
   if (terms.sky) chain_.push_back(reflectivity(optics));
   if (terms.sky || terms.angular) {
-    chain_.push_back(orientation(rays));
+    chain_.push_back(orientation());
     chain_.push_back(water_pixels(optics));
   }
   if (terms.angular) chain_.push_back(angular_emissivity(optics));
   if (terms.sky) chain_.push_back(sky_reflection(settings.weather.air));
   if (terms.path) {
     const double air_radiance = BandRadiance(settings.response).radiance(settings.weather.air.temperature_k);
-    chain_.push_back(path(settings.weather.air, static_cast<float>(air_radiance), rays));
+    chain_.push_back(path(settings.weather.air, static_cast<float>(air_radiance)));
   }
   needs_ = {.depth = terms.variation || terms.path, .normals = terms.sky || terms.angular};
 }
@@ -125,8 +142,13 @@ void SceneRadiance::find_brightest() {
   brightest_w_m2_sr_ = std::max_element(optics.begin() + 1, optics.end(), dimmer)->emitted_w_m2_sr;
 }
 
-void SceneRadiance::begin_row(const Passes& passes, int y, Row& row) const {
-  row.y = y;
+void SceneRadiance::begin_row(const Passes& passes, const CameraRays* rays, int y, Row& row) const {
+  if (rays != nullptr) {
+    row.ray_x = rays->x();
+    row.ray_length = rays->length().row(y);
+    row.ray_y = rays->y()[static_cast<std::size_t>(y)];
+    row.sample_width = rays->pixel_width();
+  }
   if (needs_.depth) row.depth_m = passes.depth_m.row(y);
   for (std::size_t axis = 0; needs_.normals && axis < 3; ++axis)
     row.normal[axis] = passes.normal[axis].row(y);
@@ -143,30 +165,97 @@ PassChecks SceneRadiance::radiance(const Passes& passes, const ManifestFrame& fr
   const Plane<std::uint16_t>& objects = passes.object_index;
   const bool has_materials = !passes.material_index.empty();
   assert(!has_materials || passes.material_index.size() == objects.size());
-  const CameraPose pose = frame.camera_to_world ? pose_of(*frame.camera_to_world) : CameraPose{};
+  const CameraRays* rays = passes.fine.factor > 1 ? held_->pixel_rays.get() : held_->rays.get();
+  const CameraPose pose = pose_in(frame);
   if (out.width_px() != objects.width_px() || out.height_px() != objects.height_px()) {
     out = Plane<float>(objects.width_px(), objects.height_px());
   }
-  const auto rows = static_cast<std::size_t>(objects.height_px());
-  std::vector<PassChecks> checks((rows + kSceneRowsAChunk - 1) /
-                                 kSceneRowsAChunk);  // a chunk each: sums of any order are equal
-  parallel_for(rows, kSceneRowsAChunk, [&](std::size_t begin, std::size_t end) {
+  return sum_over_rows(objects.height_px(), [&](int begin, int end) {
     std::vector<std::uint16_t> numbers(static_cast<std::size_t>(objects.width_px()));
+    PassChecks checks;
     Row row;
     row.pose = &pose;
     row.surface = numbers;
-    for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+    for (int y = begin; y < end; ++y) {
       const auto materials = has_materials ? passes.material_index.row(y) : std::span<const std::uint16_t>();
       map_.number(objects.row(y), materials, numbers);
-      begin_row(passes, y, row);
-      checks[begin / kSceneRowsAChunk] += check_row(row);
+      begin_row(passes, rays, y, row);
+      checks += check_row(row);
       row.radiance_w_m2_sr = out.row(y);
       for (const RowTerm& term : chain_) term(row);
     }
+    return checks;
   });
-  PassChecks sum;
-  for (const PassChecks& chunk : checks) sum += chunk;
-  return sum;
+}
+
+/// A line of fine samples as the terms process it, in memory that the next line reuses.
+struct SceneRadiance::FineLine {
+  void begin(const FineSamples& fine, int y, int line, const CameraRays* rays, const PassNeeds& needs);
+
+  std::vector<std::uint16_t> numbers;
+  std::vector<float> radiance_w_m2_sr;
+  std::vector<float> ray_x;
+  std::vector<float> ray_length;
+  std::size_t first = 0;  ///< of its samples
+  std::size_t count = 0;
+  Row row;
+};
+
+void SceneRadiance::FineLine::begin(const FineSamples& fine, int y, int line, const CameraRays* rays,
+                                    const PassNeeds& needs) {
+  const auto side = static_cast<std::size_t>(fine.factor);
+  first = fine.line_begin(y, line);
+  count = side * fine.pixels_in(y);
+  numbers.resize(count);
+  radiance_w_m2_sr.resize(count);
+  row.surface = numbers;
+  row.radiance_w_m2_sr = radiance_w_m2_sr;
+  if (needs.depth) row.depth_m = std::span(fine.depth_m).subspan(first, count);
+  for (std::size_t axis = 0; needs.normals && axis < 3; ++axis)
+    row.normal[axis] = std::span(fine.normal[axis]).subspan(first, count);
+  if (rays == nullptr) return;
+  const int fine_y = y * fine.factor + line;
+  const std::span<const float> lengths = rays->length().row(fine_y);
+  ray_x.resize(count);
+  ray_length.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t fine_x =
+        fine.x_px[fine.row_begin[static_cast<std::size_t>(y)] + k / side] * side + k % side;
+    ray_x[k] = rays->x()[fine_x];
+    ray_length[k] = lengths[fine_x];
+  }
+  row.ray_x = ray_x;
+  row.ray_length = ray_length;
+  row.ray_y = rays->y()[static_cast<std::size_t>(fine_y)];
+  row.sample_width = rays->pixel_width();
+}
+
+PassChecks SceneRadiance::refine(const FineSamples& fine, const ManifestFrame& frame,
+                                 Plane<float>& out) const {
+  const CameraPose pose = pose_in(frame);
+  const auto side = static_cast<std::size_t>(fine.factor);
+  const float share = 1.0F / static_cast<float>(side * side);
+  const std::span materials(fine.material_index);
+  return sum_over_rows(out.height_px(), [&](int begin, int end) {
+    PassChecks checks;
+    FineLine line;
+    line.row.pose = &pose;
+    std::vector<float> sums;
+    for (int y = begin; y < end; ++y) {
+      sums.assign(fine.pixels_in(y), 0.0F);
+      for (int k = 0; k < fine.factor && !sums.empty(); ++k) {
+        line.begin(fine, y, k, held_->rays.get(), needs_);
+        map_.number(std::span(fine.object_index).subspan(line.first, line.count),
+                    materials.empty() ? materials : materials.subspan(line.first, line.count), line.numbers);
+        checks += check_row(line.row);
+        for (const RowTerm& term : chain_) term(line.row);
+        for (std::size_t i = 0; i < line.count; ++i) sums[i / side] += line.radiance_w_m2_sr[i];
+      }
+      const std::size_t first = fine.row_begin[static_cast<std::size_t>(y)];
+      for (std::size_t i = 0; i < sums.size(); ++i) out.row(y)[fine.x_px[first + i]] = sums[i] * share;
+    }
+    return checks;
+  });
 }
 
 float brightest_of_table_1(const MaterialLibrary& materials, Season season,

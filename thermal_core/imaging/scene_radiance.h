@@ -52,6 +52,10 @@ class SceneRadiance {
   /// The same into a plane whose memory is reused if it has the right size. Returns how usable the planes were.
   PassChecks radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const;
 
+  /// The samples of passes that are sampled where it matters (Passes::fine): the mean over those of each of their pixels
+  /// replaces the pixel's radiance. Returns how usable the samples were. Otherwise as radiance().
+  PassChecks refine(const FineSamples& fine, const ManifestFrame& frame, Plane<float>& radiance) const;
+
   /// Radiance of the most radiant surface that the manifest names; of the sky if it names none.
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
 
@@ -59,14 +63,16 @@ class SceneRadiance {
   void add_optics(const Surface& surface, const PhysicsSettings& settings);
   void compose(const PhysicsSettings& settings);
   void find_brightest();
-  void begin_row(const Passes& passes, int y, Row& row) const;
+  struct FineLine;
+  void begin_row(const Passes& passes, const CameraRays* rays, int y, Row& row) const;
 
   // The chain's terms point to these members, so none of them may move.
   struct Held {
     SurfaceOpticsList optics;
     std::vector<std::unique_ptr<RadianceTable>> tables;
     std::unique_ptr<VariationField> field;
-    std::unique_ptr<CameraRays> rays;
+    std::unique_ptr<CameraRays> rays;        ///< of the passes
+    std::unique_ptr<CameraRays> pixel_rays;  ///< of passes with one sample per pixel; null: the same
   };
 
   SurfaceMap map_;

@@ -22,76 +22,73 @@ struct Hits {
   Lanes<unsigned> triangle{};
 };
 
-/// The pixels of a packet: 4 x 4, fewer at the right and lower border.
-struct Block {
-  static constexpr int kWidthPx = 4;
-  static constexpr int kHeightPx = static_cast<int>(kLanes) / kWidthPx;
+/// Rays that are traced together, and where their results go.
+struct Packet {
+  void add(const LensPoint& ray, std::size_t place) noexcept {
+    mask[rays] = -1;
+    x[rays] = ray.x;
+    y[rays] = ray.y;
+    places[rays] = place;
+    ++rays;
+  }
+  [[nodiscard]] bool is_full() const noexcept { return rays == kLanes; }
 
-  [[nodiscard]] int x(std::size_t ray) const noexcept { return x_px + static_cast<int>(ray) % kWidthPx; }
-  [[nodiscard]] int y(std::size_t ray) const noexcept { return y_px + static_cast<int>(ray) / kWidthPx; }
+  alignas(RayPacket) PacketMask mask{};
+  Lanes<double> x{};
+  Lanes<double> y{};
+  Lanes<std::size_t> places{};
+  std::size_t rays = 0;
+  bool near_actors = false;
+};
 
-  int x_px = 0;
-  int y_px = 0;
+/// Where results go, by place; null where they are not needed.
+struct Sink {
+  std::uint16_t* object_index = nullptr;
+  std::uint16_t* material_index = nullptr;
+  std::uint16_t* actor_index = nullptr;
+  float* depth_m = nullptr;
+  std::array<float*, 3> normal{};
 };
 
 template <typename T>
-void fit(Plane<T>& plane, bool wanted, const PixelRays& rays) {
+T* pixels_of(Plane<T>& plane, bool wanted, const PixelRays& rays) {
   const int width_px = wanted ? rays.width_px() : 0;
   const int height_px = wanted ? rays.height_px() : 0;
   if (plane.width_px() != width_px || plane.height_px() != height_px) plane = Plane<T>(width_px, height_px);
+  return wanted ? plane.pixels().data() : nullptr;
 }
 
-void fit(Passes& passes, const PassNeeds& needs, const PixelRays& rays) {
-  fit(passes.object_index, true, rays);
-  fit(passes.material_index, true, rays);
-  fit(passes.actor_index, needs.actors, rays);
-  fit(passes.depth_m, needs.depth, rays);
-  for (Plane<float>& axis : passes.normal) fit(axis, needs.normals, rays);
-  passes.ranks.clear();
+template <typename T>
+T* samples_of(std::vector<T>& list, bool wanted, std::size_t samples) {
+  list.resize(wanted ? samples : 0);
+  return wanted ? list.data() : nullptr;
 }
 
-class FrameTracer {
+class RayTracer {
  public:
-  FrameTracer(const Place& place, const PieceSet& actors, const View& view, const PixelRays& rays,
-              const PassNeeds& needs, Passes& out)
-      : place_(place), actors_(actors), view_(view), rays_(rays), needs_(needs), out_(out) {}
+  RayTracer(const Shot& shot, const Sink& sink) : shot_(shot), sink_(sink) {}
 
-  void trace_rows(int y_px) const {
-    for (int x_px = 0; x_px < rays_.width_px(); x_px += Block::kWidthPx) trace({.x_px = x_px, .y_px = y_px});
+  /// Actors first, which the actor layer shows; their hits then bound the search among the surroundings.
+  void trace(const Packet& rays) const {
+    const VectorLanes<double> direction = directions(shot_.view, rays.x, rays.y);
+    RayPacket packet = aimed(direction);
+    Hits hits;
+    if (rays.near_actors) find(shot_.actors, rays.mask, packet, hits);
+    if (sink_.actor_index != nullptr) put_objects(hits, rays, sink_.actor_index);
+    find(shot_.place.surroundings(), rays.mask, packet, hits);
+    put_objects(hits, rays, sink_.object_index);
+    put_materials(hits, rays);
+    if (sink_.depth_m != nullptr || sink_.normal[0] != nullptr) put_sights(direction, hits, rays);
   }
 
  private:
-  /// Actors first, which the actor layer shows; their hits then bound the search among the surroundings.
-  void trace(const Block& block) const {
-    alignas(RayPacket) PacketMask mask{};
-    Lanes<double> x{};
-    Lanes<double> y{};
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      mask[k] = block.x(k) < rays_.width_px() && block.y(k) < rays_.height_px() ? -1 : 0;
-      const auto column = static_cast<std::size_t>(std::min(block.x(k), rays_.width_px() - 1));
-      const auto row = static_cast<std::size_t>(std::min(block.y(k), rays_.height_px() - 1));
-      const LensPoint ray = rays_.at(column, row);
-      x[k] = ray.x;
-      y[k] = ray.y;
-    }
-    const VectorLanes<double> direction = directions(view_, x, y);
-    RayPacket packet = aimed(direction);
-    Hits hits;
-    if (!actors_.pieces.empty()) find(actors_, mask, packet, hits);
-    if (needs_.actors) put_objects(hits, mask, block, out_.actor_index);
-    find(place_.surroundings(), mask, packet, hits);
-    put_objects(hits, mask, block, out_.object_index);
-    put_materials(hits, mask, block);
-    if (needs_.depth || needs_.normals) put_sights(direction, hits, mask, block);
-  }
-
   /// As in Cycles, a ray has unit length and starts at the nearest depth, in single precision: silhouettes then agree
   /// to 1e-4 px.
   [[nodiscard]] RayPacket aimed(const VectorLanes<double>& direction) const noexcept {
     const UnitLanes unit = units(direction);
-    const auto x_m = static_cast<float>(view_.position_m.x);
-    const auto y_m = static_cast<float>(view_.position_m.y);
-    const auto z_m = static_cast<float>(view_.position_m.z);
+    const auto x_m = static_cast<float>(shot_.view.position_m.x);
+    const auto y_m = static_cast<float>(shot_.view.position_m.y);
+    const auto z_m = static_cast<float>(shot_.view.position_m.z);
     RayPacket packet;
     for (std::size_t k = 0; k < kLanes; ++k) {
       const auto start_m = static_cast<float>(kNearestM * unit.length[k]);
@@ -123,48 +120,47 @@ class FrameTracer {
     }
   }
 
-  static void put_objects(const Hits& hits, const PacketMask& mask, const Block& block,
-                          Plane<std::uint16_t>& plane) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      if (mask[k] == 0) continue;
-      plane.at(block.x(k), block.y(k)) = hits.piece[k] == nullptr ? std::uint16_t{0} : hits.piece[k]->object;
+  static void put_objects(const Hits& hits, const Packet& rays, std::uint16_t* out) noexcept {
+    for (std::size_t k = 0; k < rays.rays; ++k)
+      out[rays.places[k]] = hits.piece[k] == nullptr ? std::uint16_t{0} : hits.piece[k]->object;
+  }
+
+  void put_materials(const Hits& hits, const Packet& rays) const noexcept {
+    for (std::size_t k = 0; k < rays.rays; ++k) {
+      sink_.material_index[rays.places[k]] = hits.piece[k] == nullptr
+                                                 ? std::uint16_t{0}
+                                                 : mesh_of(*hits.piece[k]).material_index[hits.triangle[k]];
     }
   }
 
-  void put_materials(const Hits& hits, const PacketMask& mask, const Block& block) const {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      if (mask[k] == 0) continue;
-      out_.material_index.at(block.x(k), block.y(k)) =
-          hits.piece[k] == nullptr ? std::uint16_t{0}
-                                   : mesh_of(*hits.piece[k]).material_index[hits.triangle[k]];
-    }
-  }
-
-  void put_sights(const VectorLanes<double>& direction, const Hits& hits, const PacketMask& mask,
-                  const Block& block) const {
+  void put_sights(const VectorLanes<double>& direction, const Hits& hits, const Packet& rays) const noexcept {
     TriangleLanes triangles;
     for (std::size_t k = 0; k < kLanes; ++k) {
-      if (hits.piece[k] != nullptr) gather(*hits.piece[k], hits.triangle[k], k, triangles);
+      if (hits.piece[k] == nullptr) {
+        clear(k, triangles);
+      } else {
+        gather(*hits.piece[k], hits.triangle[k], k, triangles);
+      }
     }
     SightLanes sights;
-    see_triangles(view_, direction, triangles, sights);
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      if (mask[k] == 0) continue;
+    see_triangles(shot_.view, direction, triangles, sights);
+    for (std::size_t k = 0; k < rays.rays; ++k) {
       const bool sky = hits.piece[k] == nullptr;
-      if (needs_.depth) out_.depth_m.at(block.x(k), block.y(k)) = sky ? kSkyDepthM : sights.depth_m[k];
-      for (std::size_t axis = 0; needs_.normals && axis < 3; ++axis)
-        out_.normal[axis].at(block.x(k), block.y(k)) = sky ? 0.0F : sights.normal[axis][k];
+      const std::size_t place = rays.places[k];
+      if (sink_.depth_m != nullptr) sink_.depth_m[place] = sky ? kSkyDepthM : sights.depth_m[k];
+      for (std::size_t axis = 0; sink_.normal[0] != nullptr && axis < 3; ++axis)
+        sink_.normal[axis][place] = sky ? 0.0F : sights.normal[axis][k];
     }
   }
 
   [[nodiscard]] const BakedMesh& mesh_of(const Piece& piece) const noexcept {
-    return place_.scene().meshes[piece.mesh];
+    return shot_.place.scene().meshes[piece.mesh];
   }
 
   void gather(const Piece& piece, unsigned number, std::size_t k, TriangleLanes& lanes) const noexcept {
     const BakedMesh& mesh = mesh_of(piece);
     const auto& corners = mesh.triangles[number];
-    const auto& normals = place_.normals(piece.mesh);
+    const auto& normals = shot_.place.normals(piece.mesh);
     for (std::size_t entry = 0; entry < 12; ++entry)
       lanes.to_world[entry * kLanes + k] = piece.to_world[entry];
     for (std::size_t which = 0; which < 3; ++which) {
@@ -178,20 +174,62 @@ class FrameTracer {
     }
   }
 
-  const Place& place_;
-  const PieceSet& actors_;
-  const View& view_;
-  const PixelRays& rays_;
-  const PassNeeds& needs_;
-  Passes& out_;
+  static void clear(std::size_t k, TriangleLanes& lanes) noexcept {
+    for (std::size_t entry = 0; entry < 12; ++entry) lanes.to_world[entry * kLanes + k] = 0;
+    for (std::size_t which = 0; which < 3; ++which) {
+      for (std::size_t axis = 0; axis < 3; ++axis) lanes.corner_m[which][axis][k] = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) lanes.normal[which][axis][k] = 0;
+    }
+  }
+
+  const Shot& shot_;
+  const Sink& sink_;
 };
+
+/// The pixels of a packet: 4 x 4, fewer at the right and lower border.
+constexpr int kBlockPx = 4;
+static_assert(kBlockPx * kBlockPx == static_cast<int>(kLanes));
+
+Packet block_at(int x_px, int y_px, const PixelRays& rays, const Plane<std::uint8_t>& near_actors) {
+  Packet packet;
+  const auto width = static_cast<std::size_t>(rays.width_px());
+  for (int y = y_px; y < std::min(y_px + kBlockPx, rays.height_px()); ++y) {
+    for (int x = x_px; x < std::min(x_px + kBlockPx, rays.width_px()); ++x) {
+      const auto column = static_cast<std::size_t>(x);
+      const auto row = static_cast<std::size_t>(y);
+      packet.add(rays.at(column, row), row * width + column);
+      packet.near_actors |= near_actors.at(x, y) != 0;
+    }
+  }
+  return packet;
+}
+
+/// The samples of one row of pixels, pixel by pixel.
+void trace_row(const RayTracer& tracer, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
+               int row, const FineSamples& fine) {
+  Packet packet;
+  const auto side = static_cast<std::size_t>(fine.factor);
+  const std::size_t begin = fine.row_begin[static_cast<std::size_t>(row)];
+  for (std::size_t pixel = 0; pixel < fine.pixels_in(row); ++pixel) {
+    const std::size_t x_px = fine.x_px[begin + pixel];
+    for (std::size_t k = 0; k < side * side; ++k) {
+      const std::size_t line = k / side;
+      const std::size_t place = fine.line_begin(row, static_cast<int>(line)) + pixel * side + k % side;
+      packet.add(rays.at(x_px * side + k % side, static_cast<std::size_t>(row) * side + line), place);
+      packet.near_actors |= near_actors.at(static_cast<int>(x_px), row) != 0;
+      if (!packet.is_full()) continue;
+      tracer.trace(packet);
+      packet = {};
+    }
+  }
+  if (packet.rays > 0) tracer.trace(packet);
+}
 
 }  // namespace
 
-PixelRays::PixelRays(const CameraIntrinsics& camera, const LensDistortion& lens)
-    : width_px_(camera.width_px), height_px_(camera.height_px) {
-  for (int x = 0; x < width_px_; ++x) x_.push_back((x + 0.5 - camera.cx_px) / camera.fx_px);
-  for (int y = 0; y < height_px_; ++y) y_.push_back((y + 0.5 - camera.cy_px) / camera.fy_px);
+PixelRays::PixelRays(const CameraIntrinsics& camera, const LensDistortion& lens) : camera_(camera) {
+  for (int x = 0; x < camera.width_px; ++x) x_.push_back((x + 0.5 - camera.cx_px) / camera.fx_px);
+  for (int y = 0; y < camera.height_px; ++y) y_.push_back((y + 0.5 - camera.cy_px) / camera.fy_px);
   if (lens.is_none()) return;
   bent_.resize(x_.size() * y_.size());
   parallel_for(y_.size(), 8, [&](std::size_t begin, std::size_t end) {
@@ -209,15 +247,42 @@ View view_of(const std::array<double, 16>& camera_to_world) noexcept {
           .position_m = vector_of<float>({m[3], m[7], m[11]})};
 }
 
-void trace_frame(const Place& place, const PieceSet& actors, const View& view, const PixelRays& rays,
-                 const PassNeeds& needs, Passes& out) {
-  constexpr std::size_t kBlockRowsAChunk = 4;
-  fit(out, needs, rays);
-  const FrameTracer tracer(place, actors, view, rays, needs, out);
-  const auto block_rows =
-      static_cast<std::size_t>((rays.height_px() + Block::kHeightPx - 1) / Block::kHeightPx);
-  parallel_for(block_rows, kBlockRowsAChunk, [&tracer](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) tracer.trace_rows(static_cast<int>(k) * Block::kHeightPx);
+void trace_pixels(const Shot& shot, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
+                  const PassNeeds& needs, Passes& out) {
+  const Sink sink = {
+      .object_index = pixels_of(out.object_index, true, rays),
+      .material_index = pixels_of(out.material_index, true, rays),
+      .actor_index = pixels_of(out.actor_index, needs.actors, rays),
+      .depth_m = pixels_of(out.depth_m, needs.depth, rays),
+      .normal = {pixels_of(out.normal[0], needs.normals, rays), pixels_of(out.normal[1], needs.normals, rays),
+                 pixels_of(out.normal[2], needs.normals, rays)}};
+  out.ranks.clear();
+  const RayTracer tracer(shot, sink);
+  const auto rows = static_cast<std::size_t>((rays.height_px() + kBlockPx - 1) / kBlockPx);
+  parallel_for(rows, 2, [&](std::size_t begin, std::size_t end) {
+    for (int y_px = static_cast<int>(begin) * kBlockPx; y_px < static_cast<int>(end) * kBlockPx;
+         y_px += kBlockPx) {
+      for (int x_px = 0; x_px < rays.width_px(); x_px += kBlockPx)
+        tracer.trace(block_at(x_px, y_px, rays, near_actors));
+    }
+  });
+}
+
+void trace_samples(const Shot& shot, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
+                   const PassNeeds& needs, FineSamples& fine) {
+  const auto side = static_cast<std::size_t>(fine.factor);
+  const std::size_t samples = side * side * fine.x_px.size();
+  const Sink sink = {.object_index = samples_of(fine.object_index, true, samples),
+                     .material_index = samples_of(fine.material_index, true, samples),
+                     .actor_index = samples_of(fine.actor_index, needs.actors, samples),
+                     .depth_m = samples_of(fine.depth_m, needs.depth, samples),
+                     .normal = {samples_of(fine.normal[0], needs.normals, samples),
+                                samples_of(fine.normal[1], needs.normals, samples),
+                                samples_of(fine.normal[2], needs.normals, samples)}};
+  const RayTracer tracer(shot, sink);
+  parallel_for(static_cast<std::size_t>(near_actors.height_px()), 8, [&](std::size_t begin, std::size_t end) {
+    for (auto row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
+      trace_row(tracer, rays, near_actors, row, fine);
   });
 }
 

@@ -1,6 +1,7 @@
 #include "raycast/place.h"
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -72,6 +73,18 @@ Transform<double> upright(const Transform<double>& plant) noexcept {
   return rounded;
 }
 
+MeshBox box_of(const BakedMesh& mesh) noexcept {
+  if (mesh.points_m.empty()) return {};
+  MeshBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [least, most] = std::ranges::minmax(
+        mesh.points_m | std::views::transform([axis](const auto& point) { return point[axis]; }));
+    box[0][axis] = static_cast<double>(least);
+    box[1][axis] = static_cast<double>(most);
+  }
+  return box;
+}
+
 std::vector<Piece> surroundings_of(const BakedScene& scene) {
   constexpr Transform<double> kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
   std::vector<Piece> pieces;
@@ -87,7 +100,10 @@ std::vector<Piece> surroundings_of(const BakedScene& scene) {
 }  // namespace
 
 Place::Place(const BakedScene& scene) : scene_(scene), device_(new_device()), normals_(scene.meshes.size()) {
-  for (const BakedMesh& mesh : scene.meshes) meshes_.push_back(scene_of(device_.get(), mesh));
+  for (const BakedMesh& mesh : scene.meshes) {
+    meshes_.push_back(scene_of(device_.get(), mesh));
+    boxes_.push_back(box_of(mesh));
+  }
   parallel_for(scene.meshes.size(), 1, [this](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       if (scene_.meshes[k].smooth) normals_[k] = vertex_normals(scene_.meshes[k]);

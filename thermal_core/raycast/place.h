@@ -22,6 +22,9 @@ struct PieceSet {
   EmbreeScene scene;
 };
 
+/// The least and the greatest coordinates of a mesh's points [m].
+using MeshBox = std::array<std::array<double, 3>, 2>;
+
 /// A baked scene with everything that its frames share.
 class Place {
  public:
@@ -38,6 +41,8 @@ class Place {
     return normals_[mesh];
   }
 
+  [[nodiscard]] const MeshBox& box(std::size_t mesh) const noexcept { return boxes_[mesh]; }
+
   /// Builds the structure of these pieces. Safe to call from several threads.
   [[nodiscard]] PieceSet set_of(std::vector<Piece> pieces) const;
 
@@ -46,6 +51,7 @@ class Place {
   EmbreeDevice device_;
   std::vector<EmbreeScene> meshes_;  ///< each alone
   std::vector<std::vector<std::array<float, 3>>> normals_;
+  std::vector<MeshBox> boxes_;
   PieceSet surroundings_;
 };
 

@@ -4,6 +4,8 @@
 
 #include "raycast/frame_tracer.h"
 #include "raycast/place.h"
+#include "raycast/refinement.h"
+#include "scene/camera_geometry.h"
 
 namespace thermal {
 namespace {
@@ -46,16 +48,29 @@ RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 
 ClipTracer::ClipTracer(const RayCaster& caster, const BakedTrack& track, const CameraIntrinsics& camera,
-                       const LensDistortion& lens)
+                       const Sampling& sampling)
     : place_(caster.place()),
       track_(track),
-      rays_(std::make_unique<const PixelRays>(camera, lens)),
+      pixel_rays_(std::make_unique<const PixelRays>(
+          sampling.adaptive ? camera : finer(camera, sampling.supersample), sampling.lens)),
+      sample_rays_(sampling.adaptive && sampling.supersample > 1
+                       ? std::make_unique<const PixelRays>(finer(camera, sampling.supersample), sampling.lens)
+                       : nullptr),
+      supersample_(sampling.supersample),
       first_bone_(first_bones(place_.scene(), track)) {}
 ClipTracer::~ClipTracer() = default;
 
 void ClipTracer::trace(std::size_t frame, const PassNeeds& needs, Passes& out) const {
   const PieceSet actors = place_.set_of(actors_in(place_.scene(), track_, frame, first_bone_));
-  trace_frame(place_, actors, view_of(track_.camera_to_world[frame]), *rays_, needs, out);
+  const Shot shot = {.place = place_, .actors = actors, .view = view_of(track_.camera_to_world[frame])};
+  const Plane<std::uint8_t> near_actors = pixels_near(actors.pieces, place_, shot.view, *pixel_rays_);
+  PassNeeds of_pixels = needs;
+  of_pixels.depth |= sample_rays_ != nullptr;
+  trace_pixels(shot, *pixel_rays_, near_actors, of_pixels, out);
+  out.fine.factor = sample_rays_ ? supersample_ : 1;
+  if (!sample_rays_) return;
+  choose_pixels(out, near_actors, out.fine);
+  trace_samples(shot, *sample_rays_, near_actors, needs, out.fine);
 }
 
 }  // namespace thermal

@@ -13,13 +13,17 @@ CameraIntrinsics finer(const CameraIntrinsics& camera, int factor) noexcept {
           .cy_px = camera.cy_px * factor};
 }
 
-CameraIntrinsics passes_camera(const Manifest& manifest) noexcept {
+CameraIntrinsics pixels_camera(const Manifest& manifest) noexcept {
   CameraIntrinsics wider = manifest.camera;
   wider.width_px += 2 * manifest.overscan_px;
   wider.height_px += 2 * manifest.overscan_px;
   wider.cx_px += manifest.overscan_px;
   wider.cy_px += manifest.overscan_px;
-  return finer(wider, manifest.supersample);
+  return wider;
+}
+
+CameraIntrinsics passes_camera(const Manifest& manifest) noexcept {
+  return finer(pixels_camera(manifest), manifest.supersample);
 }
 
 CameraRays::CameraRays(const CameraIntrinsics& camera)

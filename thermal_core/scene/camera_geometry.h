@@ -12,6 +12,9 @@ namespace thermal {
 /// The camera whose pixels are `factor` times finer.
 [[nodiscard]] CameraIntrinsics finer(const CameraIntrinsics& camera, int factor) noexcept;
 
+/// The manifest's camera with overscan: one pixel for each of the passes' blocks of supersample x supersample.
+[[nodiscard]] CameraIntrinsics pixels_camera(const Manifest& manifest) noexcept;
+
 /// The pinhole camera that the passes are a picture of: the manifest's, with overscan and supersampling.
 [[nodiscard]] CameraIntrinsics passes_camera(const Manifest& manifest) noexcept;
 

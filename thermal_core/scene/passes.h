@@ -24,6 +24,31 @@ struct CoverageRank {
   Plane<float> coverage;  ///< 0 to 1
 };
 
+/// The planes of passes at other places than pixel centres: more samples of some pixels of a frame, factor x factor
+/// each. Pixels are in rows, from left to right. Samples follow pixel row by pixel row; each has `factor` lines, with
+/// the samples of all its pixels from left to right. Lists that were not requested are empty.
+struct FineSamples {
+  int factor = 1;                           ///< 1: no pixel has more than one sample
+  std::vector<std::size_t> row_begin;       ///< [rows + 1]: where the pixels of a row begin in `x_px`
+  std::vector<std::uint16_t> x_px;          ///< of the pixels
+  std::vector<std::uint16_t> object_index;  ///< of the samples, like all that follow
+  std::vector<std::uint16_t> material_index;
+  std::vector<std::uint16_t> actor_index;
+  std::vector<float> depth_m;
+  std::array<std::vector<float>, 3> normal;
+
+  /// Position of the first sample of a line of a pixel row.
+  [[nodiscard]] std::size_t line_begin(int row, int line) const noexcept {
+    const auto side = static_cast<std::size_t>(factor);
+    return side * (side * row_begin[static_cast<std::size_t>(row)] +
+                   static_cast<std::size_t>(line) * pixels_in(row));
+  }
+  /// How many of a row's pixels have samples here.
+  [[nodiscard]] std::size_t pixels_in(int row) const noexcept {
+    return row_begin[static_cast<std::size_t>(row) + 1] - row_begin[static_cast<std::size_t>(row)];
+  }
+};
+
 /// The planes of one rendered frame, all of one size; planes that were not requested are empty.
 struct Passes {
   Plane<std::uint16_t> object_index;
@@ -34,6 +59,9 @@ struct Passes {
   /// For files that list the objects sharing a pixel: radiance is the mean over these, the rest of a pixel is sky,
   /// and `object_index` is the object that covers most of it. Empty: `object_index` is all there is.
   std::vector<CoverageRank> ranks;
+  /// Of passes that are sampled where it matters: the planes above then have one sample per pixel of the camera, and
+  /// these samples replace those of their pixels.
+  FineSamples fine;
 };
 
 }  // namespace thermal

@@ -9,6 +9,7 @@
 
 #include "dataset/clip/pass_source.h"
 #include "dataset/layout.h"
+#include "imaging/supersample.h"
 #include "io/bake/baked_files.h"
 #include "io/exr/passes_writer.h"
 #include "io/manifest_file.h"
@@ -46,6 +47,19 @@ ManifestFrame frame_of(const BakedScene& scene, const BakedTrack& track, std::si
   return frame;
 }
 
+/// Files have all samples of all pixels.
+Passes filled_in(const Passes& passes) {
+  const FineSamples& fine = passes.fine;
+  Passes full;
+  full.object_index = filled_in(passes.object_index, fine.object_index, fine);
+  full.material_index = filled_in(passes.material_index, fine.material_index, fine);
+  full.actor_index = filled_in(passes.actor_index, fine.actor_index, fine);
+  full.depth_m = filled_in(passes.depth_m, fine.depth_m, fine);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    full.normal[axis] = filled_in(passes.normal[axis], fine.normal[axis], fine);
+  return full;
+}
+
 /// Where kept frames are written.
 struct Kept {
   Path folder;
@@ -56,8 +70,8 @@ struct Kept {
 class TracedPasses : public PassSource {
  public:
   TracedPasses(const RayCaster& caster, BakedTrack track, const CameraIntrinsics& camera,
-               std::optional<Kept> kept)
-      : track_(std::move(track)), tracer_(caster, track_, camera), kept_(std::move(kept)) {}
+               const Sampling& sampling, std::optional<Kept> kept)
+      : track_(std::move(track)), tracer_(caster, track_, camera, sampling), kept_(std::move(kept)) {}
 
   void read(int frame, const PassNeeds& needs, Passes& out) const override {
     if (!kept_) {
@@ -68,7 +82,8 @@ class TracedPasses : public PassSource {
                   {.depth = true, .normals = true, .actors = !kept_->actor_layer.empty()}, out);
     const Path file = kept_->folder / passes_name(frame);
     if (!std::filesystem::exists(file))
-      write_passes(file, out, kept_->layer, kept_->actor_layer, ExrPacking::run_lengths);
+      write_passes(file, out.fine.factor > 1 ? filled_in(out) : out, kept_->layer, kept_->actor_layer,
+                   ExrPacking::run_lengths);
   }
 
  private:
@@ -118,8 +133,9 @@ ClipPasses PlanTracer::trace(const std::string& clip, const Path& folder, bool k
     write_manifest(folder / "manifest.json", passes.manifest);
     kept = {.folder = folder, .layer = passes.manifest.layer, .actor_layer = passes.manifest.actor_layer};
   }
-  passes.source = std::make_shared<TracedPasses>(caster_, std::move(track), passes_camera(passes.manifest),
-                                                 std::move(kept));
+  const Sampling sampling = {.supersample = config_.supersample, .adaptive = config_.adaptive_sampling};
+  passes.source = std::make_shared<TracedPasses>(caster_, std::move(track), pixels_camera(passes.manifest),
+                                                 sampling, std::move(kept));
   return passes;
 }
 

@@ -203,6 +203,9 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   config.camera = read_intrinsics(document["camera"]);
   config.gives_intrinsics = gives_intrinsics(document["camera"]);
   check_intrinsics(config.camera, faults);
+  const Json& render = document["render"];
+  if (render["sampling"] == "adaptive" && render["engine"] != "embree")
+    faults.emplace_back("render.sampling = \"adaptive\"; expected \"full\", or render.engine = \"embree\"");
   throw_faults(faults, name);
   fill_overscan(document, faults);
   throw_faults(faults, name);
@@ -210,6 +213,7 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   config.supersample = document["render"]["supersample"];
   config.actor_layer = document["render"]["actor_layer"];
   config.engine = document["render"]["engine"] == "embree" ? Engine::embree : Engine::blender;
+  config.adaptive_sampling = document["render"]["sampling"] == "adaptive";
   document.erase("$schema");
   config.resolved = std::move(document);
   return config;

@@ -40,6 +40,7 @@ struct Config {
   int supersample = 1;  ///< rays of the passes along each side of a pixel
   bool actor_layer = false;
   Engine engine = Engine::blender;
+  bool adaptive_sampling = false;  ///< all rays only for pixels that need them; with `embree`
   SensorParameters sensor;
   LabelParameters labels;
   bool physical = false;  ///< every term the scene needs; otherwise the published model
