@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -13,7 +14,8 @@ int thread_count(int threads) {
 }
 
 void run_with_threads(int threads, const std::function<void()>& work) {
-  tbb::task_arena arena(thread_count(threads));
+  const int cores = tbb::info::default_concurrency();  // that this process may use
+  tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
   arena.execute(work);
 }
 

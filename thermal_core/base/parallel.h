@@ -10,8 +10,9 @@ namespace thermal {
 /// `threads`, or one per core if it is 0.
 [[nodiscard]] int thread_count(int threads);
 
-/// Calls `work` on this thread; the library's loops in it use at most this many threads, this one among them. 0: one
-/// per core. Threads that `work` starts itself are not limited, nor is anything else in the program.
+/// Calls `work` on this thread; the library's loops in it use at most this many threads, this one among them, and at
+/// most one per core that this process may use. 0: as many as that. Threads that `work` starts itself are not limited,
+/// nor is anything else in the program.
 void run_with_threads(int threads, const std::function<void()>& work);
 
 /// The same for work with a result.

@@ -14,7 +14,7 @@ namespace thermal {
 namespace {
 
 /// One instruction set for all machines. Embree rounds differently with others: with the older ones, which have no fused
-/// multiply-add, one silhouette pixel in 100,000 is another's.
+/// multiply-add, one pixel in 100,000 shows another object, at silhouettes.
 constexpr const char* kDeviceSettings = "isa=avx2";
 
 void check(RTCDevice device) {

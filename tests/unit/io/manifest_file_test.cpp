@@ -119,4 +119,26 @@ TEST_CASE("A missing manifest cannot be read") {
         "cannot read /nowhere/manifest.json: No such file or directory");
 }
 
+TEST_CASE("A written manifest is read back the same") {
+  const TemporaryFolder folder;
+  Json document = example();
+  document["of_flight"] = "north";
+  document["layer"] = "Scene";
+  document["actor_layer"] = "Actors";
+  document["supersample"] = 2;
+  document["overscan_px"] = 3;
+  document["scene"] = "valley";
+  document["materials"].push_back({{"index", 3}, {"material", "human"}, {"part", "face"}});
+  document["frames"][0]["look_angle_deg"] = 1.0 / 3;
+  document["frames"][1]["time_s"] = 0;
+  document["frames"][1]["actors"] = Json::array();
+  const Manifest manifest = read_manifest(folder.file("manifest.json", document.dump()), kAssets);
+  const Path copy = folder / "copy.json";
+  write_manifest(copy, manifest);
+  CHECK(differences(read_json(copy), document).empty());
+  CHECK(read_manifest(copy, kAssets).frames.size() == manifest.frames.size());
+  write_manifest(copy, Manifest());  // without frames, which no schema accepts
+  CHECK(read_json(copy).at("frames").empty());
+}
+
 }  // namespace manifest_file_test

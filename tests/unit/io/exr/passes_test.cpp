@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "io/exr/passes_writer.h"
 #include "support/catch.h"
 #include "support/exr.h"
 #include "support/message_of.h"
@@ -335,6 +336,42 @@ TEST_CASE("A smaller or larger frame than the last is read completely into its b
     read_passes(file, kAnyLayout, {}, buffer);
     CHECK(same(buffer.passes, read_passes(file, kAnyLayout)));
   }
+}
+
+TEST_CASE("Written passes are read back with the same bits") {
+  const TemporaryFolder folder;
+  Passes passes;
+  passes.object_index = Plane<std::uint16_t>(3, 2, 32767);
+  passes.material_index = Plane<std::uint16_t>(3, 2, 12);
+  passes.actor_index = Plane<std::uint16_t>(3, 2, 101);
+  passes.depth_m = Plane<float>(3, 2, 1e10F);
+  for (Plane<float>& axis : passes.normal) axis = Plane<float>(3, 2, -0.57735026F);
+  passes.object_index.at(2, 1) = 0;
+  passes.depth_m.at(0, 1) = 61.25F;
+  passes.normal[1].at(1, 0) = 0.1F;
+  for (const ExrPacking packing : {ExrPacking::none, ExrPacking::run_lengths}) {
+    const Path file = folder / "000000.exr";
+    write_passes(file, passes, "Scene", "Actors", packing);
+    const Passes read =
+        read_passes(file, {.layer = "Scene", .actor_layer = "Actors", .width_px = 3, .height_px = 2},
+                    {.depth = true, .normals = true, .actors = true});
+    CHECK(read.object_index == passes.object_index);
+    CHECK(read.material_index == passes.material_index);
+    CHECK(read.actor_index == passes.actor_index);
+    CHECK(read.depth_m == passes.depth_m);
+    CHECK(read.normal == passes.normal);
+    CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+  }
+}
+
+TEST_CASE("Passes that cannot be written leave no file") {
+  const TemporaryFolder folder;
+  Passes passes;
+  passes.object_index = Plane<std::uint16_t>(3, 2);
+  const Path file = folder / "missing" / "000000.exr";
+  const std::string message =
+      message_of<IoError>([&] { write_passes(file, passes, "Scene", "", ExrPacking::none); });
+  CHECK(message.starts_with("cannot write " + file.string() + ": "));
 }
 
 }  // namespace exr_passes_test

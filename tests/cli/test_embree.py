@@ -1,0 +1,156 @@
+"""`--engine embree`: the same dataset however it is made, and without Blender."""
+
+import signal
+
+import pytest
+
+from configs import CLIPS, FRAMES, tiny
+from datasets import content_of
+from processes import wait_until
+from program import Veldt, check_fault, files_below
+
+_NO_BLENDER = {"PATH": "/nonexistent"}
+
+
+def _arguments(*options, command="generate", out="out") -> list[str]:
+    return [command, "config.json", "--out", out, "--engine", "embree", "--quiet", *options]
+
+
+def _make(veldt, *options, command="generate", out="out") -> None:
+    done = veldt(*_arguments(*options, command=command, out=out), env=_NO_BLENDER)
+    assert (done.code, done.out, done.err) == (0, "", "")
+
+
+def _config() -> dict:
+    """With plants, actors and everything that depends on them."""
+    config = tiny()
+    config["render"] = {"actor_layer": True}
+    return config
+
+
+@pytest.fixture(scope="module", name="usual")
+def _usual(tmp_path_factory) -> Veldt:
+    veldt = Veldt(tmp_path_factory.mktemp("usual"))
+    veldt.write("config.json", _config())
+    _make(veldt)
+    return veldt
+
+
+@pytest.fixture(autouse=True)
+def _ready(veldt):
+    veldt.write("config.json", _config())
+
+
+def test_a_dataset_is_made_and_says_by_what(usual):
+    assert usual("validate", "out").code == 0
+    assert len(set(usual.pixels("out").values())) == 1 + len(CLIPS)
+    assert usual.read("out/dataset.json")["config"]["render"]["engine"] == "embree"
+    assert not (usual.folder / "out" / "passes").exists()
+    labels = usual.read("out/annotations.json")["annotations"]
+    assert labels and all("visibility" in label for label in labels)
+
+
+@pytest.mark.parametrize("threads", [1, 2, 5])
+def test_threads_change_nothing(veldt, usual, threads):
+    _make(veldt, "--threads", threads)
+    assert content_of(veldt.folder / "out") == content_of(usual.folder / "out")
+
+
+def test_shards_are_merged_to_the_same_dataset(veldt, usual):
+    for shard in ("1/2", "0/2"):
+        _make(veldt, "--shard", shard, out=f"shard{shard[0]}")
+    assert veldt("merge", "shard0", "shard1", "--out", "merged", "--quiet").code == 0
+    assert veldt.pixels("merged") == usual.pixels("out")
+
+
+def test_clips_are_made_in_any_order(veldt, usual):
+    for clip in reversed(CLIPS):
+        _make(veldt, "--clips", clip)
+    assert content_of(veldt.folder / "out") == content_of(usual.folder / "out")
+
+
+@pytest.mark.parametrize("command", ["render", "generate"])
+def test_passes_convert_to_the_same_pixels(veldt, usual, command):
+    _make(veldt, *(["--keep-passes"] if command == "generate" else []), command=command)
+    kept = [f"{clip}/{name}" for clip in CLIPS for name in ("000000.exr", "000007.exr", "manifest.json")]
+    assert set(kept) < set(files_below(veldt.folder / "out" / "passes"))
+    folders = [f"out/passes/{clip}" for clip in CLIPS]
+    done = veldt("convert", *folders, "--out", "converted", "--config", "config.json", "--quiet")
+    assert (done.code, done.err) == (0, "")
+    assert veldt.pixels("converted") == usual.pixels("out")
+    annotations = [veldt.folder / "converted", usual.folder / "out"]
+    assert len({(folder / "annotations.json").read_bytes() for folder in annotations}) == 1
+
+
+def test_render_goes_on_where_it_was_stopped(veldt):
+    _make(veldt, command="render")
+    folder = veldt.folder / "out" / "passes" / CLIPS[0]
+    whole = {file.name: file.read_bytes() for file in folder.iterdir()}
+    kept = folder / "000002.exr"
+    time_ns = kept.stat().st_mtime_ns
+    for frame in (3, FRAMES - 1):
+        (folder / f"{frame:06d}.exr").unlink()
+    _make(veldt, command="render")
+    assert {file.name: file.read_bytes() for file in folder.iterdir()} == whole
+    assert kept.stat().st_mtime_ns == time_ns
+
+
+@pytest.mark.parametrize("frames", [0, 7, 40])
+def test_killed_it_goes_on_to_the_same_dataset(veldt, frames):
+    config = _config()
+    for clip in config["clips"]:
+        clip["frames"] = 60
+    veldt.write("config.json", config)
+    _make(veldt, out="whole")
+    run = veldt.start(*_arguments())
+    part = veldt.folder / "out" / "clips" / f"{CLIPS[1]}.part" / "ir16"
+    assert wait_until(lambda: part.exists() and len(list(part.iterdir())) >= frames, 60)
+    run.kill()
+    run.communicate()
+    assert run.returncode == -signal.SIGKILL
+    _make(veldt)
+    assert files_below(veldt.folder / "out") == files_below(veldt.folder / "whole")
+    assert content_of(veldt.folder / "out") == content_of(veldt.folder / "whole")
+
+
+def test_a_dataset_keeps_its_engine(veldt, usual):
+    _make(veldt)
+    done = veldt(*_arguments("--set", "render.actor_layer=false"), env=_NO_BLENDER)
+    assert done.code == 2
+    done = veldt("generate", "config.json", "--out", "out", "--engine", "blender", "--blender", "/bin/true")
+    assert done.code == 2
+    assert 'render.engine is "blender" here and "embree" there' in done.err
+    assert veldt.pixels("out") == usual.pixels("out")
+
+
+def test_adaptive_sampling_gives_the_labels_of_full_sampling(veldt):
+    for sampling in ("full", "adaptive"):
+        finer = ["--set", "render.supersample=2", "--set", f"render.sampling={sampling}"]
+        _make(veldt, *finer, out=sampling)
+    assert veldt.pixels("full") != veldt.pixels("adaptive")
+    full, adaptive = (veldt.read(f"{out}/annotations.json")["annotations"] for out in ("full", "adaptive"))
+    for label in full + adaptive:
+        del label["contrast_noise"]  # of pictures, which differ by millikelvins beside the actors
+    assert full == adaptive
+
+
+def test_kept_adaptive_passes_change_no_pixel(veldt):
+    finer = ["--set", "render.supersample=2", "--set", "render.sampling=adaptive"]
+    _make(veldt, *finer)
+    _make(veldt, *finer, "--keep-passes", out="kept")
+    assert veldt.pixels("kept") == veldt.pixels("out")
+
+
+def test_adaptive_sampling_needs_this_engine(veldt):
+    done = veldt("generate", "config.json", "--out", "out", "--set", "render.sampling=adaptive")
+    check_fault(
+        done,
+        2,
+        'config.json: render.sampling = "adaptive"; expected "full", or render.engine = "embree"',
+    )
+
+
+def test_an_unknown_engine_is_refused(veldt):
+    done = veldt("generate", "config.json", "--out", "out", "--engine", "cycles")
+    assert done.code == 2
+    assert "blender" in done.err and "embree" in done.err
