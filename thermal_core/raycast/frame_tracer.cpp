@@ -165,12 +165,11 @@ class RayTracer {
       lanes.to_world[entry * kLanes + k] = piece.to_world[entry];
     for (std::size_t which = 0; which < 3; ++which) {
       const auto& point_m = mesh.points_m[corners[which]];
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      const auto normal = normals.empty() ? std::array<float, 3>() : normals[corners[which]];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
         lanes.corner_m[which][axis][k] = static_cast<double>(point_m[axis]);
-      if (normals.empty()) continue;
-      const auto& normal = normals[corners[which]];
-      for (std::size_t axis = 0; axis < 3; ++axis)
         lanes.normal[which][axis][k] = static_cast<double>(normal[axis]);
+      }
     }
   }
 
