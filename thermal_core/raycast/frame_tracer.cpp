@@ -1,6 +1,7 @@
 #include "raycast/frame_tracer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/parallel.h"
 #include "raycast/sight.h"
@@ -12,7 +13,8 @@ namespace {
 constexpr double kNearestM = 0.1;
 constexpr double kFarthestM = 20000;
 
-constexpr float kSkyDepthM = 1e10F;  // as Blender has it
+constexpr float kSkyDepthM = 1e10F;       // as Blender has it
+constexpr float kFarthestCameraM = 1e9F;  // from the origin; farther away it sees nothing
 static_assert(kLanes == kPacketRays);
 constexpr unsigned kNothing = RTC_INVALID_GEOMETRY_ID;
 
@@ -106,8 +108,27 @@ class RayTracer {
       packet.ray.flags[k] = 0;
       packet.hit.geomID[k] = kNothing;
       packet.hit.instID[0][k] = kNothing;
+      if (!is_valid(packet, k)) end_at_once(packet, k);
     }
     return packet;
+  }
+
+  /// False for NaN.
+  static bool is_valid(const RayPacket& packet, std::size_t k) noexcept {
+    const float place_m =
+        std::abs(packet.ray.org_x[k]) + std::abs(packet.ray.org_y[k]) + std::abs(packet.ray.org_z[k]);
+    const float size =
+        std::abs(packet.ray.dir_x[k]) + std::abs(packet.ray.dir_y[k]) + std::abs(packet.ray.dir_z[k]);
+    return place_m < kFarthestCameraM && size < 2;
+  }
+
+  /// Makes a ray that hits nothing. Embree ends the program at NaN and at huge numbers; and its version 3 ignores the
+  /// mask of packets that are larger than the vectors of the instruction set.
+  static void end_at_once(RayPacket& packet, std::size_t k) noexcept {
+    packet.ray.org_x[k] = packet.ray.org_y[k] = packet.ray.org_z[k] = 0;
+    packet.ray.dir_x[k] = packet.ray.dir_y[k] = 0;
+    packet.ray.dir_z[k] = 1;
+    packet.ray.tfar[k] = -1;
   }
 
   static void find(const PieceSet& set, const PacketMask& mask, RayPacket& packet, Hits& hits) {

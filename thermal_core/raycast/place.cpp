@@ -1,6 +1,7 @@
 #include "raycast/place.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ranges>
 #include <utility>
 
@@ -8,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "raycast/vectors.h"
 #include "raycast/vertex_normals.h"
 
 namespace thermal {
@@ -41,6 +43,21 @@ EmbreeScene new_scene(RTCDevice device) {
 void commit(RTCDevice device, RTCScene scene) {
   run_isolated([scene] { rtcCommitScene(scene); });
   check(device);
+}
+
+/// Whether Embree can bring rays into a piece's axes: it ends the program where that gives NaN or huge numbers. Bodies
+/// and plants of a plan are far from these limits.
+bool can_be_entered(const Transform<double>& m) noexcept {
+  constexpr double kLeastVolume = 1e-6;  // of a box with sides as long; several roundings of 6e-8
+  constexpr double kLargestInverse = 1e8;
+  constexpr double kFarthestPieceM = 1e9;
+  const Vector3 x{m[0], m[4], m[8]};
+  const Vector3 y{m[1], m[5], m[9]};
+  const Vector3 z{m[2], m[6], m[10]};
+  const double volume = std::abs(dot(x, cross(y, z)));
+  const double widest = std::max({length(cross(x, y)), length(cross(y, z)), length(cross(z, x))});
+  return volume > kLeastVolume * length(x) * length(y) * length(z) && widest < kLargestInverse * volume &&
+         length({m[3], m[7], m[11]}) < kFarthestPieceM;
 }
 
 template <typename Number>
@@ -116,6 +133,7 @@ PieceSet Place::set_of(std::vector<Piece> pieces) const {
   PieceSet set{.pieces = std::move(pieces), .scene = new_scene(device_.get())};
   for (std::size_t k = 0; k < set.pieces.size(); ++k) {
     const Piece& piece = set.pieces[k];
+    if (!can_be_entered(piece.to_world)) continue;
     Transform<float> to_world{};
     std::ranges::transform(piece.to_world, to_world.begin(),
                            [](double entry) { return static_cast<float>(entry); });

@@ -43,7 +43,8 @@ class Place {
 
   [[nodiscard]] const MeshBox& box(std::size_t mesh) const noexcept { return boxes_[mesh]; }
 
-  /// Builds the structure of these pieces. Safe to call from several threads.
+  /// Builds the structure of these pieces, without those whose transform is not one of a body: flattened to less than
+  /// 1e-6 of its size, smaller than 1e-8 or 1e9 m away. Safe to call from several threads.
   [[nodiscard]] PieceSet set_of(std::vector<Piece> pieces) const;
 
  private:

@@ -40,7 +40,8 @@ struct Sampling {
 /// Renders the passes of a clip's frames.
 class ClipTracer {
  public:
-  /// Caster and track, which must belong to its scene, must outlive this object.
+  /// Pixels where a lens shows nothing, those for which undistort() has NaN, are sky. Caster and track, which must belong
+  /// to its scene, must outlive this object.
   ClipTracer(const RayCaster& caster, const BakedTrack& track, const CameraIntrinsics& camera,
              const Sampling& sampling = {});
   ~ClipTracer();
