@@ -5,7 +5,7 @@ import re
 import pytest
 
 COMMON = {"--help", "--quiet", "--progress", "--threads"}
-RENDERING = {"--out", "--clips", "--shard", "--jobs", "--blender", "--set", "--dry-run"}
+RENDERING = {"--out", "--clips", "--shard", "--jobs", "--engine", "--blender", "--set", "--dry-run"}
 OPTIONS = {
     "generate": RENDERING | {"--keep-passes", "--max-unusable-share"},
     "plan": {"--out", "--blender", "--set"},
