@@ -31,7 +31,9 @@ MOST_DIFFERING = (
 DEPTH_TOLERANCE = 1e-5  # relative
 NORMAL_TOLERANCE = 1e-3
 MOST_UNEXPLAINED = 2  # pixels of a frame; tips of leaves are so slender that eight rays may miss them
-MOST_DEVIATING = 150  # pixels of a frame that exceed those; up to 53 with Blender 3.4.1, most of them edge-on leaves
+MOST_DEVIATING = (
+    150  # pixels of a frame that exceed those; up to 53 with Blender 3.4.1, most of them edge-on leaves
+)
 
 
 def _place(config: dict) -> None:

@@ -54,7 +54,7 @@ class SceneRadiance {
 
   /// The samples of passes that are sampled where it matters (Passes::fine): the mean over those of each of their pixels
   /// replaces the pixel's radiance. Returns how usable the samples were. Otherwise as radiance().
-  PassChecks refine(const FineSamples& fine, const ManifestFrame& frame, Plane<float>& radiance) const;
+  PassChecks refine(const FineSamples& fine, const ManifestFrame& frame, Plane<float>& out) const;
 
   /// Radiance of the most radiant surface that the manifest names; of the sky if it names none.
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }

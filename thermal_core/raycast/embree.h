@@ -15,15 +15,15 @@
 
 namespace thermal {
 
-template <auto release>
+template <auto Release>
 struct EmbreeRelease {
   template <typename Handle>
   void operator()(Handle* handle) const noexcept {
-    release(handle);
+    Release(handle);
   }
 };
-template <typename Handle, auto release>
-using EmbreeHandle = std::unique_ptr<std::remove_pointer_t<Handle>, EmbreeRelease<release>>;
+template <typename Handle, auto Release>
+using EmbreeHandle = std::unique_ptr<std::remove_pointer_t<Handle>, EmbreeRelease<Release>>;
 
 using EmbreeDevice = EmbreeHandle<RTCDevice, rtcReleaseDevice>;
 using EmbreeScene = EmbreeHandle<RTCScene, rtcReleaseScene>;
@@ -37,12 +37,12 @@ using PacketMask = std::array<int, kPacketRays>;  ///< aligned like a packet; -1
 /// Finds the first triangle between tnear and tfar of each ray, and sets tfar to where it is hit.
 inline void find_nearest(RTCScene scene, const PacketMask& mask, RayPacket& rays) {
 #if VELDT_EMBREE == 3
-  RTCIntersectContext context;
+  RTCIntersectContext context{};
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(mask.data(), scene, &context, &rays);
 #else
-  RTCIntersectArguments arguments;
+  RTCIntersectArguments arguments{};
   rtcInitIntersectArguments(&arguments);
   arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   rtcIntersect16(mask.data(), scene, &rays, &arguments);

@@ -155,7 +155,7 @@ class RayTracer {
   }
 
   void put_sights(const VectorLanes<double>& direction, const Hits& hits, const Packet& rays) const noexcept {
-    TriangleLanes triangles;
+    TriangleLanes triangles;  // NOLINT(cppcoreguidelines-pro-type-member-init): all lanes are filled in
     for (std::size_t k = 0; k < kLanes; ++k) {
       if (hits.piece[k] == nullptr) {
         clear(k, triangles);
@@ -163,7 +163,7 @@ class RayTracer {
         gather(*hits.piece[k], hits.triangle[k], k, triangles);
       }
     }
-    SightLanes sights;
+    SightLanes sights;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
     see_triangles(shot_.view, direction, triangles, sights);
     for (std::size_t k = 0; k < rays.rays; ++k) {
       const bool sky = hits.piece[k] == nullptr;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -92,13 +91,17 @@ Transform<double> upright(const Transform<double>& plant) noexcept {
 
 MeshBox box_of(const BakedMesh& mesh) noexcept {
   if (mesh.points_m.empty()) return {};
-  MeshBox box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto [least, most] = std::ranges::minmax(
-        mesh.points_m | std::views::transform([axis](const auto& point) { return point[axis]; }));
-    box[0][axis] = static_cast<double>(least);
-    box[1][axis] = static_cast<double>(most);
+  std::array<float, 3> least = mesh.points_m.front();
+  std::array<float, 3> most = least;
+  for (const auto& point : mesh.points_m) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      least.at(axis) = std::min(least.at(axis), point.at(axis));
+      most.at(axis) = std::max(most.at(axis), point.at(axis));
+    }
   }
+  MeshBox box;
+  std::ranges::copy(least, box[0].begin());
+  std::ranges::copy(most, box[1].begin());
   return box;
 }
 

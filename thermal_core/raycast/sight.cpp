@@ -88,7 +88,7 @@ VELDT_INLINE Sight see(const Vector3& ray, const Vector3& a, const Vector3& ab, 
 
 VELDT_CLONES
 VectorLanes<double> directions(const View& view, const Lanes<double>& x, const Lanes<double>& y) noexcept {
-  VectorLanes<double> out;
+  VectorLanes<double> out;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
   for (std::size_t k = 0; k < kLanes; ++k)
     put_lane(at(x, k) * view.right + at(y, k) * view.down + view.forward, k, out);
   return out;
@@ -96,7 +96,7 @@ VectorLanes<double> directions(const View& view, const Lanes<double>& x, const L
 
 VELDT_CLONES
 UnitLanes units(const VectorLanes<double>& direction) noexcept {
-  UnitLanes out;
+  UnitLanes out;  // NOLINT(cppcoreguidelines-pro-type-member-init): all lanes are filled in
   for (std::size_t k = 0; k < kLanes; ++k) {
     const Vector3 ray = lane_of(direction, k);
     const double size = length(ray);
