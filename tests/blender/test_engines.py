@@ -16,24 +16,25 @@ from rendering import BLENDER, PLANES
 
 FRAMES = 3
 WIDTH_PX, HEIGHT_PX = 640, 512
+CLIPS = ("down", "side", "low")
 OBJECT, MATERIAL, DEPTH = PLANES[:3]
 NORMAL = PLANES[3:]
 ACTOR = "Actors.IndexOB.X"
 
-# What the engines compute in single precision, at places up to 100 m from the origin and distances of 30 m and more:
-# positions to 4e-6 m and directions to 1e-7, each several times over. That is 1e-6 of the distance, or 1e-3 px, of
-# which a silhouette takes a pixel out of a thousand that it crosses. 0.02 px leave a margin for Cycles, which computes
-# some of this with approximate reciprocals.
+# The engines compute in single precision, at places up to 100 m from the origin and distances of 8 m and more:
+# positions to 4e-6 m and directions to 1e-7, each several times over. That is 2e-6 of the distance or 2e-3 px. Rays
+# that are moved by ten times as much must be able to see what Blender does. If all of the picture moved by that, 240
+# and more pixels of a frame would differ.
 ASIDE_PX = 0.02
-MOST_DIFFERING = (
-    4  # pixels of an index in a frame: 0.4 and 1.5 on average in configs/demo.json and savanna.json
-)
+# Pixels of a frame in which an index differs: on average 0.4 in the clips of configs/demo.json and 1.5 in those of
+# configs/savanna.json; here 4 with Blender 4.2 and 5.0, 1 with 3.4.1.
+MOST_DIFFERING = 4
 DEPTH_TOLERANCE = 1e-5  # relative
 NORMAL_TOLERANCE = 1e-3
-MOST_UNEXPLAINED = 2  # pixels of a frame; tips of leaves are so slender that eight rays may miss them
-MOST_DEVIATING = (
-    150  # pixels of a frame that exceed those; up to 53 with Blender 3.4.1, most of them edge-on leaves
-)
+# Pixels of a frame that exceed those: 53 with Blender 3.4.1, 23 with 4.2 and 5.0, most of them leaves seen edge-on.
+MOST_DEVIATING = 150
+# Pixels of a frame that none of the moved rays explains: tips of leaves may be too slender for eight rays.
+MOST_UNEXPLAINED = 2
 
 
 def _place(config: dict) -> None:
@@ -50,9 +51,6 @@ def _place(config: dict) -> None:
     down, side = config["clips"]
     low = side | {"id": "low", "flight": side["flight"] | {"look_angle_deg": 14, "altitude_m": 12}}
     config["clips"] = [clip | {"frames": FRAMES, "frame_rate_hz": 2} for clip in (down, side, low)]
-
-
-CLIPS = ("down", "side", "low")
 
 
 @dataclass

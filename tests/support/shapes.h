@@ -46,7 +46,8 @@ inline Shape of(std::vector<Point> points_m, std::vector<Corners> triangles, std
                  material);
 }
 
-/// A square of cells x cells squares of two triangles around the z axis, at the heights height_m(x, y), seen from above.
+/// A square around the z axis, of cells x cells squares of two triangles each. Heights are height_m(x, y), and its
+/// outside is above.
 template <typename Height>
 Shape field(double side_m, std::uint32_t cells, std::uint16_t material, const Height& height_m) {
   Shape shape;

@@ -109,7 +109,8 @@ TEST_CASE("Plants of one species may be of several meshes") {
 }
 
 TEST_CASE("Of a million plants, each pixel shows the right one") {
-  // Cubes of 0.5 m on a grid of 1 m, seen straight down from 20 m above their tops: each in 20 x 20 px its own.
+  // Cubes of 0.5 m on a grid of 1 m, seen straight down from 20 m above their tops, where 1 m is 20 px. On two cores:
+  // 1.5 s and 500 MB to build, 0.04 s for the frame.
   constexpr int kSide = 1000;
   Scenery place;
   const auto cube = static_cast<std::uint32_t>(place.mesh(shapes::cube(0.5, 1)));
