@@ -34,17 +34,36 @@ inline constexpr std::size_t kPacketRays = 16;
 using RayPacket = RTCRayHit16;                    ///< aligned to 64 bytes
 using PacketMask = std::array<int, kPacketRays>;  ///< aligned like a packet; -1: trace this ray, 0: do not
 
-/// Finds the first triangle between tnear and tfar of each ray, and sets tfar to where it is hit.
-inline void find_nearest(RTCScene scene, const PacketMask& mask, RayPacket& rays) {
+/// What Embree hands on to filter functions.
 #if VELDT_EMBREE == 3
-  RTCIntersectContext context{};
+using EmbreeContext = RTCIntersectContext;
+#else
+using EmbreeContext = RTCRayQueryContext;
+#endif
+
+/// Of packets whose rays are close together.
+inline EmbreeContext coherent_rays() noexcept {
+  EmbreeContext context{};
+#if VELDT_EMBREE == 3
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+#else
+  rtcInitRayQueryContext(&context);
+#endif
+  return context;
+}
+
+/// Finds the first triangle between tnear and tfar of each ray that filter functions accept, and sets tfar to where it
+/// is hit.
+inline void find_nearest(RTCScene scene, const PacketMask& mask, EmbreeContext& context,
+                         RayPacket& rays) noexcept {
+#if VELDT_EMBREE == 3
   rtcIntersect16(mask.data(), scene, &context, &rays);
 #else
   RTCIntersectArguments arguments{};
   rtcInitIntersectArguments(&arguments);
   arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  arguments.context = &context;
   rtcIntersect16(mask.data(), scene, &rays, &arguments);
 #endif
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "raycast/first_hit.h"
+#include "raycast/seen_triangles.h"
 #include "raycast/sight.h"
 
 namespace thermal {
@@ -13,17 +15,9 @@ namespace {
 constexpr double kNearestM = 0.1;
 constexpr double kFarthestM = 20000;
 
-constexpr float kSkyDepthM = 1e10F;       // as Blender has it
+constexpr float kSkyDepthM = 1e10F;  // as Blender has it
+const SeenTriangle kSky;
 constexpr float kFarthestCameraM = 1e9F;  // from the origin; farther away it sees nothing
-static_assert(kLanes == kPacketRays);
-constexpr unsigned kNothing = RTC_INVALID_GEOMETRY_ID;
-
-/// What each ray of a block hits first; null: nothing.
-struct Hits {
-  Lanes<const Piece*> piece{};
-  Lanes<unsigned> triangle{};
-};
-
 /// Rays that are traced together, and where their results go.
 struct Packet {
   void add(const LensPoint& ray, std::size_t place) noexcept {
@@ -71,16 +65,14 @@ class RayTracer {
   RayTracer(const Shot& shot, const Sink& sink) : shot_(shot), sink_(sink) {}
 
   /// Actors first, which the actor layer shows; their hits then bound the search among the surroundings.
-  void trace(const Packet& rays) const {
+  void trace(const Packet& rays, SeenTriangles& triangles) const {
     const VectorLanes<double> direction = directions(shot_.view, rays.x, rays.y);
     RayPacket packet = aimed(direction);
-    Hits hits;
-    if (rays.near_actors) find(shot_.actors, rays.mask, packet, hits);
-    if (sink_.actor_index != nullptr) put_objects(hits, rays, sink_.actor_index);
-    find(shot_.place.surroundings(), rays.mask, packet, hits);
-    put_objects(hits, rays, sink_.object_index);
-    put_materials(hits, rays);
-    if (sink_.depth_m != nullptr || sink_.normal[0] != nullptr) put_sights(direction, hits, rays);
+    FirstHitSearch first(direction, triangles);
+    if (rays.near_actors) first.search(shot_.actors, 0, rays.mask, packet);
+    if (sink_.actor_index != nullptr) put_actors(first.hits(), rays);
+    first.search(shot_.place.surroundings(), shot_.first_surrounding(), rays.mask, packet);
+    put_sights(direction, first.hits(), rays, triangles);
   }
 
  private:
@@ -104,10 +96,10 @@ class RayTracer {
       packet.ray.tfar[k] = static_cast<float>((kFarthestM - kNearestM) * unit.length[k]);
       packet.ray.time[k] = 0;
       packet.ray.mask[k] = ~0U;
-      packet.ray.id[k] = 0;
+      packet.ray.id[k] = static_cast<unsigned>(k);
       packet.ray.flags[k] = 0;
-      packet.hit.geomID[k] = kNothing;
-      packet.hit.instID[0][k] = kNothing;
+      packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+      packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
       if (!is_valid(packet, k)) end_at_once(packet, k);
     }
     return packet;
@@ -131,74 +123,33 @@ class RayTracer {
     packet.ray.tfar[k] = -1;
   }
 
-  static void find(const PieceSet& set, const PacketMask& mask, RayPacket& packet, Hits& hits) {
-    find_nearest(set.scene.get(), mask, packet);
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      if (mask[k] == 0 || packet.hit.geomID[k] == kNothing) continue;
-      hits.piece[k] = &set.pieces[packet.hit.instID[0][k]];
-      hits.triangle[k] = packet.hit.primID[k];
-      packet.hit.geomID[k] = kNothing;
-    }
-  }
-
-  static void put_objects(const Hits& hits, const Packet& rays, std::uint16_t* out) noexcept {
-    for (std::size_t k = 0; k < rays.rays; ++k)
-      out[rays.places[k]] = hits.piece[k] == nullptr ? std::uint16_t{0} : hits.piece[k]->object;
-  }
-
-  void put_materials(const Hits& hits, const Packet& rays) const noexcept {
+  void put_actors(const FirstHits& hits, const Packet& rays) const noexcept {
     for (std::size_t k = 0; k < rays.rays; ++k) {
-      sink_.material_index[rays.places[k]] = hits.piece[k] == nullptr
-                                                 ? std::uint16_t{0}
-                                                 : mesh_of(*hits.piece[k]).material_index[hits.triangle[k]];
+      const unsigned piece = hits.piece[k];
+      sink_.actor_index[rays.places[k]] = piece == kNoPiece ? std::uint16_t{0} : shot_.piece(piece).object;
     }
   }
 
-  void put_sights(const VectorLanes<double>& direction, const Hits& hits, const Packet& rays) const noexcept {
-    TriangleLanes triangles;  // NOLINT(cppcoreguidelines-pro-type-member-init): all lanes are filled in
+  void put_sights(const VectorLanes<double>& direction, const FirstHits& hits, const Packet& rays,
+                  SeenTriangles& triangles) const noexcept {
+    TriangleLanes lanes;  // NOLINT(cppcoreguidelines-pro-type-member-init): all lanes are filled in
     for (std::size_t k = 0; k < kLanes; ++k) {
-      if (hits.piece[k] == nullptr) {
-        clear(k, triangles);
-      } else {
-        gather(*hits.piece[k], hits.triangle[k], k, triangles);
-      }
+      const bool sky = hits.piece[k] == kNoPiece;
+      const SeenTriangle& triangle = sky ? kSky : triangles.at(hits.piece[k], hits.triangle[k]);
+      put_lane(triangle.sight, k, lanes);
+      if (k >= rays.rays) continue;
+      sink_.object_index[rays.places[k]] = triangle.object;
+      sink_.material_index[rays.places[k]] = triangle.material;
     }
+    if (sink_.depth_m == nullptr && sink_.normal[0] == nullptr) return;
     SightLanes sights;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
-    see_triangles(shot_.view, direction, triangles, sights);
+    see_triangles(direction, lanes, sights);
     for (std::size_t k = 0; k < rays.rays; ++k) {
-      const bool sky = hits.piece[k] == nullptr;
+      const bool sky = hits.piece[k] == kNoPiece;
       const std::size_t place = rays.places[k];
       if (sink_.depth_m != nullptr) sink_.depth_m[place] = sky ? kSkyDepthM : sights.depth_m[k];
       for (std::size_t axis = 0; sink_.normal[0] != nullptr && axis < 3; ++axis)
         sink_.normal[axis][place] = sky ? 0.0F : sights.normal[axis][k];
-    }
-  }
-
-  [[nodiscard]] const BakedMesh& mesh_of(const Piece& piece) const noexcept {
-    return shot_.place.scene().meshes[piece.mesh];
-  }
-
-  void gather(const Piece& piece, unsigned number, std::size_t k, TriangleLanes& lanes) const noexcept {
-    const BakedMesh& mesh = mesh_of(piece);
-    const auto& corners = mesh.triangles[number];
-    const auto& normals = shot_.place.normals(piece.mesh);
-    for (std::size_t entry = 0; entry < 12; ++entry)
-      lanes.to_world[entry * kLanes + k] = piece.to_world[entry];
-    for (std::size_t which = 0; which < 3; ++which) {
-      const auto& point_m = mesh.points_m[corners[which]];
-      const auto normal = normals.empty() ? std::array<float, 3>() : normals[corners[which]];
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        lanes.corner_m[which][axis][k] = static_cast<double>(point_m[axis]);
-        lanes.normal[which][axis][k] = static_cast<double>(normal[axis]);
-      }
-    }
-  }
-
-  static void clear(std::size_t k, TriangleLanes& lanes) noexcept {
-    for (std::size_t entry = 0; entry < 12; ++entry) lanes.to_world[entry * kLanes + k] = 0;
-    for (std::size_t which = 0; which < 3; ++which) {
-      for (std::size_t axis = 0; axis < 3; ++axis) lanes.corner_m[which][axis][k] = 0;
-      for (std::size_t axis = 0; axis < 3; ++axis) lanes.normal[which][axis][k] = 0;
     }
   }
 
@@ -226,7 +177,7 @@ Packet block_at(int x_px, int y_px, const PixelRays& rays, const Plane<std::uint
 
 /// The samples of one row of pixels, pixel by pixel.
 void trace_row(const RayTracer& tracer, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
-               int row, const FineSamples& fine) {
+               int row, const FineSamples& fine, SeenTriangles& triangles) {
   Packet packet;
   const auto side = static_cast<std::size_t>(fine.factor);
   const std::size_t begin = fine.row_begin[static_cast<std::size_t>(row)];
@@ -238,11 +189,11 @@ void trace_row(const RayTracer& tracer, const PixelRays& rays, const Plane<std::
       packet.add(rays.at(x_px * side + k % side, static_cast<std::size_t>(row) * side + line), place);
       packet.near_actors |= near_actors.at(static_cast<int>(x_px), row) != 0;
       if (!packet.is_full()) continue;
-      tracer.trace(packet);
+      tracer.trace(packet, triangles);
       packet = {};
     }
   }
-  if (packet.rays > 0) tracer.trace(packet);
+  if (packet.rays > 0) tracer.trace(packet, triangles);
 }
 
 }  // namespace
@@ -280,10 +231,11 @@ void trace_pixels(const Shot& shot, const PixelRays& rays, const Plane<std::uint
   const RayTracer tracer(shot, sink);
   const auto rows = static_cast<std::size_t>((rays.height_px() + kBlockPx - 1) / kBlockPx);
   parallel_for(rows, 2, [&](std::size_t begin, std::size_t end) {
+    SeenTriangles triangles(shot);
     for (int y_px = static_cast<int>(begin) * kBlockPx; y_px < static_cast<int>(end) * kBlockPx;
          y_px += kBlockPx) {
       for (int x_px = 0; x_px < rays.width_px(); x_px += kBlockPx)
-        tracer.trace(block_at(x_px, y_px, rays, near_actors));
+        tracer.trace(block_at(x_px, y_px, rays, near_actors), triangles);
     }
   });
 }
@@ -301,8 +253,9 @@ void trace_samples(const Shot& shot, const PixelRays& rays, const Plane<std::uin
                                 samples_of(fine.normal[2], needs.normals, samples)}};
   const RayTracer tracer(shot, sink);
   parallel_for(static_cast<std::size_t>(near_actors.height_px()), 8, [&](std::size_t begin, std::size_t end) {
+    SeenTriangles triangles(shot);
     for (auto row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
-      trace_row(tracer, rays, near_actors, row, fine);
+      trace_row(tracer, rays, near_actors, row, fine, triangles);
   });
 }
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "raycast/place.h"
+#include "raycast/shot.h"
 #include "raycast/vectors.h"
 #include "scene/lens_distortion.h"
 #include "scene/passes.h"
@@ -31,13 +31,6 @@ class PixelRays {
   std::vector<double> x_;        ///< a pinhole's, by column
   std::vector<double> y_;        ///< by row
   std::vector<LensPoint> bent_;  ///< a lens's, row by row; empty: a pinhole
-};
-
-/// A frame to be traced: the place, the actors where they are, the camera.
-struct Shot {
-  const Place& place;
-  const PieceSet& actors;
-  View view;
 };
 
 /// Fills the planes of `out` that are needed, and both indices. `near_actors`: pixels whose ray may hit an actor.

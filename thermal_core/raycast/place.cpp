@@ -8,15 +8,12 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "raycast/first_hit.h"
 #include "raycast/vectors.h"
 #include "raycast/vertex_normals.h"
 
 namespace thermal {
 namespace {
-
-/// One instruction set for all machines. Embree rounds differently with others: with the older ones, which have no fused
-/// multiply-add, one pixel in 100,000 shows another object, at silhouettes.
-constexpr const char* kDeviceSettings = "isa=avx2";
 
 void check(RTCDevice device) {
   const RTCError error = rtcGetDeviceError(device);
@@ -26,7 +23,7 @@ void check(RTCDevice device) {
 }
 
 EmbreeDevice new_device() {
-  EmbreeDevice device(rtcNewDevice(kDeviceSettings));
+  EmbreeDevice device(rtcNewDevice(nullptr));
   check(device.get());
   return device;
 }
@@ -73,6 +70,7 @@ EmbreeScene scene_of(RTCDevice device, const BakedMesh& mesh) {
   // Copies, because Embree also reads the four bytes behind the last point.
   fill_buffer(device, geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.points_m);
   fill_buffer(device, geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
+  rtcSetGeometryIntersectFilterFunction(geometry.get(), FirstHitSearch::keep_first);
   rtcCommitGeometry(geometry.get());
   EmbreeScene scene = new_scene(device);
   rtcAttachGeometry(scene.get(), geometry.get());

@@ -1,6 +1,7 @@
 #include "raycast/sight.h"
 
-#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "base/clones.h"
 
@@ -30,7 +31,7 @@ VELDT_INLINE void put_lane(const Vector3& vector, std::size_t k, VectorLanes<Num
   at(lanes[2], k) = static_cast<Number>(vector.z);
 }
 
-/// The transform of one lane: columns of its rotation and scale, and the rest.
+/// A transform by columns: its rotation and scale, and the rest.
 struct Axes {
   Vector3 x;
   Vector3 y;
@@ -38,50 +39,26 @@ struct Axes {
   Vector3 origin_m;
 };
 
-VELDT_INLINE Axes axes_of(const TransformLanes& lanes, std::size_t k) noexcept {
-  const double* const m = lanes.data() + k;
-  return {.x = {m[0], m[4 * kLanes], m[8 * kLanes]},
-          .y = {m[kLanes], m[5 * kLanes], m[9 * kLanes]},
-          .z = {m[2 * kLanes], m[6 * kLanes], m[10 * kLanes]},
-          .origin_m = {m[3 * kLanes], m[7 * kLanes], m[11 * kLanes]}};
+Axes axes_of(const std::array<double, 12>& m) noexcept {
+  return {.x = {m[0], m[4], m[8]},
+          .y = {m[1], m[5], m[9]},
+          .z = {m[2], m[6], m[10]},
+          .origin_m = {m[3], m[7], m[11]}};
 }
 
-VELDT_INLINE Vector3 to_world(const Axes& axes, const Vector3& point) noexcept {
+Vector3 to_world(const Axes& axes, const Vector3& point) noexcept {
   return point.x * axes.x + point.y * axes.y + point.z * axes.z + axes.origin_m;
 }
 
 /// A normal under the inverse transpose, times the determinant.
-VELDT_INLINE Vector3 normal_to_world(const Axes& axes, const Vector3& normal) noexcept {
+Vector3 normal_to_world(const Axes& axes, const Vector3& normal) noexcept {
   return normal.x * cross(axes.y, axes.z) + normal.y * cross(axes.z, axes.x) +
          normal.z * cross(axes.x, axes.y);
 }
 
-struct Sight {
-  Vector3 point_m;
-  Vector3 normal;
-};
-
-VELDT_INLINE Sight see(const Vector3& ray, const Vector3& a, const Vector3& ab, const Vector3& ac,
-                       const Vector3& normal_a, const Vector3& normal_b, const Vector3& normal_c,
-                       const Axes& axes) noexcept {
-  const Vector3 p = cross(ray, ac);
-  const double volume = dot(ab, p);
-  const double b = -dot(a, p) / volume;
-  const double c = dot(ray, cross(ab, a)) / volume;
-  // The comparisons also turn NaN, of a volume of 0, into 0.
-  const double share_b = b > 0 ? (b < 1 ? b : 1.0) : 0.0;
-  const double rest = 1 - share_b;
-  const double share_c = c > 0 ? (c < rest ? c : rest) : 0.0;
-  const Vector3 face = cross(ab, ac);
-  const Vector3 between = (rest - share_c) * normal_a + share_b * normal_b + share_c * normal_c;
-  const Vector3 smooth = normal_to_world(axes, between);
-  // A mirror turns the order of corners around and, in `smooth`, the sign of the determinant: both cancel out.
-  const bool flat = !(dot(smooth, smooth) > 0);
-  const Vector3 normal{flat ? face.x : smooth.x, flat ? face.y : smooth.y, flat ? face.z : smooth.z};
-  const double size = length(normal);
-  const double side = dot(face, ray) > 0 ? -1.0 : 1.0;
-  const double factor = size > 0 ? side / size : 0.0;
-  return {.point_m = a + share_b * ab + share_c * ac, .normal = factor * normal};
+/// A share of a side, within the rest of the whole. The comparisons also turn NaN, of a ray in the plane, into 0.
+VELDT_INLINE double share_of(double share, double rest) noexcept {
+  return share > 0 ? (share < rest ? share : rest) : 0.0;
 }
 
 }  // namespace
@@ -106,19 +83,59 @@ UnitLanes units(const VectorLanes<double>& direction) noexcept {
   return out;
 }
 
+TriangleSight sight_of(const View& view, const std::array<double, 12>& transform,
+                       const std::array<Vector3, 3>& corner_m,
+                       const std::array<Vector3, 3>& normal) noexcept {
+  const Axes axes = axes_of(transform);
+  const Vector3 a = to_world(axes, corner_m[0]) - view.position_m;
+  const Vector3 ab = to_world(axes, corner_m[1]) - view.position_m - a;
+  const Vector3 ac = to_world(axes, corner_m[2]) - view.position_m - a;
+  const Vector3 face = cross(ab, ac);
+  return {.face = face,
+          .b = cross(ac, a),
+          .c = cross(a, ab),
+          .volume = dot(a, face),
+          .depth_m = {dot(view.forward, a), dot(view.forward, ab), dot(view.forward, ac)},
+          .normal = {normal_to_world(axes, normal[0]), normal_to_world(axes, normal[1]),
+                     normal_to_world(axes, normal[2])}};
+}
+
+double distance_along(const Vector3& ray, const TriangleSight& triangle) noexcept {
+  const double distance = triangle.volume / dot(ray, triangle.face);
+  return std::isfinite(distance) ? distance : std::numeric_limits<double>::infinity();
+}
+
+void put_lane(const TriangleSight& triangle, std::size_t lane, TriangleLanes& out) noexcept {
+  put_lane(triangle.face, lane, out.face);
+  put_lane(triangle.b, lane, out.b);
+  put_lane(triangle.c, lane, out.c);
+  for (std::size_t which = 0; which < 3; ++which) {
+    out.depth_m[which][lane] = triangle.depth_m[which];
+    put_lane(triangle.normal[which], lane, out.normal[which]);
+  }
+}
+
 VELDT_CLONES
-void see_triangles(const View& view, const VectorLanes<double>& direction, const TriangleLanes& triangle,
+void see_triangles(const VectorLanes<double>& direction, const TriangleLanes& triangle,
                    SightLanes& out) noexcept {
-  const View camera = view;  // a copy, which `out` cannot overlap
   for (std::size_t k = 0; k < kLanes; ++k) {
-    const Axes axes = axes_of(triangle.to_world, k);
-    const Vector3 a = to_world(axes, lane_of(triangle.corner_m[0], k)) - camera.position_m;
-    const Vector3 b = to_world(axes, lane_of(triangle.corner_m[1], k)) - camera.position_m;
-    const Vector3 c = to_world(axes, lane_of(triangle.corner_m[2], k)) - camera.position_m;
-    const Sight sight = see(lane_of(direction, k), a, b - a, c - a, lane_of(triangle.normal[0], k),
-                            lane_of(triangle.normal[1], k), lane_of(triangle.normal[2], k), axes);
-    at(out.depth_m, k) = static_cast<float>(dot(camera.forward, sight.point_m));
-    put_lane(sight.normal, k, out.normal);
+    const Vector3 ray = lane_of(direction, k);
+    const Vector3 face = lane_of(triangle.face, k);
+    const double slope = dot(ray, face);
+    const double b = share_of(dot(ray, lane_of(triangle.b, k)) / slope, 1.0);
+    const double c = share_of(dot(ray, lane_of(triangle.c, k)) / slope, 1 - b);
+    const double a = 1 - b - c;
+    at(out.depth_m, k) = static_cast<float>(at(triangle.depth_m[0], k) + b * at(triangle.depth_m[1], k) +
+                                            c * at(triangle.depth_m[2], k));
+    // A mirror turns the order of corners around and, in `smooth`, the sign of the determinant: both cancel out.
+    const Vector3 smooth = a * lane_of(triangle.normal[0], k) + b * lane_of(triangle.normal[1], k) +
+                           c * lane_of(triangle.normal[2], k);
+    const bool flat = !(dot(smooth, smooth) > 0);
+    const Vector3 normal{flat ? face.x : smooth.x, flat ? face.y : smooth.y, flat ? face.z : smooth.z};
+    const double size = length(normal);
+    const double side = slope > 0 ? -1.0 : 1.0;
+    const double factor = size > 0 ? side / size : 0.0;
+    put_lane(factor * normal, k, out.normal);
   }
 }
 

@@ -23,27 +23,36 @@ constexpr Point kC = {0, 2, 6};
 constexpr thermal::View kView = {
     .right = {1, 0, 0}, .down = {0, 1, 0}, .forward = {0, 0, 1}, .position_m = {}};
 
-/// The triangle A, B, C in each lane, in its place; flat.
-TriangleLanes triangles() {
+constexpr std::array<double, 12> kInPlace = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+
+/// Corners of a triangle, and normals there.
+struct Triangle {
+  std::array<Point, 3> corner_m = {kA, kB, kC};
+  std::array<Point, 3> normal{};
+};
+
+std::array<thermal::Vector3, 3> vectors(const std::array<Point, 3>& points) {
+  return {thermal::vector_of(points[0]), thermal::vector_of(points[1]), thermal::vector_of(points[2])};
+}
+
+/// One triangle in each lane.
+TriangleLanes lanes_of(const std::array<Triangle, kLanes>& triangles) {
   TriangleLanes lanes{};
   for (std::size_t k = 0; k < kLanes; ++k) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lanes.to_world.at((5 * axis) * kLanes + k) = 1;
-      lanes.corner_m[0].at(axis).at(k) = kA.at(axis);
-      lanes.corner_m[1].at(axis).at(k) = kB.at(axis);
-      lanes.corner_m[2].at(axis).at(k) = kC.at(axis);
-    }
+    const Triangle& triangle = triangles.at(k);
+    put_lane(sight_of(kView, kInPlace, vectors(triangle.corner_m), vectors(triangle.normal)), k, lanes);
   }
   return lanes;
 }
 
 /// What rays of these directions see of it.
-SightLanes seen(const std::array<Point, kLanes>& directions, const TriangleLanes& lanes = triangles()) {
+SightLanes seen(const std::array<Point, kLanes>& directions,
+                const std::array<Triangle, kLanes>& triangles = {}) {
   thermal::VectorLanes<double> rays{};
   for (std::size_t k = 0; k < kLanes; ++k)
     for (std::size_t axis = 0; axis < 3; ++axis) rays.at(axis).at(k) = directions.at(k).at(axis);
   SightLanes sights;
-  thermal::see_triangles(kView, rays, lanes, sights);
+  thermal::see_triangles(rays, lanes_of(triangles), sights);
   return sights;
 }
 
@@ -96,11 +105,11 @@ TEST_CASE("Rays beside the triangle see its border") {
 
 TEST_CASE("A ray in the triangle's plane sees a corner") {
   // Through the camera: the plane of (0, 0, 4), (2, 0, 5) and (4, 0, 9).
-  TriangleLanes lanes = triangles();
-  for (std::size_t axis = 0; axis < 3; ++axis) lanes.corner_m[2].at(axis)[0] = std::array{4, 0, 9}.at(axis);
+  std::array<Triangle, kLanes> triangles;
+  triangles[0].corner_m[2] = {4, 0, 9};
   std::array<Point, kLanes> directions;
   directions.fill({0.2, 0, 1});
-  const SightLanes sights = seen(directions, lanes);
+  const SightLanes sights = seen(directions, triangles);
   CHECK(sights.depth_m[0] == 4);
   CHECK_THAT(std::abs(static_cast<double>(sights.normal[1][0])), WithinAbs(1, 3e-8));
 }
@@ -108,20 +117,15 @@ TEST_CASE("A ray in the triangle's plane sees a corner") {
 TEST_CASE(
     "Smooth triangles have normals between those of their corners, flat ones and those without any their "
     "own") {
-  TriangleLanes lanes = triangles();
-  for (const std::size_t lane : {0U, 1U, 2U}) {
-    lanes.normal[0][2].at(lane) = -1;
-    lanes.normal[1][0].at(lane) = 1;
-    lanes.normal[2][1].at(lane) = 1;
-  }
-  lanes.normal[1][0][2] = 0;  // those of this lane cancel out, halfway between A and C
-  lanes.normal[2][1][2] = 0;
-  lanes.normal[2][2][2] = 1;
+  std::array<Triangle, kLanes> triangles;
+  for (const std::size_t lane : {0U, 1U})
+    triangles.at(lane).normal = {Point{0, 0, -1}, Point{1, 0, 0}, Point{0, 1, 0}};
+  triangles[2].normal = {Point{0, 0, -1}, Point{}, Point{0, 0, 1}};  // cancel out halfway between A and C
   std::array<Point, kLanes> directions;
   directions.fill(towards(between(0.25, 0.25)));
   directions[1] = towards(between(0, 0.5));
   directions[2] = towards(between(0, 0.5));
-  const SightLanes sights = seen(directions, lanes);
+  const SightLanes sights = seen(directions, triangles);
   // The triangle's front faces away from the camera, so that (0.25, 0.25, -0.5) is turned around.
   const double size = std::sqrt(0.375);
   CHECK_THAT(static_cast<double>(sights.normal[0][0]), WithinAbs(-0.25 / size, 4e-8));

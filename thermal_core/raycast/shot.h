@@ -1,0 +1,24 @@
+#pragma once
+
+#include "raycast/place.h"
+#include "raycast/vectors.h"
+
+namespace thermal {
+
+/// A frame to be traced: the place, the actors where they are, the camera.
+struct Shot {
+  const Place& place;
+  const PieceSet& actors;
+  View view;
+
+  /// Pieces have one numbering: the actors, then the surroundings.
+  [[nodiscard]] unsigned first_surrounding() const noexcept {
+    return static_cast<unsigned>(actors.pieces.size());
+  }
+  [[nodiscard]] const Piece& piece(unsigned number) const noexcept {
+    return number < first_surrounding() ? actors.pieces[number]
+                                        : place.surroundings().pieces[number - first_surrounding()];
+  }
+};
+
+}  // namespace thermal
