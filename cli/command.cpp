@@ -9,12 +9,14 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "cli/output.h"
 #include "cli/stop_signal.h"
 #include "io/assets.h"
 #include "io/system/child_process.h"
+#include "io/system/cores.h"
 
 namespace veldt {
 namespace {
@@ -103,10 +105,11 @@ int print_parsed(const CLI::App& app, const CLI::ParseError& error) {
   return code == 0 ? kDone : kBadUsage;
 }
 
-/// Runs a command and turns exceptions into messages and exit codes.
-int run_guarded(const std::function<int()>& run) {
+/// Runs a command with its threads and turns exceptions into messages and exit codes.
+int run_guarded(const Session& session) {
+  const int threads = session.common.threads;
   try {
-    return run();
+    return thermal::with_threads(threads > 0 ? threads : thermal::find_cores().usable(), session.run);
   } catch (const thermal::ConfigError& error) {
     print_fault(error.what());
     return kBadUsage;
@@ -131,7 +134,7 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
   command->add_option("--progress", session.common.progress, "How to show progress, on standard error")
       ->check(CLI::IsMember({"auto", "plain", "json", "none"}))
       ->capture_default_str();
-  command->add_option("--threads", session.common.threads, "Number of threads; 0: one per core")
+  command->add_option("--threads", session.common.threads, "Number of threads; 0: one per usable core")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   return command;
@@ -178,7 +181,7 @@ int run_command_line(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return written(print_parsed(app, error));
   }
-  return written(run_guarded(session.run));
+  return written(run_guarded(session));
 }
 
 }  // namespace veldt

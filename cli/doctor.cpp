@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <memory>
 #include <sstream>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/version.h"
@@ -8,6 +11,7 @@
 #include "dataset/plan/planning.h"
 #include "io/assets.h"
 #include "io/system/child_process.h"
+#include "io/system/cores.h"
 #include "io/system/versions.h"
 
 namespace veldt {
@@ -36,8 +40,18 @@ Finding find_home() {
   }
 }
 
+/// How many cores commands use without --threads, and what keeps them from using all.
+std::string describe(const thermal::Cores& cores) {
+  std::string text = fmt::format("{} usable of {}", cores.usable(), cores.machine);
+  if (cores.usable() < cores.affinity)
+    return fmt::format("{}: a control group limits CPU time to {:.2f} cores", text, *cores.limit);
+  if (cores.affinity < cores.machine) return fmt::format("{}: CPU affinity allows {}", text, cores.affinity);
+  return text;
+}
+
 std::vector<Finding> look() {
   std::vector<Finding> findings = {{"veldt", std::string(thermal::kVersion), ""}, find_home()};
+  findings.push_back({"cores", describe(thermal::find_cores()), ""});
   const std::string blender = thermal::find_program("blender").string();
   const std::string blender_version = first_line({blender, "--version"});
   findings.push_back({"Blender", blender_version.empty() ? "" : blender_version + ", " + blender,

@@ -1,10 +1,12 @@
 """`doctor` reports what is installed, and how to install what is missing."""
 
+import os
 import re
 
 PARTS = [
     "veldt",
     "assets and scripts",
+    "cores",
     "Blender",
     "Python",
     "OpenEXR",
@@ -18,11 +20,16 @@ PARTS = [
 VERSION = re.compile(r"\d+\.\d+")
 
 
+def _cores(veldt, **how):
+    report = veldt("doctor", "--json", **how).json()
+    return next(finding["found"] for finding in report if finding["what"] == "cores")
+
+
 def test_everything_it_needs_has_a_version(veldt):
     """Blender may be missing where the tests run; everything else is linked in, or runs them."""
     report = {finding["what"]: finding for finding in veldt("doctor", "--json").json()}
     assert list(report)[: len(PARTS)] == PARTS
-    for what in set(report) - {"Blender", "assets and scripts"}:
+    for what in set(report) - {"Blender", "assets and scripts", "cores"}:
         assert VERSION.search(report[what]["found"]), what
     assert report["Python"]["found"].endswith("python3") and "with NumPy" in report["Python"]["found"]
 
@@ -48,6 +55,14 @@ def test_a_blender_is_named_with_its_version_and_place(veldt):
     done = veldt("doctor", env={"PATH": str(veldt.folder)})
     assert f"Blender              Blender 9.8.7, {veldt.folder}/blender\n" in done.out
     assert (done.code, done.err) == (0, "")
+
+
+def test_cores_are_those_that_affinity_allows(veldt):
+    allowed = os.sched_getaffinity(0)
+    assert re.match(rf"\d+ usable of {os.cpu_count()}\b", _cores(veldt))
+    found = _cores(veldt, under=("taskset", "-c", str(min(allowed))))
+    reason = "" if os.cpu_count() == 1 else ": CPU affinity allows 1"
+    assert found == f"1 usable of {os.cpu_count()}{reason}"
 
 
 def test_a_home_that_is_none_is_said(veldt):

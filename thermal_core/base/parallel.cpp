@@ -1,21 +1,16 @@
 #include "base/parallel.h"
 
 #include <algorithm>
-#include <thread>
 
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 namespace thermal {
 
-int thread_count(int threads) {
-  return threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
+int thread_count(int threads) { return threads > 0 ? threads : tbb::this_task_arena::max_concurrency(); }
 
 void run_with_threads(int threads, const std::function<void()>& work) {
-  const int cores = tbb::info::default_concurrency();  // that this process may use
-  tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
+  tbb::task_arena arena(std::min(thread_count(threads), thread_count(0)));
   arena.execute(work);
 }
 

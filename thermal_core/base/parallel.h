@@ -7,12 +7,13 @@
 
 namespace thermal {
 
-/// `threads`, or one per core if it is 0.
+/// `threads`, or if it is 0, how many the library's loops on this thread use: as run_with_threads() says, elsewhere
+/// one per core that this process may run on (CPU affinity).
 [[nodiscard]] int thread_count(int threads);
 
 /// Calls `work` on this thread; the library's loops in it use at most this many threads, this one among them, and at
-/// most one per core that this process may use. 0: as many as that. Threads that `work` starts itself are not limited,
-/// nor is anything else in the program.
+/// most thread_count(0), which `threads` = 0 stands for. Threads that `work` starts itself are not limited, nor is
+/// anything else in the program.
 void run_with_threads(int threads, const std::function<void()>& work);
 
 /// The same for work with a result.

@@ -132,7 +132,7 @@ ClipTask physical_task_of(const BenchScene& scene) {
 /// Clips to convert end to end.
 struct Whole {
   int frames = 0;
-  std::vector<int> threads;  ///< 0: one per processor
+  std::vector<int> threads;  ///< 0: thread_count(0)
 };
 
 void add_rows(const BenchScene& scene, const MaterialLibrary& materials, const Whole& work,

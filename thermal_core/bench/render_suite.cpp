@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "bench/measure.h"
 #include "dataset/plan/planning.h"
 #include "dataset/run/blender_failure.h"
@@ -24,7 +25,7 @@ namespace {
 std::vector<std::string> command_of(const ProfileTask& task, const char* script) {
   std::vector<std::string> command = {task.blender.string(), "--background",       "--factory-startup",
                                       "--disable-autoexec",  "--python-exit-code", "1"};
-  if (task.threads > 0) command.insert(command.end(), {"--threads", std::to_string(task.threads)});
+  command.insert(command.end(), {"--threads", std::to_string(thread_count(task.threads))});
   command.insert(command.end(),
                  {"--python", (task.assets.script(script)).string(), "--", "--plan", task.plan.string(),
                   "--out", task.out.string(), "--supersample", std::to_string(task.supersample),

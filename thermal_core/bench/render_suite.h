@@ -17,7 +17,7 @@ struct ProfileTask {
   Assets assets;
   Path plan;        ///< folder of a plan
   Path out;         ///< receives the frames; Blender's log is beside it
-  int threads = 0;  ///< 0: one per core
+  int threads = 0;  ///< 0: thread_count(0)
   int frames = 8;   ///< of the plan's first clip; the first of them is not counted
   int supersample = 1;
 };

@@ -63,7 +63,21 @@ TEST_CASE("A limit of one thread keeps all work on the caller's") {
 
 TEST_CASE("A limit bounds the threads at work, and ends with its work") {
   CHECK(with_threads(2, threads_at_work).size() <= 2);
-  if (std::thread::hardware_concurrency() > 1) CHECK(threads_at_work().size() > 1);
+  if (thread_count(0) > 1) CHECK(threads_at_work().size() > 1);
+}
+
+TEST_CASE("No number of threads is as many as the limit around it, and a larger limit within has no effect") {
+  const int unlimited = thread_count(0);
+  CHECK(thread_count(3) == 3);
+  for (const int limit : {1, 2}) {
+    const int bound = std::min(limit, unlimited);
+    CHECK(with_threads(limit, [] { return thread_count(0); }) == bound);
+    CHECK(with_threads(limit, [] { return with_threads(0, [] { return thread_count(0); }); }) == bound);
+    CHECK(with_threads(limit, [] { return with_threads(64, [] { return thread_count(0); }); }) == bound);
+  }
+  CHECK(with_threads(0, [] { return thread_count(0); }) == unlimited);
+  CHECK(with_threads(1 << 20, [] { return thread_count(0); }) == unlimited);
+  CHECK(thread_count(0) == unlimited);
 }
 
 TEST_CASE("An exception in a chunk reaches the caller") {

@@ -12,7 +12,7 @@ namespace thermal {
 /// How a plan is made.
 struct PlanOptions {
   Assets assets;
-  /// Work done at once, in processes; 0: one per core. The plan does not depend on it.
+  /// Work done at once, in processes; 0: thread_count(0). The plan does not depend on it.
   int threads = 0;
   Path blender = {};  ///< reads models of other programs; empty: there is none
   /// Called for each planned clip or flight; `clip` is its id.

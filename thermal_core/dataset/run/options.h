@@ -23,7 +23,7 @@ struct GenerateOptions {
   std::vector<std::string> clips;  ///< only these; empty: all
   Shard shard;
   int jobs = 1;     ///< number of Blender processes
-  int threads = 0;  ///< for all of them together, and for the conversion; 0: one per core
+  int threads = 0;  ///< for all of them together, and for the conversion; 0: thread_count(0)
   bool keep_passes = false;
 };
 

@@ -47,7 +47,7 @@ std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOp
                                           const std::vector<std::string>& clips, RunMonitor& monitor) {
   const Layout layout{options.out};
   const auto hands = deal_clips(clips, options.jobs);
-  const int cores = thread_count(0);
+  const int threads = thread_count(options.threads);
   std::vector<RenderJob::Task> tasks;
   for (const std::vector<std::string>& hand : hands) {
     // Runs that share the folder never share a clip, so the clip's name keeps their logs apart.
@@ -57,7 +57,7 @@ std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOp
                      .passes = layout.passes(),
                      .log = layout.passes() / (hand.front() + ".log"),
                      .clips = hand,
-                     .threads = threads_each(options.threads, cores, static_cast<int>(hands.size())),
+                     .threads = threads_each(threads, static_cast<int>(hands.size())),
                      .supersample = config.supersample,
                      .actor_layer = config.actor_layer,
                      .preview = false,

@@ -67,7 +67,7 @@ RenderJob::Task preview_task(const Config& config, const GenerateOptions& option
           .passes = folder,
           .log = folder / "blender.log",
           .clips = {},
-          .threads = options.threads,
+          .threads = thread_count(options.threads),
           .supersample = 1,
           .actor_layer = false,
           .preview = true,

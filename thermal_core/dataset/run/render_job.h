@@ -42,7 +42,7 @@ class RenderJob {
     Path passes;  ///< gets a folder for each clip
     Path log;     ///< what the Blenders of this job print, one after another
     std::vector<std::string> clips;
-    int threads = 0;      ///< 0: one a core
+    int threads = 0;      ///< 0: as many as Blender takes by itself
     int supersample = 1;  ///< rays along each side of a pixel
     bool actor_layer = false;
     bool preview = false;  ///< pictures for people instead: the frames of one clip, kPreview

@@ -54,14 +54,11 @@ std::vector<std::vector<std::string>> deal_clips(const std::vector<std::string>&
   return dealt;
 }
 
-int threads_each(int threads, int cores, int jobs) {
-  if (jobs <= 1) return threads;
-  return std::max(1, (threads > 0 ? threads : cores) / jobs);
-}
+int threads_each(int threads, int jobs) { return std::max(1, threads / jobs); }
 
 void run_workers(const std::vector<RenderJob::Task>& tasks, int threads, const ClipWork& work,
                  const std::function<bool()>& cancelled) {
-  const int share = threads == 0 ? 0 : threads_each(threads, threads, static_cast<int>(tasks.size()));
+  const int share = threads == 0 ? thread_count(0) : threads_each(threads, static_cast<int>(tasks.size()));
   const ClipWork limited = [&](const std::string& clip, RenderJob& job, const std::function<bool()>& stop) {
     with_threads(share, [&] { work(clip, job, stop); });
   };
