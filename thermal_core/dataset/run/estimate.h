@@ -10,8 +10,9 @@ struct Estimate {
   double bytes = 0;    ///< of the finished dataset, without passes
 };
 
-/// Estimates a run over `frames` frames of a config's camera, in this many clips. From measurements of the savanna
-/// and the demo (`veldt bench --suite render`): within a factor of two, unless the place is far larger or emptier.
+/// Estimates a run over `frames` frames of a config's camera, in this many clips, by the config's engine. From
+/// measurements of the savanna and the demo, for Blender by `veldt bench --suite render`: within a factor of two,
+/// unless the place is far larger or emptier.
 [[nodiscard]] Estimate estimate_run(const Config& config, int clips, int frames);
 
 }  // namespace thermal
