@@ -13,6 +13,7 @@
 #include "io/system/child_process.h"
 #include "io/system/cores.h"
 #include "io/system/versions.h"
+#include "raycast/engine_version.h"
 
 namespace veldt {
 namespace {
@@ -20,8 +21,9 @@ namespace {
 /// One thing to look for.
 struct Finding {
   std::string what;
-  std::string found;   ///< version and path; empty if missing
-  std::string remedy;  ///< how to get it
+  std::string found;            ///< version and path; empty if missing
+  std::string remedy;           ///< how to get it
+  std::string needed_for = {};  ///< of an engine, where one of them is enough; empty: for everything
 };
 
 /// First line that a program prints; empty if it cannot be run.
@@ -40,6 +42,23 @@ Finding find_home() {
   }
 }
 
+Finding find_blender_engine() {
+  const std::string blender = thermal::find_program("blender").string();
+  const std::string version = first_line({blender, "--version"});
+  return {"Blender", version.empty() ? "" : version + ", " + blender,
+          "apt-get install blender, or name one with --blender PATH",
+          "the engine blender, 3D models of your own, render --preview and bench --suite render"};
+}
+
+Finding find_embree() {
+  constexpr const char* kNeededFor = "the engine embree";
+  try {
+    return {"Embree", thermal::engine_version(), "", kNeededFor};
+  } catch (const thermal::Error& error) {
+    return {"Embree", "", error.what(), kNeededFor};
+  }
+}
+
 /// How many cores commands use without --threads, and what keeps them from using all.
 std::string describe(const thermal::Cores& cores) {
   std::string text = fmt::format("{} usable of {}", cores.usable(), cores.machine);
@@ -52,10 +71,8 @@ std::string describe(const thermal::Cores& cores) {
 std::vector<Finding> look() {
   std::vector<Finding> findings = {{"veldt", std::string(thermal::kVersion), ""}, find_home()};
   findings.push_back({"cores", describe(thermal::find_cores()), ""});
-  const std::string blender = thermal::find_program("blender").string();
-  const std::string blender_version = first_line({blender, "--version"});
-  findings.push_back({"Blender", blender_version.empty() ? "" : blender_version + ", " + blender,
-                      "apt-get install blender, or name one with --blender PATH"});
+  findings.push_back(find_blender_engine());
+  findings.push_back(find_embree());
   const std::string python = thermal::find_python().string();
   const std::string numpy =
       first_line({python, "-I", "-c",
@@ -66,22 +83,33 @@ std::vector<Finding> look() {
   return findings;
 }
 
+bool is_there(const Finding& finding) { return !finding.found.empty(); }
+
+/// Whether datasets can be made: all is there but for an engine, if there is another.
+bool is_enough(const std::vector<Finding>& findings) {
+  const auto is_engine = [](const Finding& finding) { return !finding.needed_for.empty(); };
+  return std::ranges::all_of(findings, [&](const Finding& one) { return is_engine(one) || is_there(one); }) &&
+         std::ranges::any_of(findings, [&](const Finding& one) { return is_engine(one) && is_there(one); });
+}
+
+std::string text_of(const Finding& finding) {
+  if (is_there(finding)) return finding.found;
+  if (finding.needed_for.empty()) return "missing: " + finding.remedy;
+  return fmt::format("missing, needed for {}: {}", finding.needed_for, finding.remedy);
+}
+
 int run_doctor(bool json) {
   const std::vector<Finding> findings = look();
-  bool all_there = true;
   thermal::Json report = thermal::Json::array();
   for (const Finding& finding : findings) {
-    const bool there = !finding.found.empty();
-    all_there &= there;
-    if (json) {
-      report.push_back(
-          {{"what", finding.what}, {"found", finding.found}, {"remedy", there ? "" : finding.remedy}});
-    } else {
-      print("{:<20} {}\n", finding.what, there ? finding.found : "missing: " + finding.remedy);
-    }
+    if (!json) print("{:<20} {}\n", finding.what, text_of(finding));
+    report.push_back({{"what", finding.what},
+                      {"found", finding.found},
+                      {"remedy", is_there(finding) ? "" : finding.remedy},
+                      {"needed_for", finding.needed_for}});
   }
   if (json) print_json(report);
-  return all_there ? kDone : kFailed;
+  return is_enough(findings) ? kDone : kFailed;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ PARTS = [
     "assets and scripts",
     "cores",
     "Blender",
+    "Embree",
     "Python",
     "OpenEXR",
     "OpenImageIO",
@@ -36,18 +37,20 @@ def test_everything_it_needs_has_a_version(veldt):
 
 def test_what_is_missing_is_said_with_its_remedy(veldt):
     done = veldt("doctor", env={"PATH": ""})
-    assert (done.code, done.err) == (1, "")
+    assert (done.code, done.err) == (0, "")  # the engine embree is enough
     missing = [line for line in done.out.splitlines() if "missing" in line]
     assert missing == [
-        "Blender              missing: apt-get install blender, or name one with --blender PATH",
+        "Blender              missing, needed for the engine blender, 3D models of your own, render --preview and "
+        "bench --suite render: apt-get install blender, or name one with --blender PATH",
     ]
 
 
 def test_a_blender_that_does_not_start_counts_as_missing(veldt):
     veldt.write("blender", "#!/bin/sh\nexit 1\n").chmod(0o755)
     done = veldt("doctor", "--json", env={"PATH": str(veldt.folder)})
-    assert done.code == 1
-    assert [finding["what"] for finding in done.json() if not finding["found"]] == ["Blender"]
+    assert done.code == 0
+    (missing,) = [finding for finding in done.json() if not finding["found"]]
+    assert missing["what"] == "Blender" and missing["needed_for"].startswith("the engine blender, ")
 
 
 def test_a_blender_is_named_with_its_version_and_place(veldt):
@@ -63,6 +66,17 @@ def test_cores_are_those_that_affinity_allows(veldt):
     found = _cores(veldt, under=("taskset", "-c", str(min(allowed))))
     reason = "" if os.cpu_count() == 1 else ": CPU affinity allows 1"
     assert found == f"1 usable of {os.cpu_count()}{reason}"
+
+
+def test_what_everything_needs_is_required(veldt):
+    done = veldt("doctor", "--json", env={"VELDT_PYTHON": "/nowhere/python3"})
+    assert done.code == 1
+    (missing,) = [finding for finding in done.json() if not finding["found"]]
+    assert (missing["what"], missing["needed_for"]) == ("Python", "")
+
+
+def test_embree_is_named_with_its_version_and_instructions(veldt):
+    assert re.search(r"^Embree {15}[34]\.\d+\.\d+, (4|8|16) rays at once$", veldt("doctor").out, re.MULTILINE)
 
 
 def test_a_home_that_is_none_is_said(veldt):

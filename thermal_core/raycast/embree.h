@@ -29,6 +29,12 @@ using EmbreeDevice = EmbreeHandle<RTCDevice, rtcReleaseDevice>;
 using EmbreeScene = EmbreeHandle<RTCScene, rtcReleaseScene>;
 using EmbreeGeometry = EmbreeHandle<RTCGeometry, rtcReleaseGeometry>;
 
+/// Error if a call on this device, or on none before there is one, has failed on this thread.
+void check_device(RTCDevice device);
+
+/// Uses the largest vectors of this processor. Error if Embree cannot run on it.
+[[nodiscard]] EmbreeDevice new_device();
+
 /// Rays that are traced together: a tenth faster than 8.
 inline constexpr std::size_t kPacketRays = 16;
 using RayPacket = RTCRayHit16;                    ///< aligned to 64 bytes

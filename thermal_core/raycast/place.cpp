@@ -4,9 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
 #include "base/parallel.h"
 #include "raycast/first_hit.h"
 #include "raycast/vectors.h"
@@ -14,19 +11,6 @@
 
 namespace thermal {
 namespace {
-
-void check(RTCDevice device) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error == RTC_ERROR_NONE) return;
-  if (error == RTC_ERROR_OUT_OF_MEMORY) throw Error("Embree: not enough memory for the scene");
-  throw Error(fmt::format("Embree: error {}", static_cast<int>(error)));
-}
-
-EmbreeDevice new_device() {
-  EmbreeDevice device(rtcNewDevice(nullptr));
-  check(device.get());
-  return device;
-}
 
 /// Robust: no ray slips through between two triangles that share an edge.
 EmbreeScene new_scene(RTCDevice device) {
@@ -38,7 +22,7 @@ EmbreeScene new_scene(RTCDevice device) {
 /// While it waits, Embree would otherwise take on work of this thread's caller.
 void commit(RTCDevice device, RTCScene scene) {
   run_isolated([scene] { rtcCommitScene(scene); });
-  check(device);
+  check_device(device);
 }
 
 /// Whether Embree can bring rays into a piece's axes: it ends the program where that gives NaN or huge numbers. Bodies
@@ -61,7 +45,7 @@ void fill_buffer(RTCDevice device, RTCGeometry geometry, RTCBufferType type, RTC
                  std::span<const std::array<Number, 3>> values) {
   auto* buffer = static_cast<Number*>(
       rtcSetNewGeometryBuffer(geometry, type, 0, format, 3 * sizeof(Number), values.size()));
-  check(device);
+  check_device(device);
   for (const auto& value : values) buffer = std::copy(value.begin(), value.end(), buffer);
 }
 

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace thermal {
+
+/// Version of Embree and the rays that this processor's vectors hold: "3.13.5, 16 rays at once".
+[[nodiscard]] std::string engine_version();
+
+}  // namespace thermal
