@@ -6,6 +6,7 @@
 #include "raycast/engine_version.h"
 
 namespace thermal {
+
 void check_device(RTCDevice device) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_NONE) return;
