@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <locale>
 #include <map>
 #include <regex>
 #include <string_view>
@@ -46,6 +47,18 @@ std::string key_of(std::string_view where) {
   std::string key(dot == std::string_view::npos ? where : where.substr(dot + 1));
   key.erase(std::min(key.find('['), key.size()));
   return key;
+}
+
+/// Compiles a pattern on any thread. libstdc++ keeps each character that it has narrowed for a pattern in a table of
+/// all threads, without a lock (GCC's bug 77704). Narrowing a range fills the whole table, which is then only read.
+std::regex compiled(const std::string& pattern) {
+  [[maybe_unused]] static const char kNarrowed = [] {
+    const char letter = 'a';
+    char narrow = 0;
+    std::use_facet<std::ctype<char>>(std::locale()).narrow(&letter, &letter + 1, 0, &narrow);
+    return narrow;
+  }();
+  return std::regex(pattern);
 }
 
 /// Of names that become names of files and folders, or parts of them.
@@ -165,8 +178,9 @@ class Checker {
       return;
     }
     const auto pattern = schema["pattern"].get<std::string>();
-    const auto compiled = patterns_.try_emplace(pattern, pattern).first;
-    if (std::regex_search(text, compiled->second)) return;
+    auto found = patterns_.find(pattern);
+    if (found == patterns_.end()) found = patterns_.emplace(pattern, compiled(pattern)).first;
+    if (std::regex_search(text, found->second)) return;
     add(value, in_words(pattern));
   }
 
