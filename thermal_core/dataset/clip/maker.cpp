@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_pipeline.h>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/pipeline.h"
 #include "dataset/clip/frame_faults.h"
 #include "dataset/clip/output.h"
 #include "dataset/clip/pass_source.h"
@@ -81,19 +81,16 @@ class ClipMaker {
   }
 
   std::vector<ClipRecord> make() {
-    using tbb::filter_mode;
-    const auto enter = tbb::make_filter<void, FrameWork*>(
-        filter_mode::serial_in_order, [this](tbb::flow_control& control) { return next(control); });
-    const auto reading = tbb::make_filter<FrameWork*, FrameWork*>(
-        filter_mode::parallel, [this](FrameWork* work) { return read(work); });
-    const auto exposing = tbb::make_filter<FrameWork*, FrameWork*>(
-        filter_mode::serial_in_order, [this](FrameWork* work) { return expose(work); });
-    const auto writing = tbb::make_filter<FrameWork*, FrameWork*>(
-        filter_mode::parallel, [this](FrameWork* work) { return write(work); });
-    const auto leave = tbb::make_filter<FrameWork*, void>(filter_mode::serial_in_order,
-                                                          [this](FrameWork* work) { collect(*work); });
-    tbb::parallel_pipeline(frames_in_flight(passes_.manifest.camera),
-                           enter & reading & exposing & writing & leave);
+    const PipelineStage reading = {.in_order = false,
+                                   .work = [this](std::size_t frame) { read(slot(frame)); }};
+    const PipelineStage exposing = {.in_order = true,
+                                    .work = [this](std::size_t frame) { expose(slot(frame)); }};
+    const PipelineStage writing = {.in_order = false,
+                                   .work = [this](std::size_t frame) { write(slot(frame)); }};
+    const PipelineStage leaving = {.in_order = true,
+                                   .work = [this](std::size_t frame) { collect(slot(frame)); }};
+    run_pipeline(frames_in_flight(passes_.manifest.camera),
+                 [this](std::size_t frame) { return enter(frame); }, {reading, exposing, writing, leaving});
     if (frames_skipped_ == frame_count()) throw DataError(no_frame_left(first_fault_, frames_skipped_));
     std::vector<ClipRecord> records;
     for (ClipResult& output : outputs_) records.push_back(output.clip.finish());
@@ -101,31 +98,31 @@ class ClipMaker {
   }
 
  private:
-  FrameWork* next(tbb::flow_control& control) {
+  /// That of a frame in the pipeline. It is free again when the frame enters whose number modulo their number is the
+  /// same, because frames leave in order.
+  FrameWork& slot(std::size_t frame) { return in_flight_[frame % kFramesInFlight]; }
+
+  bool enter(std::size_t frame) {
     if (hooks_.cancelled && hooks_.cancelled()) throw Cancelled();
-    if (next_frame_ == frame_count()) {
-      control.stop();
-      return nullptr;
-    }
-    if (hooks_.wait_for_frame) hooks_.wait_for_frame(next_frame_);
-    FrameWork& work = in_flight_[static_cast<std::size_t>(next_frame_) % kFramesInFlight];
-    work.number = next_frame_++;
-    return &work;
+    const int number = static_cast<int>(frame);
+    if (number == frame_count()) return false;
+    if (hooks_.wait_for_frame) hooks_.wait_for_frame(number);
+    slot(frame).number = number;
+    return true;
   }
 
   [[nodiscard]] int frame_count() const { return static_cast<int>(passes_.manifest.frames.size()); }
 
-  FrameWork* read(FrameWork* work) {
-    work->fault = nullptr;
-    work->skipped.reset();
+  void read(FrameWork& work) {
+    work.fault = nullptr;
+    work.skipped.reset();
     try {
-      convert(*work);
+      convert(work);
     } catch (const DataError&) {
-      work->fault = std::current_exception();
+      work.fault = std::current_exception();
     } catch (const IoError&) {
-      work->fault = std::current_exception();
+      work.fault = std::current_exception();
     }
-    return work;
   }
 
   /// A thread that waits in here takes on no other frame (parallel_for()): the buffer belongs to this one.
@@ -147,16 +144,15 @@ class ClipMaker {
 
   /// Frames arrive here one by one; with several outputs, these are what can be shared between cores. Faults are
   /// reported in frame order, so that the reported one does not depend on which was found first.
-  FrameWork* expose(FrameWork* work) {
-    if (work->fault) {
-      skip(*work);
-      return work;
+  void expose(FrameWork& work) {
+    if (work.fault) {
+      skip(work);
+      return;
     }
     parallel_for(outputs_.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
-        outputs_[i].clip.expose(work->scenes[outputs_[i].scene], work->frames[i]);
+        outputs_[i].clip.expose(work.scenes[outputs_[i].scene], work.frames[i]);
     });
-    return work;
   }
 
   void skip(FrameWork& work) {
@@ -166,10 +162,9 @@ class ClipMaker {
     if (frames_skipped_++ == 0) first_fault_ = message_of(work.fault);
   }
 
-  FrameWork* write(FrameWork* work) const {
-    if (work->skipped) return work;
-    for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i].clip.write(work->number, work->frames[i]);
-    return work;
+  void write(FrameWork& work) const {
+    if (work.skipped) return;
+    for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i].clip.write(work.number, work.frames[i]);
   }
 
   void collect(const FrameWork& work) {
@@ -190,10 +185,7 @@ class ClipMaker {
   Outputs outputs_;
   PassNeeds needs_;  ///< of all scenes
   tbb::enumerable_thread_specific<PassBuffer> buffers_;
-  /// Frame k is in slot k modulo their number. That slot is free again when k enters, because frames leave in order.
-  /// Pointers, because TBB leaks the memory it allocates to pass larger objects when a stage throws.
   std::array<FrameWork, kFramesInFlight> in_flight_;
-  int next_frame_ = 0;
   int frames_skipped_ = 0;
   std::string first_fault_;  ///< of those
 };
