@@ -5,6 +5,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "base/hand_over.h"
+
 namespace thermal {
 
 int thread_count(int threads) { return threads > 0 ? threads : tbb::this_task_arena::max_concurrency(); }
@@ -19,9 +21,11 @@ void run_isolated(const std::function<void()>& work) { tbb::this_task_arena::iso
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
   const std::size_t chunks = (count + grain - 1) / grain;
+  DividedWork whole;
   // Otherwise a thread that waits for its chunks could pick up unrelated work that may block.
   run_isolated([&] {
     tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
+      const DividedWork::Part part(whole);
       const std::size_t begin = chunk * grain;
       body(begin, std::min(begin + grain, count));
     });

@@ -1,8 +1,11 @@
 #include "base/pipeline.h"
 
 #include <cassert>
+#include <optional>
 
 #include <oneapi/tbb/parallel_pipeline.h>
+
+#include "base/hand_over.h"
 
 namespace thermal {
 namespace {
@@ -15,7 +18,7 @@ class Pipeline {
  public:
   Pipeline(std::size_t in_flight, const std::function<bool(std::size_t)>& enter,
            const std::vector<PipelineStage>& stages)
-      : enter_(enter), stages_(stages), in_flight_(in_flight) {
+      : enter_(enter), stages_(stages), in_order_(stages.size()), slots_(in_flight) {
     assert(in_flight > 0 && !stages.empty() && stages.back().in_order);
   }
 
@@ -28,7 +31,7 @@ class Pipeline {
           mode(stage), [this, stage](std::size_t item) { return work(stage, item); });
     const auto leave = tbb::make_filter<std::size_t, void>(
         mode(last), [this, last](std::size_t item) { (void)work(last, item); });
-    tbb::parallel_pipeline(in_flight_, filters & leave);
+    tbb::parallel_pipeline(slots_.size(), filters & leave);
   }
 
  private:
@@ -36,20 +39,33 @@ class Pipeline {
     return stages_[stage].in_order ? filter_mode::serial_in_order : filter_mode::parallel;
   }
 
+  /// Where an item hands over from stage to stage, and at its end to the one that enters then.
+  HandOver& slot(std::size_t item) { return slots_[item % slots_.size()]; }
+
   std::size_t next(tbb::flow_control& control) {
+    const DividedWork::Part part(whole_);
+    const Turn entrance(entrance_);
+    const Turn turn(slot(next_item_));
     if (enter_(next_item_)) return next_item_++;
     control.stop();
     return 0;
   }
 
   std::size_t work(std::size_t stage, std::size_t item) {
+    const DividedWork::Part part(whole_);
+    const Turn turn(slot(item));
+    std::optional<Turn> after_item_before;
+    if (stages_[stage].in_order) after_item_before.emplace(in_order_[stage]);
     stages_[stage].work(item);
     return item;
   }
 
   const std::function<bool(std::size_t)>& enter_;
   const std::vector<PipelineStage>& stages_;
-  std::size_t in_flight_;
+  DividedWork whole_;
+  HandOver entrance_;
+  std::vector<HandOver> in_order_;  ///< of each stage
+  std::vector<HandOver> slots_;
   std::size_t next_item_ = 0;
 };
 

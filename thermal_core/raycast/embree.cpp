@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/hand_over.h"
 #include "raycast/engine_version.h"
 
 namespace thermal {
@@ -15,6 +16,7 @@ void check_device(RTCDevice device) {
 }
 
 EmbreeDevice new_device() {
+  const Unwatched settings;  // Embree's threads compare them in libstdc++, where no suppression finds it
   EmbreeDevice device(rtcNewDevice(nullptr));
   check_device(device.get());
   return device;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <thread>
 
 #include "support/catch.h"
 
@@ -91,6 +92,19 @@ TEST_CASE("The hot part is made when its first radiance comes, and not again") {
   CHECK(squares(kInfinity) == kInfinity);
   CHECK(std::isnan(squares(std::numeric_limits<float>::quiet_NaN())));
   CHECK(squares.calls == calls + made + 4);
+}
+
+TEST_CASE("Two threads may need the hot part at the same time") {
+  const Squares alone(100);
+  const float expected = alone(90.03F);
+  const Squares shared(100);
+  float there = 0;
+  std::thread other([&] { there = shared(90.03F); });
+  const float here = shared(90.03F);
+  other.join();
+  CHECK(here == expected);
+  CHECK(there == expected);
+  CHECK(shared.calls == alone.calls);
 }
 
 TEST_CASE("Not a bit changes in the first table where there is a hot part") {

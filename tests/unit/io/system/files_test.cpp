@@ -1,6 +1,7 @@
 #include "io/system/files.h"
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <iterator>
 #include <thread>
@@ -205,9 +206,10 @@ TEST_CASE("Runs that share a folder take turns, and an exception ends a turn") {
   const TemporaryFolder folder;
   const FolderLock first(folder.path(), {0});
   const FolderLock second(folder.path(), {1});
-  int value = 0;
+  std::atomic<int> value = 0;  // a lock for processes: C++ knows of no order that it gives to threads
   const auto count_to = [&value](const FolderLock& lock) {
-    for (int k = 0; k < 500; ++k) lock.in_turn([&value] { ++value; });
+    for (int k = 0; k < 500; ++k)
+      lock.in_turn([&value] { value = value + 1; });  // loses counts without turns
   };
   std::thread other([&] { count_to(second); });
   count_to(first);

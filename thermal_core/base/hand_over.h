@@ -1,0 +1,83 @@
+#pragma once
+
+#if defined(VELDT_THREAD_SANITIZER)
+#include <sanitizer/tsan_interface.h>
+extern "C" {  // in its library, but in no header
+void AnnotateIgnoreWritesBegin(const char* file, int line);
+void AnnotateIgnoreWritesEnd(const char* file, int line);
+}
+#endif
+
+namespace thermal {
+
+/// Says to ThreadSanitizer which order between threads TBB guarantees: all before give() happens before all after a
+/// later take(). It cannot see that order itself, because Debian's libtbb is compiled without it. Sources that include
+/// TBB's algorithms are compiled without it too: of their accesses, those by TBB's headers to tasks that threads hand
+/// on would be reported. What they call is watched. In other builds this does nothing.
+class HandOver {
+ public:
+#if defined(VELDT_THREAD_SANITIZER)
+  void give() noexcept { __tsan_release(this); }
+  void take() noexcept { __tsan_acquire(this); }
+#else
+  void give() noexcept {}
+  void take() noexcept {}
+#endif
+};
+
+/// For as long as it lives, this thread has what others had before it and will have after it.
+class Turn {
+ public:
+  explicit Turn(HandOver& hand_over) noexcept : hand_over_(hand_over) { hand_over_.take(); }
+  ~Turn() { hand_over_.give(); }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  HandOver& hand_over_;
+};
+
+/// Work that one thread divides into parts and waits for, also when a part throws. Parts have no order between them.
+class DividedWork {
+ public:
+  DividedWork() noexcept { begin_.give(); }
+  ~DividedWork() { end_.take(); }
+  DividedWork(const DividedWork&) = delete;
+  DividedWork& operator=(const DividedWork&) = delete;
+
+  class Part {
+   public:
+    explicit Part(DividedWork& work) noexcept : work_(work) { work_.begin_.take(); }
+    ~Part() { work_.end_.give(); }
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
+
+   private:
+    DividedWork& work_;
+  };
+
+ private:
+  HandOver begin_;
+  HandOver end_;
+};
+
+/// For as long as it lives, ThreadSanitizer does not watch what this thread writes. For a call of a library that writes
+/// what its own threads then read, in an order that ThreadSanitizer cannot see.
+class Unwatched {
+ public:
+  Unwatched() noexcept { begin(); }
+  ~Unwatched() { end(); }
+  Unwatched(const Unwatched&) = delete;
+  Unwatched& operator=(const Unwatched&) = delete;
+
+ private:
+#if defined(VELDT_THREAD_SANITIZER)
+  static void begin() noexcept { AnnotateIgnoreWritesBegin(__FILE__, __LINE__); }
+  static void end() noexcept { AnnotateIgnoreWritesEnd(__FILE__, __LINE__); }
+#else
+  static void begin() noexcept {}
+  static void end() noexcept {}
+#endif
+};
+
+}  // namespace thermal
