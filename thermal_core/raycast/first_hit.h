@@ -6,8 +6,6 @@
 
 namespace thermal {
 
-static_assert(kLanes == kPacketRays);
-
 /// What each ray of a packet hits first.
 struct FirstHits {
   FirstHits() noexcept;

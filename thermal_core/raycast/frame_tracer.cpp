@@ -5,37 +5,15 @@
 
 #include "base/parallel.h"
 #include "raycast/first_hit.h"
+#include "raycast/ray_packets.h"
 #include "raycast/seen_triangles.h"
 #include "raycast/sight.h"
 
 namespace thermal {
 namespace {
 
-// Depths at which a camera sees surfaces: those of the camera in blender_scripts/veldt_bl/camera.py.
-constexpr double kNearestM = 0.1;
-constexpr double kFarthestM = 20000;
-
 constexpr float kSkyDepthM = 1e10F;  // as Blender has it
 const SeenTriangle kSky;
-constexpr float kFarthestCameraM = 1e9F;  // from the origin; farther away it sees nothing
-/// Rays that are traced together, and where their results go.
-struct Packet {
-  void add(const LensPoint& ray, std::size_t place) noexcept {
-    mask[rays] = -1;
-    x[rays] = ray.x;
-    y[rays] = ray.y;
-    places[rays] = place;
-    ++rays;
-  }
-  [[nodiscard]] bool is_full() const noexcept { return rays == kLanes; }
-
-  alignas(RayPacket) PacketMask mask{};
-  Lanes<double> x{};
-  Lanes<double> y{};
-  Lanes<std::size_t> places{};
-  std::size_t rays = 0;
-  bool near_actors = false;
-};
 
 /// Where results go, by place; null where they are not needed.
 struct Sink {
@@ -67,7 +45,7 @@ class RayTracer {
   /// Actors first, which the actor layer shows; their hits then bound the search among the surroundings.
   void trace(const Packet& rays, SeenTriangles& triangles) const {
     const VectorLanes<double> direction = directions(shot_.view, rays.x, rays.y);
-    RayPacket packet = aimed(direction);
+    RayPacket packet = aimed(shot_.view, direction);
     FirstHitSearch first(direction, triangles);
     if (rays.near_actors) first.search(shot_.actors, 0, rays.mask, packet);
     if (sink_.actor_index != nullptr) put_actors(first.hits(), rays);
@@ -76,53 +54,6 @@ class RayTracer {
   }
 
  private:
-  /// As in Cycles, a ray has unit length and starts at the nearest depth, in single precision: silhouettes then agree
-  /// to 1e-4 px.
-  [[nodiscard]] RayPacket aimed(const VectorLanes<double>& direction) const noexcept {
-    const UnitLanes unit = units(direction);
-    const auto x_m = static_cast<float>(shot_.view.position_m.x);
-    const auto y_m = static_cast<float>(shot_.view.position_m.y);
-    const auto z_m = static_cast<float>(shot_.view.position_m.z);
-    RayPacket packet;
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const auto start_m = static_cast<float>(kNearestM * unit.length[k]);
-      packet.ray.org_x[k] = x_m + start_m * unit.direction[0][k];
-      packet.ray.org_y[k] = y_m + start_m * unit.direction[1][k];
-      packet.ray.org_z[k] = z_m + start_m * unit.direction[2][k];
-      packet.ray.dir_x[k] = unit.direction[0][k];
-      packet.ray.dir_y[k] = unit.direction[1][k];
-      packet.ray.dir_z[k] = unit.direction[2][k];
-      packet.ray.tnear[k] = 0;
-      packet.ray.tfar[k] = static_cast<float>((kFarthestM - kNearestM) * unit.length[k]);
-      packet.ray.time[k] = 0;
-      packet.ray.mask[k] = ~0U;
-      packet.ray.id[k] = static_cast<unsigned>(k);
-      packet.ray.flags[k] = 0;
-      packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-      packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-      if (!is_valid(packet, k)) end_at_once(packet, k);
-    }
-    return packet;
-  }
-
-  /// False for NaN.
-  static bool is_valid(const RayPacket& packet, std::size_t k) noexcept {
-    const float place_m =
-        std::abs(packet.ray.org_x[k]) + std::abs(packet.ray.org_y[k]) + std::abs(packet.ray.org_z[k]);
-    const float size =
-        std::abs(packet.ray.dir_x[k]) + std::abs(packet.ray.dir_y[k]) + std::abs(packet.ray.dir_z[k]);
-    return place_m < kFarthestCameraM && size < 2;
-  }
-
-  /// Makes a ray that hits nothing. Embree ends the program at NaN and at huge numbers; and its version 3 ignores the
-  /// mask of packets that are larger than the vectors of the instruction set.
-  static void end_at_once(RayPacket& packet, std::size_t k) noexcept {
-    packet.ray.org_x[k] = packet.ray.org_y[k] = packet.ray.org_z[k] = 0;
-    packet.ray.dir_x[k] = packet.ray.dir_y[k] = 0;
-    packet.ray.dir_z[k] = 1;
-    packet.ray.tfar[k] = -1;
-  }
-
   void put_actors(const FirstHits& hits, const Packet& rays) const noexcept {
     for (std::size_t k = 0; k < rays.rays; ++k) {
       const unsigned piece = hits.piece[k];
@@ -156,24 +87,6 @@ class RayTracer {
   const Shot& shot_;
   const Sink& sink_;
 };
-
-/// The pixels of a packet: 4 x 4, fewer at the right and lower border.
-constexpr int kBlockPx = 4;
-static_assert(kBlockPx * kBlockPx == static_cast<int>(kLanes));
-
-Packet block_at(int x_px, int y_px, const PixelRays& rays, const Plane<std::uint8_t>& near_actors) {
-  Packet packet;
-  const auto width = static_cast<std::size_t>(rays.width_px());
-  for (int y = y_px; y < std::min(y_px + kBlockPx, rays.height_px()); ++y) {
-    for (int x = x_px; x < std::min(x_px + kBlockPx, rays.width_px()); ++x) {
-      const auto column = static_cast<std::size_t>(x);
-      const auto row = static_cast<std::size_t>(y);
-      packet.add(rays.at(column, row), row * width + column);
-      packet.near_actors |= near_actors.at(x, y) != 0;
-    }
-  }
-  return packet;
-}
 
 /// The samples of one row of pixels, pixel by pixel.
 void trace_row(const RayTracer& tracer, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
