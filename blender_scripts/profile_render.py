@@ -1,10 +1,10 @@
 """Measure where the time of a clip's frames goes. Run by Blender:
 
     blender -b --factory-startup --python-exit-code 1 --python profile_render.py -- --plan DIR
-            [--clip ID] [--frames N] [--out DIR] [--supersample N] [--events-fd N]
+            [--clip ID ...] [--frames N] [--out DIR] [--supersample N ...] [--events-fd N]
 
-Writes one event `profile`: the mean seconds per frame, and per step of rendering a frame. The exit codes are those of
-render_passes.py.
+Writes an event `profile` for each clip and supersampling, all clips of one supersampling first: the mean seconds per
+frame, per step of rendering a frame, and the peak memory so far. The exit codes are those of render_passes.py.
 """
 
 from __future__ import annotations
@@ -44,10 +44,12 @@ def _parse(arguments: list[str]) -> argparse.Namespace:
         prog="profile_render.py", description="Measure where the time of frames goes."
     )
     parser.add_argument("--plan", type=Path, required=True, help="the folder that plan_scene.py has written")
-    parser.add_argument("--clip", metavar="ID", help="default the first")
-    parser.add_argument("--supersample", type=int, default=1, help="rays along each side of a pixel")
+    parser.add_argument("--clip", nargs="+", default=[], metavar="ID", help="default the first")
+    parser.add_argument(
+        "--supersample", type=int, nargs="+", default=[1], metavar="N", help="rays along each side of a pixel"
+    )
     parser.add_argument("--frames", type=int, default=12, help="number of frames; the first is not counted")
-    parser.add_argument("--out", type=Path, help="keep the frames here")
+    parser.add_argument("--out", type=Path, help="keep the frames in DIR/CLIP/NxN")
     parser.add_argument("--events-fd", type=int, help="write the measurements here, one JSON object per line")
     return parser.parse_args(arguments)
 
@@ -57,19 +59,32 @@ def _profile(options: argparse.Namespace, events: Events) -> None:
         raise ConfigError(f"--frames = {options.frames}; expected 2 or more")
     started_s = time.monotonic()
     plan = read_plan(options.plan)
-    clip = clip_of(plan, options.clip) if options.clip else plan["clips"][0]
-    frames = range(min(options.frames, clip["frames"]))
+    clips = [clip_of(plan, name) for name in options.clip] or plan["clips"][:1]
     stage = build_stage(read_scene(options.plan / "scene"))
     events.report("scene_built", seconds=round(time.monotonic() - started_s, 3))
-    set_up_renderer(stage.scene.passes_intrinsics, options.supersample)
-    stage.animate(read_track(options.plan / "tracks" / clip["id"], stage.scene))
     with tempfile.TemporaryDirectory() as passing:
-        timings = profile_frames(options.out or Path(passing), frames, stage.pose, time.monotonic)
+        for supersample in options.supersample:
+            set_up_renderer(stage.scene.passes_intrinsics, supersample)
+            for clip in clips:
+                folder = (options.out or Path(passing)) / clip["id"] / f"{supersample}x{supersample}"
+                stage.animate(read_track(options.plan / "tracks" / clip["id"], stage.scene))
+                frames = range(min(options.frames, clip["frames"]))
+                timings = profile_frames(folder, frames, stage.pose, time.monotonic)
+                events.report("profile", clip=clip["id"], supersample=supersample, **_size(), **timings)
+
+
+def _size() -> dict[str, int]:
+    """What a frame consists of, and the peak memory of this process. Linux counts that of the program which started it
+    in ru_maxrss."""
     render = bpy.context.scene.render
+    status = Path("/proc/self/status").read_text(encoding="ascii")
+    peak_kib = next(int(line.split()[1]) for line in status.splitlines() if line.startswith("VmHWM"))
     pixels = render.resolution_x * render.resolution_y
-    events.report(
-        "profile", clip=clip["id"], pixels=pixels, objects=len(bpy.context.scene.objects), **timings
-    )
+    return {
+        "pixels": pixels,
+        "objects": len(bpy.context.scene.objects),
+        "peak_mb": 1024 * peak_kib // 10**6,
+    }
 
 
 if __name__ == "__main__":

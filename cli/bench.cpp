@@ -5,6 +5,7 @@
 
 #include "base/version.h"
 #include "bench/convert_suite.h"
+#include "bench/engines_suite.h"
 #include "bench/labels_suite.h"
 #include "bench/radiance_suite.h"
 #include "bench/render_suite.h"
@@ -13,6 +14,7 @@
 #include "cli/output.h"
 #include "io/assets.h"
 #include "io/config/materials.h"
+#include "io/system/child_process.h"
 #if VELDT_BALANCE
 #include "bench/balance_suite.h"
 #endif
@@ -145,6 +147,7 @@ std::vector<std::string> suite_names() {
   names.emplace_back("balance");
 #endif
   names.emplace_back("render");
+  names.emplace_back("engines");
   return names;
 }
 
@@ -164,7 +167,19 @@ std::vector<thermal::RenderRow> measure_rendering(const BenchArguments& options,
   return thermal::run_render_suite({find_blender(options.blender), thermal::Assets::find(), teller(quiet)});
 }
 
-int run_bench(const BenchArguments& options, bool quiet) {
+/// Without a Blender on PATH, rows of Embree alone.
+std::vector<thermal::RenderRow> measure_engines(const BenchArguments& options, const CommonOptions& common) {
+  thermal::Path blender;
+  if (!options.blender.empty() || !thermal::find_program("blender").empty()) {
+    blender = find_blender(options.blender);
+  } else {
+    print_error("no blender on PATH: Cycles is not measured; name one with --blender PATH\n");
+  }
+  return thermal::run_engines_suite({blender, thermal::Assets::find(), common.threads, teller(common.quiet)});
+}
+
+int run_bench(const BenchArguments& options, const CommonOptions& common) {
+  const bool quiet = common.quiet;
   if (options.suite == "sensor") return show(options.suite, thermal::run_sensor_suite(), options.json);
   if (options.suite == "labels") return show(options.suite, thermal::run_labels_suite(), options.json);
 #if VELDT_BALANCE
@@ -172,6 +187,7 @@ int run_bench(const BenchArguments& options, bool quiet) {
     return show(options.suite, thermal::run_balance_suite(teller(quiet)), options.json);
 #endif
   if (options.suite == "render") return show(options.suite, measure_rendering(options, quiet), options.json);
+  if (options.suite == "engines") return show(options.suite, measure_engines(options, common), options.json);
   const thermal::MaterialLibrary materials = thermal::read_materials(thermal::Assets::find());
   if (options.suite == "convert")
     return show(options.suite, thermal::run_convert_suite(materials, teller(quiet)), options.json);
@@ -189,11 +205,11 @@ void add_bench(CLI::App& app, Session& session) {
       ->capture_default_str();
   command
       ->add_option("--blender", options->blender,
-                   "Blender that --suite render measures, instead of the one on PATH")
+                   "Blender that --suite render and engines measure, instead of the one on PATH")
       ->type_name("PATH");
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &session] {
-    session.run = [options, &session] { return run_bench(*options, session.common.quiet); };
+    session.run = [options, &session] { return run_bench(*options, session.common); };
   });
 }
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+import configs
 from program import ROOT, Veldt
 
 # Largest value of a figure, by the end of its name.
@@ -171,13 +172,12 @@ def test_progress_of_measuring_the_converter_is_reported(converting):
 def test_an_unknown_suite_is_a_usage_fault(veldt):
     done = veldt("bench", "--suite", "optics")
     assert (done.code, done.out) == (2, "")
-    assert (
-        done.err
-        == "veldt: --suite: optics not in {radiance,sensor,labels,convert,balance,render}; see veldt bench --help\n"
-    )
+    suites = "radiance,sensor,labels,convert,balance,render,engines"
+    assert done.err == f"veldt: --suite: optics not in {{{suites}}}; see veldt bench --help\n"
 
 
-# Stands in for Blender: one frame of passes, and times that are easy to distinguish.
+# Stands in for Blender: one frame of passes, and times that are easy to distinguish. Of a plan that has a scene, it
+# keeps frames on which all is ground.
 FAKE = f"""#!{sys.executable} -B
 import json, sys
 from pathlib import Path
@@ -185,30 +185,44 @@ sys.path.insert(0, {str(ROOT / "tests" / "support")!r})
 import numpy
 from pictures import write_exr
 
-options = dict(zip(sys.argv[1:], sys.argv[2:]))
-with open(int(options["--events-fd"]), "w") as events:
+options = {{}}
+for word in sys.argv[1:]:
+    if word.startswith("--"):
+        values = options.setdefault(word, [])
+    else:
+        values.append(word)
+single = {{name: values[0] for name, values in options.items() if values}}
+with open(int(single["--events-fd"]), "w") as events:
     def report(**event):
         print(json.dumps(event), file=events, flush=True)
 
     if Path(__file__).with_name("fails").exists():
         report(event="error", kind="internal", message="ValueError: out of trees", where="blender_scripts/a.py:7")
         sys.exit(1)
-    plan = json.loads((Path(options["--plan"]) / "plan.json").read_text())
-    if options["--python"].endswith("profile_render.py"):
-        size = int(options["--supersample"])
-        split_s = {{"pose": 0.001, "scene": 0.02, "sync_and_trees": 0.03, "trace": 0.125 * size, "write": 0.0625}}
-        report(event="profile", clip="one", pixels=24 * size**2, objects=7, frames=7, split_s=split_s, frame_s=0.25)
+    plan = json.loads((Path(single["--plan"]) / "plan.json").read_text())
+    if single["--python"].endswith("profile_render.py"):
+        for size in map(int, options["--supersample"]):
+            for clip in options.get("--clip", ["one"]):
+                split_s = {{"pose": 0.001, "scene": 0.02, "sync_and_trees": 0.03, "trace": 0.125 * size}}
+                times = {{"split_s": split_s | {{"write": 0.0625}}, "frame_s": 0.25}}
+                report(event="profile", clip=clip, pixels=24 * size**2, objects=7, peak_mb=100, frames=7, **times)
+                folder = Path(single["--out"]) / clip / f"{{size}}x{{size}}"
+                for frame in range(4 if (Path(single["--plan"]) / "scene.json").exists() and size == 1 else 0):
+                    folder.mkdir(parents=True, exist_ok=True)
+                    camera = plan["config"]["camera"]
+                    ground = numpy.ones((camera["height_px"], camera["width_px"]))
+                    write_exr(folder / f"{{frame:06d}}.exr", {{"Scene.IndexOB.X": ground, "Scene.IndexMA.X": ground}})
         sys.exit(0)
     assert "--actor-layer" in sys.argv
-    folder = Path(options["--out"]) / options["--clip"]
+    folder = Path(single["--out"]) / single["--clip"]
     folder.mkdir(parents=True)
     channels = ("IndexOB.X", "IndexMA.X", "Depth.Z", "Normal.X", "Normal.Y", "Normal.Z")
     planes = {{f"Scene.{{name}}": numpy.ones((4, 6)) for name in channels}}
     planes["Actors.IndexOB.X"] = numpy.ones((4, 6))
-    planes["Scene.Depth.Z"][0, :2] += options["--threads"] == "1"
+    planes["Scene.Depth.Z"][0, :2] += single["--threads"] == "1"
     for frame in range(plan["clips"][0]["frames"]):
         write_exr(folder / f"{{frame:06d}}.exr", planes)
-        report(event="frame", clip=options["--clip"], index=frame)
+        report(event="frame", clip=single["--clip"], index=frame)
 """
 
 
@@ -314,3 +328,68 @@ def test_measuring_frames_needs_a_blender(veldt):
     done = veldt("bench", "--suite", "render", "--blender", "nowhere")
     assert (done.code, done.out) == (2, "")
     assert done.err == "veldt: --blender = nowhere; expected an executable program\n"
+
+
+VIEWS = ("demo", "savanna 61 m down", "savanna 122 m oblique", "savanna horizon", "savanna x 10 plants")
+RAYS = ("1 ray", "4 rays", "16 rays")
+FROM_EMBREE = {
+    "frame, s": [f"{view}, {rays}" for view in VIEWS for rays in RAYS],
+    "frame, s, adaptive sampling": [f"{view}, {rays}" for view in VIEWS for rays in RAYS[1:]],
+    "rays, million/s": [f"{view}, {rays}" for view in VIEWS for rays in RAYS],
+    "peak memory so far, MB": [f"{view}, {rays}" for view in VIEWS for rays in RAYS],
+    "memory by plants": ["10000 plants", "100000 plants", "1000000 plants"],
+    "memory by threads": ["1 thread, 100000 plants", "2 threads, 100000 plants"],
+    "memory by frames of a clip": ["10 frames", "100 frames", "1000 frames"],
+}
+
+
+@pytest.fixture(name="small_home")
+def _small_home(veldt) -> dict[str, str]:
+    """The environment of a Veldt whose demo and savanna are small."""
+    home = veldt.folder / "home"
+    (home / "configs").mkdir(parents=True)
+    for name in ("assets", "blender_scripts", "configs/schema"):
+        (home / name).symlink_to(ROOT / name)
+    for name in ("demo", "savanna"):
+        veldt.write(f"home/configs/{name}.json", configs.tiny())
+    return {"VELDT_HOME": str(home)}
+
+
+def test_engines_are_compared_view_by_view(veldt, fake, small_home):
+    done = veldt("bench", "--suite", "engines", "--blender", fake, "--json", env=small_home)
+    assert done.code == 0, done.err
+    scenes = ("demo", "savanna", "savanna x 10 plants")
+    steps = [f"{scene}, planning" for scene in scenes] + ["memory of Embree by plants, threads and frames"]
+    steps += [f"{scene}, {engine}" for scene in scenes for engine in ("Cycles", "Embree")]
+    assert done.err == "".join(f"measuring {step}\n" for step in steps)
+    groups: dict[str, dict[str, dict[str, float]]] = {}
+    for row in done.json()["rows"]:
+        groups.setdefault(row["group"], {})[row["name"]] = row["figures"]
+    differing = groups.pop("pixels that differ, 1 ray")
+    assert {group: list(rows) for group, rows in groups.items()} == FROM_EMBREE
+    frame = groups["frame, s"]["demo, 4 rays"]
+    assert (frame["cycles"], frame["cycles_trace"]) == (0.25 - 0.0625, 0.25)
+    assert frame["cycles/embree"] == pytest.approx(frame["cycles"] / frame["embree"])
+    assert 0 < groups["frame, s, adaptive sampling"]["demo, 4 rays"]["all_rays_share"] < 1
+    assert groups["peak memory so far, MB"]["demo, 4 rays"]["cycles"] == 100
+    assert list(differing) == list(VIEWS)
+    for figures in differing.values():
+        assert figures["pixels"] == 96 * 80
+        assert 0 < figures["object_mean"] <= figures["object_most"] <= 96 * 80
+        assert 0 < figures["material_mean"] <= figures["material_most"] <= 96 * 80
+    plants = {name: rows["plants"] for name, rows in groups["peak memory so far, MB"].items()}
+    assert plants["savanna x 10 plants, 1 ray"] > 2 * plants["savanna horizon, 1 ray"] > 0
+    figures = [value for rows in groups.values() for row in rows.values() for value in row.values()]
+    assert all(value >= 0 for value in figures)
+
+
+def test_without_a_blender_embree_is_measured_alone(veldt, small_home):
+    done = veldt(
+        "bench", "--suite", "engines", "--quiet", "--threads", "1", env=small_home | {"PATH": "/none"}
+    )
+    missing = "no blender on PATH: Cycles is not measured; name one with --blender PATH\n"
+    assert (done.code, done.err) == (0, missing)
+    lines = done.out.splitlines()
+    assert lines[1].split() == ["frame,", "s", "embree"]
+    assert [line for line in lines if "cycles" in line or "differ" in line] == []
+    assert len(lines) == sum(2 + len(rows) for rows in FROM_EMBREE.values())

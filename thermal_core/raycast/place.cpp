@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "raycast/first_hit.h"
 #include "raycast/vectors.h"
 #include "raycast/vertex_normals.h"
 
@@ -49,12 +48,12 @@ void fill_buffer(RTCDevice device, RTCGeometry geometry, RTCBufferType type, RTC
   for (const auto& value : values) buffer = std::copy(value.begin(), value.end(), buffer);
 }
 
-EmbreeScene scene_of(RTCDevice device, const BakedMesh& mesh) {
+EmbreeScene scene_of(RTCDevice device, const BakedMesh& mesh, RTCFilterFunctionN filter) {
   const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
   // Copies, because Embree also reads the four bytes behind the last point.
   fill_buffer(device, geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.points_m);
   fill_buffer(device, geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
-  rtcSetGeometryIntersectFilterFunction(geometry.get(), FirstHitSearch::keep_first);
+  rtcSetGeometryIntersectFilterFunction(geometry.get(), filter);
   rtcCommitGeometry(geometry.get());
   EmbreeScene scene = new_scene(device);
   rtcAttachGeometry(scene.get(), geometry.get());
@@ -101,9 +100,10 @@ std::vector<Piece> surroundings_of(const BakedScene& scene) {
 
 }  // namespace
 
-Place::Place(const BakedScene& scene) : scene_(scene), device_(new_device()), normals_(scene.meshes.size()) {
+Place::Place(const BakedScene& scene, RTCFilterFunctionN filter)
+    : scene_(scene), device_(new_device()), normals_(scene.meshes.size()) {
   for (const BakedMesh& mesh : scene.meshes) {
-    meshes_.push_back(scene_of(device_.get(), mesh));
+    meshes_.push_back(scene_of(device_.get(), mesh, filter));
     boxes_.push_back(box_of(mesh));
   }
   parallel_for(scene.meshes.size(), 1, [this](std::size_t begin, std::size_t end) {

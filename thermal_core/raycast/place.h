@@ -28,8 +28,9 @@ using MeshBox = std::array<std::array<double, 3>, 2>;
 /// A baked scene with everything that its frames share.
 class Place {
  public:
-  /// The scene must outlive this object. Error if there is not enough memory.
-  explicit Place(const BakedScene& scene);
+  /// The scene must outlive this object. Embree calls `filter` for each hit that it finds; null: it keeps the first.
+  /// Error if there is not enough memory.
+  Place(const BakedScene& scene, RTCFilterFunctionN filter);
 
   [[nodiscard]] const BakedScene& scene() const noexcept { return scene_; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "raycast/first_hit.h"
 #include "raycast/frame_tracer.h"
 #include "raycast/place.h"
 #include "raycast/refinement.h"
@@ -42,7 +43,8 @@ std::vector<Piece> actors_in(const BakedScene& scene, const BakedTrack& track, s
 
 }  // namespace
 
-RayCaster::RayCaster(const BakedScene& scene) : place_(std::make_unique<const Place>(scene)) {}
+RayCaster::RayCaster(const BakedScene& scene)
+    : place_(std::make_unique<const Place>(scene, FirstHitSearch::keep_first)) {}
 RayCaster::~RayCaster() = default;
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;

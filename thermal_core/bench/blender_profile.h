@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/assets.h"
+#include "io/system/files.h"
+
+namespace thermal {
+
+/// Frames for Blender to render.
+struct ProfileTask {
+  Path blender;
+  Assets assets;
+  Path plan;        ///< folder of a plan
+  Path out;         ///< receives the frames; Blender's log is beside it
+  int threads = 0;  ///< 0: thread_count(0)
+};
+
+/// Mean time of a frame [s].
+struct Profile {
+  double pixels = 0;
+  double objects = 0;
+  double frame_s = 0;
+  std::map<std::string, double> split_s;
+  double peak_mb = 0;  ///< of Blender's memory since it was started
+};
+
+/// Those of a plan's clips, of each this many frames. The first of them is not counted.
+struct ProfileFrames {
+  std::vector<std::string> clips = {};  ///< empty: the first
+  std::vector<int> supersamples = {1};
+  int frames = 8;
+};
+
+/// Runs profile_render.py to completion. Profiles of all clips with the first supersampling, then with the next; the
+/// frames are in CLIP/NxN. IoError with Blender's reason if it fails or reports something else.
+[[nodiscard]] std::vector<Profile> profile_frames(const ProfileTask& task, const ProfileFrames& frames);
+
+/// Frames/s of render_passes.py with actor layers, from one complete frame to the next; they are in a folder of the clip's name.
+[[nodiscard]] double rendered_per_s(const ProfileTask& task, const std::string& clip);
+
+/// The steps of a frame, in order.
+[[nodiscard]] const std::vector<std::string>& frame_steps();
+
+}  // namespace thermal

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "bench/engine_scenes.h"
+#include "raycast/bare_trace.h"
+#include "raycast/ray_caster.h"
+#include "scene/baked_scene.h"
+
+namespace thermal {
+
+/// What the engine `embree` takes for a frame of passes in memory.
+struct EmbreeTimes {
+  double full_s = 0;
+  double adaptive_s = 0;      ///< that of `full_s` with one ray per pixel
+  double all_rays_share = 1;  ///< of the pixels, with adaptive sampling
+};
+
+/// Pixels of a frame at one ray per pixel that differ from Blender's passes.
+struct DifferingPixels {
+  double mean = 0;
+  double most = 0;
+};
+struct Differing {
+  double pixels = 0;  ///< of a frame
+  DifferingPixels object;
+  DifferingPixels material;
+};
+
+/// What the engine `embree` needs for the clips of a planned config.
+class EmbreeScene {
+ public:
+  EmbreeScene(const EngineScene& planned, const Assets& assets);
+  ~EmbreeScene() = default;
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  [[nodiscard]] EmbreeTimes times(const std::string& clip, int supersample) const;
+  /// Embree alone, without actors.
+  [[nodiscard]] double bare_frame_s(const BareTracer& tracer, const std::string& clip, int supersample) const;
+  /// Compares all frames with the files in this folder.
+  [[nodiscard]] Differing differing(const std::string& clip, const Path& blenders) const;
+
+  [[nodiscard]] const BakedScene& baked() const noexcept { return scene_; }
+  [[nodiscard]] std::size_t plants() const noexcept;
+  [[nodiscard]] double pixels() const noexcept;
+
+ private:
+  [[nodiscard]] BakedTrack track(const std::string& clip) const;
+
+  Path plan_;
+  Assets assets_;
+  BakedScene scene_;
+  RayCaster caster_;
+  CameraIntrinsics camera_;
+};
+
+/// Seconds per frame after the first: the mean of what each takes, which is the middle one of three runs. Leaves the last
+/// frame in `out`.
+[[nodiscard]] double frame_time_s(const ClipTracer& tracer, std::size_t frames, Passes& out);
+
+}  // namespace thermal
