@@ -28,17 +28,18 @@ double frame_s(Engine engine, int supersample, bool adaptive = false) {
 }  // namespace
 
 TEST_CASE("A frame of 640 x 512 takes as long as its engine has taken on two cores") {
-  // README: 5.0 and 1.6 frames/s by Blender, 28.6 and 9.7 by Embree.
-  CHECK(1 / frame_s(Engine::blender, 1) == Approx(5.0).epsilon(0.4));
-  CHECK(1 / frame_s(Engine::blender, 2) == Approx(1.6).epsilon(0.4));
-  CHECK(1 / frame_s(Engine::embree, 1) == Approx(28.6).epsilon(0.4));
-  CHECK(1 / frame_s(Engine::embree, 2) == Approx(9.7).epsilon(0.4));
+  // One clip of configs/savanna.json by Blender (README), all four by Embree (thermal_core/ACCURACY.md).
+  CHECK(1 / frame_s(Engine::blender, 1) == Approx(5.8).epsilon(0.4));
+  CHECK(1 / frame_s(Engine::blender, 2) == Approx(1.9).epsilon(0.4));
+  CHECK(1 / frame_s(Engine::embree, 1) == Approx(31).epsilon(0.2));
+  CHECK(1 / frame_s(Engine::embree, 2) == Approx(12).epsilon(0.2));
+  CHECK(1 / frame_s(Engine::embree, 2, true) == Approx(16).epsilon(0.2));
 }
 
-TEST_CASE("Adaptive sampling traces fewer of the rays, and one ray per pixel is no fewer") {
+TEST_CASE("Adaptive sampling takes less time for rays, but no less at one ray per pixel") {
   constexpr double kFrameS = 0.012;
   const double full = frame_s(Engine::embree, 2) - kFrameS;
-  CHECK((frame_s(Engine::embree, 2, true) - kFrameS) / full == Approx(0.58));
+  CHECK((frame_s(Engine::embree, 2, true) - kFrameS) / full == Approx(0.7));
   CHECK(frame_s(Engine::embree, 1, true) == frame_s(Engine::embree, 1));
 }
 
