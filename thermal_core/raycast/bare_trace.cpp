@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "raycast/frame_tracer.h"
+#include "raycast/pixel_rays.h"
+#include "raycast/place.h"
 #include "raycast/ray_packets.h"
 
 namespace thermal {

@@ -1,7 +1,6 @@
 #include "raycast/frame_tracer.h"
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "base/parallel.h"
 #include "raycast/first_hit.h"
@@ -110,26 +109,6 @@ void trace_row(const RayTracer& tracer, const PixelRays& rays, const Plane<std::
 }
 
 }  // namespace
-
-PixelRays::PixelRays(const CameraIntrinsics& camera, const LensDistortion& lens) : camera_(camera) {
-  for (int x = 0; x < camera.width_px; ++x) x_.push_back((x + 0.5 - camera.cx_px) / camera.fx_px);
-  for (int y = 0; y < camera.height_px; ++y) y_.push_back((y + 0.5 - camera.cy_px) / camera.fy_px);
-  if (lens.is_none()) return;
-  bent_.resize(x_.size() * y_.size());
-  parallel_for(y_.size(), 8, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin * x_.size(); k < end * x_.size(); ++k)
-      bent_[k] = undistort(lens, {.x = x_[k % x_.size()], .y = y_[k / x_.size()]});
-  });
-}
-
-View view_of(const std::array<double, 16>& camera_to_world) noexcept {
-  std::array<float, 16> m{};
-  std::ranges::transform(camera_to_world, m.begin(), [](double entry) { return static_cast<float>(entry); });
-  return {.right = vector_of<float>({m[0], m[4], m[8]}),
-          .down = vector_of<float>({m[1], m[5], m[9]}),
-          .forward = vector_of<float>({m[2], m[6], m[10]}),
-          .position_m = vector_of<float>({m[3], m[7], m[11]})};
-}
 
 void trace_pixels(const Shot& shot, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
                   const PassNeeds& needs, Passes& out) {

@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/image.h"
 #include "raycast/embree.h"
-#include "raycast/frame_tracer.h"
+#include "raycast/pixel_rays.h"
 #include "raycast/sight.h"
 
 namespace thermal {

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "base/image.h"
-#include "raycast/frame_tracer.h"
+#include "raycast/pixel_rays.h"
+#include "raycast/place.h"
+#include "scene/passes.h"
 
 namespace thermal {
 

@@ -11,7 +11,7 @@ struct Rates {
   double per_ray_s;  ///< of a pass pixel: traced and converted; with Blender, written and read in between
 };
 
-constexpr Rates kBlender = {.start_s = 35, .per_clip_s = 0.5, .per_frame_s = 0.05, .per_ray_s = 0.7e-6};
+constexpr Rates kBlender = {.start_s = 35, .per_clip_s = 0.5, .per_frame_s = 0.05, .per_ray_s = 0.45e-6};
 constexpr Rates kEmbree = {.start_s = 15, .per_clip_s = 0.1, .per_frame_s = 0.012, .per_ray_s = 0.055e-6};
 /// Pixels that get all rays beside their first with adaptive sampling, as far as their time goes: these rays take longer
 /// than others, because they meet the edges of plants. With 2 x 2, 0.7 of the time of all rays is left.
