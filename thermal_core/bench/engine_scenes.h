@@ -27,7 +27,7 @@ struct EngineScene {
 struct EngineScenesTask {
   Assets assets;
   Path folder;      ///< for the plans
-  int threads = 0;  ///< 0: one per core
+  int threads = 0;  ///< 0: thread_count(0)
   std::function<void(const std::string&)> announce = {};
 };
 

@@ -132,7 +132,7 @@ class EnginesSuite {
                            .assets = task_.assets,
                            .plan = scene.plan,
                            .out = out,
-                           .threads = thread_count(task_.threads)},
+                           .threads = task_.threads},
                           frames);
   }
 

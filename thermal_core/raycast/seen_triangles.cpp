@@ -1,6 +1,7 @@
 #include "raycast/seen_triangles.h"
 
 namespace thermal {
+
 SeenTriangle SeenTriangles::seen(unsigned number_of_piece, unsigned number) const noexcept {
   const Piece& piece = shot_.piece(number_of_piece);
   const BakedMesh& mesh = shot_.place.scene().meshes[piece.mesh];
