@@ -53,6 +53,8 @@ void print_files(const Inspection& inspection) {
   if (gaps > 0) print("  missing: {}\n", thermal::list_names(missing, kMostNames));
   if (inspection.manifest && inspection.manifest->overscan_px > 0)
     print("  overscan: {} camera px on every side\n", inspection.manifest->overscan_px);
+  if (inspection.manifest && !inspection.manifest->lens.is_none())
+    print("  rays follow the lens: {}\n", name_of(inspection.manifest->lens));
 }
 
 /// What a conversion uses a channel for; empty if it does not.

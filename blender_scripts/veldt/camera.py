@@ -35,14 +35,14 @@ def intrinsics_of(camera: dict) -> Intrinsics:
     )
 
 
-def widened(intrinsics: Intrinsics, overscan_px: int) -> Intrinsics:
+def widened(intrinsics: Intrinsics, margin_px: int) -> Intrinsics:
     """The same camera with additional pixels on every side."""
     cx_px, cy_px = intrinsics.centre_px
     return Intrinsics(
-        intrinsics.width_px + 2 * overscan_px,
-        intrinsics.height_px + 2 * overscan_px,
+        intrinsics.width_px + 2 * margin_px,
+        intrinsics.height_px + 2 * margin_px,
         intrinsics.focal_px,
-        (cx_px + overscan_px, cy_px + overscan_px),
+        (cx_px + margin_px, cy_px + margin_px),
     )
 
 

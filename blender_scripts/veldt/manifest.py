@@ -36,7 +36,7 @@ def build_manifest(
         "layer": LAYER,
         **({"actor_layer": ACTOR_LAYER} if actor_layer else {}),
         "supersample": supersample,
-        "overscan_px": header["overscan_px"],
+        "overscan_px": header["view_margin_px"],
         "camera": header["camera"],
         "objects": header["objects"],
         "materials": header["materials"],

@@ -35,7 +35,7 @@ class World:
 
     config: dict
     intrinsics: Intrinsics
-    overscan_px: int
+    view_margin_px: int
     terrain: Terrain
     covers: list[Layer]
     plantings: dict[str, Planting]
@@ -46,9 +46,9 @@ class World:
     ground: Ground | None
 
     @property
-    def passes_intrinsics(self) -> Intrinsics:
-        """Intrinsics of the passes' pinhole camera, at the camera's resolution."""
-        return widened(self.intrinsics, self.overscan_px)
+    def view_intrinsics(self) -> Intrinsics:
+        """Intrinsics of a pinhole camera that sees all that the passes and the lens show."""
+        return widened(self.intrinsics, self.view_margin_px)
 
     def flight(self, entry: dict) -> Flight:
         """The frames of one of the config's clips or flights; ConfigError if it cannot be flown."""
@@ -79,7 +79,7 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
     return World(
         config=config,
         intrinsics=intrinsics,
-        overscan_px=config["render"]["overscan_px"],
+        view_margin_px=config["render"]["view_margin_px"],
         terrain=terrain,
         covers=covers,
         plantings=plantings(),

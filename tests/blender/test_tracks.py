@@ -51,7 +51,7 @@ def test_a_track_is_the_same_however_many_moments_are_computed_together(
 def test_actors_are_posed_in_every_frame_that_shows_them_and_not_in_all(busy, tmp_path):
     _baked(busy, tmp_path / "track")
     header, arrays = read(tmp_path / "track", TRACK, VERSION)
-    posed, lens = arrays["posed"] != 0, busy.passes_intrinsics
+    posed, lens = arrays["posed"] != 0, busy.view_intrinsics
     assert header["frames"] == 40 and posed.shape == (len(busy.actors), 40)
     for actor, frames in zip(busy.actors, posed):
         corners_m = box_corners_m(actor, track(actor, arrays["time_s"]))

@@ -113,7 +113,7 @@ void write_scene(const thermal::BakedScene& scene, const thermal::Path& folder) 
                  {"name", scene.name},
                  {"seed", scene.seed},
                  {"camera", camera_json(scene.camera)},
-                 {"overscan_px", scene.overscan_px}};
+                 {"view_margin_px", scene.view_margin_px}};
   for (const char* list : {"materials", "objects", "meshes", "surfaces", "plants", "actors"})
     header[list] = Json::array();
   for (const auto& material : scene.materials) header["materials"].push_back(material_json(material));

@@ -8,13 +8,10 @@ import pytest
 
 from configs import tiny
 from labels import check_labels
+from lenses import CAMERA, HEIGHT, LENS, PINHOLE, WIDTH, behind_a_lens, check_inside, to_px, undistort
 from pictures import read_planes
 from program import Veldt
 
-WIDTH, HEIGHT = 320, 256
-LENS = {"k1": -0.2, "k2": 0.03, "p1": 0.001, "p2": -0.0005, "k3": 0}
-PINHOLE = dict.fromkeys(LENS, 0)
-CAMERA = {"width_px": WIDTH, "height_px": HEIGHT, "pixel_pitch_um": 30, "distortion": LENS}
 # A calibrated camera: pixels that are not square, the axis off the middle, k3; in OpenCV's pixels, ours are 0.5 more.
 MATRIX = {"fx_px": 425.25, "fy_px": 441.5, "cx_px": 171.75, "cy_px": 118.5}
 CALIBRATED_LENS = {"k1": -0.25, "k2": 0.08, "p1": 0.0012, "p2": -0.0008, "k3": 0.05}
@@ -35,33 +32,11 @@ distortion_coefficients: !!opencv-matrix
 """
 
 
-def _behind_a_lens(config: dict) -> None:
-    """All actors in the open, seen from above and from the side, up to the corners of the picture."""
-    config["scene"]["plants"] = {}
-    config["camera"] = CAMERA
-    config["clips"] = [
-        {
-            "id": f"{target}_{look_angle_deg}",
-            "season": "winter",
-            "frames": 3,
-            "frame_rate_hz": 1,
-            "flight": {
-                "pattern": "follow",
-                "target": target,
-                "look_angle_deg": look_angle_deg,
-                "azimuth_deg": 70,
-                "altitude_m": 25,
-            },
-        }
-        for target, look_angle_deg in (("people", 90), ("herd", 45), ("zebras", 60))
-    ]
-
-
 class Rendered:
     """A generated dataset with its passes, and a second one with a pinhole camera from the same passes."""
 
     def __init__(self, folder, blender: str, supersample: int, camera: dict, lens: dict, pinhole: str):
-        config = tiny(_behind_a_lens) | {"render": {"supersample": supersample}, "camera": camera}
+        config = tiny(behind_a_lens) | {"render": {"supersample": supersample}, "camera": camera}
         self.lens, self.supersample = lens, supersample
         veldt = Veldt(folder)
         veldt.write("cal.yml", CALIBRATION)
@@ -82,15 +57,6 @@ class Rendered:
             for clip, manifest in self.manifests.items()
             for k in range(len(manifest["frames"]))
         }
-
-    def sightings(self, kind: str):
-        """(label, corners of its actor's box in normalised coordinates, manifest) of every label."""
-        images = {image["id"]: image for image in self.labels[kind]["images"]}
-        for label in self.labels[kind]["annotations"]:
-            image = images[label["image_id"]]
-            manifest = self.manifests[image["file_name"].split("/")[1]]
-            (actor,) = (o for o in manifest["objects"] if o.get("track_id") == label["track_id"])
-            yield label, _edges_of_box(manifest["frames"][image["frame_index"]], actor), manifest
 
 
 def _check(done) -> None:
@@ -115,66 +81,6 @@ def _calibrated(tmp_path_factory, blender) -> Rendered:
     return Rendered(tmp_path_factory.mktemp("calibrated"), blender, 1, camera, CALIBRATED_LENS, pinhole)
 
 
-def _edges_of_box(frame: dict, actor: dict) -> np.ndarray:
-    """Normalised points (n, 2), x and y at depth 1, all along the edges of the actor's box.
-
-    Edges, because the lens bends them: a box reaches further than its corners.
-    """
-    (place,) = (a for a in frame["actors"] if a["index"] == actor["index"])
-    cos, sin = np.cos(place["heading_rad"]), np.sin(place["heading_rad"])
-    axes = np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]])  # forward, left, up
-    corners = np.array(list(itertools.product((0, 1), repeat=3)))
-    low, high = np.array(actor["bounds_m"])
-    ends = [(a, b) for a, b in itertools.combinations(corners, 2) if np.abs(a - b).sum() == 1]
-    share = np.linspace(0, 1, 33)[:, None]
-    picks = np.concatenate([a + share * (b - a) for a, b in ends])
-    world_m = (low + picks * (high - low)) @ axes + place["position_m"]
-    pose = np.array(frame["camera_to_world"]).reshape(4, 4)
-    x, y, depth = ((world_m - pose[:3, 3]) @ pose[:3, :3]).T
-    assert (depth > 0).all()
-    return np.stack([x / depth, y / depth], axis=-1)
-
-
-def _distort(points: np.ndarray, lens: dict) -> np.ndarray:
-    """OpenCV's formula (Camera Calibration and 3D Reconstruction, "Detailed Description")."""
-    x, y = points[..., 0], points[..., 1]
-    r2 = x * x + y * y
-    radial = 1 + lens["k1"] * r2 + lens["k2"] * r2 * r2 + lens["k3"] * r2 * r2 * r2
-    return np.stack(
-        [
-            x * radial + 2 * lens["p1"] * x * y + lens["p2"] * (r2 + 2 * x * x),
-            y * radial + lens["p1"] * (r2 + 2 * y * y) + 2 * lens["p2"] * x * y,
-        ],
-        axis=-1,
-    )
-
-
-def _undistort(points: np.ndarray, lens: dict) -> np.ndarray:
-    """The inverse by steps of the difference: the slope is within 0.25 of 1 here, so two steps gain a digit."""
-    seen = points
-    for _ in range(40):
-        seen = seen + (points - _distort(seen, lens))
-    return seen
-
-
-def _to_px(points: np.ndarray, camera: dict) -> np.ndarray:
-    scale, centre = (camera["fx_px"], camera["fy_px"]), (camera["cx_px"], camera["cy_px"])
-    return points * scale + centre
-
-
-def _check_inside(rendered: Rendered, kind: str, lens: dict, slack_px: float) -> int:
-    """Check that every label lies within its actor's projected box; return the largest shift by the lens in px."""
-    moved_px = 0.0
-    for label, edges, manifest in rendered.sightings(kind):
-        points = _to_px(_distort(edges, lens), manifest["camera"])
-        x, y, width, height = label["bbox"]
-        assert (np.array([x, y]) >= points.min(axis=0) - slack_px).all()
-        assert (np.array([x + width, y + height]) <= points.max(axis=0) + slack_px).all()
-        if not label["truncated"]:
-            moved_px = max(moved_px, np.abs(points - _to_px(edges, manifest["camera"])).max())
-    return moved_px
-
-
 def test_overscan_is_what_the_lens_needs(rendered, finer, calibrated):
     """The corners show the outermost points; the number is the same for passes of any resolution."""
     for dataset in (rendered, finer, calibrated):
@@ -183,7 +89,7 @@ def test_overscan_is_what_the_lens_needs(rendered, finer, calibrated):
             assert (camera["width_px"], camera["height_px"]) == (WIDTH, HEIGHT)
             corners = np.array(list(itertools.product((0.5, WIDTH - 0.5), (0.5, HEIGHT - 0.5))))
             shown = (corners - (camera["cx_px"], camera["cy_px"])) / (camera["fx_px"], camera["fy_px"])
-            beyond_px = np.abs(_to_px(_undistort(shown, dataset.lens), camera) - corners).max()
+            beyond_px = np.abs(to_px(undistort(shown, dataset.lens), camera) - corners).max()
             assert manifest["overscan_px"] == np.ceil(beyond_px)
             shape = next(iter(dataset.planes.values())).shape
             margin = 2 * manifest["overscan_px"]
@@ -205,7 +111,7 @@ def test_every_label_holds_exactly_the_pixels_the_lens_shows(rendered, calibrate
                 [(column - camera["cx_px"]) / camera["fx_px"], (row - camera["cy_px"]) / camera["fy_px"]],
                 axis=-1,
             )
-            place = _to_px(_undistort(points, dataset.lens), camera) + manifest["overscan_px"]
+            place = to_px(undistort(points, dataset.lens), camera) + manifest["overscan_px"]
             place = np.floor(place).astype(int)
             shown[name] = plane[place[..., 1], place[..., 0]]
         assert check_labels(dataset.labels["lens"], shown, dataset.manifests) > 30
@@ -236,8 +142,8 @@ def test_labels_lie_within_their_actors_projected_box(rendered, finer, calibrate
     The lens shrinks by up to 1 and stretches nowhere beyond 1.01, the tangential part: 0.01 px more.
     """
     for dataset, sub_px in ((rendered, 0.0), (finer, 0.25), (calibrated, 0.0)):
-        assert _check_inside(dataset, "pinhole", PINHOLE, 0.51 + sub_px) == 0
-        moved_px = _check_inside(dataset, "lens", dataset.lens, 1.02 + sub_px)
+        assert check_inside(dataset.labels["pinhole"], dataset.manifests, PINHOLE, 0.51 + sub_px) == 0
+        moved_px = check_inside(dataset.labels["lens"], dataset.manifests, dataset.lens, 1.02 + sub_px)
         assert moved_px > 3  # so a lens forgotten, or the wrong way round, would not have passed
 
 

@@ -88,8 +88,8 @@ BenchScene rolling_ground() {
   for (Plane<float>& axis : scene.passes.normal) axis = Plane<float>(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const auto ray_x = static_cast<double>(rays.x()[static_cast<std::size_t>(x)]);
-      const auto ray_y = static_cast<double>(rays.y()[static_cast<std::size_t>(y)]);
+      const auto ray_x = static_cast<double>(rays.x().at(x, y));
+      const auto ray_y = static_cast<double>(rays.y().at(x, y));
       const auto& r = pose.rotation;
       const double down = -(static_cast<double>(r[2][0]) * ray_x + static_cast<double>(r[2][1]) * ray_y +
                             static_cast<double>(r[2][2]));

@@ -30,7 +30,7 @@ void add(double pixels, DifferingPixels& to) {
 CameraIntrinsics camera_of(const BakedScene& scene) {
   Manifest manifest;
   manifest.camera = scene.camera;
-  manifest.overscan_px = scene.overscan_px;
+  manifest.overscan_px = scene.view_margin_px;
   return pixels_camera(manifest);
 }
 

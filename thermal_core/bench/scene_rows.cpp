@@ -54,8 +54,8 @@ class ExactChain {
 
   [[nodiscard]] std::array<double, 3> ray_at(int x, int y) const {
     std::array<double, 3> ray{};
-    const std::array<double, 3> local = {static_cast<double>(rays_.x()[static_cast<std::size_t>(x)]),
-                                         static_cast<double>(rays_.y()[static_cast<std::size_t>(y)]), 1};
+    const std::array<double, 3> local = {static_cast<double>(rays_.x().at(x, y)),
+                                         static_cast<double>(rays_.y().at(x, y)), 1};
     for (std::size_t row = 0; row < 3; ++row) {
       for (std::size_t column = 0; column < 3; ++column) {
         ray[row] += static_cast<double>(pose_.rotation[row][column]) * local[column];

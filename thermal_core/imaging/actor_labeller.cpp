@@ -76,6 +76,7 @@ ActorLabeller::ActorLabeller(const Manifest& manifest, const LensDistortion& len
     : camera_(manifest.camera),
       passes_camera_(passes_camera(manifest)),
       lens_(lens),
+      passes_lens_(manifest.lens),
       uses_depth_(uses_depth),
       supersample_(manifest.supersample),
       map_(std::move(map)),
@@ -185,9 +186,8 @@ std::optional<double> ActorLabeller::mean_range_m(const Passes& passes, const In
     for (int x = use.box.x_px; x < use.box.x_px + use.box.width_px; ++x) {
       const auto depth_m = static_cast<double>(passes.depth_m.at(x, y));
       if (passes.object_index.at(x, y) != use.index || !std::isfinite(depth_m)) continue;
-      const double across = (x + 0.5 - passes_camera_.cx_px) / passes_camera_.fx_px;
-      const double down = (y + 0.5 - passes_camera_.cy_px) / passes_camera_.fy_px;
-      sum_m += depth_m * std::hypot(across, down, 1);
+      const LensPoint ray = unproject(passes_camera_, passes_lens_, {x + 0.5, y + 0.5});
+      sum_m += depth_m * std::hypot(ray.x, ray.y, 1);
       ++pixels;
     }
   }

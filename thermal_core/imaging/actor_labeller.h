@@ -51,7 +51,8 @@ class ActorLabeller {
 
   CameraIntrinsics camera_;
   CameraIntrinsics passes_camera_;
-  LensDistortion lens_;
+  LensDistortion lens_;         ///< of the picture
+  LensDistortion passes_lens_;  ///< of the passes
   bool uses_depth_;
   int supersample_;
   std::shared_ptr<const ResampleMap> map_;

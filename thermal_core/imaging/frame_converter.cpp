@@ -18,7 +18,19 @@ SceneRadiance make_scene(const Manifest& manifest, const MaterialLibrary& materi
   return {manifest, materials, settings.season, radiance_of(settings.radiance, settings.response)};
 }
 
+/// What is left to do to passes whose rays follow the lens: at most to cut off their overscan.
+std::shared_ptr<const ResampleMap> make_crop(const Manifest& manifest, const LensDistortion& lens) {
+  if (lens != manifest.lens) {
+    throw ConfigError(
+        fault(fmt::format("clip {}: camera.distortion", manifest.clip), name_of(lens), "",
+              fmt::format("{}, the lens that the rays of these passes follow", name_of(manifest.lens))));
+  }
+  if (manifest.overscan_px == 0) return nullptr;
+  return std::make_shared<const ResampleMap>(manifest.camera, manifest.overscan_px, LensDistortion());
+}
+
 std::shared_ptr<const ResampleMap> make_map(const Manifest& manifest, const LensDistortion& lens) {
+  if (!manifest.lens.is_none()) return make_crop(manifest, lens);
   const int needed_px = overscan_px(manifest.camera, lens);
   if (manifest.overscan_px < needed_px) {
     throw ConfigError(fault(

@@ -28,7 +28,7 @@ struct SceneSettings {
   RadianceModel radiance = RadianceModel::exact;
   bool table_is_brightest = false;  ///< level 255 is the most radiant row of Table 1: AgcMode::table_max
   std::optional<PhysicsSettings> physics;  ///< empty: the published model with the season's temperatures
-  LensDistortion lens;  ///< the camera's lens, applied to the pinhole picture of the passes
+  LensDistortion lens;  ///< the camera's, applied to the passes unless their rays follow it already
 
   [[nodiscard]] bool operator==(const SceneSettings&) const = default;
 };
@@ -41,7 +41,8 @@ struct SceneSettings {
 /// The part of a frame's conversion that depends on that frame alone.
 class FrameConverter {
  public:
-  /// ConfigError if the manifest names an unknown material, or its passes have too little overscan for the lens.
+  /// ConfigError if the manifest names an unknown material, its passes have too little overscan for the lens, or
+  /// their rays follow another lens.
   FrameConverter(const Manifest& manifest, const MaterialLibrary& materials, const SceneSettings& settings);
 
   /// With scene_settings() of these.

@@ -14,6 +14,10 @@ inline float polynomial(const std::array<float, Absorption::kTerms>& coefficient
   return sum;
 }
 
+inline float along(const CameraAxis& axis, float ray_x, float ray_y) noexcept {
+  return axis.down * ray_y + axis.forward + axis.right * ray_x;
+}
+
 }  // namespace
 
 VELDT_CLONES void look_up(const std::uint16_t* __restrict surface, const float* __restrict by_surface,
@@ -27,8 +31,8 @@ VELDT_CLONES void find_places(const PlaceInput& in, float* __restrict x, float* 
   for (std::size_t i = 0; i < count; ++i) {
     const float scale = p.per_correlation_length[p.surface[i]];
     const float depth = p.depth_m[i] * scale;
-    x[i] = p.origin_x_m * scale + depth * (p.x_along + p.x_across * p.ray_x[i]);
-    y[i] = p.origin_y_m * scale + depth * (p.y_along + p.y_across * p.ray_x[i]);
+    x[i] = p.origin_x_m * scale + depth * along(p.x, p.ray_x[i], p.ray_y[i]);
+    y[i] = p.origin_y_m * scale + depth * along(p.y, p.ray_x[i], p.ray_y[i]);
     footprint[i] = depth > 0 ? depth * p.pixel_width : -1.0F;  // the field gives its mean there
   }
 }
@@ -53,14 +57,13 @@ VELDT_CLONES void orient(const OrientationInput& in, float* __restrict sky_view,
     const float nx = p.nx[i];
     const float ny = p.ny[i];
     const float nz = p.nz[i];
-    const float along = nx * (p.x_along + p.x_across * p.ray_x[i]) +
-                        ny * (p.y_along + p.y_across * p.ray_x[i]) +
-                        nz * (p.z_along + p.z_across * p.ray_x[i]);
+    const float inward = nx * along(p.x, p.ray_x[i], p.ray_y[i]) + ny * along(p.y, p.ray_x[i], p.ray_y[i]) +
+                         nz * along(p.z, p.ray_x[i], p.ray_y[i]);
     const float norm2 = nx * nx + ny * ny + nz * nz;
     const bool usable = (norm2 > 0.81F) & (norm2 < 1.21F);  // false for NaN
-    const float up = 0.5F + 0.5F * (along > 0 ? -nz : nz);
+    const float up = 0.5F + 0.5F * (inward > 0 ? -nz : nz);
     const float clamped = up > 0 ? (up < 1 ? up : 1.0F) : 0.0F;
-    const float seen = std::abs(along) / p.ray_length[i];
+    const float seen = std::abs(inward) / p.ray_length[i];
     sky_view[i] = usable ? clamped : 1.0F;
     cosine[i] = usable ? (seen < 1 ? seen : 1.0F) : 1.0F;
   }

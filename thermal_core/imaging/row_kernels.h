@@ -12,15 +12,20 @@ namespace thermal::kernels {
 /// out[i] = by_surface[surface[i]].
 void look_up(const std::uint16_t* surface, const float* by_surface, float* out, std::size_t count) noexcept;
 
+/// One world coordinate of the camera's axes: that of a ray is right * ray_x + down * ray_y + forward.
+struct CameraAxis {
+  float right, down, forward;
+};
+
 /// Where the ray of each pixel meets a surface, and the pixel's size there, in correlation lengths.
 struct PlaceInput {
   const std::uint16_t* surface;
   const float* per_correlation_length;  ///< by surface
   const float* depth_m;
   const float* ray_x;
+  const float* ray_y;
   float origin_x_m, origin_y_m;
-  float x_along, x_across;  ///< world x of the ray: x_along + x_across * ray_x
-  float y_along, y_across;
+  CameraAxis x, y;
   float pixel_width;
 };
 void find_places(const PlaceInput& in, float* x, float* y, float* footprint, std::size_t count) noexcept;
@@ -44,10 +49,9 @@ struct OrientationInput {
   const float* ny;
   const float* nz;
   const float* ray_x;
+  const float* ray_y;
   const float* ray_length;
-  float x_along, x_across;  ///< world direction of the ray: along + across * ray_x
-  float y_along, y_across;
-  float z_along, z_across;
+  CameraAxis x, y, z;
 };
 void orient(const OrientationInput& in, float* sky_view, float* cosine, std::size_t count) noexcept;
 

@@ -17,15 +17,9 @@ std::vector<T> column(const SurfaceOpticsList& surfaces, const Get& get) {
   return values;
 }
 
-/// World direction of a row's rays along one axis: along + across * ray_x.
-struct RayLine {
-  float along;
-  float across;
-};
-
-RayLine ray_line(const Row& row, std::size_t axis) {
+kernels::CameraAxis axis_of(const Row& row, std::size_t axis) {
   const auto& r = row.pose->rotation.at(axis);
-  return {r[1] * row.ray_y + r[2], r[0]};
+  return {.right = r[0], .down = r[1], .forward = r[2]};
 }
 
 /// A function of the cosine at which water is seen, tabulated, because its functions are slow; water is rare.
@@ -109,18 +103,15 @@ RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField&
           scale = column(surfaces, [](const auto& s) { return s.per_correlation_length; })](Row& row) {
     const std::size_t width = row.surface.size();
     for (auto* scratch : {&row.place_x, &row.place_y, &row.footprint, &row.variation}) scratch->resize(width);
-    const RayLine x = ray_line(row, 0);
-    const RayLine y = ray_line(row, 1);
     kernels::find_places({.surface = row.surface.data(),
                           .per_correlation_length = scale.data(),
                           .depth_m = row.depth_m.data(),
                           .ray_x = row.ray_x.data(),
+                          .ray_y = row.ray_y.data(),
                           .origin_x_m = row.pose->position_m[0],
                           .origin_y_m = row.pose->position_m[1],
-                          .x_along = x.along,
-                          .x_across = x.across,
-                          .y_along = y.along,
-                          .y_across = y.across,
+                          .x = axis_of(row, 0),
+                          .y = axis_of(row, 1),
                           .pixel_width = row.sample_width},
                          row.place_x.data(), row.place_y.data(), row.footprint.data(), width);
     field.sample(row.place_x, row.place_y, row.footprint, row.variation);
@@ -140,20 +131,15 @@ RowTerm orientation() {
     const std::size_t width = row.surface.size();
     row.sky_view.resize(width);
     row.cosine.resize(width);
-    const RayLine x = ray_line(row, 0);
-    const RayLine y = ray_line(row, 1);
-    const RayLine z = ray_line(row, 2);
     kernels::orient({.nx = row.normal[0].data(),
                      .ny = row.normal[1].data(),
                      .nz = row.normal[2].data(),
                      .ray_x = row.ray_x.data(),
+                     .ray_y = row.ray_y.data(),
                      .ray_length = row.ray_length.data(),
-                     .x_along = x.along,
-                     .x_across = x.across,
-                     .y_along = y.along,
-                     .y_across = y.across,
-                     .z_along = z.along,
-                     .z_across = z.across},
+                     .x = axis_of(row, 0),
+                     .y = axis_of(row, 1),
+                     .z = axis_of(row, 2)},
                     row.sky_view.data(), row.cosine.data(), width);
   };
 }

@@ -31,8 +31,8 @@ struct SurfaceOptics {
 struct Row {
   std::span<const std::uint16_t> surface;
   std::span<const float> ray_x;       ///< of the ray through each sample, z being 1, in camera axes
+  std::span<const float> ray_y;       ///< the same
   std::span<const float> ray_length;  ///< of that ray
-  float ray_y = 0;                    ///< of all rays
   float sample_width = 0;             ///< side of a sample at depth 1
   std::span<const float> depth_m;     ///< empty if no term needs it
   std::array<std::span<const float>, 3> normal;  ///< the same

@@ -75,8 +75,9 @@ SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& ma
 SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials,
                              const PhysicsSettings& settings)
     : map_(manifest, materials) {
-  held_->rays = std::make_unique<CameraRays>(passes_camera(manifest));
-  if (manifest.supersample > 1) held_->pixel_rays = std::make_unique<CameraRays>(pixels_camera(manifest));
+  held_->rays = std::make_unique<CameraRays>(passes_camera(manifest), manifest.lens);
+  if (manifest.supersample > 1)
+    held_->pixel_rays = std::make_unique<CameraRays>(pixels_camera(manifest), manifest.lens);
   for (const Surface& surface : map_.surfaces()) add_optics(surface, settings);
   compose(settings);
   const Terms& terms = settings.terms;
@@ -144,9 +145,9 @@ void SceneRadiance::find_brightest() {
 
 void SceneRadiance::begin_row(const Passes& passes, const CameraRays* rays, int y, Row& row) const {
   if (rays != nullptr) {
-    row.ray_x = rays->x();
+    row.ray_x = rays->x().row(y);
+    row.ray_y = rays->y().row(y);
     row.ray_length = rays->length().row(y);
-    row.ray_y = rays->y()[static_cast<std::size_t>(y)];
     row.sample_width = rays->pixel_width();
   }
   if (needs_.depth) row.depth_m = passes.depth_m.row(y);
@@ -195,6 +196,7 @@ struct SceneRadiance::FineLine {
   std::vector<std::uint16_t> numbers;
   std::vector<float> radiance_w_m2_sr;
   std::vector<float> ray_x;
+  std::vector<float> ray_y;
   std::vector<float> ray_length;
   std::size_t first = 0;  ///< of its samples
   std::size_t count = 0;
@@ -215,18 +217,20 @@ void SceneRadiance::FineLine::begin(const FineSamples& fine, int y, int line, co
     row.normal[axis] = std::span(fine.normal[axis]).subspan(first, count);
   if (rays == nullptr) return;
   const int fine_y = y * fine.factor + line;
+  const std::span<const float> xs = rays->x().row(fine_y);
+  const std::span<const float> ys = rays->y().row(fine_y);
   const std::span<const float> lengths = rays->length().row(fine_y);
-  ray_x.resize(count);
-  ray_length.resize(count);
+  for (auto* rows : {&ray_x, &ray_y, &ray_length}) rows->resize(count);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t fine_x =
         fine.x_px[fine.row_begin[static_cast<std::size_t>(y)] + k / side] * side + k % side;
-    ray_x[k] = rays->x()[fine_x];
+    ray_x[k] = xs[fine_x];
+    ray_y[k] = ys[fine_x];
     ray_length[k] = lengths[fine_x];
   }
   row.ray_x = ray_x;
+  row.ray_y = ray_y;
   row.ray_length = ray_length;
-  row.ray_y = rays->y()[static_cast<std::size_t>(fine_y)];
   row.sample_width = rays->pixel_width();
 }
 

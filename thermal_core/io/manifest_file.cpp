@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "io/assets.h"
+#include "io/json/camera.h"
 #include "io/json/file.h"
 #include "io/json/schema.h"
 #include "io/system/sha256.h"
@@ -60,6 +61,7 @@ Manifest read_document(const Json& json) {
   manifest.supersample = json["supersample"];
   manifest.overscan_px = json["overscan_px"];
   manifest.camera = intrinsics_of(json["camera"]);
+  if (json["camera"].contains("distortion")) manifest.lens = distortion_of(json["camera"]["distortion"]);
   for (const Json& object : json["objects"]) manifest.objects.push_back(manifest_object_of(object));
   for (const Json& material : json["materials"]) manifest.materials.push_back(manifest_material_of(material));
   for (const Json& frame : json["frames"]) manifest.frames.push_back(read_frame(frame));
@@ -67,11 +69,6 @@ Manifest read_document(const Json& json) {
 }
 
 constexpr std::array kClassNames = {"ground", "water", "plant", "actor"};  // of ObjectClass
-
-Json to_json(const CameraIntrinsics& camera) {
-  return {{"width_px", camera.width_px}, {"height_px", camera.height_px}, {"fx_px", camera.fx_px},
-          {"fy_px", camera.fy_px},       {"cx_px", camera.cx_px},         {"cy_px", camera.cy_px}};
-}
 
 Json to_json(const ManifestObject& object) {
   Json json = {{"index", object.index},
@@ -124,6 +121,7 @@ Json head_of(const Manifest& manifest) {
   json["supersample"] = manifest.supersample;
   json["overscan_px"] = manifest.overscan_px;
   json["camera"] = to_json(manifest.camera);
+  if (!manifest.lens.is_none()) json["camera"]["distortion"] = to_json(manifest.lens);
   json["objects"] = list_of(manifest.objects);
   json["materials"] = list_of(manifest.materials);
   return json;
@@ -138,15 +136,6 @@ void write_manifest(const Path& file, const Manifest& manifest) {
   std::string text = head_of(manifest).dump(1);
   text.erase(text.rfind('\n'));
   write_file_atomically(file, fmt::format("{},\n \"frames\": [{}\n ]\n}}\n", text, frames));
-}
-
-CameraIntrinsics intrinsics_of(const Json& json) {
-  return {.width_px = json.at("width_px"),
-          .height_px = json.at("height_px"),
-          .fx_px = json.at("fx_px"),
-          .fy_px = json.at("fy_px"),
-          .cx_px = json.at("cx_px"),
-          .cy_px = json.at("cy_px")};
 }
 
 ManifestObject manifest_object_of(const Json& json) {

@@ -16,7 +16,6 @@ namespace thermal {
 void write_manifest(const Path& file, const Manifest& manifest);
 
 /// Entries of a manifest, or of a baked scene, that conform to its schema.
-[[nodiscard]] CameraIntrinsics intrinsics_of(const Json& json);
 [[nodiscard]] ManifestObject manifest_object_of(const Json& json);
 [[nodiscard]] ManifestMaterial manifest_material_of(const Json& json);
 

@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "raycast/lens_range.h"
 #include "raycast/vectors.h"
+#include "scene/camera_intrinsics.h"
 #include "scene/lens_distortion.h"
-#include "scene/manifest.h"
 
 namespace thermal {
 
@@ -21,13 +22,17 @@ class PixelRays {
   [[nodiscard]] const CameraIntrinsics& camera() const noexcept { return camera_; }
   [[nodiscard]] int width_px() const noexcept { return camera_.width_px; }
   [[nodiscard]] int height_px() const noexcept { return camera_.height_px; }
-  [[nodiscard]] bool is_pinhole() const noexcept { return bent_.empty(); }
+  [[nodiscard]] const LensDistortion& lens() const noexcept { return lens_; }
+  /// Directions that the picture shows, up to its border; all there are if the lens shows nothing somewhere.
+  [[nodiscard]] const LensRange& range() const noexcept { return range_; }
   [[nodiscard]] LensPoint at(std::size_t x_px, std::size_t y_px) const noexcept {
     return bent_.empty() ? LensPoint{.x = x_[x_px], .y = y_[y_px]} : bent_[y_px * x_.size() + x_px];
   }
 
  private:
   CameraIntrinsics camera_;
+  LensDistortion lens_;
+  LensRange range_;
   std::vector<double> x_;        ///< a pinhole's, by column
   std::vector<double> y_;        ///< by row
   std::vector<LensPoint> bent_;  ///< a lens's, row by row; empty: a pinhole

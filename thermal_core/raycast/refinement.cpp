@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/clones.h"
 #include "base/parallel.h"
@@ -10,51 +9,49 @@
 namespace thermal {
 namespace {
 
-/// An axis-aligned part of the picture, in px.
-struct Range {
-  double left = std::numeric_limits<double>::infinity();
-  double top = left;
-  double right = -left;
-  double bottom = -left;
-
-  void add(double u_px, double v_px) noexcept {
-    left = std::min(left, u_px);
-    right = std::max(right, u_px);
-    top = std::min(top, v_px);
-    bottom = std::max(bottom, v_px);
-  }
-};
-
 Vector3 to_world(const Transform<double>& m, const Vector3& p) noexcept {
   return {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
           m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
 }
 
-/// Where a piece is in the picture; everywhere if that is unknown.
-Range range_of(const Piece& piece, const Place& place, const View& view, const PixelRays& rays) {
-  constexpr double kLeastDepthM = 1e-3;
+/// A part of the picture, up to but not including its right and bottom.
+struct Range {
+  int left = 0;
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
+};
+
+int clamped(double place_px, int most_px) {
+  return static_cast<int>(std::clamp(place_px, 0.0, static_cast<double>(most_px)));
+}
+
+/// The pixels that directions may be in, and one more on every side.
+Range pixels_at(const LensRange& directions, const PixelRays& rays) {
+  const LensRange seen = common(directions, rays.range());
+  if (seen.is_empty()) return {};
+  const auto [least, most] = distort(rays.lens(), seen);
   const CameraIntrinsics& camera = rays.camera();
-  const Range everywhere{.left = 0,
-                         .top = 0,
-                         .right = static_cast<double>(camera.width_px),
-                         .bottom = static_cast<double>(camera.height_px)};
-  if (!rays.is_pinhole()) return everywhere;
+  return {.left = clamped(camera.cx_px + camera.fx_px * least.x - 1, camera.width_px),
+          .top = clamped(camera.cy_px + camera.fy_px * least.y - 1, camera.height_px),
+          .right = clamped(camera.cx_px + camera.fx_px * most.x + 2, camera.width_px),
+          .bottom = clamped(camera.cy_px + camera.fy_px * most.y + 2, camera.height_px)};
+}
+
+/// The pixels that a piece may be in; all of them if that is unknown.
+Range pixels_of(const Piece& piece, const Place& place, const View& view, const PixelRays& rays) {
+  constexpr double kLeastDepthM = 1e-3;
   const MeshBox& box = place.box(piece.mesh);
-  Range range;
+  LensRange directions;
   for (unsigned corner = 0; corner < 8; ++corner) {
     const Vector3 point =
         to_world(piece.to_world, {box[corner & 1U][0], box[corner >> 1U & 1U][1], box[corner >> 2U][2]}) -
         view.position_m;
     const double depth_m = dot(point, view.forward);
-    if (depth_m < kLeastDepthM) return everywhere;
-    range.add(camera.cx_px + camera.fx_px * dot(point, view.right) / depth_m,
-              camera.cy_px + camera.fy_px * dot(point, view.down) / depth_m);
+    if (!(depth_m >= kLeastDepthM)) return {.right = rays.width_px(), .bottom = rays.height_px()};
+    directions.add({.x = dot(point, view.right) / depth_m, .y = dot(point, view.down) / depth_m});
   }
-  return range;
-}
-
-int clamped(double place_px, int most_px) {
-  return static_cast<int>(std::clamp(place_px, 0.0, static_cast<double>(most_px)));
+  return pixels_at(directions, rays);
 }
 
 /// 1 where a row's pixels differ from those above, or below, or beside: `out` is set, never cleared.
@@ -100,12 +97,9 @@ Plane<std::uint8_t> pixels_near(const std::vector<Piece>& pieces, const Place& p
                                 const PixelRays& rays) {
   Plane<std::uint8_t> near(rays.width_px(), rays.height_px());
   for (const Piece& piece : pieces) {
-    const Range range = range_of(piece, place, view, rays);
-    const int left = clamped(range.left - 1, rays.width_px());
-    const int right = clamped(range.right + 2, rays.width_px());
-    for (int y = clamped(range.top - 1, rays.height_px()); y < clamped(range.bottom + 2, rays.height_px());
-         ++y)
-      std::fill(near.row(y).begin() + left, near.row(y).begin() + std::max(left, right), std::uint8_t{1});
+    const Range range = pixels_of(piece, place, view, rays);
+    for (int y = range.top; y < range.bottom; ++y)
+      std::fill(near.row(y).begin() + range.left, near.row(y).begin() + range.right, std::uint8_t{1});
   }
   return near;
 }

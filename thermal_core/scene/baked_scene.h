@@ -66,7 +66,8 @@ struct BakedScene {
   std::string name;
   std::uint32_t seed = 0;
   CameraIntrinsics camera;
-  int overscan_px = 0;
+  int view_margin_px =
+      0;  ///< by which the place is planned to be seen beyond each side of the pinhole's picture
   std::vector<ManifestObject> objects;
   std::vector<ManifestMaterial> materials;
   std::vector<BakedMesh> meshes;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/parallel.h"
+
 namespace thermal {
 
 CameraIntrinsics finer(const CameraIntrinsics& camera, int factor) noexcept {
@@ -26,19 +28,23 @@ CameraIntrinsics passes_camera(const Manifest& manifest) noexcept {
   return finer(pixels_camera(manifest), manifest.supersample);
 }
 
-CameraRays::CameraRays(const CameraIntrinsics& camera)
-    : length_(camera.width_px, camera.height_px),
+CameraRays::CameraRays(const CameraIntrinsics& camera, const LensDistortion& lens)
+    : x_(camera.width_px, camera.height_px),
+      y_(camera.width_px, camera.height_px),
+      length_(camera.width_px, camera.height_px),
       pixel_width_(static_cast<float>(1 / std::sqrt(camera.fx_px * camera.fy_px))) {
-  for (int x = 0; x < camera.width_px; ++x) {
-    x_.push_back(static_cast<float>((x + 0.5 - camera.cx_px) / camera.fx_px));
-  }
-  for (int y = 0; y < camera.height_px; ++y) {
-    y_.push_back(static_cast<float>((y + 0.5 - camera.cy_px) / camera.fy_px));
-    const auto row = length_.row(y);
-    for (std::size_t x = 0; x < row.size(); ++x) {
-      row[x] = std::sqrt(x_[x] * x_[x] + y_.back() * y_.back() + 1);
+  parallel_for(static_cast<std::size_t>(camera.height_px), 8, [&](std::size_t begin, std::size_t end) {
+    for (auto row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
+      for (int column = 0; column < camera.width_px; ++column) {
+        const LensPoint ray = unproject(camera, lens, {column + 0.5, row + 0.5});
+        const auto x = static_cast<float>(ray.x);
+        const auto y = static_cast<float>(ray.y);
+        x_.at(column, row) = x;
+        y_.at(column, row) = y;
+        length_.at(column, row) = std::sqrt(x * x + y * y + 1);
+      }
     }
-  }
+  });
 }
 
 Plane<float> falloff_noise_gain(const CameraIntrinsics& camera) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "base/image.h"
@@ -15,25 +14,26 @@ namespace thermal {
 /// The manifest's camera with overscan: one pixel for each of the passes' blocks of supersample x supersample.
 [[nodiscard]] CameraIntrinsics pixels_camera(const Manifest& manifest) noexcept;
 
-/// The pinhole camera that the passes are a picture of: the manifest's, with overscan and supersampling.
+/// The camera that the passes are a picture of: the manifest's, with overscan and supersampling.
 [[nodiscard]] CameraIntrinsics passes_camera(const Manifest& manifest) noexcept;
 
 /// The rays of a camera, the same for all its frames.
 class CameraRays {
  public:
-  explicit CameraRays(const CameraIntrinsics& camera);
+  /// Where the lens shows nothing, those for which undistort() has NaN, rays are NaN.
+  explicit CameraRays(const CameraIntrinsics& camera, const LensDistortion& lens = {});
 
-  /// x and y of the ray through a column or row, z being 1, in camera axes.
-  [[nodiscard]] const std::vector<float>& x() const noexcept { return x_; }
-  [[nodiscard]] const std::vector<float>& y() const noexcept { return y_; }
+  /// x and y of the rays through the pixels' centres, z being 1, in camera axes.
+  [[nodiscard]] const Plane<float>& x() const noexcept { return x_; }
+  [[nodiscard]] const Plane<float>& y() const noexcept { return y_; }
   /// Length of the ray with z = 1: range = depth * length.
   [[nodiscard]] const Plane<float>& length() const noexcept { return length_; }
-  /// Side of a pixel at depth 1; of one that is not square, the mean (geometric) of its sides.
+  /// Side of a pixel at depth 1, on the axis; of one that is not square, the mean (geometric) of its sides.
   [[nodiscard]] float pixel_width() const noexcept { return pixel_width_; }
 
  private:
-  std::vector<float> x_;
-  std::vector<float> y_;
+  Plane<float> x_;
+  Plane<float> y_;
   Plane<float> length_;
   float pixel_width_;
 };

@@ -41,10 +41,6 @@ bool is_unfolded(const LensDistortion& lens, const LensPoint& point) noexcept {
   return true;
 }
 
-std::string name_of(const LensDistortion& lens) {
-  return fmt::format("k1 {}, k2 {}, p1 {}, p2 {}, k3 {}", lens.k1, lens.k2, lens.p1, lens.p2, lens.k3);
-}
-
 /// How far outside the camera's picture a pinhole shows what the lens shows at this place [px]; below 0 inside.
 /// ConfigError if that is nowhere.
 double excess_px(const CameraIntrinsics& camera, const LensDistortion& lens, double u_px, double v_px) {
@@ -59,6 +55,10 @@ double excess_px(const CameraIntrinsics& camera, const LensDistortion& lens, dou
 }
 
 }  // namespace
+
+std::string name_of(const LensDistortion& lens) {
+  return fmt::format("k1 {}, k2 {}, p1 {}, p2 {}, k3 {}", lens.k1, lens.k2, lens.p1, lens.p2, lens.k3);
+}
 
 LensPoint distort(const LensDistortion& lens, const LensPoint& point) noexcept {
   const auto [x, y] = point;

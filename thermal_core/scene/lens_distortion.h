@@ -1,6 +1,8 @@
 #pragma once
 
-#include "scene/manifest.h"
+#include <string>
+
+#include "scene/camera_intrinsics.h"
 
 namespace thermal {
 
@@ -30,6 +32,9 @@ struct PicturePoint {
   double u_px = 0;
   double v_px = 0;
 };
+
+/// "k1 -0.2, k2 0.05, p1 0, p2 0, k3 0".
+[[nodiscard]] std::string name_of(const LensDistortion& lens);
 
 /// Where the lens shows the point that a pinhole would show at `point`:
 /// x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y' likewise with p1 and p2 exchanged.

@@ -6,20 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "scene/camera_intrinsics.h"
+#include "scene/lens_distortion.h"
+
 namespace thermal {
 
 inline constexpr int kLargestIndex = 32767;  ///< Blender's limit of pass_index
 inline constexpr int kSkyIndex = 0;
-
-/// A pinhole camera in pixels. Continuous pixel coordinates: the top left pixel's centre is (0.5, 0.5).
-struct CameraIntrinsics {
-  int width_px = 0;
-  int height_px = 0;
-  double fx_px = 0;
-  double fy_px = 0;
-  double cx_px = 0;
-  double cy_px = 0;
-};
 
 enum class ObjectClass { ground, water, plant, actor };
 
@@ -87,6 +80,7 @@ struct Manifest {
   Colour sky_colour{};   ///< in pictures that identify objects by colour
   std::string sequence;  ///< pattern of the frames' names, used if `frames` does not list them
   CameraIntrinsics camera;
+  LensDistortion lens;  ///< that the passes' rays follow; none: they show a pinhole's picture
   int supersample = 1;  ///< pixels of the passes per pixel of the camera, along each axis
   int overscan_px = 0;  ///< additional camera pixels on every side
   std::vector<ManifestObject> objects;

@@ -29,7 +29,7 @@ class BakedScene:
     @property
     def passes_intrinsics(self) -> Intrinsics:
         """Intrinsics of the passes' pinhole camera, at the camera's resolution."""
-        return widened(self.intrinsics, self.header["overscan_px"])
+        return widened(self.intrinsics, self.header["view_margin_px"])
 
     @cached_property
     def heights_m(self) -> tuple[float, float]:

@@ -67,7 +67,7 @@ def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
         "name": world.config["name"],
         "seed": world.config["seed"],
         "camera": world.config["camera"],
-        "overscan_px": world.overscan_px,
+        "view_margin_px": world.view_margin_px,
         "materials": _materials(world),
         "objects": [*_place(world), *(_object(actor) for actor in world.actors)],
         "meshes": meshes.entries,

@@ -50,7 +50,7 @@ def _places(world: World, company: Company, flight: Flight) -> tuple[np.ndarray,
     actors, time_s = world.actors, flight.time_s
     positions = np.zeros((len(actors), len(time_s), 3))
     headings, posed = np.zeros(positions.shape[:2]), np.zeros(positions.shape[:2], bool)
-    frusta = frusta_of(world.passes_intrinsics, flight.camera_to_world)
+    frusta = frusta_of(world.view_intrinsics, flight.camera_to_world)
     for part in _parts(len(time_s) if actors else 0, _PLACES_AT_ONCE // max(1, len(actors))):
         at_s = time_s[part]
         walk = company.track(np.repeat(np.arange(len(actors)), len(at_s)), np.tile(at_s, len(actors)))

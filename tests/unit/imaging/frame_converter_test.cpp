@@ -254,4 +254,75 @@ TEST_CASE("Passes with too little overscan for the lens are an error with the ne
         "manifest whose camera is smaller than its passes");
 }
 
+namespace {
+
+/// Passes of level ground, 50 m below a camera that looks down at 45 deg, whose normals lean.
+Passes slope_passes(int width_px, int height_px) {
+  Passes passes;
+  passes.object_index = Plane<std::uint16_t>(width_px, height_px, 1);
+  passes.depth_m = Plane<float>(width_px, height_px, 50);
+  passes.normal = {Plane<float>(width_px, height_px, 0.6F), Plane<float>(width_px, height_px, 0),
+                   Plane<float>(width_px, height_px, 0.8F)};
+  return passes;
+}
+
+float slope_radiance(const CameraIntrinsics& camera, const LensDistortion& lens, int x_px, int y_px) {
+  Manifest used = manifest();
+  used.camera = camera;
+  used.lens = lens;
+  used.frames.emplace_back().camera_to_world = {1, 0, 0, 0, 0, -0.6, 0.8, 0, 0, -0.8, -0.6, 50, 0, 0, 0, 1};
+  const PhysicsSettings physics = {.terms = {.variation = true, .sky = true, .angular = true, .path = true},
+                                   .weather = weather_of(Season::winter),
+                                   .response = SpectralResponse::flat(8, 14),
+                                   .seed = 1};
+  const FrameConverter converter(used, materials(), Season::winter, SensorParameters(), physics, lens);
+  return converter.convert(slope_passes(camera.width_px, camera.height_px), used.frames[0])
+      .radiance_w_m2_sr.at(x_px, y_px);
+}
+
+}  // namespace
+
+TEST_CASE("Passes whose rays follow a lens have the radiance of the directions that the lens shows") {
+  const CameraIntrinsics camera = {
+      .width_px = 9, .height_px = 7, .fx_px = 8, .fy_px = 8.5, .cx_px = 4, .cy_px = 3.25};
+  const LensDistortion lens = {.k1 = -0.25, .k2 = 0.03, .p1 = 0.01, .p2 = -0.02};
+  for (int y = 0; y < camera.height_px; ++y) {
+    for (int x = 0; x < camera.width_px; ++x) {
+      // A pinhole with one pixel, whose ray is the lens's. Its pixel is as wide as the camera's.
+      const LensPoint ray = unproject(camera, lens, {x + 0.5, y + 0.5});
+      const CameraIntrinsics pinhole = {.width_px = 1,
+                                        .height_px = 1,
+                                        .fx_px = camera.fx_px,
+                                        .fy_px = camera.fy_px,
+                                        .cx_px = 0.5 - camera.fx_px * ray.x,
+                                        .cy_px = 0.5 - camera.fy_px * ray.y};
+      CHECK_THAT(static_cast<double>(slope_radiance(camera, lens, x, y)),
+                 WithinRel(static_cast<double>(slope_radiance(pinhole, {}, 0, 0)), 4 * 6e-8));
+    }
+  }
+  CHECK(slope_radiance(camera, lens, 0, 0) != slope_radiance(camera, {}, 0, 0));
+}
+
+TEST_CASE("Passes whose rays follow a lens are cut, not distorted again") {
+  const LensDistortion lens = {.k1 = -0.25};
+  Manifest used = wide_manifest();
+  used.lens = lens;
+  const SceneFrame frame = wide_converter(used, lens).convert(wide_passes(0));
+  REQUIRE(frame.radiance_w_m2_sr.width_px() == 4);
+  CHECK(frame.radiance_w_m2_sr.at(0, 0) == radiance_at(300));
+  CHECK(frame.radiance_w_m2_sr.at(1, 0) == radiance_at(100));
+  CHECK(frame.instances.at(0).box == PixelBox{0, 0, 1, 3});
+}
+
+TEST_CASE("Passes whose rays follow a lens convert with that lens alone") {
+  CHECK(message_of<ConfigError>([] {
+          Manifest used = wide_manifest();
+          used.lens = {.k1 = -0.25, .p2 = 0.001};
+          (void)wide_converter(used);
+        }) ==
+        "clip night: camera.distortion = k1 0, k2 0, p1 0, p2 0, k3 0; expected k1 -0.25, k2 0, p1 0, p2 "
+        "0.001, "
+        "k3 0, the lens that the rays of these passes follow");
+}
+
 }  // namespace frame_converter_test

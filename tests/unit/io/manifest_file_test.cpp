@@ -78,6 +78,15 @@ TEST_CASE("Passes can be finer than the camera and extend further") {
   CHECK(manifest.overscan_px == 12);
 }
 
+TEST_CASE("Passes can follow a lens, whose coefficients are 0 where they are not given") {
+  Json document = example();
+  const TemporaryFolder folder;
+  CHECK(read_manifest(folder.file("pinhole.json", document.dump()), kAssets).lens.is_none());
+  document["camera"]["distortion"] = {{"k1", -0.2}, {"p2", 0.001}};
+  const Manifest manifest = read_manifest(folder.file("manifest.json", document.dump()), kAssets);
+  CHECK(manifest.lens == LensDistortion{.k1 = -0.2, .p2 = 0.001});
+}
+
 TEST_CASE("Faults of a manifest are reported with their place") {
   Json document = example();
   SECTION("an index past Blender's largest") {
@@ -127,6 +136,7 @@ TEST_CASE("A written manifest is read back the same") {
   document["actor_layer"] = "Actors";
   document["supersample"] = 2;
   document["overscan_px"] = 3;
+  document["camera"]["distortion"] = {{"k1", -0.1}, {"k2", 0.2}, {"p1", 0.03}, {"p2", 0.04}, {"k3", 5}};
   document["scene"] = "valley";
   document["materials"].push_back({{"index", 3}, {"material", "human"}, {"part", "face"}});
   document["frames"][0]["look_angle_deg"] = 1.0 / 3;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "dataset/layout.h"
+#include "io/json/camera.h"
 #include "labels/categories.h"
 #include "labels/label_set.h"
 
@@ -33,9 +34,11 @@ Json box_entry(const LabelBox& box) {
 
 /// What a user needs to project points of the scene; OpenCV's principal point is 0.5 px less.
 Json camera_entry(const CameraIntrinsics& camera, const LensDistortion& lens) {
-  return {{"fx_px", camera.fx_px}, {"fy_px", camera.fy_px}, {"cx_px", camera.cx_px},
-          {"cy_px", camera.cy_px}, {"k1", lens.k1},         {"k2", lens.k2},
-          {"p1", lens.p1},         {"p2", lens.p2},         {"k3", lens.k3}};
+  Json entry = to_json(camera);
+  entry.erase("width_px");
+  entry.erase("height_px");
+  entry.update(to_json(lens));
+  return entry;
 }
 
 }  // namespace

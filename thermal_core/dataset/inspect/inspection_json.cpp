@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "dataset/inspect/inspection.h"
+#include "io/json/camera.h"
 
 namespace thermal {
 namespace {
@@ -118,6 +119,8 @@ Json to_json(const Inspection& inspection) {
   }
   if (inspection.manifest && inspection.manifest->overscan_px > 0)
     report["overscan_px"] = inspection.manifest->overscan_px;
+  if (inspection.manifest && !inspection.manifest->lens.is_none())
+    report["distortion"] = to_json(inspection.manifest->lens);
   return report;
 }
 

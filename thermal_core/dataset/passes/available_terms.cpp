@@ -52,15 +52,16 @@ void add_impossible(const ClipPasses& source, const PassNeeds& planes, SceneOutl
 }
 
 /// Angle of incidence of a ray on level ground; without a pose, as if perpendicular.
-double ground_cosine(const ManifestFrame& frame, double ray_x, double ray_y, double length) {
+double ground_cosine(const ManifestFrame& frame, const LensPoint& ray, double length) {
   if (!frame.camera_to_world) return 1;
   const auto& m = *frame.camera_to_world;
-  return -(m[8] * ray_x + m[9] * ray_y + m[10]) / length;
+  return -(m[8] * ray.x + m[9] * ray.y + m[10]) / length;
 }
 
 /// Five by five rays over the picture to their depths in the depth plane.
-std::vector<SceneOutline::Look> looks_in(const Plane<float>& depth_m, const CameraIntrinsics& camera,
+std::vector<SceneOutline::Look> looks_in(const Plane<float>& depth_m, const Manifest& manifest,
                                          const ManifestFrame& frame) {
+  const CameraIntrinsics camera = passes_camera(manifest);
   constexpr int kRays = 5;
   constexpr double kLeastCosine = 0.01;  // nearer to the horizon counts as sky
   std::vector<SceneOutline::Look> looks;
@@ -70,10 +71,9 @@ std::vector<SceneOutline::Look> looks_in(const Plane<float>& depth_m, const Came
       const int y = (depth_m.height_px() - 1) * row / (kRays - 1);
       const float depth = depth_m.at(x, y);
       if (!(depth > 0 && depth < kSkyFromM)) continue;
-      const double ray_x = (x + 0.5 - camera.cx_px) / camera.fx_px;
-      const double ray_y = (y + 0.5 - camera.cy_px) / camera.fy_px;
-      const double length = std::hypot(ray_x, ray_y, 1);
-      const double cosine = ground_cosine(frame, ray_x, ray_y, length);
+      const LensPoint ray = unproject(camera, manifest.lens, {x + 0.5, y + 0.5});
+      const double length = std::hypot(ray.x, ray.y, 1);
+      const double cosine = ground_cosine(frame, ray, length);
       if (cosine <= kLeastCosine) continue;
       looks.push_back({.range_m = static_cast<double>(depth) * length,
                        .ground_cosine = cosine,
@@ -97,7 +97,7 @@ std::vector<SceneOutline::Look> looks_of(const ClipPasses& source, const PassRea
   const auto look = [&](int number) {
     const Passes passes =
         reader.read(file_of(source, number), {.depth = true, .normals = false, .actors = false});
-    return looks_in(passes.depth_m, passes_camera(source.manifest),
+    return looks_in(passes.depth_m, source.manifest,
                     source.manifest.frames[static_cast<std::size_t>(number)]);
   };
   return of_a_frame(source, look).value_or(std::vector<SceneOutline::Look>());

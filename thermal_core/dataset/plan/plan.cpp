@@ -2,15 +2,11 @@
 
 #include "base/error.h"
 #include "io/assets.h"
+#include "io/json/camera.h"
 #include "io/json/schema.h"
 
 namespace thermal {
 namespace {
-
-Json to_json(const CameraIntrinsics& camera) {
-  return {{"width_px", camera.width_px}, {"height_px", camera.height_px}, {"fx_px", camera.fx_px},
-          {"fy_px", camera.fy_px},       {"cx_px", camera.cx_px},         {"cy_px", camera.cy_px}};
-}
 
 Json without_season(const Json& flown) {
   Json entries = flown;
@@ -50,7 +46,7 @@ Json planned_part(const Config& config) {
           {"seed", all.at("seed")},
           {"scene", all.at("scene")},
           {"camera", to_json(config.camera)},
-          {"render", {{"overscan_px", config.overscan_px}}},
+          {"render", {{"view_margin_px", config.view_margin_px}}},
           {"clips", without_season(all.at("clips"))},
           {"flights", without_season(all.at("flights"))}};
 }

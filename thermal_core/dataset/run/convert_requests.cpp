@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "io/config/lens.h"
 #include "io/config/variants.h"
+#include "io/json/camera.h"
 
 namespace thermal {
 namespace {
@@ -28,6 +29,7 @@ Json default_document(const std::vector<ClipPasses>& sources) {
   const Manifest& first = sources.front().manifest;
   return {{"name", first.scene.empty() ? "converted" : first.scene},
           {"seed", first.seed},
+          {"camera", {{"distortion", to_json(first.lens)}}},
           {"clips", std::move(clips)}};
 }
 

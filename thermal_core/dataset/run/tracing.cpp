@@ -106,7 +106,7 @@ Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const Cli
   if (config.actor_layer) manifest.actor_layer = "Actors";
   manifest.camera = scene.camera;
   manifest.supersample = config.supersample;
-  manifest.overscan_px = scene.overscan_px;
+  manifest.lens = config.distortion;
   manifest.objects = scene.objects;
   manifest.materials = scene.materials;
   for (std::size_t k = 0; k < track.frames; ++k) manifest.frames.push_back(frame_of(scene, track, k));
@@ -133,9 +133,10 @@ ClipPasses PlanTracer::trace(const std::string& clip, const Path& folder, bool k
     write_manifest(folder / "manifest.json", passes.manifest);
     kept = {.folder = folder, .layer = passes.manifest.layer, .actor_layer = passes.manifest.actor_layer};
   }
-  const Sampling sampling = {.supersample = config_.supersample, .adaptive = config_.adaptive_sampling};
-  passes.source = std::make_shared<TracedPasses>(caster_, std::move(track), pixels_camera(passes.manifest),
-                                                 sampling, std::move(kept));
+  const Sampling sampling = {
+      .supersample = config_.supersample, .adaptive = config_.adaptive_sampling, .lens = config_.distortion};
+  passes.source =
+      std::make_shared<TracedPasses>(caster_, std::move(track), scene_.camera, sampling, std::move(kept));
   return passes;
 }
 

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "io/assets.h"
 #include "io/bake/array_file.h"
+#include "io/json/camera.h"
 #include "io/manifest_file.h"
 
 namespace thermal {
@@ -36,7 +37,7 @@ class SceneReader {
     scene_.name = json.at("name");
     scene_.seed = json.at("seed");
     scene_.camera = intrinsics_of(json.at("camera"));
-    scene_.overscan_px = json.at("overscan_px");
+    scene_.view_margin_px = json.at("view_margin_px");
     for (const Json& object : json.at("objects")) scene_.objects.push_back(manifest_object_of(object));
     for (const Json& material : json.at("materials"))
       scene_.materials.push_back(manifest_material_of(material));

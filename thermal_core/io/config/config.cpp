@@ -11,6 +11,7 @@
 #include "io/assets.h"
 #include "io/config/lens.h"
 #include "io/config/sensor.h"
+#include "io/json/camera.h"
 #include "io/json/schema.h"
 
 namespace thermal {
@@ -187,7 +188,7 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   config.seed = document["seed"];
   config.width_px = document["camera"]["width_px"];
   config.height_px = document["camera"]["height_px"];
-  config.distortion = read_distortion(document["camera"]["distortion"]);
+  config.distortion = distortion_of(document["camera"]["distortion"]);
   config.sensor = read_sensor(document, name, assets);
   config.labels = read_label_parameters(document["labels"]);
   config.physical = document["sensor"]["model"] == "physical";
@@ -210,6 +211,7 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   fill_overscan(document, faults);
   throw_faults(faults, name);
   config.overscan_px = document["render"]["overscan_px"];
+  config.view_margin_px = std::max(config.overscan_px, overscan_px(config.camera, config.distortion));
   config.supersample = document["render"]["supersample"];
   config.actor_layer = document["render"]["actor_layer"];
   config.engine = document["render"]["engine"] == "embree" ? Engine::embree : Engine::blender;

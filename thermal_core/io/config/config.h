@@ -37,6 +37,8 @@ struct Config {
   bool gives_intrinsics = false;  ///< the document gives some of the camera's, directly or by a calibration
   LensDistortion distortion;
   int overscan_px = 0;  ///< how far the passes extend beyond the picture on every side
+  int view_margin_px =
+      0;  ///< how far a pinhole's picture must extend to show all that the passes and the lens show
   int supersample = 1;  ///< rays of the passes along each side of a pixel
   bool actor_layer = false;
   Engine engine = Engine::blender;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "io/config/calibration_file.h"
+#include "io/json/camera.h"
 #include "io/json/schema.h"
 
 namespace thermal {
@@ -29,12 +30,11 @@ void check_given_once(const Json& camera, std::vector<std::string>& faults) {
 /// The part of a config's `camera` that a calibration stands for.
 Json entries_of(const Calibration& found) {
   const auto& [camera, lens] = found;
-  return {
-      {"fx_px", camera.fx_px},
-      {"fy_px", camera.fy_px},
-      {"cx_px", camera.cx_px},
-      {"cy_px", camera.cy_px},
-      {"distortion", {{"k1", lens.k1}, {"k2", lens.k2}, {"p1", lens.p1}, {"p2", lens.p2}, {"k3", lens.k3}}}};
+  return {{"fx_px", camera.fx_px},
+          {"fy_px", camera.fy_px},
+          {"cx_px", camera.cx_px},
+          {"cy_px", camera.cy_px},
+          {"distortion", to_json(lens)}};
 }
 
 void check_size(const CameraIntrinsics& found, const Json& camera, std::vector<std::string>& faults) {
@@ -67,10 +67,6 @@ Json checked_entries(const Calibration& found, const Json& camera, const Json& s
 }
 
 }  // namespace
-
-LensDistortion read_distortion(const Json& json) {
-  return {.k1 = json["k1"], .k2 = json["k2"], .p1 = json["p1"], .p2 = json["p2"], .k3 = json["k3"]};
-}
 
 CameraIntrinsics read_intrinsics(const Json& camera) {
   const int width_px = camera.at("width_px");
@@ -124,8 +120,15 @@ void check_intrinsics(const CameraIntrinsics& camera, std::vector<std::string>& 
 void fill_overscan(Json& document, std::vector<std::string>& faults) {
   const Json& camera = document["camera"];
   try {
-    const int needed_px = overscan_px(read_intrinsics(camera), read_distortion(camera["distortion"]));
+    const int needed_px = overscan_px(read_intrinsics(camera), distortion_of(camera["distortion"]));
     Json& given = document["render"]["overscan_px"];
+    if (document["render"]["engine"] == "embree") {
+      if (given.is_null()) given = 0;
+      if (given != 0)
+        faults.push_back(fault("render.overscan_px", given.dump(), "px",
+                               "none with the engine embree, whose rays follow the lens"));
+      return;
+    }
     if (given.is_null()) given = needed_px;
     if (given.get<int>() >= needed_px) return;
     faults.push_back(fault("render.overscan_px", given.dump(), "px",

@@ -8,9 +8,6 @@
 
 namespace thermal {
 
-/// The lens of a config's `camera.distortion`.
-[[nodiscard]] LensDistortion read_distortion(const Json& json);
-
 /// The pinhole of a config's `camera`, whose defaults are filled in. Where it does not give them, fx_px is focal length /
 /// pixel pitch, fy_px is fx_px, and the principal point is the picture's middle.
 [[nodiscard]] CameraIntrinsics read_intrinsics(const Json& camera);
@@ -26,8 +23,9 @@ void apply_calibration(Json& document, const Json& schema, std::vector<std::stri
 /// Adds a fault if the principal point is outside the picture, or one focal length more than ten times the other.
 void check_intrinsics(const CameraIntrinsics& camera, std::vector<std::string>& faults);
 
-/// Writes what the lens needs as the config's render.overscan_px, where that says nothing of it. Adds a fault if it
-/// says too little, or if no overscan is enough.
+/// Writes what the lens needs as the config's render.overscan_px, where that says nothing of it: nothing with the engine
+/// embree, whose rays follow the lens. Adds a fault if it says too little, or anything in vain, or if no overscan is
+/// enough.
 void fill_overscan(Json& document, std::vector<std::string>& faults);
 
 }  // namespace thermal

@@ -54,6 +54,26 @@ TEST_CASE("Overscan is what the lens needs, unless the config sets more") {
   CHECK(resolved(config_with("{}", R"({"overscan_px": 40})")).overscan_px == 40);
 }
 
+TEST_CASE(
+    "Embree's rays follow the lens: there is no overscan, but the place is planned as far as the lens sees") {
+  const Config config = resolved(config_with(R"({"k1": -0.128})", R"({"engine": "embree"})"));
+  CHECK(config.overscan_px == 0);
+  CHECK(config.view_margin_px == 25);
+  CHECK(config.resolved["render"]["overscan_px"] == 0);
+  CHECK(resolved(config.resolved).resolved == config.resolved);
+  CHECK(fault_in(config_with(R"({"k1": -0.128})", R"({"engine": "embree", "overscan_px": 25})")) ==
+        "night.json: render.overscan_px = 25 px; expected none with the engine embree, whose rays follow the "
+        "lens");
+  CHECK(fault_in(config_with(R"({"k1": -1})", R"({"engine": "embree"})")) ==
+        fault_in(config_with(R"({"k1": -1})")));
+}
+
+TEST_CASE("The place is planned as far as Blender's passes reach") {
+  CHECK(resolved(config_with(R"({"k1": -0.128})")).view_margin_px == 25);
+  CHECK(resolved(config_with("{}", R"({"overscan_px": 40})")).view_margin_px == 40);
+  CHECK(resolved(config_with("{}")).view_margin_px == 0);
+}
+
 TEST_CASE("Too little overscan is an error, and so is a lens that folds the picture over") {
   CHECK(
       fault_in(config_with(R"({"k1": -0.128})", R"({"overscan_px": 24})")) ==

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "io/json/file.h"
+#include "scene/camera_intrinsics.h"
+#include "scene/lens_distortion.h"
+
+namespace thermal {
+
+// Cameras as configs, manifests, plans and baked scenes have them.
+
+/// From width_px, height_px, fx_px, fy_px, cx_px and cy_px.
+[[nodiscard]] CameraIntrinsics intrinsics_of(const Json& json);
+[[nodiscard]] Json to_json(const CameraIntrinsics& camera);
+
+/// From k1, k2, p1, p2 and k3.
+[[nodiscard]] LensDistortion distortion_of(const Json& json);
+[[nodiscard]] Json to_json(const LensDistortion& lens);
+
+}  // namespace thermal
