@@ -1,10 +1,9 @@
 #include "bench/embree_scene.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 
 #include "base/error.h"
+#include "bench/measure.h"
 #include "dataset/layout.h"
 #include "io/bake/baked_files.h"
 #include "io/exr/passes.h"
@@ -39,16 +38,8 @@ CameraIntrinsics camera_of(const BakedScene& scene) {
 double frame_time_s(const ClipTracer& tracer, std::size_t frames, Passes& out) {
   tracer.trace(0, kNeeds, out);
   double sum_s = 0;
-  for (std::size_t frame = 1; frame < frames; ++frame) {
-    std::array<double, 3> runs_s{};
-    for (double& run_s : runs_s) {
-      const auto start = std::chrono::steady_clock::now();
-      tracer.trace(frame, kNeeds, out);
-      run_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
-    std::ranges::sort(runs_s);
-    sum_s += runs_s[1];
-  }
+  for (std::size_t frame = 1; frame < frames; ++frame)
+    sum_s += middle_run_s([&] { tracer.trace(frame, kNeeds, out); });
   return sum_s / static_cast<double>(frames - 1);
 }
 
@@ -90,11 +81,14 @@ EmbreeTimes EmbreeScene::times(const std::string& clip, int supersample) const {
   return times;
 }
 
-double EmbreeScene::bare_frame_s(const BareTracer& tracer, const std::string& clip, int supersample) const {
+double EmbreeScene::bare_frame_s(BareTracer& tracer, const std::string& clip, int supersample) const {
   const BakedTrack frames = track(clip);
   double seconds = 0;
-  for (std::size_t frame = 1; frame < kEngineFrames; ++frame)
-    seconds += tracer.trace(frames.camera_to_world[frame], finer(camera_, supersample)).seconds;
+  for (std::size_t frame = 1; frame < kEngineFrames; ++frame) {
+    tracer.aim(frames.camera_to_world[frame], finer(camera_, supersample));
+    (void)tracer.hits();
+    seconds += middle_run_s([&] { (void)tracer.hits(); });
+  }
   return seconds / (kEngineFrames - 1);
 }
 

@@ -39,7 +39,7 @@ class EmbreeScene {
 
   [[nodiscard]] EmbreeTimes times(const std::string& clip, int supersample) const;
   /// Embree alone, without actors.
-  [[nodiscard]] double bare_frame_s(const BareTracer& tracer, const std::string& clip, int supersample) const;
+  [[nodiscard]] double bare_frame_s(BareTracer& tracer, const std::string& clip, int supersample) const;
   /// Compares all frames with the files in this folder.
   [[nodiscard]] Differing differing(const std::string& clip, const Path& blenders) const;
 

@@ -152,7 +152,7 @@ class EnginesSuite {
         all.back().embree_peak_mb = memory.grown_mb();
       }
     }
-    const BareTracer bare(scene.baked());
+    BareTracer bare(scene.baked());
     for (std::size_t k = 0; k < all.size(); ++k)
       all[k].bare_s =
           scene.bare_frame_s(bare, planned.clips[k % planned.clips.size()].id, all[k].supersample);

@@ -1,6 +1,7 @@
 #include "bench/measure.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -43,6 +44,17 @@ double shortest_run_s(const std::function<void()>& work, double budget_s) {
     shortest = std::min(shortest, seconds_since(start));
   }
   return shortest;
+}
+
+double middle_run_s(const std::function<void()>& work) {
+  std::array<double, 3> runs_s{};
+  for (double& run_s : runs_s) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    run_s = seconds_since(start);
+  }
+  std::ranges::sort(runs_s);
+  return runs_s[1];
 }
 
 double memcpy_s(std::size_t bytes, double budget_s) {

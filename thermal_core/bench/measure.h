@@ -38,6 +38,9 @@ class ErrorStatistics {
 /// Shortest of several runs [s], after one warm-up run. Runs until the budget is spent, at least three times.
 [[nodiscard]] double shortest_run_s(const std::function<void()>& work, double budget_s = 0.5);
 
+/// The middle one of three runs [s].
+[[nodiscard]] double middle_run_s(const std::function<void()>& work);
+
 /// Time [s] to copy this many bytes with memcpy, measured in this run.
 [[nodiscard]] double memcpy_s(std::size_t bytes, double budget_s = 0.5);
 

@@ -5,18 +5,11 @@
 #include <memory>
 
 #include "scene/baked_scene.h"
-#include "scene/manifest.h"
+#include "scene/camera_intrinsics.h"
 
 namespace thermal {
 
 class Place;
-
-/// What Embree alone takes for the rays of a frame.
-struct BareTrace {
-  std::size_t rays = 0;
-  std::size_t hits = 0;  ///< rays that do not end in the sky
-  double seconds = 0;    ///< the middle one of three runs
-};
 
 /// The limit of ClipTracer::trace() on this machine, for benchmarks: the same packets of rays, computed before, find what
 /// they hit among the surroundings, and nothing is done with it. There are no actors.
@@ -28,11 +21,16 @@ class BareTracer {
   BareTracer(const BareTracer&) = delete;
   BareTracer& operator=(const BareTracer&) = delete;
 
-  [[nodiscard]] BareTrace trace(const std::array<double, 16>& camera_to_world,
-                                const CameraIntrinsics& camera) const;
+  /// Computes the rays of a frame.
+  void aim(const std::array<double, 16>& camera_to_world, const CameraIntrinsics& camera);
+
+  /// Traces these rays: how many do not end in the sky.
+  [[nodiscard]] std::size_t hits() const;
 
  private:
+  struct Aimed;
   std::unique_ptr<const Place> place_;
+  std::unique_ptr<Aimed> aimed_;
 };
 
 }  // namespace thermal

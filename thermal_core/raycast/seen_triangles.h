@@ -9,8 +9,6 @@
 
 namespace thermal {
 
-inline constexpr unsigned kNoPiece = ~0U;
-
 /// A triangle of a piece, as the camera of a shot sees it.
 struct SeenTriangle {
   unsigned piece = kNoPiece;

@@ -5,6 +5,8 @@
 
 namespace thermal {
 
+inline constexpr unsigned kNoPiece = ~0U;  ///< the number of none: a ray hits nothing
+
 /// A frame to be traced: the place, the actors where they are, the camera.
 struct Shot {
   const Place& place;
