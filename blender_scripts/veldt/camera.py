@@ -10,6 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 
+DEPTH_RANGE_M = (0.1, 20000.0)  # along the axis: where the camera sees surfaces
+
+
 @dataclass(frozen=True)
 class Intrinsics:
     """Size, focal lengths along x and y, and principal point, all in pixels."""

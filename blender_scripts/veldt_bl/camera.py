@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import bpy
 import mathutils
 import numpy as np
 
-from veldt.camera import Intrinsics, lens_shift
+from veldt.camera import DEPTH_RANGE_M, Intrinsics, lens_shift
 
 _SENSOR_MM = 36.0  # arbitrary: only its ratio to the focal length matters
-_CLIP_M = (0.1, 20000.0)
 _FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])  # Blender's cameras look along -z with y up
 
 
-def add_camera(intrinsics: Intrinsics) -> bpy.types.Object:
+def add_camera(intrinsics: Intrinsics, depth_range_m: Sequence[float] = DEPTH_RANGE_M) -> bpy.types.Object:
     """Add a camera with these intrinsics and make it the scene's camera. The renderer sets their pixel aspect."""
     lens = bpy.data.cameras.new("camera")
     lens.sensor_fit = "HORIZONTAL"
     lens.sensor_width = _SENSOR_MM
     lens.lens = _SENSOR_MM * intrinsics.focal_px[0] / intrinsics.width_px
     lens.shift_x, lens.shift_y = lens_shift(intrinsics)
-    lens.clip_start, lens.clip_end = _CLIP_M
+    lens.clip_start, lens.clip_end = depth_range_m
     camera = bpy.data.objects.new("camera", lens)
     camera.parent = bpy.data.objects.new("camera mount", None)
     scene = bpy.context.scene

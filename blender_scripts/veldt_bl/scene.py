@@ -67,7 +67,8 @@ def build_stage(scene: BakedScene) -> Stage:
     place = [_add_surface(entry, meshes) for entry in scene.header["surfaces"]]
     flora = plants.add_flora(scene, meshes)
     rigs = actors.add_actors(scene, meshes)
-    return Stage(scene, place + flora.places, flora, rigs, camera.add_camera(scene.passes_intrinsics))
+    eye = camera.add_camera(scene.passes_intrinsics, scene.header["depth_range_m"])
+    return Stage(scene, place + flora.places, flora, rigs, eye)
 
 
 def _empty_scene() -> None:

@@ -113,7 +113,8 @@ void write_scene(const thermal::BakedScene& scene, const thermal::Path& folder) 
                  {"name", scene.name},
                  {"seed", scene.seed},
                  {"camera", camera_json(scene.camera)},
-                 {"view_margin_px", scene.view_margin_px}};
+                 {"view_margin_px", scene.view_margin_px},
+                 {"depth_range_m", scene.depth_range_m}};
   for (const char* list : {"materials", "objects", "meshes", "surfaces", "plants", "actors"})
     header[list] = Json::array();
   for (const auto& material : scene.materials) header["materials"].push_back(material_json(material));

@@ -78,6 +78,7 @@ struct Scenery {
   /// This object must stay as and where it is.
   [[nodiscard]] thermal::BakedScene baked() const {
     thermal::BakedScene scene;
+    scene.depth_range_m = {0.1, 20000};
     for (const shapes::Shape& shape : meshes) {
       scene.meshes.push_back({.name = {},
                               .smooth = shape.smooth,

@@ -80,6 +80,7 @@ class Grove {
       transforms_.push_back({1, 0, 0, x_m, 0, 1, 0, y_m, 0, 0, 1, ground_m(x_m, y_m)});
     }
     meshes_.assign(plants, 1);
+    scene_.depth_range_m = {0.1, 2 * kSideM};
     scene_.meshes = {terrain_.baked(), plant_.baked()};
     scene_.surfaces = {{.object = 1, .mesh = 0}};
     scene_.plants = {{.name = {}, .object = 2, .transform = transforms_, .mesh = meshes_}};

@@ -53,7 +53,9 @@ void BareTracer::aim(const std::array<double, 16>& camera_to_world, const Camera
   for (int y_px = 0; y_px < rays.height_px(); y_px += kBlockPx) {
     for (int x_px = 0; x_px < rays.width_px(); x_px += kBlockPx) {
       const Packet packet = block_at(x_px, y_px, rays, no_actors);
-      aimed_->packets.push_back({aimed(view, directions(view, packet.x, packet.y)).ray, packet.mask});
+      aimed_->packets.push_back(
+          {aimed(view, directions(view, packet.x, packet.y), place_->scene().depth_range_m).ray,
+           packet.mask});
     }
   }
 }

@@ -44,7 +44,7 @@ class RayTracer {
   /// Actors first, which the actor layer shows; their hits then bound the search among the surroundings.
   void trace(const Packet& rays, SeenTriangles& triangles) const {
     const VectorLanes<double> direction = directions(shot_.view, rays.x, rays.y);
-    RayPacket packet = aimed(shot_.view, direction);
+    RayPacket packet = aimed(shot_.view, direction, shot_.place.scene().depth_range_m);
     FirstHitSearch first(direction, triangles);
     if (rays.near_actors) first.search(shot_.actors, 0, rays.mask, packet);
     if (sink_.actor_index != nullptr) put_actors(first.hits(), rays);

@@ -47,7 +47,7 @@ class ClipTracer {
   ~ClipTracer();
 
   /// The planes of a frame that are needed, and both indices, as Blender's passes have them: what each ray hits first
-  /// at depths from 0.1 m to 20 km; the sky has index 0, a depth of 1e10 m and a normal of 0. Depth and normals are
+  /// at the depths of BakedScene::depth_range_m; the sky has index 0, a depth of 1e10 m and a normal of 0. Depth and normals are
   /// exact to single precision, indices to about 1e-4 px at silhouettes, by Embree's single precision.
   /// Adaptive: a pixel has all rays if an actor may be in it, or if it differs from one of its eight neighbours in
   /// object or material, or in depth by more than 2 %. A plant that no neighbour shows is missed between rays.

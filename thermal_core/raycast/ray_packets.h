@@ -42,6 +42,7 @@ static_assert(kBlockPx * kBlockPx == static_cast<int>(kLanes));
 
 /// The rays of directions() as Embree takes them. As in Cycles, a ray has unit length and starts at the nearest depth, in
 /// single precision: silhouettes then agree to 1e-4 px. Rays that Embree cannot take hit nothing.
-[[nodiscard]] RayPacket aimed(const View& view, const VectorLanes<double>& direction) noexcept;
+[[nodiscard]] RayPacket aimed(const View& view, const VectorLanes<double>& direction,
+                              const std::array<double, 2>& depth_range_m) noexcept;
 
 }  // namespace thermal

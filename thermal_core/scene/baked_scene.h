@@ -66,8 +66,8 @@ struct BakedScene {
   std::string name;
   std::uint32_t seed = 0;
   CameraIntrinsics camera;
-  int view_margin_px =
-      0;  ///< by which the place is planned to be seen beyond each side of the pinhole's picture
+  int view_margin_px = 0;                 ///< of the view beyond each side of a pinhole's picture
+  std::array<double, 2> depth_range_m{};  ///< along the axis: the nearest and the farthest that is seen
   std::vector<ManifestObject> objects;
   std::vector<ManifestMaterial> materials;
   std::vector<BakedMesh> meshes;

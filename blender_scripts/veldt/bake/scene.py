@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import assets, ids
 from ..anatomy.skeleton import part_names
+from ..camera import DEPTH_RANGE_M
 from ..geometry.shapes import Mesh, facets
 from ..groups.actors import Actor
 from ..land.covers import SOIL
@@ -68,6 +69,7 @@ def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
         "seed": world.config["seed"],
         "camera": world.config["camera"],
         "view_margin_px": world.view_margin_px,
+        "depth_range_m": list(DEPTH_RANGE_M),
         "materials": _materials(world),
         "objects": [*_place(world), *(_object(actor) for actor in world.actors)],
         "meshes": meshes.entries,

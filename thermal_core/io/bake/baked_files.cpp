@@ -38,6 +38,7 @@ class SceneReader {
     scene_.seed = json.at("seed");
     scene_.camera = intrinsics_of(json.at("camera"));
     scene_.view_margin_px = json.at("view_margin_px");
+    scene_.depth_range_m = json.at("depth_range_m");
     for (const Json& object : json.at("objects")) scene_.objects.push_back(manifest_object_of(object));
     for (const Json& material : json.at("materials"))
       scene_.materials.push_back(manifest_material_of(material));

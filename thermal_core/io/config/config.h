@@ -36,10 +36,9 @@ struct Config {
   CameraIntrinsics camera;
   bool gives_intrinsics = false;  ///< the document gives some of the camera's, directly or by a calibration
   LensDistortion distortion;
-  int overscan_px = 0;  ///< how far the passes extend beyond the picture on every side
-  int view_margin_px =
-      0;  ///< how far a pinhole's picture must extend to show all that the passes and the lens show
-  int supersample = 1;  ///< rays of the passes along each side of a pixel
+  int overscan_px = 0;     ///< how far the passes extend beyond the picture on every side
+  int view_margin_px = 0;  ///< of the view, by lens and overscan, beyond each side of a pinhole's picture
+  int supersample = 1;     ///< rays of the passes along each side of a pixel
   bool actor_layer = false;
   Engine engine = Engine::blender;
   bool adaptive_sampling = false;  ///< all rays only for pixels that need them; with `embree`
