@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-
 DEPTH_RANGE_M = (0.1, 20000.0)  # along the axis: where the camera sees surfaces
 
 

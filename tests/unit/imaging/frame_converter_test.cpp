@@ -256,7 +256,7 @@ TEST_CASE("Passes with too little overscan for the lens are an error with the ne
 
 namespace {
 
-/// Passes of level ground, 50 m below a camera that looks down at 45 deg, whose normals lean.
+/// Passes of a surface 50 m before the camera, square to its axis, whose normals lean.
 Passes slope_passes(int width_px, int height_px) {
   Passes passes;
   passes.object_index = Plane<std::uint16_t>(width_px, height_px, 1);

@@ -1,4 +1,4 @@
-#include <set>
+#include <algorithm>
 
 #include "scene/camera_geometry.h"
 #include "support/catch.h"

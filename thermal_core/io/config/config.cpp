@@ -208,10 +208,10 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   if (render["sampling"] == "adaptive" && render["engine"] != "embree")
     faults.emplace_back("render.sampling = \"adaptive\"; expected \"full\", or render.engine = \"embree\"");
   throw_faults(faults, name);
-  fill_overscan(document, faults);
+  const int needed_px = fill_overscan(document, faults);
   throw_faults(faults, name);
   config.overscan_px = document["render"]["overscan_px"];
-  config.view_margin_px = std::max(config.overscan_px, overscan_px(config.camera, config.distortion));
+  config.view_margin_px = std::max(config.overscan_px, needed_px);
   config.supersample = document["render"]["supersample"];
   config.actor_layer = document["render"]["actor_layer"];
   config.engine = document["render"]["engine"] == "embree" ? Engine::embree : Engine::blender;

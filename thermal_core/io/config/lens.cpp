@@ -117,25 +117,25 @@ void check_intrinsics(const CameraIntrinsics& camera, std::vector<std::string>& 
         "a tenth to ten times camera.fx_px");
 }
 
-void fill_overscan(Json& document, std::vector<std::string>& faults) {
+int fill_overscan(Json& document, std::vector<std::string>& faults) {
   const Json& camera = document["camera"];
+  int needed_px = 0;
   try {
-    const int needed_px = overscan_px(read_intrinsics(camera), distortion_of(camera["distortion"]));
-    Json& given = document["render"]["overscan_px"];
-    if (document["render"]["engine"] == "embree") {
-      if (given.is_null()) given = 0;
-      if (given != 0)
-        faults.push_back(fault("render.overscan_px", given.dump(), "px",
-                               "none with the engine embree, whose rays follow the lens"));
-      return;
-    }
-    if (given.is_null()) given = needed_px;
-    if (given.get<int>() >= needed_px) return;
-    faults.push_back(fault("render.overscan_px", given.dump(), "px",
-                           fmt::format("at least {} px for camera.distortion, or none given", needed_px)));
+    needed_px = overscan_px(read_intrinsics(camera), distortion_of(camera["distortion"]));
   } catch (const ConfigError& error) {
     faults.emplace_back(error.what());
+    return 0;
   }
+  const bool rays_bend = document["render"]["engine"] == "embree";
+  Json& given = document["render"]["overscan_px"];
+  if (given.is_null()) given = rays_bend ? 0 : needed_px;
+  if (rays_bend && given != 0)
+    faults.push_back(fault("render.overscan_px", given.dump(), "px",
+                           "none with the engine embree, whose rays follow the lens"));
+  if (!rays_bend && given.get<int>() < needed_px)
+    faults.push_back(fault("render.overscan_px", given.dump(), "px",
+                           fmt::format("at least {} px for camera.distortion, or none given", needed_px)));
+  return needed_px;
 }
 
 }  // namespace thermal

@@ -25,7 +25,7 @@ void check_intrinsics(const CameraIntrinsics& camera, std::vector<std::string>& 
 
 /// Writes what the lens needs as the config's render.overscan_px, where that says nothing of it: nothing with the engine
 /// embree, whose rays follow the lens. Adds a fault if it says too little, or anything in vain, or if no overscan is
-/// enough.
-void fill_overscan(Json& document, std::vector<std::string>& faults);
+/// enough. Returns how much a pinhole's picture needs for the lens, 0 after a fault of the lens.
+int fill_overscan(Json& document, std::vector<std::string>& faults);
 
 }  // namespace thermal
