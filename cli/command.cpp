@@ -145,6 +145,20 @@ void add_settings(CLI::App* command, std::vector<std::string>& settings) {
       ->type_name("KEY=VALUE");
 }
 
+void add_engine(CLI::App* command, std::string& engine) {
+  command
+      ->add_option(
+          "--engine", engine,
+          "What renders: blender, or embree, which is much faster (default: render.engine of the config)")
+      ->check(CLI::IsMember({"blender", "embree"}))
+      ->type_name("NAME");
+}
+
+std::vector<std::string> with_engine(std::vector<std::string> settings, const std::string& engine) {
+  if (!engine.empty()) settings.push_back("render.engine=" + engine);
+  return settings;
+}
+
 thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
                             const thermal::Assets& assets) {
   try {

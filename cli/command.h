@@ -58,6 +58,13 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
 /// Adds --set KEY=VALUE …, changes to a config.
 void add_settings(CLI::App* command, std::vector<std::string>& settings);
 
+/// Adds --engine NAME, which changes a config as --set render.engine=NAME does.
+void add_engine(CLI::App* command, std::string& engine);
+
+/// The settings, and the engine if one is given.
+[[nodiscard]] std::vector<std::string> with_engine(std::vector<std::string> settings,
+                                                   const std::string& engine);
+
 /// Reads a config, applies `settings` and checks it. Any fault of the file is a ConfigError.
 [[nodiscard]] thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
                                           const thermal::Assets& assets);

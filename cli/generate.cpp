@@ -1,7 +1,6 @@
 #include "dataset/run/generate.h"
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 
 #include "base/error.h"
@@ -11,8 +10,10 @@
 #include "cli/planning.h"
 #include "cli/progress_bar.h"
 #include "cli/run_summary.h"
+#include "cli/shard_option.h"
 #include "cli/stop_signal.h"
 #include "dataset/layout.h"
+#include "dataset/plan/plan_folder.h"
 #include "dataset/run/clip_choice.h"
 #include "dataset/run/planning.h"
 #include "dataset/run/render.h"
@@ -24,6 +25,7 @@ namespace {
 
 /// What generate and render do differently.
 struct Work {
+  std::string command;
   std::function<thermal::DatasetPlan(const thermal::Path& out, const thermal::Config&,
                                      const std::string& name, const thermal::PlanOptions&)>
       plan;
@@ -34,7 +36,9 @@ struct Work {
 
 struct GenerateArguments {
   std::string config;
+  std::string plan;
   std::string out;
+  std::string scratch;
   std::string blender;
   std::string engine;
   std::string shard = "0/1";
@@ -47,23 +51,11 @@ struct GenerateArguments {
   bool dry_run = false;
 };
 
-/// "I/N", 0 <= I < N.
-thermal::Shard parse_shard(const std::string& text) {
-  thermal::Shard shard;
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, shard.index);
-  const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
-  const auto second = slash ? std::from_chars(first.ptr + 1, end, shard.count) : first;
-  const bool good = slash && second.ec == std::errc() && second.ptr == end;
-  if (good && shard.index >= 0 && shard.index < shard.count) return shard;
-  throw thermal::ConfigError(thermal::fault("--shard", text, "", "I/N with I from 0 to N - 1"));
-}
-
 int make_preview(const thermal::Config& config, const std::string& name,
                  const thermal::GenerateOptions& request, const CommonOptions& common) {
-  (void)plan_with_progress(common, request.assets, [&](thermal::PlanOptions options) {
+  plan_with_progress(common, request.assets, [&](thermal::PlanOptions options) {
     options.blender = request.blender;
-    return thermal::plan_to_preview(request.out, config, name, options);
+    thermal::plan_to_preview(request.out, config, name, options);
   });
   watch_for_stop();
   int pictures = 0;
@@ -77,14 +69,20 @@ int make_preview(const thermal::Config& config, const std::string& name,
   return kDone;
 }
 
-thermal::DatasetPlan plan_of_run(const thermal::Config& config, const GenerateArguments& options,
-                                 const thermal::GenerateOptions& request, const CommonOptions& common,
-                                 const Work& work) {
-  if (options.dry_run) return plan_with_progress(common, request.assets, config, options.config);
-  return plan_with_progress(common, request.assets, [&](thermal::PlanOptions planning) {
-    planning.blender = request.blender;
-    return work.plan(request.out, config, options.config, planning);
-  });
+/// A given plan, whose config is complete, or a config with a plan of this run's own.
+thermal::PlannedDataset plan_of_run(const thermal::Config& config, const GenerateArguments& options,
+                                    const thermal::GenerateOptions& request, const CommonOptions& common,
+                                    const Work& work) {
+  thermal::DatasetPlan planned;
+  if (options.dry_run)
+    planned = plan_with_progress(common, request.assets, config, options.config);
+  else
+    plan_with_progress(common, request.assets, [&](thermal::PlanOptions planning) {
+      planning.blender = request.blender;
+      planned = work.plan(request.out, config, options.config, planning);
+    });
+  thermal::Config cut = thermal::with_flights_cut(config, planned);
+  return {.config = std::move(cut), .plan = std::move(planned)};
 }
 
 /// Blender renders colour stills for every engine.
@@ -92,27 +90,49 @@ bool needs_blender(const GenerateArguments& options, const thermal::Config& conf
   return !options.dry_run && (options.preview || config.engine == thermal::Engine::blender);
 }
 
+void check_sources(const GenerateArguments& options, const std::string& command) {
+  if (options.config.empty() && options.plan.empty())
+    throw thermal::ConfigError("config or --plan is required; see veldt " + command + " --help");
+  if (!options.config.empty() && !options.plan.empty())
+    throw thermal::ConfigError("config and --plan exclude each other; see veldt " + command + " --help");
+  if (!options.plan.empty() && !(options.settings.empty() && options.engine.empty()))
+    throw thermal::ConfigError("--set and --engine change a config, not a plan; give them to veldt plan");
+  if (!options.scratch.empty() && options.plan.empty())
+    throw thermal::ConfigError("--scratch needs --plan, because a plan takes part of its place in --out");
+  if (!options.scratch.empty() && options.keep_passes)
+    throw thermal::ConfigError("--keep-passes and --scratch exclude each other: passes are kept in --out");
+}
+
+/// The config as given, or with its plan.
+thermal::PlannedDataset read_sources(const GenerateArguments& options, const thermal::Assets& assets) {
+  if (!options.plan.empty()) return thermal::open_plan(options.plan, assets);
+  return {.config = load_config(options.config, with_engine(options.settings, options.engine), assets),
+          .plan = {}};
+}
+
 int run_generate(const GenerateArguments& options, const CommonOptions& common, const Work& work) {
   check_max_unusable(options.max_unusable_share);
+  check_sources(options, work.command);
   const thermal::Assets assets = thermal::Assets::find();
-  std::vector<std::string> settings = options.settings;
-  if (!options.engine.empty()) settings.push_back("render.engine=" + options.engine);
-  const thermal::Config given = load_config(options.config, settings, assets);
-  const thermal::GenerateOptions request = {.assets = assets,
-                                            .out = options.out,
-                                            .blender = needs_blender(options, given)
-                                                           ? find_blender(options.blender)
-                                                           : thermal::find_program("blender"),
-                                            .clips = options.clips,
-                                            .shard = parse_shard(options.shard),
-                                            .jobs = options.jobs,
-                                            .threads = common.threads,
-                                            .keep_passes = options.keep_passes};
-  if (given.flights.empty())  // then wrong --clips can be reported at once
-    (void)thermal::choose_clips(given, request.clips, request.shard);
-  if (options.preview && !options.dry_run) return make_preview(given, options.config, request, common);
-  const thermal::DatasetPlan plan = plan_of_run(given, options, request, common, work);
-  const thermal::Config config = thermal::with_flights_cut(given, plan);
+  thermal::PlannedDataset dataset = read_sources(options, assets);
+  const thermal::GenerateOptions request = {
+      .assets = assets,
+      .out = options.out,
+      .plan = options.plan.empty() ? thermal::Layout{options.out}.plan() : thermal::Path(options.plan),
+      .scratch = options.scratch,
+      .blender = needs_blender(options, dataset.config) ? find_blender(options.blender)
+                                                        : thermal::find_program("blender"),
+      .clips = options.clips,
+      .shard = parse_shard(options.shard, own_environment),
+      .jobs = options.jobs,
+      .threads = common.threads,
+      .keep_passes = options.keep_passes};
+  if (dataset.config.flights.empty())  // then wrong --clips can be reported at once
+    (void)thermal::choose_clips(dataset.config, request.clips, request.shard);
+  if (options.preview && !options.dry_run)
+    return make_preview(dataset.config, options.config, request, common);
+  if (options.plan.empty()) dataset = plan_of_run(dataset.config, options, request, common, work);
+  const auto& [config, plan] = dataset;
   const std::vector<thermal::ClipConfig> chosen = thermal::choose_clips(config, request.clips, request.shard);
   if (options.dry_run) {
     print_plan(config, plan, chosen);
@@ -127,37 +147,48 @@ int run_generate(const GenerateArguments& options, const CommonOptions& common, 
   return summarise(outcome, options.out, common, "made", options.max_unusable_share);
 }
 
-void add(CLI::App& app, Session& session, const std::string& name, const std::string& description,
-         const Work& work) {
-  CLI::App* command = add_command(app, session, name, description);
+void add(CLI::App& app, Session& session, const std::string& description, const Work& work) {
+  CLI::App* command = add_command(app, session, work.command, description);
   auto options = std::make_shared<GenerateArguments>();
-  command->add_option("config", options->config, "Config of the dataset, JSON")->required();
+  command->add_option("config", options->config, "Config of the dataset, JSON");
+  command
+      ->add_option(
+          "--plan", options->plan,
+          "A plan that veldt plan wrote, instead of a config: nothing is planned, so that any machine "
+          "can make its part at once")
+      ->type_name("DIR");
   command->add_option("--out", options->out, "Folder of the dataset")->required();
   command->add_option("--clips", options->clips, "Only these clips")
       ->delimiter(',')
       ->allow_extra_args(false)  // otherwise a CONFIG that follows would be read as a clip
       ->type_name("ID,…");
-  command->add_option("--shard", options->shard, "Only every N-th clip, from the I-th")->type_name("I/N");
+  command
+      ->add_option(
+          "--shard", options->shard,
+          "Only the I-th of N shares of the clips, which cost nearly the same, I from 0 to N - 1; auto: by "
+          "the job of a Slurm array, a Kubernetes Indexed Job or a parallel GitLab job")
+      ->type_name("I/N|auto");
   command
       ->add_option("--jobs", options->jobs,
                    "Blender processes to run at once, one clip each; they share --threads, and each holds "
                    "the place in memory (embree uses all threads anyway)")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  command
-      ->add_option(
-          "--engine", options->engine,
-          "What renders: blender, or embree, which is much faster (default: render.engine of the config)")
-      ->check(CLI::IsMember({"blender", "embree"}))
-      ->type_name("NAME");
+  add_engine(command, options->engine);
   command->add_option("--blender", options->blender, "Blender to use instead of the one on PATH")
       ->type_name("PATH");
-  if (name == "generate") {
+  if (work.command == "generate") {
+    command
+        ->add_option(
+            "--scratch", options->scratch,
+            "Make clips in this folder, of this run alone, such as a disk of the node, and copy each to "
+            "--out when complete, which may be a mounted object store")
+        ->type_name("DIR");
     command->add_flag("--keep-passes", options->keep_passes,
                       "Keep the rendered EXR passes, for veldt convert");
     add_max_unusable(command, options->max_unusable_share);
   }
-  if (name == "render") {
+  if (work.command == "render") {
     command->add_flag("--preview", options->preview,
                       "Render a map of the place and colour stills to look at, instead of passes");
   }
@@ -171,13 +202,13 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
 }  // namespace
 
 void add_generate(CLI::App& app, Session& session) {
-  add(app, session, "generate", "Make a dataset from a config; resumes where an earlier run stopped",
-      {.plan = thermal::plan_to_generate, .run = thermal::generate});
+  add(app, session, "Make a dataset from a config; resumes where an earlier run stopped",
+      {.command = "generate", .plan = thermal::plan_to_generate, .run = thermal::generate});
 }
 
 void add_render(CLI::App& app, Session& session) {
-  add(app, session, "render", "Render passes and manifests only",
-      {.plan = thermal::plan_to_render, .run = thermal::render});
+  add(app, session, "Render passes and manifests only",
+      {.command = "render", .plan = thermal::plan_to_render, .run = thermal::render});
 }
 
 }  // namespace veldt

@@ -5,6 +5,7 @@
 #include "cli/output.h"
 #include "cli/plan_table.h"
 #include "cli/planning.h"
+#include "dataset/plan/plan_folder.h"
 #include "io/assets.h"
 
 namespace veldt {
@@ -14,6 +15,7 @@ struct PlanArguments {
   std::string config;
   std::string out;
   std::string blender;
+  std::string engine;
   std::vector<std::string> settings;
 };
 
@@ -27,16 +29,17 @@ void check_out(const thermal::Path& out) {
 
 int run_plan(const PlanArguments& options, const CommonOptions& common) {
   const thermal::Assets assets = thermal::Assets::find();
-  const thermal::Config given = load_config(options.config, options.settings, assets);
+  const thermal::Config given =
+      load_config(options.config, with_engine(options.settings, options.engine), assets);
   // Without the slash that a shell may add: the plan is made beside the folder.
   const thermal::Path out = std::filesystem::absolute(options.out + "/").lexically_normal().parent_path();
   check_out(options.out);
-  const thermal::DatasetPlan plan = plan_with_progress(common, assets, [&](thermal::PlanOptions planning) {
+  thermal::PlannedDataset dataset;
+  plan_with_progress(common, assets, [&](thermal::PlanOptions planning) {
     if (!options.blender.empty()) planning.blender = find_blender(options.blender);
-    return thermal::plan_into(out, given, options.config, planning);
+    dataset = thermal::plan_with_config(out, given, options.config, planning);
   });
-  const thermal::Config config = thermal::with_flights_cut(given, plan);
-  if (!common.quiet) print_plan(config, plan, config.clips);
+  if (!common.quiet) print_plan(dataset.config, dataset.plan, dataset.config.clips);
   return kDone;
 }
 
@@ -48,6 +51,7 @@ void add_plan(CLI::App& app, Session& session) {
   auto options = std::make_shared<PlanArguments>();
   command->add_option("config", options->config, "Config of a dataset, JSON")->required();
   command->add_option("--out", options->out, "Folder of the plan")->required();
+  add_engine(command, options->engine);
   command->add_option("--blender", options->blender, "Blender that reads 3D models, if not the one on PATH")
       ->type_name("PATH");
   add_settings(command, options->settings);

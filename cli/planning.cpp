@@ -8,22 +8,23 @@
 
 namespace veldt {
 
-thermal::DatasetPlan plan_with_progress(
-    const CommonOptions& common, const thermal::Assets& assets,
-    const std::function<thermal::DatasetPlan(const thermal::PlanOptions& options)>& plan) {
+void plan_with_progress(const CommonOptions& common, const thermal::Assets& assets,
+                        const std::function<void(const thermal::PlanOptions& options)>& plan) {
   constexpr std::chrono::seconds kPatience(10);
   ProgressBar bar(common, "planning", "flights", kPatience);
-  return plan({.assets = assets,
-               .threads = common.threads,
-               .blender = thermal::find_program("blender"),
-               .show = hooks_for(bar).progress});
+  plan({.assets = assets,
+        .threads = common.threads,
+        .blender = thermal::find_program("blender"),
+        .show = hooks_for(bar).progress});
 }
 
 thermal::DatasetPlan plan_with_progress(const CommonOptions& common, const thermal::Assets& assets,
                                         const thermal::Config& config, const std::string& name) {
-  return plan_with_progress(common, assets, [&](const thermal::PlanOptions& options) {
-    return thermal::plan_dataset(config, name, options);
+  thermal::DatasetPlan plan;
+  plan_with_progress(common, assets, [&](const thermal::PlanOptions& options) {
+    plan = thermal::plan_dataset(config, name, options);
   });
+  return plan;
 }
 
 }  // namespace veldt

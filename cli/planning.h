@@ -10,9 +10,8 @@
 namespace veldt {
 
 /// Calls `plan` with options for --threads cores. Planning that takes longer than ten seconds shows how far it is.
-[[nodiscard]] thermal::DatasetPlan plan_with_progress(
-    const CommonOptions& common, const thermal::Assets& assets,
-    const std::function<thermal::DatasetPlan(const thermal::PlanOptions& options)>& plan);
+void plan_with_progress(const CommonOptions& common, const thermal::Assets& assets,
+                        const std::function<void(const thermal::PlanOptions& options)>& plan);
 
 /// plan_dataset(), which writes nothing.
 [[nodiscard]] thermal::DatasetPlan plan_with_progress(const CommonOptions& common,

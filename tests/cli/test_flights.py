@@ -108,7 +108,7 @@ def test_shards_deal_out_the_clips_of_flights(veldt):
         [clip["id"] for clip in _dataset(veldt, f"part_{shard}")["clips"] if clip["status"] == "done"]
         for shard in range(3)
     ]
-    assert made == [["down", "survey_0001"], ["side", "survey_0002"], ["survey_0000", "survey_0003"]]
+    assert made == [["survey_0000", "survey_0003"], ["down", "survey_0001"], ["side", "survey_0002"]]
 
 
 def test_a_fault_of_a_flight_is_reported_before_anything_is_made(veldt):

@@ -22,10 +22,16 @@ REQUESTS = {
         ["--clips", "down,sied"],
         '--clips = "sied"; expected one of down, side; did you mean "side"?',
     ),
-    "shard past the last": (["--shard", "2/2"], "--shard = 2/2; expected I/N with I from 0 to N - 1"),
-    "negative shard": (["--shard=-1/2"], "--shard = -1/2; expected I/N with I from 0 to N - 1"),
-    "shard without a count": (["--shard", "1"], "--shard = 1; expected I/N with I from 0 to N - 1"),
-    "shard with more behind": (["--shard", "0/2x"], "--shard = 0/2x; expected I/N with I from 0 to N - 1"),
+    "shard past the last": (
+        ["--shard", "2/2"],
+        "--shard = 2/2; expected I/N with I from 0 to N - 1, or auto",
+    ),
+    "negative shard": (["--shard=-1/2"], "--shard = -1/2; expected I/N with I from 0 to N - 1, or auto"),
+    "shard without a count": (["--shard", "1"], "--shard = 1; expected I/N with I from 0 to N - 1, or auto"),
+    "shard with more behind": (
+        ["--shard", "0/2x"],
+        "--shard = 0/2x; expected I/N with I from 0 to N - 1, or auto",
+    ),
 }
 
 

@@ -5,10 +5,20 @@ import re
 import pytest
 
 COMMON = {"--help", "--quiet", "--progress", "--threads"}
-RENDERING = {"--out", "--clips", "--shard", "--jobs", "--engine", "--blender", "--set", "--dry-run"}
+RENDERING = {
+    "--plan",
+    "--out",
+    "--clips",
+    "--shard",
+    "--jobs",
+    "--engine",
+    "--blender",
+    "--set",
+    "--dry-run",
+}
 OPTIONS = {
-    "generate": RENDERING | {"--keep-passes", "--max-unusable-share"},
-    "plan": {"--out", "--blender", "--set"},
+    "generate": RENDERING | {"--scratch", "--keep-passes", "--max-unusable-share"},
+    "plan": {"--out", "--engine", "--blender", "--set"},
     "render": RENDERING | {"--preview"},
     "convert": {
         "--out",
@@ -21,7 +31,7 @@ OPTIONS = {
         "--max-megapixels",
         "--max-unusable-share",
     },
-    "merge": {"--out", "--link"},
+    "merge": {"--plan", "--shards", "--out", "--link"},
     "export": {"--format", "--out", "--link", "--images", "--split", "--seed", "--selection", "--unfinished"},
     "inspect": {
         "--manifest",
@@ -127,7 +137,7 @@ USAGE_FAULTS = {
         ["help", "evaporate"],
         f'unknown command "evaporate"; expected one of {COMMANDS}',
     ),
-    "no config": (["generate", "--out", "x"], "config is required; see veldt generate --help"),
+    "no config": (["generate", "--out", "x"], "config or --plan is required; see veldt generate --help"),
     "no output folder": (["render", "config.json"], "--out is required; see veldt render --help"),
     "no passes": (["convert", "--out", "x"], "passes is required; see veldt convert --help"),
     "unknown way to show progress": (

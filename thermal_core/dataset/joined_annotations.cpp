@@ -146,8 +146,9 @@ std::string write_joined_annotations(const Layout& layout, const std::string& da
   std::vector<ClipLabels> labels;
   for (const std::string& clip : clips) labels.push_back(labels_of(layout, clip));
   const Path file = layout.annotations_json();
-  OutputFile out(beside(file, ".tmp"));
-  join_annotations(dataset, labels, Spool(beside(file, ".spool")),
+  const Path work = layout.workplace() / file.filename();
+  OutputFile out(beside(work, ".tmp"));
+  join_annotations(dataset, labels, Spool(beside(work, ".spool")),
                    [&out](std::string_view text) { out.add(text); });
   return out.close_as(file);
 }

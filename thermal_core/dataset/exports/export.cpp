@@ -19,6 +19,7 @@
 #include "dataset/label_pictures.h"
 #include "io/json/file.h"
 #include "io/system/files.h"
+#include "io/system/folder_lock.h"
 
 namespace thermal {
 namespace {

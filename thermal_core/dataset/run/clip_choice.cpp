@@ -8,11 +8,12 @@ namespace thermal {
 std::vector<ClipConfig> choose_clips(const Config& config, const std::vector<std::string>& ids,
                                      const Shard& shard) {
   for (const std::string& id : ids) (void)config.clip(id, "--clips");
+  const std::vector<int> shards = deal_shards(config, shard.count);
   std::vector<ClipConfig> chosen;
   for (std::size_t i = 0; i < config.clips.size(); ++i) {
     const ClipConfig& clip = config.clips[i];
     const bool named = ids.empty() || std::find(ids.begin(), ids.end(), clip.id) != ids.end();
-    if (named && static_cast<int>(i) % shard.count == shard.index) chosen.push_back(clip);
+    if (named && shards[i] == shard.index) chosen.push_back(clip);
   }
   return chosen;
 }

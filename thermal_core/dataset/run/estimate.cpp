@@ -23,15 +23,24 @@ double rays_per_pixel(const Config& config) {
   return config.adaptive_sampling && config.supersample > 1 ? 1 + kRefinedShare * all : all;
 }
 
+const Rates& rates_of(const Config& config) { return config.engine == Engine::embree ? kEmbree : kBlender; }
+
+double frame_seconds(const Config& config) {
+  const double rays = rays_per_pixel(config) * (config.width_px + 2.0 * config.overscan_px) *
+                      (config.height_px + 2.0 * config.overscan_px);
+  return rates_of(config).per_frame_s + rays * rates_of(config).per_ray_s;
+}
+
 }  // namespace
+
+double clip_seconds(const Config& config, int frames) {
+  return rates_of(config).per_clip_s + frames * frame_seconds(config);
+}
 
 Estimate estimate_run(const Config& config, int clips, int frames) {
   const double pixels = static_cast<double>(config.width_px) * config.height_px;
-  const double rays = rays_per_pixel(config) * (config.width_px + 2.0 * config.overscan_px) *
-                      (config.height_px + 2.0 * config.overscan_px);
-  const Rates& rates = config.engine == Engine::embree ? kEmbree : kBlender;
-  return {.seconds = rates.start_s + clips * rates.per_clip_s +
-                     frames * (rates.per_frame_s + rays * rates.per_ray_s),
+  return {.seconds =
+              rates_of(config).start_s + clips * rates_of(config).per_clip_s + frames * frame_seconds(config),
           .bytes = frames * pixels * kBytesPerPixel};
 }
 

@@ -15,4 +15,8 @@ struct Estimate {
 /// unless the place is far larger or emptier.
 [[nodiscard]] Estimate estimate_run(const Config& config, int clips, int frames);
 
+/// Of that, a clip of so many frames. How far clips of the same length differ, by the plants in view, is not known
+/// before: by a quarter in flights at one height and angle of configs/airsim_w.json, by up to half in others.
+[[nodiscard]] double clip_seconds(const Config& config, int frames);
+
 }  // namespace thermal

@@ -28,7 +28,7 @@ class Generator {
         plan_(plan),
         options_(options),
         hooks_(hooks),
-        layout_{options.out},
+        layout_{options.out, options.scratch},
         chosen_(choose_clips(config, options.clips, options.shard)),
         materials_(read_materials(options.assets)),
         budget_(weigh_terms(outline_of(config, plan, materials_), config.terms)),
@@ -55,7 +55,7 @@ class Generator {
  private:
   void make_pending(RunMonitor& monitor) {
     if (config_.engine == Engine::embree) {
-      const PlanTracer tracer(layout_.plan(), config_, plan_, options_.assets);
+      const PlanTracer tracer(options_.plan, config_, plan_, options_.assets);
       for (const ClipConfig& clip : pending_) try_make(clip, tracer, monitor);
       return;
     }

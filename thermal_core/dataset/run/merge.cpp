@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -52,22 +53,31 @@ Source open_source(const Path& root) {
   return {.root = root, .document = std::move(document), .record_sha256 = std::move(sums)};
 }
 
+void check_same_config(const Json& expected, const std::string& whose, const Source& source) {
+  const std::vector<std::string> found = differences(expected, source.document.at("config"));
+  if (found.empty()) return;
+  constexpr std::size_t kMost = 8;
+  throw ConfigError(fmt::format("{} and {} have different configs: {}; expected shards of one config", whose,
+                                source.root.string(), list_names(found, kMost)));
+}
+
 /// Checks that all have one config: `document.physics` follows from it.
-std::vector<Source> open_sources(const MergeOptions& options) {
+std::vector<Source> open_sources(const MergeOptions& options, MergeOutcome& outcome) {
   std::vector<Source> sources;
   for (const Path& root : options.sources) {
     if (std::error_code error; std::filesystem::equivalent(root, options.out, error) && !error)
       throw ConfigError(
           fault("--out", options.out.string(), "",
                 "a folder that is not among DIR; to add the others to it, leave it out of DIR"));
+    if (options.config && !Layout{root}.is_begun()) {
+      outcome.left_out.emplace_back(root, "it has no dataset.json");
+      continue;
+    }
     sources.push_back(open_source(root));
-    const std::vector<std::string> found =
-        differences(sources.front().document.at("config"), sources.back().document.at("config"));
-    if (found.empty()) continue;
-    constexpr std::size_t kMost = 8;
-    throw ConfigError(fmt::format("{} and {} have different configs: {}; expected shards of one config",
-                                  sources.front().root.string(), root.string(), list_names(found, kMost)));
+    if (options.config) check_same_config(options.config->resolved, "the plan", sources.back());
+    check_same_config(sources.front().document.at("config"), sources.front().root.string(), sources.back());
   }
+  if (sources.empty()) throw ConfigError("none of DIR has a dataset.json; expected shards of a dataset");
   return sources;
 }
 
@@ -122,7 +132,7 @@ class Merger {
   Merger(const MergeOptions& options, const RunHooks& hooks)
       : options_(options),
         hooks_(hooks),
-        sources_(open_sources(options)),
+        sources_(open_sources(options, outcome_)),
         transaction_({options.out}, config_of(sources_.front()),
                      sources_.front().document.value("physics", Json())) {}
 
@@ -132,6 +142,7 @@ class Merger {
     for (const auto& [id, found] : plan_) try_add(id, found);
     transaction_.close();
     outcome_.run.complete = transaction_.index().complete();
+    find_shards();
     return outcome_;
   }
 
@@ -151,6 +162,16 @@ class Merger {
         plan_.emplace_back(id, found);
       }
     }
+  }
+
+  void find_shards() {
+    if (!options_.config || options_.shards == 0) return;
+    const std::vector<int> shards = deal_shards(*options_.config, options_.shards);
+    const auto& finished = transaction_.index().finished;
+    std::set<int> found;
+    for (std::size_t place = 0; place < shards.size(); ++place)
+      if (!finished.contains(options_.config->clips[place].id)) found.insert(shards[place]);
+    outcome_.shards_to_make.assign(found.begin(), found.end());
   }
 
   /// From the first folder with unchanged files of the clip.
@@ -198,10 +219,10 @@ class Merger {
 
   const MergeOptions& options_;
   const RunHooks& hooks_;
+  MergeOutcome outcome_;
   std::vector<Source> sources_;
   DatasetTransaction transaction_;
   std::vector<std::pair<std::string, std::vector<FoundClip>>> plan_;
-  MergeOutcome outcome_;
   Progress progress_;
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dataset/run/options.h"
@@ -10,14 +12,18 @@
 namespace thermal {
 
 struct MergeOptions {
-  std::vector<Path> sources;        ///< datasets, each with some of one config's clips
-  Path out;                         ///< not one of them; may hold some of the clips already
+  std::vector<Path> sources;          ///< datasets, each with some of one config's clips
+  Path out;                           ///< not one of them; may hold some of the clips already
+  std::optional<Config> config = {};  ///< of all sources, if it is known; then a source may lack its dataset
+  int shards = 0;  ///< with `config`: number of shards, to find those that miss clips; 0: unknown
   Linking linking = Linking::hard;  ///< where the file system supports them; otherwise copies
 };
 
 struct MergeOutcome {
-  RunOutcome run;                    ///< `made` are the merged clips
-  std::vector<std::string> missing;  ///< clips of the config that are complete nowhere
+  RunOutcome run;                                           ///< `made` are the merged clips
+  std::vector<std::string> missing;                         ///< clips of the config that are complete nowhere
+  std::vector<std::pair<Path, std::string>> left_out = {};  ///< sources without a dataset, and what is wrong
+  std::vector<int> shards_to_make = {};                     ///< that have missing or failed clips; sorted
 };
 
 /// Joins datasets that were made as shards into one, with the same bytes as a dataset made in one run. Sources are

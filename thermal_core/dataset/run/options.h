@@ -5,20 +5,19 @@
 #include <vector>
 
 #include "dataset/dataset_index.h"
+#include "dataset/run/shards.h"
 #include "io/assets.h"
 #include "io/system/files.h"
 
 namespace thermal {
 
-/// One part of a dataset's clips: those whose position in the config, modulo `count`, is `index`.
-struct Shard {
-  int index = 0;
-  int count = 1;
-};
-
 struct GenerateOptions {
   Assets assets;
   Path out;
+  Path plan;  ///< folder of the plan; of plan_to_generate(): OUT/plan
+  /// Clips are made in this folder, which belongs to this run alone, and put into `out` when complete. `out` may then be
+  /// an object store: it sees whole new files only, a clip's record last. Empty: in `out` itself.
+  Path scratch = {};
   Path blender;
   std::vector<std::string> clips;  ///< only these; empty: all
   Shard shard;

@@ -45,7 +45,7 @@ void end_passes(const Layout& layout, const std::vector<std::string>& clips) {
 
 std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,
                                           const std::vector<std::string>& clips, RunMonitor& monitor) {
-  const Layout layout{options.out};
+  const Layout layout{options.out, options.scratch};
   const auto hands = deal_clips(clips, options.jobs);
   const int threads = thread_count(options.threads);
   std::vector<RenderJob::Task> tasks;
@@ -53,7 +53,7 @@ std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOp
     // Runs that share the folder never share a clip, so the clip's name keeps their logs apart.
     tasks.push_back({.blender = options.blender,
                      .assets = options.assets,
-                     .plan = layout.plan(),
+                     .plan = options.plan,
                      .passes = layout.passes(),
                      .log = layout.passes() / (hand.front() + ".log"),
                      .clips = hand,

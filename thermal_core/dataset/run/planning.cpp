@@ -6,6 +6,7 @@
 #include "dataset/dataset_index.h"
 #include "dataset/run/passes_folder.h"
 #include "io/system/files.h"
+#include "io/system/folder_lock.h"
 
 namespace thermal {
 namespace {

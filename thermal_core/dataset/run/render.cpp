@@ -13,6 +13,7 @@
 #include "dataset/run/passes_folder.h"
 #include "dataset/run/tracing.h"
 #include "dataset/run/worker_pool.h"
+#include "io/system/folder_lock.h"
 
 namespace thermal {
 namespace {
@@ -89,7 +90,7 @@ RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateO
   RunMonitor monitor(hooks, options.out, frames_of(clips));
   if (config.engine == Engine::embree) {
     with_threads(options.threads, [&] {
-      trace_clips(clips, PlanTracer(layout.plan(), config, plan, options.assets), config, layout, monitor);
+      trace_clips(clips, PlanTracer(options.plan, config, plan, options.assets), config, layout, monitor);
     });
     RunOutcome outcome = monitor.outcome();
     outcome.complete = true;

@@ -25,7 +25,8 @@ DatasetTransaction::DatasetTransaction(const Layout& layout, const Config& confi
     : layout_(layout),
       own_(set_of(ids_of(clips))),
       shared_(shared),
-      lock_(shared ? FolderLock(layout.root, places_of(config, clips)) : FolderLock(layout.root)) {
+      lock_(shared && layout.scratch.empty() ? FolderLock(layout.root, places_of(config, clips))
+                                             : FolderLock(layout.workplace())) {
   lock_.in_turn([&] { index_ = open_dataset(layout_, config); });
   index_.physics = std::move(physics);
 }
@@ -43,7 +44,9 @@ DatasetTransaction::~DatasetTransaction() {
 void DatasetTransaction::begin(const std::function<void()>& also) {
   check_is_no_link(layout_.clips());
   lock_.in_turn([&] {
+    make_folder(layout_.root);
     sweep();
+    sweep_half_put();
     for (const std::string& clip : own_) index_.failed.erase(clip);
     write_progress(layout_, index_);
     if (also) also();
@@ -52,7 +55,11 @@ void DatasetTransaction::begin(const std::function<void()>& also) {
 }
 
 void DatasetTransaction::commit(const ClipRecord& record) {
-  replace_folder(unfinished(record.clip), layout_.clip(record.clip));
+  const Path place = layout_.clip(record.clip);
+  if (layout_.scratch.empty())
+    replace_folder(unfinished(record.clip), place);
+  else
+    put_folder(unfinished(record.clip), place, "clip.json");
   change([&] { index_.add(record.clip, record); });
 }
 
@@ -89,6 +96,12 @@ void DatasetTransaction::record_all() {
     learn();
     write_dataset(layout_, index_);
   });
+}
+
+/// Clips that a killed run began to put into the folder.
+void DatasetTransaction::sweep_half_put() noexcept {
+  for (const std::string& clip : own_)
+    if (!index_.finished.contains(clip)) sweep_folder(layout_.clip(clip));
 }
 
 void DatasetTransaction::sweep() noexcept {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dataset/dataset_index.h"
+#include "io/system/folder_lock.h"
 
 namespace thermal {
 
@@ -42,7 +43,8 @@ class DatasetTransaction {
   /// Folder to make a clip in: that of ClipTask.
   [[nodiscard]] Path unfinished(const std::string& clip) const { return layout_.unfinished_clip(clip); }
 
-  /// Renames the clip's complete folder to its place, replacing an earlier one, and records it.
+  /// Moves the clip's complete folder to its place, replacing an earlier one, and records it. From a scratch folder,
+  /// its files are copied, clip.json last: a clip without that is not complete.
   void commit(const ClipRecord& record);
 
   /// Records why a clip could not be made, and removes what there is of it.
@@ -58,6 +60,7 @@ class DatasetTransaction {
   void change(const std::function<void()>& change);
   void learn();
   void record_all();
+  void sweep_half_put() noexcept;
   void sweep() noexcept;
 
   Layout layout_;

@@ -75,36 +75,6 @@ void check_can_end(const Descriptor& in, const Path& file) {
   if (::fcntl(in.number(), F_SETFL, 0) != 0) fail_at("read", file, errno);  // wait for data
 }
 
-/// Meaning of the bytes of a lock file; they are locked, not written. These are locks of open files (OFD), because
-/// locks of processes are lost when any other descriptor of the file is closed.
-constexpr off_t kTurnByte = 0;    // held exclusively to change what all runs write
-constexpr off_t kSharedByte = 1;  // held by runs that share the folder, so that no run can lock it completely
-constexpr off_t kFirstPlace = 2;
-constexpr off_t kToTheEnd = 0;  // as a length
-
-struct flock bytes_of_lock(short kind, off_t first, off_t count) {
-  struct flock bytes = {};
-  bytes.l_type = kind;
-  bytes.l_whence = SEEK_SET;
-  bytes.l_start = first;
-  bytes.l_len = count;
-  return bytes;
-}
-
-Descriptor open_lock(const Path& folder) {
-  make_folder(folder);
-  check_is_no_link(folder / ".lock");
-  return {folder / ".lock", O_RDWR | O_CREAT | O_NOFOLLOW, "lock"};
-}
-
-void take(const Descriptor& lock, short kind, off_t first, off_t count, const Path& folder) {
-  struct flock wanted = bytes_of_lock(kind, first, count);
-  if (::fcntl(lock.number(), F_OFD_SETLK, &wanted) == 0) return;
-  if (errno != EAGAIN && errno != EACCES) fail_at("lock", folder / ".lock", errno);
-  throw TryAgainError(fmt::format("{} is in use by another run of veldt; try again when that one has ended",
-                                  folder.string()));
-}
-
 }  // namespace
 
 void fail_at(std::string_view doing, const Path& place, int error) {
@@ -175,18 +145,40 @@ void check_has_no_links(const Path& folder) {
   if (error) fail_at("read", folder, error.value());
 }
 
-void write_file_atomically(const Path& file, std::string_view content) {
+namespace {
+
+/// Renames a file. False, with nothing changed, where that cannot be done: on an object store, or to another file system.
+bool can_rename(const Path& from, const Path& place) {
+  if (::rename(from.c_str(), place.c_str()) == 0) return true;
+  if (errno != ENOSYS && errno != EOPNOTSUPP && errno != EXDEV) fail_at("rename to", place, errno);
+  return false;
+}
+
+/// Writes by `write` under a temporary name, then renames; where that cannot be done, writes to the place itself.
+void write_in_place(const Path& file, const std::function<void(const Path& as)>& write) {
   Path temporary = file;
   temporary += ".tmp";  // always the same, so that leftovers of a killed run are overwritten
   ::unlink(temporary.c_str());
   try {
-    write_new(temporary, std::as_bytes(std::span(content)), {.sync = true});
-    if (::rename(temporary.c_str(), file.c_str()) != 0) fail_at("rename to", file, errno);
+    write(temporary);
+    if (!can_rename(temporary, file)) {
+      ::unlink(temporary.c_str());
+      ::unlink(file.c_str());
+      temporary = file;
+      write(file);
+    }
   } catch (...) {
     ::unlink(temporary.c_str());
     throw;
   }
   sync_folder(file.parent_path());
+}
+
+}  // namespace
+
+void write_file_atomically(const Path& file, std::string_view content) {
+  write_in_place(
+      file, [content](const Path& as) { write_new(as, std::as_bytes(std::span(content)), {.sync = true}); });
 }
 
 void write_file(const Path& file, std::span<const std::byte> content) {
@@ -226,38 +218,6 @@ std::int64_t room_left_bytes(const Path& folder) {
   return static_cast<std::int64_t>(std::min(space.available, kMost));
 }
 
-FolderLock::FolderLock(const Path& folder) {
-  Descriptor lock = open_lock(folder);
-  take(lock, F_WRLCK, 0, kToTheEnd, folder);
-  descriptor_ = lock.release();
-}
-
-FolderLock::FolderLock(const Path& folder, const std::vector<std::size_t>& places) {
-  Descriptor lock = open_lock(folder);
-  take(lock, F_RDLCK, kSharedByte, 1, folder);
-  for (const std::size_t place : places)
-    take(lock, F_WRLCK, kFirstPlace + static_cast<off_t>(place), 1, folder);
-  descriptor_ = lock.release();
-}
-
-FolderLock::~FolderLock() { ::close(descriptor_); }
-
-void FolderLock::in_turn(const std::function<void()>& change) const {
-  struct flock turn = bytes_of_lock(F_WRLCK, kTurnByte, 1);
-  while (::fcntl(descriptor_, F_OFD_SETLKW, &turn) != 0) {
-    if (errno != EINTR) throw IoError(fmt::format("cannot wait for a lock: {}", std::strerror(errno)));
-  }
-  struct EndOfTurn {
-    int descriptor;
-    ~EndOfTurn() {
-      struct flock end = bytes_of_lock(F_UNLCK, kTurnByte, 1);
-      (void)::fcntl(descriptor, F_OFD_SETLK, &end);
-    }
-  };
-  const EndOfTurn end{descriptor_};
-  change();
-}
-
 OutputFile::OutputFile(const Path& file) : file_(file) {
   ::unlink(file.c_str());
   stream_.reset(
@@ -283,11 +243,23 @@ std::string OutputFile::close() {
   return sum_.hex();
 }
 
+namespace {
+
+struct RemoveAtEnd {
+  const Path& file;
+  ~RemoveAtEnd() { ::unlink(file.c_str()); }
+};
+
+}  // namespace
+
 std::string OutputFile::close_as(const Path& place) {
   if (std::fflush(stream_.get()) != 0 || ::fsync(::fileno(stream_.get())) != 0)
     fail_at("write", file_, errno);
   std::string sum = close();
-  if (::rename(file_.c_str(), place.c_str()) != 0) fail_at("rename to", place, errno);
+  if (!can_rename(file_, place)) {
+    const RemoveAtEnd remove{file_};
+    write_in_place(place, [this](const Path& as) { copy_content(file_, as); });
+  }
   sync_folder(place.parent_path());
   return sum;
 }
@@ -328,6 +300,26 @@ void replace_folder(const Path& whole, const Path& place) {
   if (error.value() == EINVAL || error.value() == ENOSYS) error = rename_after_removal(whole, place);
   if (error) fail_at("rename to", place, error.value());
   sync_folder(place.parent_path());
+}
+
+void put_folder(const Path& whole, const Path& place, const Path& last) {
+  std::vector<Path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(whole))
+    if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(whole));
+  std::ranges::sort(files);
+  std::erase(files, last);
+  files.push_back(last);
+  make_fresh_folder(place);
+  try {
+    for (const Path& file : files) {
+      make_folder((place / file).parent_path());
+      copy_content(whole / file, place / file);
+    }
+  } catch (...) {
+    sweep_folder(place);
+    throw;
+  }
+  sweep_folder(whole);
 }
 
 void sweep_folder(const Path& folder) noexcept {

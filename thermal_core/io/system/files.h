@@ -42,7 +42,8 @@ void check_is_no_link(const Path& place);
 void check_has_no_links(const Path& folder);
 
 /// Writes under a temporary name beside `file`, syncs, renames: the file is complete or unchanged. Links of either
-/// name are replaced, not followed.
+/// name are replaced, not followed. Where files cannot be renamed, as on object stores, it is written whole: such a file
+/// appears when it is closed.
 /// IoError with the file and the system's reason; TryAgainError if the disk is full.
 void write_file_atomically(const Path& file, std::string_view content);
 
@@ -65,26 +66,6 @@ void sync_folder(const Path& folder);
 /// Bytes that this user may still write at this folder. IoError with the folder and the system's reason.
 [[nodiscard]] std::int64_t room_left_bytes(const Path& folder);
 
-/// A lock on a folder, or on parts of it, held for the object's lifetime; the system releases it when the process
-/// ends. A folder belongs to one run, or is shared by several runs that each lock their own parts.
-class FolderLock {
- public:
-  /// Locks all of it. Creates `folder` if needed. TryAgainError if another run holds any of it.
-  explicit FolderLock(const Path& folder);
-  /// Locks these parts of it, possibly none. TryAgainError if another run holds all of it or one of them.
-  FolderLock(const Path& folder, const std::vector<std::size_t>& places);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
-  /// Waits for exclusive access to the files that all runs sharing the folder write, then calls the function. Not for
-  /// two threads at once.
-  void in_turn(const std::function<void()>& change) const;
-
- private:
-  int descriptor_ = -1;
-};
-
 /// A file written piece by piece together with its checksum; nothing of it stays in memory. All functions may throw
 /// an IoError with the file and the system's reason, or a TryAgainError if the disk is full.
 class OutputFile {
@@ -101,7 +82,8 @@ class OutputFile {
   /// Ends the file. Returns its SHA-256.
   std::string close();
 
-  /// close(), with the file flushed to disk and renamed to `place`, which is complete or unchanged.
+  /// close(), with the file flushed to disk and moved to `place`, which is complete or unchanged, as of
+  /// write_file_atomically(); `place` may be on another file system.
   std::string close_as(const Path& place);
 
  private:
@@ -127,6 +109,11 @@ void make_own_folder(const Path& folder);
 /// Renames a complete folder to `place`, replacing an existing one in one step: a reader, or a run killed in between,
 /// finds either the old one or the new one. IoError or TryAgainError with the place.
 void replace_folder(const Path& whole, const Path& place);
+
+/// Copies the files of a complete folder to `place` one by one, `last` last, then removes the folder. What was in `place`
+/// is removed first. For places that cannot rename: a reader takes the folder for complete when it has `last`.
+/// IoError with the file and the system's reason; TryAgainError if the disk is full.
+void put_folder(const Path& whole, const Path& place, const Path& last);
 
 /// Removes a folder with its contents; of links, only the links. Failure is not reported.
 void sweep_folder(const Path& folder) noexcept;

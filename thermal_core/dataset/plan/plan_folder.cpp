@@ -1,0 +1,49 @@
+#include "dataset/plan/plan_folder.h"
+
+#include "base/error.h"
+#include "io/json/file.h"
+
+namespace thermal {
+namespace {
+
+Path config_in(const Path& folder) { return folder / "config.json"; }
+
+void check_is_there(const Path& folder) {
+  for (const Path& file : {folder / "plan.json", config_in(folder)})
+    if (!std::filesystem::exists(file))
+      throw ConfigError(fault("--plan", folder.string(), "",
+                              "a folder that veldt plan wrote, with " + file.filename().string()));
+}
+
+/// A config of veldt plan's own: what is wrong with it is a fault of the file.
+Config read_resolved(const Path& file, const Assets& assets) {
+  try {
+    return resolve_config(read_json(file), file.string(), assets);
+  } catch (const ConfigError& fault) {
+    throw DataError(fault.what());
+  }
+}
+
+}  // namespace
+
+PlannedDataset plan_with_config(const Path& folder, const Config& config, const std::string& name,
+                                const PlanOptions& options) {
+  DatasetPlan plan = plan_into(folder, config, name, options);
+  write_file_atomically(config_in(folder), to_text(config.resolved));
+  Config cut = with_flights_cut(config, plan);
+  return {.config = std::move(cut), .plan = std::move(plan)};
+}
+
+PlannedDataset open_plan(const Path& folder, const Assets& assets) {
+  check_is_there(folder);
+  const Path file = folder / "plan.json";
+  DatasetPlan plan = plan_of(read_json(file), file.string(), assets);
+  const Config config = read_resolved(config_in(folder), assets);
+  if (plan.config != planned_part(config))
+    throw DataError(config_in(folder).string() + " is not the config of " + file.filename().string() +
+                    " beside it; run veldt plan again");
+  Config cut = with_flights_cut(config, plan);
+  return {.config = std::move(cut), .plan = std::move(plan)};
+}
+
+}  // namespace thermal

@@ -1,0 +1,97 @@
+#include "io/system/folder_lock.h"
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+namespace thermal {
+namespace {
+
+/// Meaning of the bytes of a lock file; they are locked, not written. These are locks of open files (OFD), because
+/// locks of processes are lost when any other descriptor of the file is closed.
+constexpr off_t kTurnByte = 0;    // held exclusively to change what all runs write
+constexpr off_t kSharedByte = 1;  // held by runs that share the folder, so that no run can lock it completely
+constexpr off_t kFirstPlace = 2;
+constexpr off_t kToTheEnd = 0;  // as a length
+
+struct flock bytes_of_lock(short kind, off_t first, off_t count) {
+  struct flock bytes = {};
+  bytes.l_type = kind;
+  bytes.l_whence = SEEK_SET;
+  bytes.l_start = first;
+  bytes.l_len = count;
+  return bytes;
+}
+
+/// The lock file of a folder, open.
+class LockFile {
+ public:
+  explicit LockFile(const Path& folder) {
+    make_folder(folder);
+    const Path file = folder / ".lock";
+    check_is_no_link(file);
+    number_ =
+        ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);  // 0666: as the umask decides
+    if (number_ < 0) fail_at("lock", file, errno);
+  }
+  ~LockFile() {
+    if (number_ >= 0) ::close(number_);
+  }
+  LockFile(const LockFile&) = delete;
+  LockFile& operator=(const LockFile&) = delete;
+  [[nodiscard]] int number() const noexcept { return number_; }
+  [[nodiscard]] int release() noexcept { return std::exchange(number_, -1); }
+
+ private:
+  int number_ = -1;
+};
+
+void take(const LockFile& lock, short kind, off_t first, off_t count, const Path& folder) {
+  struct flock wanted = bytes_of_lock(kind, first, count);
+  if (::fcntl(lock.number(), F_OFD_SETLK, &wanted) == 0) return;
+  if (errno != EAGAIN && errno != EACCES) fail_at("lock", folder / ".lock", errno);
+  throw TryAgainError(fmt::format("{} is in use by another run of veldt; try again when that one has ended",
+                                  folder.string()));
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const Path& folder) {
+  LockFile lock(folder);
+  take(lock, F_WRLCK, 0, kToTheEnd, folder);
+  descriptor_ = lock.release();
+}
+
+FolderLock::FolderLock(const Path& folder, const std::vector<std::size_t>& places) {
+  LockFile lock(folder);
+  take(lock, F_RDLCK, kSharedByte, 1, folder);
+  for (const std::size_t place : places)
+    take(lock, F_WRLCK, kFirstPlace + static_cast<off_t>(place), 1, folder);
+  descriptor_ = lock.release();
+}
+
+FolderLock::~FolderLock() { ::close(descriptor_); }
+
+void FolderLock::in_turn(const std::function<void()>& change) const {
+  struct flock turn = bytes_of_lock(F_WRLCK, kTurnByte, 1);
+  while (::fcntl(descriptor_, F_OFD_SETLKW, &turn) != 0) {
+    if (errno != EINTR) throw IoError(fmt::format("cannot wait for a lock: {}", std::strerror(errno)));
+  }
+  struct EndOfTurn {
+    int descriptor;
+    ~EndOfTurn() {
+      struct flock end = bytes_of_lock(F_UNLCK, kTurnByte, 1);
+      (void)::fcntl(descriptor, F_OFD_SETLK, &end);
+    }
+  };
+  const EndOfTurn end{descriptor_};
+  change();
+}
+
+}  // namespace thermal
