@@ -39,6 +39,7 @@ void add_render(CLI::App& app, Session& session);
 void add_plan(CLI::App& app, Session& session);
 void add_convert(CLI::App& app, Session& session);
 void add_merge(CLI::App& app, Session& session);
+void add_cluster(CLI::App& app, Session& session);
 void add_export(CLI::App& app, Session& session);
 void add_inspect(CLI::App& app, Session& session);
 void add_validate(CLI::App& app, Session& session);

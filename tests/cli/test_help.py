@@ -32,6 +32,7 @@ OPTIONS = {
         "--max-unusable-share",
     },
     "merge": {"--plan", "--shards", "--out", "--link"},
+    "cluster": {"--nodes", "--shards", "--cores", "--memory-gb", "--data", "--image", "--claim", "--out"},
     "export": {"--format", "--out", "--link", "--images", "--split", "--seed", "--selection", "--unfinished"},
     "inspect": {
         "--manifest",

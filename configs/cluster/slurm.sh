@@ -1,0 +1,60 @@
+#!/bin/bash
+# Makes the dataset {{name}} in {{shards}} shards on a Slurm cluster; written by `veldt cluster slurm`.
+#
+#   bash FILE                  submits all shards, and a job that merges them afterwards
+#   bash FILE --array=3,5      only these shards, then the merge, which lists the shards to run again
+#
+# Every node needs veldt on PATH and sees the folders `plan` and `data`. Clips are made on the node's own disk.
+#SBATCH --job-name=veldt_{{name}}
+#SBATCH --array=0-{{last_shard}}%{{nodes}}
+#SBATCH --cpus-per-task={{cores}}
+#SBATCH --mem={{memory_gb}}G
+#SBATCH --time={{minutes}}
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --signal=B:TERM@120
+set -uo pipefail
+
+plan={{plan}}
+data={{data}}
+shards={{shards}}
+most_restarts=5
+
+submit() { # SBATCH_OPTIONS…
+  local array
+  array=$(sbatch --parsable "$@" "$0") || exit
+  sbatch --dependency="afterany:${array%%;*}" --job-name=veldt_{{name}}_merge --time={{merge_minutes}} --mem={{memory_gb}}G \
+    --wrap "$(printf 'veldt merge --plan %q --shards %s %q/shards/* --out %q --progress plain' \
+      "$plan" "$shards" "$data" "$data/dataset")"
+}
+
+# The code is 143 if Slurm asked to stop: two minutes before the time limit, or to free the node.
+make_shard() {
+  local scratch running code
+  scratch=$(mktemp -d "${SLURM_TMPDIR:-${TMPDIR:-/tmp}}/veldt_XXXXXX") || return
+  veldt generate --plan "$plan" --shard "$SLURM_ARRAY_TASK_ID/$shards" --out "$data/shards/$SLURM_ARRAY_TASK_ID" \
+    --scratch "$scratch" --threads "$SLURM_CPUS_PER_TASK" --progress plain &
+  running=$!
+  trap 'kill -TERM "$running"' TERM
+  wait "$running"
+  code=$?
+  if kill -0 "$running" 2>/dev/null; then # the signal ended `wait`, not the program
+    wait "$running"
+    code=$?
+  fi
+  rm -rf "$scratch"
+  return "$code"
+}
+
+if [[ -z ${SLURM_ARRAY_TASK_ID:-} ]]; then
+  submit "$@"
+  exit
+fi
+
+# 75 and 143: try again, complete clips are kept. 1, 2 and 3: trying again does not help.
+make_shard
+code=$?
+if ((code == 75 || code == 143)) && ((${SLURM_RESTART_COUNT:-0} < most_restarts)); then
+  scontrol requeue "$SLURM_JOB_ID" && exit 0
+fi
+exit "$code"
