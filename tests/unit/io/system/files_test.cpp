@@ -272,6 +272,29 @@ TEST_CASE("No partial file is left if a file cannot be written") {
   CHECK(entries_of(folder.path()) == 1);
 }
 
+TEST_CASE("A folder is put elsewhere as a whole, and what was there is gone") {
+  const TemporaryFolder folder;
+  make_folder(folder / "whole/ir8");
+  make_folder(folder / "place/old");
+  write_file_atomically(folder / "whole/ir8/0.png", "picture");
+  write_file_atomically(folder / "whole/clip.json", "record");
+  put_folder(folder / "whole", folder / "place", "clip.json");
+  CHECK(read_file(folder / "place/ir8/0.png") == "picture");
+  CHECK(read_file(folder / "place/clip.json") == "record");
+  CHECK(entries_of(folder / "place") == 2);
+  CHECK(entries_of(folder.path()) == 1);
+}
+
+TEST_CASE("Of a folder that cannot be put elsewhere, nothing is left there, and nothing is lost") {
+  const TemporaryFolder folder;
+  make_folder(folder / "whole/ir8");
+  write_file_atomically(folder / "whole/ir8/0.png", "picture");
+  CHECK(message_of<IoError>([&] { put_folder(folder / "whole", folder / "place", "clip.json"); }) ==
+        "cannot read " + (folder / "whole/clip.json").string() + ": No such file or directory");
+  CHECK_FALSE(std::filesystem::exists(folder / "place"));
+  CHECK(read_file(folder / "whole/ir8/0.png") == "picture");
+}
+
 TEST_CASE("A lock that is a link to elsewhere is refused") {
   const TemporaryFolder folder;
   std::filesystem::create_symlink("elsewhere", folder / ".lock");
