@@ -6,6 +6,7 @@ One dataset is made once, with all faults (`_made`); the tests look at what came
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -17,7 +18,7 @@ from pathlib import Path
 import pytest
 
 from configs import tiny
-from processes import running_with, wait_until
+from processes import parent_of, running_with, wait_until
 from program import PROGRAM, Veldt, files_below
 from slurm import Slurm, running_slurm
 from small_disk import BLOCK, SmallDisk, small_disk
@@ -25,7 +26,7 @@ from small_disk import BLOCK, SmallDisk, small_disk
 SHARDS = 8
 CLIPS = [f"clip{k:02d}" for k in range(40)]
 CRASHED, REQUEUED, FULL, STOPPED, BROKEN = 1, 2, 3, 4, 5  # shards, by what happens to them
-_LONG = (CRASHED, REQUEUED, STOPPED)  # their clips last long enough to be disturbed between two of them
+_LONG = (CRASHED, REQUEUED, STOPPED)  # with clips long enough to halt them after the first
 
 # What a user hands in. `veldt` is a file beside it, which runs the program.
 _SHARD = f"""\
@@ -33,7 +34,7 @@ _SHARD = f"""\
 #SBATCH --array=0-{SHARDS - 1} --requeue --open-mode=append --output=%a.log --time=5 --signal=B:TERM@120
 # Slurm's array variables change when one shard is run again, so the number of shards is written here.
 ./veldt generate config.json --engine embree --shard "$SLURM_ARRAY_TASK_ID/{SHARDS}" \\
-  --out "shards/000$SLURM_ARRAY_TASK_ID" --quiet --threads 1 &
+  --out "$PWD/shards/000$SLURM_ARRAY_TASK_ID" --quiet --threads 1 &
 run=$!
 trap 'kill -TERM $run' TERM # before the time limit Slurm signals this shell alone
 wait $run
@@ -119,25 +120,37 @@ class Made:
         return [(int(number), int(code)) for number, code in ended]
 
 
-def _disturb(made: Made, array: str) -> None:
-    """Disturb three shards, each of them as soon as it has finished its first clip."""
-
-    def crash(job: str) -> None:
-        made.crashed_node = made.slurm.jobs(job)[job]["NodeList"]
-        made.slurm.kill_node(made.crashed_node)
-
-    faults = {
-        CRASHED: crash,
-        REQUEUED: lambda job: made.slurm.command("scontrol", "requeue", job),
-        STOPPED: lambda job: made.slurm.command("scancel", "--batch", "--signal=TERM", job),
-    }
+def _hold(made: Made, shards: tuple[int, ...]) -> dict[int, int]:
+    """Halt shards, each of them as soon as it has finished its first clip; their processes."""
+    held = {}
     end = time.monotonic() + 120
-    while faults:
-        assert time.monotonic() < end, f"shards {list(faults)} have made no clip\n{made.slurm.logs()}"
-        for shard in [shard for shard in faults if made.clips_of(shard)]:
-            faults.pop(shard)(f"{array}_{shard}")
-            assert made.clips_of(shard) < len(CLIPS) // SHARDS, f"shard {shard} was disturbed too late"
+    while len(held) < len(shards):
+        assert time.monotonic() < end, f"only shards {list(held)} have made a clip\n{made.slurm.logs()}"
+        for shard in set(shards) - set(held):
+            if made.clips_of(shard):
+                (held[shard],) = running_with(made.veldt.folder / f"shards/000{shard}")
+                os.kill(held[shard], signal.SIGSTOP)
+                assert made.clips_of(shard) < len(CLIPS) // SHARDS, f"shard {shard} was halted too late"
         time.sleep(0.01)
+    return held
+
+
+def _awaits(process: int, number: int) -> bool:
+    """Whether a halted process will get a signal when it goes on."""
+    status = Path(f"/proc/{process}/status").read_text(encoding="utf-8")
+    return bool(int(re.search(r"ShdPnd:\s*(\w+)", status)[1], 16) >> (number - 1) & 1)
+
+
+def _disturb(made: Made, array: str) -> None:
+    """Disturb three shards, each of them between two clips."""
+    process = _hold(made, _LONG)[STOPPED]
+    crashed = f"{array}_{CRASHED}"
+    made.crashed_node = made.slurm.jobs(crashed)[crashed]["NodeList"]
+    made.slurm.kill_node(made.crashed_node)
+    made.slurm.command("scontrol", "requeue", f"{array}_{REQUEUED}")  # also has it go on, and end
+    os.kill(parent_of(process), signal.SIGTERM)  # the script alone, as before a time limit
+    assert wait_until(lambda: _awaits(process, signal.SIGTERM), 30), made.slurm.logs()
+    os.kill(process, signal.SIGCONT)
 
 
 def _free_space(made: Made, job: str, disk: SmallDisk) -> None:
