@@ -46,6 +46,11 @@ make_shard() {
   return "$code"
 }
 
+# No longer, once Slurm has begun to cancel the job or to requeue it: a cancelled job must not start again.
+is_running() {
+  [[ $(squeue --noheader --jobs "$SLURM_JOB_ID" --format %T) == RUNNING ]]
+}
+
 if [[ -z ${SLURM_ARRAY_TASK_ID:-} ]]; then
   submit "$@"
   exit
@@ -54,7 +59,7 @@ fi
 # 75 and 143: try again, complete clips are kept. 1, 2 and 3: trying again does not help.
 make_shard
 code=$?
-if ((code == 75 || code == 143)) && ((${SLURM_RESTART_COUNT:-0} < most_restarts)); then
+if ((code == 75 || code == 143)) && ((${SLURM_RESTART_COUNT:-0} < most_restarts)) && is_running; then
   scontrol requeue "$SLURM_JOB_ID" && exit 0
 fi
 exit "$code"

@@ -13,7 +13,7 @@ from program import PROGRAM, Veldt, check_fault
 
 _SHARDS = 2
 
-# What the stand-ins for sbatch and scontrol were called with is listed in `calls`.
+# What the stand-ins for sbatch and scontrol were called with is listed in `calls`. tests/cluster has a real Slurm.
 _STAND_IN = """#!/bin/sh
 printf '%s' "$(basename "$0")" >>calls
 printf ' <%s>' "$@" >>calls
@@ -35,6 +35,7 @@ def _place(tmp_path_factory) -> Veldt:
     (folder / "bin").mkdir()
     for name in ("sbatch", "scontrol"):
         _install(folder / "bin" / name, _STAND_IN)
+    _install(folder / "bin" / "squeue", "#!/bin/sh\necho ${STATE:-RUNNING}\n")
     (folder / "bin" / "veldt").symlink_to(PROGRAM)
     return veldt
 
@@ -126,6 +127,13 @@ def test_only_shards_that_can_go_on_are_requeued(place, tmp_path, code, restarts
     path = f"{tmp_path}:{place.folder / 'bin'}:{os.environ['PATH']}"
     ended = _run(place, env=_task(0, SLURM_RESTART_COUNT=str(restarts), PATH=path))
     assert ended == (0 if calls else code, calls)
+
+
+def test_a_shard_that_is_cancelled_is_not_requeued(place, tmp_path):
+    _write(place, "slurm")
+    _install(tmp_path / "veldt", "#!/bin/sh\nexit 143\n")
+    path = f"{tmp_path}:{place.folder / 'bin'}:{os.environ['PATH']}"
+    assert _run(place, env=_task(0, STATE="COMPLETING", PATH=path)) == (143, [])
 
 
 def test_no_scratch_folder_is_left(place, tmp_path):
