@@ -41,7 +41,7 @@ _LOG_LINES = 8
 
 # Short times: a node that has not answered for 4 s is down, which the controller notices within 10 s; a requeued job
 # waits 6 s, until the credential of its last run has expired (2 minutes by default). Jobs that ended stay listed for an
-# hour. A node has one CPU, whatever the machine has.
+# hour. A node has one CPU and 4 GB, whatever the machine has.
 _CONFIG = """\
 ClusterName=test
 SlurmctldHost={host}(127.0.0.1)
@@ -78,7 +78,7 @@ MinJobAge=3600
 JobRequeue=1
 ReturnToService=2
 {nodes}
-PartitionName=all Nodes=ALL Default=YES MaxTime=10 State=UP
+PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """
 
 
@@ -129,12 +129,12 @@ class Slurm:
 
     # --- commands -----------------------------------------------------------------------------------------------------
 
-    def command(self, *arguments) -> str:
-        """What a command of Slurm prints."""
+    def command(self, *arguments, cwd: Path | None = None, env: dict | None = None) -> str:
+        """What a command prints that uses Slurm. Jobs are handed in with its folder and its environment."""
         done = subprocess.run(
             [*map(str, arguments)],
-            env=self._environment,
-            cwd=self.folder,
+            env=self._environment | (env or {}),
+            cwd=cwd or self.folder,
             capture_output=True,
             text=True,
             timeout=60,
@@ -228,7 +228,7 @@ class Slurm:
         ports = _free_ports(1 + len(self.nodes))
         host = socket.gethostname().partition(".")[0]
         nodes = [
-            f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs=1 State=UNKNOWN"
+            f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs=1 RealMemory=4096 State=UNKNOWN"
             for name, port in zip(self.nodes, ports[1:])
         ]
         values = {

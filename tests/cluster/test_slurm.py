@@ -1,4 +1,4 @@
-"""Shards as jobs of a real Slurm, on nodes that crash and disks that fill: the dataset of an undivided run comes out.
+"""`cluster slurm` on a real Slurm, whose nodes crash and whose disks fill: the dataset of an undivided run comes out.
 
 One dataset is made once, with all faults (`_made`); the tests look at what came of each of them.
 """
@@ -23,43 +23,12 @@ from program import PROGRAM, Veldt, files_below
 from slurm import Slurm, running_slurm
 from small_disk import BLOCK, SmallDisk, small_disk
 
+NODES = 3
 SHARDS = 8
-CLIPS = [f"clip{k:02d}" for k in range(40)]
-CRASHED, REQUEUED, FULL, STOPPED, BROKEN = 1, 2, 3, 4, 5  # shards, by what happens to them
-_LONG = (CRASHED, REQUEUED, STOPPED)  # with clips long enough to halt them after the first
+CLIPS = 40
+CRASHED, REQUEUED, FULL, STOPPED, BROKEN, CANCELLED = range(1, 7)  # shards, by what happens to them
 
-# What a user hands in. `veldt` is a file beside it, which runs the program.
-_SHARD = f"""\
-#!/bin/sh
-#SBATCH --array=0-{SHARDS - 1} --requeue --open-mode=append --output=%a.log --time=5 --signal=B:TERM@120
-# Slurm's array variables change when one shard is run again, so the number of shards is written here.
-./veldt generate config.json --engine embree --shard "$SLURM_ARRAY_TASK_ID/{SHARDS}" \\
-  --out "$PWD/shards/000$SLURM_ARRAY_TASK_ID" --quiet --threads 1 &
-run=$!
-trap 'kill -TERM $run' TERM # before the time limit Slurm signals this shell alone
-wait $run
-code=$?
-while kill -0 $run 2>/dev/null; do # a signal has interrupted wait
-  wait $run
-  code=$?
-done
-echo "run ${{SLURM_RESTART_COUNT:-0}} on $SLURMD_NODENAME: exit $code"
-# 75: try again later; 143: stopped by SIGTERM. A job that is being cancelled or requeued is not RUNNING.
-case $code in
-75 | 143)
-  if [ "${{SLURM_RESTART_COUNT:-0}}" -lt 5 ] && [ "$(squeue -h -j "$SLURM_JOB_ID" -o %T)" = RUNNING ]; then
-    scontrol requeue "$SLURM_JOB_ID"
-  fi
-  ;;
-esac
-exit $code
-"""
-
-_MERGE = """\
-#!/bin/sh
-./veldt merge shards/* --out merged --progress none
-"""
-
+# What the nodes find on PATH: the program, with an option that it does not know for one shard.
 _PROGRAM = f"""\
 #!/bin/sh
 exec "{PROGRAM}" "$@" $(cat "wrong_options_$SLURM_ARRAY_TASK_ID" 2>/dev/null)
@@ -67,20 +36,14 @@ exec "{PROGRAM}" "$@" $(cat "wrong_options_$SLURM_ARRAY_TASK_ID" 2>/dev/null)
 
 
 def _config() -> dict:
+    """Clips long enough to halt a shard after the first of its own."""
     config = tiny()
-    config["render"] = {"actor_layer": True}
-    down, side = config["clips"]
+    config["render"] = {"actor_layer": True, "engine": "embree"}
+    two = config["clips"]
     config["clips"] = [
-        (down, side)[k % 2] | {"id": clip, "start_s": k // 2, "frames": 40 if k % SHARDS in _LONG else 6}
-        for k, clip in enumerate(CLIPS)
+        two[k % 2] | {"id": f"clip{k:02d}", "start_s": k // 2, "frames": 20} for k in range(CLIPS)
     ]
     return config
-
-
-def _bytes_of(folder: Path) -> dict[str, bytes]:
-    """Everything in a dataset but its plan, which a merged one lacks."""
-    names = [name for name in files_below(folder) if not name.startswith("plan/")]
-    return {name: (folder / name).read_bytes() for name in names}
 
 
 @dataclass
@@ -89,38 +52,47 @@ class Made:
 
     veldt: Veldt
     slurm: Slurm
-    arrays: list[dict[str, dict]] = field(default_factory=list)  # what Slurm says at the end, by ID_INDEX
+    arrays: list[dict[int, dict[str, str]]] = field(
+        default_factory=list
+    )  # what Slurm says at the end, by shard
     merges: list[tuple[str, str]] = field(default_factory=list)  # state and output
     crashed_node: str = ""
     no_disk: str = ""  # why no shard had a full disk
 
-    def hand_in(self, script: str, *options) -> str:
-        """Hand in a script of the folder; the number of the job."""
-        return self.slurm.sbatch(self.veldt.folder / script, f"--chdir={self.veldt.folder}", *options)
+    def hand_in(self, *options) -> tuple[str, str]:
+        """Run the script that `veldt cluster slurm` wrote; the numbers of the array and of the job that merges it."""
+        folder = self.veldt.folder
+        environment = {"PATH": f"{folder}/bin:{os.environ['PATH']}", "TMPDIR": f"{folder}/scratch"}
+        said = self.slurm.command("bash", "jobs", *options, cwd=folder, env=environment)
+        (merge,) = re.findall(r"^Submitted batch job (\d+)$", said, re.MULTILINE)
+        return re.match(r"afterany:(\d+)_", self.slurm.jobs(merge)[merge]["Dependency"])[1], merge
 
-    def merge_after(self, array: str) -> None:
-        """Hand in what merges the shards once an array has ended, and wait for that."""
-        job = self.hand_in("merge.sh", f"--dependency=afterany:{array}", f"--output=merge_{array}.log")
-        state = self.slurm.wait(job, 180)[job]
-        self.merges.append((state, self.log(f"merge_{array}")))
-        self.arrays.append(self.slurm.jobs(array))
+    def wait(self, array: str, merge: str) -> None:
+        """Wait for the merge, and keep what came of all jobs."""
+        state = self.slurm.wait(merge, 180)[merge]
+        self.merges.append((state, self.log(merge)))
+        jobs = self.slurm.jobs(array)
+        self.arrays.append({int(jobs[name]["ArrayTaskId"]): jobs[name] for name in sorted(jobs)})
+
+    def log(self, job: str) -> str:
+        """What a job has printed."""
+        return (self.veldt.folder / f"slurm-{job}.out").read_text(encoding="utf-8")
+
+    def shard_log(self, shard: int) -> str:
+        """What a shard of the first array has printed."""
+        return self.log(f"{self.arrays[0][shard]['ArrayJobId']}_{shard}")
 
     def clips_of(self, shard: int) -> int:
         """How many clips a shard has finished."""
-        found = (self.veldt.folder / f"shards/000{shard}/clips").glob("*/clip.json")
-        return len([file for file in found if file.parent.name in CLIPS])
+        return len(list((self.veldt.folder / f"shards/{shard}/clips").glob("clip??/clip.json")))
 
-    def log(self, name: str | int) -> str:
-        """What a job has printed."""
-        return (self.veldt.folder / f"{name}.log").read_text(encoding="utf-8")
-
-    def runs(self, shard: int) -> list[tuple[int, int]]:
-        """The runs of a shard that came to an end: how often it was requeued before, and the exit code."""
-        ended = re.findall(r"^run (\d+) on \w+: exit (\d+)$", self.log(shard), re.MULTILINE)
-        return [(int(number), int(code)) for number, code in ended]
+    def ends(self, array: int) -> dict[int, tuple[str, str, str]]:
+        """State, exit code (with a signal) and number of requeues of the shards of an array."""
+        jobs = self.arrays[array].items()
+        return {shard: (job["JobState"], job["ExitCode"], job["Restarts"]) for shard, job in jobs}
 
 
-def _hold(made: Made, shards: tuple[int, ...]) -> dict[int, int]:
+def _hold(made: Made, shards: list[int]) -> dict[int, int]:
     """Halt shards, each of them as soon as it has finished its first clip; their processes."""
     held = {}
     end = time.monotonic() + 120
@@ -128,9 +100,9 @@ def _hold(made: Made, shards: tuple[int, ...]) -> dict[int, int]:
         assert time.monotonic() < end, f"only shards {list(held)} have made a clip\n{made.slurm.logs()}"
         for shard in set(shards) - set(held):
             if made.clips_of(shard):
-                (held[shard],) = running_with(made.veldt.folder / f"shards/000{shard}")
+                (held[shard],) = running_with(f"--out {made.veldt.folder}/shards/{shard} ")
                 os.kill(held[shard], signal.SIGSTOP)
-                assert made.clips_of(shard) < len(CLIPS) // SHARDS, f"shard {shard} was halted too late"
+                assert made.clips_of(shard) < CLIPS // SHARDS, f"shard {shard} was halted too late"
         time.sleep(0.01)
     return held
 
@@ -142,15 +114,17 @@ def _awaits(process: int, number: int) -> bool:
 
 
 def _disturb(made: Made, array: str) -> None:
-    """Disturb three shards, each of them between two clips."""
-    process = _hold(made, _LONG)[STOPPED]
+    """Disturb four shards, each of them between two clips."""
+    stopped = _hold(made, [CRASHED, REQUEUED, STOPPED])[STOPPED]
     crashed = f"{array}_{CRASHED}"
     made.crashed_node = made.slurm.jobs(crashed)[crashed]["NodeList"]
     made.slurm.kill_node(made.crashed_node)
     made.slurm.command("scontrol", "requeue", f"{array}_{REQUEUED}")  # also has it go on, and end
-    os.kill(parent_of(process), signal.SIGTERM)  # the script alone, as before a time limit
-    assert wait_until(lambda: _awaits(process, signal.SIGTERM), 30), made.slurm.logs()
-    os.kill(process, signal.SIGCONT)
+    os.kill(parent_of(stopped), signal.SIGTERM)  # the script alone, as before a time limit
+    assert wait_until(lambda: _awaits(stopped, signal.SIGTERM), 30), made.slurm.logs()
+    os.kill(stopped, signal.SIGCONT)
+    _hold(made, [CANCELLED])
+    made.slurm.command("scancel", f"{array}_{CANCELLED}")
 
 
 def _free_space(made: Made, job: str, disk: SmallDisk) -> None:
@@ -160,90 +134,105 @@ def _free_space(made: Made, job: str, disk: SmallDisk) -> None:
 
 
 def _prepare(veldt: Veldt) -> None:
+    for name in ("bin", "scratch", "shards"):
+        (veldt.folder / name).mkdir()
+    veldt.write("bin/veldt", _PROGRAM).chmod(0o755)
     veldt.write("config.json", _config())
-    veldt.write("shard.sh", _SHARD)
-    veldt.write("merge.sh", _MERGE)
-    veldt.write("veldt", _PROGRAM).chmod(0o755)
     veldt.write(f"wrong_options_{BROKEN}", "--seasons all")
-    (veldt.folder / "shards").mkdir()
+    small = ("--shards", SHARDS, "--nodes", NODES, "--cores", 1, "--memory-gb", 1)
+    for arguments in (
+        ["plan", "config.json", "--out", "plan", "--quiet"],
+        ["cluster", "slurm", "plan", *small, "--out", "jobs"],
+    ):
+        done = veldt(*arguments)
+        assert (done.code, done.out, done.err) == (0, "", "")
 
 
 @pytest.fixture(scope="module", name="made")
 def _made(tmp_path_factory) -> Iterator[Made]:
     veldt = Veldt(tmp_path_factory.mktemp("made"))
-    _prepare(veldt)
     with ExitStack() as stack:
-        made = Made(veldt, stack.enter_context(running_slurm(nodes=3)))
+        made = Made(veldt, stack.enter_context(running_slurm(NODES)))
+        _prepare(veldt)
         try:
-            disk = stack.enter_context(small_disk(veldt.folder / f"shards/000{FULL}", "8m"))
-            disk.leave(100 * BLOCK)
+            disk = stack.enter_context(small_disk(veldt.folder / f"shards/{FULL}", "8m"))
+            disk.leave(400 * BLOCK)  # two clips fit in
         except pytest.skip.Exception as reason:
             disk, made.no_disk = None, str(reason)
-        array = made.hand_in("shard.sh")
+        array, merge = made.hand_in()
         _disturb(made, array)
         if disk:
             _free_space(made, f"{array}_{FULL}", disk)
-        made.merge_after(array)
+        made.wait(array, merge)
         (veldt.folder / f"wrong_options_{BROKEN}").unlink()
-        made.merge_after(made.hand_in("shard.sh", f"--array={BROKEN}"))
+        made.wait(*made.hand_in(f"--array={BROKEN},{CANCELLED}"))
         yield made
 
 
-def _states(array: dict[str, dict]) -> dict[int, tuple[str, str]]:
-    """State, and exit code with signal, by shard."""
-    return {
-        int(name.partition("_")[2]): (job["JobState"], job["ExitCode"]) for name, job in sorted(array.items())
-    }
+def test_undisturbed_shards_run_once(made):
+    ends = made.ends(0)
+    assert sorted(ends) == list(range(SHARDS))
+    assert {ends[shard] for shard in (0, 7)} == {("COMPLETED", "0:0", "0")}
 
 
-def test_a_shard_that_fails_fails_alone(made):
-    usual = {shard: ("COMPLETED", "0:0") for shard in range(SHARDS)}
-    assert _states(made.arrays[0]) == usual | {BROKEN: ("FAILED", "2:0")}
-    assert made.runs(BROKEN) == [(0, 2), (0, 0)]
-    assert _states(made.arrays[1]) == {BROKEN: ("COMPLETED", "0:0")}
+def test_a_shard_that_fails_fails_alone_and_once(made):
+    assert made.ends(0)[BROKEN] == ("FAILED", "2:0", "0")
+    assert made.shard_log(BROKEN) == "veldt: unknown option --seasons; see veldt generate --help\n"
 
 
 def test_a_crashed_node_leaves_its_shard_to_another(made):
-    (job,) = [job for name, job in made.arrays[0].items() if name.endswith(f"_{CRASHED}")]
-    assert job["NodeList"] != made.crashed_node
-    assert made.runs(CRASHED) == [(1, 0)]
+    assert made.ends(0)[CRASHED] == ("COMPLETED", "0:0", "1")
+    assert made.arrays[0][CRASHED]["NodeList"] != made.crashed_node
     made.slurm.start_node(made.crashed_node)
     assert wait_until(lambda: made.slurm.node_state(made.crashed_node) == "idle", 30)
 
 
 def test_a_requeued_shard_goes_on(made):
-    assert made.runs(REQUEUED)[-1] == (1, 0)
+    assert made.ends(0)[REQUEUED] == ("COMPLETED", "0:0", "1")
 
 
 def test_a_shard_waits_for_disk_space(made):
     if made.no_disk:
         pytest.skip(made.no_disk)
-    assert made.runs(FULL) == [(0, 75), (1, 0)]
-    assert "No space left on device" in made.log(FULL)
+    assert made.ends(0)[FULL] == ("COMPLETED", "0:0", "1")
+    log = made.shard_log(FULL)
+    assert len(re.findall(r"No space left on device|B left; expected at least", log)) == 1
+    assert "already existed" in log
 
 
 def test_a_shard_that_is_stopped_before_its_time_limit_goes_on(made):
-    assert made.runs(STOPPED) == [(0, 143), (1, 0)]
-    assert "veldt: stopped on request" in made.log(STOPPED)
+    assert made.ends(0)[STOPPED] == ("COMPLETED", "0:0", "1")
+    assert made.shard_log(STOPPED).count("veldt: stopped on request") == 1
 
 
-def test_merge_names_what_is_missing(made):
+def test_a_cancelled_shard_stays_cancelled(made):
+    state, _, restarts = made.ends(0)[CANCELLED]
+    assert (state, restarts) == ("CANCELLED", "0")
+
+
+def test_merge_lists_the_shards_to_run_again(made):
     (state, said), (later_state, later_said) = made.merges
     assert (state, later_state) == ("FAILED", "COMPLETED")
-    missing = ", ".join(CLIPS[BROKEN::SHARDS])
-    assert f"veldt: merged lacks clips {missing}; " in said
-    assert later_said == "merged: 5 clips merged, 30 frames; 35 already existed\n"
+    assert f"veldt: run these of {SHARDS} shards again: {BROKEN},{CANCELLED}\n" in said
+    merged = [int(re.search(r"(\d+) clips merged", text)[1]) for text in (said, later_said)]
+    assert sum(merged) == CLIPS and "the dataset is not complete yet" in said
+    assert {end[0] for end in made.ends(1).values()} == {"COMPLETED"}
 
 
 def test_the_dataset_is_that_of_an_undivided_run(made):
-    done = made.veldt("generate", "config.json", "--engine", "embree", "--out", "whole", "--quiet")
+    done = made.veldt("generate", "config.json", "--out", "whole", "--quiet")
     assert (done.code, done.out, done.err) == (0, "", "")
-    assert made.veldt("validate", "merged").code == 0
-    merged, whole = (_bytes_of(made.veldt.folder / name) for name in ("merged", "whole"))
+    merged, whole = (_bytes_of(made.veldt.folder / name) for name in ("dataset", "whole"))
     assert sorted(merged) == sorted(whole)
     assert [name for name in whole if merged[name] != whole[name]] == []
-    labels = made.veldt.read("whole/annotations.json")["annotations"]
-    assert {label["image_id"] for label in labels} and len(labels) > len(CLIPS)
+    assert made.veldt("validate", "dataset").code == 0
+    assert len(made.veldt.read("dataset/annotations.json")["annotations"]) > CLIPS
+
+
+def _bytes_of(folder: Path) -> dict[str, bytes]:
+    """Everything in a dataset but its plan, which a merged one lacks."""
+    names = [name for name in files_below(folder) if not name.startswith("plan/")]
+    return {name: (folder / name).read_bytes() for name in names}
 
 
 # Starts a cluster and a job that would last for an hour, and waits.
@@ -269,8 +258,7 @@ def test_no_process_outlives_a_killed_test(made):
     ) as test:
         folder = test.stdout.readline().strip()
         assert folder and folder != str(made.slurm.folder)
-        script = f"{folder}/n0/job"
-        assert wait_until(lambda: running_with(script), 10)
+        assert wait_until(lambda: running_with(f"{folder}/n0/job"), 10)
         test.kill()
     assert wait_until(lambda: not running_with(folder), 10), running_with(folder)
     shutil.rmtree(folder)
