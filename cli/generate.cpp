@@ -13,6 +13,7 @@
 #include "cli/shard_option.h"
 #include "cli/stop_signal.h"
 #include "dataset/layout.h"
+#include "dataset/plan/plan_checksums.h"
 #include "dataset/plan/plan_folder.h"
 #include "dataset/run/clip_choice.h"
 #include "dataset/run/planning.h"
@@ -138,6 +139,7 @@ int run_generate(const GenerateArguments& options, const CommonOptions& common, 
     print_plan(config, plan, chosen);
     return kDone;
   }
+  if (!options.plan.empty()) thermal::check_files_of_clips(options.plan, thermal::ids_of(chosen));
   watch_for_stop();
   thermal::RunOutcome outcome;
   {

@@ -1,5 +1,6 @@
 """`plan` once, then `generate --plan --shard` anywhere, then `merge`: the same dataset as one run makes."""
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -8,7 +9,7 @@ import pytest
 
 from configs import tiny
 from datasets import content_of
-from program import ROOT, Veldt, check_fault, files_below
+from program import PROGRAM, ROOT, Veldt, check_fault, files_below
 
 _NO_PROGRAMS = {"PATH": "/nonexistent"}
 _SHARDS = 3
@@ -218,7 +219,75 @@ def test_a_plan_whose_config_was_exchanged(place, tmp_path):
     config = veldt.read("plan/config.json")
     veldt.write("plan/config.json", config | {"seed": config["seed"] + 1})
     done = veldt("generate", "--plan", "plan", "--out", "never")
-    check_fault(done, 1, "plan/config.json is not the config of plan.json beside it; run veldt plan again")
+    _check_damaged(done, "plan/config.json")
+
+
+def _copied_plan(place, to) -> Path:
+    return Path(shutil.copytree(place.folder / "plan", to))
+
+
+def _check_damaged(done, file) -> None:
+    found = rf"veldt: {file} is damaged, or of another plan: its SHA-256 is \w{{64}}; checksums.json has \w{{64}};"
+    assert (done.code, done.out) == (1, "")
+    assert re.fullmatch(found + " run veldt plan again\n", done.err), done.err
+
+
+def _flip_a_bit(file: Path) -> None:
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 1
+    file.write_bytes(content)
+
+
+@pytest.mark.parametrize("name", ["plan.json", "config.json", "scene.bin", "tracks/{}.bin"])
+def test_a_damaged_plan_is_refused(place, tmp_path, name):
+    made = [path.name for path in (place.folder / "shards" / "0" / "clips").iterdir()]
+    name = name.format(made[0])
+    plan = _copied_plan(place, tmp_path / "plan")
+    _flip_a_bit(plan / name)
+    done = place("generate", "--plan", plan, "--shard", f"0/{_SHARDS}", "--out", tmp_path / "out", "--quiet")
+    _check_damaged(done, plan / name)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_damaged_track_stops_only_the_shard_that_needs_it(place, tmp_path):
+    other = next((place.folder / "shards" / "0" / "clips").iterdir()).name
+    plan = _copied_plan(place, tmp_path / "plan")
+    _flip_a_bit(plan / "tracks" / f"{other}.bin")
+    done = place("generate", "--plan", plan, "--shard", f"1/{_SHARDS}", "--out", tmp_path / "out", "--quiet")
+    assert (done.code, done.err) == (0, "")
+
+
+def test_a_damaged_plan_is_made_again(place, tmp_path):
+    plan = _copied_plan(place, tmp_path / "plan")
+    before = content_of(plan)
+    _flip_a_bit(plan / "scene.bin")
+    (tmp_path / "plan.part").mkdir()
+    (tmp_path / "plan.part" / "scene.bin").touch()
+    assert place("plan", "config.json", "--out", plan, "--quiet").code == 0
+    assert content_of(plan) == before
+    assert not (tmp_path / "plan.part").exists()
+
+
+def test_a_plan_with_another_output_is_not_planned_again(place, tmp_path):
+    plan = _copied_plan(place, tmp_path / "plan")
+    before = (plan / "scene.bin").stat().st_ino
+    done = place("plan", "config.json", "--set", "weather.air_temperature_k=290", "--out", plan, "--quiet")
+    assert (done.code, done.err) == (0, "")
+    assert (plan / "scene.bin").stat().st_ino == before
+    done = place("generate", "--plan", plan, "--shard", f"0/{_SHARDS}", "--out", tmp_path / "out", "--quiet")
+    assert (done.code, done.err) == (0, "")
+
+
+def test_two_plans_into_one_folder(place, tmp_path):
+    runs = [
+        subprocess.Popen(
+            [PROGRAM, "plan", place.folder / "config.json", "--out", tmp_path / "plan", "--quiet"]
+        )
+        for _ in range(2)
+    ]
+    assert [run.wait() for run in runs] == [0, 0]
+    assert content_of(tmp_path / "plan") == content_of(place.folder / "plan")
+    assert not (tmp_path / "plan.part").exists()
 
 
 def test_merge_refuses_shards_of_another_plan(place, tmp_path):

@@ -15,8 +15,8 @@ PlannedDataset plan_with_config(const Path& folder, const Config& config, const 
                                 const PlanOptions& options);
 
 /// Reads what plan_with_config() wrote. Plans nothing, and does not look at the files that the plan was made from: they
-/// need not exist on this machine. ConfigError with what is missing if `folder` is no such plan; DataError if a file is
-/// damaged, of another version, or belongs to another config.
+/// need not exist on this machine. ConfigError with what is missing if `folder` is no such plan; DataError if plan.json or
+/// config.json is damaged, of another plan, or of another version.
 [[nodiscard]] PlannedDataset open_plan(const Path& folder, const Assets& assets);
 
 }  // namespace thermal

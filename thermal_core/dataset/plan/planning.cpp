@@ -11,9 +11,11 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/printable.h"
+#include "dataset/plan/plan_checksums.h"
 #include "io/assets.h"
 #include "io/system/child_process.h"
 #include "io/system/files.h"
+#include "io/system/held_folder.h"
 #include "io/system/sha256.h"
 
 namespace thermal {
@@ -76,15 +78,10 @@ std::string run_planning(const Config& config, const std::string& name, const Pl
   return output.out;
 }
 
-Path part_of(const Path& folder) {
-  Path part = folder;
-  return part += ".part";
-}
-
 /// The plan in a folder, if there is a complete one of this version.
 std::optional<DatasetPlan> plan_in(const Path& folder, const Assets& assets) {
   const Path file = folder / "plan.json";
-  if (!std::filesystem::exists(file)) return std::nullopt;
+  if (!std::filesystem::exists(file) || !has_its_checksums(folder)) return std::nullopt;
   try {
     return plan_of(read_json(file), file.string(), assets);
   } catch (const Error&) {  // of another version, or damaged: it is made again
@@ -116,7 +113,8 @@ std::optional<DatasetPlan> current_plan(const Path& folder, const Config& config
 }
 
 std::vector<std::string> baking_arguments(const Path& part, const Path& earlier, const PlanOptions& options) {
-  std::vector<std::string> arguments = {"--out", part.string(), "--earlier", earlier.string()};
+  std::vector<std::string> arguments = {"--out", part.string()};
+  if (has_its_checksums(earlier)) arguments.insert(arguments.end(), {"--earlier", earlier.string()});
   if (!options.blender.empty()) arguments.insert(arguments.end(), {"--blender", options.blender.string()});
   if (options.preview) arguments.emplace_back("--preview");
   return arguments;
@@ -136,22 +134,27 @@ DatasetPlan plan_dataset(const Config& config, const std::string& name, const Pl
   return plan_of(parse_json(run_planning(config, name, options, {}), kScript), kScript, options.assets);
 }
 
+Path unfinished_plan(const Path& folder) {
+  Path part = folder;
+  return part += ".part";
+}
+
 DatasetPlan plan_into(const Path& folder, const Config& config, const std::string& name,
                       const PlanOptions& options,
                       const std::function<void(const DatasetPlan&)>& may_replace) {
-  if (auto plan = current_plan(folder, config, options)) return *std::move(plan);
-  const Path part = part_of(folder);
-  make_fresh_folder(part);
-  try {
-    (void)run_planning(config, name, options, baking_arguments(part, folder, options));
-    DatasetPlan plan = plan_of(read_json(part / "plan.json"), (part / "plan.json").string(), options.assets);
-    if (may_replace) may_replace(plan);
-    replace_folder(part, folder);
-    return plan;
-  } catch (...) {
-    sweep_folder(part);
-    throw;
+  const Path part = unfinished_plan(folder);
+  if (auto plan = current_plan(folder, config, options)) {
+    sweep_unless_held(part);
+    return *std::move(plan);
   }
+  const HeldFolder held(part);
+  if (auto plan = current_plan(folder, config, options)) return *std::move(plan);  // another run has made it
+  (void)run_planning(config, name, options, baking_arguments(part, folder, options));
+  DatasetPlan plan = plan_of(read_json(part / "plan.json"), (part / "plan.json").string(), options.assets);
+  if (may_replace) may_replace(plan);
+  write_checksums(part);
+  replace_folder(part, folder);
+  return plan;
 }
 
 }  // namespace thermal

@@ -28,11 +28,15 @@ struct PlanOptions {
                                        const PlanOptions& options);
 
 /// The same with the baked scene and the tracks of all clips, in `folder`. A plan that is already there is used again if
-/// nothing that it depends on has changed; otherwise `may_replace` is called with the new one, and it takes the old
-/// one's place in one step unless that throws. Not for two runs at once.
+/// nothing that it depends on has changed and none of its files is damaged; otherwise `may_replace` is called with the
+/// new one, which is still in unfinished_plan(), and it takes the old one's place in one step unless that throws. Of two
+/// runs at once, one plans, and the other waits for it.
 [[nodiscard]] DatasetPlan plan_into(const Path& folder, const Config& config, const std::string& name,
                                     const PlanOptions& options,
                                     const std::function<void(const DatasetPlan&)>& may_replace = {});
+
+/// Where the plan of this folder is made.
+[[nodiscard]] Path unfinished_plan(const Path& folder);
 
 /// The Python that runs the planning: $VELDT_PYTHON, /usr/bin/python3, or python3 on $PATH; empty if there is none.
 [[nodiscard]] Path find_python();

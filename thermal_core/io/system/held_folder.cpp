@@ -1,0 +1,86 @@
+#include "io/system/held_folder.h"
+
+#include <cerrno>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace thermal {
+namespace {
+
+/// Negative if there is no such folder.
+int open_folder(const Path& folder) noexcept {
+  return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+/// Makes a folder, and opens it. What else is in its place is removed.
+int make_and_open(const Path& folder) {
+  make_folder(folder.parent_path().empty() ? Path(".") : folder.parent_path());
+  for (int tries = 0; tries < 2; ++tries) {
+    if (::mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST) fail_at("make folder", folder, errno);
+    if (const int descriptor = open_folder(folder); descriptor >= 0) return descriptor;
+    if (errno == ELOOP || errno == ENOTDIR) ::unlink(folder.c_str());
+  }
+  fail_at("open", folder, errno);
+}
+
+/// Whether another run holds it: then waits, if so wanted. Other errors mean that folders cannot be locked here.
+bool is_held(int descriptor, bool wait) noexcept {
+  while (::flock(descriptor, wait ? LOCK_EX : LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EINTR) continue;
+    return errno == EWOULDBLOCK;
+  }
+  return false;
+}
+
+/// False if the open folder was moved or removed by the run that held it.
+bool is_at(int descriptor, const Path& folder) noexcept {
+  struct stat open = {};
+  struct stat there = {};
+  return ::fstat(descriptor, &open) == 0 && ::lstat(folder.c_str(), &there) == 0 &&
+         open.st_dev == there.st_dev && open.st_ino == there.st_ino;
+}
+
+void empty(const Path& folder) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::filesystem::remove_all(entry->path(), error);
+    if (error) break;
+  }
+  if (error) fail_at("empty", folder, error.value());
+}
+
+}  // namespace
+
+HeldFolder::HeldFolder(const Path& folder) : folder_(folder) {
+  check_is_no_link(folder.parent_path());
+  do {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = make_and_open(folder);
+    (void)is_held(descriptor_, true);
+  } while (!is_at(descriptor_, folder));
+  try {
+    empty(folder);
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+HeldFolder::~HeldFolder() {
+  if (is_at(descriptor_, folder_)) sweep_folder(folder_);
+  ::close(descriptor_);
+}
+
+void sweep_unless_held(const Path& folder) noexcept {
+  const int descriptor = open_folder(folder);
+  if (descriptor < 0) return;
+  if (!is_held(descriptor, false) && is_at(descriptor, folder)) sweep_folder(folder);
+  ::close(descriptor);
+}
+
+}  // namespace thermal
