@@ -120,6 +120,8 @@ int run_guarded(const Session& session) {
   } catch (const thermal::Cancelled& error) {
     print_fault(std::string(error.what()) + "; run the same command again to resume");
     return 128 + stop_signal();
+  } catch (const std::bad_alloc&) {
+    throw;  // main() reports it without allocating
   } catch (const std::exception& error) {
     print_fault(error.what());
     return kFailed;
