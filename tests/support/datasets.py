@@ -12,11 +12,12 @@ _PREVIEW = "preview.mp4"  # the encoder's output may depend on timing: the same 
 
 def content_of(folder: Path) -> dict:
     """The bytes of every file of a dataset by name, without the previews and their hashes."""
-    return {name: _content(folder / name) for name in files_below(folder) if not name.endswith(_PREVIEW)}
+    return {name: _content(folder, name) for name in files_below(folder) if not name.endswith(_PREVIEW)}
 
 
-def _content(file: Path):
-    if file.name == "clip.json":
+def _content(folder: Path, name: str):
+    file = folder / name
+    if file.name == "clip.json" and ".part/" not in name:
         record = json.loads(file.read_text(encoding="utf-8"))
         record["files"].pop(_PREVIEW)
         record.pop("made_from_sha256", None)  # of the passes, which may be of another kind

@@ -1,0 +1,136 @@
+"""The night of faults must not pass what it should report: whatever is spoilt after the resumed run is a loss."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+import night
+from runs import Ended, adopt_orphans
+from scenes import Scenes
+from shims import Shims, can_compile
+from trial import Kind, Outcome, Trial
+
+pytestmark = pytest.mark.skipif(not can_compile(), reason="no C compiler")
+
+
+@pytest.fixture(scope="module", name="scenes")
+def _scenes(tmp_path_factory) -> Scenes:
+    adopt_orphans()
+    folder = tmp_path_factory.mktemp("night")
+    made = Scenes(folder, Shims.compiled(folder), ["generate"])
+    made.states = [state for state in made.states if state.half]
+    return made
+
+
+def _round(scenes, tmp_path, monkeypatch, outcome: Outcome, spoil=lambda work: None) -> night.Round:
+    """A round with this outcome, in which something is spoilt at the end of the resumed run."""
+
+    def run(trial: Trial) -> Ended:
+        ended = undisturbed(trial)
+        spoil(trial.work)
+        return ended
+
+    undisturbed = Trial.run
+    monkeypatch.setattr(Trial, "run", run)
+    monkeypatch.setitem(night.KINDS, "none", Kind(lambda trial: outcome))
+    return night.Night(tmp_path, scenes, Shims(tmp_path), 1).round(0, ["none"])
+
+
+def _nothing() -> Outcome:
+    return Outcome([], "nothing", 0)
+
+
+def test_without_a_fault_nothing_is_lost(scenes, tmp_path, monkeypatch):
+    done = _round(scenes, tmp_path, monkeypatch, _nothing())
+    assert (done.losses, done.recovered, done.resumed) == ([], True, 0)
+    assert not (tmp_path / "rounds" / "0").exists()
+
+
+def _change_a_byte(file: Path) -> None:
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 1
+    file.write_bytes(content)
+
+
+PICTURE = "out/clips/second/ir16/000001.png"
+SPOILT = {
+    "a lost picture": (lambda work: (work / PICTURE).unlink(), f"lost: {PICTURE}"),
+    "a changed byte": (lambda work: _change_a_byte(work / PICTURE), f"changed: {PICTURE}"),
+    "a changed label": (
+        lambda work: _change_a_byte(work / "out/annotations.json"),
+        "changed: out/annotations.json",
+    ),
+    "a temporary file": (
+        lambda work: (work / "out" / "dataset.json.tmp").touch(),
+        "temporary: out/dataset.json.tmp",
+    ),
+    "a temporary folder": (
+        lambda work: (work / "out" / "clips" / "x.part").mkdir(),
+        "temporary: out/clips/x.part",
+    ),
+    "a file elsewhere": (lambda work: (work / "tmp" / "veldt_x").touch(), "temporary: tmp/veldt_x"),
+    "an empty folder": (lambda work: (work / "out" / "passes").mkdir(), "extra folders: out/passes"),
+    "a lost preview": (
+        lambda work: (work / "out/clips/second/preview.mp4").write_bytes(b""),
+        "lost previews: out/clips/second/preview.mp4",
+    ),
+    "a clip made again": (
+        lambda work: _make_again(work / "out" / "clips" / "first" / "clip.json"),
+        "out/clips/first was committed and is made again",
+    ),
+    "a process": (
+        lambda work: subprocess.run(["sh", "-c", "sleep 60 &"], check=True),
+        "process left by the resumed run: sleep",
+    ),
+}
+
+
+def _make_again(file: Path) -> None:
+    content = file.read_bytes()
+    file.unlink()
+    file.write_bytes(content)
+
+
+@pytest.mark.parametrize("name", SPOILT)
+def test_what_is_spoilt_is_a_loss(scenes, tmp_path, monkeypatch, name):
+    spoil, loss = SPOILT[name]
+    done = _round(scenes, tmp_path, monkeypatch, _nothing(), spoil)
+    assert not done.recovered and loss in done.losses
+    assert (tmp_path / "rounds" / "0" / "disturbed").is_dir()
+
+
+ENDED = {
+    "a crash": (Ended(-11, ""), "ended with -11"),
+    "a run that hangs": (Ended(None, ""), "ended with None"),
+    "a run that has done nothing": (Ended(0, ""), "reported as done, lost: out/clips/fifth/clip.json"),
+}
+
+
+@pytest.mark.parametrize("name", ENDED)
+def test_how_the_disturbed_run_ended_may_be_a_loss(scenes, tmp_path, monkeypatch, name):
+    ended, loss = ENDED[name]
+    done = _round(scenes, tmp_path, monkeypatch, Outcome([ended], "nothing", 0))
+    assert not done.recovered and any(one.startswith(loss) for one in done.losses)
+
+
+def test_a_resumed_run_that_fails_is_a_loss(scenes, tmp_path, monkeypatch):
+    done = _round(scenes, tmp_path, monkeypatch, _nothing(), lambda work: None)
+    assert done.recovered
+    monkeypatch.setattr(Trial, "run", lambda trial: Ended(1, "veldt: no\n"))
+    done = night.Night(tmp_path, scenes, Shims(tmp_path), 1).round(0, ["none"])
+    assert not done.recovered and "resumed: 1, veldt: no" in done.losses
+
+
+def test_the_table_counts_by_kind():
+    rounds = [
+        night.Round(0, 1, "kill", "generate", faults=1, recovered=True),
+        night.Round(1, 1, "kill", "generate", faults=0, recovered=True),
+        night.Round(2, 1, "no memory", "generate", faults=7, recovered=False),
+    ]
+    rows = [line.split() for line in night.table(rounds).splitlines()]
+    assert rows[1] == ["kill", "2", "1", "1", "2", "0"]
+    assert rows[2] == ["no", "memory", "1", "1", "7", "0", "1"]
+    assert rows[3] == ["all", "3", "2", "8", "2", "1"]
