@@ -40,6 +40,7 @@ start_stage() { # IMAGE [AS NAME]
 inside() { # COMMAND…
   local name outside=(HOME=/)
   for name in {http,https,no}_proxy; do [[ -z ${!name:-} ]] || outside+=("$name=${!name}"); done
+  # shellcheck disable=SC2016 # the inner shell replaces these
   chroot --userspec="$user" --groups= "$stage" env -i "${outside[@]}" "${environment[@]}" \
     sh -c 'cd "$0" && exec "$@"' "$workdir" "$@"
 }
@@ -131,7 +132,15 @@ use_image() {
   make_frames 4321:4321 embree
 }
 
+# The nights of configs/ci, with the image for their jobs. What runs them is installed here, not in the image.
+make_nights() {
+  apt-get install --quiet --quiet --yes --no-install-recommends python3-pytest python3-yaml >"$images/apt.log" 2>&1 ||
+    fail "$(cat "$images/apt.log")"
+  VELDT_IMAGE_ROOT=$stage VELDT_IMAGE_USER=$user python3 -B -m pytest -q tests/cli/test_ci_files.py
+}
+
 copy_base
 build_image
 use_image
+make_nights
 echo "== container: $(du --summarize --human-readable --one-file-system "$stage" | cut -f1) in the image"
