@@ -30,7 +30,7 @@ def test_the_file_follows_the_schema(name):
     "name, part, wrong",
     [
         ("github.yml", "runs-on: ubuntu-latest", "runs: ubuntu-latest"),
-        ("github.yml", "fail-fast: false", "fail-fast: sometimes"),
+        ("github.yml", "fail-fast: false", "fail-late: false"),
         ("github.yml", "contents: read", "contents: some"),
         ("gitlab.yml", "max: 2", "max: 3"),
         ("gitlab.yml", "exit_codes: [75]", "exit_codes: [temporary]"),
