@@ -13,7 +13,11 @@ from program import files_below
 
 MADE = ["config.json", "map.png", "overview.png"]
 _BAKED = ["scene", "tracks/down", "tracks/side", "preview/sheet", "preview/moment"]
-PLANNED = ["plan/plan.json", *(f"plan/{name}.{kind}" for name in _BAKED for kind in ("json", "bin"))]
+PLANNED = [
+    "plan/checksums.json",
+    "plan/plan.json",
+    *(f"plan/{name}.{kind}" for name in _BAKED for kind in ("json", "bin")),
+]
 
 
 def _run(blender, *options, out="out") -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from scenes import State, copy
+from states import State, copy
 from trial import ANY_CLEAN, WRONG_USE, Kind, Outcome, Trial
 
 _GARBAGE = b"\x00garbage\xff" * 100

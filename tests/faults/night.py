@@ -28,7 +28,7 @@ import process_faults
 import system_faults
 from checker import committed, problems
 from runs import adopt_orphans, left_over
-from scenes import STEPS, Scenes, copy
+from states import STEPS, Scenes, copy
 from shims import Shims, can_compile
 from trial import DONE, Kind, Outcome, Trial
 

@@ -9,7 +9,7 @@ import pytest
 
 import night
 from runs import Ended, adopt_orphans
-from scenes import Scenes
+from states import Scenes
 from shims import Shims, can_compile
 from trial import Kind, Outcome, Trial
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from runs import Ended, finish, run_to_end, start
-from scenes import State
+from states import State
 from shims import Orders, Shims, injected
 
 DONE, FAILED, WRONG_USE, REJECTED, TRY_AGAIN = 0, 1, 2, 3, 75

@@ -29,7 +29,7 @@ struct Source {
 /// A complete clip in some folder.
 struct FoundClip {
   Path folder;
-  ClipRecord record;
+  ClipRecord record;          ///< without its files, of which a dataset has millions
   std::string record_sha256;  ///< its entry in dataset.json; empty without one
 };
 
@@ -119,6 +119,7 @@ std::vector<FoundClip> find_in_all(const std::vector<Source>& sources, const std
                                   all.front().folder.string(), found->folder.string()));
     all.push_back(*std::move(found));
   }
+  for (FoundClip& clip : all) clip.record.files.clear();
   return all;
 }
 
@@ -196,16 +197,16 @@ class Merger {
   }
 
   void add(const FoundClip& clip) {
-    const std::string& id = clip.record.clip;
-    const Path part = transaction_.unfinished(id);
+    const Path file = clip.folder / "clip.json";
+    if (!clip.record_sha256.empty()) check_file(file, clip.record_sha256);
+    const ClipRecord record = read_clip_record(file);
+    const Path part = transaction_.unfinished(record.clip);
     make_fresh_folder(part);
-    for (const auto& [name, sum] : clip.record.files) add_file(clip.folder / name, part / name, sum);
-    const Path record = clip.folder / "clip.json";
-    if (!clip.record_sha256.empty()) check_file(record, clip.record_sha256);
-    link_file(record, part / "clip.json", options_.linking);
-    transaction_.commit(clip.record);
-    outcome_.run.made.push_back(id);
-    outcome_.run.frames_made += clip.record.frames;
+    for (const auto& [name, sum] : record.files) add_file(clip.folder / name, part / name, sum);
+    link_file(file, part / "clip.json", options_.linking);
+    transaction_.commit(record);
+    outcome_.run.made.push_back(record.clip);
+    outcome_.run.frames_made += record.frames;
   }
 
   void add_file(const Path& file, const Path& as, const std::string& sum) {
