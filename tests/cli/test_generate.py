@@ -74,13 +74,9 @@ def test_the_dataset_is_laid_out_as_documented(usual):
     of_a_clip = ["clip.json", "frames.jsonl", "labels.json", "preview.mp4", *pictures]
     expected = [f"clips/{clip}/{name}" for clip in CLIPS for name in of_a_clip]
     baked = ["scene", *(f"tracks/{clip}" for clip in CLIPS)]
-    plan = [
-        "plan/plan.json",
-        "plan/checksums.json",
-        *(f"plan/{name}.{kind}" for name in baked for kind in ("json", "bin")),
-    ]
+    plan = ["plan.json", "checksums.json", *(f"{name}.{kind}" for name in baked for kind in ("json", "bin"))]
     assert files_below(usual.folder / "out") == sorted(
-        [".lock", "annotations.json", "dataset.json", *expected, *plan]
+        [".lock", "annotations.json", "dataset.json", *expected, *(f"plan/{name}" for name in plan)]
     )
     assert usual("validate", "out").code == 0
     assert len(set(usual.pixels("out").values())) == 3
