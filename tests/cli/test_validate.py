@@ -5,6 +5,7 @@ import json
 import pytest
 
 import passes
+from datasets import flip_bit
 
 
 @pytest.fixture(name="dataset")
@@ -15,13 +16,6 @@ def _dataset(veldt):
     return veldt.folder / "out"
 
 
-def _flip(file, position):
-    """Flip the lowest bit of one byte."""
-    content = bytearray(file.read_bytes())
-    content[position] ^= 1
-    file.write_bytes(content)
-
-
 FRAME8, FRAME16 = "clips/two/ir8/000001.png", "clips/one/ir16/000002.png"
 HEADER, MIDDLE, LAST = 18, 90, -1  # of a PNG: its width, its pixels, its closing checksum
 
@@ -29,10 +23,10 @@ CHANGED = "changed since it was written"
 
 DAMAGE = {
     "frame deleted": (FRAME8, lambda f: f.unlink(), "missing"),
-    "bit of the first byte flipped": (FRAME8, lambda f: _flip(f, 0), CHANGED),
-    "bit of the header flipped": (FRAME8, lambda f: _flip(f, HEADER), CHANGED),
-    "bit of the pixels flipped": (FRAME8, lambda f: _flip(f, MIDDLE), CHANGED),
-    "bit of the last byte flipped": (FRAME8, lambda f: _flip(f, LAST), CHANGED),
+    "bit of the first byte flipped": (FRAME8, lambda f: flip_bit(f, 0), CHANGED),
+    "bit of the header flipped": (FRAME8, lambda f: flip_bit(f, HEADER), CHANGED),
+    "bit of the pixels flipped": (FRAME8, lambda f: flip_bit(f, MIDDLE), CHANGED),
+    "bit of the last byte flipped": (FRAME8, lambda f: flip_bit(f, LAST), CHANGED),
     "16-bit frame cut short": (FRAME16, lambda f: f.write_bytes(f.read_bytes()[:-80]), CHANGED),
     "16-bit frame emptied": (FRAME16, lambda f: f.write_bytes(b""), CHANGED),
     "clip's record deleted": ("clips/one/clip.json", lambda f: f.unlink(), "missing"),
@@ -46,7 +40,7 @@ DAMAGE = {
         lambda f: f.write_text(f.read_text().replace('"area": 6', '"area": 7')),
         CHANGED,
     ),
-    "preview changed": ("clips/two/preview.mp4", lambda f: _flip(f, -1), CHANGED),
+    "preview changed": ("clips/two/preview.mp4", lambda f: flip_bit(f, -1), CHANGED),
     "frame list changed": ("clips/two/frames.jsonl", lambda f: f.write_text(""), CHANGED),
     "annotations deleted": ("annotations.json", lambda f: f.unlink(), "missing"),
     "annotations changed": (

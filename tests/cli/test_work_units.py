@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from configs import tiny
-from datasets import content_of
+from datasets import content_of, flip_bit
 from program import PROGRAM, ROOT, Veldt, check_fault, files_below
 
 _NO_PROGRAMS = {"PATH": "/nonexistent"}
@@ -232,18 +232,12 @@ def _check_damaged(done, file) -> None:
     assert re.fullmatch(found + " run veldt plan again\n", done.err), done.err
 
 
-def _flip_a_bit(file: Path) -> None:
-    content = bytearray(file.read_bytes())
-    content[len(content) // 2] ^= 1
-    file.write_bytes(content)
-
-
 @pytest.mark.parametrize("name", ["plan.json", "config.json", "scene.bin", "tracks/{}.bin"])
 def test_a_damaged_plan_is_refused(place, tmp_path, name):
     made = [path.name for path in (place.folder / "shards" / "0" / "clips").iterdir()]
     name = name.format(made[0])
     plan = _copied_plan(place, tmp_path / "plan")
-    _flip_a_bit(plan / name)
+    flip_bit(plan / name)
     done = place("generate", "--plan", plan, "--shard", f"0/{_SHARDS}", "--out", tmp_path / "out", "--quiet")
     _check_damaged(done, plan / name)
     assert not (tmp_path / "out").exists()
@@ -252,7 +246,7 @@ def test_a_damaged_plan_is_refused(place, tmp_path, name):
 def test_a_damaged_track_stops_only_the_shard_that_needs_it(place, tmp_path):
     other = next((place.folder / "shards" / "0" / "clips").iterdir()).name
     plan = _copied_plan(place, tmp_path / "plan")
-    _flip_a_bit(plan / "tracks" / f"{other}.bin")
+    flip_bit(plan / "tracks" / f"{other}.bin")
     done = place("generate", "--plan", plan, "--shard", f"1/{_SHARDS}", "--out", tmp_path / "out", "--quiet")
     assert (done.code, done.err) == (0, "")
 
@@ -260,7 +254,7 @@ def test_a_damaged_track_stops_only_the_shard_that_needs_it(place, tmp_path):
 def test_a_damaged_plan_is_made_again(place, tmp_path):
     plan = _copied_plan(place, tmp_path / "plan")
     before = content_of(plan)
-    _flip_a_bit(plan / "scene.bin")
+    flip_bit(plan / "scene.bin")
     (tmp_path / "plan.part").mkdir()
     (tmp_path / "plan.part" / "scene.bin").touch()
     assert place("plan", "config.json", "--out", plan, "--quiet").code == 0

@@ -7,7 +7,6 @@ Whoever starts it holds a pipe to its standard input. The pipe closes when that 
 
 from __future__ import annotations
 
-import ctypes
 import os
 import select
 import signal
@@ -15,26 +14,17 @@ import subprocess
 import sys
 from pathlib import Path
 
-_PR_SET_CHILD_SUBREAPER = 36  # <linux/prctl.h>: orphans below this process become its children
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
-
-def _children() -> list[int]:
-    found = []
-    for stat in Path("/proc").glob("[0-9]*/stat"):
-        try:
-            parent = int(stat.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()[1])
-        except OSError:  # ended meanwhile
-            continue
-        if parent == os.getpid():
-            found.append(int(stat.parent.name))
-    return found
+from processes import adopt_orphans, parents  # pylint: disable=wrong-import-position
 
 
 def _kill_all_below() -> None:
     """A killed process leaves its children to this one, which kills them in turn."""
     while True:
-        for child in _children():
-            os.kill(child, signal.SIGKILL)
+        for child, parent in parents().items():
+            if parent == os.getpid():
+                os.kill(child, signal.SIGKILL)
         try:
             os.waitpid(-1, 0)
         except ChildProcessError:
@@ -52,7 +42,7 @@ def _wait(command: subprocess.Popen) -> None:
 
 def main() -> None:
     """Keep the command of the command line."""
-    ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+    adopt_orphans()
     try:
         _wait(subprocess.Popen(sys.argv[1:], stdin=subprocess.DEVNULL))
     finally:

@@ -27,7 +27,8 @@ import folder_faults
 import process_faults
 import system_faults
 from checker import committed, problems
-from runs import adopt_orphans, left_over
+from processes import adopt_orphans
+from runs import left_over
 from states import STEPS, Scenes, copy
 from shims import Shims, can_compile
 from trial import DONE, Kind, Outcome, Trial

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import signal
+import subprocess
+from dataclasses import dataclass
 
 from runs import descendants, name_of, pause, send
 from shims import Orders
@@ -11,20 +13,32 @@ from trial import DONE, TRY_AGAIN, ANY_CLEAN, Kind, Outcome, Trial
 _ASKED = (signal.SIGTERM, signal.SIGINT)
 
 
-def _victim(trial: Trial, run) -> tuple[int, str]:
-    """Some process of a run, or the run itself."""
+@dataclass
+class _Hit:
+    """A run, and which of its processes got a signal; also the run itself."""
+
+    run: subprocess.Popen
+    process: int
+    name: str
+    was_there: int  # 0 if the run had ended before, else 1
+
+
+def _hit(trial: Trial, moment_s: float, number: int) -> _Hit:
+    """Start a run, and send a signal to some process of it at a moment."""
+    run = trial.start()
+    goes_on = pause(moment_s, run)
     process = trial.random.choice(descendants(run.pid))
-    return process, "veldt" if process == run.pid else name_of(process)
+    name = "veldt" if process == run.pid else name_of(process)
+    return _Hit(run, process, name, int(goes_on and send(process, number)))
 
 
 def _kill(trial: Trial) -> Outcome:
     moment_s = trial.moment_s()
-    run = trial.start()
-    hit = pause(moment_s, run)
-    process, name = _victim(trial, run)
-    hit = hit and send(process, signal.SIGKILL)
-    ended = trial.finish(run)
-    return Outcome([ended], f"{name} after {moment_s:.2f} s", int(hit), (-signal.SIGKILL, *ANY_CLEAN))
+    hit = _hit(trial, moment_s, signal.SIGKILL)
+    ended = trial.finish(hit.run)
+    return Outcome(
+        [ended], f"{hit.name} after {moment_s:.2f} s", hit.was_there, (-signal.SIGKILL, *ANY_CLEAN)
+    )
 
 
 def _kill_at_call(trial: Trial) -> Outcome:
@@ -39,43 +53,37 @@ def _kill_at_call(trial: Trial) -> Outcome:
 
 def _stop_and_continue(trial: Trial) -> Outcome:
     moment_s, length_s = trial.moment_s(), trial.random.uniform(0.1, 1.0)
-    run = trial.start()
-    hit = pause(moment_s, run)
-    process, name = _victim(trial, run)
-    hit = hit and send(process, signal.SIGSTOP)
-    pause(length_s, run)
-    send(process, signal.SIGCONT)
-    ended = trial.finish(run)
-    return Outcome([ended], f"{name} after {moment_s:.2f} s for {length_s:.2f} s", int(hit), (DONE,))
+    hit = _hit(trial, moment_s, signal.SIGSTOP)
+    pause(length_s, hit.run)
+    send(hit.process, signal.SIGCONT)
+    ended = trial.finish(hit.run)
+    where = f"{hit.name} after {moment_s:.2f} s for {length_s:.2f} s"
+    return Outcome([ended], where, hit.was_there, (DONE,))
 
 
 def _stop_and_kill(trial: Trial) -> Outcome:
     """Also another process than the one that is stopped."""
     moment_s, length_s = trial.moment_s(), trial.random.uniform(0.0, 0.5)
-    run = trial.start()
-    hit = pause(moment_s, run)
-    stopped, name = _victim(trial, run)
-    hit = hit and send(stopped, signal.SIGSTOP)
-    pause(length_s, run)
-    killed = run.pid if trial.random.random() < 0.5 else stopped
+    hit = _hit(trial, moment_s, signal.SIGSTOP)
+    pause(length_s, hit.run)
+    killed = hit.run.pid if trial.random.random() < 0.5 else hit.process
     send(killed, signal.SIGKILL)
-    send(stopped, signal.SIGKILL)
-    ended = trial.finish(run)
-    return Outcome([ended], f"{name} after {moment_s:.2f} s", int(hit), (-signal.SIGKILL, *ANY_CLEAN))
+    send(hit.process, signal.SIGKILL)
+    ended = trial.finish(hit.run)
+    return Outcome(
+        [ended], f"{hit.name} after {moment_s:.2f} s", hit.was_there, (-signal.SIGKILL, *ANY_CLEAN)
+    )
 
 
 def _ask(trial: Trial) -> Outcome:
     moment_s, number = trial.moment_s(), trial.random.choice(_ASKED)
-    run = trial.start()
-    hit = pause(moment_s, run)
-    process, name = _victim(trial, run)
-    hit = hit and send(process, number)
+    hit = _hit(trial, moment_s, number)
     if trial.random.random() < 0.3:  # impatient users ask again
-        pause(trial.random.uniform(0.0, 0.1), run)
-        send(process, number)
-    ended = trial.finish(run)
-    where = f"{number.name} to {name} after {moment_s:.2f} s"
-    return Outcome([ended], where, int(hit), (128 + number, -number, *ANY_CLEAN))
+        pause(trial.random.uniform(0.0, 0.1), hit.run)
+        send(hit.process, number)
+    ended = trial.finish(hit.run)
+    where = f"{number.name} to {hit.name} after {moment_s:.2f} s"
+    return Outcome([ended], where, hit.was_there, (128 + number, -number, *ANY_CLEAN))
 
 
 def _two_runs(trial: Trial) -> Outcome:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
 import signal
 import subprocess
@@ -11,10 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from processes import parent_of, wait_until
+from processes import parents, wait_until
 from program import PROGRAM
 
-_PR_SET_CHILD_SUBREAPER = 36
 HUNG_S = 120.0  # a run that takes longer waits for something that never comes
 
 
@@ -29,11 +27,6 @@ class Ended:
         """The last line on standard error."""
         lines = [line for line in self.err.splitlines() if line]
         return lines[-1] if lines else ""
-
-
-def adopt_orphans() -> None:
-    """Become the parent of what outlives the process that started it, so that it can be found."""
-    ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1)
 
 
 def start(
@@ -76,15 +69,10 @@ def run_to_end(step: Sequence[str], work: Path, name: str = "run", **how) -> End
 
 def descendants(process: int) -> list[int]:
     """A process that runs, and all that it has started, itself or through others; parents first."""
-    parents: dict[int, int] = {}
-    for folder in Path("/proc").glob("[0-9]*"):
-        try:
-            parents[int(folder.name)] = parent_of(int(folder.name))
-        except (OSError, ValueError, IndexError):  # ended meanwhile
-            continue
+    pairs = parents().items()
     found = [process]
     for known in found:
-        found += [child for child, parent in parents.items() if parent == known]
+        found += [child for child, parent in pairs if parent == known]
     return found
 
 

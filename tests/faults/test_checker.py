@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 
 import night
-from runs import Ended, adopt_orphans
+from datasets import flip_bit
+from processes import adopt_orphans
+from runs import Ended
 from states import Scenes
 from shims import Shims, can_compile
 from trial import Kind, Outcome, Trial
@@ -49,18 +51,12 @@ def test_without_a_fault_nothing_is_lost(scenes, tmp_path, monkeypatch):
     assert not (tmp_path / "rounds" / "0").exists()
 
 
-def _change_a_byte(file: Path) -> None:
-    content = bytearray(file.read_bytes())
-    content[len(content) // 2] ^= 1
-    file.write_bytes(content)
-
-
 PICTURE = "out/clips/second/ir16/000001.png"
 SPOILT = {
     "a lost picture": (lambda work: (work / PICTURE).unlink(), f"lost: {PICTURE}"),
-    "a changed byte": (lambda work: _change_a_byte(work / PICTURE), f"changed: {PICTURE}"),
+    "a changed byte": (lambda work: flip_bit(work / PICTURE), f"changed: {PICTURE}"),
     "a changed label": (
-        lambda work: _change_a_byte(work / "out/annotations.json"),
+        lambda work: flip_bit(work / "out/annotations.json"),
         "changed: out/annotations.json",
     ),
     "a temporary file": (

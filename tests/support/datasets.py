@@ -1,4 +1,4 @@
-"""Comparison of datasets made from one config."""
+"""Datasets made from one config: comparison and damage."""
 
 from __future__ import annotations
 
@@ -26,3 +26,10 @@ def _content(folder: Path, name: str):
         lines = file.read_text(encoding="utf-8").splitlines()
         return [line for line in lines if '"record_sha256"' not in line]
     return file.read_bytes()
+
+
+def flip_bit(file: Path, position: int | None = None) -> None:
+    """Flip the lowest bit of one byte: the one in the middle, unless told."""
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2 if position is None else position] ^= 1
+    file.write_bytes(content)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import ctypes
 import time
 from collections.abc import Callable
 from pathlib import Path
+
+_PR_SET_CHILD_SUBREAPER = 36  # <linux/prctl.h>
 
 
 def running_with(word: str | Path) -> dict[int, str]:
@@ -32,4 +35,21 @@ def wait_until(condition: Callable[[], bool], seconds: float) -> bool:
 
 def parent_of(process: int) -> int:
     """The process that started a running one."""
-    return int(Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[1])
+    stat = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace")
+    return int(stat.rpartition(")")[2].split()[1])
+
+
+def parents() -> dict[int, int]:
+    """The parents of all processes."""
+    found = {}
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            found[int(folder.name)] = parent_of(int(folder.name))
+        except (OSError, IndexError):  # ended meanwhile
+            continue
+    return found
+
+
+def adopt_orphans() -> None:
+    """Have what outlives the process that started it become a child of this one, so that it can be found."""
+    ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)

@@ -64,6 +64,17 @@ bool is_read_for(const std::string& name, const std::set<std::string>& clips) {
   return path.parent_path() != "tracks" || clips.contains(path.stem().string());
 }
 
+/// DataError for the first file that is not as recorded.
+void check(const Path& folder, const std::vector<std::string>& names, const Sums& recorded) {
+  for (const auto& [name, sum] : sums_of(folder, names)) {
+    const auto wanted = recorded.find(name);
+    if (wanted == recorded.end() || wanted->second != sum)
+      throw DataError(fmt::format(
+          "{} is damaged, or of another plan: its SHA-256 is {}; {} has {}; run veldt plan again",
+          (folder / name).string(), sum, kName, wanted == recorded.end() ? "none" : wanted->second));
+  }
+}
+
 }  // namespace
 
 void write_checksums(const Path& folder) {
@@ -80,21 +91,15 @@ bool has_its_checksums(const Path& folder) {
 }
 
 void check_files(const Path& folder, const std::vector<std::string>& names) {
-  const Sums recorded = recorded_in(folder);
-  for (const auto& [name, sum] : sums_of(folder, names)) {
-    const auto wanted = recorded.find(name);
-    if (wanted == recorded.end() || wanted->second != sum)
-      throw DataError(fmt::format(
-          "{} is damaged, or of another plan: its SHA-256 is {}; {} has {}; run veldt plan again",
-          (folder / name).string(), sum, kName, wanted == recorded.end() ? "none" : wanted->second));
-  }
+  check(folder, names, recorded_in(folder));
 }
 
 void check_files_of_clips(const Path& folder, const std::vector<std::string>& clips) {
+  const Sums recorded = recorded_in(folder);
   const std::set<std::string> wanted(clips.begin(), clips.end());
-  std::vector<std::string> names = names_of(recorded_in(folder));
+  std::vector<std::string> names = names_of(recorded);
   std::erase_if(names, [&wanted](const std::string& name) { return !is_read_for(name, wanted); });
-  check_files(folder, names);
+  check(folder, names, recorded);
 }
 
 }  // namespace thermal

@@ -81,7 +81,7 @@ std::string run_planning(const Config& config, const std::string& name, const Pl
 /// The plan in a folder, if there is a complete one of this version.
 std::optional<DatasetPlan> plan_in(const Path& folder, const Assets& assets) {
   const Path file = folder / "plan.json";
-  if (!std::filesystem::exists(file) || !has_its_checksums(folder)) return std::nullopt;
+  if (!std::filesystem::exists(file)) return std::nullopt;
   try {
     return plan_of(read_json(file), file.string(), assets);
   } catch (const Error&) {  // of another version, or damaged: it is made again
@@ -103,12 +103,14 @@ bool is_made_from(const DatasetPlan& plan, const Config& config, const Assets& a
          });
 }
 
-/// The plan in a folder, unless it is of another config or was made from other files.
+/// The plan in a folder, unless it is of another config, was made from other files, or is damaged. Its own files, which
+/// may be large, are read last.
 std::optional<DatasetPlan> current_plan(const Path& folder, const Config& config,
                                         const PlanOptions& options) {
   std::optional<DatasetPlan> plan = plan_in(folder, options.assets);
   const bool has_pictures = !options.preview || std::filesystem::exists(folder / "preview");
-  if (plan && has_pictures && is_made_from(*plan, config, options.assets)) return plan;
+  if (plan && has_pictures && is_made_from(*plan, config, options.assets) && has_its_checksums(folder))
+    return plan;
   return std::nullopt;
 }
 
