@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dataset/clip/tone_record.h"
+#include "dataset/layout.h"
 #include "imaging/target_contrast.h"
 #include "io/system/files.h"
 #include "scene/camera_geometry.h"

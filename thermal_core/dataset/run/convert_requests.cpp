@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "dataset/layout.h"
 #include "io/config/lens.h"
 #include "io/config/variants.h"
 #include "io/json/camera.h"
