@@ -53,7 +53,7 @@ int run_budget(const BudgetArguments& options, const CommonOptions& common) {
   const thermal::Config given = load_config(options.config, options.settings, assets);
   const thermal::MaterialLibrary materials = thermal::read_materials(assets);
   const thermal::DatasetPlan plan = plan_with_progress(common, assets, given, options.config);
-  const thermal::Config config = thermal::with_flights_cut(given, plan);
+  const thermal::Config config = thermal::with_flights_cut(given, plan, options.config);
   const thermal::SceneOutline outline = thermal::outline_of(config, plan, materials);
   const thermal::Budget budget = thermal::weigh_terms(outline, config.terms);
   if (options.json) {

@@ -82,7 +82,7 @@ thermal::PlannedDataset plan_of_run(const thermal::Config& config, const Generat
       planning.blender = request.blender;
       planned = work.plan(request.out, config, options.config, planning);
     });
-  thermal::Config cut = thermal::with_flights_cut(config, planned);
+  thermal::Config cut = thermal::with_flights_cut(config, planned, (request.plan / "plan.json").string());
   return {.config = std::move(cut), .plan = std::move(planned)};
 }
 

@@ -1,5 +1,12 @@
 #include "dataset/plan/plan.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "io/assets.h"
 #include "io/json/camera.h"
@@ -38,6 +45,52 @@ Json to_document(const ClipPlan& clip, const Json& flight) {
           {"flight", flight.at("flight")}};
 }
 
+/// Whether a plan's clips are those of a config.
+class ClipCheck {
+ public:
+  ClipCheck(const Config& config, const std::string& name) : config_(config), name_(name) {}
+
+  void check(const std::vector<ClipPlan>& clips) const {
+    std::set<std::string> ids;
+    std::int64_t frames = 0;
+    for (std::size_t k = 0; k < std::max(clips.size(), config_.clips.size()); ++k) {
+      check(k < clips.size() ? clips[k] : ClipPlan(), k);
+      if (!ids.insert(clips[k].id).second) fail(k, "id", quoted(clips[k].id), "each id once");
+      frames += clips[k].frames;
+    }
+    constexpr int kMostFrames = std::numeric_limits<int>::max();
+    if (frames > kMostFrames)
+      throw DataError(
+          fmt::format("{}: clips have {} frames; expected at most {}", name_, frames, kMostFrames));
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t k, const char* key, const std::string& value,
+                         const std::string& rule) const {
+    throw DataError(
+        fmt::format("{}: {}", name_, fault(fmt::format("clips[{}].{}", k, key), value, "", rule)));
+  }
+
+  void check(const ClipPlan& clip, std::size_t k) const {
+    if (k >= config_.clips.size()) {
+      if (std::ranges::find(config_.flights, clip.of_flight) == config_.flights.end())
+        fail(k, "of_flight", quoted(clip.of_flight), "a flight of the config");
+      return;
+    }
+    const ClipConfig& own = config_.clips[k];
+    if (clip.id != own.id) fail(k, "id", quoted(clip.id), quoted(own.id) + ", as in the config");
+    if (!clip.of_flight.empty())
+      fail(k, "of_flight", quoted(clip.of_flight), "\"\", for a clip of the config");
+    if (clip.frames != own.frames)
+      fail(k, "frames", std::to_string(clip.frames), fmt::format("{}, as in the config", own.frames));
+  }
+
+  static std::string quoted(const std::string& text) { return brief(Json(text)); }
+
+  const Config& config_;
+  const std::string& name_;
+};
+
 }  // namespace
 
 Json planned_part(const Config& config) {
@@ -65,7 +118,8 @@ DatasetPlan plan_of(const Json& document, const std::string& name, const Assets&
   return plan;
 }
 
-Config with_flights_cut(Config config, const DatasetPlan& plan) {
+Config with_flights_cut(Config config, const DatasetPlan& plan, const std::string& name) {
+  ClipCheck(config, name).check(plan.clips);
   std::map<std::string, const Json*> flights;
   for (const Json& flight : config.resolved.at("flights")) flights[flight.at("id")] = &flight;
   Json cut = Json::array();

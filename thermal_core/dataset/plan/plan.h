@@ -43,7 +43,9 @@ inline constexpr int kPlanVersion = 1;
 /// Reads a plan. DataError with `name` if it is damaged or of another version.
 [[nodiscard]] DatasetPlan plan_of(const Json& document, const std::string& name, const Assets& assets);
 
-/// The same config with its flights cut into the clips of its plan, which follow its own.
-[[nodiscard]] Config with_flights_cut(Config config, const DatasetPlan& plan);
+/// The same config with its flights cut into the clips of its plan, which follow its own. DataError with `name`, the
+/// plan's, unless the plan has the config's own clips, then clips of its flights, each id once, and no more frames than
+/// an int counts.
+[[nodiscard]] Config with_flights_cut(Config config, const DatasetPlan& plan, const std::string& name);
 
 }  // namespace thermal

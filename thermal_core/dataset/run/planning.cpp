@@ -30,8 +30,9 @@ DatasetPlan plan_for(const Path& out, const Config& config, const std::string& n
                      const PlanOptions& options, void (*check)(const Layout& layout, const Config& config)) {
   const Layout layout{out};
   return in_turn(out, [&] {
+    const std::string made = (unfinished_plan(layout.plan()) / "plan.json").string();
     return plan_into(layout.plan(), config, name, options,
-                     [&](const DatasetPlan& plan) { check(layout, with_flights_cut(config, plan)); });
+                     [&](const DatasetPlan& plan) { check(layout, with_flights_cut(config, plan, made)); });
   });
 }
 

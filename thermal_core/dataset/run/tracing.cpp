@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "dataset/clip/pass_source.h"
 #include "dataset/layout.h"
 #include "imaging/supersample.h"
@@ -92,6 +93,24 @@ class TracedPasses : public PassSource {
   std::optional<Kept> kept_;
 };
 
+/// Frames are asked for as the plan counts them.
+void check_frames(const BakedTrack& track, const ClipPlan& clip, const Path& folder) {
+  if (track.frames == static_cast<std::size_t>(clip.frames)) return;
+  throw DataError(fmt::format("{}: {}", (folder / "tracks" / (clip.id + ".json")).string(),
+                              fault("frames", std::to_string(track.frames), "",
+                                    fmt::format("{}, as plan.json has them", clip.frames))));
+}
+
+/// The room and the memory of a run are reckoned for the config's pictures.
+void check_camera(const BakedScene& scene, const Config& config, const Path& folder) {
+  if (scene.camera.width_px == config.camera.width_px && scene.camera.height_px == config.camera.height_px)
+    return;
+  throw DataError(fmt::format(
+      "{}: {}", (folder / "scene.json").string(),
+      fault("camera", fmt::format("{} x {}", scene.camera.width_px, scene.camera.height_px), "px",
+            fmt::format("{} x {}, as in the config", config.camera.width_px, config.camera.height_px))));
+}
+
 }  // namespace
 
 Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const ClipPlan& clip,
@@ -120,12 +139,15 @@ PlanTracer::PlanTracer(const Path& folder, const Config& config, const DatasetPl
       plan_(plan),
       assets_(assets),
       scene_(read_baked_scene(folder, assets)),
-      caster_(scene_) {}
+      caster_(scene_) {
+  check_camera(scene_, config, folder);
+}
 
 ClipPasses PlanTracer::trace(const std::string& clip, const Path& folder, bool keep) const {
   BakedTrack track = read_baked_track(folder_, clip, scene_, assets_);
   const auto planned =
       std::ranges::find_if(plan_.clips, [&clip](const ClipPlan& one) { return one.id == clip; });
+  check_frames(track, *planned, folder_);
   ClipPasses passes{.manifest = manifest_of(scene_, track, *planned, config_), .folder = folder};
   std::optional<Kept> kept;
   if (keep) {

@@ -17,13 +17,14 @@ namespace thermal {
 /// The engine `embree` on one plan: renders passes of its clips in memory.
 class PlanTracer {
  public:
-  /// Reads the baked scene in `folder` and builds its structures. DataError or IoError as read_baked_scene(). Config and
-  /// plan must outlive this object.
+  /// Reads the baked scene in `folder` and builds its structures. DataError or IoError as read_baked_scene(), also if
+  /// its picture is not the config's. Config and plan must outlive this object.
   PlanTracer(const Path& folder, const Config& config, const DatasetPlan& plan, const Assets& assets);
 
   /// A clip's passes. Each frame is rendered when it is read. `keep` writes the frames read, and the manifest, to
   /// `folder` as well, as Blender does; frames whose files exist are rendered, but not written again.
-  /// This object must outlive them. DataError or IoError as read_baked_track().
+  /// This object must outlive them. DataError or IoError as read_baked_track(), also if the
+  /// track has not the plan's frames.
   [[nodiscard]] ClipPasses trace(const std::string& clip, const Path& folder, bool keep) const;
 
  private:

@@ -44,7 +44,7 @@ std::optional<std::uintmax_t> bytes_of_array(const Json& entry) {
   std::uintmax_t bytes = bytes_of_type(entry.at("type"));
   for (const Json& length : entry.at("shape")) {
     const auto count = length.get<std::uintmax_t>();
-    if (count > kMostBytes || bytes * count > kMostBytes) return std::nullopt;
+    if (bytes > 0 && count > kMostBytes / bytes) return std::nullopt;  // the product might overflow
     bytes *= count;
   }
   return bytes;
@@ -77,7 +77,11 @@ ArrayFile::ArrayFile(const Path& json, const Json& schema) : file_(json), header
 
 DataError ArrayFile::fault_at(const std::string& where, const std::string& value,
                               const std::string& rule) const {
-  return DataError(fmt::format("{}: {}", file_.string(), fault(where, value, "", rule)));
+  return fault_of(fault(where, value, "", rule));
+}
+
+DataError ArrayFile::fault_of(const std::string& words) const {
+  return DataError(fmt::format("{}: {}", file_.string(), words));
 }
 
 std::span<const std::byte> ArrayFile::bytes_of(const std::string& name, std::string_view type,

@@ -41,6 +41,9 @@ class ArrayFile {
   [[nodiscard]] DataError fault_at(const std::string& where, const std::string& value,
                                    const std::string& rule) const;
 
+  /// The same for a fault in words.
+  [[nodiscard]] DataError fault_of(const std::string& words) const;
+
   /// The bytes that all arrays refer to, which move on with the caller.
   [[nodiscard]] std::vector<std::byte> take_data() { return std::move(data_); }
 

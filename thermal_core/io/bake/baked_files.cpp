@@ -42,7 +42,11 @@ class SceneReader {
     for (const Json& object : json.at("objects")) scene_.objects.push_back(manifest_object_of(object));
     for (const Json& material : json.at("materials"))
       scene_.materials.push_back(manifest_material_of(material));
-    for (const ManifestObject& object : scene_.objects) objects_.insert(object.index);
+    check_header();
+    for (const ManifestObject& object : scene_.objects) {
+      objects_.insert(object.index);
+      if (object.object_class == ObjectClass::actor) actor_objects_.insert(object.index);
+    }
     for (const ManifestMaterial& material : scene_.materials) materials_.insert(material.index);
     for (const Json& mesh : json.at("meshes")) scene_.meshes.push_back(mesh_of(mesh));
     each("surfaces", [this](const Json& entry, const std::string& where) {
@@ -60,6 +64,22 @@ class SceneReader {
   }
 
  private:
+  /// What manifests made from the scene promise, and rays rely on.
+  void check_header() const {
+    const auto [nearest, farthest] = scene_.depth_range_m;
+    if (nearest >= farthest)
+      throw file_.fault_at("depth_range_m", brief(file_.header().at("depth_range_m")),
+                           "the nearest depth, then the farthest");
+    Manifest manifest;
+    manifest.objects = scene_.objects;
+    manifest.materials = scene_.materials;
+    try {
+      manifest.validate();
+    } catch (const DataError& error) {
+      throw file_.fault_of(error.what());
+    }
+  }
+
   template <typename Take>
   void each(const char* list, const Take& take) {
     const Json& entries = file_.header().at(list);
@@ -70,6 +90,12 @@ class SceneReader {
     const std::uint16_t index = entry.at("object");
     if (objects_.contains(index)) return index;
     throw file_.fault_at(where + ".object", fmt::format("{}", index), "an index of objects");
+  }
+
+  [[nodiscard]] std::uint16_t actor_object_of(const Json& entry, const std::string& where) const {
+    const std::uint16_t index = object_of(entry, where);
+    if (actor_objects_.contains(index)) return index;
+    throw file_.fault_at(where + ".object", fmt::format("{}", index), "the index of an actor in objects");
   }
 
   [[nodiscard]] std::size_t mesh_number_of(const Json& entry, const std::string& where) const {
@@ -120,8 +146,10 @@ class SceneReader {
   }
 
   [[nodiscard]] BakedActor actor_of(const Json& json, const std::string& where) const {
-    BakedActor actor{
-        .object = object_of(json, where), .name = json.at("name"), .group = json.at("group"), .bones = {}};
+    BakedActor actor{.object = actor_object_of(json, where),
+                     .name = json.at("name"),
+                     .group = json.at("group"),
+                     .bones = {}};
     const Json& bones = json.at("bones");
     for (std::size_t k = 0; k < bones.size(); ++k) {
       actor.bones.push_back({.name = bones[k].at("name"),
@@ -151,6 +179,7 @@ class SceneReader {
   ArrayFile file_;
   BakedScene scene_;
   std::set<std::uint16_t> objects_;
+  std::set<std::uint16_t> actor_objects_;
   std::set<std::uint16_t> materials_;
 };
 
