@@ -1,5 +1,8 @@
 // Mutates JSON as a tree, so that the result is still JSON: randomly changed bytes seldom are, and few would pass the
 // parser. One time in four, and always if the input is not JSON, libFuzzer mutates bytes as usual.
+// - Half of the time it starts from an input that the reader accepted, if the target keeps these.
+// - JSON may end at a NUL byte, behind which arrays lie. One time in four these are changed instead, mostly without a
+//   change of their size, which the JSON gives.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +11,8 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "fuzz/accepted.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 
@@ -104,16 +109,40 @@ void change(Json& document, Random& random) {
   }
 }
 
+/// Half of the time replaces the input by one that was accepted. Returns its size.
+std::size_t choose_input(std::uint8_t* data, std::size_t size, std::size_t most, Random& random) {
+  const auto& accepted = AcceptedInputs::instance().all();
+  if (accepted.empty() || random() % 2 == 0) return size;
+  const std::vector<std::uint8_t>& chosen = one_of(accepted, random);
+  if (chosen.size() > most) return size;
+  std::ranges::copy(chosen, data);
+  return chosen.size();
+}
+
+/// The arrays behind the JSON, mostly without a change of their size.
+std::size_t change_arrays(std::uint8_t* data, std::size_t size, std::size_t most, Random& random) {
+  if (random() % 8 == 0) return LLVMFuzzerMutate(data, size, most);
+  (void)LLVMFuzzerMutate(data, size, size);
+  return size;
+}
+
 }  // namespace
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most,
                                                unsigned seed) {
   Random random(seed);
-  Json document = Json::parse(data, data + size, nullptr, false);
-  if (random() % 4 == 0 || document.is_discarded()) return LLVMFuzzerMutate(data, size, most);
+  size = choose_input(data, size, most, random);
+  std::uint8_t* const end = std::find(data, data + size, 0);  // of the JSON
+  const std::vector<std::uint8_t> rest(end, data + size);     // a NUL byte and the arrays, if there are any
+  const auto length = static_cast<std::size_t>(end - data);
+  Json document = Json::parse(data, end, nullptr, false);
+  const bool plain = random() % 4 == 0;
+  if (rest.size() > 1 && random() % 4 == 0)
+    return length + 1 + change_arrays(end + 1, rest.size() - 1, most - length - 1, random);
+  if (plain || document.is_discarded()) return LLVMFuzzerMutate(data, size, most);
   for (unsigned k = 0; k <= seed % 3; ++k) change(document, random);
   const std::string text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (text.size() > most) return LLVMFuzzerMutate(data, size, most);
-  std::ranges::copy(text, data);
-  return text.size();
+  if (text.size() + rest.size() > most) return LLVMFuzzerMutate(data, size, most);
+  std::ranges::copy(rest, std::ranges::copy(text, data).out);
+  return text.size() + rest.size();
 }

@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 from exr_seeds import write_exr_seeds
+from plan_seeds import write_plan_seeds
 from png_seeds import write_png_seeds
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -114,7 +115,17 @@ WORDS = {
     "plan": [],
     "log": ["time_s", "x_m", "y_m", "z_m", "agl_m", "altitude_m", "yaw_deg", "nan", "inf", "1e308"],
 }
-SCHEMA_OF = {"config": "config", "manifest": "manifest", "variants": "variants"}
+SCHEMAS_OF = {
+    "baked_scene": ["scene"],
+    "config": ["config"],
+    "manifest": ["manifest"],
+    "scene_plan": ["plan", "config"],
+    "tracks": ["track"],
+    "variants": ["variants"],
+}
+TRACK_ARRAYS = (
+    "time_s camera_to_world agl_m look_angle_deg actor_position_m actor_heading_rad posed bones".split()
+)
 
 
 def words_of_schema(schema) -> set[str]:
@@ -146,9 +157,12 @@ def main(folder: Path) -> None:
     """Write all seeds."""
     shutil.rmtree(folder, ignore_errors=True)
     words = dict(WORDS) | {"plan": plan_words()}
-    for target, name in SCHEMA_OF.items():
-        schema = json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8"))
-        words[target] = sorted(words_of_schema(schema))
+    for target, names in SCHEMAS_OF.items():
+        schemas = [
+            json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8")) for name in names
+        ]
+        words[target] = sorted(words_of_schema(schemas))
+    words["tracks"] += TRACK_ARRAYS
     for target, known in words.items():
         (folder / target).mkdir(parents=True)
         write_dictionary(folder / f"{target}.dict", known)
@@ -159,6 +173,7 @@ def main(folder: Path) -> None:
             shutil.copyfile(file, folder / target / file.name)
     write_exr_seeds(folder / "exr_passes")
     write_png_seeds(folder / "index_picture")
+    write_plan_seeds(folder)
 
 
 if __name__ == "__main__":

@@ -18,7 +18,8 @@ using Path = std::filesystem::path;
 
 constexpr std::chrono::seconds kLongest(5);
 
-const std::map<std::string_view, void (*)(Bytes)> kTargets = {{"birdsai", fuzz::birdsai},
+const std::map<std::string_view, void (*)(Bytes)> kTargets = {{"baked_scene", fuzz::baked_scene},
+                                                              {"birdsai", fuzz::birdsai},
                                                               {"calibration", fuzz::calibration},
                                                               {"coco", fuzz::coco},
                                                               {"config", fuzz::config},
@@ -27,6 +28,8 @@ const std::map<std::string_view, void (*)(Bytes)> kTargets = {{"birdsai", fuzz::
                                                               {"exr_passes", fuzz::exr_passes},
                                                               {"index_picture", fuzz::index_picture},
                                                               {"manifest", fuzz::manifest},
+                                                              {"scene_plan", fuzz::scene_plan},
+                                                              {"tracks", fuzz::tracks},
                                                               {"variants", fuzz::variants}};
 
 /// Files of these folders, and these files, in an order that is the same everywhere. A folder may be missing.

@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <set>
+
+#include "dataset/passes/outline.h"
+#include "dataset/plan/plan_checksums.h"
+#include "dataset/plan/plan_folder.h"
+#include "dataset/run/clip_choice.h"
+#include "fuzz/accepted.h"
+#include "fuzz/targets.h"
+#include "imaging/budget.h"
+#include "io/config/materials.h"
+#include "support/assets.h"
+
+namespace {
+
+using thermal::Json;
+using thermal::PlannedDataset;
+
+/// The folder of a plan: {"plan": …, "config": …}, with checksums that are right, as somebody who means harm writes them.
+class PlanFolder {
+ public:
+  [[nodiscard]] thermal::Path write(const Json& input) const {
+    for (const char* name : {"plan", "config"})
+      (void)folder_.file(std::string(name) + ".json", text_of(input, name));
+    thermal::write_checksums(folder_.path());
+    return folder_.path();
+  }
+
+ private:
+  static std::string text_of(const Json& input, const char* name) {
+    return input.contains(name) ? input[name].dump(-1, ' ', false, Json::error_handler_t::replace) : "";
+  }
+
+  TemporaryFolder folder_;
+};
+
+void demand_sound(const PlannedDataset& dataset) {
+  const auto& [config, plan] = dataset;
+  demand(config.flights.empty(), "flights are cut into clips");
+  demand(config.clips.size() == plan.clips.size(), "the config has the plan's clips");
+  std::set<std::string> ids;
+  for (std::size_t k = 0; k < plan.clips.size(); ++k) {
+    demand(config.clips[k].id == plan.clips[k].id && config.clips[k].frames == plan.clips[k].frames,
+           "a clip is the same in config and plan");
+    demand(config.clips[k].frames > 0 && plan.clips[k].frames_with_actors >= 0, "a clip has frames");
+    demand(ids.insert(plan.clips[k].id).second, "an id stands for one clip");
+  }
+  demand(config.resolved.at("clips").size() == config.clips.size(), "the resolved config has them too");
+}
+
+/// Shards and the budget of terms, as a job of a cluster works them out before it renders.
+/// The budget takes milliseconds, so not every plan has one.
+void use(const PlannedDataset& dataset, bool with_budget) {
+  static const thermal::MaterialLibrary kMaterials = thermal::read_materials(kAssets);
+  const auto& [config, plan] = dataset;
+  std::size_t chosen = 0;
+  int frames = 0;
+  for (int shard = 0; shard < 3; ++shard) {
+    const auto clips = thermal::choose_clips(config, {}, {shard, 3});
+    chosen += clips.size();
+    frames += thermal::frames_of(clips);
+  }
+  demand(chosen == config.clips.size() && frames > 0, "a clip belongs to one shard");
+  const thermal::SceneOutline outline = thermal::outline_of(config, plan, kMaterials);
+  if (with_budget) (void)thermal::weigh_terms(outline, config.terms);
+}
+
+}  // namespace
+
+void fuzz::scene_plan(Bytes bytes) {
+  static const PlanFolder kFolder;
+  const Json input = Json::parse(bytes.begin(), bytes.end(), nullptr, false);
+  if (!input.is_object()) return;
+  const thermal::Path folder = kFolder.write(input);
+  tolerate([&folder, bytes] {
+    const PlannedDataset dataset = thermal::open_plan(folder, kAssets);
+    demand_sound(dataset);
+    AcceptedInputs::instance().add(bytes);
+    use(dataset, bytes.size() % 8 == 0);
+  });
+}
