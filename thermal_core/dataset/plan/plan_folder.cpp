@@ -51,7 +51,7 @@ PlannedDataset open_plan(const Path& folder, const Assets& assets) {
   const Path file = folder / "plan.json";
   DatasetPlan plan = plan_of(read_json(file), file.string(), assets);
   const Config config = read_resolved(config_in(folder), assets);
-  Config cut = with_flights_cut(config, plan, (folder / "plan.json").string());
+  Config cut = with_flights_cut(config, plan, file.string());
   return {.config = std::move(cut), .plan = std::move(plan)};
 }
 
