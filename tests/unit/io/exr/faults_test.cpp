@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "base/error.h"
+#include "io/exr/file.h"
 #include "io/exr/passes.h"
 #include "support/catch.h"
 #include "support/exr_forms.h"

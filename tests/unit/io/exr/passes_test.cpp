@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "io/exr/file.h"
 #include "io/exr/passes_writer.h"
 #include "support/catch.h"
 #include "support/exr.h"
