@@ -1,11 +1,17 @@
 #include "io/exr/passes_writer.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <new>
+#include <span>
+#include <vector>
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfOutputFile.h>
 #include <fmt/format.h>
 
@@ -35,7 +41,28 @@ Planes planes_of(const Passes& passes, const std::string& layer, const std::stri
   return planes;
 }
 
-void write(const Path& file, Planes planes, ExrPacking packing) {
+/// A file in memory. OpenEXR writes its table of offsets in a destructor, and would say nothing if the disk refused it.
+class MemoryFile : public Imf::OStream {
+ public:
+  explicit MemoryFile(const Path& name) : Imf::OStream(name.c_str()) {}
+
+  void write(const char bytes[], int count) override {  // NOLINT(modernize-avoid-c-arrays): OpenEXR's
+    const std::size_t end = place_ + static_cast<std::size_t>(count);
+    if (content_.size() < end) content_.resize(end);
+    std::copy_n(bytes, count, content_.begin() + static_cast<std::ptrdiff_t>(place_));
+    place_ = end;
+  }
+  std::uint64_t tellp() override { return place_; }
+  void seekp(std::uint64_t place) override { place_ = place; }
+
+  [[nodiscard]] std::span<const char> content() const noexcept { return content_; }
+
+ private:
+  std::vector<char> content_;
+  std::size_t place_ = 0;
+};
+
+void encode(Planes planes, ExrPacking packing, MemoryFile& out) {
   const Plane<float>& first = planes.begin()->second;
   Imf::Header header(first.width_px(), first.height_px());
   header.compression() = packing == ExrPacking::none ? Imf::NO_COMPRESSION : Imf::RLE_COMPRESSION;
@@ -45,26 +72,39 @@ void write(const Path& file, Planes planes, ExrPacking packing) {
     buffer.insert(name,
                   Imf::Slice::Make(Imf::FLOAT, plane.pixels().data(), header.dataWindow(), sizeof(float)));
   }
-  Imf::OutputFile out(file.c_str(), header, 0);  // no threads of its own
-  out.setFrameBuffer(buffer);
-  out.writePixels(first.height_px());
+  Imf::OutputFile file(out, header, 0);  // no threads of its own
+  file.setFrameBuffer(buffer);
+  file.writePixels(first.height_px());
+}
+
+/// Writes a file under a temporary name, which a killed run may have left, and renames it.
+void put(const Path& file, std::span<const char> content) {
+  const Path part = file.parent_path() / ("part_" + file.filename().string());
+  std::error_code error;
+  std::filesystem::remove(part, error);
+  try {
+    write_file(part, std::as_bytes(content));
+    std::filesystem::rename(part, file, error);
+    if (error) fail_at("rename to", file, error.value());
+  } catch (...) {
+    std::filesystem::remove(part, error);
+    throw;
+  }
 }
 
 }  // namespace
 
 void write_passes(const Path& file, const Passes& passes, const std::string& layer,
                   const std::string& actor_layer, ExrPacking packing) {
-  const Path part = file.parent_path() / ("part_" + file.filename().string());
+  MemoryFile content(file);
   try {
-    write(part, planes_of(passes, layer, actor_layer), packing);
-    std::filesystem::rename(part, file);
+    encode(planes_of(passes, layer, actor_layer), packing, content);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
-    const std::string message = fmt::format("cannot write {}: {}", file.string(), error.what());
-    std::error_code none;
-    std::filesystem::remove(part, none);
-    if (is_disk_full(file.parent_path())) throw TryAgainError(message + "; the disk is full");
-    throw IoError(message);
+    throw IoError(fmt::format("cannot write {}: {}", file.string(), error.what()));
   }
+  put(file, content.content());
 }
 
 }  // namespace thermal

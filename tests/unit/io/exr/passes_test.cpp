@@ -1,8 +1,11 @@
 #include "io/exr/passes.h"
 
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <limits>
+
+#include <sys/resource.h>
 
 #include "base/error.h"
 #include "io/exr/file.h"
@@ -25,6 +28,23 @@ const std::vector<float> kAnything(6, 0.5F);
 std::vector<int> pixels_of(const Plane<std::uint16_t>& plane) {
   return {plane.pixels().begin(), plane.pixels().end()};
 }
+
+/// While it lives, no file of this process grows beyond a size: writing fails then, as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(std::uintmax_t bytes) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit = {.rlim_cur = bytes, .rlim_max = before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
 
 /// A folder with one EXR file of 3 x 2 px.
 struct Exr {
@@ -370,9 +390,34 @@ TEST_CASE("Passes that cannot be written leave no file") {
   Passes passes;
   passes.object_index = Plane<std::uint16_t>(3, 2);
   const Path file = folder / "missing" / "000000.exr";
-  const std::string message =
-      message_of<IoError>([&] { write_passes(file, passes, "Scene", "", ExrPacking::none); });
-  CHECK(message.starts_with("cannot write " + file.string() + ": "));
+  CHECK(message_of<IoError>([&] { write_passes(file, passes, "Scene", "", ExrPacking::none); }) ==
+        "cannot write " + (folder / "missing" / "part_000000.exr").string() + ": No such file or directory");
+}
+
+TEST_CASE("Passes are written whole, or reported: whichever bytes do not fit") {
+  const TemporaryFolder folder;
+  Passes passes;
+  passes.depth_m = Plane<float>(3, 200, 61.25F);
+  const Path file = folder / "000000.exr";
+  write_passes(file, passes, "Scene", "", ExrPacking::none);
+  const auto bytes = std::filesystem::file_size(file);
+  std::filesystem::remove(file);
+  for (std::uintmax_t most = 0; most < bytes; most += most + 100 < bytes ? 100 : 1) {
+    INFO("of " << bytes << " bytes, " << most << " fit");
+    const FileSizeLimit limit(most);
+    CHECK(message_of<IoError>([&] { write_passes(file, passes, "Scene", "", ExrPacking::none); }) ==
+          "cannot write " + (folder / "part_000000.exr").string() + ": File too large");
+    CHECK(std::filesystem::is_empty(folder.path()));
+  }
+}
+
+TEST_CASE("What a killed run left under the temporary name is replaced") {
+  const TemporaryFolder folder;
+  Passes passes;
+  passes.depth_m = Plane<float>(3, 2, 61.25F);
+  (void)folder.file("part_000000.exr", "half");
+  write_passes(folder / "000000.exr", passes, "Scene", "", ExrPacking::none);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
 }
 
 }  // namespace exr_passes_test
