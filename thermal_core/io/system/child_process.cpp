@@ -147,18 +147,29 @@ std::optional<std::string> first_line(std::string& text) {
 
 constexpr std::size_t kStreams = 3;  // output, error, events
 
+/// Kills what a program that has ended has started: it may hold the pipes open for ever. Options: of waitid().
+void end_group_of(int process, int options) {
+  siginfo_t end = {};
+  int result = 0;
+  do {
+    result = ::waitid(P_PID, static_cast<id_t>(process), &end, WEXITED | WNOWAIT | options);
+  } while (result < 0 && errno == EINTR);
+  if (result == 0 && end.si_pid == process) ::kill(-process, SIGKILL);
+}
+
 /// Reads all pipes to their ends, whatever the order in which they fill; `look` is called after each piece.
-void read_all(const std::array<Pipe, kStreams>& pipes, std::array<std::string, kStreams>& texts,
+void read_all(int process, const std::array<Pipe, kStreams>& pipes, std::array<std::string, kStreams>& texts,
               const std::function<void()>& look) {
+  constexpr int kSilenceMs = 100;
   std::array<pollfd, kStreams> waiting{};
   for (std::size_t i = 0; i < kStreams; ++i)
     waiting[i] = {.fd = pipes[i].read, .events = POLLIN, .revents = 0};
   std::size_t open = kStreams;
   while (open > 0) {
-    if (::poll(waiting.data(), waiting.size(), -1) < 0) {
-      if (errno == EINTR) continue;
-      break;
-    }
+    const int found = ::poll(waiting.data(), waiting.size(), kSilenceMs);
+    if (found < 0 && errno != EINTR) break;
+    if (found == 0) end_group_of(process, WNOHANG);
+    if (found <= 0) continue;
     for (std::size_t i = 0; i < kStreams; ++i) {
       if (waiting[i].fd < 0 || waiting[i].revents == 0) continue;
       std::array<char, 4096> chunk{};
@@ -286,10 +297,11 @@ Output run_program(const std::vector<std::string>& argv, std::string_view input_
   for (const Pipe& pipe : pipes) ::close(pipe.write);
   if (process < 0) fail("start " + argv.front());
   std::array<std::string, kStreams> texts;
-  read_all(pipes, texts, [&] {
+  read_all(process, pipes, texts, [&] {
     while (const auto line = first_line(texts[2])) take_event(*line);
   });
   for (const Pipe& pipe : pipes) ::close(pipe.read);
+  end_group_of(process, 0);
   int raw = 0;
   while (::waitpid(process, &raw, 0) < 0 && errno == EINTR) {
   }

@@ -86,7 +86,8 @@ struct Output {
   [[nodiscard]] std::string last_words() const;
 };
 /// Runs a program to its end, in child_environment(), with `input` as its standard input. `take_event` receives each line
-/// that it writes to ChildProcess::kEventDescriptor, which is open only if there is one. IoError if it cannot start.
+/// that it writes to ChildProcess::kEventDescriptor, which is open only if there is one. What the program has started
+/// and left running is killed. IoError if it cannot start.
 [[nodiscard]] Output run_program(const std::vector<std::string>& argv, std::string_view input = {},
                                  const std::function<void(const std::string& line)>& take_event = {});
 

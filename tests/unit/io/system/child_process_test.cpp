@@ -163,6 +163,24 @@ TEST_CASE("run_program reports programs that are killed or cannot be run") {
   CHECK(run_program({"/nowhere/python3"}).status.code == 127);
 }
 
+TEST_CASE("run_program does not wait for what a killed program has started, and ends it") {
+  std::string grandchild;
+  const auto begin = std::chrono::steady_clock::now();
+  const Output output = run_program(shell("sleep 60 & echo $! >&3; kill -9 $$"), {},
+                                    [&grandchild](const std::string& line) { grandchild = line; });
+  CHECK(output.status.signal == SIGKILL);
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(30));
+  for (int i = 0; i < 500 && is_running(grandchild); ++i) ::usleep(10000);  // init reaps it some time later
+  CHECK_FALSE(is_running(grandchild));
+}
+
+TEST_CASE("run_program ends what a program leaves running without its streams") {
+  const Output output = run_program(shell("sleep 60 >/dev/null 2>&1 & echo $!"));
+  const std::string grandchild = output.out.substr(0, output.out.find('\n'));
+  for (int i = 0; i < 500 && is_running(grandchild); ++i) ::usleep(10000);
+  CHECK_FALSE(is_running(grandchild));
+}
+
 TEST_CASE("The reason of a program's failure is the last line of its output that is not empty") {
   CHECK(run_program(shell("printf 'first\\nlast\\n\\n' >&2")).last_words() == "last");
   CHECK(run_program(shell("echo out")).last_words().empty());
