@@ -13,9 +13,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from veldt.faults import ConfigError
+from veldt.faults import ConfigError, ProcessLost
 
 _TRY_AGAIN = 75
+_KILLED_HINT = "unless someone killed it, the machine may have run out of memory"
 _SCRIPTS = Path(__file__).resolve().parents[1]
 _MODULES = {"numpy": ("NumPy", "python3-numpy"), "OpenImageIO": ("OpenImageIO", "python3-openimageio")}
 
@@ -24,9 +25,9 @@ _MODULES = {"numpy": ("NumPy", "python3-numpy"), "OpenImageIO": ("OpenImageIO", 
 class Failure:
     """Why a script failed, in one line each; `hint` may be empty."""
 
-    exit_code: int  # 2 for a fault of the config, 75 for a full disk, else 1
-    message: str  # "ModuleNotFoundError: No module named 'numpy'"; the bare message for a fault of the config
-    where: str  # "blender_scripts/veldt/noise.py:8"
+    exit_code: int  # 2 for a fault of the config, 75 for a full disk or a killed process, else 1
+    message: str  # "ModuleNotFoundError: No module named 'numpy'"; of our own exceptions, the bare message
+    where: str  # "blender_scripts/veldt/noise.py:8"; empty if the place says nothing
     hint: str  # "install NumPy …"
 
     @property
@@ -38,20 +39,25 @@ class Failure:
         """All of it in one line; of a fault of the config, the message alone."""
         if self.is_config_fault:
             return self.message
-        return f"{self.message} ({self.where})" + (f"; {self.hint}" if self.hint else "")
+        where = f" ({self.where})" if self.where else ""
+        return f"{self.message}{where}" + (f"; {self.hint}" if self.hint else "")
 
 
 def failure_of(error: BaseException) -> Failure:
     """Describes an exception that ended a script; call it while the exception is being handled."""
     if isinstance(error, ConfigError):
         return Failure(2, str(error), _place(error), "")
+    if isinstance(error, ProcessLost):
+        code, hint = (_TRY_AGAIN, _KILLED_HINT) if error.killed else (1, "")
+        return Failure(code, str(error), "", hint)
     is_full = isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
     return Failure(_TRY_AGAIN if is_full else 1, _last_line(error), _place(error), _hint(error))
 
 
 def run(act: Callable[[], None], report: Callable[[BaseException], int] | None = None) -> int:
     """Acts, reports a failure, and returns the exit code: 0 done, 1 failed, 2 the config is at fault, 75 the disk is
-    full. `report` returns the code of a failure; without it, the failure goes to stderr, summed up in its last line.
+    full or a process that worked for this one was killed. `report` returns the code of a failure; without it, the
+    failure goes to stderr, summed up in its last line.
     """
     try:
         act()

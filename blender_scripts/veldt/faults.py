@@ -3,11 +3,27 @@
 from __future__ import annotations
 
 import difflib
+import signal
 from collections.abc import Collection, Iterable
 
 
 class ConfigError(Exception):
     """A config that is well formed but makes no sense: `<where> = <value> <unit>; expected <rule>`."""
+
+
+class ProcessLost(Exception):
+    """A process that worked for this one ended before its work was done; `killed` if from outside, as when the memory
+    runs out."""
+
+    def __init__(self, name: str, code: int):
+        """code: -N after signal N."""
+        how = (
+            f"was killed by signal {-code} ({signal.strsignal(-code)})"
+            if code < 0
+            else f"ended with exit code {code}"
+        )
+        super().__init__(f"{name} {how}")
+        self.killed = -code in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

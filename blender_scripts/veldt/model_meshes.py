@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import shutil
 import subprocess
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from .bake import arrays
 from .config import ROOT
-from .faults import ConfigError
+from .faults import ConfigError, ProcessLost
 from .geometry.shapes import Mesh
-from .workers import die_with_parent
+from .workers import die_with
 
 FORMAT, VERSION = "veldt-model", 1
 _SCRIPT = ROOT / "blender_scripts" / "import_model.py"
@@ -37,7 +39,7 @@ class ModelMeshes:
         """The mesh of a species' or plant's model. `where` is the asset file.
 
         ConfigError if Blender cannot read the model's file or if it differs from its description; RuntimeError if
-        Blender is missing or fails.
+        Blender is missing or fails, ProcessLost if it is killed.
         """
         self.folder.mkdir(exist_ok=True)
         path = self.folder / _key(data)
@@ -75,11 +77,14 @@ class ModelMeshes:
             capture_output=True,
             text=True,
             check=False,
-            preexec_fn=die_with_parent,
+            preexec_fn=partial(die_with, os.getpid()),
         )
         answer = next((line for line in done.stdout.splitlines() if line.startswith("{")), None)
         if done.returncode == _CONFIG_FAULT and answer is not None:
             raise ConfigError(json.loads(answer)["error"])
+        lost = ProcessLost(f"{where}: Blender", done.returncode)
+        if lost.killed:
+            raise lost
         if done.returncode != 0 or not path.with_suffix(".json").exists():
             raise RuntimeError(
                 f"{where}: Blender failed to read the model: {(done.stderr or done.stdout)[-500:]}"

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from typing import TypeVar
 
-from .faults import ConfigError
+from .faults import ProcessLost
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -15,61 +17,115 @@ Result = TypeVar("Result")
 _MOST_AT_ONCE = 16  # items handed to a process at once
 _PR_SET_PDEATHSIG = 1
 
-_work: dict = {}  # in a worker: what it does, and with what
-
 
 class Cores:
     """Work on one or more cores; results are the same for any number."""
 
     def __init__(self, processes: int = 1):
         self._processes = processes
+        self._started: list[_Worker] = []
 
     def map(self, act: Callable[[Item], Result], items: Sequence[Item]) -> Iterator[Result]:
         """in_order() on all cores."""
-        return in_order(act, items, self._processes)
+        return in_order(act, items, self._processes, self._started)
 
     def start(self, act: Callable[[], Result]) -> Callable[[], Result]:
         """Start `act` in another process, if there is more than one core, and return a function that waits for its
-        result; without a second core, or if that process fails, the function acts itself."""
+        result; without a second core, or if `act` fails there, the function acts itself. ProcessLost if that process
+        ends before; map() notices it too."""
         if self._processes < 2:
             return act
-        reader, writer = _multiprocessing().Pipe(duplex=False)
-        process = _multiprocessing().Process(target=_send, args=(act, writer), daemon=True)
-        process.start()
-        writer.close()
+        try:
+            worker = _Worker(lambda _: act(), range(1))
+        except OSError:  # the system allows no more processes
+            return act
+        worker.hand(0, range(1))
+        self._started.append(worker)
 
         def wait() -> Result:
+            self._started.remove(worker)
             try:
-                return reader.recv()
-            except EOFError:
-                return act()
+                _, results, _ = worker.take()
             finally:
-                reader.close()
-                process.join()
+                worker.end()
+            return results[0] if results else act()
 
         return wait
 
 
-def in_order(act: Callable[[Item], Result], items: Sequence[Item], processes: int) -> Iterator[Result]:
+def in_order(
+    act: Callable[[Item], Result], items: Sequence[Item], processes: int, others: Sequence[_Worker] = ()
+) -> Iterator[Result]:
     """The results of `act` for all items, in their order; the same whatever `processes` is.
 
     Results are pickled; `act` and the items are not, so they may be large. Not for Blender, whose threads a fork does
-    not copy. An exception is raised here, with its place in the scripts. If a worker is killed, this process goes on
-    alone.
+    not copy. An exception is raised here, with its place in the scripts. ProcessLost as soon as a process ends before
+    its work is done, or one of `others`.
     """
-    done = 0
-    processes = min(processes, len(items))
+    done, processes = 0, min(processes, len(items))
     if processes > 1:
-        try:
-            for result in _by_workers(act, items, processes):
-                yield result
-                done += 1
-        except ConfigError:
-            raise
-        except Exception:  # pylint: disable=broad-exception-caught
-            pass  # it is raised again below, where its traceback leads to its place
-    for item in items[done:]:
+        for results in _by_workers(act, items, processes, others):
+            yield from results
+            done += len(results)
+    for item in items[done:]:  # what a worker failed at fails here, where its traceback leads to its place
         yield act(item)
+
+
+class _Worker:
+    """A process that acts on items, part after part. It does not outlive this one."""
+
+    def __init__(self, act: Callable, items: Sequence):
+        self._connection, theirs = _multiprocessing().Pipe()
+        order = (act, items, theirs, os.getpid())
+        self._process = _multiprocessing().Process(target=_serve, args=order, daemon=True)
+        try:
+            self._process.start()
+        finally:
+            theirs.close()  # so that the connection ends with the process
+        self._owed = 0
+        self._taken: tuple | None = None
+
+    @property
+    def is_owing(self) -> bool:
+        """Whether results are to come."""
+        return self._owed > 0
+
+    def fileno(self) -> int:
+        """For multiprocessing.connection.wait()."""
+        return self._connection.fileno()
+
+    def hand(self, number: int, part: range) -> None:
+        """Have it act on some items."""
+        try:
+            self._connection.send((number, part))
+        except OSError:
+            raise self._lost() from None
+        self._owed += 1
+
+    def look(self) -> None:
+        """Receive what take() will return, which has arrived. ProcessLost if it never will."""
+        try:
+            self._taken = self._connection.recv()
+        except (EOFError, OSError):
+            raise self._lost() from None
+        self._owed -= 1
+
+    def take(self) -> tuple[int, list, bool]:
+        """Wait for the results of a part: its number, those up to the first failure, and whether that is all."""
+        if self._taken is None:
+            self.look()
+        taken, self._taken = self._taken, None
+        return taken
+
+    def end(self) -> None:
+        """End the process, whatever it does."""
+        self._process.kill()
+        self._process.join()
+        self._connection.close()
+
+    def _lost(self) -> ProcessLost:
+        self._process.join()
+        return ProcessLost("a worker process", self._process.exitcode)
 
 
 def _multiprocessing():
@@ -78,33 +134,80 @@ def _multiprocessing():
     return multiprocessing.get_context("fork")
 
 
-def _send(act: Callable, writer) -> None:
-    die_with_parent()
-    try:
-        writer.send(act())
-    except Exception:  # pylint: disable=broad-exception-caught
-        writer.close()  # the parent acts itself, where a traceback leads to the place
-
-
-def die_with_parent() -> None:
+def die_with(parent: int) -> None:
     """Have the kernel kill this process when the one that started it ends."""
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != parent:  # it ended before
+        os.kill(os.getpid(), signal.SIGKILL)
 
 
-def _by_workers(act: Callable[[Item], Result], items: Sequence[Item], processes: int) -> Iterator[Result]:
-    from concurrent.futures import ProcessPoolExecutor  # pylint: disable=import-outside-toplevel
+def _serve(act: Callable, items: Sequence, connection, parent: int) -> None:
+    """In a worker: act as ordered until the end."""
+    die_with(parent)
+    while True:
+        number, part = connection.recv()
+        try:
+            connection.send((number, *_results(act, items, part)))
+        except Exception:  # pylint: disable=broad-exception-caught # results that cannot be sent
+            connection.send((number, [], False))
 
+
+def _results(act: Callable, items: Sequence, part: range) -> tuple[list, bool]:
+    """The results up to the first failure, and whether these are all."""
+    results = []
+    for place in part:
+        try:
+            results.append(act(items[place]))
+        except Exception:  # pylint: disable=broad-exception-caught # it is raised again by in_order()
+            return results, False
+    return results, True
+
+
+def _by_workers(act: Callable, items: Sequence, processes: int, others: Sequence[_Worker]) -> Iterator[list]:
+    """The results of one part of the items after the other, up to the first failure."""
     at_once = max(1, min(_MOST_AT_ONCE, len(items) // (4 * processes)))
-    with ProcessPoolExecutor(
-        processes, _multiprocessing(), initializer=_begin, initargs=(act, items)
-    ) as pool:
-        yield from pool.map(_act_on, range(len(items)), chunksize=at_once)
+    parts = [range(first, min(first + at_once, len(items))) for first in range(0, len(items), at_once)]
+    workers: list[_Worker] = []
+    try:
+        with suppress(OSError):  # the system allows no more processes: those that there are do it
+            for _ in range(processes):
+                workers.append(_Worker(act, items))
+        yield from _parts_in_order(workers, parts, others)
+    finally:
+        for worker in workers:
+            worker.end()
 
 
-def _begin(act: Callable, items: Sequence) -> None:
-    die_with_parent()
-    _work.update(act=act, items=items)
+def _parts_in_order(
+    workers: Sequence[_Worker], parts: Sequence[range], others: Sequence[_Worker]
+) -> Iterator[list]:
+    left = iter(enumerate(parts))
+    for worker in [*workers, *workers]:  # each has its next part when it has done one
+        _hand_next(worker, left)
+    found: dict[int, list] = {}
+    for place in range(len(parts) if workers else 0):
+        while place not in found:
+            for worker in _ready(workers, others):
+                number, *results = worker.take()
+                found[number] = results
+                _hand_next(worker, left)
+        results, is_whole = found.pop(place)
+        yield results
+        if not is_whole:
+            return
 
 
-def _act_on(place: int):
-    return _work["act"](_work["items"][place])
+def _hand_next(worker: _Worker, left: Iterator[tuple[int, range]]) -> None:
+    for number, part in left:
+        worker.hand(number, part)
+        return
+
+
+def _ready(workers: Sequence[_Worker], others: Sequence[_Worker]) -> list[_Worker]:
+    """Workers that have results. Those of others are kept for them."""
+    from multiprocessing.connection import wait  # pylint: disable=import-outside-toplevel
+
+    ready = wait([worker for worker in [*workers, *others] if worker.is_owing])
+    for worker in ready:
+        worker.look()
+    return [worker for worker in workers if worker in ready]

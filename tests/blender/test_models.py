@@ -10,8 +10,9 @@ import pytest
 from veldt import assets, models
 from veldt.anatomy.bodies import body_of
 from veldt.config import ROOT
-from veldt.faults import ConfigError
+from veldt.faults import ConfigError, ProcessLost
 from veldt.model_files import survey
+from veldt.model_meshes import ModelMeshes
 from veldt.anatomy.pose import Motion, Walker, pose
 
 CUBE_OBJ = """v 0 0 0
@@ -339,3 +340,20 @@ def test_an_asset_file_that_is_missing(place):
 def test_all_assets_of_the_program_are_valid(kind):
     for name in assets.names(kind):
         assets.load(kind, name)
+
+
+@pytest.mark.parametrize(
+    "end, fault, message",
+    [
+        ("kill -9 $$", ProcessLost, r"okapi\.json: Blender was killed by signal 9 \(Killed\)"),
+        ("echo no memory >&2; exit 1", RuntimeError, "Blender failed to read the model: no memory"),
+    ],
+)
+def test_a_blender_that_reads_no_model_to_its_end(tmp_path, end, fault, message):
+    (tmp_path / "a.obj").write_text(CUBE_OBJ)
+    blender = tmp_path / "blender"
+    blender.write_text(f"#!/bin/sh\n{end}\n")
+    blender.chmod(0o755)
+    meshes = ModelMeshes(tmp_path / "meshes", None, str(blender))
+    with pytest.raises(fault, match=message):
+        meshes.mesh("okapi.json", {"model": {"file": "a.obj", "path": str(tmp_path / "a.obj")}})

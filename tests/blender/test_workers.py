@@ -1,4 +1,4 @@
-"""Planning on several cores gives what planning on one gives, and survives what may happen to a process."""
+"""Planning on several cores gives what planning on one gives, and ends if one of its processes is lost."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ import os
 import signal
 import subprocess
 import sys
+import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +17,9 @@ import pytest
 from processes import wait_until
 from scenes import tiny
 from veldt.config import ROOT
-from veldt.faults import ConfigError
-from veldt.workers import Cores, in_order
+from veldt.failures import failure_of
+from veldt.faults import ConfigError, ProcessLost
+from veldt.workers import Cores, die_with, in_order
 
 SCRIPT = ROOT / "blender_scripts" / "plan_scene.py"
 
@@ -49,15 +52,76 @@ def test_a_fault_of_the_scripts_is_raised_with_its_own_place():
     assert fault.traceback[-1].path == Path(__file__)
 
 
-def test_work_goes_on_here_if_a_worker_is_killed():
-    here = os.getpid()
+KILLED = r"a worker process was killed by signal 9 \(Killed\)"
 
-    def act(value: int) -> int:
-        if value == 3 and os.getpid() != here:
-            os.kill(os.getpid(), signal.SIGKILL)
-        return value
 
-    assert list(in_order(act, range(10), 2)) == list(range(10))
+def _end_here() -> None:
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_a_killed_worker_is_noticed_at_once_and_the_others_are_ended(tmp_path):
+    def act(value: int) -> None:
+        (tmp_path / str(os.getpid())).touch()
+        if value == 3:
+            _end_here()
+        time.sleep(60 if value > 0 else 0)
+
+    start_s = time.monotonic()
+    with pytest.raises(ProcessLost, match=KILLED) as lost:
+        list(in_order(act, range(10), 4))
+    assert lost.value.killed and time.monotonic() - start_s < 30
+    assert not any(_is_running(int(path.name)) for path in tmp_path.iterdir())
+
+
+def test_a_worker_that_is_killed_while_it_sends_a_result_is_noticed():
+    def act(value: int) -> bytes:
+        if value == 1:
+            threading.Timer(0.2, _end_here).start()
+        return bytes(10_000_000)  # more than the connection holds
+
+    results = in_order(act, range(2), 2)
+    next(results)
+    time.sleep(0.4)
+    with pytest.raises(ProcessLost, match=KILLED):
+        list(results)
+
+
+def test_a_worker_that_ends_by_itself_is_no_reason_to_try_again():
+    with pytest.raises(ProcessLost, match="a worker process ended with exit code 7") as lost:
+        list(in_order(lambda value: os._exit(7), range(10), 2))  # pylint: disable=protected-access
+    assert failure_of(lost.value).exit_code == 1
+
+
+def test_a_killed_worker_is_reported_as_killed_programs_are():
+    failure = failure_of(ProcessLost("a worker process", -signal.SIGKILL))
+    hint = "unless someone killed it, the machine may have run out of memory"
+    assert failure.in_words() == f"a worker process was killed by signal 9 (Killed); {hint}"
+    assert failure.exit_code == 75
+
+
+def test_without_processes_the_work_is_done_here(monkeypatch):
+    def refuse() -> int:
+        raise BlockingIOError("Resource temporarily unavailable")
+
+    monkeypatch.setattr(os, "fork", refuse)
+    assert list(in_order(_square, range(10), 2)) == [k * k for k in range(10)]
+    assert Cores(2).start(lambda: 7)() == 7
+
+
+def test_slow_and_large_results_come_in_order():
+    def act(value: int) -> np.ndarray:
+        time.sleep(0.05 if value % 3 == 0 else 0)
+        return np.full(200_000, value)
+
+    assert [result[0] for result in in_order(act, range(40), 3)] == list(range(40))
+
+
+def test_a_process_whose_parent_ended_before_it_asked_ends():
+    process = os.fork()
+    if process == 0:
+        die_with(os.getpid())  # not the parent
+        os._exit(0)  # pylint: disable=protected-access
+    assert os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]) == -signal.SIGKILL
 
 
 def test_no_worker_outlives_a_killed_planner(tmp_path):
@@ -116,15 +180,35 @@ def test_started_work_has_the_same_result_anywhere(processes):
     assert Cores(processes).start(lambda: np.arange(1000) ** 2)().tolist() == [k * k for k in range(1000)]
 
 
-def test_started_work_goes_on_here_if_its_process_is_killed():
-    here = os.getpid()
+def test_a_killed_process_of_started_work_is_noticed():
+    wait = Cores(2).start(_end_here)
+    with pytest.raises(ProcessLost, match=KILLED):
+        wait()
 
-    def act() -> str:
-        if os.getpid() != here:
-            os.kill(os.getpid(), signal.SIGKILL)
-        return "done"
 
-    assert Cores(2).start(act)() == "done"
+def test_started_work_that_is_killed_while_it_sends_its_result_is_noticed():
+    def act() -> bytes:
+        threading.Timer(0.2, _end_here).start()
+        return bytes(10_000_000)
+
+    wait = Cores(2).start(act)
+    time.sleep(0.4)
+    with pytest.raises(ProcessLost, match=KILLED):
+        wait()
+
+
+def test_started_work_that_is_killed_is_noticed_while_others_work():
+    cores = Cores(2)
+    cores.start(_end_here)
+    with pytest.raises(ProcessLost, match=KILLED):
+        list(cores.map(lambda value: time.sleep(60), range(4)))
+
+
+def test_results_of_started_work_are_kept_while_others_work():
+    cores = Cores(2)
+    waits = [cores.start(lambda k=k: np.full(1_000_000, k)) for k in range(3)]
+    assert list(cores.map(_square, range(100))) == [k * k for k in range(100)]
+    assert [wait()[0] for wait in waits] == [0, 1, 2]
 
 
 def test_a_fault_in_started_work_is_raised_with_its_own_place():

@@ -12,7 +12,7 @@ import pytest
 import fake_blender
 import held_planner
 from configs import CLIPS, tiny
-from processes import parent_of, running_with, wait_until
+from processes import parent_of, parents, running_with, wait_until
 from program import Veldt, files_below
 
 WRITTEN = {  # at a moment: files in the unfinished plan that must, and must not, be there
@@ -24,6 +24,7 @@ ARGUMENTS = {
     "plan": ("--threads", "2", "--progress", "none"),
     "generate": ("--threads", "2", "--progress", "none", "--blender", "./fake_blender"),
 }
+HINT = "unless someone killed it, the machine may have run out of memory"
 FOLDER = {"plan": "out", "generate": "out/plan"}  # of the plan, by command
 
 
@@ -121,8 +122,21 @@ def test_a_killed_planner_is_reported_and_leaves_nothing(veldt, usual, command, 
     os.kill(planner, signal.SIGKILL)
     out, err = run.communicate(timeout=60)
     how = f"{veldt.folder}/held_python plan_scene.py was killed by signal 9 (Killed)"
-    hint = "unless someone killed it, the machine may have run out of memory"
-    assert (run.returncode, out, err) == (75, "", f"veldt: {how}; {hint}\n")
+    assert (run.returncode, out, err) == (75, "", f"veldt: {how}; {HINT}\n")
+    _check_nothing_runs(veldt, command)
+    assert not _part(veldt, command).exists() and not (veldt.folder / FOLDER[command]).exists()
+    _check_again(veldt, command, usual)
+
+
+@pytest.mark.parametrize("command", FOLDER)
+def test_a_killed_worker_of_the_planner_is_reported_at_once_and_leaves_nothing(veldt, usual, command):
+    run, planner = _start(veldt, command, "baking tracks")
+    worker = max(process for process, parent in parents().items() if parent == planner)
+    os.kill(worker, signal.SIGKILL)
+    out, err = run.communicate(timeout=30)  # less than it is held
+    how = f"{veldt.folder}/held_python plan_scene.py ended with exit code 75"
+    why = "a worker process was killed by signal 9 (Killed)"
+    assert (run.returncode, out, err) == (75, "", f"veldt: {how}: {why}; {HINT}\n")
     _check_nothing_runs(veldt, command)
     assert not _part(veldt, command).exists() and not (veldt.folder / FOLDER[command]).exists()
     _check_again(veldt, command, usual)

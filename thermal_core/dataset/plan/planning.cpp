@@ -39,20 +39,20 @@ void show_event(const std::string& line, const PlanOptions& options) {
         {.clip = event.value("id", ""), .done = event.value("done", 0), .total = event.value("total", 0)});
 }
 
-/// Runs the script with additional arguments, and returns what it prints.
 /// For a planner that failed, but not because of the config.
 [[noreturn]] void throw_failure(const std::string& planner, const Output& output) {
-  constexpr int kDiskFull = 75;
+  constexpr int kTryAgain = 75;  // the disk is full, or a process of the planner was killed
   std::string message = fmt::format("{} {}", planner, output.status.in_words());
   if (output.status.signal == SIGKILL) {
     message += fmt::format("; {}", kKilledHint);
   } else if (const std::string why = printable(output.last_words()); !why.empty()) {
     message += ": " + why;
   }
-  if (output.status.is_killed() || output.status.code == kDiskFull) throw TryAgainError(message);
+  if (output.status.is_killed() || output.status.code == kTryAgain) throw TryAgainError(message);
   throw IoError(message);
 }
 
+/// Runs the script with additional arguments, and returns what it prints.
 std::string run_planning(const Config& config, const std::string& name, const PlanOptions& options,
                          const std::vector<std::string>& arguments) {
   const Path python = find_python();
