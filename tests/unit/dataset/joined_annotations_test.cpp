@@ -1,5 +1,6 @@
 #include "dataset/joined_annotations.h"
 
+#include "base/error.h"
 #include "io/system/sha256.h"
 #include "support/catch.h"
 #include "support/message_of.h"
