@@ -70,6 +70,11 @@ int exit_code_of(const std::vector<thermal::ConvertOutcome>& outcomes, double ma
 
 }  // namespace
 
+void print_left_over(const std::vector<thermal::LeftOver>& left_over) {
+  for (const auto& [place, reason] : left_over)
+    print_error("veldt: warning: cannot remove {}: {}; the next run tries again\n", place.string(), reason);
+}
+
 void add_max_unusable(CLI::App* command, double& max_unusable_share) {
   command
       ->add_option(
@@ -90,6 +95,7 @@ int summarise(const thermal::RunOutcome& outcome, const thermal::Path& out, cons
               const std::string& done, double max_unusable_share) {
   print_failed(outcome, "", "failed");
   print_unusable(outcome, "", max_unusable_share);
+  print_left_over(outcome.left_over);
   if (!options.quiet) print("{}: {}\n", out.string(), summary_of(outcome, done, 0));
   if (outcome.try_again) return kTryAgain;
   return exit_code_of({{.variant = "", .out = out, .run = outcome, .skips = {}}}, max_unusable_share);
@@ -101,6 +107,7 @@ int summarise(const std::vector<thermal::ConvertOutcome>& outcomes, const Common
     const std::string whose = one.variant.empty() ? "" : one.variant + ": ";
     print_failed(one.run, whose, "rejected");
     print_unusable(one.run, whose, max_unusable_share);
+    print_left_over(one.run.left_over);
   }
   for (const std::string& line : skip_lines(outcomes)) print_error("veldt: {}\n", line);
   for (const thermal::ConvertOutcome& one : outcomes) {

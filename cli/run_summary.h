@@ -14,6 +14,9 @@ inline constexpr double kMostUnusable = 0.01;
 void add_max_unusable(CLI::App* command, double& max_unusable_share);
 void check_max_unusable(double max_unusable_share);
 
+/// Warns of temporary files and folders that stay. The data do not need them gone, so the exit code stays what it is.
+void print_left_over(const std::vector<thermal::LeftOver>& left_over);
+
 /// Prints how a run ended, and returns the exit code. `done`: what was done to its clips.
 /// Unusable depth and normals are reported on standard error; above the share the exit code is that of rejected inputs.
 int summarise(const thermal::RunOutcome& outcome, const thermal::Path& out, const CommonOptions& options,

@@ -141,14 +141,12 @@ Path unfinished_plan(const Path& folder) {
   return part += ".part";
 }
 
-DatasetPlan plan_into(const Path& folder, const Config& config, const std::string& name,
-                      const PlanOptions& options,
-                      const std::function<void(const DatasetPlan&)>& may_replace) {
+namespace {
+
+DatasetPlan plan_again(const Path& folder, const Config& config, const std::string& name,
+                       const PlanOptions& options,
+                       const std::function<void(const DatasetPlan&)>& may_replace) {
   const Path part = unfinished_plan(folder);
-  if (auto plan = current_plan(folder, config, options)) {
-    sweep_unless_held(part);
-    return *std::move(plan);
-  }
   const HeldFolder held(part);
   if (auto plan = current_plan(folder, config, options)) return *std::move(plan);  // another run has made it
   (void)run_planning(config, name, options, baking_arguments(part, folder, options));
@@ -157,6 +155,18 @@ DatasetPlan plan_into(const Path& folder, const Config& config, const std::strin
   write_checksums(part);
   replace_folder(part, folder);
   return plan;
+}
+
+}  // namespace
+
+DatasetPlan plan_into(const Path& folder, const Config& config, const std::string& name,
+                      const PlanOptions& options,
+                      const std::function<void(const DatasetPlan&)>& may_replace) {
+  std::optional<DatasetPlan> plan = current_plan(folder, config, options);
+  if (!plan) plan = plan_again(folder, config, name, options, may_replace);
+  const std::optional<LeftOver> left_over = sweep_unless_held(unfinished_plan(folder));
+  if (left_over && options.left_over) options.left_over(*left_over);
+  return *std::move(plan);
 }
 
 }  // namespace thermal

@@ -19,6 +19,8 @@ struct PlanOptions {
   std::function<void(const Progress&)> show = {};
   /// Also bakes what a preview needs.
   bool preview = false;
+  /// Called if something temporary cannot be removed; the next planning into the same folder removes it.
+  std::function<void(const LeftOver&)> left_over = {};
 };
 
 /// Plans a dataset by running blender_scripts/plan_scene.py, which does not need Blender: checks the meaning of a config

@@ -163,7 +163,7 @@ class Dataset {
   }
 
   ConvertOutcome close(const std::vector<ClipPasses>& sources) {
-    transaction_.close();
+    outcome_.left_over = transaction_.close();
     outcome_.complete = transaction_.index().complete();
     for (const ClipPasses& source : sources) {
       const std::vector<UnusableShare> shares = transaction_.index().unusable({source.manifest.clip});

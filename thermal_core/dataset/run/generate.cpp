@@ -1,5 +1,8 @@
 #include "dataset/run/generate.h"
 
+#include <utility>
+#include <vector>
+
 #include "base/error.h"
 #include "base/parallel.h"
 #include "dataset/clip/maker.h"
@@ -46,10 +49,12 @@ class Generator {
       });
       make_pending(monitor);
     }
-    transaction_.close([this] {
-      if (!options_.keep_passes) end_passes(layout_, finished_of(chosen_));
+    std::vector<LeftOver> passes;
+    std::vector<LeftOver> left_over = transaction_.close([&] {
+      if (!options_.keep_passes) passes = end_passes(layout_, finished_of(chosen_));
     });
-    return outcome_of(monitor.outcome());
+    left_over.insert(left_over.end(), passes.begin(), passes.end());
+    return outcome_of(monitor.outcome(), std::move(left_over));
   }
 
  private:
@@ -91,7 +96,7 @@ class Generator {
 
   void commit(const ClipConfig& clip, const ClipRecord& record, RunMonitor& monitor) {
     transaction_.commit(record);
-    if (!options_.keep_passes) std::filesystem::remove_all(layout_.passes(clip.id));
+    if (!options_.keep_passes) (void)sweep_folder(layout_.passes(clip.id));  // or end_passes() says why not
     monitor.made(clip);
   }
 
@@ -151,8 +156,9 @@ class Generator {
     monitor.lost(clip, why, killed);
   }
 
-  [[nodiscard]] RunOutcome outcome_of(RunOutcome outcome) const {
+  [[nodiscard]] RunOutcome outcome_of(RunOutcome outcome, std::vector<LeftOver> left_over) const {
     outcome.already_there = already_there_;
+    outcome.left_over = std::move(left_over);
     outcome.complete = index().complete();
     outcome.unusable = index().unusable(ids_of(chosen_));
     return outcome;

@@ -141,7 +141,7 @@ class Merger {
     plan();
     if (!plan_.empty()) transaction_.begin();
     for (const auto& [id, found] : plan_) try_add(id, found);
-    transaction_.close();
+    outcome_.run.left_over = transaction_.close();
     outcome_.run.complete = transaction_.index().complete();
     find_shards();
     return outcome_;

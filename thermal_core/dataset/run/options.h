@@ -35,6 +35,7 @@ struct RunOutcome {
   int frames_made = 0;
   bool complete = false;                     ///< the dataset now has all its clips
   std::vector<UnusableShare> unusable = {};  ///< of clips made and already there
+  std::vector<LeftOver> left_over = {};      ///< the next run removes it
 };
 
 }  // namespace thermal

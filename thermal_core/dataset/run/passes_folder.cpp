@@ -13,8 +13,9 @@ namespace thermal {
 namespace {
 
 bool has_clips(const Path& passes) {
-  return std::ranges::any_of(std::filesystem::directory_iterator(passes),
-                             [](const auto& entry) { return entry.is_directory(); });
+  std::error_code error;
+  const std::filesystem::directory_iterator entries(passes, error);
+  return error || std::ranges::any_of(entries, [](const auto& entry) { return entry.is_directory(); });
 }
 
 }  // namespace
@@ -37,10 +38,15 @@ void check_same_passes(const Layout& layout, const Config& config) {
                   layout.passes().string(), fmt::join(found, ", ")));
 }
 
-void end_passes(const Layout& layout, const std::vector<std::string>& clips) {
-  if (!std::filesystem::is_directory(layout.passes())) return;
-  for (const std::string& clip : clips) std::filesystem::remove_all(layout.passes(clip));
-  if (!has_clips(layout.passes())) std::filesystem::remove_all(layout.passes());
+std::vector<LeftOver> end_passes(const Layout& layout, const std::vector<std::string>& clips) {
+  std::vector<LeftOver> left_over;
+  if (!std::filesystem::is_directory(layout.passes())) return left_over;
+  const auto sweep = [&left_over](const Path& folder) {
+    if (auto left = sweep_folder(folder)) left_over.push_back(*std::move(left));
+  };
+  for (const std::string& clip : clips) sweep(layout.passes(clip));
+  if (!has_clips(layout.passes())) sweep(layout.passes());
+  return left_over;
 }
 
 std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,

@@ -20,7 +20,7 @@ DatasetPlan in_turn(const Path& out, const std::function<DatasetPlan()>& plan) {
     lock.in_turn([&] { planned = plan(); });
     return planned;
   } catch (...) {
-    if (!was_there) sweep_folder(out);
+    if (!was_there) (void)sweep_folder(out);
     throw;
   }
 }

@@ -32,10 +32,9 @@ DatasetTransaction::DatasetTransaction(const Layout& layout, const Config& confi
 }
 
 DatasetTransaction::~DatasetTransaction() {
-  if (!begun_) return;
-  sweep();
-  if (closed_) return;
+  if (!begun_ || closed_) return;
   try {
+    (void)sweep();
     record_all();
   } catch (const std::exception&) {  // must not hide the fault that ended the run
   }
@@ -45,7 +44,7 @@ void DatasetTransaction::begin(const std::function<void()>& also) {
   check_is_no_link(layout_.clips());
   lock_.in_turn([&] {
     make_folder(layout_.root);
-    sweep();
+    (void)sweep();
     sweep_half_put();
     for (const std::string& clip : own_) index_.failed.erase(clip);
     write_progress(layout_, index_);
@@ -64,14 +63,15 @@ void DatasetTransaction::commit(const ClipRecord& record) {
 }
 
 void DatasetTransaction::reject(const std::string& clip, const std::string& why) {
-  sweep_folder(unfinished(clip));
+  (void)sweep_folder(unfinished(clip));
   change([&] { index_.failed[clip] = printable(why); });
 }
 
-void DatasetTransaction::close(const std::function<void()>& also) {
+std::vector<LeftOver> DatasetTransaction::close(const std::function<void()>& also) {
   if (begun_ || !index_.recorded) record_all();
   closed_ = true;
   if (also) lock_.in_turn(also);
+  return sweep();
 }
 
 /// Writes dataset.json now and then only: see ProgressPace.
@@ -99,13 +99,30 @@ void DatasetTransaction::record_all() {
 }
 
 /// Clips that a killed run began to put into the folder.
-void DatasetTransaction::sweep_half_put() noexcept {
+void DatasetTransaction::sweep_half_put() const {
   for (const std::string& clip : own_)
-    if (!index_.finished.contains(clip)) sweep_folder(layout_.clip(clip));
+    if (!index_.finished.contains(clip)) (void)sweep_folder(layout_.clip(clip));
 }
 
-void DatasetTransaction::sweep() noexcept {
-  for (const std::string& clip : own_) sweep_folder(unfinished(clip));
+std::vector<Path> DatasetTransaction::temporary_places() const {
+  std::vector<Path> places;
+  if (layout_.scratch.empty()) {
+    for (const std::string& clip : own_) places.push_back(unfinished(clip));
+    return places;
+  }
+  for (const std::string& clip : index_.clips) places.push_back(unfinished(clip));
+  for (const char* ending : {".tmp", ".spool"})
+    places.push_back(layout_.scratch / (layout_.annotations_json().filename().string() + ending));
+  return places;
+}
+
+std::vector<LeftOver> DatasetTransaction::sweep() const {
+  std::vector<LeftOver> left_over;
+  std::error_code error;
+  if (std::filesystem::is_symlink(layout_.clips(), error)) return left_over;  // nothing elsewhere is removed
+  for (const Path& place : temporary_places())
+    if (auto left = sweep_folder(place)) left_over.push_back(*std::move(left));
+  return left_over;
 }
 
 }  // namespace thermal

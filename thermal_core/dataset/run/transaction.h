@@ -27,8 +27,8 @@ class DatasetTransaction {
   DatasetTransaction(const Layout& layout, const Config& config, Json physics,
                      const std::vector<ClipConfig>& clips);
 
-  /// Removes incomplete clips. Without close(), after a fault, records what was committed; a further fault is not
-  /// thrown, because the next run detects the missing record.
+  /// After a fault, without close(): removes incomplete clips and records what was committed. A further fault is not
+  /// thrown: the next run detects the missing record, and removes what is left.
   ~DatasetTransaction();
   DatasetTransaction(const DatasetTransaction&) = delete;
   DatasetTransaction& operator=(const DatasetTransaction&) = delete;
@@ -51,7 +51,9 @@ class DatasetTransaction {
   void reject(const std::string& clip, const std::string& why);
 
   /// Writes annotations.json and dataset.json, unless they already list all clips; then calls `also` as begin() does.
-  void close(const std::function<void()>& also = {});
+  /// Removes what this run, or one that was killed, has left of its clips, also if it did not begin. A scratch folder
+  /// belongs to the run, and keeps nothing of any clip of the dataset. Returns what could not be removed.
+  [[nodiscard]] std::vector<LeftOver> close(const std::function<void()>& also = {});
 
  private:
   DatasetTransaction(const Layout& layout, const Config& config, Json physics,
@@ -60,8 +62,9 @@ class DatasetTransaction {
   void change(const std::function<void()>& change);
   void learn();
   void record_all();
-  void sweep_half_put() noexcept;
-  void sweep() noexcept;
+  void sweep_half_put() const;
+  [[nodiscard]] std::vector<Path> temporary_places() const;
+  std::vector<LeftOver> sweep() const;
 
   Layout layout_;
   std::set<std::string> own_;  ///< clips that no other run changes

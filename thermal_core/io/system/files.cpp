@@ -295,7 +295,7 @@ void make_own_folder(const Path& folder) {
 
 void replace_folder(const Path& whole, const Path& place) {
   std::error_code error = rename_with(whole, place, RENAME_EXCHANGE);
-  if (!error) sweep_folder(whole);
+  if (!error) (void)sweep_folder(whole);
   if (error.value() == ENOENT) error = rename_with(whole, place, 0);
   if (error.value() == EINVAL || error.value() == ENOSYS) error = rename_after_removal(whole, place);
   if (error) fail_at("rename to", place, error.value());
@@ -316,15 +316,17 @@ void put_folder(const Path& whole, const Path& place, const Path& last) {
       copy_content(whole / file, place / file);
     }
   } catch (...) {
-    sweep_folder(place);
+    (void)sweep_folder(place);
     throw;
   }
-  sweep_folder(whole);
+  (void)sweep_folder(whole);
 }
 
-void sweep_folder(const Path& folder) noexcept {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder, ignored);
+std::optional<LeftOver> sweep_folder(const Path& place) {
+  std::error_code error;
+  std::filesystem::remove_all(place, error);
+  if (!error) return std::nullopt;
+  return LeftOver{.place = place, .reason = error.message()};
 }
 
 namespace {

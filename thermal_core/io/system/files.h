@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -107,16 +108,23 @@ void make_fresh_folder(const Path& folder);
 void make_own_folder(const Path& folder);
 
 /// Renames a complete folder to `place`, replacing an existing one in one step: a reader, or a run killed in between,
-/// finds either the old one or the new one. IoError or TryAgainError with the place.
+/// finds either the old one or the new one. What of the old one cannot be removed stays at `whole`. IoError or
+/// TryAgainError with the place.
 void replace_folder(const Path& whole, const Path& place);
 
-/// Copies the files of a complete folder to `place` one by one, `last` last, then removes the folder. What was in `place`
-/// is removed first. For places that cannot rename: a reader takes the folder for complete when it has `last`.
+/// Copies the files of a complete folder to `place` one by one, `last` last, then removes the folder, as far as possible.
+/// What was in `place` is removed first. For places that cannot rename: a reader takes the folder for complete when it has `last`.
 /// IoError with the file and the system's reason; TryAgainError if the disk is full.
 void put_folder(const Path& whole, const Path& place, const Path& last);
 
-/// Removes a folder with its contents; of links, only the links. Failure is not reported.
-void sweep_folder(const Path& folder) noexcept;
+/// A temporary file or folder of ours that could not be removed.
+struct LeftOver {
+  Path place;
+  std::string reason;  ///< of the system
+};
+
+/// Removes a folder with its contents, or a file; of links, only the links. Returns what could not be removed.
+std::optional<LeftOver> sweep_folder(const Path& place);
 
 /// How to give a file a second location.
 enum class Linking { hard, symlink, copy };

@@ -1,6 +1,7 @@
 #include "io/system/held_folder.h"
 
 #include <cerrno>
+#include <cstring>
 #include <system_error>
 
 #include <fcntl.h>
@@ -72,15 +73,18 @@ HeldFolder::HeldFolder(const Path& folder) : folder_(folder) {
 }
 
 HeldFolder::~HeldFolder() {
-  if (is_at(descriptor_, folder_)) sweep_folder(folder_);
+  if (is_at(descriptor_, folder_)) (void)sweep_folder(folder_);
   ::close(descriptor_);
 }
 
-void sweep_unless_held(const Path& folder) noexcept {
+std::optional<LeftOver> sweep_unless_held(const Path& folder) {
   const int descriptor = open_folder(folder);
-  if (descriptor < 0) return;
-  if (!is_held(descriptor, false) && is_at(descriptor, folder)) sweep_folder(folder);
+  if (descriptor < 0 && errno == EACCES) return LeftOver{.place = folder, .reason = std::strerror(EACCES)};
+  if (descriptor < 0) return std::nullopt;
+  std::optional<LeftOver> left_over;
+  if (!is_held(descriptor, false) && is_at(descriptor, folder)) left_over = sweep_folder(folder);
   ::close(descriptor);
+  return left_over;
 }
 
 }  // namespace thermal

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "io/system/files.h"
 
 namespace thermal {
@@ -21,7 +23,7 @@ class HeldFolder {
   int descriptor_ = -1;
 };
 
-/// Removes what a killed run has left of such a folder, unless a run holds it.
-void sweep_unless_held(const Path& folder) noexcept;
+/// Removes what a killed run has left of such a folder, unless a run holds it. Returns what could not be removed.
+std::optional<LeftOver> sweep_unless_held(const Path& folder);
 
 }  // namespace thermal

@@ -45,7 +45,9 @@ void Spool::read(const TakeLine& take) {
   std::ifstream in(file_);
   read_lines(in, take);
   if (in.bad() || !in.eof()) throw IoError(fmt::format("cannot read {}: it has disappeared", file_.string()));
-  std::filesystem::remove(file_);
+  std::error_code error;
+  std::filesystem::remove(file_, error);
+  if (error) fail_at("remove", file_, error.value());
   file_.clear();
 }
 

@@ -1,5 +1,7 @@
 #include "dataset/run/transaction.h"
 
+#include <set>
+
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
@@ -52,7 +54,7 @@ TEST_CASE("A committed clip is in its place, and the closed dataset lists it") {
     CHECK_FALSE(place.is_unfinished("a"));
     CHECK_FALSE(std::filesystem::exists(place.layout.annotations_json()));
     transaction.commit(make(transaction, "b"));
-    transaction.close();
+    CHECK(transaction.close().empty());
   }
   CHECK(place.document()["status"] == "complete");
   CHECK(place.document().contains("annotations_sha256"));
@@ -65,7 +67,7 @@ TEST_CASE("A clip made again replaces the one that is there") {
   transaction.begin();
   transaction.commit(make(transaction, "a", 2));
   transaction.commit(make(transaction, "a", 3));
-  transaction.close();
+  CHECK(transaction.close().empty());
   CHECK(place.document()["frames"] == 3);
   CHECK(read_clip_record(place.layout.clip("a") / "clip.json").frames == 3);
 }
@@ -77,7 +79,7 @@ TEST_CASE("Nothing is left of a rejected clip but the reason, as one line of pla
   (void)make(transaction, "a");
   transaction.reject("a", "no\nlight");
   CHECK_FALSE(place.is_unfinished("a"));
-  transaction.close();
+  CHECK(transaction.close().empty());
   CHECK(place.document()["clips"][0] == Json{{"id", "a"}, {"status", "failed"}, {"reason", "no; light"}});
   CHECK(place.status(1) == "pending");
 }
@@ -137,8 +139,48 @@ TEST_CASE("What a killed run left is found or removed when the next one begins")
   CHECK(std::filesystem::exists(killed.unfinished_clip("b")));
   next.begin();
   CHECK_FALSE(std::filesystem::exists(killed.unfinished_clip("b")));
-  next.close();
+  CHECK(next.close().empty());
   CHECK(read_json(killed.dataset_json())["clips"][0]["status"] == "done");
+}
+
+TEST_CASE("What a killed run left is removed when there is nothing to make, too") {
+  const Place place;
+  {
+    DatasetTransaction transaction = place.whole();
+    transaction.begin();
+    for (const char* id : {"a", "b"}) transaction.commit(make(transaction, id));
+    CHECK(transaction.close().empty());
+  }
+  make_folder(place.layout.unfinished_clip("a") / "ir8");
+  make_folder(place.layout.clips() / "foreign.part");
+  CHECK(place.only(1).close().empty());
+  CHECK(place.is_unfinished("a"));  // of another run
+  CHECK(place.whole().close().empty());
+  CHECK_FALSE(place.is_unfinished("a"));
+  CHECK(std::filesystem::exists(place.layout.clips() / "foreign.part"));
+}
+
+TEST_CASE("A scratch folder, which one run has, keeps nothing of any clip") {
+  Place place;
+  place.layout.scratch = place.folder / "scratch";
+  make_folder(place.layout.root);
+  for (const char* id : {"a", "b"}) make_folder(place.layout.unfinished_clip(id) / "ir8");
+  for (const char* name : {"annotations.json.tmp", "annotations.json.spool", "foreign.json"})
+    write_file(place.layout.scratch / name, {});
+  CHECK(place.only(0).close().empty());
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(place.layout.scratch))
+    names.insert(entry.path().filename().string());
+  CHECK(names == std::set<std::string>{".lock", "foreign.json"});
+}
+
+TEST_CASE("Nothing is removed where a link leads") {
+  const Place place;
+  make_folder(place.folder / "elsewhere" / "a.part");
+  make_folder(place.layout.root);
+  std::filesystem::create_directory_symlink(place.folder / "elsewhere", place.layout.clips());
+  CHECK(place.whole().close().empty());
+  CHECK(std::filesystem::exists(place.folder / "elsewhere" / "a.part"));
 }
 
 TEST_CASE("Two runs have clips of one dataset at the same time, and each learns what the other made") {
@@ -150,10 +192,10 @@ TEST_CASE("Two runs have clips of one dataset at the same time, and each learns 
   (void)make(other, "b");
   one.commit(make(one, "a"));
   CHECK(place.is_unfinished("b"));  // not the first one's to remove
-  one.close();
+  CHECK(one.close().empty());
   CHECK(place.status(1) == "pending");
   other.commit(make(other, "b"));
-  other.close();
+  CHECK(other.close().empty());
   CHECK(place.document()["status"] == "complete");
   CHECK(read_json(place.layout.annotations_json())["videos"].size() == 2);
 }

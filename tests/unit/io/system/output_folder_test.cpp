@@ -94,4 +94,17 @@ TEST_CASE("A missing folder cannot be renamed") {
         fmt::format("cannot rename to {}: No such file or directory", (folder / "a").string()));
 }
 
+TEST_CASE("What cannot be removed is named, with the reason") {
+  const TemporaryFolder folder;
+  put(folder / "a/ir8/0.png", "old");
+  CHECK_FALSE(sweep_folder(folder / "a").has_value());
+  CHECK_FALSE(std::filesystem::exists(folder / "a"));
+  CHECK_FALSE(sweep_folder(folder / "a").has_value());
+  const Path impossible = folder / std::string(300, 'x');
+  const auto left_over = sweep_folder(impossible);
+  REQUIRE(left_over.has_value());
+  CHECK(left_over->place == impossible);
+  CHECK(left_over->reason == "File name too long");
+}
+
 }  // namespace output_folder_test
