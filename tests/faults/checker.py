@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Collection, Iterable
 from pathlib import Path
 
 from datasets import content_of
@@ -26,9 +28,18 @@ def committed(work: Path) -> Committed:
     return found
 
 
-def problems(work: Path, wanted: Path, earlier: Committed) -> list[str]:
-    """What is wrong with a folder that should be as `wanted`, and should have kept what was committed earlier."""
-    found = _differences(work, wanted) + _temporary(work)
+_NAMED = re.compile(r"veldt: warning: cannot remove (.+?): [^:]+; the next run tries again")
+
+
+def left_over_in(messages: Iterable[str], work: Path) -> set[Path]:
+    """Temporary files and folders that runs in a folder could not remove, and named."""
+    return {work / name for text in messages for name in _NAMED.findall(text)}
+
+
+def problems(work: Path, wanted: Path, earlier: Committed, named: Collection[Path] = ()) -> list[str]:
+    """What is wrong with a folder that should be as `wanted`, and should have kept what was committed earlier. What was
+    named may be left over."""
+    found = _differences(work, wanted, named) + _temporary(work, named)
     now = committed(work)
     for clip, files in earlier.items():
         if clip not in now:
@@ -38,25 +49,37 @@ def problems(work: Path, wanted: Path, earlier: Committed) -> list[str]:
     return found
 
 
-def _differences(work: Path, wanted: Path) -> list[str]:
+def _differences(work: Path, wanted: Path, named: Collection[Path]) -> list[str]:
     ours, theirs = content_of(work), content_of(wanted)
+    extra, extra_folders, extra_previews = (
+        {name for name in found if not _is_below(work / name, named)}
+        for found in (
+            ours.keys() - theirs.keys(),
+            _folders(work) - _folders(wanted),
+            _previews(work) - _previews(wanted),
+        )
+    )
     changed = [name for name in ours if name in theirs and ours[name] != theirs[name]]
     found = [
         _listed("lost", theirs.keys() - ours.keys()),
-        _listed("extra", ours.keys() - theirs.keys()),
+        _listed("extra", extra),
         _listed("changed", changed),
-        _listed("extra folders", _folders(work) - _folders(wanted)),
+        _listed("extra folders", extra_folders),
         _listed("lost folders", _folders(wanted) - _folders(work)),
         _listed("lost previews", _previews(wanted) - _previews(work)),
-        _listed("extra previews", _previews(work) - _previews(wanted)),
+        _listed("extra previews", extra_previews),
     ]
     return [line for line in found if line]
 
 
-def _temporary(work: Path) -> list[str]:
-    names = [str(path.relative_to(work)) for path in work.rglob("*") if path.name.endswith(_TEMPORARY)]
-    names += [str(path.relative_to(work)) for path in (work / "tmp").iterdir()]
+def _temporary(work: Path, named: Collection[Path]) -> list[str]:
+    paths = [path for path in work.rglob("*") if path.name.endswith(_TEMPORARY)] + [*(work / "tmp").iterdir()]
+    names = [str(path.relative_to(work)) for path in paths if not _is_below(path, named)]
     return [_listed("temporary", names)] if names else []
+
+
+def _is_below(path: Path, places: Collection[Path]) -> bool:
+    return any(place == path or place in path.parents for place in places)
 
 
 def _folders(folder: Path) -> set[str]:

@@ -26,7 +26,7 @@ sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve
 import folder_faults
 import process_faults
 import system_faults
-from checker import committed, problems
+from checker import committed, left_over_in, problems
 from processes import adopt_orphans
 from runs import left_over
 from states import STEPS, Scenes, copy
@@ -88,7 +88,9 @@ class Night:
         outcome.undo()
         state = trial.state
         if done.codes and set(done.codes) == {DONE} and outcome.finished and "shards" not in done.kind:
-            done.losses += [f"reported as done, {loss}" for loss in problems(trial.work, state.after, {})]
+            named = left_over_in([one.err for one in outcome.ended], trial.work)
+            found = problems(trial.work, state.after, {}, named)
+            done.losses += [f"reported as done, {loss}" for loss in found]
         earlier = committed(trial.work)
         copy(trial.work, trial.work.parent / "disturbed")
         resumed = trial.run()

@@ -42,7 +42,7 @@ def _failing_call(trial: Trial) -> Outcome:
     allowed = (DONE, FAILED, REJECTED, TRY_AGAIN)
     if error in _FULL:
         allowed = (DONE, TRY_AGAIN)
-    return Outcome([ended], where, trial.injected(), allowed, finished=call != "unlink")
+    return Outcome([ended], where, trial.injected(), allowed)
 
 
 def _short_calls(trial: Trial) -> Outcome:

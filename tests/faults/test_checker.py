@@ -112,6 +112,21 @@ def test_how_the_disturbed_run_ended_may_be_a_loss(scenes, tmp_path, monkeypatch
     assert not done.recovered and any(one.startswith(loss) for one in done.losses)
 
 
+@pytest.mark.parametrize("name", ["out/clips/first.part", "/elsewhere/first.part"])
+def test_what_cannot_be_removed_may_be_left_over_once_it_is_named(scenes, tmp_path, monkeypatch, name):
+    def inject(trial: Trial) -> Outcome:
+        ended = undisturbed(trial)
+        (trial.work / "out/clips/first.part/ir8").mkdir(parents=True)
+        (trial.work / "out/clips/first.part/preview.mp4").write_text("half")
+        warning = f"veldt: warning: cannot remove {name}: Permission denied; the next run tries again\n"
+        return Outcome([Ended(ended.code, warning)], "named", 1)
+
+    undisturbed = Trial.run
+    monkeypatch.setitem(night.KINDS, "named", Kind(inject))
+    done = night.Night(tmp_path, scenes, Shims(tmp_path), 1).round(0, ["named"])
+    assert done.recovered == name.startswith("out")
+
+
 def test_a_resumed_run_that_fails_is_a_loss(scenes, tmp_path, monkeypatch):
     done = _round(scenes, tmp_path, monkeypatch, _nothing(), lambda work: None)
     assert done.recovered
