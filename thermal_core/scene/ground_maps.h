@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "scene/sun_path.h"
+
+namespace thermal {
+
+/// In which hours of a day the sun reaches the ground.
+struct SunlitHours {
+  SunPath path;
+  /// Of each cell: bit k is set where the sun's beam in the middle of hour k of local solar time reaches it.
+  std::vector<std::uint32_t> hours;
+
+  [[nodiscard]] bool operator==(const SunlitHours&) const = default;
+};
+
+/// What each square of the ground receives, [row of y, column of x], from south and west, of cells x cells squares. The
+/// place is that of BakedGround: a square of size_m around the origin. Values are those of the middle of a cell, on the
+/// drawn ground or water. Actors are not part of it.
+struct GroundMaps {
+  double size_m = 0;
+  std::size_t cells = 0;
+  /// Share of the sky that a level surface sees through crowns and past relief, each part weighted by the cosine of its
+  /// angle from the vertical; 255 is all of an open sky.
+  std::vector<std::uint8_t> sky_view;
+  std::vector<float> height_m;         ///< of the ground, or of the water above it
+  std::vector<float> crown_top_m;      ///< the highest plant above that; 0: none
+  std::vector<std::uint8_t> moisture;  ///< 255: saturated; see ground_moisture()
+  std::vector<std::uint8_t> grass;     ///< share below grass, of which 255 is all
+  std::vector<SunlitHours> sunlit;     ///< one for each sun path
+
+  [[nodiscard]] bool operator==(const GroundMaps&) const = default;
+};
+
+/// Cells along a side: of at most 1 m, or coarser in places of more than 4096 m.
+/// @param size_m  greater than 0; at least one cell
+[[nodiscard]] std::size_t ground_map_cells(double size_m) noexcept;
+
+/// Where the middle of a cell's row or column is [m].
+[[nodiscard]] inline double cell_middle_m(double size_m, std::size_t cells, std::size_t number) noexcept {
+  return size_m * ((static_cast<double>(number) + 0.5) / static_cast<double>(cells) - 0.5);
+}
+
+}  // namespace thermal
