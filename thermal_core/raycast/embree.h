@@ -59,6 +59,17 @@ inline EmbreeContext coherent_rays() noexcept {
   return context;
 }
 
+/// Of packets whose rays go their own ways.
+inline EmbreeContext scattered_rays() noexcept {
+  EmbreeContext context{};
+#if VELDT_EMBREE == 3
+  rtcInitIntersectContext(&context);
+#else
+  rtcInitRayQueryContext(&context);
+#endif
+  return context;
+}
+
 /// Finds the first triangle between tnear and tfar of each ray that filter functions accept, and sets tfar to where it
 /// is hit.
 inline void find_nearest(RTCScene scene, const PacketMask& mask, EmbreeContext& context,
@@ -71,6 +82,20 @@ inline void find_nearest(RTCScene scene, const PacketMask& mask, EmbreeContext& 
   arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   arguments.context = &context;
   rtcIntersect16(mask.data(), scene, &rays, &arguments);
+#endif
+}
+
+/// Sets tfar of each ray to minus infinity if anything is between its tnear and tfar. No filter function is called.
+/// Each ray is traced alone, which takes half of the time where rays meet leaves.
+inline void find_any(RTCScene scene, const PacketMask& mask, RTCRay16& rays) noexcept {
+  EmbreeContext context = scattered_rays();
+#if VELDT_EMBREE == 3
+  rtcOccluded16(mask.data(), scene, &context, &rays);
+#else
+  RTCOccludedArguments arguments{};
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded16(mask.data(), scene, &rays, &arguments);
 #endif
 }
 
