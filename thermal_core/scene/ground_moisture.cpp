@@ -1,7 +1,9 @@
 #include "scene/ground_moisture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "base/parallel.h"
@@ -9,9 +11,9 @@
 namespace thermal {
 namespace {
 
-constexpr double kShoreM = 4;       // estimate: capillary rise and seepage wet the ground for a few metres
-constexpr double kSurroundsM = 40;  // standard deviation; of the planner's own low and high land
-constexpr double kHollowM = 2;      // estimate
+constexpr double kShoreM = 4;   // estimate: capillary rise and seepage wet the ground for a few metres
+constexpr double kSideM = 30;   // from a place to the land beside it: an estimate
+constexpr double kHollowM = 2;  // estimate
 constexpr double kMostInHollows = 0.5;  // estimate
 
 std::uint8_t as_byte(double share) noexcept {
@@ -63,65 +65,37 @@ struct Grid {
   }
 };
 
-/// Means of the 2 `reach` + 1 values around each; beyond the ends, the last ones repeat.
-void box_mean(std::span<const double> values, std::size_t reach, std::span<double> out) {
-  const auto at = [&](std::ptrdiff_t k) {
-    return values[static_cast<std::size_t>(
-        std::clamp<std::ptrdiff_t>(k, 0, static_cast<std::ptrdiff_t>(values.size()) - 1))];
+/// How far the land on both of two opposite sides is above a place: of four pairs of sides, the most. Places are in
+/// steps of the grid, of which `side` are kSideM.
+double depth_m(const Grid<float>& height_m, double row, double column, double side) noexcept {
+  constexpr double kDiagonal = 0.70710678;
+  constexpr std::array<std::array<double, 2>, 4> kWays = {
+      {{0, 1}, {1, 0}, {kDiagonal, kDiagonal}, {kDiagonal, -kDiagonal}}};
+  const auto at = [&](double rows, double columns) {
+    return height_m.at(between(row + rows, height_m.nodes), between(column + columns, height_m.nodes));
   };
-  const auto far = static_cast<std::ptrdiff_t>(reach);
-  double sum = 0;
-  for (std::ptrdiff_t k = -far; k <= far; ++k) sum += at(k);
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    out[k] = sum / static_cast<double>(2 * reach + 1);
-    const auto here = static_cast<std::ptrdiff_t>(k);
-    sum += at(here + far + 1) - at(here - far);
-  }
-}
-
-/// Means of rows, transposed: twice is of both directions.
-std::vector<double> smoothed_rows(const std::vector<double>& grid, std::size_t nodes, std::size_t reach) {
-  std::vector<double> turned(grid.size());
-  parallel_for(nodes, 16, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> one(nodes);
-    std::vector<double> other(nodes);
-    for (std::size_t row = begin; row < end; ++row) {
-      std::copy_n(grid.begin() + static_cast<std::ptrdiff_t>(row * nodes), nodes, one.begin());
-      for (int pass = 0; pass < 3; ++pass) {
-        box_mean(one, reach, other);
-        std::swap(one, other);
-      }
-      for (std::size_t k = 0; k < nodes; ++k) turned[k * nodes + row] = one[k];
-    }
-  });
-  return turned;
-}
-
-/// Three boxes in a row are nearly a Gaussian: their variances add up, ((2 r + 1)^2 - 1) / 12 each.
-std::size_t reach_of(double deviation) noexcept {
-  return static_cast<std::size_t>(
-      std::max(1.0, std::round((std::sqrt(4 * deviation * deviation + 1) - 1) / 2)));
+  double rim_m = -std::numeric_limits<double>::infinity();
+  for (const auto& [rows, columns] : kWays)
+    rim_m = std::max(rim_m, std::min(at(side * rows, side * columns), at(-side * rows, -side * columns)));
+  return rim_m - at(0, 0);
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> ground_moisture(const BakedGround& ground, std::size_t cells) {
   const std::size_t nodes = ground.cells + 1;
-  const double nodes_a_cell = static_cast<double>(ground.cells) / static_cast<double>(cells);
-  const std::size_t reach =
-      std::min(reach_of(kSurroundsM * static_cast<double>(ground.cells) / ground.size_m), nodes);
-  const std::vector<double> heights(ground.height_m.begin(), ground.height_m.end());
-  const std::vector<double> means = smoothed_rows(smoothed_rows(heights, nodes, reach), nodes, reach);
+  const double steps_a_cell = static_cast<double>(ground.cells) / static_cast<double>(cells);
+  const double side = kSideM * static_cast<double>(ground.cells) / ground.size_m;
   const Grid<float> height_m = {.values = ground.height_m, .nodes = nodes};
-  const Grid<double> mean_m = {.values = means, .nodes = nodes};
   const Grid<float> shore_m = {.values = ground.shore_m, .nodes = nodes};
   return map_of(cells, [&](std::size_t row_number, std::size_t column_number) {
-    const Between row = between((static_cast<double>(row_number) + 0.5) * nodes_a_cell, nodes);
-    const Between column = between((static_cast<double>(column_number) + 0.5) * nodes_a_cell, nodes);
-    const double below_m = mean_m.at(row, column) - height_m.at(row, column);
+    const double row = (static_cast<double>(row_number) + 0.5) * steps_a_cell;
+    const double column = (static_cast<double>(column_number) + 0.5) * steps_a_cell;
+    const double below_m = depth_m(height_m, row, column, side);
     const double in_hollow = kMostInHollows * std::clamp(below_m / kHollowM, 0.0, 1.0);
     if (ground.shore_m.empty()) return in_hollow;
-    return std::max(in_hollow, std::exp(-std::max(0.0, shore_m.at(row, column)) / kShoreM));
+    const double from_shore_m = shore_m.at(between(row, nodes), between(column, nodes));
+    return std::max(in_hollow, std::exp(-std::max(0.0, from_shore_m) / kShoreM));
   });
 }
 

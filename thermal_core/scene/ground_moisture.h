@@ -11,8 +11,8 @@ namespace thermal {
 
 /// How moist the ground is in the middles of cells x cells squares, [row of y, column of x], from south and west; 255
 /// is saturated. The larger of two terms, both estimates: 1 in water and at its shore, falling by a factor of e every
-/// 4 m outwards; and up to 0.5 in hollows, in proportion to how far the ground lies below its mean of some 40 m around,
-/// up to 2 m. `ground` has at least one cell.
+/// 4 m outwards; and up to 0.5 in hollows, in proportion to how far the land rises on two opposite sides, 30 m away, up
+/// to 2 m. The foot of a slope is no hollow. `ground` has at least one cell.
 [[nodiscard]] std::vector<std::uint8_t> ground_moisture(const BakedGround& ground, std::size_t cells);
 
 /// The share of one of `covers` there, of which 255 is all: interpolated between the middles of the ground's own cells.

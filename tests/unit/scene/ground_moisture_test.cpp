@@ -74,17 +74,15 @@ TEST_CASE("Hollows are moist, up to half where they are 2 m below their surround
   CHECK(thermal::ground_moisture(land.ground(), 400)[200 * 400 + 200] == 0);  // a hill
 }
 
-TEST_CASE("The mean height around is that of a Gaussian of 40 m") {
-  // Of a wave of length L, a Gaussian keeps exp(-2 (pi s / L)^2). Three boxes of 21 cells have a deviation of 42 m, and
-  // keep 0.40 instead of 0.45: a difference of 0.014 in moisture.
+TEST_CASE("The foot of a cliff is no hollow, and a valley is one") {
   Land land;
-  constexpr double kWaveM = 200;
-  constexpr double kPi = 3.14159265358979;
-  land.height_m = Land::on_lines([](double x, double) { return -std::cos(2 * kPi * x / kWaveM); });
-  const auto moisture = thermal::ground_moisture(land.ground(), 100);
-  const double kept = std::exp(-2 * std::pow(kPi * 40 / kWaveM, 2));
-  const double at_2_m = std::cos(2 * kPi * 2 / kWaveM);  // the middle of a cell is 2 m beside the trough
-  CHECK_THAT(moisture[50 * 100 + 50] / 255.0, WithinAbs(0.5 * at_2_m * (1 - kept) / 2, 0.016));
+  land.height_m = Land::on_lines([](double x, double) { return x < 0 ? 0 : 20; });
+  const auto cliff = thermal::ground_moisture(land.ground(), 400);
+  for (std::size_t column = 0; column < 400; ++column) CHECK(cliff[200 * 400 + column] == 0);
+  land.height_m = Land::on_lines([](double x, double y) { return 0.04 * std::abs(x + y); });
+  const auto valley = thermal::ground_moisture(land.ground(), 400);
+  CHECK_THAT(valley[200 * 400 + 199] / 255.0, WithinAbs(0.5 * 0.04 * 30 * std::sqrt(2) / 2, 0.03));
+  CHECK(valley[300 * 400 + 300] == 0);
 }
 
 TEST_CASE("A single cell of ground is dry, and moist by its shore") {
