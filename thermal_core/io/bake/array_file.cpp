@@ -16,7 +16,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "arrays are little-endian");
 
-constexpr std::size_t kAlignmentBytes = 64;
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 36;
 
 Path binary_of(const Path& json) { return Path(json).replace_extension(".bin"); }

@@ -33,6 +33,9 @@ class ArrayFile {
   }
   static constexpr std::size_t kAny = ~std::size_t{0};
 
+  /// Arrays begin at multiples of this.
+  static constexpr std::size_t kAlignmentBytes = 64;
+
   /// DataError if a value of an array is NaN or infinite.
   void check_finite(const std::string& name, std::span<const float> values) const;
   void check_finite(const std::string& name, std::span<const double> values) const;

@@ -1,0 +1,126 @@
+#include "io/bake/ground_maps_file.h"
+
+#include <algorithm>
+#include <span>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "io/bake/array_file.h"
+#include "io/bake/array_writer.h"
+#include "io/json/schema.h"
+
+namespace thermal {
+namespace {
+
+constexpr std::uint32_t kAllHours = (1U << 24U) - 1;
+
+Path header_in(const Path& folder) { return folder / "ground.json"; }
+
+std::vector<SunPath> sun_paths_in(const Json& header) {
+  std::vector<SunPath> paths;
+  for (const Json& path : header.at("sun_paths"))
+    paths.push_back({.latitude_deg = path.at("latitude_deg"), .day_of_year = path.at("day_of_year")});
+  return paths;
+}
+
+class MapsReader {
+ public:
+  MapsReader(const Path& folder, const Assets& assets)
+      : file_(header_in(folder), assets.schema("ground_maps")), cells_(file_.header().at("cells")) {}
+
+  [[nodiscard]] GroundMaps read(const BakedGround& ground) const {
+    GroundMaps maps;
+    maps.size_m = file_.header().at("size_m");
+    maps.cells = cells_;
+    if (maps.size_m != ground.size_m)
+      throw file_.fault_at("size_m", fmt::format("{}", maps.size_m),
+                           fmt::format("{}, as in scene.json", ground.size_m));
+    maps.sky_view = map<std::uint8_t>("sky_view", "|u1");
+    maps.height_m = heights("height_m");
+    maps.crown_top_m = heights("crown_top_m");
+    maps.moisture = map<std::uint8_t>("moisture", "|u1");
+    maps.grass = map<std::uint8_t>("grass", "|u1");
+    const auto below = std::ranges::find_if(maps.crown_top_m, [](float one) { return one < 0; });
+    if (below != maps.crown_top_m.end())
+      throw file_.fault_at(fmt::format("crown_top_m[{}]", below - maps.crown_top_m.begin()),
+                           fmt::format("{}", *below), "0 or more");
+    maps.sunlit = sunlit();
+    return maps;
+  }
+
+ private:
+  template <typename Value>
+  [[nodiscard]] std::vector<Value> map(const char* name, const char* type) const {
+    const std::span<const Value> values = file_.array<Value>(name, type, {cells_, cells_});
+    return {values.begin(), values.end()};
+  }
+
+  [[nodiscard]] std::vector<float> heights(const char* name) const {
+    std::vector<float> values = map<float>(name, "<f4");
+    file_.check_finite(name, std::span<const float>(values));
+    return values;
+  }
+
+  [[nodiscard]] std::vector<SunlitHours> sunlit() const {
+    const std::vector<SunPath> paths = sun_paths_in(file_.header());
+    const auto hours = file_.array<std::uint32_t>("sunlit", "<u4", {paths.size(), cells_, cells_});
+    const auto wrong = std::ranges::find_if(hours, [](std::uint32_t one) { return one > kAllHours; });
+    if (wrong != hours.end())
+      throw file_.fault_at(fmt::format("sunlit[{}]", wrong - hours.begin()), fmt::format("{}", *wrong),
+                           "bits of 24 hours");
+    std::vector<SunlitHours> sunlit;
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      const auto of_day = hours.subspan(k * cells_ * cells_, cells_ * cells_);
+      sunlit.push_back({.path = paths[k], .hours = {of_day.begin(), of_day.end()}});
+    }
+    return sunlit;
+  }
+
+  ArrayFile file_;
+  std::size_t cells_;
+};
+
+Json header_of(const GroundMaps& maps) {
+  Json paths = Json::array();
+  for (const SunlitHours& sunlit : maps.sunlit)
+    paths.push_back({{"latitude_deg", sunlit.path.latitude_deg}, {"day_of_year", sunlit.path.day_of_year}});
+  return {{"format", "veldt-ground-maps"},
+          {"version", 1},
+          {"size_m", maps.size_m},
+          {"cells", maps.cells},
+          {"sun_paths", std::move(paths)}};
+}
+
+}  // namespace
+
+bool has_ground_maps(const Path& folder) { return std::filesystem::exists(header_in(folder)); }
+
+std::vector<SunPath> sun_paths_of_maps(const Path& folder, const Assets& assets) {
+  const Path file = header_in(folder);
+  Json header = read_json(file);
+  const std::vector<std::string> faults = check_and_fill(header, assets.schema("ground_maps"));
+  if (!faults.empty()) throw DataError(fmt::format("{}: {}", file.string(), faults.front()));
+  return sun_paths_in(header);
+}
+
+GroundMaps read_ground_maps(const Path& folder, const BakedGround& ground, const Assets& assets) {
+  return MapsReader(folder, assets).read(ground);
+}
+
+void write_ground_maps(const GroundMaps& maps, const Path& folder, const Path& scratch) {
+  ArrayWriter file(header_in(folder), scratch);
+  const std::vector<std::size_t> shape = {maps.cells, maps.cells};
+  file.add<std::uint8_t>("sky_view", "|u1", shape, maps.sky_view);
+  file.add<float>("height_m", "<f4", shape, maps.height_m);
+  file.add<float>("crown_top_m", "<f4", shape, maps.crown_top_m);
+  file.add<std::uint8_t>("moisture", "|u1", shape, maps.moisture);
+  file.add<std::uint8_t>("grass", "|u1", shape, maps.grass);
+  std::vector<std::uint32_t> hours;
+  for (const SunlitHours& sunlit : maps.sunlit)
+    hours.insert(hours.end(), sunlit.hours.begin(), sunlit.hours.end());
+  file.add<std::uint32_t>("sunlit", "<u4", {maps.sunlit.size(), maps.cells, maps.cells}, hours);
+  file.close(header_of(maps));
+}
+
+}  // namespace thermal
