@@ -16,10 +16,12 @@ void plan_with_progress(const CommonOptions& common, const thermal::Assets& asse
   std::vector<thermal::LeftOver> left_over;
   {
     ProgressBar bar(common, "planning", "flights", kPatience);
+    ProgressBar maps(common, "building the scene", "parts", kPatience);
     plan({.assets = assets,
           .threads = common.threads,
           .blender = thermal::find_program("blender"),
           .show = hooks_for(bar).progress,
+          .show_maps = hooks_for(maps).progress,
           .left_over = [&left_over](const thermal::LeftOver& one) { left_over.push_back(one); }});
   }
   print_left_over(left_over);

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/printable.h"
+#include "dataset/plan/ground_planning.h"
 #include "dataset/plan/plan_checksums.h"
 #include "io/assets.h"
 #include "io/system/child_process.h"
@@ -122,6 +123,20 @@ std::vector<std::string> baking_arguments(const Path& part, const Path& earlier,
   return arguments;
 }
 
+/// Previews need no maps.
+bool has_its_maps(const Path& folder, const Config& config, const PlanOptions& options) {
+  return options.preview || has_needed_ground_maps(folder, config, options.assets);
+}
+
+/// Adds the maps that a plan's folder lacks, through `part`, and their checksums. A plan that is killed in between does
+/// not agree with its checksums, and is made again.
+void complete_maps(const Path& folder, const Path& part, const Config& config, const PlanOptions& options) {
+  if (has_its_maps(folder, config, options)) return;
+  with_threads(options.threads,
+               [&] { add_ground_maps(folder, part, config, options.assets, options.show_maps); });
+  write_checksums(folder);
+}
+
 }  // namespace
 
 Path find_python() {
@@ -148,10 +163,14 @@ DatasetPlan plan_again(const Path& folder, const Config& config, const std::stri
                        const std::function<void(const DatasetPlan&)>& may_replace) {
   const Path part = unfinished_plan(folder);
   const HeldFolder held(part);
-  if (auto plan = current_plan(folder, config, options)) return *std::move(plan);  // another run has made it
+  if (auto plan = current_plan(folder, config, options)) {  // another run has made it, or it lacks maps
+    complete_maps(folder, part, config, options);
+    return *std::move(plan);
+  }
   (void)run_planning(config, name, options, baking_arguments(part, folder, options));
   DatasetPlan plan = plan_of(read_json(part / "plan.json"), (part / "plan.json").string(), options.assets);
   if (may_replace) may_replace(plan);
+  complete_maps(part, part, config, options);
   write_checksums(part);
   replace_folder(part, folder);
   return plan;
@@ -163,7 +182,8 @@ DatasetPlan plan_into(const Path& folder, const Config& config, const std::strin
                       const PlanOptions& options,
                       const std::function<void(const DatasetPlan&)>& may_replace) {
   std::optional<DatasetPlan> plan = current_plan(folder, config, options);
-  if (!plan) plan = plan_again(folder, config, name, options, may_replace);
+  if (!plan || !has_its_maps(folder, config, options))
+    plan = plan_again(folder, config, name, options, may_replace);
   const std::optional<LeftOver> left_over = sweep_unless_held(unfinished_plan(folder));
   if (left_over && options.left_over) options.left_over(*left_over);
   return *std::move(plan);

@@ -17,6 +17,8 @@ struct PlanOptions {
   Path blender = {};  ///< reads models of other programs; empty: there is none
   /// Called for each planned clip or flight; `clip` is its id.
   std::function<void(const Progress&)> show = {};
+  /// The same for parts of the maps of the ground; `clip` is "ground maps".
+  std::function<void(const Progress&)> show_maps = {};
   /// Also bakes what a preview needs.
   bool preview = false;
   /// Called if something temporary cannot be removed; the next planning into the same folder removes it.
@@ -29,10 +31,11 @@ struct PlanOptions {
 [[nodiscard]] DatasetPlan plan_dataset(const Config& config, const std::string& name,
                                        const PlanOptions& options);
 
-/// The same with the baked scene and the tracks of all clips, in `folder`. A plan that is already there is used again if
-/// nothing that it depends on has changed and none of its files is damaged; otherwise `may_replace` is called with the
-/// new one, which is still in unfinished_plan(), and it takes the old one's place in one step unless that throws. Of two
-/// runs at once, one plans, and the other waits for it.
+/// The same with the baked scene, the tracks of all clips and, if the config needs them, maps of the ground, in `folder`.
+/// A plan that is already there is used again if nothing that it depends on has changed and none of its files is
+/// damaged; maps that it lacks are added. Otherwise `may_replace` is called with the new one, which is still in
+/// unfinished_plan(), and it takes the old one's place in one step unless that throws. Of two runs at once, one plans,
+/// and the other waits for it.
 [[nodiscard]] DatasetPlan plan_into(const Path& folder, const Config& config, const std::string& name,
                                     const PlanOptions& options,
                                     const std::function<void(const DatasetPlan&)>& may_replace = {});

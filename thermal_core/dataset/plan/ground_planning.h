@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "dataset/run/progress.h"
+#include "io/assets.h"
+#include "io/config/config.h"
+#include "scene/sun_path.h"
+
+namespace thermal {
+
+/// Whether a plan of this config has maps of the ground: the physical model needs them.
+[[nodiscard]] bool needs_ground_maps(const Config& config);
+
+/// The days whose sun heats the ground of a config's clips and flights, one for each of their seasons: an estimate of
+/// 19 degrees south, on day 190 of the year for winter and on day 15 for summer.
+[[nodiscard]] std::vector<SunPath> sun_paths(const Config& config);
+
+/// Whether the maps in a plan's folder, if there are any, serve this config, or it needs none.
+[[nodiscard]] bool has_needed_ground_maps(const Path& folder, const Config& config, const Assets& assets);
+
+/// Makes the maps of the scene in a plan's folder, on all cores, and writes them there. `scratch` is a folder on the same
+/// disk. Errors as read_baked_scene() and write_ground_maps().
+void add_ground_maps(const Path& folder, const Path& scratch, const Config& config, const Assets& assets,
+                     const std::function<void(const Progress&)>& show);
+
+}  // namespace thermal
