@@ -118,6 +118,7 @@ WORDS = {
 SCHEMAS_OF = {
     "baked_scene": ["scene"],
     "config": ["config"],
+    "ground_maps": ["ground_maps"],
     "manifest": ["manifest"],
     "scene_plan": ["plan", "config"],
     "tracks": ["track"],
@@ -162,6 +163,7 @@ def main(folder: Path) -> None:
             json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8")) for name in names
         ]
         words[target] = sorted(words_of_schema(schemas))
+    words["ground_maps"] += "sky_view height_m crown_top_m moisture grass sunlit".split()
     words["tracks"] += TRACK_ARRAYS
     for target, known in words.items():
         (folder / target).mkdir(parents=True)

@@ -1,4 +1,5 @@
-"""Plans of a small place, one a kind of file: what scene_plan.cpp, baked_scene.cpp and tracks.cpp read."""
+"""Plans of a small place, one a kind of file: what scene_plan.cpp, baked_scene.cpp, ground_maps.cpp and
+tracks.cpp read."""
 
 from __future__ import annotations
 
@@ -142,11 +143,33 @@ def track(posed: list[list[int]]) -> bytes:
     return packed({"format": "veldt-track", "version": 1, "clip": "one", "frames": frames}, arrays)
 
 
+def ground_maps(days: list[int]) -> bytes:
+    """Maps of the place of `scene`, of three cells a side, with the sun of these days of the year."""
+    header = {
+        "format": "veldt-ground-maps",
+        "version": 1,
+        "size_m": 40.0,
+        "cells": 3,
+        "sun_paths": [{"latitude_deg": -19.0, "day_of_year": day} for day in days],
+    }
+    arrays = {
+        "sky_view": ("|u1", np.full((3, 3), 200)),
+        "height_m": ("<f4", np.full((3, 3), -1.5)),
+        "crown_top_m": ("<f4", np.eye(3)),
+        "moisture": ("|u1", np.zeros((3, 3))),
+        "grass": ("|u1", np.full((3, 3), 255)),
+        "sunlit": ("<u4", np.full((len(days), 3, 3), 0x3FFC0)),
+    }
+    return packed(header, arrays)
+
+
 def write_plan_seeds(folder: Path) -> None:
-    """Write the seeds of the three targets."""
+    """Write the seeds of the four targets."""
     config = json.dumps({"plan": PLAN, "config": CONFIG})
     (folder / "scene_plan" / "plan.json").write_text(config, encoding="utf-8")
     (folder / "baked_scene" / "dry").write_bytes(scene(False))
     (folder / "baked_scene" / "lake").write_bytes(scene(True))
+    (folder / "ground_maps" / "two_days").write_bytes(ground_maps([190, 15]))
+    (folder / "ground_maps" / "dark").write_bytes(ground_maps([]))
     (folder / "tracks" / "posed").write_bytes(track([[1, 1], [0, 1]]))
     (folder / "tracks" / "nobody").write_bytes(track([[0], [0]]))

@@ -26,6 +26,7 @@ const std::map<std::string_view, void (*)(Bytes)> kTargets = {{"baked_scene", fu
                                                               {"dataset", fuzz::dataset},
                                                               {"detections", fuzz::detections},
                                                               {"exr_passes", fuzz::exr_passes},
+                                                              {"ground_maps", fuzz::ground_maps},
                                                               {"index_picture", fuzz::index_picture},
                                                               {"manifest", fuzz::manifest},
                                                               {"scene_plan", fuzz::scene_plan},

@@ -14,6 +14,7 @@ void config(Bytes bytes);         ///< a config; or settings as for --set, one p
 void dataset(Bytes bytes);        ///< files and links of a dataset, as JSON
 void detections(Bytes bytes);     ///< COCO results; or YOLO's of one picture
 void exr_passes(Bytes bytes);     ///< an EXR file; its last byte chooses the manifest
+void ground_maps(Bytes bytes);    ///< a plan's ground.json, a NUL byte, and ground.bin
 void index_picture(Bytes bytes);  ///< a PNG; its last byte chooses the manifest
 void manifest(Bytes bytes);       ///< a manifest
 void scene_plan(Bytes bytes);     ///< a plan's plan.json and config.json, as one JSON
