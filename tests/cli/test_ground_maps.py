@@ -3,12 +3,13 @@
 import hashlib
 import json
 
+import jsonschema
 import numpy as np
 import pytest
 
 from configs import tiny
 from datasets import flip_bit
-from program import Veldt
+from program import ROOT, Veldt
 
 _FILES = ("ground.json", "ground.bin")
 _CELLS = 120
@@ -57,6 +58,8 @@ def test_a_physical_plan_has_maps_and_their_checksums(place):
     sums = _sums(place, "plan")
     assert {name: recorded[name] for name in _FILES} == {name: sums[name] for name in _FILES}
     header = place.read("plan/ground.json")
+    schema = json.loads((ROOT / "configs/schema/ground_maps.schema.json").read_text(encoding="utf-8"))
+    jsonschema.validate(header, schema)
     assert (header["size_m"], header["cells"]) == (120, _CELLS)
     assert header["sun_paths"] == [
         {"latitude_deg": -19.0, "day_of_year": 190},
