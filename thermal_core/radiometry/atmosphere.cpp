@@ -3,20 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
+#include "base/ranges.h"
 
 namespace thermal {
 namespace {
 
 constexpr double kZeroCelsius = 273.15;
-
-void check_range(const char* where, double value, const char* unit, double low, double high) {
-  if (value >= low && value <= high) return;
-  throw ConfigError(fault(where, fmt::format("{}", value), unit,
-                          fmt::format("{} to {}{}{}", low, high, *unit == '\0' ? "" : " ", unit)));
-}
 
 double with_clouds(double clear, double cloud_fraction) noexcept {
   constexpr double kCloudGain = 0.84;
@@ -36,9 +28,9 @@ double fitted_transmittance(const Air& air, double range_m) noexcept {
 }  // namespace
 
 void Air::validate() const {
-  check_range("weather.air_temperature_k", temperature_k, "K", kColdestAirK, kHottestAirK);
-  check_range("weather.relative_humidity", relative_humidity, "", 0, 1);
-  check_range("weather.cloud_fraction", cloud_fraction, "", 0, 1);
+  require_range("weather.air_temperature_k", temperature_k, "K", kColdestAirK, kHottestAirK);
+  require_range("weather.relative_humidity", relative_humidity, "", 0, 1);
+  require_range("weather.cloud_fraction", cloud_fraction, "", 0, 1);
 }
 
 double vapour_pressure_hpa(const Air& air) noexcept {

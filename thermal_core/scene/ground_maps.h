@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/sun_path.h"
+#include "heat/weather/sun.h"
 
 namespace thermal {
 

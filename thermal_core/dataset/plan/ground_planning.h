@@ -6,7 +6,7 @@
 #include "dataset/run/progress.h"
 #include "io/assets.h"
 #include "io/config/config.h"
-#include "scene/sun_path.h"
+#include "heat/weather/sun.h"
 
 namespace thermal {
 

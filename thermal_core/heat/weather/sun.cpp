@@ -1,13 +1,24 @@
-#include "scene/sun_path.h"
+#include "heat/weather/sun.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
+
+#include "base/ranges.h"
 
 namespace thermal {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+}  // namespace
+
+void SunPath::validate() const {
+  require_range("weather.latitude_deg", latitude_deg, "deg", -90, 90);
+  require_range("weather.date (day of the year)", day_of_year, "", 1, 366);
+}
 
 double declination_rad(int day_of_year) noexcept {
   const double a = kTurn * (day_of_year - 1) / 365;
@@ -15,10 +26,15 @@ double declination_rad(int day_of_year) noexcept {
          0.000907 * std::sin(2 * a) - 0.002697 * std::cos(3 * a) + 0.00148 * std::sin(3 * a);
 }
 
-}  // namespace
+double sun_nearness(int day_of_year) noexcept { return 1 + 0.033 * std::cos(kTurn * day_of_year / 365); }
+
+double day_length_h(const SunPath& path) noexcept {
+  const double cosine = -std::tan(radians(path.latitude_deg)) * std::tan(declination_rad(path.day_of_year));
+  return 24 / std::numbers::pi * std::acos(std::clamp(cosine, -1.0, 1.0));
+}
 
 EastNorthUp sun_direction(const SunPath& path, double solar_h) noexcept {
-  const double latitude = path.latitude_deg * std::numbers::pi / 180;
+  const double latitude = radians(path.latitude_deg);
   const double declination = declination_rad(path.day_of_year);
   const double hour_angle = kTurn * (solar_h - 12) / 24;
   const double equator = std::cos(declination) * std::cos(hour_angle);  // towards the meridian
@@ -29,7 +45,8 @@ EastNorthUp sun_direction(const SunPath& path, double solar_h) noexcept {
 
 SunHours sun_hours(const SunPath& path) noexcept {
   SunHours hours;
-  for (std::size_t k = 0; k < hours.size(); ++k) hours[k] = sun_direction(path, static_cast<double>(k) + 0.5);
+  for (std::size_t hour = 0; hour < hours.size(); ++hour)
+    hours[hour] = sun_direction(path, static_cast<double>(hour) + 0.5);
   return hours;
 }
 

@@ -1,0 +1,95 @@
+#include "heat/body/body_heat.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "accuracy/heat_bodies/nights.h"
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+
+namespace body_heat_test {
+
+using namespace thermal;
+
+namespace {
+
+const Coat kBareHand = {.tissue = {.warm_m2_k_w = 0.02, .cold_m2_k_w = 0.13}, .surface = {.open_view = 0.85}};
+const Coat kHide = {.coat_m2_k_w = 0.1, .wet_when_bathed = 1};
+
+std::vector<BodyHeat> all_kinds() {
+  return {BodyHeat{},    Clothing{}, kBareHand, kHide,
+          ColdBlooded{}, Unheated{}, Sheet{},   EngineWarmed{.warmth = {.driving_k = 20, .parked_k = 30}}};
+}
+
+}  // namespace
+
+TEST_CASE("Every kind of part has a temperature in all weather, on every slope") {
+  for (const BodyHeat& heat : all_kinds()) {
+    for (const double air_k : {233.15, 253.0, 273.0, 293.0, 323.15}) {
+      for (const double wind : {0.0, 0.5, 3.0, 20.0}) {
+        for (const Surroundings& around : {night(air_k, wind, air_k - 6), sunny_day(air_k, wind)}) {
+          for (const double up : {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0}) {
+            const double t = part_temperature_k(heat, {.around = around, .since_bath_s = 0}, up);
+            CAPTURE(heat.index(), air_k, wind, up, t);
+            CHECK(t > 215);
+            CHECK(t < 420);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("A part of no kind has the temperature of the air") {
+  CHECK(part_temperature_k(BodyHeat{}, {.around = cold_night()}, 0.5) == 273);
+}
+
+TEST_CASE("At night a direction is no more than its slope") {
+  for (const BodyHeat& heat : all_kinds()) {
+    const BodyMoment moment = {.around = cold_night()};
+    CHECK_THAT(part_temperature_k(heat, moment, EastNorthUp{0, 0.8, 0.6}),
+               WithinAbs(part_temperature_k(heat, moment, 0.6), 1e-9));
+  }
+}
+
+TEST_CASE(
+    "A fit to the slope is within millikelvins on a dry night, and within 0.15 K where dew starts on part of "
+    "a body") {
+  double dry_mk = 0;
+  double dewy_mk = 0;
+  for (const BodyHeat& heat : all_kinds()) {
+    for (const double air_k : {253.0, 273.0, 283.0, 293.0, 303.0}) {
+      for (const double wind : {0.2, 0.5, 1.0, 2.0, 5.0}) {
+        BodyMoment moment = {.around = night(air_k, wind, air_k - 5)};
+        dewy_mk = std::max(dewy_mk, fit_body(heat, moment).error_mk);
+        moment.around.forcing.vapour_hpa = 0;  // below the same sky
+        dry_mk = std::max(dry_mk, fit_body(heat, moment).error_mk);
+      }
+    }
+  }
+  CAPTURE(dry_mk, dewy_mk);
+  CHECK(dry_mk < 20);
+  CHECK(dewy_mk < 150);
+}
+
+TEST_CASE("A fit to the slope and the sun is within 0.4 K by day") {
+  for (const BodyHeat& heat : all_kinds()) {
+    const BodyFit fit = fit_body(heat, {.around = sunny_day(293, 2)});
+    CAPTURE(heat.index(), fit.error_mk);
+    CHECK(fit.error_mk < 400);
+  }
+}
+
+TEST_CASE("Parts outside of their domain are refused by what they are") {
+  CHECK(message_of<ConfigError>([] {
+          validate(Clothing{.warm_clo = {-1, 1}}, "torso");
+        }) == "torso.warm_clo[0] = -1 clo; expected 0 to 20 clo");
+  CHECK(message_of<ConfigError>([] { validate(Unheated{.surface = {.albedo = 2}}, "rifle"); }) ==
+        "rifle.albedo = 2; expected 0 to 1");
+  CHECK(message_of<ConfigError>([] { validate(EngineWarmed{.warmth = {.driving_k = -1}}, "hood"); }) ==
+        "hood.driving_k = -1 K; expected 0 to 900 K");
+  for (const BodyHeat& heat : all_kinds()) CHECK_NOTHROW(validate(heat, "part"));
+}
+
+}  // namespace body_heat_test

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "heat/body/body_surface.h"
+#include "heat/body/warm_ground.h"
+
+namespace thermal {
+
+/// A camp fire. Its numbers are estimates unless noted.
+struct CampFire {
+  double diameter_m = 0.6;           ///< of its bed, 0.1 to 5
+  double burn_rate_kg_m2_s = 0.015;  ///< wood of a square metre of bed, 0 to 0.1
+  double radiant_share = 0.3;        ///< of its power, 0 to 1; 0.4 is a default for pool fires (RAPID-N, JRC)
+  double flame_k = 1150;             ///< 800 to 1500; 1023 to 1370 K (popular pages)
+  double flame_absorption_m = 0.8;   ///< of its flames per metre, 0 to 10
+  double ember_k = 1050;      ///< 600 to 1400; 1023 to 1223 K glowing, 770 to 870 K dark red (popular pages)
+  double ember_share = 0.35;  ///< of its bed that glows; ash hides the rest, 0 to 1
+  double ash_k = 620;         ///< surface of ash above embers, 300 to 1000
+  double emissivity =
+      0.95;  ///< of embers and ash, above 0 to 1; charcoal powder 0.96 (Craftsman 81998 manual)
+  double burning_s = 7200;  ///< for which it has burnt or did burn, at least 0
+
+  /// ConfigError with `where` if a value is outside its domain.
+  void validate(const std::string& where) const;
+
+  [[nodiscard]] bool operator==(const CampFire&) const = default;
+};
+
+/// Heat of its flames [W]: burning rate times 15 MJ/kg (dry wood; estimate).
+[[nodiscard]] double fire_power_w(const CampFire& fire) noexcept;
+
+/// Height of its flames [m]: 0.235 Q^0.4 - 1.02 D, Q in kW (Heskestad; coefficients from memory, so estimate); at least 0.
+[[nodiscard]] double flame_height_m(const CampFire& fire) noexcept;
+
+/// Emissivity of its flames seen across the bed: 1 - exp(-absorption * diameter).
+[[nodiscard]] double flame_emissivity(const CampFire& fire) noexcept;
+
+/// Blackbody temperature that radiates as much over all wavelengths as the burning bed does, embers and ash [K].
+[[nodiscard]] double bed_mean_k(const CampFire& fire) noexcept;
+
+/// Radiation that level ground gets at a distance from the middle [W m^-2]: a point source of the radiant power at half
+/// of the flames' height, at least 0.1 m. Within the bed as at its edge.
+[[nodiscard]] double fire_irradiance_w_m2(const CampFire& fire, double distance_m) noexcept;
+
+/// Temperature of the ground around a fire that burns [K]: balance of its radiation with air, sky and what has passed into
+/// the ground, inertia / sqrt(pi time) per kelvin, within 1000 K. An infinite time: steady, nothing passes into the ground.
+/// @param undisturbed_k  without the fire
+[[nodiscard]] double fireside_ground_k(const CampFire& fire, const Surroundings& around,
+                                       const GroundProperties& ground, double undisturbed_k,
+                                       double distance_m) noexcept;
+
+/// Temperature of the ash bed's surface after the flames went out [K]. Embers below burn down to 1/e of their heat in
+/// `ember_s`; the ground below gives back what it took up while it burnt.
+/// @param since_s  at least 0
+[[nodiscard]] double ash_bed_k(const CampFire& fire, const Surroundings& around,
+                               const GroundProperties& ground, double undisturbed_k, double since_s,
+                               double ember_s = 2400) noexcept;
+
+}  // namespace thermal

@@ -1,0 +1,243 @@
+#include "heat/surface/heat_of_day.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace thermal {
+namespace {
+
+const std::vector<double> kViewNodes = {0.1, 0.4, 0.75, 1};
+const std::vector<double> kSunlitNodes = {0, 0.5, 1};
+const std::vector<double> kMoistureNodes = {0, 0.1, 0.25, 0.5, 0.75, 1};
+const std::vector<double> kOne = {1};
+
+template <typename Properties>
+bool varies(const ByMoisture<Properties>& states) {
+  return states[0] != states[1] || states[1] != states[2];
+}
+
+HeatNodes nodes_of(const MaterialHeat& heat) {
+  if (const auto* ground = std::get_if<GroundHeat>(&heat)) {
+    return {.sky_view = kViewNodes,
+            .sunlit = kSunlitNodes,
+            .moisture = varies(ground->states) ? kMoistureNodes : kOne};
+  }
+  if (const auto* leaves = std::get_if<LeavesHeat>(&heat)) {
+    return {.sky_view = kViewNodes,
+            .sunlit = leaves->is_cover ? kSunlitNodes : kOne,
+            .moisture = varies(leaves->states) ? kMoistureNodes : kOne};
+  }
+  return {.sky_view = kViewNodes, .sunlit = kSunlitNodes, .moisture = kOne};
+}
+
+OrientationFit fit_of(const MaterialHeat& heat) {
+  if (const auto* ground = std::get_if<GroundHeat>(&heat))
+    return ground->is_body ? OrientationFit::of_bodies() : OrientationFit::of_ground();
+  if (const auto* leaves = std::get_if<LeavesHeat>(&heat))
+    return leaves->is_cover ? OrientationFit::of_ground() : OrientationFit::of_level();
+  return std::get<SlabHeat>(heat).is_body ? OrientationFit::of_bodies() : OrientationFit::of_level();
+}
+
+/// Position of a value among rising nodes: the node below, and the share of the next one.
+struct Between {
+  std::size_t node = 0;
+  double share = 0;
+};
+
+Between between_nodes(const std::vector<double>& nodes, double value) noexcept {
+  if (nodes.size() == 1 || !(value > nodes.front())) return {};
+  std::size_t node = 0;
+  while (node + 2 < nodes.size() && value >= nodes[node + 1]) ++node;
+  const double share = (value - nodes[node]) / (nodes[node + 1] - nodes[node]);
+  return {.node = node, .share = std::min(share, 1.0)};
+}
+
+/// Weights of the nodes of an axis at a value.
+using Weights = std::array<double, 6>;
+
+/// Of the polynomial through all nodes.
+Weights smooth_weights(const std::vector<double>& nodes, double value) noexcept {
+  Weights weights{};
+  const double inside = nodes.size() == 1 ? nodes.front() : std::clamp(value, nodes.front(), nodes.back());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    double weight = 1;
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      if (j != i) weight *= (inside - nodes[j]) / (nodes[i] - nodes[j]);
+    }
+    weights[i] = weight;
+  }
+  return weights;
+}
+
+/// Level ground at a node; leaves deep in a crown get as little sun as sky.
+SurfacePlace level_place(const HeatNodes& nodes, std::size_t node) {
+  const std::size_t moistures = nodes.moisture.size();
+  const std::size_t suns = nodes.sunlit.size();
+  const double sky_view = nodes.sky_view[node / (moistures * suns)];
+  return {.normal = {0, 0, 1},
+          .sky_view = sky_view,
+          .sunlit = suns == 1 ? sky_view : nodes.sunlit[node / moistures % suns],
+          .moisture = nodes.moisture[node % moistures]};
+}
+
+/// Number of the level column in full sun below an open sky.
+std::size_t open_node(const HeatNodes& nodes, std::size_t moisture) {
+  return (nodes.sky_view.size() * nodes.sunlit.size() - 1) * nodes.moisture.size() + moisture;
+}
+
+const GroundHeat& ground_of(const std::map<std::string, MaterialHeat>& materials, const std::string& name,
+                            const std::string& user) {
+  const auto found = materials.find(name);
+  const auto* ground = found == materials.end() ? nullptr : std::get_if<GroundHeat>(&found->second);
+  if (ground != nullptr) return *ground;
+  throw ConfigError(fault(user, fmt::format("\"{}\"", name), "", "a material with heat.ground"));
+}
+
+}  // namespace
+
+double moisture_after_rain(double days) noexcept { return 0.7 * std::exp(-days / 6); }
+
+SurfaceDay day_of(const MaterialHeat& heat, const GroundHeat& soil, const SurfacePlace& place,
+                  const DayAround& around, const HeatSteps& steps) {
+  const Site site = {.normal = place.normal, .sky_view = place.sky_view, .sunlit = place.sunlit};
+  if (const auto* ground = std::get_if<GroundHeat>(&heat))
+    return day_of_ground(at_moisture(ground->states, place.moisture), site, around, steps);
+  if (const auto* slab = std::get_if<SlabHeat>(&heat))
+    return day_of_slab(slab->properties, site, around, steps);
+  const auto& leaves = std::get<LeavesHeat>(heat);
+  const CanopyProperties canopy = at_moisture(leaves.states, place.moisture);
+  CanopyDay day = day_of_canopy(canopy, at_moisture(soil.states, place.moisture), site, around, steps);
+  if (!leaves.is_cover) return std::move(day.leaves);
+  for (std::size_t i = 0; i < day.leaves.surface_k.size(); ++i) {
+    double& seen_k = day.leaves.surface_k[i];
+    seen_k = seen_from_above_k(canopy, seen_k, day.ground.surface_k[i]);
+  }
+  return std::move(day.leaves);
+}
+
+MaterialMoment::MaterialMoment(HeatNodes nodes, std::vector<double> level_k,
+                               std::vector<Orientation> slopes_k)
+    : nodes_(std::move(nodes)), level_k_(std::move(level_k)), slopes_k_(std::move(slopes_k)) {
+  assert(level_k_.size() == nodes_.count() && slopes_k_.size() == nodes_.moisture.size());
+}
+
+double MaterialMoment::level_k(const SurfacePlace& place) const noexcept {
+  const Weights view = smooth_weights(nodes_.sky_view, place.sky_view);
+  const Weights sun = smooth_weights(nodes_.sunlit, place.sunlit);
+  const Between wet = between_nodes(nodes_.moisture, place.moisture);
+  const std::size_t next = nodes_.moisture.size() > 1 ? 1 : 0;
+  double sum_k = 0;
+  for (std::size_t v = 0; v < nodes_.sky_view.size(); ++v) {
+    for (std::size_t s = 0; s < nodes_.sunlit.size(); ++s) {
+      const double* by_moisture =
+          &level_k_[(v * nodes_.sunlit.size() + s) * nodes_.moisture.size() + wet.node];
+      sum_k += view[v] * sun[s] * (by_moisture[0] + wet.share * (by_moisture[next] - by_moisture[0]));
+    }
+  }
+  return sum_k;
+}
+
+Orientation MaterialMoment::orientation(const SurfacePlace& place) const noexcept {
+  const Between wet = between_nodes(nodes_.moisture, place.moisture);
+  const std::size_t next = nodes_.moisture.size() > 1 ? 1 : 0;
+  const double sunlit = std::clamp(place.sunlit, 0.0, 1.0);
+  Orientation sum;
+  for (std::size_t i = 0; i < Orientation::kTerms; ++i) {
+    const double low = slopes_k_[wet.node].coefficients[i];
+    const double high = slopes_k_[wet.node + next].coefficients[i];
+    sum.coefficients[i] = sunlit * (low + wet.share * (high - low));
+  }
+  sum.coefficients[0] += level_k(place);
+  return sum;
+}
+
+double MaterialMoment::temperature_k(const SurfacePlace& place) const noexcept {
+  return orientation(place).at(place.normal);
+}
+
+HeatOfDay::HeatOfDay(const DayWeather& weather, const std::map<std::string, MaterialHeat>& materials,
+                     const HeatSteps& steps)
+    : weather_(weather) {
+  weather.validate();
+  const std::vector<Forcing> forcing = forcing_of_day(weather, steps.per_day);
+  const GroundHeat& soil = ground_of(materials, "soil", "materials of heat");
+  const double moisture = moisture_after_rain(weather.rain_days_ago);
+  ground_ = day_of(soil, soil, {.moisture = moisture}, {.forcing = forcing}, steps);
+  const DayAround around = {.forcing = forcing, .ground_k = ground_.surface_k};
+  struct Column {
+    const MaterialHeat* heat;
+    const GroundHeat* soil;
+    SurfacePlace place;
+    SurfaceDay* day;
+  };
+  std::vector<Column> all;
+  for (const auto& [name, heat] : materials) {
+    const auto* leaves = std::get_if<LeavesHeat>(&heat);
+    const GroundHeat& below =
+        leaves == nullptr ? soil
+                          : ground_of(materials, leaves->ground, "material " + name + ": heat.leaves.ground");
+    Columns& columns = columns_.emplace(name, Columns{nodes_of(heat), fit_of(heat), {}, {}}).first->second;
+    const HeatNodes& nodes = columns.nodes;
+    const auto add = [&](const SurfacePlace& place, SurfaceDay& day) {
+      all.push_back({&heat, &below, place, &day});
+    };
+    columns.level.resize(nodes.count());
+    for (std::size_t i = 0; i < nodes.count(); ++i) add(level_place(nodes, i), columns.level[i]);
+    const std::size_t slopes = columns.fit.directions().size() - 1;
+    columns.slopes.resize(slopes * nodes.moisture.size());
+    for (std::size_t i = 0; i < columns.slopes.size(); ++i) {
+      add({.normal = columns.fit.directions()[1 + i % slopes], .moisture = nodes.moisture[i / slopes]},
+          columns.slopes[i]);
+    }
+  }
+  parallel_for(all.size(), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      *all[i].day = day_of(*all[i].heat, *all[i].soil, all[i].place, around, steps);
+  });
+}
+
+MaterialMoment HeatOfDay::moment_of(const Columns& columns, double solar_h) {
+  std::vector<double> level_k;
+  for (const SurfaceDay& day : columns.level) level_k.push_back(day.at_k(solar_h));
+  const std::size_t slopes = columns.fit.directions().size() - 1;
+  std::vector<Orientation> slopes_k;
+  std::vector<double> excess_k(slopes + 1);
+  for (std::size_t m = 0; m < columns.nodes.moisture.size(); ++m) {
+    const double open_k = level_k[open_node(columns.nodes, m)];
+    for (std::size_t d = 0; d < slopes; ++d)
+      excess_k[1 + d] = columns.slopes[m * slopes + d].at_k(solar_h) - open_k;
+    slopes_k.push_back(columns.fit.fit(excess_k));
+  }
+  return {columns.nodes, std::move(level_k), std::move(slopes_k)};
+}
+
+HeatOfMoment HeatOfDay::at(double solar_h) const {
+  HeatOfMoment moment = {.forcing = forcing_at(weather_, solar_h),
+                         .ground_k = ground_.at_k(solar_h),
+                         .ground_moisture = moisture_after_rain(weather_.rain_days_ago),
+                         .materials = {}};
+  for (const auto& [name, columns] : columns_) moment.materials.emplace(name, moment_of(columns, solar_h));
+  return moment;
+}
+
+double HeatOfDay::rate_k_h(const std::string& material, double solar_h) const {
+  constexpr double kAroundH = 0.1;
+  const Columns& columns = columns_.at(material);
+  const SurfaceDay& open = columns.level[open_node(columns.nodes, 0)];
+  return (open.at_k(solar_h + kAroundH) - open.at_k(solar_h - kAroundH)) / (2 * kAroundH);
+}
+
+std::size_t HeatOfDay::columns() const noexcept {
+  std::size_t count = 0;
+  for (const auto& [name, columns] : columns_) count += columns.level.size() + columns.slopes.size();
+  return count;
+}
+
+}  // namespace thermal

@@ -1,0 +1,252 @@
+#include "heat/surface/surface_day.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "heat/surface/exchange.h"
+#include "heat/weather/humid_air.h"
+
+namespace thermal {
+namespace {
+
+double mean_air_k(const DayAround& around) {
+  double sum = 0;
+  for (const Forcing& forcing : around.forcing) sum += forcing.air_k;
+  return sum / static_cast<double>(around.forcing.size());
+}
+
+double step_s(const DayAround& around) { return 86400.0 / static_cast<double>(around.forcing.size()); }
+
+/// Ground as it advances from step to step.
+class GroundBody {
+ public:
+  GroundBody(const GroundProperties& properties, const Layers& layers, const DayAround& around)
+      : balance_(properties.surface),
+        conduction_(properties, layers, step_s(around), mean_air_k(around)),
+        day_sum_k_(conduction_.layers_k().size()),
+        surface_k_(mean_air_k(around)) {}
+
+  void prepare() { uptake_ = conduction_.prepare(); }
+
+  /// The surface's temperature if this arrives at it in the step that was prepared.
+  double balance(const Forcing& forcing, const Incoming& incoming) {
+    surface_k_ = balance_.balanced_k(forcing, incoming, uptake_, surface_k_);
+    return surface_k_;
+  }
+
+  double finish() {
+    const double flux = conduction_.finish(surface_k_);
+    surface_sum_k_ += surface_k_;
+    for (std::size_t i = 0; i < day_sum_k_.size(); ++i) day_sum_k_[i] += conduction_.layers_k()[i];
+    return flux;
+  }
+
+  [[nodiscard]] double surface_k() const { return surface_k_; }
+
+  /// Moves each layer to the surface's mean of the day: what every depth has on a day that repeats itself.
+  void end_day(std::size_t steps, bool settle) {
+    std::vector<double> layers_k = conduction_.layers_k();
+    for (std::size_t i = 0; i < layers_k.size(); ++i) {
+      layers_k[i] += (surface_sum_k_ - day_sum_k_[i]) / static_cast<double>(steps);
+      day_sum_k_[i] = 0;
+    }
+    surface_sum_k_ = 0;
+    if (settle) conduction_.set_layers_k(layers_k);
+  }
+
+ private:
+  SurfaceBalance balance_;
+  Conduction conduction_;
+  HeatUptake uptake_;
+  std::vector<double> day_sum_k_;
+  double surface_sum_k_ = 0;
+  double surface_k_;
+};
+
+/// Surfaces give off at least this much heat per kelvin, nearly all of it radiation.
+constexpr double kLeastExchangeWM2K = 4;
+
+/// Computes days until one repeats the day before. `step(i, day)` advances a body and fills day.surface_k[i]; it
+/// returns the heat that went in. `end_day(settle)` may move the body nearer to its periodic state if `settle`.
+template <typename Step, typename EndDay>
+void settle(const HeatSteps& steps, std::span<SurfaceDay*> days, const Step& step, const EndDay& end_day) {
+  const auto count = days.front()->surface_k.size();
+  std::vector<std::vector<double>> before(days.size());
+  for (int number = 1;; ++number) {
+    for (std::size_t k = 0; k < days.size(); ++k) before[k] = days[k]->surface_k;
+    double heat_j_s = 0;
+    for (std::size_t i = 0; i < count; ++i) heat_j_s += step(i);
+    double change_k = 0;
+    for (std::size_t k = 0; k < days.size(); ++k) {
+      for (std::size_t i = 0; i < count; ++i)
+        change_k = std::max(change_k, std::abs(days[k]->surface_k[i] - before[k][i]));
+    }
+    const double closure_w_m2 = heat_j_s / static_cast<double>(count);
+    const bool done = number > 2 && change_k <= steps.settled_k &&
+                      std::abs(closure_w_m2) <= kLeastExchangeWM2K * steps.settled_k;
+    for (SurfaceDay* day : days) {
+      day->days = number;
+      day->unsettled_k = change_k;
+      day->closure_w_m2 = closure_w_m2;
+    }
+    if (done || number >= steps.most_days) return;
+    // The first day starts from an even temperature, so its means say little.
+    end_day(number >= 2);
+  }
+}
+
+/// Finds the value with which a day must begin so that it ends with it, from days computed so far: where the line through
+/// the last two meets the one of equal values.
+class FixedPoint {
+ public:
+  explicit FixedPoint(double begin) : begin_(begin) {}
+
+  /// The value to begin the next day with, after one that ended with `end`.
+  double next(double end) {
+    constexpr double kNearlyOne = 0.9999;
+    const double slope = begin_ == old_begin_ ? 0 : (end - old_end_) / (begin_ - old_begin_);
+    old_begin_ = begin_;
+    old_end_ = end;
+    // After the first day, and where the line says nothing, the next day goes on.
+    begin_ = known_ ? begin_ + (end - begin_) / (1 - std::clamp(slope, 0.0, kNearlyOne)) : end;
+    known_ = true;
+    return begin_;
+  }
+
+ private:
+  double begin_;
+  double old_begin_ = 0;
+  double old_end_ = 0;
+  bool known_ = false;
+};
+
+SurfaceDay empty_day(const DayAround& around) {
+  return {.surface_k = std::vector<double>(around.forcing.size(), mean_air_k(around))};
+}
+
+/// Heat that a layer of leaves gets [W m^-2 of ground], and how it changes with its temperature.
+SurfaceFlux leaf_flux(const CanopyProperties& canopy, const GroundExchange& exchange, const Forcing& forcing,
+                      const Incoming& incoming, double ground_k, double leaves_k) {
+  constexpr double kLowM = 0.1;
+  constexpr double kLightWM2 = 200;  // in which stomata are wide open (estimate, after Jarvis 1976)
+  const double heat_of_air = heat_of_air_j_m3_k(forcing);
+  const double wind = std::max(forcing.wind_m_s, 0.3);
+  const bool low = canopy.height_m < kLowM;
+  // Wind among low leaves is half of that above, among high ones nearly all of it.
+  const double own =
+      leaf_resistance_s_m(canopy.leaf_width_m, wind * (low ? 0.5 : 0.9)) / canopy.leaf_area_index;
+  const double above = low ? heat_of_air / exchange(forcing, leaves_k) : 12 / wind;
+  const double to_air = heat_of_air / (own + above);
+  const double saturated_hpa = saturation_hpa(leaves_k);
+  const bool dew = saturated_hpa < forcing.vapour_hpa;
+  const double conductance = canopy.leaf_conductance_m_s * std::min(1.0, forcing.global_w_m2 / kLightWM2);
+  double per_hpa = 0;
+  if (dew || conductance > 0) {
+    const double stomata = dew ? 0 : 1 / (conductance * canopy.leaf_area_index);
+    per_hpa = heat_of_air * kVaporisationJKg / kHeatOfAirJKgK * specific_humidity(1, forcing.pressure_hpa) /
+              (own + above + stomata);
+  }
+  const double cover = canopy.cover();
+  const double emitted = 2 * canopy.emissivity * kStefanBoltzmann * leaves_k * leaves_k * leaves_k;
+  const double arriving = (1 - canopy.albedo) * incoming.sun_w_m2 +
+                          canopy.emissivity * (incoming.longwave_w_m2 + blackbody_w_m2(ground_k));
+  return {.flux_w_m2 = cover * (arriving - emitted * leaves_k) - to_air * (leaves_k - forcing.air_k) -
+                       per_hpa * (saturated_hpa - forcing.vapour_hpa),
+          .slope_w_m2_k =
+              -4 * cover * emitted - to_air - per_hpa * saturation_slope_hpa_k(leaves_k, saturated_hpa)};
+}
+
+Incoming below_leaves(const CanopyProperties& canopy, const Incoming& above, double leaves_k) {
+  const double cover = canopy.cover();
+  return {.sun_w_m2 = (1 - cover) * above.sun_w_m2,
+          .longwave_w_m2 = (1 - cover) * above.longwave_w_m2 + cover * blackbody_w_m2(leaves_k)};
+}
+
+}  // namespace
+
+double SurfaceDay::at_k(double solar_h) const noexcept {
+  const auto count = static_cast<double>(surface_k.size());
+  const double position = (solar_h / 24 - std::floor(solar_h / 24)) * count;  // 0 is the last step's end
+  const auto before = std::min(static_cast<std::size_t>(position), surface_k.size() - 1);
+  const double from = surface_k[(before + surface_k.size() - 1) % surface_k.size()];
+  return from + (position - static_cast<double>(before)) * (surface_k[before] - from);
+}
+
+SurfaceDay day_of_ground(const GroundProperties& properties, const Site& site, const DayAround& around,
+                         const HeatSteps& steps) {
+  GroundBody body(properties, steps.layers, around);
+  SurfaceDay day = empty_day(around);
+  SurfaceDay* days[] = {&day};
+  settle(
+      steps, days,
+      [&](std::size_t i) {
+        const Forcing& forcing = around.forcing[i];
+        body.prepare();
+        day.surface_k[i] = body.balance(forcing, incoming_at(forcing, site, around.ground_at_k(i)));
+        return body.finish();
+      },
+      [&](bool recentre) { body.end_day(around.forcing.size(), recentre); });
+  return day;
+}
+
+SurfaceDay day_of_slab(const SlabProperties& properties, const Site& site, const DayAround& around,
+                       const HeatSteps& steps) {
+  SurfaceDay day = empty_day(around);
+  SurfaceDay* days[] = {&day};
+  const double stored = properties.heat_capacity_j_m2_k / step_s(around);
+  const double behind = properties.behind_w_m2_k;
+  const SurfaceBalance balance(properties.surface);
+  double slab_k = mean_air_k(around);
+  FixedPoint morning(slab_k);
+  settle(
+      steps, days,
+      [&](std::size_t i) {
+        const Forcing& forcing = around.forcing[i];
+        const Incoming incoming = incoming_at(forcing, site, around.ground_at_k(i));
+        const HeatUptake uptake = {.slope_w_m2_k = stored + behind,
+                                   .offset_w_m2 = stored * slab_k + behind * forcing.air_k};
+        const double next_k = balance.balanced_k(forcing, incoming, uptake, slab_k);
+        const double heat = stored * (next_k - slab_k);
+        slab_k = day.surface_k[i] = next_k;
+        return heat;
+      },
+      [&](bool) { slab_k = morning.next(slab_k); });
+  return day;
+}
+
+CanopyDay day_of_canopy(const CanopyProperties& canopy, const GroundProperties& ground, const Site& site,
+                        const DayAround& around, const HeatSteps& steps) {
+  GroundBody body(ground, steps.layers, around);
+  CanopyDay day = {.leaves = empty_day(around), .ground = empty_day(around)};
+  SurfaceDay* days[] = {&day.leaves, &day.ground};
+  const double stored = canopy.heat_capacity_j_m2_k * canopy.leaf_area_index / step_s(around);
+  const GroundExchange exchange(std::min(0.13 * canopy.height_m + 0.01, 0.5));
+  double leaves_k = mean_air_k(around);
+  settle(
+      steps, days,
+      [&](std::size_t i) {
+        const Forcing& forcing = around.forcing[i];
+        const Incoming above = incoming_at(forcing, site, around.ground_at_k(i));
+        body.prepare();
+        const double old_k = leaves_k;
+        const auto left_over = [&](double leaf_k) {
+          const double ground_k = body.balance(forcing, below_leaves(canopy, above, leaf_k));
+          const SurfaceFlux flux = leaf_flux(canopy, exchange, forcing, above, ground_k, leaf_k);
+          return SurfaceFlux{flux.flux_w_m2 - stored * (leaf_k - old_k), flux.slope_w_m2_k - stored};
+        };
+        leaves_k = balanced_temperature_k(left_over, old_k);
+        body.balance(forcing, below_leaves(canopy, above, leaves_k));
+        day.leaves.surface_k[i] = leaves_k;
+        day.ground.surface_k[i] = body.surface_k();
+        return body.finish() + stored * (leaves_k - old_k);
+      },
+      [&](bool recentre) { body.end_day(around.forcing.size(), recentre); });
+  return day;
+}
+
+double seen_from_above_k(const CanopyProperties& canopy, double leaves_k, double ground_k) noexcept {
+  const double emitted_w_m2 = std::lerp(blackbody_w_m2(ground_k), blackbody_w_m2(leaves_k), canopy.cover());
+  return std::sqrt(std::sqrt(emitted_w_m2 / kStefanBoltzmann));
+}
+
+}  // namespace thermal

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "heat/weather/day_weather.h"
+#include "heat/weather/sun.h"
+
+namespace thermal {
+
+/// What the weather does to surfaces at one moment.
+struct Forcing {
+  double air_k = 0;       ///< at 2 m above the ground
+  double wind_m_s = 0;    ///< the same
+  double vapour_hpa = 0;  ///< partial pressure of vapour, at most saturation
+  double pressure_hpa = 0;
+  double sky_w_m2 = 0;      ///< longwave radiation of the whole sky on level ground
+  EastNorthUp sun{};        ///< direction to it
+  double beam_w_m2 = 0;     ///< of the sun, on a surface that faces it
+  double diffuse_w_m2 = 0;  ///< of the daylight sky, on level ground
+  double global_w_m2 = 0;   ///< both, on level ground
+};
+
+/// Emissivity of the sky over all wavelengths, as level ground receives it (Prata, QJRMS 122, 1127, 1996):
+/// 1 - (1 + w) exp(-sqrt(1.2 + 3 w)), w = 46.5 e / T; clouds fill 0.84 of what is missing. Not what a camera sees in
+/// its band: see radiometry/atmosphere.h.
+[[nodiscard]] double broadband_sky_emissivity(double air_k, double vapour_hpa,
+                                              double cloud_fraction) noexcept;
+
+/// Temperature of the air over the day. From sunrise to sunset a sine that is highest 1.86 h after noon, then a decay
+/// to the minimum at sunrise (Parton and Logan, Agric. Meteorol. 23, 205, 1981; a = 1.86 h, b = 2.2, the decay scaled
+/// to end at the minimum). Where the sun does not rise or set, a cosine that is highest at 14:00. With air_hourly_k,
+/// straight lines between the hours.
+[[nodiscard]] double air_temperature_k(const DayWeather& weather, double solar_h) noexcept;
+
+/// The forcing at a local solar time, any finite number of hours; 25 is 1. `weather` must be valid.
+/// Sunlight through a clear sky: 0.75 + 2e-5 z of that above the air (FAO-56, equation 37), a fifth of it diffuse
+/// (estimate); clouds take 0.65 n^2 of it (Kasten and Czeplak 1980 have 0.75 n^3.4) and make a share of 0.6 n more of
+/// it diffuse (estimates). Wind rises from its night value to that of noon as a sine.
+[[nodiscard]] Forcing forcing_at(const DayWeather& weather, double solar_h) noexcept;
+
+/// The forcing at the ends of `steps` equal steps of a day from 0:00 on.
+[[nodiscard]] std::vector<Forcing> forcing_of_day(const DayWeather& weather, int steps);
+
+}  // namespace thermal
