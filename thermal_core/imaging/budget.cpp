@@ -38,16 +38,18 @@ double spread(std::vector<Weighted> values) {
 /// Radiance of one material in one night, term by term.
 class MaterialModel {
  public:
-  MaterialModel(const Material& material, const Weather& weather, const SpectralResponse& response)
+  MaterialModel(const Material& material, const SceneOutline::Night& night, const SpectralResponse& response)
       : material_(material),
-        weather_(weather),
+        weather_(night.weather),
+        temperature_k_(night.temperature_k(material, "")),
         blackbody_(response),
-        band_(response, material.spectrum.value_or(EmissivitySpectrum(material.emissivity))),
-        air_radiance_(blackbody_.radiance(weather.air.temperature_k)),
-        emitted_as_air_(band_.radiance(weather.air.temperature_k)) {}
+        band_(response, material.spectrum.value_or(EmissivitySpectrum(
+                            night.heated_k.empty() ? material.emissivity : material.measured_emissivity))),
+        air_radiance_(blackbody_.radiance(weather_.air.temperature_k)),
+        emitted_as_air_(band_.radiance(weather_.air.temperature_k)) {}
 
   [[nodiscard]] double apparent_k(double radiance) const { return blackbody_.temperature(radiance); }
-  [[nodiscard]] double temperature_k() const { return material_.temperature_k(weather_.air.temperature_k); }
+  [[nodiscard]] double temperature_k() const { return temperature_k_; }
   [[nodiscard]] double emitted(double temperature_k) const { return band_.radiance(temperature_k); }
 
   /// Emission and reflection at an angle; a fall-off factor of 1 ignores the angle.
@@ -65,6 +67,7 @@ class MaterialModel {
  private:
   const Material& material_;
   const Weather& weather_;
+  double temperature_k_;
   BandRadiance blackbody_;
   BandRadiance band_;
   double air_radiance_;
@@ -103,7 +106,7 @@ class NightShifts {
   }
 
   void add_cover(const SceneOutline::Cover& cover) {
-    const MaterialModel model(*cover.material, night_.weather, outline_.response);
+    const MaterialModel model(*cover.material, night_, outline_.response);
     add_variation(cover);
     add_parts(cover, model);
     const double direct_k = model.apparent_k(model.emitted(model.temperature_k()));
@@ -133,7 +136,7 @@ class NightShifts {
     if (!cover.actor) return;
     const double mean_k = model.apparent_k(model.emitted(model.temperature_k()));
     for (const auto& [part, values] : cover.material->parts) {
-      const double part_k = cover.material->part_temperature_k(part, night_.weather);
+      const double part_k = night_.temperature_k(*cover.material, part);
       add("parts", model.apparent_k(model.emitted(part_k)) - mean_k, 1, true);
     }
   }
@@ -182,9 +185,16 @@ Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices) {
   return budget;
 }
 
-MaterialShift shift_of(const Material& material, const Weather& weather, double range_m,
+double SceneOutline::Night::temperature_k(const Material& material, const std::string& part) const {
+  const auto found = heated_k.find(material.name);
+  if (found == heated_k.end()) return material.part_temperature_k(part, weather);
+  const auto of_part = found->second.find(part);
+  return of_part == found->second.end() ? found->second.at("") : of_part->second;
+}
+
+MaterialShift shift_of(const Material& material, const SceneOutline::Night& night, double range_m,
                        const SpectralResponse& response) {
-  const MaterialModel model(material, weather, response);
+  const MaterialModel model(material, night, response);
   const double direct_k = model.apparent_k(model.emitted(model.temperature_k()));
   const double sky = model.with_sky(1, 1);
   const double sky_k = model.apparent_k(sky);

@@ -30,6 +30,10 @@ struct SceneOutline {
     Weather weather;
     std::vector<Look>
         looks;  ///< empty: viewing directions are unknown; terms that depend on them then have no effect
+    /// Temperatures by the heat balance, by material and part ("" is the whole); those of Table 1's line where there is none.
+    std::map<std::string, std::map<std::string, double>> heated_k = {};
+
+    [[nodiscard]] double temperature_k(const Material& material, const std::string& part) const;
   };
 
   std::vector<Cover> covers;
@@ -68,7 +72,7 @@ struct MaterialShift {
   double sky_k = 0;
   double path_k = 0;
 };
-[[nodiscard]] MaterialShift shift_of(const Material& material, const Weather& weather, double range_m,
-                                     const SpectralResponse& response);
+[[nodiscard]] MaterialShift shift_of(const Material& material, const SceneOutline::Night& night,
+                                     double range_m, const SpectralResponse& response);
 
 }  // namespace thermal

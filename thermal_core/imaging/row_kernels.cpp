@@ -50,6 +50,46 @@ VELDT_CLONES void emit_varied(const VariedInput& in, float* __restrict radiance,
   }
 }
 
+namespace {
+
+/// A smooth wave of period 1 and amplitude 1: parabolas in place of a sine.
+VELDT_INLINE float wave(float x) noexcept {
+  const auto whole = static_cast<std::int32_t>(x);
+  const float part = 2 * (x - static_cast<float>(whole));  // -2 to 2
+  const float centred = part > 1 ? part - 2 : (part < -1 ? part + 2 : part);
+  return 4 * centred * (1 - std::abs(centred));
+}
+
+}  // namespace
+
+VELDT_CLONES void unsettle(float* __restrict x, float* __restrict y, std::size_t count) noexcept {
+  // Lengths and amplitudes in correlation lengths: shears of at most 8 times reach over length, 0.1 each.
+  constexpr float kLong = 157.3F;
+  constexpr float kAcross = 211.7F;
+  constexpr float kReach = 2;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float east = x[i];
+    const float north = y[i];
+    x[i] = east + kReach * (wave(north * (1 / kLong)) + wave((east + north) * (1 / kAcross)));
+    y[i] = north + kReach * (wave(east * (1 / kLong) + 0.3F) + wave((north - east) * (1 / kAcross)));
+  }
+}
+
+VELDT_CLONES void emit_heated(const HeatedInput& in, float* __restrict radiance, std::size_t count) noexcept {
+  const HeatedInput p = in;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint16_t surface = p.surface[i];
+    const float temperature_k =
+        p.temperature_k[i] + p.rate_k_h[surface] * p.later_h + p.stddev_k[surface] * p.variation[i];
+    const float wanted = (temperature_k - p.coldest_k) * p.nodes_per_k;
+    const float positive = wanted > 0 ? wanted : 0.0F;
+    const float position = positive < p.last_node ? positive : p.last_node;
+    const auto node = static_cast<std::int32_t>(position);
+    const std::int32_t at = p.table[surface] + 2 * node;
+    radiance[i] = p.node_w_m2_sr[at] + (position - static_cast<float>(node)) * p.node_w_m2_sr[at + 1];
+  }
+}
+
 VELDT_CLONES void orient(const OrientationInput& in, float* __restrict sky_view, float* __restrict cosine,
                          std::size_t count) noexcept {
   const OrientationInput p = in;

@@ -43,6 +43,26 @@ struct VariedInput {
 };
 void emit_varied(const VariedInput& in, float* radiance, std::size_t count) noexcept;
 
+/// Turns places in correlation lengths about so slowly that nobody sees it, and by so much that a field which repeats
+/// itself no longer does so at the same distance everywhere.
+void unsettle(float* x, float* y, std::size_t count) noexcept;
+
+/// Radiance of each pixel's temperature: as emit_varied(), for surfaces that all have a table.
+struct HeatedInput {
+  const std::uint16_t* surface;
+  const float* temperature_k;
+  const float* rate_k_h;      ///< by surface
+  const float* stddev_k;      ///< by surface: of the variation
+  const std::int32_t* table;  ///< by surface: index of its first node
+  const float* node_w_m2_sr;  ///< of all surfaces: radiance and step to the next node's, alternating
+  const float* variation;
+  float later_h;
+  float coldest_k;    ///< of a table
+  float nodes_per_k;  ///< the same
+  float last_node;    ///< the same
+};
+void emit_heated(const HeatedInput& in, float* radiance, std::size_t count) noexcept;
+
 /// Sky view and cosine of the viewing angle from normals.
 struct OrientationInput {
   const float* nx;

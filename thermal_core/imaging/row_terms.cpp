@@ -22,11 +22,11 @@ kernels::CameraAxis axis_of(const Row& row, std::size_t axis) {
   return {.right = r[0], .down = r[1], .forward = r[2]};
 }
 
-/// A function of the cosine at which water is seen, tabulated, because its functions are slow; water is rare.
-class WaterCurve {
+/// A function of the cosine at which water or sky is seen, tabulated, because its functions are slow.
+class AngleCurve {
  public:
   template <typename Function>
-  explicit WaterCurve(const Function& function) {
+  explicit AngleCurve(const Function& function) {
     for (int node = 0; node <= kSteps + 1; ++node) {
       values_.push_back(static_cast<float>(function(std::min(1.0, static_cast<double>(node) / kSteps))));
     }
@@ -79,6 +79,19 @@ kernels::Absorption fit_absorption(const Air& air) {
 RowTerm emission(const SurfaceOpticsList& surfaces) {
   return [emitted = column(surfaces, [](const auto& s) { return s.emitted_w_m2_sr; })](Row& row) {
     kernels::look_up(row.surface.data(), emitted.data(), row.radiance_w_m2_sr.data(), row.surface.size());
+  };
+}
+
+RowTerm sky_emission(const Air& air, float air_radiance_w_m2_sr) {
+  const AngleCurve slant([&air](double cosine) { return mirrored_sky_emissivity(air, cosine); });
+  return [slant, air_radiance_w_m2_sr](Row& row) {
+    const kernels::CameraAxis up = axis_of(row, 2);
+    for (std::size_t i = 0; i < row.surface.size(); ++i) {
+      if (row.surface[i] != 0) continue;
+      const float rise = up.right * row.ray_x[i] + up.down * row.ray_y[i] + up.forward;
+      const float cosine = rise > 0 ? rise / row.ray_length[i] : 0.0F;  // 0 for NaN
+      row.radiance_w_m2_sr[i] = air_radiance_w_m2_sr * slant.at(std::min(cosine, 1.0F));
+    }
   };
 }
 
@@ -164,7 +177,7 @@ RowTerm angular_emissivity(const SurfaceOpticsList& surfaces) {
   const auto loss = [](const SurfaceOptics& s) {
     return s.angular == AngularLaw::soil ? 1 - angular_factor(AngularLaw::soil, 0) : 0.0;
   };
-  const WaterCurve water([](double cosine) { return angular_factor(AngularLaw::water, cosine); });
+  const AngleCurve water([](double cosine) { return angular_factor(AngularLaw::water, cosine); });
   return [water, loss = column(surfaces, loss),
           as_air = column(surfaces, [](const auto& s) { return s.emitted_as_air_w_m2_sr; })](Row& row) {
     row.reflected_w_m2_sr.resize(row.surface.size());  // filled by reflectivity, otherwise never read
@@ -183,7 +196,7 @@ RowTerm angular_emissivity(const SurfaceOpticsList& surfaces) {
 
 RowTerm sky_reflection(const Air& air) {
   const auto sky_deficit = static_cast<float>(1 - sky_emissivity(air));
-  const WaterCurve mirrored([&air](double cosine) { return mirrored_sky_emissivity(air, cosine); });
+  const AngleCurve mirrored([&air](double cosine) { return mirrored_sky_emissivity(air, cosine); });
   return [sky_deficit, mirrored](Row& row) {
     // Water first: the diffuse kernel that follows then has nothing left to reflect there.
     for (const std::size_t i : row.water) {

@@ -37,6 +37,7 @@ struct Row {
   std::span<const float> depth_m;     ///< empty if no term needs it
   std::array<std::span<const float>, 3> normal;  ///< the same
   const CameraPose* pose = nullptr;
+  float later_h = 0;  ///< of the frame than the middle of its clip [h]
   std::span<float> radiance_w_m2_sr;
   std::vector<float> sky_view;           ///< fraction of the sky that a surface faces
   std::vector<float> cosine;             ///< of the viewing angle
@@ -46,6 +47,7 @@ struct Row {
   std::vector<float> place_y;
   std::vector<float> footprint;
   std::vector<float> variation;
+  std::vector<float> temperature_k;  ///< where it follows the weather
 };
 
 /// Adds one term to a row. A scene's chain is a list of these; dropped terms are not in it.
@@ -55,6 +57,10 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 
 /// Emission of every surface at its mean temperature.
 [[nodiscard]] RowTerm emission(const SurfaceOpticsList& surfaces);
+
+/// Emission of the sky by the angle at which it is seen, for pixels without a surface; others stay as they are. See
+/// mirrored_sky_emissivity(); a ray that goes down meets the sky's rim.
+[[nodiscard]] RowTerm sky_emission(const Air& air, float air_radiance_w_m2_sr);
 
 /// Emission with the fractal temperature field on the surfaces that have one. Where depth is not a positive finite
 /// number below 1e9, a surface has its mean; temperatures are clamped to the tables' 180 to 436 K.

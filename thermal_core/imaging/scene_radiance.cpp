@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "imaging/actor_classes.h"
 #include "scene/camera_geometry.h"
 
 namespace thermal {
@@ -20,8 +21,9 @@ float emitted(const Material& material, Season season, const SceneRadiance::Radi
   return static_cast<float>(material.emissivity * radiance_of(material.temperature_k(season)));
 }
 
-EmissivitySpectrum spectrum_of(const Material& material) {
-  return material.spectrum.value_or(EmissivitySpectrum(material.emissivity));
+EmissivitySpectrum spectrum_of(const Material& material, bool measured) {
+  return material.spectrum.value_or(
+      EmissivitySpectrum(measured ? material.measured_emissivity : material.emissivity));
 }
 
 /// The field's values stay within 6 standard deviations, and the tables that convert it to radiance are limited.
@@ -33,6 +35,13 @@ void check_varied_range(const Material& material, double mean_k) {
   throw ConfigError(
       fmt::format("material {}: variation about {:.1f} K by up to {:.1f} K; expected within {} K to {} K",
                   material.name, mean_k, reach_k, kLow, kHigh));
+}
+
+/// Whether it is known where the camera points. Otherwise the sky has its mean everywhere.
+bool has_poses(const Manifest& manifest) {
+  return !manifest.frames.empty() && std::ranges::all_of(manifest.frames, [](const ManifestFrame& frame) {
+    return frame.camera_to_world.has_value();
+  });
 }
 
 void require_poses(const Manifest& manifest) {
@@ -74,34 +83,64 @@ SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& ma
 
 SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials,
                              const PhysicsSettings& settings)
-    : map_(manifest, materials) {
+    : map_(manifest, materials, settings.heat ? classes_of_actors(manifest, settings.seed) : ActorClasses()) {
   held_->rays = std::make_unique<CameraRays>(passes_camera(manifest), manifest.lens);
   if (manifest.supersample > 1)
     held_->pixel_rays = std::make_unique<CameraRays>(pixels_camera(manifest), manifest.lens);
-  for (const Surface& surface : map_.surfaces()) add_optics(surface, settings);
-  compose(settings);
+  if (settings.heat) add_heat(manifest, settings);
+  for (std::size_t i = 0; i < map_.surfaces().size(); ++i) {
+    const Surface& surface = map_.surfaces()[i];
+    const bool parts = settings.terms.parts;
+    add_optics(surface,
+               settings.heat ? held_->heat.surfaces[i].temperature_k
+                             : static_cast<float>(surface.material->part_temperature_k(
+                                   parts ? surface.part : "", settings.weather)),
+               settings);
+  }
+  compose(settings, has_poses(manifest));
   const Terms& terms = settings.terms;
-  if (terms.variation || terms.sky || terms.angular) require_poses(manifest);
+  const bool has_maps = settings.heat && settings.heat->ground;
+  if (terms.variation || terms.sky || terms.angular || has_maps) require_poses(manifest);
   find_brightest();
 }
 
-void SceneRadiance::add_optics(const Surface& surface, const PhysicsSettings& settings) {
+void SceneRadiance::add_heat(const Manifest& manifest, const PhysicsSettings& settings) {
+  const Terms& terms = settings.terms;
+  held_->heat = heat_of_scene(
+      map_.surfaces(), *settings.heat, settings.weather, manifest,
+      {.parts = terms.parts, .variation = terms.variation, .normals = terms.sky || terms.angular},
+      settings.seed);
+  if (!manifest.frames.empty())
+    middle_s_ = 0.5 * (manifest.frames.front().time_s + manifest.frames.back().time_s);
+  std::map<const Material*, std::size_t> table_of;
+  for (std::size_t i = 0; i < map_.surfaces().size(); ++i) {
+    const Material* material = map_.surfaces()[i].material;
+    const auto [found, is_new] = table_of.emplace(material, held_->tables.size());
+    if (is_new) {
+      held_->tables.push_back(
+          std::make_unique<RadianceTable>(BandRadiance(settings.response, spectrum_of(*material, true))));
+    }
+    held_->heat.surfaces[i].table = found->second;
+  }
+}
+
+void SceneRadiance::add_optics(const Surface& surface, float surface_k, const PhysicsSettings& settings) {
   const Material& material = *surface.material;
   const BandRadiance blackbody(settings.response);
-  const BandRadiance band(settings.response, spectrum_of(material));
+  const BandRadiance band(settings.response, spectrum_of(material, settings.heat.has_value()));
   const Weather& weather = settings.weather;
   const double air_k = weather.air.temperature_k;
-  const double temperature_k = material.part_temperature_k(settings.terms.parts ? surface.part : "", weather);
+  const auto temperature_k = static_cast<double>(surface_k);
   SurfaceOptics optics;
   const bool is_sky = held_->optics.empty();
-  optics.temperature_k = static_cast<float>(temperature_k);
+  optics.temperature_k = surface_k;
   optics.emitted_w_m2_sr = static_cast<float>(is_sky ? sky_emissivity(weather.air) * blackbody.radiance(air_k)
                                                      : band.radiance(temperature_k));
   optics.emitted_as_air_w_m2_sr = static_cast<float>(band.radiance(air_k));
   optics.reflected_air_w_m2_sr =
       is_sky ? 0.0F : static_cast<float>(blackbody.radiance(air_k) - band.radiance(air_k));
   optics.angular = material.angular;
-  if (settings.terms.variation && material.variation.stddev_k > 0) {
+  if (!settings.heat && settings.terms.variation && material.variation.stddev_k > 0) {
     check_varied_range(material, temperature_k);
     optics.variation_stddev_k = static_cast<float>(material.variation.stddev_k);
     optics.per_correlation_length = static_cast<float>(1 / material.variation.correlation_length_m);
@@ -110,15 +149,21 @@ void SceneRadiance::add_optics(const Surface& surface, const PhysicsSettings& se
   held_->optics.push_back(optics);
 }
 
-void SceneRadiance::compose(const PhysicsSettings& settings) {
+void SceneRadiance::compose(const PhysicsSettings& settings, bool has_poses) {
   const Terms& terms = settings.terms;
   const SurfaceOpticsList& optics = held_->optics;
-  if (terms.variation) {
+  if (settings.heat) {
+    held_->field = std::make_unique<VariationField>(settings.seed);
+    chain_.push_back(
+        heated_emission(held_->heat.surfaces, held_->tables, held_->heat.ground.get(), *held_->field));
+  } else if (terms.variation) {
     held_->field = std::make_unique<VariationField>(settings.seed);
     chain_.push_back(varied_emission(optics, *held_->field));
   } else {
     chain_.push_back(emission(optics));
   }
+  const double air_radiance = BandRadiance(settings.response).radiance(settings.weather.air.temperature_k);
+  if (has_poses) chain_.push_back(sky_emission(settings.weather.air, static_cast<float>(air_radiance)));
   if (terms.sky) chain_.push_back(reflectivity(optics));
   if (terms.sky || terms.angular) {
     chain_.push_back(orientation());
@@ -127,10 +172,10 @@ void SceneRadiance::compose(const PhysicsSettings& settings) {
   if (terms.angular) chain_.push_back(angular_emissivity(optics));
   if (terms.sky) chain_.push_back(sky_reflection(settings.weather.air));
   if (terms.path) {
-    const double air_radiance = BandRadiance(settings.response).radiance(settings.weather.air.temperature_k);
     chain_.push_back(path(settings.weather.air, static_cast<float>(air_radiance)));
   }
-  needs_ = {.depth = terms.variation || terms.path, .normals = terms.sky || terms.angular};
+  const bool has_maps = settings.heat && settings.heat->ground;
+  needs_ = {.depth = terms.variation || terms.path || has_maps, .normals = terms.sky || terms.angular};
 }
 
 void SceneRadiance::find_brightest() {
@@ -141,6 +186,10 @@ void SceneRadiance::find_brightest() {
     return a.emitted_w_m2_sr < b.emitted_w_m2_sr;
   };
   brightest_w_m2_sr_ = std::max_element(optics.begin() + 1, optics.end(), dimmer)->emitted_w_m2_sr;
+}
+
+float SceneRadiance::later_h(const ManifestFrame& frame) const noexcept {
+  return static_cast<float>((frame.time_s - middle_s_) / 3600);
 }
 
 void SceneRadiance::begin_row(const Passes& passes, const CameraRays* rays, int y, Row& row) const {
@@ -176,6 +225,7 @@ PassChecks SceneRadiance::radiance(const Passes& passes, const ManifestFrame& fr
     PassChecks checks;
     Row row;
     row.pose = &pose;
+    row.later_h = later_h(frame);
     row.surface = numbers;
     for (int y = begin; y < end; ++y) {
       const auto materials = has_materials ? passes.material_index.row(y) : std::span<const std::uint16_t>();
@@ -244,6 +294,7 @@ PassChecks SceneRadiance::refine(const FineSamples& fine, const ManifestFrame& f
     PassChecks checks;
     FineLine line;
     line.row.pose = &pose;
+    line.row.later_h = later_h(frame);
     std::vector<float> sums;
     for (int y = begin; y < end; ++y) {
       sums.assign(fine.pixels_in(y), 0.0F);

@@ -3,10 +3,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "imaging/heat_settings.h"
 #include "imaging/pass_checks.h"
 #include "imaging/row_terms.h"
+#include "imaging/scene_heat.h"
 #include "imaging/surfaces.h"
 #include "radiometry/spectral_response.h"
 #include "scene/season.h"
@@ -20,7 +23,8 @@ struct PhysicsSettings {
   Terms terms;
   Weather weather;
   SpectralResponse response = SpectralResponse::flat(8, 14);
-  std::uint32_t seed = 1;  ///< of the temperature field
+  std::uint32_t seed = 1;                 ///< of the temperature field
+  std::optional<HeatSettings> heat = {};  ///< empty: temperatures of Table 1
 
   [[nodiscard]] bool operator==(const PhysicsSettings&) const = default;
 };
@@ -60,9 +64,11 @@ class SceneRadiance {
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
 
  private:
-  void add_optics(const Surface& surface, const PhysicsSettings& settings);
-  void compose(const PhysicsSettings& settings);
+  void add_optics(const Surface& surface, float surface_k, const PhysicsSettings& settings);
+  void add_heat(const Manifest& manifest, const PhysicsSettings& settings);
+  void compose(const PhysicsSettings& settings, bool has_poses);
   void find_brightest();
+  [[nodiscard]] float later_h(const ManifestFrame& frame) const noexcept;
   struct FineLine;
   void begin_row(const Passes& passes, const CameraRays* rays, int y, Row& row) const;
 
@@ -71,6 +77,7 @@ class SceneRadiance {
     SurfaceOpticsList optics;
     std::vector<std::unique_ptr<RadianceTable>> tables;
     std::unique_ptr<VariationField> field;
+    SceneHeat heat;                          ///< empty with temperatures of Table 1
     std::unique_ptr<CameraRays> rays;        ///< of the passes
     std::unique_ptr<CameraRays> pixel_rays;  ///< of passes with one sample per pixel; null: the same
   };
@@ -80,6 +87,7 @@ class SceneRadiance {
   std::vector<RowTerm> chain_;
   PassNeeds needs_;
   float brightest_w_m2_sr_ = 0;
+  double middle_s_ = 0;  ///< time of the frame in the middle of the clip
 };
 
 /// Radiance of the most radiant of the rows of Table 1.

@@ -1,6 +1,7 @@
 #include "imaging/surfaces.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -28,7 +29,8 @@ void check_known(std::span<const IndexUse> uses, const std::vector<bool>& known,
 
 }  // namespace
 
-SurfaceMap::SurfaceMap(const Manifest& manifest, const MaterialLibrary& materials)
+SurfaceMap::SurfaceMap(const Manifest& manifest, const MaterialLibrary& materials,
+                       const ActorClasses& classes)
     : by_object_(kIndices), by_material_(kIndices), known_objects_(kIndices), known_materials_(kIndices) {
   known_objects_[kSkyIndex] = true;
   by_object_[kSkyIndex] = add(materials.find("sky", "material of index 0"), "");
@@ -44,10 +46,24 @@ SurfaceMap::SurfaceMap(const Manifest& manifest, const MaterialLibrary& material
     by_material_[entry.index] = add(material, entry.part);
     known_materials_[entry.index] = true;
   }
+  if (classes.count > 1) add_classes(classes);
+}
+
+void SurfaceMap::add_classes(const ActorClasses& classes) {
+  const std::vector<Surface> first = surfaces_;
+  for (std::uint8_t number = 1; number < classes.count; ++number) {
+    for (Surface surface : first) {
+      surface.actor_class = number;
+      surfaces_.push_back(std::move(surface));
+    }
+  }
+  class_shift_.resize(kIndices);
+  for (std::size_t index = 0; index < classes.of_object.size(); ++index)
+    class_shift_[index] = static_cast<std::uint16_t>(classes.of_object[index] * first.size());
 }
 
 std::uint16_t SurfaceMap::add(const Material& material, const std::string& part) {
-  const Surface surface = {.material = &material, .part = part};
+  const Surface surface = {.material = &material, .part = part, .actor_class = 0};
   const auto found = std::find(surfaces_.begin(), surfaces_.end(), surface);
   const auto number = static_cast<std::uint16_t>(found - surfaces_.begin());
   if (found == surfaces_.end()) surfaces_.push_back(surface);
@@ -66,11 +82,13 @@ void SurfaceMap::number(std::span<const std::uint16_t> objects, std::span<const 
                         std::span<std::uint16_t> surfaces) const noexcept {
   if (materials.empty()) {
     for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i] = by_object_[objects[i]];
-    return;
+  } else {
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+      surfaces[i] = materials[i] != 0 ? by_material_[materials[i]] : by_object_[objects[i]];
   }
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    surfaces[i] = materials[i] != 0 ? by_material_[materials[i]] : by_object_[objects[i]];
-  }
+  if (class_shift_.empty()) return;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    surfaces[i] = static_cast<std::uint16_t>(surfaces[i] + class_shift_[objects[i]]);
 }
 
 }  // namespace thermal

@@ -13,12 +13,20 @@
 
 namespace thermal {
 
-/// One kind of surface a manifest names: a material, or a part of one.
+/// One kind of surface a manifest names: a material, or a part of one, on actors of one class.
 struct Surface {
   const Material* material = nullptr;
   std::string part;
+  std::uint8_t actor_class = 0;
 
   [[nodiscard]] bool operator==(const Surface&) const = default;
+};
+
+/// Classes of actors whose surfaces have temperatures of their own: by object index, below `count`; objects beyond the
+/// list are of class 0.
+struct ActorClasses {
+  std::vector<std::uint8_t> of_object;
+  std::uint8_t count = 1;
 };
 
 /// The surfaces of the pixels of index planes. A pixel has the material of its material index; where that is 0 or
@@ -28,9 +36,9 @@ class SurfaceMap {
   static constexpr std::uint16_t kSky = 0;  ///< the number of the sky among surfaces()
 
   /// ConfigError if a material of the manifest is not in the library, which must outlive this object.
-  SurfaceMap(const Manifest& manifest, const MaterialLibrary& materials);
+  SurfaceMap(const Manifest& manifest, const MaterialLibrary& materials, const ActorClasses& classes = {});
 
-  /// All possible surfaces, each once; the sky first.
+  /// All possible surfaces, each once; the sky first, those of class 1 after all of class 0, and so on.
   [[nodiscard]] const std::vector<Surface>& surfaces() const noexcept { return surfaces_; }
 
   /// DataError with the first pixel whose index the manifest lacks.
@@ -44,10 +52,13 @@ class SurfaceMap {
 
  private:
   std::uint16_t add(const Material& material, const std::string& part);
+  void add_classes(const ActorClasses& classes);
 
   std::vector<Surface> surfaces_;
   std::vector<std::uint16_t> by_object_;  ///< by object index; valid only where known_
   std::vector<std::uint16_t> by_material_;
+  std::vector<std::uint16_t>
+      class_shift_;  ///< by object index: added to the number; empty if there is one class
   std::vector<bool> known_objects_;
   std::vector<bool> known_materials_;
 };

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/ranges.h"
 #include "base/text.h"
 
 namespace thermal {
@@ -32,10 +33,8 @@ void check_not_negative(const std::string& where, double value, const char* unit
 
 void Material::validate() const {
   const std::string where = "material " + name;
-  if (!(emissivity > 0 && emissivity <= 1)) {
-    throw ConfigError(
-        fault(where + ": emissivity", fmt::format("{}", emissivity), "", "above 0 and at most 1"));
-  }
+  require_share_above_0(where + ": emissivity", emissivity);
+  require_share_above_0(where + ": measured_emissivity", measured_emissivity);
   check_temperature(where + ": winter_k", winter_k);
   check_temperature(where + ": summer_k", summer_k);
   check_not_negative(where + ": variation.stddev_k", variation.stddev_k, "K");
@@ -43,6 +42,7 @@ void Material::validate() const {
   for (const auto& [part, values] : parts) {
     check_positive(where + ": parts." + part + ".cooling_time_s", values.cooling_time_s, "s");
   }
+  if (heat) thermal::validate(*heat, where + ": heat");
 }
 
 double Material::temperature_k(Season season) const noexcept {
@@ -63,6 +63,12 @@ double Material::part_temperature_k(const std::string& part, const Weather& weat
   const MaterialPart& p = found->second;
   const double cooling_k = p.cooling_excess_k * std::exp(-weather.vehicle_stopped_s / p.cooling_time_s);
   return air_k + p.excess_factor * (mean_k - air_k) + p.offset_k + cooling_k;
+}
+
+const BodyHeat* Material::body_heat_of(const std::string& part) const noexcept {
+  const auto found = parts.find(part);
+  if (found != parts.end() && found->second.body_heat) return &*found->second.body_heat;
+  return body_heat ? &*body_heat : nullptr;
 }
 
 void MaterialLibrary::add(Material material) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "heat/body/body_heat.h"
+#include "heat/surface/material_heat.h"
 #include "radiometry/emissivity.h"
 #include "scene/season.h"
 #include "scene/weather.h"
@@ -17,6 +19,8 @@ struct MaterialPart {
   double offset_k = 0;           ///< added to that
   double cooling_excess_k = 0;   ///< when the engine stops; decays exponentially afterwards
   double cooling_time_s = 3600;  ///< time of decay to 1/e
+  /// What its temperature follows from by the weather, instead of all of the above; the material's if there is none.
+  std::optional<BodyHeat> body_heat = {};
 };
 
 /// A fractal field of temperature, fixed to the ground: mean zero.
@@ -28,16 +32,19 @@ struct TemperatureVariation {
 /// What a surface is made of, as seen by a thermal camera.
 struct Material {
   std::string name;
-  double emissivity = 1;    ///< in band, (0, 1]
-  double winter_k = 273;    ///< night-time temperature, air at 273 K
-  double summer_k = 293;    ///< night-time temperature, air at 293 K
-  bool in_table_1 = false;  ///< one of the twelve rows of Table 1 (Bondi et al. 2018)
+  double emissivity = 1;           ///< in band, (0, 1]
+  double measured_emissivity = 1;  ///< the same where temperatures come from the heat balance, (0, 1]
+  double winter_k = 273;           ///< night-time temperature, air at 273 K
+  double summer_k = 293;           ///< night-time temperature, air at 293 K
+  bool in_table_1 = false;         ///< one of the twelve rows of Table 1 (Bondi et al. 2018)
 
   // Only the physical model uses the following.
   std::optional<EmissivitySpectrum> spectrum;  ///< replaces `emissivity`
   AngularLaw angular = AngularLaw::none;
   TemperatureVariation variation;
   std::map<std::string, MaterialPart> parts;
+  std::optional<MaterialHeat> heat;   ///< how its temperature follows the weather; empty: as in Table 1
+  std::optional<BodyHeat> body_heat;  ///< of an actor's parts that state none of their own
 
   /// ConfigError if a value is outside its domain.
   void validate() const;
@@ -51,6 +58,9 @@ struct Material {
 
   /// Temperature [K] of a part of an actor; of the whole actor if `part` is empty or not listed.
   [[nodiscard]] double part_temperature_k(const std::string& part, const Weather& weather) const noexcept;
+
+  /// What heats a part of an actor, or the whole actor if `part` is empty or not listed; nullptr if nothing is stated.
+  [[nodiscard]] const BodyHeat* body_heat_of(const std::string& part) const noexcept;
 };
 
 /// Materials by name.

@@ -1,21 +1,45 @@
 #pragma once
 
+#include "heat/weather/day_weather.h"
 #include "radiometry/atmosphere.h"
 #include "scene/season.h"
 
 namespace thermal {
 
-/// The conditions of a night, for everything in the scene.
+/// The conditions of a clip, for everything in the scene.
 struct Weather {
-  Air air;
+  Air air;                          ///< at the clip's time
   double vehicle_stopped_s = 3600;  ///< since engines were switched off
+  DayWeather day = {};              ///< around the clip, for the heat balance
+  double solar_h = 3;               ///< local solar time of the clip's middle
 
   [[nodiscard]] bool operator==(const Weather&) const = default;
 };
 
-/// The nights of Table 1: winter 273 K and 60 % humidity, summer 293 K and 70 %, both clear.
-[[nodiscard]] constexpr Weather weather_of(Season season) noexcept {
-  return season == Season::winter ? Weather{.air = {273, 0.6, 0}} : Weather{.air = {293, 0.7, 0}};
+/// The nights of Table 1: winter 273 K and 60 % humidity, summer 293 K and 70 %, both clear, at 3:00. Their days are
+/// those of southern Africa in 19 deg S, 9 July and 15 January: dry and clear in winter, two days after rain in summer
+/// (estimates; the swing of air by 22 K and 10 K follows climate tables of Hwange and Maun).
+[[nodiscard]] inline Weather weather_of(Season season) {
+  if (season == Season::winter) {
+    return {.air = {273, 0.6, 0},
+            .day = {.sun = {-19, 190},
+                    .air_min_k = 271.37,
+                    .air_max_k = 293.77,
+                    .air_hourly_k = {},
+                    .vapour_hpa = 3.62,
+                    .night_wind_m_s = 1,
+                    .day_wind_m_s = 3.5,
+                    .rain_days_ago = 60}};
+  }
+  return {.air = {293, 0.7, 0},
+          .day = {.sun = {-19, 15},
+                  .air_min_k = 292.47,
+                  .air_max_k = 302.67,
+                  .air_hourly_k = {},
+                  .vapour_hpa = 16.15,
+                  .night_wind_m_s = 1,
+                  .day_wind_m_s = 3,
+                  .rain_days_ago = 2}};
 }
 
 }  // namespace thermal

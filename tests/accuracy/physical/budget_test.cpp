@@ -39,8 +39,8 @@ constexpr PublishedRow kPublished[] = {{"soil", {1601, -47, -66}, {3284, 417, 60
                                        {"truck", {4214, 241, 339}, {7702, 334, 482}}};
 
 void check_night(const Material& material, const Weather& weather, const Shifts& expected) {
-  const MaterialShift near = shift_of(material, weather, 61, kBand);
-  const MaterialShift far = shift_of(material, weather, 122, kBand);
+  const MaterialShift near = shift_of(material, {.weather = weather, .looks = {}}, 61, kBand);
+  const MaterialShift far = shift_of(material, {.weather = weather, .looks = {}}, 122, kBand);
   CAPTURE(material.name, weather.air.temperature_k);
   // To the printed digit: half a mK.
   CHECK_THAT(1e3 * near.sky_k, WithinAbs(expected.sky, 0.5));

@@ -116,7 +116,7 @@ TEST_CASE("A faulty material is reported with its file and key") {
         "ODD.json: emisivity is not a known key; expected one of emissivity, winter_k, summer_k, colour, "
         "in_table_1, "
         "spectrum, "
-        R"(angular, variation, parts, source; did you mean "emissivity"?)");
+        R"(angular, variation, parts, heat, body_heat, source; did you mean "emissivity"?)");
 }
 
 }  // namespace material_assets_test

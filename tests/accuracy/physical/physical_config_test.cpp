@@ -61,22 +61,25 @@ TEST_CASE("A term has one of three choices and a known name") {
 TEST_CASE("Without weather in the config, a clip's air is its season's") {
   const Config config = config_with({});
   const Weather winter = weather_of(config, Season::winter);
-  CHECK(winter.air.temperature_k == 273);
-  CHECK(winter.air.relative_humidity == 0.6);
+  // By the day's curve at 3:00, whose minimum and maximum are rounded to 0.01 K and vapour to 0.01 hPa of 6.
+  CHECK_THAT(winter.air.temperature_k, WithinAbs(273, 0.01));
+  CHECK_THAT(winter.air.relative_humidity, WithinAbs(0.6, 0.002));
   CHECK(winter.air.cloud_fraction == 0);
   CHECK(winter.vehicle_stopped_s == 3600);
   const Weather summer = weather_of(config, Season::summer);
-  CHECK(summer.air.temperature_k == 293);
-  CHECK(summer.air.relative_humidity == 0.7);
+  CHECK_THAT(summer.air.temperature_k, WithinAbs(293, 0.01));
+  CHECK_THAT(summer.air.relative_humidity, WithinAbs(0.7, 0.002));
+  const Config published = config_with({"scene.temperatures=table_1"});
+  CHECK(weather_of(published, Season::winter) == weather_of(Season::winter));
 }
 
 TEST_CASE("Weather in the config overrides the season's, value by value") {
   const Config config = config_with({"weather.air_temperature_k=281.5", "weather.cloud_fraction=0.5"});
   for (const Season season : {Season::winter, Season::summer}) {
     const Weather weather = weather_of(config, season);
-    CHECK(weather.air.temperature_k == 281.5);
+    CHECK_THAT(weather.air.temperature_k, WithinAbs(281.5, 1e-9));
     CHECK(weather.air.cloud_fraction == 0.5);
-    CHECK(weather.air.relative_humidity == weather_of(season).air.relative_humidity);
+    CHECK_THAT(weather.air.relative_humidity, WithinAbs(weather_of(season).air.relative_humidity, 1e-9));
   }
   CHECK(weather_of(config_with({"weather.vehicle_stopped_s=60"}), Season::winter).vehicle_stopped_s == 60);
 }
@@ -113,14 +116,18 @@ TEST_CASE(
   const Config config =
       config_with({"weather.air_temperature_k=281.5", "sensor.response=vox_germanium", "seed=9"});
   const Terms kept = {.sky = true, .path = true};
-  const auto physics = physics_of(config, config.clips[0], kept);
+  HeatDays heat(materials());
+  const auto physics = task_of(config, config.clips[0], kept, heat, nullptr).physics;
   REQUIRE(physics);
+  REQUIRE(physics->heat);
+  CHECK(physics->heat->day->weather() == physics->weather.day);
   CHECK(physics->terms == kept);
-  CHECK(physics->weather.air.temperature_k == 281.5);
+  // At time 0; the clip's middle is seconds later, and the air cools by less than 1 K an hour.
+  CHECK_THAT(physics->weather.air.temperature_k, WithinAbs(281.5, 0.02));
   CHECK(physics->response.end_um() == 15);
   CHECK(physics->seed == 9);
   const Config published = config_with({"sensor.model=published"});
-  CHECK_FALSE(physics_of(published, published.clips[0], kept));
+  CHECK_FALSE(task_of(published, published.clips[0], kept, heat, nullptr).physics);
 }
 
 TEST_CASE("The flat responses are flat, and the camera's peaks near 10 um") {

@@ -10,6 +10,7 @@ THIRD_OF_NETD_MK = 40 / 3
 
 def _physical(config):
     config["sensor"] = {"model": "physical", "netd_mk": 40}
+    config["scene"]["temperatures"] = "table_1"
 
 
 def _budget(veldt, change=_physical):
@@ -37,7 +38,8 @@ def test_a_term_is_kept_where_it_spreads_by_more_than_a_third_of_the_netd(veldt)
 
 def test_a_worse_camera_needs_fewer_terms(veldt):
     def blunt(config):
-        config["sensor"] = {"model": "physical", "netd_mk": 10000}
+        _physical(config)
+        config["sensor"]["netd_mk"] = 10000
 
     sharp, _ = _budget(veldt)
     dull, _ = _budget(veldt, blunt)
@@ -77,6 +79,17 @@ def test_the_published_preset_drops_everything(veldt):
     lines, _ = _budget(veldt, None)
     assert {line["choice"] for line in lines.values()} == {"off"}
     assert not any(line["kept"] for line in lines.values())
+
+
+def test_temperatures_of_the_heat_balance_change_what_terms_are_worth(veldt):
+    def balanced(config):
+        _physical(config)
+        del config["scene"]["temperatures"]
+
+    table, _ = _budget(veldt)
+    heated, _ = _budget(veldt, balanced)
+    assert heated["parts"]["actor_shift_mk"] != table["parts"]["actor_shift_mk"]
+    assert heated["parts"]["kept"]
 
 
 def test_the_weather_of_the_config_decides(veldt):

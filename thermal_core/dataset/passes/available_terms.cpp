@@ -151,7 +151,7 @@ SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
   }
   add_ground(ground, materials, outline);
   add_actors(actors, materials, outline);
-  outline.nights = nights.list();
+  outline.nights = nights.list(outline, materials);
   return outline;
 }
 

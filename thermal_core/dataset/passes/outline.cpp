@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace thermal {
 namespace {
@@ -53,30 +54,45 @@ void Nights::add(Season season, const std::vector<SceneOutline::Look>& looks) {
   all.insert(all.end(), looks.begin(), looks.end());
 }
 
-std::vector<SceneOutline::Night> Nights::list() const {
+std::vector<SceneOutline::Night> Nights::list(const SceneOutline& outline,
+                                              const MaterialLibrary& library) const {
+  std::vector<const Material*> materials;
+  for (const SceneOutline::Cover& cover : outline.covers) materials.push_back(cover.material);
   std::vector<SceneOutline::Night> nights;
   for (const auto& [season, looks] : looks_) {
     nights.push_back({.weather = weather_of(config_, season), .looks = looks});
+    if (config_.heat_balance)
+      nights.back().heated_k = open_temperatures_k(materials, library, nights.back().weather);
   }
   return nights;
 }
 
-std::optional<PhysicsSettings> physics_of(const Config& config, const ClipConfig& clip, const Terms& terms) {
+namespace {
+
+/// Empty for the published model.
+std::optional<PhysicsSettings> physics_of(const Config& config, const ClipConfig& clip, const Terms& terms,
+                                          HeatDays& heat, std::shared_ptr<const GroundMaps> ground) {
   if (!config.physical) return std::nullopt;
-  return PhysicsSettings{.terms = terms,
-                         .weather = weather_of(config, clip.season),
-                         .response = config.sensor.response,
-                         .seed = config.seed};
+  PhysicsSettings physics = {.terms = terms,
+                             .weather = weather_of(config, clip),
+                             .response = config.sensor.response,
+                             .seed = config.seed};
+  if (config.heat_balance)
+    physics.heat = HeatSettings{.day = heat.of(physics.weather.day), .ground = std::move(ground)};
+  return physics;
 }
 
-ClipTask task_of(const Config& config, const ClipConfig& clip, const Terms& terms) {
+}  // namespace
+
+ClipTask task_of(const Config& config, const ClipConfig& clip, const Terms& terms, HeatDays& heat,
+                 std::shared_ptr<const GroundMaps> ground) {
   return {.variant = "",
           .clip = clip,
           .seed = config.seed,
           .sensor = config.sensor,
           .distortion = config.distortion,
           .labels = config.labels,
-          .physics = physics_of(config, clip, terms),
+          .physics = physics_of(config, clip, terms, heat, std::move(ground)),
           .folder = {}};
 }
 

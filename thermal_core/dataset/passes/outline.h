@@ -1,12 +1,14 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "dataset/clip/heat_days.h"
 #include "dataset/clip/maker.h"
 #include "dataset/plan/plan.h"
 #include "imaging/budget.h"
@@ -36,7 +38,9 @@ class Nights {
   /// Other known viewing directions.
   void add(Season season, const std::vector<SceneOutline::Look>& looks);
 
-  [[nodiscard]] std::vector<SceneOutline::Night> list() const;
+  /// The nights, with the temperatures of an outline's covers.
+  [[nodiscard]] std::vector<SceneOutline::Night> list(const SceneOutline& outline,
+                                                      const MaterialLibrary& library) const;
 
  private:
   const Config& config_;
@@ -65,12 +69,9 @@ struct PassesView {
                                       const std::vector<ClipPasses>& sources,
                                       const std::vector<PassesView>& views);
 
-/// Physics of one clip with the terms a dataset keeps; empty for the published model.
-[[nodiscard]] std::optional<PhysicsSettings> physics_of(const Config& config, const ClipConfig& clip,
-                                                        const Terms& terms);
-
-/// What a dataset that keeps these terms makes of a clip, but for the folder to make it in.
-[[nodiscard]] ClipTask task_of(const Config& config, const ClipConfig& clip, const Terms& terms);
+/// What a dataset that keeps these terms makes of a clip, but for the folder to make it in. `ground`: see HeatSettings.
+[[nodiscard]] ClipTask task_of(const Config& config, const ClipConfig& clip, const Terms& terms,
+                               HeatDays& heat, std::shared_ptr<const GroundMaps> ground);
 
 /// The entry of dataset.json on terms: the budget of a physical dataset, emission alone for the published model.
 [[nodiscard]] Json to_json(const Budget& budget);

@@ -10,11 +10,6 @@
 namespace thermal {
 namespace {
 
-/// Estimates: the north of South Africa and the south of Zimbabwe, in the coldest and in the wettest weeks.
-SunPath sun_path_of(Season season) {
-  return {.latitude_deg = -19, .day_of_year = season == Season::winter ? 190 : 15};
-}
-
 bool has_season(const Config& config, Season season) {
   const auto is_in = [&config, season](const char* flown) {
     return std::ranges::any_of(config.resolved.at(flown), [season](const Json& one) {
@@ -22,6 +17,10 @@ bool has_season(const Config& config, Season season) {
     });
   };
   return is_in("clips") || is_in("flights");
+}
+
+void add_once(const SunPath& path, std::vector<SunPath>& paths) {
+  if (std::ranges::count(paths, path) == 0) paths.push_back(path);
 }
 
 /// Of an earlier plan: none if they cannot be read.
@@ -35,12 +34,13 @@ std::vector<SunPath> paths_in(const Path& folder, const Assets& assets) {
 
 }  // namespace
 
-bool needs_ground_maps(const Config& config) { return config.physical; }
+bool needs_ground_maps(const Config& config) { return config.physical && config.heat_balance; }
 
 std::vector<SunPath> sun_paths(const Config& config) {
   std::vector<SunPath> paths;
   for (const Season season : {Season::winter, Season::summer})
-    if (has_season(config, season)) paths.push_back(sun_path_of(season));
+    if (has_season(config, season))
+      add_once(config.weather.at(static_cast<std::size_t>(season)).day.sun, paths);
   return paths;
 }
 

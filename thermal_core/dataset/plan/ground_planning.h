@@ -4,17 +4,16 @@
 #include <vector>
 
 #include "dataset/run/progress.h"
+#include "heat/weather/sun.h"
 #include "io/assets.h"
 #include "io/config/config.h"
-#include "heat/weather/sun.h"
 
 namespace thermal {
 
-/// Whether a plan of this config has maps of the ground: the physical model needs them.
+/// Whether a plan of this config has maps of the ground: the heat balance of the physical model needs them.
 [[nodiscard]] bool needs_ground_maps(const Config& config);
 
-/// The days whose sun heats the ground of a config's clips and flights, one for each of their seasons: an estimate of
-/// 19 degrees south, on day 190 of the year for winter and on day 15 for summer.
+/// The days whose sun heats the ground of a config's clips and flights, each once.
 [[nodiscard]] std::vector<SunPath> sun_paths(const Config& config);
 
 /// Whether the maps in a plan's folder, if there are any, serve this config, or it needs none.

@@ -18,7 +18,7 @@ SceneOutline outline_of(const Config& config, const DatasetPlan& plan, const Mat
     nights.add(seasons.at(clip.id), std::max(1.0, std::round(clip.mean_agl_m)),
                std::round(clip.mean_look_angle_deg), config.camera);
   }
-  outline.nights = nights.list();
+  outline.nights = nights.list(outline, materials);
   return outline;
 }
 

@@ -95,9 +95,11 @@ class ClipCheck {
 
 Json planned_part(const Config& config) {
   const Json& all = config.resolved;
+  Json scene = all.at("scene");
+  scene.erase("temperatures");
   return {{"name", all.at("name")},
           {"seed", all.at("seed")},
-          {"scene", all.at("scene")},
+          {"scene", std::move(scene)},
           {"camera", to_json(config.camera)},
           {"render", {{"view_margin_px", config.view_margin_px}}},
           {"clips", without_season(all.at("clips"))},

@@ -53,9 +53,10 @@ std::vector<std::string> terms_left_out(const Budget& budget) {
 }
 
 /// How a dataset makes a clip, but for the folder to make it in.
-ClipTask task_for(const ConvertRequest& request, const Terms& kept, const ClipPasses& source) {
+ClipTask task_for(const ConvertRequest& request, const Terms& kept, const ClipPasses& source,
+                  HeatDays& heat) {
   const ClipConfig& clip = request.config.clip(source.manifest.clip, source.folder.string());
-  ClipTask task = task_of(request.config, clip, kept);
+  ClipTask task = task_of(request.config, clip, kept, heat, heat.ground_beside(source.folder));
   task.variant = request.where;
   task.made_from_sha256 = source.identity_sha256;
   return task;
@@ -68,11 +69,12 @@ bool has_new_passes(const DatasetIndex& index, const Layout& layout, const ClipP
 }
 
 /// Whether an existing clip can be remade with more of its frames. In strict mode, making it reports what is bad.
-bool is_to_mend(const DatasetIndex& index, const ClipPasses& source, const ClipTask& task,
-                const MaterialLibrary& materials) {
+bool is_to_mend(const ConvertRequest& request, const DatasetIndex& index, const Terms& kept,
+                const ClipPasses& source, HeatDays& heat) {
   const auto found = index.skipped.find(source.manifest.clip);
   if (found == index.skipped.end() || found->second.empty()) return false;
-  return source.bad_frames == BadFrames::fail || can_be_mended(source, task, materials, found->second);
+  return source.bad_frames == BadFrames::fail ||
+         can_be_mended(source, task_for(request, kept, source, heat), heat.materials(), found->second);
 }
 
 /// The clips that a dataset lacks, or has from passes that were different.
@@ -88,7 +90,7 @@ struct Backlog {
 };
 
 Backlog backlog_of(const ConvertRequest& request, const DatasetIndex& index, const Terms& kept,
-                   const std::vector<ClipPasses>& sources, const MaterialLibrary& materials) {
+                   const std::vector<ClipPasses>& sources, HeatDays& heat) {
   Backlog backlog;
   for (const ClipPasses& source : sources) {
     const std::string& clip = source.manifest.clip;
@@ -96,7 +98,7 @@ Backlog backlog_of(const ConvertRequest& request, const DatasetIndex& index, con
       backlog.missing.insert(clip);
     } else if (has_new_passes(index, Layout{request.out}, source)) {
       backlog.changed.insert(clip);
-    } else if (is_to_mend(index, source, task_for(request, kept, source), materials)) {
+    } else if (is_to_mend(request, index, kept, source, heat)) {
       backlog.mended.insert(clip);
     }
   }
@@ -104,9 +106,9 @@ Backlog backlog_of(const ConvertRequest& request, const DatasetIndex& index, con
 }
 
 ConvertForecast forecast_of(const ConvertRequest& request, const Budget& budget,
-                            const std::vector<ClipPasses>& sources, const MaterialLibrary& materials) {
+                            const std::vector<ClipPasses>& sources, HeatDays& heat) {
   const DatasetIndex index = open_dataset(own_layout(request), request.config);
-  const Backlog backlog = backlog_of(request, index, budget.kept, sources, materials);
+  const Backlog backlog = backlog_of(request, index, budget.kept, sources, heat);
   ConvertForecast forecast{
       .variant = request.variant, .out = request.out, .steps = {}, .left_out = terms_left_out(budget)};
   for (const ClipPasses& source : sources) {
@@ -123,13 +125,15 @@ ConvertForecast forecast_of(const ConvertRequest& request, const Budget& budget,
 /// A dataset being made.
 class Dataset {
  public:
-  Dataset(ConvertRequest request, const Budget& budget, const MaterialLibrary& materials,
+  /// `heat` must outlive this object.
+  Dataset(ConvertRequest request, const Budget& budget, HeatDays& heat,
           const std::vector<ClipPasses>& sources)
       : request_(std::move(request)),
+        heat_(heat),
         kept_(budget.kept),
         left_out_(terms_left_out(budget)),
         transaction_(own_layout(request_), request_.config, to_json(budget)),
-        backlog_(backlog_of(request_, transaction_.index(), kept_, sources, materials)) {
+        backlog_(backlog_of(request_, transaction_.index(), kept_, sources, heat)) {
     for (const ClipPasses& source : sources) {
       if (!lacks(source)) outcome_.already_there.push_back(source.manifest.clip);
     }
@@ -146,7 +150,7 @@ class Dataset {
   }
 
   [[nodiscard]] ClipTask task_for_clip(const ClipPasses& source) const {
-    ClipTask task = task_for(request_, kept_, source);
+    ClipTask task = task_for(request_, kept_, source, heat_);
     task.folder = transaction_.unfinished(source.manifest.clip);
     return task;
   }
@@ -189,6 +193,7 @@ class Dataset {
   }
 
   ConvertRequest request_;
+  HeatDays& heat_;
   Terms kept_;
   std::vector<std::string> left_out_;
   DatasetTransaction transaction_;
@@ -197,13 +202,12 @@ class Dataset {
 };
 
 std::vector<std::unique_ptr<Dataset>> open_datasets(const std::vector<ConvertRequest>& requests,
-                                                    const std::vector<ClipPasses>& sources,
-                                                    const MaterialLibrary& materials) {
+                                                    const std::vector<ClipPasses>& sources, HeatDays& heat) {
   // First, because a required term that is impossible is a fault, and then no folder is touched.
-  const std::vector<Budget> budgets = budgets_of(requests, materials, sources);
+  const std::vector<Budget> budgets = budgets_of(requests, heat.materials(), sources);
   std::vector<std::unique_ptr<Dataset>> datasets;
   for (std::size_t i = 0; i < requests.size(); ++i)
-    datasets.push_back(std::make_unique<Dataset>(requests[i], budgets[i], materials, sources));
+    datasets.push_back(std::make_unique<Dataset>(requests[i], budgets[i], heat, sources));
   return datasets;
 }
 
@@ -211,11 +215,11 @@ std::vector<std::unique_ptr<Dataset>> open_datasets(const std::vector<ConvertReq
 class Converter {
  public:
   Converter(const std::vector<ConvertRequest>& requests, const std::vector<ClipPasses>& sources,
-            const MaterialLibrary& materials, const RunHooks& hooks)
+            const MaterialLibrary& materials, const Assets& assets, const RunHooks& hooks)
       : sources_(sources),
-        materials_(materials),
+        heat_(materials, assets),
         hooks_(hooks),
-        datasets_(open_datasets(requests, sources, materials)) {}
+        datasets_(open_datasets(requests, sources, heat_)) {}
 
   std::vector<ConvertOutcome> run() {
     make_all();
@@ -285,11 +289,11 @@ class Converter {
                                  [this, &source](const SkippedFrame& frame) {
                                    if (hooks_.skipped) hooks_.skipped(source.manifest.clip, frame);
                                  }};
-    return make_clips(source, tasks, materials_, hooks);
+    return make_clips(source, tasks, heat_.materials(), hooks);
   }
 
   const std::vector<ClipPasses>& sources_;
-  const MaterialLibrary& materials_;
+  HeatDays heat_;
   const RunHooks& hooks_;
   std::vector<std::unique_ptr<Dataset>> datasets_;
   Progress progress_;
@@ -312,9 +316,10 @@ std::vector<ConvertForecast> forecast_convert(const ConvertOptions& options) {
     const std::vector<ClipPasses> sources = read_sources(options, materials);
     const std::vector<ConvertRequest> requests = convert_requests(options, sources);
     const std::vector<Budget> budgets = budgets_of(requests, materials, sources);
+    HeatDays heat(materials, options.assets);
     std::vector<ConvertForecast> forecasts;
     for (std::size_t i = 0; i < requests.size(); ++i)
-      forecasts.push_back(forecast_of(requests[i], budgets[i], sources, materials));
+      forecasts.push_back(forecast_of(requests[i], budgets[i], sources, heat));
     return forecasts;
   });
 }
@@ -323,7 +328,7 @@ std::vector<ConvertOutcome> convert(const ConvertOptions& options, const RunHook
   return with_threads(options.threads, [&] {
     const MaterialLibrary materials = read_materials(options.assets);
     const std::vector<ClipPasses> sources = read_sources(options, materials);
-    return Converter(convert_requests(options, sources), sources, materials, hooks).run();
+    return Converter(convert_requests(options, sources), sources, materials, options.assets, hooks).run();
   });
 }
 

@@ -1,5 +1,6 @@
 #include "dataset/run/generate.h"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "base/parallel.h"
 #include "dataset/clip/maker.h"
 #include "dataset/passes/outline.h"
+#include "dataset/plan/ground_planning.h"
 #include "dataset/run/clip_choice.h"
 #include "dataset/run/disk_room.h"
 #include "dataset/run/monitor.h"
@@ -14,6 +16,8 @@
 #include "dataset/run/tracing.h"
 #include "dataset/run/transaction.h"
 #include "dataset/run/worker_pool.h"
+#include "io/bake/baked_files.h"
+#include "io/bake/ground_maps_file.h"
 #include "io/config/materials.h"
 #include "io/manifest_file.h"
 
@@ -21,6 +25,13 @@ namespace thermal {
 namespace {
 
 using Stop = std::function<bool()>;
+
+/// The maps of the ground in a plan, if the config's temperatures need them.
+std::shared_ptr<const GroundMaps> read_ground(const Config& config, const GenerateOptions& options) {
+  if (!needs_ground_maps(config) || !has_ground_maps(options.plan)) return nullptr;
+  const BakedScene scene = read_baked_scene(options.plan, options.assets);
+  return std::make_shared<const GroundMaps>(read_ground_maps(options.plan, scene.ground, options.assets));
+}
 
 /// Makes clips from the output of render jobs.
 class Generator {
@@ -34,6 +45,8 @@ class Generator {
         layout_{options.out, options.scratch},
         chosen_(choose_clips(config, options.clips, options.shard)),
         materials_(read_materials(options.assets)),
+        heat_(materials_),
+        ground_(read_ground(config, options)),
         budget_(weigh_terms(outline_of(config, plan, materials_), config.terms)),
         transaction_(layout_, config, to_json(budget_), chosen_) {
     for (const ClipConfig& clip : chosen_)
@@ -46,6 +59,7 @@ class Generator {
       transaction_.begin([this] {
         if (options_.keep_passes || config_.engine == Engine::blender)
           begin_passes(layout_, config_, ids_of(pending_));
+        if (options_.keep_passes && ground_) copy_ground_maps(options_.plan, layout_.passes());
       });
       make_pending(monitor);
     }
@@ -139,8 +153,8 @@ class Generator {
     return make_clip(passes, task_for(clip), materials_, clip_hooks);
   }
 
-  [[nodiscard]] ClipTask task_for(const ClipConfig& clip) const {
-    ClipTask task = task_of(config_, clip, budget_.kept);
+  [[nodiscard]] ClipTask task_for(const ClipConfig& clip) {
+    ClipTask task = task_of(config_, clip, budget_.kept, heat_, ground_);
     task.folder = transaction_.unfinished(clip.id);
     return task;
   }
@@ -179,6 +193,8 @@ class Generator {
   Layout layout_;
   std::vector<ClipConfig> chosen_;
   MaterialLibrary materials_;
+  HeatDays heat_;
+  std::shared_ptr<const GroundMaps> ground_;  ///< null: not needed, or an old plan's
   Budget budget_;
   DatasetTransaction transaction_;  ///< of the chosen clips
   std::vector<ClipConfig> pending_;

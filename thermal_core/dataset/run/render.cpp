@@ -13,6 +13,7 @@
 #include "dataset/run/passes_folder.h"
 #include "dataset/run/tracing.h"
 #include "dataset/run/worker_pool.h"
+#include "io/bake/ground_maps_file.h"
 #include "io/system/folder_lock.h"
 
 namespace thermal {
@@ -86,6 +87,7 @@ RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateO
   lock.in_turn([&] {
     check_same_passes(layout, config);
     begin_passes(layout, config, ids_of(clips));
+    copy_ground_maps(options.plan, layout.passes());
   });
   RunMonitor monitor(hooks, options.out, frames_of(clips));
   if (config.engine == Engine::embree) {

@@ -214,6 +214,8 @@ MaterialMoment HeatOfDay::moment_of(const Columns& columns, double solar_h) {
     for (std::size_t d = 0; d < slopes; ++d)
       excess_k[1 + d] = columns.slopes[m * slopes + d].at_k(solar_h) - open_k;
     slopes_k.push_back(columns.fit.fit(excess_k));
+    // What faces up is exact: it is what a drone sees most of.
+    slopes_k.back().coefficients[0] -= slopes_k.back().at({0, 0, 1});
   }
   return {columns.nodes, std::move(level_k), std::move(slopes_k)};
 }

@@ -1,6 +1,7 @@
 #include "io/bake/ground_maps_file.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -29,13 +30,14 @@ class MapsReader {
   MapsReader(const Path& folder, const Assets& assets)
       : file_(header_in(folder), assets.schema("ground_maps")), cells_(file_.header().at("cells")) {}
 
-  [[nodiscard]] GroundMaps read(const BakedGround& ground) const {
+  /// `size_m` of the scene, if there is one.
+  [[nodiscard]] GroundMaps read(std::optional<double> size_m) const {
     GroundMaps maps;
     maps.size_m = file_.header().at("size_m");
     maps.cells = cells_;
-    if (maps.size_m != ground.size_m)
+    if (size_m && maps.size_m != *size_m)
       throw file_.fault_at("size_m", fmt::format("{}", maps.size_m),
-                           fmt::format("{}, as in scene.json", ground.size_m));
+                           fmt::format("{}, as in scene.json", *size_m));
     maps.sky_view = map<std::uint8_t>("sky_view", "|u1");
     maps.height_m = heights("height_m");
     maps.crown_top_m = heights("crown_top_m");
@@ -105,7 +107,18 @@ std::vector<SunPath> sun_paths_of_maps(const Path& folder, const Assets& assets)
 }
 
 GroundMaps read_ground_maps(const Path& folder, const BakedGround& ground, const Assets& assets) {
-  return MapsReader(folder, assets).read(ground);
+  return MapsReader(folder, assets).read(ground.size_m);
+}
+
+GroundMaps read_ground_maps(const Path& folder, const Assets& assets) {
+  return MapsReader(folder, assets).read(std::nullopt);
+}
+
+void copy_ground_maps(const Path& plan, const Path& passes) {
+  if (!has_ground_maps(plan)) return;
+  constexpr auto kReplace = std::filesystem::copy_options::overwrite_existing;
+  for (const char* name : {"ground.bin", "ground.json"})
+    std::filesystem::copy_file(plan / name, passes / name, kReplace);
 }
 
 void write_ground_maps(const GroundMaps& maps, const Path& folder, const Path& scratch) {

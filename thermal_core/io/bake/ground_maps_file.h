@@ -22,6 +22,12 @@ namespace thermal {
 [[nodiscard]] GroundMaps read_ground_maps(const Path& folder, const BakedGround& ground,
                                           const Assets& assets);
 
+/// The same for maps beside passes, where no scene is.
+[[nodiscard]] GroundMaps read_ground_maps(const Path& folder, const Assets& assets);
+
+/// Copies the maps of a plan, if it has any, to a folder of passes, whose conversion then knows them.
+void copy_ground_maps(const Path& plan, const Path& passes);
+
 /// Writes them, ground.json last; each file is complete or unchanged. `scratch` is a folder for files that are not
 /// complete, on the same disk. IoError with the file and the system's reason; TryAgainError if the disk is full.
 void write_ground_maps(const GroundMaps& maps, const Path& folder, const Path& scratch);

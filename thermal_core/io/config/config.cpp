@@ -11,6 +11,7 @@
 #include "io/assets.h"
 #include "io/config/lens.h"
 #include "io/config/sensor.h"
+#include "io/config/weather.h"
 #include "io/json/camera.h"
 #include "io/json/schema.h"
 
@@ -31,10 +32,6 @@ TermChoices read_terms(const Json& json, TermChoice otherwise) {
   return choices;
 }
 
-std::optional<double> read_optional(const Json& json, const char* key) {
-  return json.contains(key) ? std::optional<double>(json[key].get<double>()) : std::nullopt;
-}
-
 LabelParameters read_label_parameters(const Json& json) {
   return {.occluded_below_visibility = json["occluded_below_visibility"],
           .ignore_below_visibility = json["ignore_below_visibility"],
@@ -45,7 +42,8 @@ ClipConfig read_clip(const Json& json) {
   return {.id = json["id"],
           .season = season_of(json["season"].get<std::string>()),
           .frames = json["frames"],
-          .frame_rate_hz = json["frame_rate_hz"]};
+          .frame_rate_hz = json["frame_rate_hz"],
+          .start_s = json["start_s"]};
 }
 
 void check_ids(const char* list, const std::vector<std::string>& ids, std::vector<std::string>& faults) {
@@ -117,13 +115,15 @@ const ClipConfig& Config::clip(const std::string& id, const std::string& where) 
                     did_you_mean(id, known));
 }
 
+Weather weather_of(const Config& config, const ClipConfig& clip) {
+  const Weather& weather = config.weather.at(static_cast<std::size_t>(clip.season));
+  if (!config.heat_balance) return weather;
+  return at_moment(weather, clip.start_s + 0.5 * (clip.frames - 1) / clip.frame_rate_hz);
+}
+
 Weather weather_of(const Config& config, Season season) {
-  Weather weather = weather_of(season);
-  weather.air.temperature_k = config.air_temperature_k.value_or(weather.air.temperature_k);
-  weather.air.relative_humidity = config.relative_humidity.value_or(weather.air.relative_humidity);
-  weather.air.cloud_fraction = config.cloud_fraction.value_or(weather.air.cloud_fraction);
-  weather.vehicle_stopped_s = config.vehicle_stopped_s;
-  return weather;
+  const Weather& weather = config.weather.at(static_cast<std::size_t>(season));
+  return config.heat_balance ? at_moment(weather, 0) : weather;
 }
 
 void set_season(Json& document, const Json& season) {
@@ -194,10 +194,13 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   config.physical = document["sensor"]["model"] == "physical";
   config.terms = read_terms(document["terms"], config.physical ? TermChoice::automatic : TermChoice::off);
   config.netd_k = config.sensor.netd_k();
-  config.air_temperature_k = read_optional(document["weather"], "air_temperature_k");
-  config.relative_humidity = read_optional(document["weather"], "relative_humidity");
-  config.cloud_fraction = read_optional(document["weather"], "cloud_fraction");
-  config.vehicle_stopped_s = document["weather"]["vehicle_stopped_s"];
+  if (!document["scene"].contains("temperatures"))
+    document["scene"]["temperatures"] = config.physical ? "heat_balance" : "table_1";
+  config.heat_balance = document["scene"]["temperatures"] == "heat_balance";
+  check_weather(document["weather"], faults);
+  throw_faults(faults, name);
+  for (const Season season : {Season::winter, Season::summer})
+    config.weather.at(static_cast<std::size_t>(season)) = read_weather(document["weather"], season);
   for (const Json& clip : document["clips"]) config.clips.push_back(read_clip(clip));
   for (const Json& flight : document["flights"]) config.flights.push_back(flight["id"]);
   check_flown(config.flights, config.clips, faults);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +25,7 @@ struct ClipConfig {
   Season season = Season::winter;
   int frames = 0;
   double frame_rate_hz = 9;
+  double start_s = 0;  ///< scene time of the first frame
 };
 
 /// A dataset config: the parts that the thermal side uses, and the whole document with all defaults filled in.
@@ -47,10 +48,8 @@ struct Config {
   bool physical = false;  ///< every term the scene needs; otherwise the published model
   TermChoices terms;
   double netd_k = 0.04;
-  std::optional<double> air_temperature_k;  ///< overrides the season's
-  std::optional<double> relative_humidity;
-  std::optional<double> cloud_fraction;
-  double vehicle_stopped_s = 3600;
+  bool heat_balance = false;       ///< temperatures follow the weather; otherwise those of Table 1
+  std::array<Weather, 2> weather;  ///< by season; see weather_of()
   std::vector<ClipConfig> clips;
   std::vector<std::string> flights;  ///< ids of long flights, from which clips are cut
   Json resolved;                     ///< for the record; computations use the fields above
@@ -59,7 +58,11 @@ struct Config {
   [[nodiscard]] const ClipConfig& clip(const std::string& id, const std::string& where) const;
 };
 
-/// The weather of a clip: its season's, overridden by the config's.
+/// The weather of a clip in its middle: its season's, overridden by the config's. With the temperatures of Table 1, the
+/// air is the same at all times.
+[[nodiscard]] Weather weather_of(const Config& config, const ClipConfig& clip);
+
+/// The same at scene time 0.
 [[nodiscard]] Weather weather_of(const Config& config, Season season);
 
 /// Sets the season of every clip and flight of a document.

@@ -5,6 +5,8 @@
 #include "base/error.h"
 #include "base/relative_name.h"
 #include "io/assets.h"
+#include "io/config/body_heat.h"
+#include "io/config/material_heat.h"
 #include "io/config/spectra.h"
 #include "io/json/file.h"
 #include "io/json/schema.h"
@@ -17,11 +19,17 @@ AngularLaw read_law(const std::string& name) {
   return name == "soil" ? AngularLaw::soil : AngularLaw::none;
 }
 
-MaterialPart read_part(const Json& json) {
+std::optional<BodyHeat> read_heat(const Json& json, const std::string& where) {
+  if (!json.contains("body_heat")) return std::nullopt;
+  return read_body_heat(json["body_heat"], where + "body_heat");
+}
+
+MaterialPart read_part(const Json& json, const std::string& where) {
   return {.excess_factor = json["excess_factor"],
           .offset_k = json["offset_k"],
           .cooling_excess_k = json["cooling_excess_k"],
-          .cooling_time_s = json["cooling_time_s"]};
+          .cooling_time_s = json["cooling_time_s"],
+          .body_heat = read_heat(json, where + ".")};
 }
 
 Path spectrum_file(const std::string& text, const Path& material) {
@@ -34,6 +42,7 @@ Material read_material(const Json& json, const Path& file) {
   Material material;
   material.name = file.stem().string();
   material.emissivity = json["emissivity"];
+  material.measured_emissivity = material.emissivity;
   material.winter_k = json["winter_k"];
   material.summer_k = json["summer_k"];
   material.in_table_1 = json["in_table_1"];
@@ -41,7 +50,15 @@ Material read_material(const Json& json, const Path& file) {
   material.angular = read_law(json["angular"]);
   material.variation = {.stddev_k = json["variation"]["stddev_k"],
                         .correlation_length_m = json["variation"]["correlation_length_m"]};
-  for (const auto& [part, values] : json["parts"].items()) material.parts[part] = read_part(values);
+  material.body_heat = read_heat(json, file.string() + ": ");
+  for (const auto& [part, values] : json["parts"].items()) {
+    material.parts[part] = read_part(values, fmt::format("{}: parts.{}", file.string(), part));
+  }
+  if (json.contains("heat")) {
+    const Json& heat = json["heat"];
+    material.heat = read_material_heat(heat, file.string() + ": heat");
+    material.measured_emissivity = heat.value("band_emissivity", material.emissivity);
+  }
   return material;
 }
 

@@ -1,0 +1,116 @@
+#include "heat/surface/heat_of_day.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "accuracy/heat/heat_cases.h"
+#include "base/parallel.h"
+#include "heat/weather/sun_memory.h"
+#include "support/catch.h"
+
+namespace heat_of_day_test {
+
+using namespace thermal;
+
+namespace {
+
+std::map<std::string, MaterialHeat> materials() {
+  const GroundProperties dry = heat_cases::dry_soil();
+  const GroundProperties wet = heat_cases::wet_soil();
+  const GroundProperties stone = heat_cases::rock();
+  return {{"soil", GroundHeat{.states = {dry, between(dry, wet, 0.5), wet}}},
+          {"rock", GroundHeat{.states = {stone, stone, stone}, .is_body = true}},
+          {"water", SlabHeat{}}};
+}
+
+constexpr HeatSteps kCoarse = {.per_day = 72};
+
+}  // namespace
+
+TEST_CASE("At its nodes, a table has the temperatures of the columns it is made of") {
+  const DayWeather weather = heat_cases::winter();
+  const HeatOfDay day(weather, materials(), kCoarse);
+  const auto forcing = forcing_of_day(weather, kCoarse.per_day);
+  const auto all = materials();
+  const auto& soil = std::get<GroundHeat>(all.at("soil"));
+  for (const double sky_view : {0.1, 0.4, 1.0}) {
+    for (const double sunlit : {0.0, 1.0}) {
+      for (const double moisture : {0.0, 0.25, 1.0}) {
+        const SurfacePlace place = {.sky_view = sky_view, .sunlit = sunlit, .moisture = moisture};
+        const SurfaceDay column = day_of(soil, soil, place, {.forcing = forcing}, kCoarse);
+        for (const double hour : {3.0, 13.5}) {
+          CAPTURE(sky_view, sunlit, moisture, hour);
+          // Weights and sums of a few dozen doubles near 300.
+          CHECK_THAT(day.at(hour).materials.at("soil").temperature_k(place),
+                     WithinAbs(column.at_k(hour), 1e-9));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "Values beyond the nodes count as the nearest node's, and a surface is level where it is not said") {
+  const HeatOfMoment moment = HeatOfDay(heat_cases::winter(), materials(), kCoarse).at(3);
+  const MaterialMoment& soil = moment.materials.at("soil");
+  CHECK(soil.temperature_k({.sky_view = 2, .sunlit = 3, .moisture = 5}) ==
+        soil.temperature_k({.sky_view = 1, .sunlit = 1, .moisture = 1}));
+  CHECK(soil.temperature_k({.sky_view = -1, .sunlit = -1, .moisture = -1}) ==
+        soil.temperature_k({.sky_view = 0.1, .sunlit = 0, .moisture = 0}));
+  CHECK(moment.ground_moisture == moisture_after_rain(heat_cases::winter().rain_days_ago));
+}
+
+TEST_CASE("Slopes that faced the sun are warmer, and ground without sky is warmer at night") {
+  const HeatOfDay day(heat_cases::winter(), materials(), kCoarse);
+  const HeatOfMoment night = day.at(3);
+  const MaterialMoment& soil = night.materials.at("soil");
+  const double s = std::sin(20 * std::numbers::pi / 180);
+  const double c = std::cos(20 * std::numbers::pi / 180);
+  // In 19 deg S the sun of July is in the north.
+  CHECK(soil.temperature_k({.normal = {0, s, c}}) > soil.temperature_k({.normal = {0, -s, c}}));
+  CHECK(soil.temperature_k({.sky_view = 0.4}) > soil.temperature_k({}) + 2);
+  CHECK(day.rate_k_h("soil", 3) < 0);
+  CHECK(day.rate_k_h("soil", 9) > 1);
+}
+
+TEST_CASE("A table has the same bits on any number of threads") {
+  const auto made = [](int threads) {
+    return with_threads(threads, [] {
+      return HeatOfDay(heat_cases::summer(), materials(), kCoarse)
+          .at(4)
+          .materials.at("soil")
+          .temperature_k({.sky_view = 0.63, .moisture = 0.4});
+    });
+  };
+  CHECK(made(1) == made(2));
+}
+
+TEST_CASE("The sun's hours are remembered by the root of the time since, and sum up to all of it") {
+  const SunMemory memory = sun_memory(heat_cases::winter(), 20);
+  float sum = 0;
+  for (const float share : memory) sum += share;
+  CHECK_THAT(sum, WithinAbs(1, 1e-6));
+  CHECK(memory[3] == 0);
+  CHECK(memory[15] > memory[8]);  // as high a sun, seven hours later
+  CHECK(sunlit_share(memory, 0) == 0);
+  CHECK_THAT(sunlit_share(memory, 0xFFFFFF), WithinAbs(1, 1e-6));
+  DayWeather polar = heat_cases::winter();
+  polar.sun = {80, 355};
+  CHECK(sunlit_share(sun_memory(polar, 12), 0xFFFFFF) == 0);
+}
+
+TEST_CASE("A quadratic function of the normal is fitted exactly, and others by least squares") {
+  const auto fit = OrientationFit::of_bodies();
+  Orientation truth;
+  for (std::size_t i = 0; i < Orientation::kTerms; ++i)
+    truth.coefficients[i] = 0.3 * static_cast<double>(i) - 1;
+  std::vector<double> values;
+  for (const EastNorthUp& direction : fit.directions()) values.push_back(truth.at(direction));
+  const Orientation fitted = fit.fit(values);
+  for (std::size_t i = 0; i < Orientation::kTerms; ++i)
+    CHECK_THAT(fitted.coefficients[i], WithinAbs(truth.coefficients[i], 1e-10));
+  CHECK(OrientationFit::of_level().directions().size() == 1);
+  CHECK(OrientationFit::of_ground().directions().size() == 17);
+}
+
+}  // namespace heat_of_day_test

@@ -1,0 +1,112 @@
+#include <algorithm>
+
+#include "accuracy/heat_bodies/nights.h"
+#include "accuracy/physical/assets.h"
+#include "base/error.h"
+#include "heat/body/body_heat.h"
+#include "io/config/body_heat.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+
+namespace material_heat_test {
+
+using namespace thermal;
+
+namespace {
+
+const char* const kActors[] = {"crocodile", "elephant", "giraffe",    "hippopotamus", "human",
+                               "impala",    "lion",     "rhinoceros", "truck",        "zebra"};
+
+/// Temperature of the side of a part.
+double side_k(const std::string& material_name, const std::string& part, const BodyMoment& moment) {
+  const BodyHeat* heat = material(material_name).body_heat_of(part);
+  REQUIRE(heat != nullptr);
+  return part_temperature_k(*heat, moment, 0.0);
+}
+
+std::string message_for(const char* text) {
+  return message_of<ConfigError>([&] { (void)read_body_heat(Json::parse(text), "torso.heat"); });
+}
+
+}  // namespace
+
+TEST_CASE("Every part of every actor states what heats it, and nothing else does") {
+  for (const auto& [name, one] : materials().all()) {
+    CAPTURE(name);
+    const bool actor = std::ranges::find(kActors, name) != std::end(kActors);
+    CHECK((one.body_heat_of("") != nullptr) == actor);
+    for (const auto& [part, values] : one.parts) {
+      CAPTURE(part);
+      CHECK(values.body_heat.has_value());
+    }
+  }
+}
+
+TEST_CASE("People, animals and vehicles have plausible temperatures in the nights of Table 1") {
+  const BodyMoment cold = {.around = cold_night()};
+  const BodyMoment warm = {.around = warm_night()};
+  // Outer cloth at 276 to 283 K in air of 273 K is what ISO 7730 gives for calm air; this night has wind and a clear sky.
+  for (const char* part : {"torso", "arms", "legs"}) {
+    CAPTURE(part);
+    CHECK(side_k("human", part, cold) > 275.5);
+    CHECK(side_k("human", part, cold) < 283);
+    CHECK(side_k("human", part, warm) > 294);
+    CHECK(side_k("human", part, warm) < 299);
+  }
+  for (const BodyMoment& moment : {cold, warm}) {
+    CHECK(side_k("human", "face", moment) > side_k("human", "hands", moment));
+    CHECK(side_k("human", "hands", moment) > side_k("human", "torso", moment));
+    CHECK(side_k("human", "pack", moment) < moment.around.forcing.air_k);
+    CHECK(side_k("elephant", "torso", moment) > side_k("elephant", "ears", moment) + 5);
+    for (const char* animal : {"zebra", "giraffe", "impala", "lion"}) {
+      CAPTURE(animal);
+      CHECK(side_k(animal, "head", moment) > side_k(animal, "", moment));
+      CHECK(side_k(animal, "", moment) > side_k(animal, "legs", moment));
+      CHECK(side_k(animal, "legs", moment) > side_k(animal, "tail", moment));
+    }
+  }
+  CHECK_THAT(side_k("elephant", "ears", cold), WithinAbs(273, 2));
+  // Skin of elephants is 27 to 37 deg C at 22:00 in the warm season.
+  const double elephant_k = side_k("elephant", "torso", {.around = night(298, 1, 297)});
+  CHECK(elephant_k > 300);
+  CHECK(elephant_k < 310);
+}
+
+TEST_CASE("A vehicle that drives is warm, one that stands is as cold as its sheets") {
+  BodyMoment moment = {.around = warm_night()};
+  for (const char* part : {"hood", "tyres", "hubs", "chassis", "cabin", "windows"}) {
+    CAPTURE(part);
+    moment.vehicle = {.driving = true, .since_s = 7200};
+    const double driving_k = side_k("truck", part, moment);
+    moment.vehicle = {.since_s = 86400};
+    const double cold_k = side_k("truck", part, moment);
+    CHECK(driving_k > cold_k + 4);
+    CHECK(cold_k < 293);
+  }
+}
+
+TEST_CASE("Keys of other kinds and values outside of their domain are refused") {
+  CHECK(message_for(R"({"kind": "skin", "coat_m2_k_w": 0.1, "source": ""})") ==
+        "torso.heat.coat_m2_k_w = 0.1; expected no such key in heat of kind skin; its keys are albedo, "
+        "broadband_emissivity, cold_tissue_m2_k_w, core_k, kind, open_view, source, warm_tissue_m2_k_w");
+  CHECK(message_for(R"({"kind": "air", "core_k": 310, "source": ""})") ==
+        "torso.heat.core_k = 310; expected no such key in heat of kind air; its keys are kind, source");
+  CHECK(message_for(R"({"kind": "clothing", "cold_clo": [2, 1], "source": ""})") ==
+        "torso.heat.cold_clo[1] = 1 clo; expected 2 to 20 clo");
+  CHECK(message_for(R"({"kind": "sheet", "broadband_emissivity": 0, "source": ""})") ==
+        "torso.heat.broadband_emissivity = 0; expected above 0 and at most 1");
+}
+
+TEST_CASE("Each kind is read with the defaults of its kind") {
+  const auto read = [](const char* text) { return read_body_heat(Json::parse(text), "part"); };
+  CHECK(read(R"({"kind": "air", "source": ""})") == BodyHeat{});
+  CHECK(read(R"({"kind": "clothing", "source": ""})") == BodyHeat{Clothing{}});
+  CHECK(read(R"({"kind": "coat", "source": ""})") == BodyHeat{Coat{}});
+  CHECK(read(R"({"kind": "cold_blooded", "source": ""})") == BodyHeat{ColdBlooded{}});
+  CHECK(read(R"({"kind": "unheated", "source": ""})") == BodyHeat{Unheated{}});
+  CHECK(read(R"({"kind": "sheet", "source": ""})") == BodyHeat{Sheet{}});
+  CHECK(read(R"({"kind": "engine", "source": ""})") == BodyHeat{EngineWarmed{}});
+  CHECK(std::get<Coat>(read(R"({"kind": "skin", "source": ""})")).surface.diameter_m == 0);
+}
+
+}  // namespace material_heat_test

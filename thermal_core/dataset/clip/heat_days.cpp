@@ -1,0 +1,29 @@
+#include "dataset/clip/heat_days.h"
+
+#include "base/parallel.h"
+#include "imaging/scene_heat.h"
+#include "io/bake/ground_maps_file.h"
+
+namespace thermal {
+
+std::shared_ptr<const HeatOfDay> HeatDays::of(const DayWeather& weather) {
+  const std::scoped_lock lock(mutex_);
+  for (const auto& day : days_) {
+    if (day->weather() == weather) return day;
+  }
+  // A thread that waits for the columns must not take on work that asks for a day itself.
+  run_isolated(
+      [&] { days_.push_back(std::make_shared<const HeatOfDay>(weather, heat_of_materials(materials_))); });
+  return days_.back();
+}
+
+std::shared_ptr<const GroundMaps> HeatDays::ground_beside(const Path& clip_passes) {
+  const Path folder = std::filesystem::absolute(clip_passes).lexically_normal().parent_path();
+  const std::scoped_lock lock(mutex_);
+  const auto [found, is_new] = grounds_.try_emplace(folder);
+  if (is_new && assets_ && has_ground_maps(folder))
+    found->second = std::make_shared<const GroundMaps>(read_ground_maps(folder, *assets_));
+  return found->second;
+}
+
+}  // namespace thermal

@@ -1,0 +1,97 @@
+#include "imaging/ground_noise.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "base/rng.h"
+
+namespace thermal {
+namespace {
+
+constexpr double kRoughness = 0.6;
+constexpr double kFinestCells = 2;
+
+/// A standard normal number of a lattice point; cosine by a polynomial would change nothing that is seen.
+float lattice_value(std::uint32_t seed, std::uint32_t stream, std::uint32_t octave, std::int64_t x,
+                    std::int64_t y) {
+  const auto words = Philox4x32::generate(
+      {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), octave, stream}, {seed, 0x6E0153});
+  // The sum of four uniform numbers, scaled to variance 1: near enough to normal for temperatures.
+  double sum = 0;
+  for (const std::uint32_t word : words) sum += word * 0x1p-32 - 0.5;
+  return static_cast<float>(sum * std::numbers::sqrt3);
+}
+
+/// Uniform cubic B-spline weights at a fraction between two lattice points.
+std::array<float, 4> spline_weights(double t) {
+  const double u = 1 - t;
+  return {static_cast<float>(u * u * u / 6), static_cast<float>((3 * t * t * t - 6 * t * t + 4) / 6),
+          static_cast<float>((3 * u * u * u - 6 * u * u + 4) / 6), static_cast<float>(t * t * t / 6)};
+}
+
+/// Where a cell lies between lattice points.
+struct Position {
+  std::int64_t point = 0;
+  std::array<float, 4> weights{};
+};
+
+std::vector<Position> positions(std::size_t first, std::size_t count, double spacing) {
+  std::vector<Position> all(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at = (static_cast<double>(first + i) + 0.5) / spacing;
+    all[i] = {.point = static_cast<std::int64_t>(std::floor(at)),
+              .weights = spline_weights(at - std::floor(at))};
+  }
+  return all;
+}
+
+/// Variance of smooth noise on average over a cell of its lattice: (sum of squared weights, averaged)^2.
+constexpr double kSmoothVariance = 0.4794 * 0.4794;
+
+void add_octave(const GroundWindow& window, double spacing, float amplitude, std::uint32_t seed,
+                std::uint32_t stream, std::uint32_t octave, std::vector<float>& noise) {
+  const std::vector<Position> xs = positions(window.first_x, window.width, spacing);
+  const std::vector<Position> ys = positions(window.first_y, window.height, spacing);
+  const std::int64_t low_x = xs.front().point - 1;
+  const auto columns = static_cast<std::size_t>(xs.back().point + 2 - low_x) + 1;
+  parallel_for(window.height, 16, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> line(columns);
+    for (std::size_t row = begin; row < end; ++row) {
+      for (std::size_t c = 0; c < columns; ++c) {
+        line[c] = 0;
+        for (std::size_t j = 0; j < 4; ++j) {
+          line[c] +=
+              ys[row].weights[j] * lattice_value(seed, stream, octave, low_x + static_cast<std::int64_t>(c),
+                                                 ys[row].point - 1 + static_cast<std::int64_t>(j));
+        }
+      }
+      float* out = &noise[row * window.width];
+      for (std::size_t column = 0; column < window.width; ++column) {
+        const auto c = static_cast<std::size_t>(xs[column].point - 1 - low_x);
+        float sum = 0;
+        for (std::size_t i = 0; i < 4; ++i) sum += xs[column].weights[i] * line[c + i];
+        out[column] += amplitude * sum;
+      }
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<float> ground_noise(const GroundWindow& window, double length_cells, std::uint32_t seed,
+                                std::uint32_t stream) {
+  std::vector<float> noise(window.width * window.height);
+  double variance = 0;
+  double amplitude = 1;
+  for (double spacing = length_cells; spacing >= kFinestCells; spacing /= 2, amplitude *= kRoughness)
+    variance += amplitude * amplitude * kSmoothVariance;
+  std::uint32_t octave = 0;
+  amplitude = variance > 0 ? 1 / std::sqrt(variance) : 0;
+  for (double spacing = length_cells; spacing >= kFinestCells; spacing /= 2, amplitude *= kRoughness)
+    add_octave(window, spacing, static_cast<float>(amplitude), seed, stream, octave++, noise);
+  return noise;
+}
+
+}  // namespace thermal

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+
+#include "heat/surface/heat_of_day.h"
+#include "scene/ground_maps.h"
+
+namespace thermal {
+
+/// Temperatures by the heat balance: those of the weather's day, and what is known of the ground.
+struct HeatSettings {
+  std::shared_ptr<const HeatOfDay> day;
+  std::shared_ptr<const GroundMaps> ground;  ///< null: open level ground everywhere
+
+  [[nodiscard]] bool operator==(const HeatSettings&) const = default;
+};
+
+}  // namespace thermal

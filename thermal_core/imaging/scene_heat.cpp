@@ -1,0 +1,234 @@
+#include "imaging/scene_heat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "heat/body/body_heat.h"
+#include "heat/surface/heat_report.h"
+#include "heat/weather/sun_memory.h"
+#include "imaging/actor_classes.h"
+
+namespace thermal {
+namespace {
+
+const std::string kWholeBody;
+
+/// Leaves without maps are seen in the middle of their crowns.
+constexpr double kMiddleOfCrown = 0.6;
+
+/// The variation field has five octaves, each 0.6 times as strong as the one before. Those down to two cells of the maps
+/// are part of the maps; the field adds the finer ones.
+struct SplitVariation {
+  double map_stddev_k = 0;
+  double fine_stddev_k = 0;
+  double fine_length_m = 1;
+};
+
+SplitVariation split(const TemperatureVariation& variation, double cell_m) {
+  constexpr double kRoughness2 = 0.36;
+  constexpr int kOctaves = 5;
+  double all = 0;
+  double fine = 0;
+  double strength = 1;
+  double length_m = variation.correlation_length_m;
+  SplitVariation result;
+  for (int octave = 0; octave < kOctaves; ++octave, strength *= kRoughness2, length_m /= 2) {
+    all += strength;
+    if (length_m >= 2 * cell_m) continue;
+    if (fine == 0) result.fine_length_m = length_m;
+    fine += strength;
+  }
+  result.map_stddev_k = variation.stddev_k * std::sqrt(1 - fine / all);
+  result.fine_stddev_k = variation.stddev_k * std::sqrt(fine / all);
+  return result;
+}
+
+std::vector<float> sunlit_cells(const GroundMaps& maps, const DayWeather& day, double solar_h) {
+  const auto found = std::ranges::find(maps.sunlit, day.sun, &SunlitHours::path);
+  if (found == maps.sunlit.end()) return {};
+  const SunMemory memory = sun_memory(day, solar_h);
+  // Cells share few patterns of hours; low and high half of a pattern are looked up.
+  constexpr std::size_t kHalf = 12;
+  std::vector<float> low(1U << kHalf);
+  std::vector<float> high(1U << kHalf);
+  for (std::uint32_t bits = 0; bits < low.size(); ++bits) {
+    low[bits] = sunlit_share(memory, bits);
+    high[bits] = sunlit_share(memory, bits << kHalf);
+  }
+  std::vector<float> share(found->hours.size());
+  std::ranges::transform(found->hours, share.begin(), [&](std::uint32_t hours) {
+    return low[hours & 0xFFFU] + high[hours >> kHalf & 0xFFFU];
+  });
+  return share;
+}
+
+/// Finds the temperatures of surfaces, one by one.
+class Builder {
+ public:
+  Builder(const HeatSettings& settings, const Weather& weather, const SceneHeatTerms& terms)
+      : settings_(settings), weather_(weather), moment_(settings.day->at(weather.solar_h)), terms_(terms) {}
+
+  void add(const Surface& surface) {
+    HeatedSurface heated;
+    const Material& material = *surface.material;
+    set_variation(material, heated);
+    const std::string& part = terms_.parts ? surface.part : kWholeBody;
+    if (const BodyHeat* body = material.body_heat_of(part)) {
+      set_body(*body, moment_of(ActorClass::of(surface.actor_class)), heated);
+    } else if (!material.heat) {
+      heated.temperature_k = static_cast<float>(material.part_temperature_k(part, weather_));
+    } else {
+      const MaterialMoment& by_place = moment_.materials.at(material.name);
+      heated.rate_k_h = static_cast<float>(settings_.day->rate_k_h(material.name, weather_.solar_h));
+      std::visit([&](const auto& kind) { set(kind, material, by_place, heated); }, *material.heat);
+    }
+    heat_.surfaces.push_back(heated);
+  }
+
+  SceneHeat finish(const Manifest& manifest, std::uint32_t seed) {
+    if (settings_.ground == nullptr) return std::move(heat_);
+    const GroundMaps& maps = *settings_.ground;
+    heat_.ground = std::make_unique<GroundTemperatures>(
+        maps, window_of(maps, manifest), sunlit_cells(maps, settings_.day->weather(), weather_.solar_h),
+        moment_.ground_moisture, covers_, seed);
+    return std::move(heat_);
+  }
+
+ private:
+  [[nodiscard]] SurfacePlace open_place() const { return {.moisture = moment_.ground_moisture}; }
+
+  void set_variation(const Material& material, HeatedSurface& heated) const {
+    if (!terms_.variation) return;
+    heated.variation_stddev_k = static_cast<float>(material.variation.stddev_k);
+    heated.per_correlation_length = static_cast<float>(1 / material.variation.correlation_length_m);
+  }
+
+  void set(const GroundHeat& heat, const Material& material, const MaterialMoment& by_place,
+           HeatedSurface& heated) {
+    heat.is_body ? set_oriented(by_place, heated) : set_cover(material, by_place, heated);
+  }
+
+  void set(const LeavesHeat& heat, const Material& material, const MaterialMoment& by_place,
+           HeatedSurface& heated) {
+    if (heat.is_cover) return set_cover(material, by_place, heated);
+    SurfacePlace place = open_place();
+    place.sky_view = kMiddleOfCrown;
+    heated.temperature_k = static_cast<float>(by_place.temperature_k(place));
+    if (settings_.ground == nullptr) return;
+    heated.kind = HeatedSurface::Kind::crown;
+    for (std::size_t node = 0; node < HeatedSurface::kDepths; ++node) {
+      constexpr double kNodeM = 0.25;
+      // Leaves of all directions above hide exp(-density / 2 per metre) of the sky (Beer's law).
+      place.sky_view = std::exp(-0.5 * heat.leaf_density_m2_m3 * kNodeM * static_cast<double>(node));
+      heated.by_depth_k[node] = static_cast<float>(by_place.temperature_k(place));
+    }
+  }
+
+  void set(const SlabHeat& heat, const Material&, const MaterialMoment& by_place,
+           HeatedSurface& heated) const {
+    if (heat.is_body) return set_oriented(by_place, heated);
+    heated.temperature_k = static_cast<float>(by_place.temperature_k(open_place()));
+  }
+
+  [[nodiscard]] BodyMoment moment_of(const ActorClass& actor) const {
+    BodyMoment moment = {.around = {.forcing = moment_.forcing, .ground_k = moment_.ground_k}};
+    moment.activity = actor.moving ? Activity::walking : Activity::standing;
+    moment.dress = actor.dress;
+    moment.vehicle = {.driving = actor.moving, .since_s = actor.moving ? 3600 : weather_.vehicle_stopped_s};
+    if (const auto water = moment_.materials.find("water"); water != moment_.materials.end())
+      moment.refuge_k = water->second.temperature_k(open_place());
+    return moment;
+  }
+
+  void set_body(const BodyHeat& body, const BodyMoment& moment, HeatedSurface& heated) const {
+    static const OrientationFit kFit = OrientationFit::of_bodies();
+    std::vector<double> values_k;
+    for (const EastNorthUp& direction : kFit.directions())
+      values_k.push_back(part_temperature_k(body, moment, direction));
+    set_oriented(kFit.fit(values_k), heated);
+    heated.temperature_k = static_cast<float>(part_temperature_k(body, moment, 0.0));
+  }
+
+  void set_oriented(const MaterialMoment& by_place, HeatedSurface& heated) const {
+    set_oriented(by_place.orientation(open_place()), heated);
+  }
+
+  void set_oriented(const Orientation& orientation, HeatedSurface& heated) const {
+    heated.temperature_k = static_cast<float>(orientation.at({0, 0, 1}));
+    if (!terms_.normals) return;
+    heated.kind = HeatedSurface::Kind::oriented;
+    std::ranges::transform(orientation.coefficients, heated.by_normal.begin(),
+                           [](double value) { return static_cast<float>(value); });
+  }
+
+  void set_cover(const Material& material, const MaterialMoment& by_place, HeatedSurface& heated) {
+    set_oriented(by_place, heated);
+    heated.steepest = 0.77F;
+    if (settings_.ground == nullptr) return;
+    heated.kind = HeatedSurface::Kind::cover;
+    heated.cover = static_cast<std::int32_t>(covers_.size());
+    const GroundMaps& maps = *settings_.ground;
+    const SplitVariation variation = split(terms_.variation ? material.variation : TemperatureVariation{},
+                                           maps.size_m / static_cast<double>(maps.cells));
+    covers_.push_back({.heat = &by_place,
+                       .stddev_k = variation.map_stddev_k,
+                       .correlation_length_m = material.variation.correlation_length_m});
+    heated.variation_stddev_k = static_cast<float>(variation.fine_stddev_k);
+    heated.per_correlation_length = static_cast<float>(1 / variation.fine_length_m);
+  }
+
+  const HeatSettings& settings_;
+  const Weather& weather_;
+  HeatOfMoment moment_;
+  SceneHeatTerms terms_;
+  std::vector<GroundTemperatures::Cover> covers_;
+  SceneHeat heat_;
+};
+
+}  // namespace
+
+SceneHeat heat_of_scene(const std::vector<Surface>& surfaces, const HeatSettings& settings,
+                        const Weather& weather, const Manifest& manifest, const SceneHeatTerms& terms,
+                        std::uint32_t seed) {
+  Builder builder(settings, weather, terms);
+  for (const Surface& surface : surfaces) builder.add(surface);
+  return builder.finish(manifest, seed);
+}
+
+std::map<std::string, std::map<std::string, double>> open_temperatures_k(
+    const std::vector<const Material*>& materials, const MaterialLibrary& library, const Weather& weather) {
+  std::map<std::string, MaterialHeat> heat;
+  for (const auto& [name, one] : heat_of_materials(library)) {
+    const bool wanted =
+        std::ranges::any_of(materials, [&](const Material* material) { return material->name == name; });
+    if (wanted || std::holds_alternative<GroundHeat>(one)) heat.emplace(name, one);
+  }
+  std::map<std::string, std::map<std::string, double>> temperatures;
+  for (const HeatCurve& curve : open_curves(weather.day, heat))
+    temperatures[curve.material][""] = curve.day.at_k(weather.solar_h);
+  const auto soil = temperatures.find("soil");
+  BodyMoment moment = {
+      .around = {.forcing = forcing_at(weather.day, weather.solar_h),
+                 .ground_k = soil == temperatures.end() ? weather.air.temperature_k : soil->second.at("")}};
+  moment.vehicle.since_s = weather.vehicle_stopped_s;
+  for (const Material* material : materials) {
+    if (const BodyHeat* whole = material->body_heat_of(""))
+      temperatures[material->name][""] = part_temperature_k(*whole, moment, 0.0);
+    for (const auto& [part, values] : material->parts) {
+      if (const BodyHeat* body = material->body_heat_of(part))
+        temperatures[material->name][part] = part_temperature_k(*body, moment, 0.0);
+    }
+  }
+  return temperatures;
+}
+
+std::map<std::string, MaterialHeat> heat_of_materials(const MaterialLibrary& materials) {
+  std::map<std::string, MaterialHeat> heat;
+  for (const auto& [name, material] : materials.all()) {
+    if (material.heat) heat.emplace(name, *material.heat);
+  }
+  return heat;
+}
+
+}  // namespace thermal
