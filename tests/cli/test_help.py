@@ -59,6 +59,7 @@ OPTIONS = {
         "--width-px",
     },
     "budget": {"--set", "--json"},
+    "heat": {"--set", "--plot", "--json"},
     "radiance": {
         "--temperature-k",
         "--radiance",

@@ -1,0 +1,192 @@
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "base/parallel.h"
+#include "cli/command.h"
+#include "cli/heat_plot.h"
+#include "cli/output.h"
+#include "heat/surface/heat_report.h"
+#include "imaging/scene_heat.h"
+#include "io/assets.h"
+#include "io/config/materials.h"
+#include "io/system/text_file.h"
+
+namespace veldt {
+namespace {
+
+constexpr int kHours[] = {0, 3, 6, 9, 12, 15, 18, 21};
+
+struct HeatArguments {
+  std::string config;
+  std::vector<std::string> settings;
+  std::string plot;
+  bool json = false;
+};
+
+/// A season of a config: its weather, when it is flown, and its surfaces.
+struct SeasonHeat {
+  thermal::Season season = thermal::Season::winter;
+  thermal::Weather weather;
+  std::vector<std::pair<double, double>> flown_h;
+  thermal::HeatReport report;
+};
+
+std::string clock_of(double hour) {
+  const double of_day = hour - 24 * std::floor(hour / 24);
+  const auto minutes = static_cast<int>(std::lround(60 * of_day)) % (24 * 60);
+  return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
+}
+
+std::string day_of(const thermal::SunPath& sun) {
+  constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  constexpr const char* kMonths[] = {"January", "February", "March",     "April",   "May",      "June",
+                                     "July",    "August",   "September", "October", "November", "December"};
+  int day = std::min(sun.day_of_year, 365);
+  int month = 0;
+  while (day > kDays[month]) day -= kDays[month++];
+  return fmt::format("{} {}", day, kMonths[month]);
+}
+
+std::string title_of(const SeasonHeat& heat) {
+  const thermal::DayWeather& day = heat.weather.day;
+  const double latitude_deg = day.sun.latitude_deg;
+  return fmt::format(
+      "{}: {}, {:g} deg {}, vapour {:.1f} hPa, wind {:g} to {:g} m/s, cloud {:g}, rain {:g} days ago",
+      thermal::season_name(heat.season), day_of(day.sun), std::abs(latitude_deg),
+      latitude_deg < 0 ? "S" : "N", day.vapour_hpa, day.night_wind_m_s, day.day_wind_m_s, day.cloud_fraction,
+      day.rain_days_ago);
+}
+
+/// When each season is flown, in hours of local solar time.
+std::map<thermal::Season, std::vector<std::pair<double, double>>> flown_hours(const thermal::Config& config) {
+  std::map<thermal::Season, std::vector<std::pair<double, double>>> flown;
+  const auto add = [&](thermal::Season season, double start_s, double duration_s) {
+    const double start_h = config.weather.at(static_cast<std::size_t>(season)).solar_h + start_s / 3600;
+    flown[season].emplace_back(start_h, start_h + duration_s / 3600);
+  };
+  for (const thermal::ClipConfig& clip : config.clips)
+    add(clip.season, clip.start_s, clip.frames / clip.frame_rate_hz);
+  for (const thermal::Json& flight : config.resolved["flights"]) {
+    add(thermal::season_of(flight["season"].get<std::string>()), flight.value("start_s", 0.0),
+        flight.value("duration_s", 0.0));
+  }
+  return flown;
+}
+
+std::vector<SeasonHeat> heat_of(const thermal::Config& config, const thermal::MaterialLibrary& materials) {
+  std::vector<SeasonHeat> seasons;
+  for (auto& [season, flown_h] : flown_hours(config)) {
+    const thermal::Weather& weather = config.weather.at(static_cast<std::size_t>(season));
+    seasons.push_back({.season = season,
+                       .weather = weather,
+                       .flown_h = std::move(flown_h),
+                       .report = thermal::heat_report(weather.day, thermal::heat_of_materials(materials),
+                                                      weather.solar_h)});
+  }
+  return seasons;
+}
+
+void print_curves(const SeasonHeat& heat) {
+  print("{:<16}", "K above air");
+  for (const int hour : kHours) print("{:>8}", clock_of(hour));
+  print("\n{:<16}", "air [K]");
+  for (const int hour : kHours) print("{:>8.1f}", thermal::air_temperature_k(heat.weather.day, hour));
+  for (const thermal::HeatCurve& curve : heat.report.curves) {
+    print("\n{:<16}", curve.material);
+    for (const int hour : kHours)
+      print("{:>+8.1f}", curve.day.at_k(hour) - thermal::air_temperature_k(heat.weather.day, hour));
+  }
+  print("\n");
+}
+
+void print_inputs(const SeasonHeat& heat) {
+  print("\nat {}, what each input is worth [K]\n{:<16}", clock_of(heat.weather.solar_h), "");
+  for (const thermal::InputWorth& input : heat.report.inputs) print("{:>19}", input.input);
+  print("{:>16}\n", "uncertainty");
+  for (const thermal::HeatCurve& curve : heat.report.curves) {
+    print("{:<16}", curve.material);
+    for (const thermal::InputWorth& input : heat.report.inputs)
+      print("{:>+19.2f}", input.change_k.at(curve.material));
+    print("{:>16.2f}\n", heat.report.uncertainty_k.at(curve.material));
+  }
+}
+
+void print_crossovers(const SeasonHeat& heat) {
+  print("\ncrossovers with soil\n");
+  for (const thermal::Crossover& crossover : heat.report.crossovers) {
+    if (crossover.warmer != "soil" && crossover.colder != "soil") continue;
+    print("{}  {} becomes warmer than {}\n", clock_of(crossover.solar_h), crossover.warmer, crossover.colder);
+  }
+}
+
+thermal::Json to_json(const SeasonHeat& heat) {
+  thermal::Json curves;
+  for (const thermal::HeatCurve& curve : heat.report.curves) {
+    thermal::Json hourly = thermal::Json::array();
+    for (int hour = 0; hour < 24; ++hour) hourly.push_back(curve.day.at_k(hour));
+    curves[curve.material] = {{"hourly_k", std::move(hourly)},
+                              {"closure_w_m2", curve.day.closure_w_m2},
+                              {"uncertainty_k", heat.report.uncertainty_k.at(curve.material)}};
+  }
+  thermal::Json crossovers = thermal::Json::array();
+  for (const thermal::Crossover& crossover : heat.report.crossovers) {
+    crossovers.push_back(
+        {{"solar_h", crossover.solar_h}, {"warmer", crossover.warmer}, {"colder", crossover.colder}});
+  }
+  thermal::Json inputs;
+  for (const thermal::InputWorth& input : heat.report.inputs) inputs[input.input] = input.change_k;
+  thermal::Json air = thermal::Json::array();
+  for (int hour = 0; hour < 24; ++hour) air.push_back(thermal::air_temperature_k(heat.weather.day, hour));
+  return {{"season", thermal::season_name(heat.season)},
+          {"solar_h", heat.weather.solar_h},
+          {"air_hourly_k", std::move(air)},
+          {"materials", std::move(curves)},
+          {"crossovers", std::move(crossovers)},
+          {"inputs_k", std::move(inputs)}};
+}
+
+int run_heat(const HeatArguments& options, const CommonOptions& common) {
+  const thermal::Assets assets = thermal::Assets::find();
+  const thermal::Config config = load_config(options.config, options.settings, assets);
+  const thermal::MaterialLibrary materials = thermal::read_materials(assets);
+  const std::vector<SeasonHeat> seasons =
+      thermal::with_threads(common.threads, [&] { return heat_of(config, materials); });
+  if (!options.plot.empty()) {
+    std::vector<PlottedDay> days;
+    for (const SeasonHeat& heat : seasons)
+      days.push_back({title_of(heat), &heat.weather.day, &heat.report, heat.flown_h});
+    thermal::write_file_atomically(options.plot, heat_svg(days));
+  }
+  if (options.json) {
+    thermal::Json all = thermal::Json::array();
+    for (const SeasonHeat& heat : seasons) all.push_back(to_json(heat));
+    print_json({{"days", std::move(all)}});
+    return kDone;
+  }
+  for (const SeasonHeat& heat : seasons) {
+    if (&heat != &seasons.front()) print("\n");
+    print("{}\n", title_of(heat));
+    print_curves(heat);
+    print_inputs(heat);
+    print_crossovers(heat);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_heat(CLI::App& app, Session& session) {
+  CLI::App* command = add_command(
+      app, session, "heat", "Temperatures of every kind of surface over the day, and what they depend on");
+  auto options = std::make_shared<HeatArguments>();
+  command->add_option("config", options->config, "Config of a dataset, JSON")->required();
+  add_settings(command, options->settings);
+  command->add_option("--plot", options->plot, "Write the day as a chart, SVG");
+  command->add_flag("--json", options->json, "Print JSON");
+  command->callback([options, &session] {
+    session.run = [options, &session] { return run_heat(*options, session.common); };
+  });
+}
+
+}  // namespace veldt

@@ -1,0 +1,78 @@
+"""`heat` prints how the temperatures of all surfaces go over the day."""
+
+import xml.etree.ElementTree
+
+import pytest
+
+from configs import tiny
+
+
+def _physical(config):
+    config["sensor"] = {"model": "physical", "netd_mk": 40}
+
+
+def _faulty(veldt, weather):
+    def change(config):
+        _physical(config)
+        config["weather"] = weather
+
+    veldt.write("config.json", tiny(change))
+    return veldt("heat", "config.json")
+
+
+def test_json_has_a_day_for_each_season_of_the_config(veldt):
+    veldt.write("config.json", tiny(_physical))
+    done = veldt("heat", "config.json", "--json")
+    assert (done.code, done.err) == (0, "")
+    winter, summer = done.json()["days"]
+    assert (winter["season"], summer["season"]) == ("winter", "summer")
+    soil, water = (winter["materials"][name]["hourly_k"] for name in ("soil", "water"))
+    air = winter["air_hourly_k"]
+    assert len(soil) == len(air) == 24
+    assert air[3] == pytest.approx(273, abs=0.01)
+    # On a clear dry night soil is 4 to 6 K below the air and water 10 to 12 K above; at noon it is the other way round.
+    assert -6 < soil[3] - air[3] < -4
+    assert 10 < water[3] - air[3] < 12
+    assert soil[12] > air[12] > water[12]
+    pairs = {(line["warmer"], line["colder"]) for line in winter["crossovers"]}
+    assert {("soil", "water"), ("water", "soil")} <= pairs
+
+
+def test_the_table_has_a_line_per_material_and_the_plot_is_an_svg(veldt):
+    veldt.write("config.json", tiny(_physical))
+    done = veldt("heat", "config.json", "--plot", "day.svg")
+    assert (done.code, done.err) == (0, "")
+    assert done.out.startswith("winter: 9 July, 19 deg S, ")
+    assert "\nsummer: 15 January, 19 deg S, " in done.out
+    assert [line for line in done.out.splitlines() if line.startswith("soil  ")]
+    root = xml.etree.ElementTree.parse(veldt.folder / "day.svg").getroot()
+    assert root.tag.endswith("svg")
+
+
+@pytest.mark.parametrize(
+    "weather, message",
+    [
+        (
+            {"air_min_k": 290, "air_max_k": 280},
+            "weather.air_min_k = 290 K; expected at most weather.air_max_k, 280 K",
+        ),
+        ({"latitude_deg": 95}, "weather.latitude_deg = 95 deg; expected at least -90 and at most 90 deg"),
+        ({"date": "2026-02-30"}, 'weather.date = "2026-02-30"; expected a day of the calendar'),
+        (
+            {"dew_point_k": 280, "time": "03:00", "air_min_k": 270, "air_max_k": 290},
+            "weather.dew_point_k = 280 K; expected at most that of the air at weather.time, ",
+        ),
+        (
+            {"air_temperature_k": 280, "air_min_k": 270},
+            "weather.air_temperature_k = 280 K; expected none beside the air of the whole day",
+        ),
+        (
+            {"relative_humidity": 0.5, "dew_point_k": 260},
+            "weather.dew_point_k = 260 K; expected none beside weather.relative_humidity",
+        ),
+    ],
+)
+def test_impossible_weather_is_refused_by_name(veldt, weather, message):
+    done = _faulty(veldt, weather)
+    assert done.code == 2
+    assert message in done.err
