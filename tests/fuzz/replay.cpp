@@ -18,20 +18,14 @@ using Path = std::filesystem::path;
 
 constexpr std::chrono::seconds kLongest(5);
 
-const std::map<std::string_view, void (*)(Bytes)> kTargets = {{"baked_scene", fuzz::baked_scene},
-                                                              {"birdsai", fuzz::birdsai},
-                                                              {"calibration", fuzz::calibration},
-                                                              {"coco", fuzz::coco},
-                                                              {"config", fuzz::config},
-                                                              {"dataset", fuzz::dataset},
-                                                              {"detections", fuzz::detections},
-                                                              {"exr_passes", fuzz::exr_passes},
-                                                              {"ground_maps", fuzz::ground_maps},
-                                                              {"index_picture", fuzz::index_picture},
-                                                              {"manifest", fuzz::manifest},
-                                                              {"scene_plan", fuzz::scene_plan},
-                                                              {"tracks", fuzz::tracks},
-                                                              {"variants", fuzz::variants}};
+const std::map<std::string_view, void (*)(Bytes)> kTargets = {
+    {"baked_scene", fuzz::baked_scene}, {"birdsai", fuzz::birdsai},
+    {"calibration", fuzz::calibration}, {"coco", fuzz::coco},
+    {"config", fuzz::config},           {"dataset", fuzz::dataset},
+    {"detections", fuzz::detections},   {"exr_passes", fuzz::exr_passes},
+    {"ground_maps", fuzz::ground_maps}, {"index_picture", fuzz::index_picture},
+    {"manifest", fuzz::manifest},       {"scene_plan", fuzz::scene_plan},
+    {"tracks", fuzz::tracks},           {"variants", fuzz::variants}};
 
 /// Files of these folders, and these files, in an order that is the same everywhere. A folder may be missing.
 std::vector<Path> inputs_of(int count, char** paths) {

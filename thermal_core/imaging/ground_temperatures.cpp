@@ -99,8 +99,10 @@ VELDT_CLONES void sample_all(const std::int32_t* __restrict texels, const LevelT
   const float per_cell = t.per_m[0];
   for (std::size_t i = 0; i < count; ++i) {
     const std::int32_t cover = cover_of[surface[i]];
-    const bool usable = (cover >= 0) & (std::abs(x[i]) < kFarthest) & (std::abs(y[i]) < kFarthest) &
-                        (footprint[i] >= 0) & (footprint[i] < kFarthest);  // false for NaN
+    const float far_x = std::abs(x[i]);
+    const float far_y = std::abs(y[i]);
+    const bool usable = (cover >= 0) & (far_x < kFarthest) & (far_y < kFarthest) & (footprint[i] >= 0) &
+                        (footprint[i] < kFarthest);  // false for NaN
     const float cells = usable ? footprint[i] * per_cell : 0.0F;
     // From 1.5 cells on, the next level is nearer: its number is the exponent of cells / 0.75, at least 0.
     const int exponent =

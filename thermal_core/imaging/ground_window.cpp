@@ -54,6 +54,8 @@ GroundWindow window_of(const GroundMaps& maps, const Manifest& manifest) {
   const GroundWindow all = {.width = maps.cells, .height = maps.cells};
   if (manifest.frames.empty() || maps.height_m.empty()) return all;
   const auto [lowest, highest] = std::ranges::minmax_element(maps.height_m);
+  const auto lowest_m = static_cast<double>(*lowest);
+  const auto highest_m = static_cast<double>(*highest);
   const CameraIntrinsics& camera = manifest.camera;
   // Half a picture more on each side: lenses that distort, and overscan, see beyond a pinhole's picture.
   const double reach_x = (1.0 * camera.width_px + manifest.overscan_px) / camera.fx_px;
@@ -65,7 +67,7 @@ GroundWindow window_of(const GroundMaps& maps, const Manifest& manifest) {
     if (!frame.camera_to_world) return all;
     for (const double x : {-share, share}) {
       for (const double y : {-share, share}) {
-        if (!add_ray(*frame.camera_to_world, x * reach_x, y * reach_y, *lowest, *highest, seen)) return all;
+        if (!add_ray(*frame.camera_to_world, x * reach_x, y * reach_y, lowest_m, highest_m, seen)) return all;
       }
     }
   }

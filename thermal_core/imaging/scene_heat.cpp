@@ -199,10 +199,11 @@ SceneHeat heat_of_scene(const std::vector<Surface>& surfaces, const HeatSettings
 std::map<std::string, std::map<std::string, double>> open_temperatures_k(
     const std::vector<const Material*>& materials, const MaterialLibrary& library, const Weather& weather) {
   std::map<std::string, MaterialHeat> heat;
-  for (const auto& [name, one] : heat_of_materials(library)) {
+  for (const auto& entry : heat_of_materials(library)) {
+    const std::string& name = entry.first;
     const bool wanted =
         std::ranges::any_of(materials, [&](const Material* material) { return material->name == name; });
-    if (wanted || std::holds_alternative<GroundHeat>(one)) heat.emplace(name, one);
+    if (wanted || std::holds_alternative<GroundHeat>(entry.second)) heat.insert(entry);
   }
   std::map<std::string, std::map<std::string, double>> temperatures;
   for (const HeatCurve& curve : open_curves(weather.day, heat))

@@ -178,7 +178,9 @@ HeatOfDay::HeatOfDay(const DayWeather& weather, const std::map<std::string, Mate
     SurfaceDay* day;
   };
   std::vector<Column> all;
-  for (const auto& [name, heat] : materials) {
+  for (const auto& entry : materials) {
+    const std::string& name = entry.first;
+    const MaterialHeat& heat = entry.second;
     const auto* leaves = std::get_if<LeavesHeat>(&heat);
     const GroundHeat& below =
         leaves == nullptr ? soil

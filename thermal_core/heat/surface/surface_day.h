@@ -12,8 +12,8 @@ namespace thermal {
 
 /// How finely a day is computed. ACCURACY.md has the error of these values beside their speed.
 struct HeatSteps {
-  int per_day = 288;  ///< steps of a day, 24 to 86400
-  Layers layers = {};      ///< of ground
+  int per_day = 288;   ///< steps of a day, 24 to 86400
+  Layers layers = {};  ///< of ground
   /// A day is settled if no surface temperature differs more from the day before, and no more heat stays in the body than
   /// such a difference gives off (4 W m^-2 K^-1).
   double settled_k = 0.0005;

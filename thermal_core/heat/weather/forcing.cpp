@@ -16,8 +16,8 @@ double hour_of_day(double solar_h) { return solar_h - 24 * std::floor(solar_h / 
 /// Hours since sunrise, and the length of the day and of its afternoon lag.
 double by_day(const DayWeather& weather, double since_sunrise_h, double day_h) {
   constexpr double kLagH = 1.86;
-  return weather.air_min_k +
-         (weather.air_max_k - weather.air_min_k) * std::sin(kHalfTurn * since_sunrise_h / (day_h + 2 * kLagH));
+  return weather.air_min_k + (weather.air_max_k - weather.air_min_k) *
+                                 std::sin(kHalfTurn * since_sunrise_h / (day_h + 2 * kLagH));
 }
 
 double by_night(const DayWeather& weather, double since_sunset_h, double day_h) {
