@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "base/version.h"
+#include "cli/named_document.h"
 #include "cli/output.h"
 #include "cli/stop_signal.h"
 #include "io/assets.h"
@@ -164,8 +165,8 @@ std::vector<std::string> with_engine(std::vector<std::string> settings, const st
 
 thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
                             const thermal::Assets& assets) {
+  thermal::Json document = read_named_document(file);
   try {
-    thermal::Json document = thermal::read_json(file);
     for (const std::string& setting : settings) thermal::apply_setting(document, setting);
     thermal::root_files(document, std::filesystem::absolute(file).parent_path());
     return thermal::resolve_config(std::move(document), file.string(), assets);

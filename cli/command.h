@@ -67,7 +67,8 @@ void add_engine(CLI::App* command, std::string& engine);
 [[nodiscard]] std::vector<std::string> with_engine(std::vector<std::string> settings,
                                                    const std::string& engine);
 
-/// Reads a config, applies `settings` and checks it. Any fault of the file is a ConfigError.
+/// Reads a config, applies `settings` and checks it. Any fault of the file is a ConfigError; IoError if the machine
+/// fails to read it.
 [[nodiscard]] thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
                                           const thermal::Assets& assets);
 

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "base/error.h"
 #include "cli/command.h"
+#include "cli/named_document.h"
 #include "cli/output.h"
 #include "cli/progress_bar.h"
 #include "cli/read_limits.h"
@@ -29,11 +29,7 @@ struct ConvertArguments {
 
 std::optional<thermal::Json> read_document(const std::string& file) {
   if (file.empty()) return std::nullopt;
-  try {
-    return thermal::read_json(file);
-  } catch (const thermal::IoError& error) {
-    throw thermal::ConfigError(error.what());
-  }
+  return read_named_document(file);
 }
 
 const char* in_words(thermal::ConvertStep::Action action) {

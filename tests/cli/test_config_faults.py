@@ -5,7 +5,7 @@ import json
 import pytest
 
 from configs import tiny
-from program import ROOT
+from program import ROOT, check_fault
 
 SCHEMA = json.loads((ROOT / "configs" / "schema" / "config.schema.json").read_text(encoding="utf-8"))
 KEYS = ", ".join(SCHEMA["properties"])
@@ -193,6 +193,12 @@ def test_missing_config(veldt):
         assert (done.code, done.out) == (2, "")
         assert done.err == "veldt: cannot read config.json: No such file or directory\n"
     assert not list(veldt.folder.iterdir())
+
+
+def test_a_config_on_a_failing_disk_is_no_wrong_usage(veldt):
+    """The kernel reads a process's memory as it reads a file, but for what is not there."""
+    for command in (["validate", "/proc/self/mem"], ["generate", "/proc/self/mem", "--out", "out"]):
+        check_fault(veldt(*command), 1, "cannot read /proc/self/mem: Input/output error")
 
 
 def test_a_good_config_is_summed_up(veldt):
