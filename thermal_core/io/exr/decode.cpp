@@ -75,7 +75,7 @@ bool ExrInflater::reserve(std::size_t size) noexcept {
 }
 
 bool ExrInflater::inflate(std::span<const std::byte> packed, std::span<std::byte> bytes) noexcept {
-  if (bytes.empty() || !reserve(bytes.size())) return false;
+  if (bytes.empty()) return false;
   std::size_t written = 0;
   const libdeflate_result result = libdeflate_zlib_decompress(
       decompressor_.get(), packed.data(), packed.size(), halves_.data(), halves_.size(), &written);
@@ -118,6 +118,7 @@ class Context {
   }
 
   [[noreturn]] void fail(exr_result_t result) const {
+    if (result == EXR_ERR_OUT_OF_MEMORY) throw std::bad_alloc();
     throw IoError(said_.empty() ? exr_get_default_error_message(result) : said_);
   }
 
@@ -218,6 +219,7 @@ class PartDecoder {
     if (pipeline->unpacked_buffer == pipeline->packed_buffer) return EXR_ERR_SUCCESS;
     if (pipeline->unpacked_alloc_size < pipeline->chunk.unpacked_size) return EXR_ERR_CORRUPT_CHUNK;
     auto& inflater = *static_cast<ExrInflater*>(pipeline->decoding_user_data);
+    if (!inflater.reserve(pipeline->chunk.unpacked_size)) return EXR_ERR_OUT_OF_MEMORY;
     const bool good = inflater.inflate(
         {static_cast<const std::byte*>(pipeline->packed_buffer), pipeline->chunk.packed_size},
         {static_cast<std::byte*>(pipeline->unpacked_buffer), pipeline->chunk.unpacked_size});

@@ -21,14 +21,15 @@ class ExrInflater {
   ExrInflater(const ExrInflater&) = delete;
   ExrInflater& operator=(const ExrInflater&) = delete;
 
-  /// Fills `bytes`; false if the chunk does not hold exactly as many, or out of memory.
+  /// Takes memory for chunks of this size; false if there is none.
+  [[nodiscard]] bool reserve(std::size_t size) noexcept;
+
+  /// Fills `bytes`, for which there must be memory; false if the chunk does not hold exactly as many.
   /// Source: Technical Introduction to OpenEXR, ZIP: differences of neighbouring bytes, first all even bytes, then
   /// all odd ones, deflated.
   [[nodiscard]] bool inflate(std::span<const std::byte> packed, std::span<std::byte> bytes) noexcept;
 
  private:
-  [[nodiscard]] bool reserve(std::size_t size) noexcept;
-
   struct Free {
     void operator()(libdeflate_decompressor* decompressor) const noexcept;
   };

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <map>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,8 @@ class ExrFile {
   ExrHeader header_;
 };
 
-/// The result of `work` on an open file; errors, ours and the library's, name the file.
+/// The result of `work` on an open file; errors, ours and the library's, name the file. Running out of memory is none of
+/// the file's.
 template <typename Work>
 auto with_exr_file(const Path& file, const ExrLimits& limits, const Work& work) {
   try {
@@ -44,6 +46,8 @@ auto with_exr_file(const Path& file, const ExrLimits& limits, const Work& work) 
   } catch (const DataError& error) {
     throw DataError(fmt::format("{}: {}", file.string(), error.what()));
   } catch (const Cancelled&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     throw IoError(fmt::format("cannot read {}: {}", file.string(), error.what()));

@@ -3,10 +3,14 @@
 #include <bit>
 #include <cstring>
 #include <fstream>
+#include <new>
 
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+#include <ImfTiledOutputFile.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "io/exr/file.h"
@@ -160,5 +164,56 @@ TEST_CASE("Channels keep all bits of floats, from several parts and when request
   }
   CHECK(planes[3].at(0, 1) == 16777216);  // floats have 24 bits
 }
+
+// AddressSanitizer ends a program that has no memory.
+#ifndef __SANITIZE_ADDRESS__
+namespace {
+
+/// While it lives, this process may take so much memory more.
+class MemoryLimit {
+ public:
+  explicit MemoryLimit(std::size_t bytes) {
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    ::getrlimit(RLIMIT_AS, &before_);
+    const rlimit limit = {.rlim_cur = pages * static_cast<std::size_t>(::getpagesize()) + bytes,
+                          .rlim_max = before_.rlim_max};
+    ::setrlimit(RLIMIT_AS, &limit);
+  }
+  ~MemoryLimit() { ::setrlimit(RLIMIT_AS, &before_); }
+  MemoryLimit(const MemoryLimit&) = delete;
+  MemoryLimit& operator=(const MemoryLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+}  // namespace
+
+TEST_CASE("Running out of memory is no fault of a file: for its plane, the library's chunk, or ours") {
+  constexpr int kSide = 3000;  // 36 MB in one chunk: more than the allocator keeps
+  constexpr std::size_t kMega = 1'000'000;
+  const TemporaryFolder folder;
+  const Path file = folder / "f.exr";
+  {
+    Imf::Header header(kSide, kSide);
+    header.channels().insert("R", Imf::Channel(Imf::FLOAT));
+    header.setTileDescription(Imf::TileDescription(kSide, kSide));
+    const std::vector<float> pixels(std::size_t{kSide} * kSide, 0.5F);
+    Imf::FrameBuffer buffer;
+    buffer.insert("R", Imf::Slice::Make(Imf::FLOAT, pixels.data(), header.dataWindow(), sizeof(float)));
+    Imf::TiledOutputFile out(file.c_str(), header);
+    out.setFrameBuffer(buffer);
+    out.writeTile(0, 0);
+  }
+  const ExrHeader header = read_exr_header(file);
+  const auto read = [&] { (void)read_exr_channel(file, header, header.channels[0]); };
+  for (const std::size_t megabytes : {20U, 56U, 92U}) {
+    const MemoryLimit limit(megabytes * kMega);
+    CHECK_THROWS_AS(read(), std::bad_alloc);
+  }
+  CHECK_NOTHROW(read());
+}
+#endif
 
 }  // namespace exr_faults_test
