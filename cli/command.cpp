@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -107,6 +109,10 @@ int print_parsed(const CLI::App& app, const CLI::ParseError& error) {
   return code == 0 ? kDone : kBadUsage;
 }
 
+bool is_full(const std::error_code& error) {
+  return error == std::errc::no_space_on_device || error == std::error_code(EDQUOT, std::generic_category());
+}
+
 /// Runs a command with its threads and turns exceptions into messages and exit codes.
 int run_guarded(const Session& session) {
   const int threads = session.common.threads;
@@ -121,6 +127,10 @@ int run_guarded(const Session& session) {
   } catch (const thermal::Cancelled& error) {
     print_fault(std::string(error.what()) + "; run the same command again to resume");
     return 128 + stop_signal();
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string place = error.path1().string();
+    print_fault(place.empty() ? error.what() : place + ": " + error.code().message());
+    return is_full(error.code()) ? kTryAgain : kFailed;
   } catch (const std::bad_alloc&) {
     throw;  // main() reports it without allocating
   } catch (const std::exception& error) {

@@ -18,11 +18,17 @@ using Sums = std::map<std::string, std::string>;  ///< SHA-256 by name, relative
 
 constexpr const char* kName = "checksums.json";
 
+/// IoError, or TryAgainError if the disk is full.
 std::vector<std::string> names_in(const Path& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file() && !entry.is_symlink())
-      names.push_back(entry.path().lexically_relative(folder).string());
+  std::error_code error;
+  std::filesystem::recursive_directory_iterator entry(folder, error);
+  for (const std::filesystem::recursive_directory_iterator end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->is_regular_file() && !entry->is_symlink())
+      names.push_back(entry->path().lexically_relative(folder).string());
+  }
+  if (error) fail_at("read", folder, error.value());
   std::erase(names, kName);
   return names;
 }

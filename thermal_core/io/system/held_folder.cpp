@@ -79,8 +79,8 @@ HeldFolder::~HeldFolder() {
 
 std::optional<LeftOver> sweep_unless_held(const Path& folder) {
   const int descriptor = open_folder(folder);
-  if (descriptor < 0 && errno == EACCES) return LeftOver{.place = folder, .reason = std::strerror(EACCES)};
-  if (descriptor < 0) return std::nullopt;
+  if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR || errno == ELOOP)) return std::nullopt;
+  if (descriptor < 0) return LeftOver{.place = folder, .reason = std::strerror(errno)};
   std::optional<LeftOver> left_over;
   if (!is_held(descriptor, false) && is_at(descriptor, folder)) left_over = sweep_folder(folder);
   ::close(descriptor);
