@@ -73,15 +73,24 @@ def test_a_killed_worker_is_noticed_at_once_and_the_others_are_ended(tmp_path):
     assert not any(_is_running(int(path.name)) for path in tmp_path.iterdir())
 
 
+def _wait_until_one_ended() -> None:
+    """Wait until a process that this one has started ends, and leave it to be waited for."""
+    os.waitid(os.P_ALL, 0, os.WEXITED | os.WNOWAIT)
+
+
 def test_a_worker_that_is_killed_while_it_sends_a_result_is_noticed():
+    first_is_here, told = os.pipe()
+
     def act(value: int) -> bytes:
         if value == 1:
+            os.read(first_is_here, 1)
             threading.Timer(0.2, _end_here).start()
         return bytes(10_000_000)  # more than the connection holds
 
     results = in_order(act, range(2), 2)
     next(results)
-    time.sleep(0.4)
+    os.write(told, b"1")
+    _wait_until_one_ended()
     with pytest.raises(ProcessLost, match=KILLED):
         list(results)
 
@@ -192,7 +201,7 @@ def test_started_work_that_is_killed_while_it_sends_its_result_is_noticed():
         return bytes(10_000_000)
 
     wait = Cores(2).start(act)
-    time.sleep(0.4)
+    _wait_until_one_ended()
     with pytest.raises(ProcessLost, match=KILLED):
         wait()
 

@@ -230,6 +230,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::add(std::string_view text) {
+  if (text.empty()) return;  // an empty view may point nowhere, which fwrite() does not allow
   sum_.add(text);
   if (std::fwrite(text.data(), 1, text.size(), stream_.get()) != text.size()) fail_at("write", file_, errno);
 }
