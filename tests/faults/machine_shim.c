@@ -4,7 +4,11 @@
 //   FAULT_MALLOC   the allocation of this number fails, and the next ones, FAULT_COUNT in all
 //   FAULT_LEAST    allocations of fewer bytes are not counted and do not fail
 //   FAULT_CLOCK    days by which the clock jumps forth and back
+// Where memory fails, a crash is logged with the library that caused it.
 #define _GNU_SOURCE
+#include <dlfcn.h>
+#include <execinfo.h>
+#include <signal.h>
 #include <stdatomic.h>
 #include <sys/time.h>
 #include <time.h>
@@ -14,8 +18,38 @@
 static long malloc_at, count, least_bytes, clock_days;
 static atomic_long allocations, clock_reads;
 
+enum { MOST_FRAMES = 32 };
+
+static const char* file_name(const char* path) {
+  const char* slash = strrchr(path, '/');
+  return slash != NULL ? slash + 1 : path;
+}
+
+/// Logs the innermost file on the stack that is neither the C library nor this one. The default action follows.
+static void log_crash(int signal_number) {
+  (void)signal_number;
+  void* frames[MOST_FRAMES];
+  const int depth = backtrace(frames, MOST_FRAMES);
+  Dl_info own, here;
+  if (dladdr((void*)log_crash, &own) == 0) return;
+  for (int i = 0; i < depth; i++) {
+    if (dladdr(frames[i], &here) == 0 || here.dli_fbase == own.dli_fbase) continue;
+    if (strncmp(file_name(here.dli_fname), "libc.so", 7) == 0) continue;
+    note("crash", file_name(here.dli_fname));
+    return;
+  }
+}
+
+static void watch_for_crashes(void) {
+  void* frame;
+  backtrace(&frame, 1);  // loads what it needs, which allocates
+  const struct sigaction action = {.sa_handler = log_crash, .sa_flags = (int)SA_RESETHAND};
+  sigaction(SIGSEGV, &action, NULL);
+}
+
 __attribute__((constructor)) static void begin(void) {
   if (!is_meant()) return;
+  if (getenv("FAULT_MALLOC") != NULL) watch_for_crashes();
   least_bytes = number("FAULT_LEAST", 1);
   count = number("FAULT_COUNT", 1);
   malloc_at = number("FAULT_MALLOC", 0);

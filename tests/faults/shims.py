@@ -60,7 +60,14 @@ TALLY = Orders(values={"TALLY": 1})
 
 def injected(log: Path) -> int:
     """Faults that really happened."""
-    return len(log.read_text(encoding="utf-8", errors="replace").splitlines()) if log.exists() else 0
+    lines = log.read_text(encoding="utf-8", errors="replace").splitlines() if log.exists() else []
+    return sum(line.split(" ")[2] != "crash" for line in lines)
+
+
+def crashed_in(log: Path) -> str:
+    """The file whose code crashed, of the programs that run without memory: a library, or a program; "" if none did."""
+    lines = log.read_text(encoding="utf-8", errors="replace").splitlines() if log.exists() else []
+    return next((line.split(" ")[3] for line in lines if line.split(" ")[2] == "crash"), "")
 
 
 def tally(log: Path) -> dict[tuple[str, str], int]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from datasets import flip_bit
 from processes import adopt_orphans
 from runs import Ended
 from states import Scenes
-from shims import Shims, can_compile
+from shims import Orders, Shims, can_compile, crashed_in, injected
 from trial import Kind, Outcome, Trial
 
 pytestmark = pytest.mark.skipif(not can_compile(), reason="no C compiler")
@@ -145,3 +146,21 @@ def test_the_table_counts_by_kind():
     assert rows[1] == ["kill", "2", "1", "1", "2", "0"]
     assert rows[2] == ["no", "memory", "1", "1", "7", "0", "1"]
     assert rows[3] == ["all", "3", "2", "8", "2", "1"]
+
+
+@pytest.mark.parametrize("name", ["program", "liboops.so"])
+def test_a_crash_is_logged_with_the_file_that_caused_it(tmp_path, name):
+    library, program = tmp_path / "liboops.so", tmp_path / "program"
+    source = "void *volatile nothing; long oops(void) { return *(long *)nothing; }"
+    main = (
+        "int main(int count, char **words) { (void)words; return count > 1 ? (int)oops() : *(int *)nothing; }"
+    )
+    for text, flags in (
+        (source, ["-shared", "-fPIC", "-o", library]),
+        ("extern void *volatile nothing; long oops(void); " + main, ["-o", program, library]),
+    ):
+        subprocess.run(["cc", "-x", "c", "-", "-x", "none", *flags], input=text, text=True, check=True)
+    shims, log = Shims.compiled(tmp_path), tmp_path / "log.txt"
+    env = shims.preloaded(Orders("machine_shim", {"MALLOC": 1_000_000}), tmp_path, log)
+    ended = subprocess.run([program, *(["twice"] if name != "program" else [])], env=env, check=False)
+    assert (ended.returncode, crashed_in(log), injected(log)) == (-signal.SIGSEGV, name, 0)
