@@ -6,6 +6,7 @@
 
 #include "heat/body/body_heat.h"
 #include "heat/surface/heat_report.h"
+#include "heat/surface/leaf_layer.h"
 #include "heat/weather/sun_memory.h"
 #include "imaging/actor_classes.h"
 
@@ -119,8 +120,7 @@ class Builder {
     heated.kind = HeatedSurface::Kind::crown;
     for (std::size_t node = 0; node < HeatedSurface::kDepths; ++node) {
       constexpr double kNodeM = 0.25;
-      // Leaves of all directions above hide exp(-density / 2 per metre) of the sky (Beer's law).
-      place.sky_view = std::exp(-0.5 * heat.leaf_density_m2_m3 * kNodeM * static_cast<double>(node));
+      place.sky_view = diffuse_through_leaves(heat.leaf_density_m2_m3 * kNodeM * static_cast<double>(node));
       heated.by_depth_k[node] = static_cast<float>(by_place.temperature_k(place));
     }
   }

@@ -1,6 +1,7 @@
 #include "heat/surface/conduction.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstdint>
@@ -146,6 +147,73 @@ TEST_CASE("It is the exact solution of the layers and steps, to rounding") {
   }
 }
 
+namespace {
+
+/// What of a wave comes back from a body of even layers: steady waves in layers of one temperature are those of a line
+/// of resistances and capacities, whose impedance and propagation are known exactly.
+struct Line {
+  Complex impedance_k_m2_w;  ///< of a deep body
+  Complex propagation;       ///< over the whole body
+
+  Line(const GroundProperties& properties, double layer_m, int layers, Complex s)
+      : impedance_k_m2_w(std::sqrt(1.0 + layer_m * layer_m * s / (4 * diffusivity(properties))) /
+                         (inertia(properties) * std::sqrt(s))),
+        propagation(2.0 * layers * std::asinh(layer_m / 2 * std::sqrt(s / diffusivity(properties)))) {}
+
+  [[nodiscard]] Complex closed() const { return impedance_k_m2_w / std::tanh(propagation); }
+  [[nodiscard]] Complex above(Complex below) const {
+    const Complex turn = std::tanh(propagation);
+    return impedance_k_m2_w * (below + impedance_k_m2_w * turn) / (impedance_k_m2_w + below * turn);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Ground of two layers has their analytic impedance, for a thin or thick top, on rock or on peat") {
+  // (k, rho c) of the subsoil; the top is dry sand.
+  const std::array<std::array<double, 2>, 3> subsoils = {{{2.6, 2.1e6}, {0.06, 0.6e6}, {0.3, 1.28e6}}};
+  const double layer_m = damping_m(ground(1)) / 20;
+  for (const auto& below : subsoils) {
+    for (const int top_layers : {1, 5, 20, 60}) {
+      const int layers = top_layers + 40;
+      CAPTURE(below[0], top_layers);
+      GroundProperties properties = ground(layers * layer_m);
+      properties.subsoil = Subsoil{top_layers * layer_m, below[0], below[1]};
+      const Wave wave = periodic(properties, even(layer_m), 288, 200);
+      const auto surface_k = [&](Complex s, double split) {
+        const GroundProperties lower = ground(1, below[0], below[1]);
+        const auto times = [split](int count) { return static_cast<int>(count * split); };
+        const Line bottom(lower, layer_m / split, times(40), s);
+        return kFluxWM2 * Line(ground(1), layer_m / split, times(top_layers), s).above(bottom.closed());
+      };
+      const Complex s = (1.0 - std::exp(-kI * (2 * kPi / 288))) * (288 / kDayS);
+      // The start has died away: the slowest mode of the peat takes 1.6 days.
+      CHECK(std::abs(wave.surface_k / surface_k(s, 1) - 1.0) < 1e-9);
+      // Layers a thousandth as thick, and no steps: the layers' and the steps' own errors are left, y^2 / 4 and x / 4
+      // for a half space with y a layer's share of the damping depth, at most twice that where waves of both meet.
+      const double least_damping_m = std::min(damping_m(ground(1)), damping_m(ground(1, below[0], below[1])));
+      const double y = layer_m / least_damping_m;
+      CHECK(std::abs(wave.surface_k / surface_k(kI * kOmega, 1000) - 1.0) <
+            2 * (y * y / 4 + 2 * kPi / 288 / 4));
+    }
+  }
+}
+
+TEST_CASE("One layer ends where the subsoil begins") {
+  GroundProperties properties = ground(1.4);
+  properties.subsoil = Subsoil{.depth_m = 0.101};
+  double depth_m = 0;
+  bool found = false;
+  const std::vector<double> layers_m = Layers{}.thicknesses_m(properties);
+  for (std::size_t i = 0; i < layers_m.size(); ++i) {
+    depth_m += layers_m[i];
+    found = found || std::abs(depth_m - 0.101) < 1e-12;
+    if (i > 0) CHECK(layers_m[i] < 1.81 * layers_m[i - 1]);  // a rest of half a layer joined the one above
+  }
+  CHECK(found);
+  CHECK_THAT(depth_m, WithinAbs(1.4, 1e-12));
+}
+
 TEST_CASE("A wave of a day is 1/e at the damping depth, and a radian late") {
   const HalfSpace deep = half_space();
   const int per_day = 2880;
@@ -229,7 +297,7 @@ TEST_CASE("The heat that goes in is the heat that layers store, to rounding") {
     for (const double step_s : {1.0, 300.0, 3600.0}) {
       CAPTURE(layers.first_m, layers.ratio, step_s);
       const GroundProperties properties = ground(1.4);
-      const std::vector<double> thick_m = layers.thicknesses_m(properties.thickness_m);
+      const std::vector<double> thick_m = layers.thicknesses_m(properties);
       Conduction body(properties, layers, step_s, 285);
       const auto stored_j_m2 = [&] {
         double sum = 0;
@@ -368,7 +436,7 @@ TEST_CASE(
   for (const double thickness_m : {0.001, 0.004, 0.0059, 0.0061, 0.03, 1.4, 10.0}) {
     for (const Layers& layers : {Layers{}, even(0.01), even(1), Layers{.first_m = 1e-4, .ratio = 3}}) {
       CAPTURE(thickness_m, layers.first_m, layers.ratio);
-      const std::vector<double> thick_m = layers.thicknesses_m(thickness_m);
+      const std::vector<double> thick_m = layers.thicknesses_m(ground(thickness_m));
       double sum_m = 0;
       for (std::size_t i = 0; i < thick_m.size(); ++i) {
         sum_m += thick_m[i];

@@ -66,7 +66,7 @@ inline thermal::CanopyProperties dry_crown() {
   return {.leaf_area_index = 0.9,
           .albedo = 0.18,
           .leaf_width_m = 0.006,
-          .height_m = 0.4,
+          .height_m = 5,
           .leaf_conductance_m_s = 1.0 / 250,
           .heat_capacity_j_m2_k = 1200};
 }
@@ -74,7 +74,7 @@ inline thermal::CanopyProperties green_crown() {
   return {.leaf_area_index = 2,
           .albedo = 0.16,
           .leaf_width_m = 0.006,
-          .height_m = 0.4,
+          .height_m = 5,
           .leaf_conductance_m_s = 1.0 / 100,
           .heat_capacity_j_m2_k = 1200};
 }

@@ -7,20 +7,19 @@
 
 namespace thermal {
 
-/// Layers that a body is divided into, from its surface down; each is `ratio` times as thick as the one above, and the
-/// last ends at the body's thickness.
+/// Layers that a body is divided into, from its surface down; each is `ratio` times as thick as the one above. One ends
+/// where the subsoil begins, the last at the body's thickness.
 struct Layers {
   double first_m = 0.004;  ///< 1e-4 to 1
   double ratio = 1.2;      ///< 1 to 3
 
   /// Their thicknesses [m]; at least one.
-  [[nodiscard]] std::vector<double> thicknesses_m(double thickness_m) const;
+  [[nodiscard]] std::vector<double> thicknesses_m(const GroundProperties& properties) const;
 
   [[nodiscard]] bool operator==(const Layers&) const = default;
 };
 
-/// Heat conduction in a body of even properties, from its surface down to where no heat passes: layers of one
-/// temperature each, implicit in time (backward Euler), so it is stable for steps of any length and its errors are of
+/// Heat conduction in a body, from its surface down to where no heat passes: layers of one temperature each, implicit in time (backward Euler), so it is stable for steps of any length and its errors are of
 /// first order in the step, of second in the layers.
 class Conduction {
  public:

@@ -17,6 +17,11 @@ void GroundProperties::validate(const std::string& where) const {
   require_range(where + ".conductivity_w_m_k", conductivity_w_m_k, "W/(m K)", 0.01, 100);
   require_range(where + ".heat_capacity_j_m3_k", heat_capacity_j_m3_k, "J/(m^3 K)", 1e3, 1e7);
   require_range(where + ".thickness_m", thickness_m, "m", 0.001, 10);
+  if (!subsoil) return;
+  const std::string below = where + ".subsoil";
+  require_range(below + ".depth_m", subsoil->depth_m, "m", 0.001, thickness_m);
+  require_range(below + ".conductivity_w_m_k", subsoil->conductivity_w_m_k, "W/(m K)", 0.01, 100);
+  require_range(below + ".heat_capacity_j_m3_k", subsoil->heat_capacity_j_m3_k, "J/(m^3 K)", 1e3, 1e7);
 }
 
 GroundProperties between(const GroundProperties& a, const GroundProperties& b, double share) noexcept {
@@ -27,7 +32,8 @@ GroundProperties between(const GroundProperties& a, const GroundProperties& b, d
                       .evaporation = mix(a.surface.evaporation, b.surface.evaporation)},
           .conductivity_w_m_k = mix(a.conductivity_w_m_k, b.conductivity_w_m_k),
           .heat_capacity_j_m3_k = mix(a.heat_capacity_j_m3_k, b.heat_capacity_j_m3_k),
-          .thickness_m = mix(a.thickness_m, b.thickness_m)};
+          .thickness_m = mix(a.thickness_m, b.thickness_m),
+          .subsoil = a.subsoil};
 }
 
 void SlabProperties::validate(const std::string& where) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace thermal {
@@ -17,12 +18,22 @@ struct SurfaceProperties {
   [[nodiscard]] bool operator==(const SurfaceProperties&) const = default;
 };
 
+/// What lies below the top layer of ground: rock under soil, soil under a road.
+struct Subsoil {
+  double depth_m = 0.2;                  ///< where it begins, 0.001 to below the ground's thickness
+  double conductivity_w_m_k = 0.3;       ///< 0.01 to 100
+  double heat_capacity_j_m3_k = 1.28e6;  ///< 1e3 to 1e7
+
+  [[nodiscard]] bool operator==(const Subsoil&) const = default;
+};
+
 /// Ground, or another body that the heat of a day passes into: rock, a trunk.
 struct GroundProperties {
   SurfaceProperties surface;
   double conductivity_w_m_k = 0.3;       ///< 0.01 to 100
   double heat_capacity_j_m3_k = 1.28e6;  ///< 1e3 to 1e7
   double thickness_m = 1.4;              ///< 0.001 to 10; no heat passes deeper
+  std::optional<Subsoil> subsoil = {};   ///< from its depth on, instead of the properties above
 
   /// ConfigError with `where` if a value is outside its domain.
   void validate(const std::string& where) const;
@@ -61,7 +72,7 @@ struct CanopyProperties {
   [[nodiscard]] bool operator==(const CanopyProperties&) const = default;
 };
 
-/// Properties between two others: 0 is `a`, 1 is `b`.
+/// Properties between two others: 0 is `a`, 1 is `b`. Both have the same subsoil.
 [[nodiscard]] GroundProperties between(const GroundProperties& a, const GroundProperties& b,
                                        double share) noexcept;
 [[nodiscard]] CanopyProperties between(const CanopyProperties& a, const CanopyProperties& b,

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "heat/surface/exchange.h"
-#include "heat/weather/humid_air.h"
+#include "heat/surface/leaf_layer.h"
 
 namespace thermal {
 namespace {
@@ -124,44 +123,6 @@ SurfaceDay empty_day(const DayAround& around) {
   return {.surface_k = std::vector<double>(around.forcing.size(), mean_air_k(around))};
 }
 
-/// Heat that a layer of leaves gets [W m^-2 of ground], and how it changes with its temperature.
-SurfaceFlux leaf_flux(const CanopyProperties& canopy, const GroundExchange& exchange, const Forcing& forcing,
-                      const Incoming& incoming, double ground_k, double leaves_k) {
-  constexpr double kLowM = 0.1;
-  constexpr double kLightWM2 = 200;  // in which stomata are wide open (estimate, after Jarvis 1976)
-  const double heat_of_air = heat_of_air_j_m3_k(forcing);
-  const double wind = std::max(forcing.wind_m_s, 0.3);
-  const bool low = canopy.height_m < kLowM;
-  // Wind among low leaves is half of that above, among high ones nearly all of it.
-  const double own =
-      leaf_resistance_s_m(canopy.leaf_width_m, wind * (low ? 0.5 : 0.9)) / canopy.leaf_area_index;
-  const double above = low ? heat_of_air / exchange(forcing, leaves_k) : 12 / wind;
-  const double to_air = heat_of_air / (own + above);
-  const double saturated_hpa = saturation_hpa(leaves_k);
-  const bool dew = saturated_hpa < forcing.vapour_hpa;
-  const double conductance = canopy.leaf_conductance_m_s * std::min(1.0, forcing.global_w_m2 / kLightWM2);
-  double per_hpa = 0;
-  if (dew || conductance > 0) {
-    const double stomata = dew ? 0 : 1 / (conductance * canopy.leaf_area_index);
-    per_hpa = heat_of_air * kVaporisationJKg / kHeatOfAirJKgK * specific_humidity(1, forcing.pressure_hpa) /
-              (own + above + stomata);
-  }
-  const double cover = canopy.cover();
-  const double emitted = 2 * canopy.emissivity * kStefanBoltzmann * leaves_k * leaves_k * leaves_k;
-  const double arriving = (1 - canopy.albedo) * incoming.sun_w_m2 +
-                          canopy.emissivity * (incoming.longwave_w_m2 + blackbody_w_m2(ground_k));
-  return {.flux_w_m2 = cover * (arriving - emitted * leaves_k) - to_air * (leaves_k - forcing.air_k) -
-                       per_hpa * (saturated_hpa - forcing.vapour_hpa),
-          .slope_w_m2_k =
-              -4 * cover * emitted - to_air - per_hpa * saturation_slope_hpa_k(leaves_k, saturated_hpa)};
-}
-
-Incoming below_leaves(const CanopyProperties& canopy, const Incoming& above, double leaves_k) {
-  const double cover = canopy.cover();
-  return {.sun_w_m2 = (1 - cover) * above.sun_w_m2,
-          .longwave_w_m2 = (1 - cover) * above.longwave_w_m2 + cover * blackbody_w_m2(leaves_k)};
-}
-
 }  // namespace
 
 double SurfaceDay::at_k(double solar_h) const noexcept {
@@ -220,7 +181,7 @@ CanopyDay day_of_canopy(const CanopyProperties& canopy, const GroundProperties& 
   CanopyDay day = {.leaves = empty_day(around), .ground = empty_day(around)};
   SurfaceDay* days[] = {&day.leaves, &day.ground};
   const double stored = canopy.heat_capacity_j_m2_k * canopy.leaf_area_index / step_s(around);
-  const GroundExchange exchange(std::min(0.13 * canopy.height_m + 0.01, 0.5));
+  const LeafLayer layer(canopy);
   double leaves_k = mean_air_k(around);
   settle(
       steps, days,
@@ -230,12 +191,12 @@ CanopyDay day_of_canopy(const CanopyProperties& canopy, const GroundProperties& 
         body.prepare();
         const double old_k = leaves_k;
         const auto left_over = [&](double leaf_k) {
-          const double ground_k = body.balance(forcing, below_leaves(canopy, above, leaf_k));
-          const SurfaceFlux flux = leaf_flux(canopy, exchange, forcing, above, ground_k, leaf_k);
+          const double ground_k = body.balance(forcing, layer.below(above, leaf_k));
+          const SurfaceFlux flux = layer.flux(forcing, above, ground_k, leaf_k);
           return SurfaceFlux{flux.flux_w_m2 - stored * (leaf_k - old_k), flux.slope_w_m2_k - stored};
         };
         leaves_k = balanced_temperature_k(left_over, old_k);
-        body.balance(forcing, below_leaves(canopy, above, leaves_k));
+        body.balance(forcing, layer.below(above, leaves_k));
         day.leaves.surface_k[i] = leaves_k;
         day.ground.surface_k[i] = body.surface_k();
         return body.finish() + stored * (leaves_k - old_k);

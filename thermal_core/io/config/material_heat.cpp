@@ -1,6 +1,7 @@
 #include "io/config/material_heat.h"
 
 #include <array>
+#include <optional>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -18,11 +19,20 @@ SurfaceProperties read_surface(const Json& json, std::size_t state) {
           .evaporation = at_state(json["evaporation"], state)};
 }
 
+std::optional<Subsoil> read_subsoil(const Json& ground) {
+  if (!ground.contains("subsoil")) return std::nullopt;
+  const Json& json = ground["subsoil"];
+  return Subsoil{.depth_m = json["depth_m"],
+                 .conductivity_w_m_k = json["conductivity_w_m_k"],
+                 .heat_capacity_j_m3_k = json["heat_capacity_j_m3_k"]};
+}
+
 GroundProperties read_ground(const Json& json, std::size_t state) {
   return {.surface = read_surface(json, state),
           .conductivity_w_m_k = at_state(json["conductivity_w_m_k"], state),
           .heat_capacity_j_m3_k = at_state(json["heat_capacity_j_m3_k"], state),
-          .thickness_m = json["thickness_m"]};
+          .thickness_m = json["thickness_m"],
+          .subsoil = read_subsoil(json)};
 }
 
 CanopyProperties read_canopy(const Json& json, std::size_t state) {
