@@ -6,6 +6,7 @@
 #include "base/version.h"
 #include "bench/convert_suite.h"
 #include "bench/engines_suite.h"
+#include "bench/heat_suite.h"
 #include "bench/labels_suite.h"
 #include "bench/radiance_suite.h"
 #include "bench/render_suite.h"
@@ -142,7 +143,7 @@ int show(const std::string& suite, const std::vector<Row>& rows, bool json) {
 }
 
 std::vector<std::string> suite_names() {
-  std::vector<std::string> names = {"radiance", "sensor", "labels", "convert"};
+  std::vector<std::string> names = {"radiance", "heat", "sensor", "labels", "convert"};
 #if VELDT_BALANCE
   names.emplace_back("balance");
 #endif
@@ -189,6 +190,8 @@ int run_bench(const BenchArguments& options, const CommonOptions& common) {
   if (options.suite == "render") return show(options.suite, measure_rendering(options, quiet), options.json);
   if (options.suite == "engines") return show(options.suite, measure_engines(options, common), options.json);
   const thermal::MaterialLibrary materials = thermal::read_materials(thermal::Assets::find());
+  if (options.suite == "heat")
+    return show(options.suite, thermal::run_heat_suite(materials, teller(quiet)), options.json);
   if (options.suite == "convert")
     return show(options.suite, thermal::run_convert_suite(materials, teller(quiet)), options.json);
   return show(options.suite, thermal::run_radiance_suite(materials), options.json);

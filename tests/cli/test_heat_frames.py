@@ -1,0 +1,107 @@
+"""Frames with temperatures of the heat balance: the same however they are made, and changing with the time of day."""
+
+import numpy as np
+import pytest
+
+from configs import tiny
+from datasets import content_of
+from pictures import read_grey
+from program import Veldt
+
+_NO_PROGRAMS = {"PATH": "/nonexistent"}
+
+
+def _config(**weather) -> dict:
+    """Ground with crowns, water and actors, at sunrise."""
+    config = tiny()
+    config["scene"]["terrain"]["relief_m"] = 12
+    config["sensor"] = {"model": "physical", "noise": {"amount": 0}}
+    config["render"] = {"engine": "embree"}
+    config["weather"] = {"date": "2026-07-09", "time": "06:50", "wind_m_s": 1} | weather
+    for clip, start_s in zip(config["clips"], (0, 600)):
+        clip.update(season="winter", start_s=start_s, frames=4)
+    return config
+
+
+def _make(veldt: Veldt, *arguments) -> None:
+    done = veldt("generate", *arguments, "--quiet", env=_NO_PROGRAMS)
+    assert (done.code, done.out, done.err) == (0, "", "")
+
+
+@pytest.fixture(scope="module", name="place")
+def _place(tmp_path_factory) -> Veldt:
+    veldt = Veldt(tmp_path_factory.mktemp("heat"))
+    veldt.write("config.json", _config())
+    assert veldt("plan", "config.json", "--out", "plan", "--quiet").code == 0
+    _make(veldt, "--plan", "plan", "--out", "whole", "--threads", 1)
+    return veldt
+
+
+def test_threads_change_nothing(place, tmp_path):
+    _make(place, "--plan", "plan", "--out", tmp_path / "out", "--threads", 3)
+    assert content_of(tmp_path / "out") == content_of(place.folder / "whole")
+
+
+def test_shards_merge_to_the_undivided_dataset(place, tmp_path):
+    for shard in range(2):
+        _make(place, "--plan", "plan", "--shard", f"{shard}/2", "--out", tmp_path / str(shard))
+    sources = [tmp_path / "0", tmp_path / "1"]
+    assert place("merge", *sources, "--out", tmp_path / "out", "--progress", "none").code == 0
+    assert content_of(tmp_path / "out") == content_of(place.folder / "whole")
+
+
+def test_a_resumed_run_is_the_undisturbed_one(place, tmp_path):
+    _make(place, "--plan", "plan", "--out", tmp_path / "out", "--clips", "side")
+    _make(place, "--plan", "plan", "--out", tmp_path / "out")
+    assert content_of(tmp_path / "out") == content_of(place.folder / "whole")
+
+
+def test_kept_passes_are_converted_to_the_same_frames(place, tmp_path):
+    made = Veldt(tmp_path)
+    _make(made, place.folder / "config.json", "--out", "kept", "--keep-passes")
+    done = made(
+        "convert", "kept/passes", "--config", place.folder / "config.json", "--out", "again", "--quiet"
+    )
+    assert (done.code, done.err) == (0, "")
+    assert made.pixels("again") == made.pixels("kept") == place.pixels("whole")
+
+
+def test_passes_with_half_of_their_maps_are_refused(place, tmp_path):
+    made = Veldt(tmp_path)
+    _make(made, place.folder / "config.json", "--out", "kept", "--keep-passes")
+    maps = next((tmp_path / "kept" / "passes").rglob("ground.bin"))
+    maps.write_bytes(maps.read_bytes()[:100])
+    done = made(
+        "convert", "kept/passes", "--config", place.folder / "config.json", "--out", "again", "--quiet"
+    )
+    assert done.code == 3 and "ground.bin" in done.err
+
+
+def _kelvin(veldt: Veldt, name: str, **weather) -> np.ndarray:
+    """Temperatures of the first frame of a clip that looks down."""
+    frames = weather.pop("frames", 1)
+    config = _config(**weather)
+    config["clips"] = [config["clips"][0] | {"frames": frames, "frame_rate_hz": 0.1}]
+    veldt.write(f"{name}.json", config)
+    _make(veldt, f"{name}.json", "--out", name)
+    frame = read_grey(veldt.folder / name / "clips/down/ir16/000000.png").astype(float)
+    return veldt.read(f"{name}/dataset.json")["kelvin_per_count"] * frame
+
+
+def test_temperatures_move_within_a_long_clip(veldt):
+    """Frames of a clip of ten minutes have the temperatures of their own time: as clips of one frame then."""
+    long = _kelvin(veldt, "long", frames=61)
+    then = _kelvin(veldt, "then")
+    middle = _kelvin(veldt, "middle", time="06:55")
+    moved_k = np.abs(middle - then).mean()
+    assert moved_k > 0.1
+    assert np.abs(long - then).mean() < 0.3 * moved_k
+
+
+def test_water_is_bright_at_night_and_dark_at_noon(veldt):
+    """Water is in the south-west corner of the picture from above; the rest is ground and crowns."""
+    night, noon = (_kelvin(veldt, name, time=time) for name, time in (("night", "03:00"), ("noon", "12:30")))
+    assert night.max() - night.min() > 3 and noon.max() - noon.min() > 8
+    # What is warm at night is the coolest at noon: water, and ground below crowns.
+    warmest = night > np.quantile(night, 0.95)
+    assert noon[warmest].mean() < noon[~warmest].mean()
