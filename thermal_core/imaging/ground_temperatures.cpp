@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "base/clones.h"
 #include "base/parallel.h"
@@ -77,7 +78,13 @@ std::vector<float> halved(const std::vector<float>& fine, std::size_t width, std
   return coarse;
 }
 
-/// What sample_all() reads of the levels: one entry each, in arrays.
+/// What the loops below read, the same for all pixels.
+struct Window {
+  const std::int32_t* texels;
+  float origin_x, origin_y, base_k;
+};
+
+/// Levels, one entry each, in arrays.
 struct LevelTables {
   const std::int32_t* first;
   const std::int32_t* width;
@@ -86,48 +93,113 @@ struct LevelTables {
   int last;
 };
 
-/// Branch-free, so that it vectorises.
-VELDT_CLONES void sample_all(const std::int32_t* __restrict texels, const LevelTables& tables,
-                             const std::uint16_t* __restrict surface, const std::int32_t* __restrict cover_of,
-                             const float* __restrict x, const float* __restrict y,
-                             const float* __restrict footprint, float origin_x, float origin_y, float base_k,
-                             float* __restrict out, std::size_t count) noexcept {
+/// Whether a pixel has a place on the ground. False for NaN.
+VELDT_INLINE bool has_place(std::int32_t cover, float x, float y, float footprint) noexcept {
+  constexpr float kFarthest = 1e6F;
+  return (cover >= 0) & (std::abs(x) < kFarthest) & (std::abs(y) < kFarthest) & (footprint >= 0) &
+         (footprint < kFarthest);
+}
+
+/// From 1.5 cells on, the next level is nearer: its number is the exponent of cells / 0.75, at least 0.
+VELDT_INLINE int level_of(float cells, int last) noexcept {
   constexpr int kBias = 127;  // of a float's exponent
   constexpr int kMantissaBits = 23;
-  constexpr float kFarthest = 1e6F;
+  const int exponent =
+      static_cast<int>(std::bit_cast<std::uint32_t>(cells * (1 / 0.75F)) >> kMantissaBits) - kBias;
+  const int positive = exponent > 0 ? exponent : 0;
+  return positive < last ? positive : last;
+}
+
+VELDT_INLINE float blend(const Window& window, std::int32_t first, std::int32_t width, std::int32_t height,
+                         float per_m, float x, float y, std::int32_t cover) noexcept {
+  const float columns = static_cast<float>(width - 1);
+  const float rows = static_cast<float>(height - 1);
+  const float u = (x - window.origin_x) * per_m - 0.5F;
+  const float v = (y - window.origin_y) * per_m - 0.5F;
+  const float positive_u = u > 0 ? u : 0.0F;
+  const float positive_v = v > 0 ? v : 0.0F;
+  const float inside_u = positive_u < columns ? positive_u : columns;
+  const float inside_v = positive_v < rows ? positive_v : rows;
+  const auto column = static_cast<std::int32_t>(inside_u);
+  const auto row = static_cast<std::int32_t>(inside_v);
+  const std::int32_t above_row = row + (row + 1 < height ? 1 : 0);
+  const std::int32_t start = first + cover * width * height + column;
+  const std::int32_t below = window.texels[start + row * width];
+  const std::int32_t above = window.texels[start + above_row * width];
+  const float p = inside_u - static_cast<float>(column);
+  const float q = inside_v - static_cast<float>(row);
+  const float low = left_of(below) + p * (right_of(below) - left_of(below));
+  const float high = left_of(above) + p * (right_of(above) - left_of(above));
+  return window.base_k + kStepK * (low + q * (high - low));
+}
+
+/// By bits, so that a compiler computes both values and the loop vectorises.
+VELDT_INLINE float chosen(bool first, float a, float b) noexcept {
+  const std::uint32_t mask = 0U - static_cast<std::uint32_t>(first);
+  return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) |
+                              (std::bit_cast<std::uint32_t>(b) & ~mask));
+}
+
+/// Smallest and largest footprint of the pixels that have a place; the largest is negative if none has. Compared as
+/// whole numbers, which positive floats are ordered as, so that the loop vectorises.
+struct FootprintRange {
+  std::int32_t smallest = std::numeric_limits<std::int32_t>::max();
+  std::int32_t largest = -1;
+};
+VELDT_CLONES void find_footprints(const std::uint16_t* __restrict surface,
+                                  const std::int32_t* __restrict cover_of, const float* __restrict x,
+                                  const float* __restrict y, const float* __restrict footprint,
+                                  std::size_t count, FootprintRange& range) noexcept {
+  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+  std::int32_t smallest = range.smallest;
+  std::int32_t largest = range.largest;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool usable = has_place(cover_of[surface[i]], x[i], y[i], footprint[i]);
+    const std::int32_t bits = std::bit_cast<std::int32_t>(footprint[i]);
+    const std::int32_t known = bits | (static_cast<std::int32_t>(usable) - 1);  // -1 if it is not usable
+    const std::int32_t low = known & kMost;
+    smallest = low < smallest ? low : smallest;
+    largest = known > largest ? known : largest;
+  }
+  range = {.smallest = smallest, .largest = largest};
+}
+
+/// Branch-free, so that it vectorises.
+VELDT_CLONES void sample_levels(const Window& all, const LevelTables& tables,
+                                const std::uint16_t* __restrict surface,
+                                const std::int32_t* __restrict cover_of, const float* __restrict x,
+                                const float* __restrict y, const float* __restrict footprint,
+                                float* __restrict out, std::size_t count) noexcept {
+  const Window window = all;
   const LevelTables t = tables;
   const float per_cell = t.per_m[0];
   for (std::size_t i = 0; i < count; ++i) {
     const std::int32_t cover = cover_of[surface[i]];
-    const float far_x = std::abs(x[i]);
-    const float far_y = std::abs(y[i]);
-    const bool usable = (cover >= 0) & (far_x < kFarthest) & (far_y < kFarthest) & (footprint[i] >= 0) &
-                        (footprint[i] < kFarthest);  // false for NaN
-    const float cells = usable ? footprint[i] * per_cell : 0.0F;
-    // From 1.5 cells on, the next level is nearer: its number is the exponent of cells / 0.75, at least 0.
-    const int exponent =
-        static_cast<int>(std::bit_cast<std::uint32_t>(cells * (1 / 0.75F)) >> kMantissaBits) - kBias;
-    const int positive = exponent > 0 ? exponent : 0;
-    const int level = positive < t.last ? positive : t.last;
-    const float columns = static_cast<float>(t.width[level] - 1);
-    const float rows = static_cast<float>(t.height[level] - 1);
-    const float u = (usable ? x[i] - origin_x : 0.0F) * t.per_m[level] - 0.5F;
-    const float v = (usable ? y[i] - origin_y : 0.0F) * t.per_m[level] - 0.5F;
-    const float inside_u = u > 0 ? (u < columns ? u : columns) : 0.0F;
-    const float inside_v = v > 0 ? (v < rows ? v : rows) : 0.0F;
-    const auto column = static_cast<std::int32_t>(inside_u);
-    const auto row = static_cast<std::int32_t>(inside_v);
-    const std::int32_t above_row = row + 1 < t.height[level] ? row + 1 : row;
-    const std::int32_t width = t.width[level];
-    const std::int32_t start = t.first[level] + (usable ? cover : 0) * width * t.height[level] + column;
-    const std::int32_t below = texels[start + row * width];
-    const std::int32_t above = texels[start + above_row * width];
-    const float p = inside_u - static_cast<float>(column);
-    const float q = inside_v - static_cast<float>(row);
-    const float low = left_of(below) + p * (right_of(below) - left_of(below));
-    const float high = left_of(above) + p * (right_of(above) - left_of(above));
-    const float value = base_k + kStepK * (low + q * (high - low));
-    out[i] = usable ? value : out[i];
+    const bool usable = has_place(cover, x[i], y[i], footprint[i]);
+    const int level = level_of(usable ? footprint[i] * per_cell : 0.0F, t.last);
+    const float value = blend(window, t.first[level], t.width[level], t.height[level], t.per_m[level],
+                              usable ? x[i] : 0.0F, usable ? y[i] : 0.0F, usable ? cover : 0);
+    out[i] = chosen(usable, value, out[i]);
+  }
+}
+
+/// The same for pixels that all need one level.
+VELDT_CLONES void sample_level(const Window& all, const LevelTables& tables, int level,
+                               const std::uint16_t* __restrict surface,
+                               const std::int32_t* __restrict cover_of, const float* __restrict x,
+                               const float* __restrict y, const float* __restrict footprint,
+                               float* __restrict out, std::size_t count) noexcept {
+  const Window window = all;
+  const std::int32_t first = tables.first[level];
+  const std::int32_t width = tables.width[level];
+  const std::int32_t height = tables.height[level];
+  const float per_m = tables.per_m[level];
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int32_t cover = cover_of[surface[i]];
+    const bool usable = has_place(cover, x[i], y[i], footprint[i]);
+    const float value = blend(window, first, width, height, per_m, usable ? x[i] : 0.0F, usable ? y[i] : 0.0F,
+                              usable ? cover : 0);
+    out[i] = chosen(usable, value, out[i]);
   }
 }
 
@@ -201,10 +273,23 @@ void GroundTemperatures::sample(const Places& places, std::span<float> temperatu
     height[i] = levels_[i].height;
     per_m[i] = levels_[i].per_m;
   }
-  sample_all(texels_.data(),
-             {first.data(), width.data(), height.data(), per_m.data(), static_cast<int>(levels_.size()) - 1},
-             places.surface.data(), places.cover_of_surface.data(), places.x_m.data(), places.y_m.data(),
-             places.footprint_m.data(), origin_x_m_, origin_y_m_, base_k_, temperature_k.data(), count);
+  const Window window = {texels_.data(), origin_x_m_, origin_y_m_, base_k_};
+  const LevelTables tables = {first.data(), width.data(), height.data(), per_m.data(),
+                              static_cast<int>(levels_.size()) - 1};
+  const std::uint16_t* surface = places.surface.data();
+  const std::int32_t* cover = places.cover_of_surface.data();
+  const float* x = places.x_m.data();
+  const float* y = places.y_m.data();
+  const float* footprint = places.footprint_m.data();
+  FootprintRange range;
+  find_footprints(surface, cover, x, y, footprint, count, range);
+  if (range.largest < 0) return;
+  const int low = level_of(std::bit_cast<float>(range.smallest) * per_m[0], tables.last);
+  if (low == level_of(std::bit_cast<float>(range.largest) * per_m[0], tables.last)) {
+    sample_level(window, tables, low, surface, cover, x, y, footprint, temperature_k.data(), count);
+  } else {
+    sample_levels(window, tables, surface, cover, x, y, footprint, temperature_k.data(), count);
+  }
 }
 
 float GroundTemperatures::crown_top_m(float x_m, float y_m) const noexcept {

@@ -38,29 +38,32 @@ class HeatedEmission {
       varies_ = varies_ || surface.variation_stddev_k > 0;
       per_length_.push_back(surface.per_correlation_length);
       first_node_.push_back(first_node.at(surface.table));
-      alone_.push_back(surface.kind == HeatedSurface::Kind::oriented ||
-                       surface.kind == HeatedSurface::Kind::crown);
     }
   }
 
   void operator()(Row& row) const {
     const std::size_t width = row.surface.size();
-    for (auto* scratch : {&row.place_x, &row.place_y, &row.footprint, &row.variation, &row.temperature_k})
+    for (auto* scratch : {&row.place_x, &row.place_y, &row.footprint, &row.variation, &row.temperature_k,
+                          &row.metres[0], &row.metres[1], &row.metres[2]})
       scratch->resize(width);
     kernels::look_up(row.surface.data(), even_k_.data(), row.temperature_k.data(), width);
+    if (ground_ != nullptr || varies_) find_places(row);
     if (ground_ != nullptr) {
-      find_places(row, ones_);
       ground_->sample({.surface = row.surface,
                        .cover_of_surface = cover_,
-                       .x_m = row.place_x,
-                       .y_m = row.place_y,
-                       .footprint_m = row.footprint},
+                       .x_m = row.metres[0],
+                       .y_m = row.metres[1],
+                       .footprint_m = row.metres[2]},
                       row.temperature_k);
     }
     add_bodies_and_crowns(row);
     if (varies_) {
-      find_places(row, per_length_);
-      kernels::unsettle(row.place_x.data(), row.place_y.data(), width);
+      kernels::unsettle({.surface = row.surface.data(),
+                         .per_correlation_length = per_length_.data(),
+                         .x_m = row.metres[0].data(),
+                         .y_m = row.metres[1].data(),
+                         .footprint_m = row.metres[2].data()},
+                        row.place_x.data(), row.place_y.data(), row.footprint.data(), width);
       field_.sample(row.place_x, row.place_y, row.footprint, row.variation);
     } else {
       std::ranges::fill(row.variation, 0.0F);
@@ -80,9 +83,9 @@ class HeatedEmission {
   }
 
  private:
-  static void find_places(Row& row, const std::vector<float>& per_length) {
+  void find_places(Row& row) const {
     kernels::find_places({.surface = row.surface.data(),
-                          .per_correlation_length = per_length.data(),
+                          .per_correlation_length = ones_.data(),
                           .depth_m = row.depth_m.data(),
                           .ray_x = row.ray_x.data(),
                           .ray_y = row.ray_y.data(),
@@ -91,52 +94,49 @@ class HeatedEmission {
                           .x = world_axis(row, 0),
                           .y = world_axis(row, 1),
                           .pixel_width = row.sample_width},
-                         row.place_x.data(), row.place_y.data(), row.footprint.data(), row.surface.size());
+                         row.metres[0].data(), row.metres[1].data(), row.metres[2].data(),
+                         row.surface.size());
   }
 
+  /// Runs of pixels of one surface.
   void add_bodies_and_crowns(Row& row) const {
+    const std::size_t width = row.surface.size();
+    for (std::size_t begin = 0; begin < width;) {
+      const std::uint16_t number = row.surface[begin];
+      std::size_t end = begin + 1;
+      while (end < width && row.surface[end] == number) ++end;
+      const HeatedSurface& surface = surfaces_[number];
+      if (surface.kind == HeatedSurface::Kind::oriented) face(surface, row, begin, end);
+      if (surface.kind == HeatedSurface::Kind::crown) add_depths(surface, row, begin, end);
+      begin = end;
+    }
+  }
+
+  static void face(const HeatedSurface& surface, Row& row, std::size_t begin, std::size_t end) {
+    kernels::warm_by_normal({.nx = row.normal[0].data() + begin,
+                             .ny = row.normal[1].data() + begin,
+                             .nz = row.normal[2].data() + begin,
+                             .ray_x = row.ray_x.data() + begin,
+                             .ray_y = row.ray_y.data() + begin,
+                             .x = world_axis(row, 0),
+                             .y = world_axis(row, 1),
+                             .z = world_axis(row, 2),
+                             .steepest = surface.steepest,
+                             .coefficients = surface.by_normal},
+                            row.temperature_k.data() + begin, end - begin);
+  }
+
+  void add_depths(const HeatedSurface& surface, Row& row, std::size_t begin, std::size_t end) const {
     const kernels::CameraAxis up = world_axis(row, 2);
-    for (std::size_t i = 0; i < row.surface.size(); ++i) {
-      if (!alone_[row.surface[i]]) continue;
-      const HeatedSurface& surface = surfaces_[row.surface[i]];
-      if (surface.kind == HeatedSurface::Kind::oriented) {
-        row.temperature_k[i] = by_normal_k(surface, row, i);
-      } else if (row.depth_m[i] > 0 && row.depth_m[i] < kSkyFromM) {
-        const float z_m = row.pose->position_m[2] + row.depth_m[i] * along(up, row, i);
-        row.temperature_k[i] = by_depth_k(surface, crown_top_m(row, i) - z_m);
-      }
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!(row.depth_m[i] > 0 && row.depth_m[i] < kSkyFromM)) continue;
+      const float z_m = row.pose->position_m[2] + row.depth_m[i] * along(up, row, i);
+      row.temperature_k[i] = by_depth_k(surface, crown_top_m(row, i) - z_m);
     }
   }
 
   [[nodiscard]] float crown_top_m(const Row& row, std::size_t i) const {
-    return ground_->crown_top_m(row.place_x[i], row.place_y[i]);
-  }
-
-  /// Normals that face away from the camera are flipped; those that are far from unit length count as facing up.
-  static float by_normal_k(const HeatedSurface& surface, const Row& row, std::size_t i) {
-    float x = row.normal[0][i];
-    float y = row.normal[1][i];
-    float z = row.normal[2][i];
-    const float norm2 = x * x + y * y + z * z;
-    if (!(norm2 > 0.81F && norm2 < 1.21F)) {
-      x = y = 0;
-      z = 1;
-    } else if (x * along(world_axis(row, 0), row, i) + y * along(world_axis(row, 1), row, i) +
-                   z * along(world_axis(row, 2), row, i) >
-               0) {
-      x = -x;
-      y = -y;
-      z = -z;
-    }
-    const float level2 = x * x + y * y;
-    if (level2 > surface.steepest * surface.steepest) {
-      const float less = surface.steepest / std::sqrt(level2);
-      x *= less;
-      y *= less;
-    }
-    const auto& c = surface.by_normal;
-    return c[0] + c[1] * x + c[2] * y + c[3] * z + c[4] * x * x + c[5] * y * y + c[6] * x * y + c[7] * x * z +
-           c[8] * y * z;
+    return ground_->crown_top_m(row.metres[0][i], row.metres[1][i]);
   }
 
   static float by_depth_k(const HeatedSurface& surface, float depth_m) {
@@ -160,8 +160,7 @@ class HeatedEmission {
   std::vector<float> stddev_k_;
   std::vector<float> per_length_;
   std::vector<std::int32_t> first_node_;
-  std::vector<char> alone_;  ///< pixels are computed one by one
-  bool varies_ = false;      ///< any of them
+  bool varies_ = false;  ///< any of them
 };
 
 }  // namespace

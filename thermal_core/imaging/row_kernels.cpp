@@ -62,16 +62,43 @@ VELDT_INLINE float wave(float x) noexcept {
 
 }  // namespace
 
-VELDT_CLONES void unsettle(float* __restrict x, float* __restrict y, std::size_t count) noexcept {
+VELDT_CLONES void unsettle(const UnsettledInput& in, float* __restrict x, float* __restrict y,
+                           float* __restrict footprint, std::size_t count) noexcept {
   // Lengths and amplitudes in correlation lengths: shears of at most 8 times reach over length, 0.1 each.
   constexpr float kLong = 157.3F;
   constexpr float kAcross = 211.7F;
   constexpr float kReach = 2;
+  const UnsettledInput p = in;
   for (std::size_t i = 0; i < count; ++i) {
-    const float east = x[i];
-    const float north = y[i];
+    const float scale = p.per_correlation_length[p.surface[i]];
+    const float east = p.x_m[i] * scale;
+    const float north = p.y_m[i] * scale;
     x[i] = east + kReach * (wave(north * (1 / kLong)) + wave((east + north) * (1 / kAcross)));
     y[i] = north + kReach * (wave(east * (1 / kLong) + 0.3F) + wave((north - east) * (1 / kAcross)));
+    footprint[i] = p.footprint_m[i] * scale;
+  }
+}
+
+VELDT_CLONES void warm_by_normal(const FacingInput& in, float* __restrict temperature_k,
+                                 std::size_t count) noexcept {
+  const FacingInput p = in;
+  const std::array<float, 9> c = in.coefficients;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float nx = p.nx[i];
+    const float ny = p.ny[i];
+    const float nz = p.nz[i];
+    const float inward = nx * along(p.x, p.ray_x[i], p.ray_y[i]) + ny * along(p.y, p.ray_x[i], p.ray_y[i]) +
+                         nz * along(p.z, p.ray_x[i], p.ray_y[i]);
+    const float norm2 = nx * nx + ny * ny + nz * nz;
+    const bool usable = (norm2 > 0.81F) & (norm2 < 1.21F);  // false for NaN
+    const float level2 = usable ? nx * nx + ny * ny : 0.0F;
+    const float reach = level2 > p.steepest * p.steepest ? p.steepest / std::sqrt(level2) : 1.0F;
+    const float side = inward > 0 ? -1.0F : 1.0F;
+    const float x = usable ? nx * side * reach : 0.0F;
+    const float y = usable ? ny * side * reach : 0.0F;
+    const float z = usable ? nz * side : 1.0F;
+    temperature_k[i] = c[0] + c[1] * x + c[2] * y + c[3] * z + c[4] * x * x + c[5] * y * y + c[6] * x * y +
+                       c[7] * x * z + c[8] * y * z;
   }
 }
 

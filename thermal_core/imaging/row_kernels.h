@@ -43,9 +43,30 @@ struct VariedInput {
 };
 void emit_varied(const VariedInput& in, float* radiance, std::size_t count) noexcept;
 
-/// Turns places in correlation lengths about so slowly that nobody sees it, and by so much that a field which repeats
-/// itself no longer does so at the same distance everywhere.
-void unsettle(float* x, float* y, std::size_t count) noexcept;
+/// Places and sizes in metres in correlation lengths, and turned about so slowly that nobody sees it, and by so much that
+/// a field which repeats itself no longer does so at the same distance everywhere.
+struct UnsettledInput {
+  const std::uint16_t* surface;
+  const float* per_correlation_length;  ///< by surface [1/m]
+  const float* x_m;
+  const float* y_m;
+  const float* footprint_m;  ///< negative where there is no place
+};
+void unsettle(const UnsettledInput& in, float* x, float* y, float* footprint, std::size_t count) noexcept;
+
+/// Temperatures of one surface by its normals, as Orientation has them. Normals that face away from the camera are turned
+/// round; those that are far from unit length count as facing up, those steeper than `steepest` as that steep.
+struct FacingInput {
+  const float* nx;
+  const float* ny;
+  const float* nz;
+  const float* ray_x;
+  const float* ray_y;
+  CameraAxis x, y, z;
+  float steepest;  ///< largest horizontal part
+  std::array<float, 9> coefficients;
+};
+void warm_by_normal(const FacingInput& in, float* temperature_k, std::size_t count) noexcept;
 
 /// Radiance of each pixel's temperature: as emit_varied(), for surfaces that all have a table.
 struct HeatedInput {
