@@ -126,16 +126,18 @@ std::vector<RenderRow> table_rows(const Materials& materials) {
           table_row("acacia and soil", only({"acacia"})), table_row("all materials", materials)};
 }
 
-/// One of many places: slopes up to 35 deg, or any direction; a third of them shaded, a quarter moist at random.
-SurfacePlace place_of(int number, bool any_direction) {
+/// One of many places: slopes up to 35 deg, a third of them shaded, a quarter moist at random; or bodies in the open that
+/// face any direction.
+SurfacePlace place_of(int number, bool is_body) {
   std::array<float, kRandomBatch> random{};
   fill_uniform({.seed = 7, .stream = 0, .clip = 0, .frame = static_cast<std::uint32_t>(number)}, 0, random);
   const auto share = [&random](std::size_t which) { return static_cast<double>(random.at(which)); };
   constexpr double kPi = std::numbers::pi;
-  const double slope = any_direction ? std::acos(2 * share(0) - 1) : 35 * kPi / 180 * share(0);
+  const double slope = is_body ? std::acos(2 * share(0) - 1) : 35 * kPi / 180 * share(0);
   const double aspect = 2 * kPi * share(1);
   SurfacePlace place = {
       .normal = {std::sin(slope) * std::sin(aspect), std::sin(slope) * std::cos(aspect), std::cos(slope)}};
+  if (is_body) return place;
   if (share(2) < 1.0 / 3) {
     place.sky_view = 0.15 + 0.85 * share(3);
     place.sunlit = share(4);

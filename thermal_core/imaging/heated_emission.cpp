@@ -122,6 +122,7 @@ class HeatedEmission {
                              .y = world_axis(row, 1),
                              .z = world_axis(row, 2),
                              .steepest = surface.steepest,
+                             .sun = surface.sun,
                              .coefficients = surface.by_normal},
                             row.temperature_k.data() + begin, end - begin);
   }

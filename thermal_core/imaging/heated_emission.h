@@ -25,6 +25,7 @@ struct HeatedSurface {
   float temperature_k = 0;                             ///< where nothing else is known
   std::int32_t cover = -1;                             ///< number among the covers of the ground
   std::array<float, Orientation::kTerms> by_normal{};  ///< see Orientation
+  std::array<float, 3> sun{};                          ///< the same
   float steepest = 1;  ///< largest horizontal part of a normal that counts; steeper ones count as that steep
   std::array<float, kDepths> by_depth_k{};
   float rate_k_h = 0;  ///< how fast it warms

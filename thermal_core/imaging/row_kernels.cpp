@@ -82,7 +82,8 @@ VELDT_CLONES void unsettle(const UnsettledInput& in, float* __restrict x, float*
 VELDT_CLONES void warm_by_normal(const FacingInput& in, float* __restrict temperature_k,
                                  std::size_t count) noexcept {
   const FacingInput p = in;
-  const std::array<float, 9> c = in.coefficients;
+  const std::array<float, 10> c = in.coefficients;
+  const std::array<float, 3> sun = in.sun;
   for (std::size_t i = 0; i < count; ++i) {
     const float nx = p.nx[i];
     const float ny = p.ny[i];
@@ -97,8 +98,10 @@ VELDT_CLONES void warm_by_normal(const FacingInput& in, float* __restrict temper
     const float x = usable ? nx * side * reach : 0.0F;
     const float y = usable ? ny * side * reach : 0.0F;
     const float z = usable ? nz * side : 1.0F;
+    const float cosine = x * sun[0] + y * sun[1] + z * sun[2];
+    const float lit = cosine > 0 ? cosine : 0.0F;
     temperature_k[i] = c[0] + c[1] * x + c[2] * y + c[3] * z + c[4] * x * x + c[5] * y * y + c[6] * x * y +
-                       c[7] * x * z + c[8] * y * z;
+                       c[7] * x * z + c[8] * y * z + c[9] * lit;
   }
 }
 

@@ -64,7 +64,8 @@ struct FacingInput {
   const float* ray_y;
   CameraAxis x, y, z;
   float steepest;  ///< largest horizontal part
-  std::array<float, 9> coefficients;
+  std::array<float, 3> sun;
+  std::array<float, 10> coefficients;
 };
 void warm_by_normal(const FacingInput& in, float* temperature_k, std::size_t count) noexcept;
 

@@ -146,7 +146,7 @@ class Builder {
     std::vector<double> values_k;
     for (const EastNorthUp& direction : kFit.directions())
       values_k.push_back(part_temperature_k(body, moment, direction));
-    set_oriented(kFit.fit(values_k), heated);
+    set_oriented(kFit.fit(values_k, moment_.sun), heated);
     heated.temperature_k = static_cast<float>(part_temperature_k(body, moment, 0.0));
   }
 
@@ -158,8 +158,9 @@ class Builder {
     heated.temperature_k = static_cast<float>(orientation.at({0, 0, 1}));
     if (!terms_.normals) return;
     heated.kind = HeatedSurface::Kind::oriented;
-    std::ranges::transform(orientation.coefficients, heated.by_normal.begin(),
-                           [](double value) { return static_cast<float>(value); });
+    const auto rounded = [](double value) { return static_cast<float>(value); };
+    std::ranges::transform(orientation.coefficients, heated.by_normal.begin(), rounded);
+    std::ranges::transform(orientation.sun, heated.sun.begin(), rounded);
   }
 
   void set_cover(const Material& material, const MaterialMoment& by_place, HeatedSurface& heated) {

@@ -149,6 +149,7 @@ Orientation MaterialMoment::orientation(const SurfacePlace& place) const noexcep
   const std::size_t next = nodes_.moisture.size() > 1 ? 1 : 0;
   const double sunlit = std::clamp(place.sunlit, 0.0, 1.0);
   Orientation sum;
+  sum.sun = slopes_k_[wet.node].sun;
   for (std::size_t i = 0; i < Orientation::kTerms; ++i) {
     const double low = slopes_k_[wet.node].coefficients[i];
     const double high = slopes_k_[wet.node + next].coefficients[i];
@@ -205,7 +206,7 @@ HeatOfDay::HeatOfDay(const DayWeather& weather, const std::map<std::string, Mate
   });
 }
 
-MaterialMoment HeatOfDay::moment_of(const Columns& columns, double solar_h) {
+MaterialMoment HeatOfDay::moment_of(const Columns& columns, double solar_h, const EastNorthUp& sun) {
   std::vector<double> level_k;
   for (const SurfaceDay& day : columns.level) level_k.push_back(day.at_k(solar_h));
   const std::size_t slopes = columns.fit.directions().size() - 1;
@@ -215,9 +216,7 @@ MaterialMoment HeatOfDay::moment_of(const Columns& columns, double solar_h) {
     const double open_k = level_k[open_node(columns.nodes, m)];
     for (std::size_t d = 0; d < slopes; ++d)
       excess_k[1 + d] = columns.slopes[m * slopes + d].at_k(solar_h) - open_k;
-    slopes_k.push_back(columns.fit.fit(excess_k));
-    // What faces up is exact: it is what a drone sees most of.
-    slopes_k.back().coefficients[0] -= slopes_k.back().at({0, 0, 1});
+    slopes_k.push_back(columns.fit.fit(excess_k, sun));
   }
   return {columns.nodes, std::move(level_k), std::move(slopes_k)};
 }
@@ -226,8 +225,10 @@ HeatOfMoment HeatOfDay::at(double solar_h) const {
   HeatOfMoment moment = {.forcing = forcing_at(weather_, solar_h),
                          .ground_k = ground_.at_k(solar_h),
                          .ground_moisture = moisture_after_rain(weather_.rain_days_ago),
+                         .sun = sun_of_surfaces(weather_.sun, solar_h),
                          .materials = {}};
-  for (const auto& [name, columns] : columns_) moment.materials.emplace(name, moment_of(columns, solar_h));
+  for (const auto& [name, columns] : columns_)
+    moment.materials.emplace(name, moment_of(columns, solar_h, moment.sun));
   return moment;
 }
 

@@ -57,8 +57,9 @@ class MaterialMoment {
 /// The temperatures of materials at one moment.
 struct HeatOfMoment {
   Forcing forcing;
-  double ground_k = 0;         ///< of open level ground, which standing bodies face
-  double ground_moisture = 0;  ///< of it, after the last rain
+  double ground_k = 0;          ///< of open level ground, which standing bodies face
+  double ground_moisture = 0;   ///< of it, after the last rain
+  EastNorthUp sun = {0, 0, 0};  ///< see sun_of_surfaces()
   std::map<std::string, MaterialMoment> materials;
 };
 
@@ -89,7 +90,8 @@ class HeatOfDay {
     std::vector<SurfaceDay> slopes;  ///< moisture by moisture, in it direction by direction but for up
   };
 
-  [[nodiscard]] static MaterialMoment moment_of(const Columns& columns, double solar_h);
+  [[nodiscard]] static MaterialMoment moment_of(const Columns& columns, double solar_h,
+                                                const EastNorthUp& sun);
 
   DayWeather weather_;
   SurfaceDay ground_;

@@ -1,5 +1,6 @@
 #include "heat/surface/orientation_fit.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -8,22 +9,23 @@
 namespace thermal {
 namespace {
 
-using Matrix = std::vector<std::vector<double>>;
+constexpr std::size_t kSunTerm = Orientation::kTerms - 1;
 
-/// Solves a * x = b for symmetric positive a and several right-hand sides, by elimination; b becomes x.
-void solve(Matrix& a, Matrix& b) {
-  const std::size_t size = a.size();
+/// An equation a x = b of normal equations, symmetric and positive; solved by elimination, b becomes x.
+using Matrix = std::array<std::array<double, Orientation::kTerms>, Orientation::kTerms>;
+using Right = std::array<double, Orientation::kTerms>;
+
+void solve(Matrix& a, Right& b, std::size_t size) {
   for (std::size_t k = 0; k < size; ++k) {
     for (std::size_t row = 0; row < size; ++row) {
       if (row == k) continue;
-      const double factor = a[row][k] / a[k][k];
-      for (std::size_t column = k; column < size; ++column) a[row][column] -= factor * a[k][column];
-      for (std::size_t column = 0; column < b[k].size(); ++column) b[row][column] -= factor * b[k][column];
+      const double factor = a.at(row).at(k) / a.at(k).at(k);
+      for (std::size_t column = k; column < size; ++column)
+        a.at(row).at(column) -= factor * a.at(k).at(column);
+      b.at(row) -= factor * b.at(k);
     }
   }
-  for (std::size_t k = 0; k < size; ++k) {
-    for (double& value : b[k]) value /= a[k][k];
-  }
+  for (std::size_t k = 0; k < size; ++k) b.at(k) /= a.at(k).at(k);
 }
 
 std::vector<EastNorthUp> up_and_aspects(const std::vector<double>& slopes_deg) {
@@ -41,12 +43,15 @@ std::vector<EastNorthUp> up_and_aspects(const std::vector<double>& slopes_deg) {
 
 }  // namespace
 
-std::array<double, Orientation::kTerms> Orientation::terms_of(const EastNorthUp& n) noexcept {
-  return {1, n[0], n[1], n[2], n[0] * n[0], n[1] * n[1], n[0] * n[1], n[0] * n[2], n[1] * n[2]};
+std::array<double, Orientation::kTerms> Orientation::terms_of(const EastNorthUp& n,
+                                                              const EastNorthUp& sun) noexcept {
+  const double cosine = n[0] * sun[0] + n[1] * sun[1] + n[2] * sun[2];
+  return {1,           n[0],        n[1],        n[2],        n[0] * n[0],
+          n[1] * n[1], n[0] * n[1], n[0] * n[2], n[1] * n[2], std::max(0.0, cosine)};
 }
 
 double Orientation::at(const EastNorthUp& normal) const noexcept {
-  const auto terms = terms_of(normal);
+  const auto terms = terms_of(normal, sun);
   double sum = 0;
   for (std::size_t i = 0; i < kTerms; ++i) sum += coefficients[i] * terms[i];
   return sum;
@@ -54,34 +59,48 @@ double Orientation::at(const EastNorthUp& normal) const noexcept {
 
 OrientationFit OrientationFit::of_ground() { return {{20, 40}, {0, 1, 2, 4, 5, 6}}; }
 
-OrientationFit OrientationFit::of_bodies() { return {{45, 90, 135}, {0, 1, 2, 3, 4, 5, 6, 7, 8}}; }
+OrientationFit OrientationFit::of_bodies() {
+  OrientationFit fit({45, 90, 135}, {0, 1, 2, 3, 4, 5, 6, 7, 8});
+  fit.directions_.push_back({0, 0, -1});
+  fit.weights_.push_back(1);
+  return fit;
+}
 
 OrientationFit OrientationFit::of_level() { return {{}, {0}}; }
 
 OrientationFit::OrientationFit(std::vector<double> slopes_deg, std::vector<std::size_t> terms)
     : directions_(up_and_aspects(slopes_deg)), terms_(std::move(terms)), weights_(directions_.size(), 1) {
-  if (terms_.size() < Orientation::kTerms) weights_.front() = static_cast<double>(directions_.size());
-  Matrix normal(terms_.size(), std::vector<double>(terms_.size()));
-  Matrix right(terms_.size(), std::vector<double>(directions_.size()));
-  for (std::size_t d = 0; d < directions_.size(); ++d) {
-    const auto all = Orientation::terms_of(directions_[d]);
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-      right[i][d] = weights_[d] * all.at(terms_[i]);
-      for (std::size_t j = 0; j < terms_.size(); ++j) normal[i][j] += right[i][d] * all.at(terms_[j]);
-    }
-  }
-  solve(normal, right);
-  fit_ = std::move(right);
+  if (terms_.size() < kSunTerm) weights_.front() = static_cast<double>(directions_.size());
 }
 
-Orientation OrientationFit::fit(std::span<const double> values) const {
+Orientation OrientationFit::fit(std::span<const double> values, const EastNorthUp& sun) const {
   assert(values.size() == directions_.size());
-  Orientation fitted;
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    for (std::size_t d = 0; d < values.size(); ++d)
-      fitted.coefficients.at(terms_[i]) += fit_[i][d] * values[d];
+  constexpr double kLeastSquare = 1e-9;  // keeps the equations solvable where two terms are alike
+  std::vector<std::size_t> terms = terms_;
+  if (sun[2] > 0 && directions_.size() > 1) terms.push_back(kSunTerm);
+  Matrix normal{};
+  Right right{};
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    const auto all = Orientation::terms_of(directions_[d], sun);
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      const double weighted = weights_[d] * all.at(terms[i]);
+      right.at(i) += weighted * values[d];
+      for (std::size_t j = 0; j < terms.size(); ++j) normal.at(i).at(j) += weighted * all.at(terms[j]);
+    }
   }
+  for (std::size_t i = 0; i < terms.size(); ++i) normal.at(i).at(i) += kLeastSquare;
+  solve(normal, right, terms.size());
+  Orientation fitted;
+  fitted.sun = sun;
+  for (std::size_t i = 0; i < terms.size(); ++i) fitted.coefficients.at(terms[i]) = right.at(i);
+  if (weights_.front() > 1) fitted.coefficients[0] += values.front() - fitted.at(directions_.front());
   return fitted;
+}
+
+EastNorthUp sun_of_surfaces(const SunPath& path, double solar_h) noexcept {
+  constexpr double kBeforeH = 0.2;
+  const EastNorthUp sun = sun_direction(path, solar_h - kBeforeH);
+  return sun[2] > 0 ? sun : EastNorthUp{0, 0, 0};
 }
 
 }  // namespace thermal
