@@ -58,25 +58,9 @@ std::string title_of(const SeasonHeat& heat) {
       day.rain_days_ago);
 }
 
-/// When each season is flown, in hours of local solar time.
-std::map<thermal::Season, std::vector<std::pair<double, double>>> flown_hours(const thermal::Config& config) {
-  std::map<thermal::Season, std::vector<std::pair<double, double>>> flown;
-  const auto add = [&](thermal::Season season, double start_s, double duration_s) {
-    const double start_h = config.weather.at(static_cast<std::size_t>(season)).solar_h + start_s / 3600;
-    flown[season].emplace_back(start_h, start_h + duration_s / 3600);
-  };
-  for (const thermal::ClipConfig& clip : config.clips)
-    add(clip.season, clip.start_s, clip.frames / clip.frame_rate_hz);
-  for (const thermal::Json& flight : config.resolved["flights"]) {
-    add(thermal::season_of(flight["season"].get<std::string>()), flight.value("start_s", 0.0),
-        flight.value("duration_s", 0.0));
-  }
-  return flown;
-}
-
 std::vector<SeasonHeat> heat_of(const thermal::Config& config, const thermal::MaterialLibrary& materials) {
   std::vector<SeasonHeat> seasons;
-  for (auto& [season, flown_h] : flown_hours(config)) {
+  for (auto& [season, flown_h] : thermal::flown_hours(config)) {
     const thermal::Weather& weather = config.weather.at(static_cast<std::size_t>(season));
     seasons.push_back({.season = season,
                        .weather = weather,

@@ -175,3 +175,44 @@ function termChart(terms, netd_mk) {
   });
   return chart(description, settings, 110 + 30 * terms.length);
 }
+
+/** Fills the hours in which something flies. */
+const shadeHours = (spans) => ({
+  id: "hours",
+  beforeDatasetsDraw({ ctx, chartArea, scales }) {
+    ctx.save();
+    ctx.fillStyle = colour("line");
+    for (const [from, to] of spans) {
+      const left = Math.max(scales.x.getPixelForValue(from), chartArea.left);
+      const right = Math.min(scales.x.getPixelForValue(to), chartArea.right);
+      ctx.fillRect(left, chartArea.top, Math.max(right - left, 2), chartArea.bottom - chartArea.top);
+    }
+    ctx.restore();
+  },
+});
+
+const clock = (hour) => `${String(Math.floor(hour)).padStart(2, "0")}:${hour % 1 ? "30" : "00"}`;
+
+/** Temperatures of surfaces above the air over a day; surfaces: names in the order of their colours. */
+function dayChart(day, surfaces) {
+  const hours = day.air_k.map((_, k) => k * day.step_h);
+  const spans = day.flown_h.flatMap(([from, to]) => [[from, to], [from - 24, to - 24]]).filter(([from, to]) => from <= 24 && to >= 0);
+  const lines = surfaces.map((name, k) => ({
+    label: words(name), borderColor: seriesColour(k), backgroundColor: seriesColour(k), borderWidth: 2, pointRadius: 0,
+    data: day.materials_k[name].map((value, at) => ({ x: hours[at], y: value - day.air_k[at] })),
+  }));
+  const settings = () => ({
+    type: "line",
+    data: { datasets: lines },
+    options: {
+      interaction: { mode: "index", intersect: false },
+      scales: {
+        x: { type: "linear", min: 0, max: 24, ticks: { stepSize: 3, maxRotation: 0, callback: clock }, title: { display: true, text: "local solar time" } },
+        y: { title: { display: true, text: "K above the air" } },
+      },
+      plugins: { legend: { position: "bottom", labels: { boxWidth: 14 } }, tooltip: { callbacks: { title: ([item]) => clock(item.parsed.x) } } },
+    },
+    plugins: [shadeHours(spans)],
+  });
+  return chart(`Temperatures of ${listed(surfaces.map(words))} above the air over a day in ${day.season}`, settings, 320);
+}

@@ -10,6 +10,7 @@ function showPage(figures) {
     ours ? flightsSection(figures) : null,
     clipsSection(figures),
     ours ? physicsSection(figures) : null,
+    ours ? daySection(figures) : null,
     ours ? provenanceSection(figures) : null,
   ].filter((part) => part !== null);
   const links = sections.map((part) => element("li", {}, element("a", { href: `#${part.id}` }, part.querySelector("h2").textContent)));

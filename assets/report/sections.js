@@ -136,6 +136,28 @@ function physicsSection({ record }) {
     table("Physical terms", columns, rows));
 }
 
+// --- the day
+
+// Surfaces of the chart, if the dataset's materials include them; the table has all.
+const SHOWN = ["soil", "grass", "water", "rock", "acacia", "road", "shrub"];
+
+function daySection({ days }) {
+  if (!days?.length) return null;
+  const parts = days.map((day) => {
+    const hours = day.air_k.map((_, k) => k).filter((k) => (k * day.step_h) % 3 === 0 && k * day.step_h < 24);
+    const row = (name, values) => [words(name), ...hours.map((k) => figure(values[k]))];
+    const columns = [{ name: "surface", text: true }, ...hours.map((k) => ({ name: clock(k * day.step_h) }))];
+    const rows = [row("air", day.air_k), ...Object.entries(day.materials_k).map(([name, values]) => row(name, values))];
+    return [
+      element("h3", {}, day.season),
+      element("div", { class: "card" }, dayChart(day, SHOWN.filter((name) => name in day.materials_k))),
+      folded("All surfaces, in kelvin", table(`Temperatures over a day in ${day.season}`, columns, rows)),
+    ];
+  });
+  return section("day", "Temperatures over the day",
+    element("p", { class: "soft" }, "Open, level surfaces by the heat balance; leaves in the middle of their crowns. The shaded hours are flown."), ...parts);
+}
+
 // --- provenance
 
 function provenanceSection({ record }) {

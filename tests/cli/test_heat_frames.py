@@ -7,6 +7,7 @@ from configs import tiny
 from datasets import content_of
 from pictures import read_grey
 from program import Veldt
+from reports import Page
 
 _NO_PROGRAMS = {"PATH": "/nonexistent"}
 
@@ -75,6 +76,17 @@ def test_passes_with_half_of_their_maps_are_refused(place, tmp_path):
         "convert", "kept/passes", "--config", place.folder / "config.json", "--out", "again", "--quiet"
     )
     assert done.code == 3 and "ground.bin" in done.err
+
+
+def test_a_report_shows_the_day(place, tmp_path):
+    done = place("report", "whole", "--out", tmp_path / "page.html", "--quiet")
+    assert (done.code, done.err) == (0, "")
+    (day,) = Page(tmp_path / "page.html").figures["days"]
+    first_h, _ = zip(*day["flown_h"])
+    assert day["season"] == "winter" and list(first_h) == pytest.approx([6 + 50 / 60, 7])
+    heat = place("heat", "config.json", "--json").json()["days"][0]["materials"]
+    for name, values_k in day["materials_k"].items():
+        assert values_k[::2][:24] == pytest.approx(heat[name]["hourly_k"], abs=0.006), name
 
 
 def _kelvin(veldt: Veldt, name: str, **weather) -> np.ndarray:

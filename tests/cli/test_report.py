@@ -41,6 +41,10 @@ def test_the_page_lies_in_the_dataset_and_changes_nothing_else(veldt, dataset):
     assert veldt("convert", *CLIPS, "--out", "out").out == "out: nothing to do, 2 clips already existed\n"
 
 
+def test_the_published_model_has_no_day(veldt, dataset):
+    assert _report(veldt, dataset.name).figures["days"] == []
+
+
 def test_the_same_dataset_gives_the_same_bytes(veldt, dataset):
     _report(veldt, "out")
     first = (dataset / "report.html").read_bytes()

@@ -6,6 +6,7 @@
 #include "dataset/dataset_file.h"
 #include "dataset/label_source.h"
 #include "dataset/layout.h"
+#include "dataset/reports/days.h"
 #include "dataset/reports/flights.h"
 #include "dataset/reports/frames.h"
 #include "dataset/reports/labels.h"
@@ -39,6 +40,7 @@ void add_dataset(const ReportRequest& request, Json& figures) {
   Json record = read_dataset_file(request.source);
   try {
     figures["flights"] = flight_figures(tracks_of(request, record), record.at("config"), request.assets);
+    figures["days"] = day_figures(record.at("config"), request.assets);
   } catch (const Json::exception& error) {
     throw DataError(Layout{request.source}.dataset_json().string() + ": " + error.what());
   }

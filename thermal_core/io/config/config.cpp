@@ -126,6 +126,21 @@ Weather weather_of(const Config& config, Season season) {
   return config.heat_balance ? at_moment(weather, 0) : weather;
 }
 
+std::map<Season, std::vector<std::pair<double, double>>> flown_hours(const Config& config) {
+  std::map<Season, std::vector<std::pair<double, double>>> flown;
+  const auto add = [&](Season season, double start_s, double duration_s) {
+    const double start_h = config.weather.at(static_cast<std::size_t>(season)).solar_h + start_s / 3600;
+    flown[season].emplace_back(start_h, start_h + duration_s / 3600);
+  };
+  for (const ClipConfig& clip : config.clips)
+    add(clip.season, clip.start_s, clip.frames / clip.frame_rate_hz);
+  for (const Json& flight : config.resolved["flights"]) {
+    add(season_of(flight["season"].get<std::string>()), flight.value("start_s", 0.0),
+        flight.value("duration_s", 0.0));
+  }
+  return flown;
+}
+
 void set_season(Json& document, const Json& season) {
   for (const char* flown : {"clips", "flights"}) {
     if (!document.contains(flown)) continue;

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/assets.h"
@@ -64,6 +66,9 @@ struct Config {
 
 /// The same at scene time 0.
 [[nodiscard]] Weather weather_of(const Config& config, Season season);
+
+/// When each season is flown, in hours of local solar time, from and to; beyond 24 for flights over midnight.
+[[nodiscard]] std::map<Season, std::vector<std::pair<double, double>>> flown_hours(const Config& config);
 
 /// Sets the season of every clip and flight of a document.
 void set_season(Json& document, const Json& season);
