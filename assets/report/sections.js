@@ -117,6 +117,7 @@ const TERMS = {
   sky: "surfaces reflect the sky and their surroundings",
   angular: "emissivity decreases towards grazing angles",
   path: "air between surface and camera absorbs and emits radiance",
+  mirror: "water reflects what stands around it",
   falloff: "the lens gathers less light off axis, so noise increases there",
 };
 

@@ -82,6 +82,43 @@ def test_passes_convert_to_the_same_pixels(veldt, usual, command):
     assert len({(folder / "annotations.json").read_bytes() for folder in annotations}) == 1
 
 
+def _at_a_shore() -> dict:
+    """A slanting view over the water, which mirrors the far shore."""
+    config = _config()
+    config["sensor"] = {"preset": "boson_640_14mm"}
+    flight = {"pattern": "orbit", "centre_m": [0, 0], "radius_m": 26, "altitude_m": 10}
+    config["clips"] = [{"id": "shore", "season": "winter", "frames": 2, "frame_rate_hz": 9, "flight": flight}]
+    return config
+
+
+@pytest.mark.parametrize("sampling", ["full", "adaptive"])
+def test_what_water_mirrors_is_the_same_from_kept_passes(veldt, sampling):
+    config = _at_a_shore()
+    config["terms"] = dict.fromkeys(("variation", "sky", "angular", "mirror", "path"), "on")
+    config["render"] |= {"supersample": 2, "sampling": sampling}
+    veldt.write("config.json", config)
+    _make(veldt)
+    _make(veldt, "--keep-passes", "--threads", 3, out="kept")
+    assert veldt.pixels("kept") == veldt.pixels("out")
+    assert veldt.read("kept/passes/shore/manifest.json")["mirror_layer"] == "Mirror"
+    _make(veldt, "--set", "terms.mirror=off", out="without")
+    assert veldt.pixels("without") != veldt.pixels("out")
+    if sampling == "full":
+        done = veldt(
+            "convert",
+            "kept/passes/shore",
+            "--out",
+            "converted",
+            "--config",
+            "config.json",
+            "--quiet",
+            "--set",
+            "render.engine=embree",
+        )
+        assert (done.code, done.err) == (0, "")
+        assert veldt.pixels("converted") == veldt.pixels("out")
+
+
 def test_render_goes_on_where_it_was_stopped(veldt):
     _make(veldt, command="render")
     folder = veldt.folder / "out" / "passes" / CLIPS[0]

@@ -71,7 +71,7 @@ void look_at(const BakedScene& scene) {
   const thermal::ClipTracer tracer(caster, track, small_scene::pinhole(4, 4, 4));
   thermal::Passes passes;
   for (std::size_t frame = 0; frame < track.frames; ++frame)
-    tracer.trace(frame, {.depth = true, .normals = true, .actors = true}, passes);
+    tracer.trace(frame, {.depth = true, .normals = true, .actors = true, .mirrored = true}, passes);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ void use(const BakedTrack& track, const BakedScene& scene, const thermal::RayCas
   const thermal::ClipTracer tracer(caster, track, scene.camera);
   thermal::Passes passes;
   for (std::size_t frame = 0; frame < std::min(track.frames, kMostFrames); ++frame)
-    tracer.trace(frame, {.depth = true, .normals = true, .actors = true}, passes);
+    tracer.trace(frame, {.depth = true, .normals = true, .actors = true, .mirrored = true}, passes);
   thermal::manifest_of(scene, track, thermal::ClipPlan(), thermal::Config()).validate();
 }
 

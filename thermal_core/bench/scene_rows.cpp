@@ -188,7 +188,7 @@ std::vector<BenchRow> term_rows(const MaterialLibrary& materials) {
     rows.push_back(term_row("emission + " + std::string(term.name), one, scene, materials));
   }
   const Terms all = {
-      .variation = true, .parts = true, .sky = true, .angular = true, .path = true, .falloff = true};
+      .variation = true, .parts = true, .sky = true, .angular = true, .mirror = true, .path = true, .falloff = true};
   rows.push_back(term_row("all terms", all, scene, materials));
   return rows;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "radiometry/band_radiance.h"
@@ -59,6 +60,12 @@ class MaterialModel {
     return factor * emitted(temperature_k()) + (air_radiance_ - factor * emitted_as_air_) * sky;
   }
 
+  /// The same of a surface that mirrors another, of some radiance.
+  [[nodiscard]] double with_mirrored(double factor, double radiance) const {
+    return factor * emitted(temperature_k()) +
+           (air_radiance_ - factor * emitted_as_air_) * radiance / air_radiance_;
+  }
+
   [[nodiscard]] double with_path(double radiance, double range_m) const {
     const double through = path_transmittance(weather_.air, range_m);
     return through * radiance + (1 - through) * air_radiance_;
@@ -74,12 +81,25 @@ class MaterialModel {
   double emitted_as_air_;
 };
 
+/// How much of a water mirrors what stands at its shore, seen at an angle of incidence: rays that rise from it as steeply
+/// reach the far shore below the height of what stands there. Of a disc, by 2 distance / (pi radius). Both lengths are
+/// estimates.
+double shore_share(double cosine) {
+  constexpr double kHeightM = 4;
+  constexpr double kRadiusM = 50;
+  const double distance_m = kHeightM * std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine;
+  return std::min(1.0, 2 * distance_m / (std::numbers::pi * kRadiusM));
+}
+
 /// Shifts that each term makes in one night.
 class NightShifts {
  public:
   NightShifts(const SceneOutline& outline, const SceneOutline::Night& night)
       : outline_(outline), night_(night) {
-    for (const SceneOutline::Cover& cover : outline.covers) add_cover(cover);
+    for (const SceneOutline::Cover& cover : outline.covers) {
+      add_cover(cover);
+      if (cover.material->angular == AngularLaw::water) add_mirror(cover);
+    }
     add_falloff();
   }
 
@@ -119,6 +139,23 @@ class NightShifts {
       add("sky", sky_k - direct_k, share, cover.actor);
       add("angular", tilted_k - sky_k, share, cover.actor);
       add("path", model.apparent_k(model.with_path(sky, look.range_m)) - sky_k, share, cover.actor);
+    }
+  }
+
+  /// Of water's pixels alone: those that mirror the sky are not shifted, the others mirror all that is not water.
+  void add_mirror(const SceneOutline::Cover& water) {
+    const MaterialModel model(*water.material, night_, outline_.response);
+    for (const SceneOutline::Cover& cover : outline_.covers) {
+      if (cover.material->angular == AngularLaw::water) continue;
+      const double mirrored = MaterialModel(*cover.material, night_, outline_.response).with_sky(1, 1);
+      for (const SceneOutline::Look& look : night_.looks) {
+        const double factor = angular_factor(water.material->angular, look.ground_cosine);
+        const double sky_k = model.apparent_k(model.with_sky(factor, look.ground_cosine));
+        const double shift_k = model.apparent_k(model.with_mirrored(factor, mirrored)) - sky_k;
+        const double share = shore_share(look.ground_cosine);
+        add("mirror", shift_k, cover.share * share, false);
+        add("mirror", 0, cover.share * (1 - share), false);
+      }
     }
   }
 
@@ -175,6 +212,8 @@ Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices) {
       effect.actor_shift_k = std::max(effect.actor_shift_k, one.actor_shift_k);
     }
     effect.choice = choices.*term.choice;
+    const bool matters = effect.choice == TermChoice::on || effect.spread_k > 0;
+    if (effect.name == "mirror" && !budget.kept.sky && matters) effect.impossible = "the term sky is off";
     if (const auto lacking = outline.impossible.find(effect.name); lacking != outline.impossible.end())
       effect.impossible = lacking->second;
     effect.kept = is_kept(effect, outline.netd_k);

@@ -94,6 +94,10 @@ void FrameConverter::convert(const Passes& passes, const ManifestFrame& frame, S
   surfaces.check_objects(uses);
   for (const CoverageRank& rank : passes.ranks) surfaces.check_objects(survey_indices(rank.object_index));
   if (!passes.material_index.empty()) surfaces.check_materials(survey_indices(passes.material_index));
+  if (!passes.mirrored.empty()) {
+    surfaces.check_objects(survey_indices(passes.mirrored.object_index));
+    surfaces.check_materials(survey_indices(passes.mirrored.material_index));
+  }
   out.instances = labeller_.label(passes, uses, frame);
   if (supersample_ == 1 && !map_) {
     out.checks = radiance(passes, frame, out.radiance_w_m2_sr);

@@ -131,7 +131,8 @@ class HeatedEmission {
     const kernels::CameraAxis up = world_axis(row, 2);
     for (std::size_t i = begin; i < end; ++i) {
       if (!(row.depth_m[i] > 0 && row.depth_m[i] < kSkyFromM)) continue;
-      const float z_m = row.pose->position_m[2] + row.depth_m[i] * along(up, row, i);
+      const float from_z_m = row.origin_z_m.empty() ? row.pose->position_m[2] : row.origin_z_m[i];
+      const float z_m = from_z_m + row.depth_m[i] * along(up, row, i);
       row.temperature_k[i] = by_depth_k(surface, crown_top_m(row, i) - z_m);
     }
   }

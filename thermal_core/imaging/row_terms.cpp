@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 #include "base/polynomial.h"
 #include "imaging/row_kernels.h"
@@ -190,6 +192,90 @@ RowTerm angular_emissivity(const SurfaceOpticsList& surfaces) {
       const float factor = water.at(row.cosine[i]);
       row.radiance_w_m2_sr[i] *= factor;
       row.reflected_w_m2_sr[i] += (1 - factor) * as_air[row.surface[i]];
+    }
+  };
+}
+
+namespace {
+
+/// The surfaces that a row's water mirrors, as a row of their own.
+struct MirroredRow {
+  /// Of the water pixels `from`.
+  MirroredRow(const Row& row, std::vector<std::size_t> from_pixels)
+      : from(std::move(from_pixels)),
+        pose(*row.pose),
+        surface(at(row.mirrored_surface)),
+        ray_x(at(row.ray_x)),
+        ray_y(at(row.ray_y)),
+        ray_length(at(row.ray_length)),
+        depth_m(at(row.mirrored_depth_m)),
+        normal{at(row.mirrored_normal[0]), at(row.mirrored_normal[1]), at(row.mirrored_normal[2])},
+        leg_m(from.size()),
+        origin_z_m(from.size()),
+        radiance_w_m2_sr(from.size()) {
+    const kernels::CameraAxis up = axis_of(row, 2);
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      const float to_water_m = row.depth_m[from[k]];
+      const float rise = up.right * ray_x[k] + up.down * ray_y[k] + up.forward;
+      origin_z_m[k] = row.pose->position_m[2] + 2 * to_water_m * rise;
+      leg_m[k] = depth_m[k] - to_water_m;
+    }
+    for (float& entry : pose.rotation[2]) entry = -entry;
+    seen.surface = surface;
+    seen.ray_x = ray_x;
+    seen.ray_y = ray_y;
+    seen.ray_length = ray_length;
+    seen.sample_width = row.sample_width;
+    seen.depth_m = depth_m;
+    seen.normal = {normal[0], normal[1], normal[2]};
+    seen.pose = &pose;
+    seen.origin_z_m = origin_z_m;
+    seen.later_h = row.later_h;
+    seen.radiance_w_m2_sr = radiance_w_m2_sr;
+  }
+  MirroredRow(const MirroredRow&) = delete;
+  MirroredRow& operator=(const MirroredRow&) = delete;
+
+  template <typename T>
+  [[nodiscard]] std::vector<std::remove_const_t<T>> at(std::span<T> values) const {
+    std::vector<std::remove_const_t<T>> chosen;
+    chosen.reserve(from.size());
+    for (const std::size_t i : from) chosen.push_back(values[i]);
+    return chosen;
+  }
+
+  std::vector<std::size_t> from;
+  CameraPose pose;  ///< of the camera below the water
+  std::vector<std::uint16_t> surface;
+  std::vector<float> ray_x;
+  std::vector<float> ray_y;
+  std::vector<float> ray_length;
+  std::vector<float> depth_m;
+  std::array<std::vector<float>, 3> normal;
+  std::vector<float> leg_m;  ///< of the depth, from the water on
+  std::vector<float> origin_z_m;
+  std::vector<float> radiance_w_m2_sr;
+  Row seen;
+};
+
+}  // namespace
+
+RowTerm mirrored_surfaces(std::vector<RowTerm> terms, RowTerm path, float air_radiance_w_m2_sr) {
+  return [terms = std::move(terms), path = std::move(path), per_air = 1 / air_radiance_w_m2_sr](Row& row) {
+    if (row.mirrored_surface.empty()) return;
+    std::vector<std::size_t> pixels;
+    for (const std::size_t i : row.water) {
+      if (row.mirrored_surface[i] != 0) pixels.push_back(i);
+    }
+    if (pixels.empty()) return;
+    MirroredRow mirrored(row, std::move(pixels));
+    for (const RowTerm& term : terms) term(mirrored.seen);
+    mirrored.seen.depth_m = mirrored.leg_m;
+    if (path) path(mirrored.seen);
+    for (std::size_t k = 0; k < mirrored.from.size(); ++k) {
+      const std::size_t i = mirrored.from[k];
+      row.radiance_w_m2_sr[i] += row.reflected_w_m2_sr[i] * per_air * mirrored.radiance_w_m2_sr[k];
+      row.reflected_w_m2_sr[i] = 0;
     }
   };
 }

@@ -36,8 +36,13 @@ struct Row {
   float sample_width = 0;             ///< side of a sample at depth 1
   std::span<const float> depth_m;     ///< empty if no term needs it
   std::array<std::span<const float>, 3> normal;  ///< the same
+  /// What water mirrors, see Mirrored; surface 0 where that is the sky. Empty: nowhere anything else.
+  std::span<const std::uint16_t> mirrored_surface;
+  std::span<const float> mirrored_depth_m;
+  std::array<std::span<const float>, 3> mirrored_normal;
   const CameraPose* pose = nullptr;
-  float later_h = 0;  ///< of the frame than the middle of its clip [h]
+  std::span<const float> origin_z_m;  ///< of the ray through each sample; empty: the pose's
+  float later_h = 0;                  ///< of the frame than the middle of its clip [h]
   std::span<float> radiance_w_m2_sr;
   std::vector<float> sky_view;           ///< fraction of the sky that a surface faces
   std::vector<float> cosine;             ///< of the viewing angle
@@ -79,6 +84,11 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 
 /// Fills `reflected` with each surface's reflectivity at normal incidence. Must precede angular_emissivity.
 [[nodiscard]] RowTerm reflectivity(const SurfaceOpticsList& surfaces);
+
+/// Adds the reflection of surfaces by water that mirrors them: what `terms` make of these surfaces, and `path`, which may
+/// be empty, of the air between them and the water. They are then no longer in `reflected`. Must precede
+/// sky_reflection().
+[[nodiscard]] RowTerm mirrored_surfaces(std::vector<RowTerm> terms, RowTerm path, float air_radiance_w_m2_sr);
 
 /// Adds the reflection of sky and surroundings: diffuse surfaces see a fraction sky_view of sky, water the mirror
 /// direction.

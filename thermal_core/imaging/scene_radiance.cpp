@@ -170,12 +170,22 @@ void SceneRadiance::compose(const PhysicsSettings& settings, bool has_poses) {
     chain_.push_back(water_pixels(optics));
   }
   if (terms.angular) chain_.push_back(angular_emissivity(optics));
-  if (terms.sky) chain_.push_back(sky_reflection(settings.weather.air));
-  if (terms.path) {
-    chain_.push_back(path(settings.weather.air, static_cast<float>(air_radiance)));
+  const RowTerm of_sky = sky_reflection(settings.weather.air);
+  const RowTerm of_path =
+      terms.path ? path(settings.weather.air, static_cast<float>(air_radiance)) : RowTerm();
+  const bool mirrors = terms.mirror && terms.sky;
+  if (mirrors) {
+    std::vector<RowTerm> of_surfaces = chain_;
+    of_surfaces.push_back(of_sky);
+    chain_.push_back(mirrored_surfaces(std::move(of_surfaces), of_path, static_cast<float>(air_radiance)));
   }
+  if (terms.sky) chain_.push_back(of_sky);
+  if (of_path) chain_.push_back(of_path);
   const bool has_maps = settings.heat && settings.heat->ground;
-  needs_ = {.depth = terms.variation || terms.path || has_maps, .normals = terms.sky || terms.angular};
+  needs_ = {.depth = terms.variation || terms.path || has_maps || mirrors,
+            .normals = terms.sky || terms.angular,
+            .actors = false,
+            .mirrored = mirrors};
 }
 
 void SceneRadiance::find_brightest() {
@@ -190,6 +200,18 @@ void SceneRadiance::find_brightest() {
 
 float SceneRadiance::later_h(const ManifestFrame& frame) const noexcept {
   return static_cast<float>((frame.time_s - middle_s_) / 3600);
+}
+
+/// What a row's water mirrors. `numbers` holds the surfaces of the row, and is empty if none are mirrored.
+void SceneRadiance::begin_mirrored(const Mirrored<Plane>& mirrored, int y, std::span<std::uint16_t> numbers,
+                                   Row& row) const {
+  if (numbers.empty()) return;
+  const Plane<std::uint16_t>& materials = mirrored.material_index;
+  map_.number(mirrored.object_index.row(y),
+              materials.empty() ? std::span<const std::uint16_t>() : materials.row(y), numbers);
+  row.mirrored_surface = numbers;
+  row.mirrored_depth_m = mirrored.depth_m.row(y);
+  for (std::size_t axis = 0; axis < 3; ++axis) row.mirrored_normal[axis] = mirrored.normal[axis].row(y);
 }
 
 void SceneRadiance::begin_row(const Passes& passes, const CameraRays* rays, int y, Row& row) const {
@@ -222,6 +244,7 @@ PassChecks SceneRadiance::radiance(const Passes& passes, const ManifestFrame& fr
   }
   return sum_over_rows(objects.height_px(), [&](int begin, int end) {
     std::vector<std::uint16_t> numbers(static_cast<std::size_t>(objects.width_px()));
+    std::vector<std::uint16_t> mirrored(mirrors(passes.mirrored.empty()) ? numbers.size() : 0);
     PassChecks checks;
     Row row;
     row.pose = &pose;
@@ -231,6 +254,7 @@ PassChecks SceneRadiance::radiance(const Passes& passes, const ManifestFrame& fr
       const auto materials = has_materials ? passes.material_index.row(y) : std::span<const std::uint16_t>();
       map_.number(objects.row(y), materials, numbers);
       begin_row(passes, rays, y, row);
+      begin_mirrored(passes.mirrored, y, mirrored, row);
       checks += check_row(row);
       row.radiance_w_m2_sr = out.row(y);
       for (const RowTerm& term : chain_) term(row);
@@ -242,8 +266,10 @@ PassChecks SceneRadiance::radiance(const Passes& passes, const ManifestFrame& fr
 /// A line of fine samples as the terms process it, in memory that the next line reuses.
 struct SceneRadiance::FineLine {
   void begin(const FineSamples& fine, int y, int line, const CameraRays* rays, const PassNeeds& needs);
+  void begin_mirrored(const Mirrored<SampleList>& mirrored, const SurfaceMap& map);
 
   std::vector<std::uint16_t> numbers;
+  std::vector<std::uint16_t> mirrored_numbers;
   std::vector<float> radiance_w_m2_sr;
   std::vector<float> ray_x;
   std::vector<float> ray_y;
@@ -284,6 +310,16 @@ void SceneRadiance::FineLine::begin(const FineSamples& fine, int y, int line, co
   row.sample_width = rays->pixel_width();
 }
 
+void SceneRadiance::FineLine::begin_mirrored(const Mirrored<SampleList>& mirrored, const SurfaceMap& map) {
+  mirrored_numbers.resize(count);
+  map.number(std::span(mirrored.object_index).subspan(first, count),
+             std::span(mirrored.material_index).subspan(first, count), mirrored_numbers);
+  row.mirrored_surface = mirrored_numbers;
+  row.mirrored_depth_m = std::span(mirrored.depth_m).subspan(first, count);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    row.mirrored_normal[axis] = std::span(mirrored.normal[axis]).subspan(first, count);
+}
+
 PassChecks SceneRadiance::refine(const FineSamples& fine, const ManifestFrame& frame,
                                  Plane<float>& out) const {
   const CameraPose pose = pose_in(frame);
@@ -302,6 +338,7 @@ PassChecks SceneRadiance::refine(const FineSamples& fine, const ManifestFrame& f
         line.begin(fine, y, k, held_->rays.get(), needs_);
         map_.number(std::span(fine.object_index).subspan(line.first, line.count),
                     materials.empty() ? materials : materials.subspan(line.first, line.count), line.numbers);
+        if (mirrors(fine.mirrored.empty())) line.begin_mirrored(fine.mirrored, map_);
         checks += check_row(line.row);
         for (const RowTerm& term : chain_) term(line.row);
         for (std::size_t i = 0; i < line.count; ++i) sums[i / side] += line.radiance_w_m2_sr[i];

@@ -54,6 +54,7 @@ Manifest read_document(const Json& json) {
   manifest.frame_rate_hz = json["frame_rate_hz"];
   manifest.layer = json["layer"];
   manifest.actor_layer = json["actor_layer"];
+  manifest.mirror_layer = json["mirror_layer"];
   manifest.channels = read_channels(json["channels"]);
   manifest.cryptomatte = json["cryptomatte"];
   manifest.sky_colour = json["sky_colour"].get<Colour>();
@@ -118,6 +119,7 @@ Json head_of(const Manifest& manifest) {
   json["frame_rate_hz"] = manifest.frame_rate_hz;
   json["layer"] = manifest.layer;
   if (!manifest.actor_layer.empty()) json["actor_layer"] = manifest.actor_layer;
+  if (!manifest.mirror_layer.empty()) json["mirror_layer"] = manifest.mirror_layer;
   json["supersample"] = manifest.supersample;
   json["overscan_px"] = manifest.overscan_px;
   json["camera"] = to_json(manifest.camera);

@@ -18,7 +18,7 @@ struct IndexPixels {
 /// contents: also after a failed read, which leaves it in an unspecified state.
 struct PassBuffer {
   Passes passes;
-  std::array<IndexPixels, 3> pixels;  ///< of objects, materials and actors
+  std::array<IndexPixels, 5> pixels;  ///< of objects, materials, actors, mirrored objects and their materials
 };
 
 }  // namespace thermal

@@ -15,6 +15,7 @@ ExrLayout layout_of(const Manifest& manifest, const ReadLimits& limits) {
   const CameraIntrinsics camera = passes_camera(manifest);
   return {.layer = manifest.layer,
           .actor_layer = manifest.actor_layer,
+          .mirror_layer = manifest.mirror_layer,
           .channels = manifest.channels,
           .width_px = camera.width_px,
           .height_px = camera.height_px,

@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "raycast/first_hit.h"
+#include "raycast/mirrors.h"
 #include "raycast/ray_packets.h"
 #include "raycast/seen_triangles.h"
 #include "raycast/sight.h"
@@ -14,13 +15,19 @@ namespace {
 constexpr float kSkyDepthM = 1e10F;  // as Blender has it
 const SeenTriangle kSky;
 
-/// Where results go, by place; null where they are not needed.
-struct Sink {
+/// Where what is hit goes, by place; null where it is not needed.
+struct SightSink {
   std::uint16_t* object_index = nullptr;
   std::uint16_t* material_index = nullptr;
-  std::uint16_t* actor_index = nullptr;
   float* depth_m = nullptr;
   std::array<float*, 3> normal{};
+};
+
+/// Where results go.
+struct Sink {
+  SightSink seen;
+  SightSink mirrored;
+  std::uint16_t* actor_index = nullptr;
 };
 
 template <typename T>
@@ -37,19 +44,28 @@ T* samples_of(std::vector<T>& list, bool wanted, std::size_t samples) {
   return wanted ? list.data() : nullptr;
 }
 
+/// What one thread traces a shot with.
+struct TriangleCaches {
+  explicit TriangleCaches(const Shot& shot) : seen(shot), mirrors(shot) {}
+
+  SeenTriangles seen;
+  Mirrors mirrors;
+};
+
 class RayTracer {
  public:
   RayTracer(const Shot& shot, const Sink& sink) : shot_(shot), sink_(sink) {}
 
   /// Actors first, which the actor layer shows; their hits then bound the search among the surroundings.
-  void trace(const Packet& rays, SeenTriangles& triangles) const {
+  void trace(const Packet& rays, TriangleCaches& caches) const {
     const VectorLanes<double> direction = directions(shot_.view, rays.x, rays.y);
     RayPacket packet = aimed(shot_.view, direction, shot_.place.scene().depth_range_m);
-    FirstHitSearch first(direction, triangles);
+    FirstHitSearch first(direction, caches.seen);
     if (rays.near_actors) first.search(shot_.actors, 0, rays.mask, packet);
     if (sink_.actor_index != nullptr) put_actors(first.hits(), rays);
     first.search(shot_.place.surroundings(), shot_.first_surrounding(), rays.mask, packet);
-    put_sights(direction, first.hits(), rays, triangles);
+    put_sights(direction, first.hits(), rays, caches.seen, sink_.seen);
+    if (sink_.mirrored.object_index != nullptr) trace_mirrored(direction, first.hits(), rays, caches);
   }
 
  private:
@@ -60,26 +76,62 @@ class RayTracer {
     }
   }
 
-  void put_sights(const VectorLanes<double>& direction, const FirstHits& hits, const Packet& rays,
-                  SeenTriangles& triangles) const noexcept {
+  /// Rays of one packet nearly always hit one water.
+  void trace_mirrored(const VectorLanes<double>& direction, const FirstHits& hits, const Packet& rays,
+                      TriangleCaches& caches) const {
+    put_sights(direction, FirstHits(), rays, caches.seen, sink_.mirrored);
+    std::array<bool, kLanes> wet{};
+    Lanes<double> height_m{};
+    for (std::size_t k = 0; k < rays.rays; ++k) {
+      if (hits.piece[k] == kNoPiece || !(direction[2][k] < 0)) continue;
+      const SeenTriangle& triangle = caches.seen.at(hits.piece[k], hits.triangle[k]);
+      wet[k] = shot_.place.is_water(triangle.object, triangle.material);
+      height_m[k] = triangle.height_m;
+    }
+    for (std::size_t first = 0; first < rays.rays; ++first) {
+      if (!wet[first]) continue;
+      Packet on_water;
+      for (std::size_t k = first; k < rays.rays; ++k) {
+        if (!wet[k] || height_m[k] != height_m[first]) continue;
+        on_water.add({.x = rays.x[k], .y = rays.y[k]}, rays.places[k]);
+        wet[k] = false;
+      }
+      trace_up(on_water, caches.mirrors.at(height_m[first]));
+    }
+  }
+
+  /// From the water on.
+  void trace_up(const Packet& rays, Mirror& mirror) const {
+    const Shot& shot = mirror.shot();
+    const VectorLanes<double> direction = directions(shot.view, rays.x, rays.y);
+    RayPacket packet =
+        aimed(shot.view, direction, mirror.depths_m(direction), shot.place.scene().depth_range_m[1]);
+    FirstHitSearch first(direction, mirror.triangles());
+    first.search(shot.actors, 0, rays.mask, packet);
+    first.search(shot.place.surroundings(), shot.first_surrounding(), rays.mask, packet);
+    put_sights(direction, first.hits(), rays, mirror.triangles(), sink_.mirrored);
+  }
+
+  static void put_sights(const VectorLanes<double>& direction, const FirstHits& hits, const Packet& rays,
+                         SeenTriangles& triangles, const SightSink& sink) noexcept {
     TriangleLanes lanes;  // NOLINT(cppcoreguidelines-pro-type-member-init): all lanes are filled in
     for (std::size_t k = 0; k < kLanes; ++k) {
       const bool sky = hits.piece[k] == kNoPiece;
       const SeenTriangle& triangle = sky ? kSky : triangles.at(hits.piece[k], hits.triangle[k]);
       put_lane(triangle.sight, k, lanes);
       if (k >= rays.rays) continue;
-      sink_.object_index[rays.places[k]] = triangle.object;
-      sink_.material_index[rays.places[k]] = triangle.material;
+      sink.object_index[rays.places[k]] = triangle.object;
+      sink.material_index[rays.places[k]] = triangle.material;
     }
-    if (sink_.depth_m == nullptr && sink_.normal[0] == nullptr) return;
+    if (sink.depth_m == nullptr && sink.normal[0] == nullptr) return;
     SightLanes sights;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
     see_triangles(direction, lanes, sights);
     for (std::size_t k = 0; k < rays.rays; ++k) {
       const bool sky = hits.piece[k] == kNoPiece;
       const std::size_t place = rays.places[k];
-      if (sink_.depth_m != nullptr) sink_.depth_m[place] = sky ? kSkyDepthM : sights.depth_m[k];
-      for (std::size_t axis = 0; sink_.normal[0] != nullptr && axis < 3; ++axis)
-        sink_.normal[axis][place] = sky ? 0.0F : sights.normal[axis][k];
+      if (sink.depth_m != nullptr) sink.depth_m[place] = sky ? kSkyDepthM : sights.depth_m[k];
+      for (std::size_t axis = 0; sink.normal[0] != nullptr && axis < 3; ++axis)
+        sink.normal[axis][place] = sky ? 0.0F : sights.normal[axis][k];
     }
   }
 
@@ -89,7 +141,7 @@ class RayTracer {
 
 /// The samples of one row of pixels, pixel by pixel.
 void trace_row(const RayTracer& tracer, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
-               int row, const FineSamples& fine, SeenTriangles& triangles) {
+               int row, const FineSamples& fine, TriangleCaches& caches) {
   Packet packet;
   const auto side = static_cast<std::size_t>(fine.factor);
   const std::size_t begin = fine.row_begin[static_cast<std::size_t>(row)];
@@ -101,33 +153,40 @@ void trace_row(const RayTracer& tracer, const PixelRays& rays, const Plane<std::
       packet.add(rays.at(x_px * side + k % side, static_cast<std::size_t>(row) * side + line), place);
       packet.near_actors |= near_actors.at(static_cast<int>(x_px), row) != 0;
       if (!packet.is_full()) continue;
-      tracer.trace(packet, triangles);
+      tracer.trace(packet, caches);
       packet = {};
     }
   }
-  if (packet.rays > 0) tracer.trace(packet, triangles);
+  if (packet.rays > 0) tracer.trace(packet, caches);
 }
 
 }  // namespace
 
 void trace_pixels(const Shot& shot, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
                   const PassNeeds& needs, Passes& out) {
-  const Sink sink = {
-      .object_index = pixels_of(out.object_index, true, rays),
-      .material_index = pixels_of(out.material_index, true, rays),
-      .actor_index = pixels_of(out.actor_index, needs.actors, rays),
-      .depth_m = pixels_of(out.depth_m, needs.depth, rays),
-      .normal = {pixels_of(out.normal[0], needs.normals, rays), pixels_of(out.normal[1], needs.normals, rays),
-                 pixels_of(out.normal[2], needs.normals, rays)}};
+  const bool mirrored = needs.mirrored && shot.place.has_water();
+  const Sink sink = {.seen = {.object_index = pixels_of(out.object_index, true, rays),
+                              .material_index = pixels_of(out.material_index, true, rays),
+                              .depth_m = pixels_of(out.depth_m, needs.depth, rays),
+                              .normal = {pixels_of(out.normal[0], needs.normals, rays),
+                                         pixels_of(out.normal[1], needs.normals, rays),
+                                         pixels_of(out.normal[2], needs.normals, rays)}},
+                     .mirrored = {.object_index = pixels_of(out.mirrored.object_index, mirrored, rays),
+                                  .material_index = pixels_of(out.mirrored.material_index, mirrored, rays),
+                                  .depth_m = pixels_of(out.mirrored.depth_m, mirrored, rays),
+                                  .normal = {pixels_of(out.mirrored.normal[0], mirrored, rays),
+                                             pixels_of(out.mirrored.normal[1], mirrored, rays),
+                                             pixels_of(out.mirrored.normal[2], mirrored, rays)}},
+                     .actor_index = pixels_of(out.actor_index, needs.actors, rays)};
   out.ranks.clear();
   const RayTracer tracer(shot, sink);
   const auto rows = static_cast<std::size_t>((rays.height_px() + kBlockPx - 1) / kBlockPx);
   parallel_for(rows, 2, [&](std::size_t begin, std::size_t end) {
-    SeenTriangles triangles(shot);
+    TriangleCaches caches(shot);
     for (int y_px = static_cast<int>(begin) * kBlockPx; y_px < static_cast<int>(end) * kBlockPx;
          y_px += kBlockPx) {
       for (int x_px = 0; x_px < rays.width_px(); x_px += kBlockPx)
-        tracer.trace(block_at(x_px, y_px, rays, near_actors), triangles);
+        tracer.trace(block_at(x_px, y_px, rays, near_actors), caches);
     }
   });
 }
@@ -136,18 +195,26 @@ void trace_samples(const Shot& shot, const PixelRays& rays, const Plane<std::uin
                    const PassNeeds& needs, FineSamples& fine) {
   const auto side = static_cast<std::size_t>(fine.factor);
   const std::size_t samples = side * side * fine.x_px.size();
-  const Sink sink = {.object_index = samples_of(fine.object_index, true, samples),
-                     .material_index = samples_of(fine.material_index, true, samples),
-                     .actor_index = samples_of(fine.actor_index, needs.actors, samples),
-                     .depth_m = samples_of(fine.depth_m, needs.depth, samples),
-                     .normal = {samples_of(fine.normal[0], needs.normals, samples),
-                                samples_of(fine.normal[1], needs.normals, samples),
-                                samples_of(fine.normal[2], needs.normals, samples)}};
+  const bool mirrored = needs.mirrored && shot.place.has_water();
+  const Sink sink = {
+      .seen = {.object_index = samples_of(fine.object_index, true, samples),
+               .material_index = samples_of(fine.material_index, true, samples),
+               .depth_m = samples_of(fine.depth_m, needs.depth, samples),
+               .normal = {samples_of(fine.normal[0], needs.normals, samples),
+                          samples_of(fine.normal[1], needs.normals, samples),
+                          samples_of(fine.normal[2], needs.normals, samples)}},
+      .mirrored = {.object_index = samples_of(fine.mirrored.object_index, mirrored, samples),
+                   .material_index = samples_of(fine.mirrored.material_index, mirrored, samples),
+                   .depth_m = samples_of(fine.mirrored.depth_m, mirrored, samples),
+                   .normal = {samples_of(fine.mirrored.normal[0], mirrored, samples),
+                              samples_of(fine.mirrored.normal[1], mirrored, samples),
+                              samples_of(fine.mirrored.normal[2], mirrored, samples)}},
+      .actor_index = samples_of(fine.actor_index, needs.actors, samples)};
   const RayTracer tracer(shot, sink);
   parallel_for(static_cast<std::size_t>(near_actors.height_px()), 8, [&](std::size_t begin, std::size_t end) {
-    SeenTriangles triangles(shot);
+    TriangleCaches caches(shot);
     for (auto row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
-      trace_row(tracer, rays, near_actors, row, fine, triangles);
+      trace_row(tracer, rays, near_actors, row, fine, caches);
   });
 }
 

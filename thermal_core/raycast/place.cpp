@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/parallel.h"
@@ -61,6 +62,14 @@ EmbreeScene scene_of(RTCDevice device, const BakedMesh& mesh, RTCFilterFunctionN
   return scene;
 }
 
+/// Which indices stand for water.
+template <typename Entry>
+std::vector<bool> water_among(const std::vector<Entry>& entries) {
+  std::vector<bool> wet(std::numeric_limits<std::uint16_t>::max() + std::size_t{1});
+  for (const Entry& entry : entries) wet[entry.index] = entry.material == "water";
+  return wet;
+}
+
 /// As Blender has it, which keeps the angle of a plant and its size, each in single precision.
 Transform<double> upright(const Transform<double>& plant) noexcept {
   Transform<double> rounded = plant;
@@ -112,6 +121,9 @@ Place::Place(const BakedScene& scene, RTCFilterFunctionN filter)
     }
   });
   surroundings_ = set_of(surroundings_of(scene));
+  water_objects_ = water_among(scene.objects);
+  water_materials_ = water_among(scene.materials);
+  has_water_ = std::ranges::count(water_objects_, true) + std::ranges::count(water_materials_, true) > 0;
 }
 
 PieceSet Place::set_of(std::vector<Piece> pieces) const {

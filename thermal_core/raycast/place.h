@@ -42,6 +42,13 @@ class Place {
     return normals_[mesh];
   }
 
+  [[nodiscard]] bool has_water() const noexcept { return has_water_; }
+
+  /// Whether triangles of this object and material are of the material "water".
+  [[nodiscard]] bool is_water(std::uint16_t object, std::uint16_t material) const noexcept {
+    return has_water_ && (material != 0 ? water_materials_[material] : water_objects_[object]);
+  }
+
   [[nodiscard]] const MeshBox& box(std::size_t mesh) const noexcept { return boxes_[mesh]; }
 
   /// Builds the structure of these pieces, without those whose transform is not one of a body: flattened to less than
@@ -55,6 +62,9 @@ class Place {
   std::vector<std::vector<std::array<float, 3>>> normals_;
   std::vector<MeshBox> boxes_;
   PieceSet surroundings_;
+  bool has_water_ = false;
+  std::vector<bool> water_objects_;  ///< by index; by index
+  std::vector<bool> water_materials_;
 };
 
 }  // namespace thermal

@@ -41,6 +41,13 @@ std::vector<Piece> actors_in(const BakedScene& scene, const BakedTrack& track, s
   return pieces;
 }
 
+bool mirrors_anything(const Passes& passes) {
+  const auto any = [](const auto& indices) {
+    return std::ranges::any_of(indices, [](std::uint16_t index) { return index != 0; });
+  };
+  return any(passes.mirrored.object_index.pixels()) || any(passes.fine.mirrored.object_index);
+}
+
 }  // namespace
 
 RayCaster::RayCaster(const BakedScene& scene)
@@ -68,11 +75,17 @@ void ClipTracer::trace(std::size_t frame, const PassNeeds& needs, Passes& out) c
   const Plane<std::uint8_t> near_actors = pixels_near(actors.pieces, place_, shot.view, *pixel_rays_);
   PassNeeds of_pixels = needs;
   of_pixels.depth |= sample_rays_ != nullptr;
+  of_pixels.mirrored |= sample_rays_ != nullptr;
   trace_pixels(shot, *pixel_rays_, near_actors, of_pixels, out);
   out.fine.factor = sample_rays_ ? supersample_ : 1;
-  if (!sample_rays_) return;
-  choose_pixels(out, near_actors, out.fine);
-  trace_samples(shot, *sample_rays_, near_actors, needs, out.fine);
+  out.fine.mirrored = {};
+  if (sample_rays_) {
+    choose_pixels(out, near_actors, out.fine);
+    trace_samples(shot, *sample_rays_, near_actors, needs, out.fine);
+  }
+  if (mirrors_anything(out)) return;
+  out.mirrored = {};
+  out.fine.mirrored = {};
 }
 
 }  // namespace thermal

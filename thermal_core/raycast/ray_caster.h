@@ -50,7 +50,8 @@ class ClipTracer {
   /// at the depths of BakedScene::depth_range_m; the sky has index 0, a depth of 1e10 m and a normal of 0. Depth and normals are
   /// exact to single precision, indices to about 1e-4 px at silhouettes, by Embree's single precision.
   /// Adaptive: a pixel has all rays if an actor may be in it, or if it differs from one of its eight neighbours in
-  /// object or material, or in depth by more than 2 %. A plant that no neighbour shows is missed between rays.
+  /// object or material, seen or mirrored, or in depth by more than 2 %. A plant that no neighbour shows is missed between
+  /// rays. Water is what has the material "water"; it mirrors as a level surface.
   /// The result depends on nothing else. Memory of `out` is reused. Safe to call from several threads.
   void trace(std::size_t frame, const PassNeeds& needs, Passes& out) const;
 

@@ -44,14 +44,20 @@ Packet block_at(int x_px, int y_px, const PixelRays& rays, const Plane<std::uint
 
 RayPacket aimed(const View& view, const VectorLanes<double>& direction,
                 const std::array<double, 2>& depth_range_m) noexcept {
-  const auto [nearest_m, farthest_m] = depth_range_m;
+  Lanes<double> nearest_m{};
+  nearest_m.fill(depth_range_m[0]);
+  return aimed(view, direction, nearest_m, depth_range_m[1]);
+}
+
+RayPacket aimed(const View& view, const VectorLanes<double>& direction, const Lanes<double>& nearest_m,
+                double farthest_m) noexcept {
   const UnitLanes unit = units(direction);
   const auto x_m = static_cast<float>(view.position_m.x);
   const auto y_m = static_cast<float>(view.position_m.y);
   const auto z_m = static_cast<float>(view.position_m.z);
   RayPacket packet;
   for (std::size_t k = 0; k < kLanes; ++k) {
-    const auto start_m = static_cast<float>(nearest_m * unit.length[k]);
+    const auto start_m = static_cast<float>(nearest_m[k] * unit.length[k]);
     packet.ray.org_x[k] = x_m + start_m * unit.direction[0][k];
     packet.ray.org_y[k] = y_m + start_m * unit.direction[1][k];
     packet.ray.org_z[k] = z_m + start_m * unit.direction[2][k];
@@ -59,7 +65,7 @@ RayPacket aimed(const View& view, const VectorLanes<double>& direction,
     packet.ray.dir_y[k] = unit.direction[1][k];
     packet.ray.dir_z[k] = unit.direction[2][k];
     packet.ray.tnear[k] = 0;
-    packet.ray.tfar[k] = static_cast<float>((farthest_m - nearest_m) * unit.length[k]);
+    packet.ray.tfar[k] = static_cast<float>((farthest_m - nearest_m[k]) * unit.length[k]);
     packet.ray.time[k] = 0;
     packet.ray.mask[k] = ~0U;
     packet.ray.id[k] = static_cast<unsigned>(k);

@@ -45,4 +45,8 @@ static_assert(kBlockPx * kBlockPx == static_cast<int>(kLanes));
 [[nodiscard]] RayPacket aimed(const View& view, const VectorLanes<double>& direction,
                               const std::array<double, 2>& depth_range_m) noexcept;
 
+/// The same with a nearest depth for each ray.
+[[nodiscard]] RayPacket aimed(const View& view, const VectorLanes<double>& direction,
+                              const Lanes<double>& nearest_m, double farthest_m) noexcept;
+
 }  // namespace thermal

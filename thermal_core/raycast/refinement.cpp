@@ -89,6 +89,9 @@ void mark_pairs(const Passes& passes, int row, int other, int shift, Plane<std::
   mark_pairs(passes.object_index, row, other, shift, marks);
   mark_pairs(passes.material_index, row, other, shift, marks);
   mark_pairs(passes.depth_m, row, other, shift, marks);
+  if (passes.mirrored.empty()) return;
+  mark_pairs(passes.mirrored.object_index, row, other, shift, marks);
+  mark_pairs(passes.mirrored.material_index, row, other, shift, marks);
 }
 
 }  // namespace

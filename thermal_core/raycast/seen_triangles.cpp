@@ -13,10 +13,13 @@ SeenTriangle SeenTriangles::seen(unsigned number_of_piece, unsigned number) cons
     corner_m[which] = vector_of(mesh.points_m[corner]);
     if (!normals.empty()) normal[which] = vector_of(normals[corner]);
   }
+  const auto& to_world = piece.to_world;
+  const Vector3& first = corner_m[0];
   return {.piece = number_of_piece,
           .number = number,
           .object = piece.object,
           .material = mesh.material_index[number],
+          .height_m = to_world[8] * first.x + to_world[9] * first.y + to_world[10] * first.z + to_world[11],
           .sight = sight_of(shot_.view, piece.to_world, corner_m, normal)};
 }
 

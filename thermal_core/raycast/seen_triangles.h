@@ -15,6 +15,7 @@ struct SeenTriangle {
   unsigned number = 0;
   std::uint16_t object = 0;
   std::uint16_t material = 0;
+  double height_m = 0;  ///< of its first corner, in the world
   TriangleSight sight;
 };
 

@@ -72,9 +72,10 @@ struct Manifest {
   std::string scene;
   std::uint32_t seed = 1;
   double frame_rate_hz = 9;
-  std::string layer;        ///< EXR layer; empty: the only one
-  std::string actor_layer;  ///< EXR layer with the index of actors alone; empty: none
-  PassChannels channels;    ///< of `layer`
+  std::string layer;         ///< EXR layer; empty: the only one
+  std::string actor_layer;   ///< EXR layer with the index of actors alone; empty: none
+  std::string mirror_layer;  ///< EXR layer of what water mirrors; empty: unknown
+  PassChannels channels;     ///< of `layer`
   std::string
       cryptomatte;  ///< cryptomatte that identifies objects in place of an index plane, such as "CryptoObject"; or empty
   Colour sky_colour{};   ///< in pictures that identify objects by colour

@@ -15,8 +15,24 @@ inline constexpr float kSkyFromM = 1e9F;
 struct PassNeeds {
   bool depth = false;
   bool normals = false;
-  bool actors = false;  ///< the manifest's actor_layer
+  bool actors = false;    ///< the manifest's actor_layer
+  bool mirrored = false;  ///< what water mirrors
 };
+
+/// What level water mirrors, at the pixels or samples of the water: what the camera would see there from below the water,
+/// as far below it as it is above, of all that stands above the water. Elsewhere, and where water mirrors the sky, both
+/// indices are 0. `Of` is a plane or a list. All are empty if water mirrors nothing but sky.
+template <template <typename> typename Of>
+struct Mirrored {
+  Of<std::uint16_t> object_index;
+  Of<std::uint16_t> material_index;
+  Of<float> depth_m;  ///< along the axis of the camera below: camera, water, and what it mirrors
+  std::array<Of<float>, 3> normal;  ///< x, y, z in world axes
+
+  [[nodiscard]] bool empty() const noexcept { return object_index.empty(); }
+};
+template <typename Value>
+using SampleList = std::vector<Value>;
 
 /// One of the objects that share a pixel, and the fraction of the pixel it covers.
 struct CoverageRank {
@@ -36,6 +52,7 @@ struct FineSamples {
   std::vector<std::uint16_t> actor_index;
   std::vector<float> depth_m;
   std::array<std::vector<float>, 3> normal;
+  Mirrored<SampleList> mirrored;
 
   /// Position of the first sample of a line of a pixel row.
   [[nodiscard]] std::size_t line_begin(int row, int line) const noexcept {
@@ -56,6 +73,7 @@ struct Passes {
   Plane<std::uint16_t> actor_index;     ///< of actors alone, hidden only by each other; empty if absent
   Plane<float> depth_m;                 ///< along the camera's axis, not along the ray; sky: 1e9 or more
   std::array<Plane<float>, 3> normal;   ///< x, y, z in world axes
+  Mirrored<Plane> mirrored;
   /// For files that list the objects sharing a pixel: radiance is the mean over these, the rest of a pixel is sky,
   /// and `object_index` is the object that covers most of it. Empty: `object_index` is all there is.
   std::vector<CoverageRank> ranks;

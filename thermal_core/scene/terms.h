@@ -10,6 +10,7 @@ struct Terms {
   bool parts = false;      ///< parts of an actor at their own temperatures
   bool sky = false;        ///< reflection of sky and surroundings
   bool angular = false;    ///< emissivity decreasing with the angle of view
+  bool mirror = false;     ///< what stands around water, reflected in it; needs `sky`
   bool path = false;       ///< air between surface and camera: transmission and emission
   bool falloff = false;    ///< of the lens: NUC removes it from the signal, and noise grows by its inverse
 
@@ -29,6 +30,7 @@ struct TermChoices {
   TermChoice parts = TermChoice::off;
   TermChoice sky = TermChoice::off;
   TermChoice angular = TermChoice::off;
+  TermChoice mirror = TermChoice::off;
   TermChoice path = TermChoice::off;
   TermChoice falloff = TermChoice::off;
 };
@@ -43,6 +45,7 @@ inline constexpr TermInfo kTerms[] = {{"variation", &TermChoices::variation, &Te
                                       {"parts", &TermChoices::parts, &Terms::parts},
                                       {"sky", &TermChoices::sky, &Terms::sky},
                                       {"angular", &TermChoices::angular, &Terms::angular},
+                                      {"mirror", &TermChoices::mirror, &Terms::mirror},
                                       {"path", &TermChoices::path, &Terms::path},
                                       {"falloff", &TermChoices::falloff, &Terms::falloff}};
 

@@ -59,7 +59,7 @@ Material made_of(const std::string& name, double emissivity) {
 }
 
 constexpr TermChoice kAuto = TermChoice::automatic;
-constexpr TermChoices kAllAuto = {kAuto, kAuto, kAuto, kAuto, kAuto, kAuto};
+constexpr TermChoices kAllAuto = {kAuto, kAuto, kAuto, kAuto, kAuto, kAuto, kAuto};
 
 /// Soil, grass and a person seen from straight above at a distance in a winter night.
 SceneOutline savanna_from(double range_m) {
@@ -223,6 +223,41 @@ TEST_CASE("Angles matter for water seen at several angles, not for plants") {
   CHECK(weigh_terms(outline, kAllAuto).kept.angular);
   outline.covers = {{&material("grass"), 1, false}};
   CHECK(effect(weigh_terms(outline, kAllAuto), "angular").spread_k == 0);
+}
+
+TEST_CASE("What water mirrors counts where there is water, seen at a slant, under a reflected sky") {
+  SceneOutline outline = savanna_from(61);
+  outline.nights[0].looks = {{122, 0.5, 1}};
+  const Budget dry = weigh_terms(outline, kAllAuto);
+  CHECK(effect(dry, "mirror").spread_k == 0);
+  CHECK_FALSE(dry.kept.mirror);
+
+  outline.covers.push_back({&material("water"), 0.05, false});
+  const Budget wet = weigh_terms(outline, kAllAuto);
+  CHECK(wet.kept.mirror);
+  // At 30 deg above the horizon, 4 m high things reach 6.9 m: 2 x 6.9 / (50 pi) = 8.8 % of the water mirror them. They
+  // hide a sky of emissivity 1 - (1 - .32)^2 = .54; soil and grass at up to 278 K radiate 1 to 1.08 of what air at 273 K
+  // does. At 60 deg Table 1's water reflects 1 - .96 x .95 = .09 of the difference, at 56 K per share of radiance: 2.3 to
+  // 2.7 K.
+  CHECK(effect(wet, "mirror").spread_k > 2.3);
+  CHECK(effect(wet, "mirror").spread_k < 2.7);
+
+  // Straight down, water mirrors the sky alone.
+  outline.nights[0].looks = {{61, 1, 1}};
+  CHECK(effect(weigh_terms(outline, kAllAuto), "mirror").spread_k == 0);
+}
+
+TEST_CASE("Nothing is mirrored without the sky's reflection") {
+  SceneOutline outline = savanna_from(61);
+  outline.nights[0].looks = {{122, 0.5, 1}};
+  TermChoices choices = kAllAuto;
+  choices.sky = TermChoice::off;
+  CHECK(effect(weigh_terms(outline, choices), "mirror").impossible.empty());
+  outline.covers.push_back({&material("water"), 0.05, false});
+  CHECK(effect(weigh_terms(outline, choices), "mirror").impossible == "the term sky is off");
+  choices.mirror = TermChoice::on;
+  CHECK(message_of<ConfigError>([&] { (void)weigh_terms(outline, choices); }) ==
+        "terms.mirror = on; expected off or auto, because the term sky is off");
 }
 
 TEST_CASE("Fall-off is measured by its effect on noise: cos^-4 of the NETD towards the corners") {

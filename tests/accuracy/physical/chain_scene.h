@@ -121,6 +121,6 @@ inline thermal::Plane<float> radiance(const thermal::Terms& terms, const thermal
   return thermal::SceneRadiance(described, library(), settings(terms)).radiance(from, described.frames[0]);
 }
 
-inline constexpr thermal::Terms kAllTerms = {true, true, true, true, true, true};
+inline constexpr thermal::Terms kAllTerms = {true, true, true, true, true, true, true};
 
 }  // namespace chain_scene

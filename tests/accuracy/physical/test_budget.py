@@ -4,13 +4,14 @@ import pytest
 
 from configs import tiny
 
-TERMS = ["variation", "parts", "sky", "angular", "path", "falloff"]
+TERMS = ["variation", "parts", "sky", "angular", "mirror", "path", "falloff"]
 THIRD_OF_NETD_MK = 40 / 3
 
 
 def _physical(config):
     config["sensor"] = {"model": "physical", "netd_mk": 40}
     config["scene"]["temperatures"] = "table_1"
+    config["render"] = {"engine": "embree"}
 
 
 def _budget(veldt, change=_physical):
@@ -34,6 +35,17 @@ def test_a_term_is_kept_where_it_spreads_by_more_than_a_third_of_the_netd(veldt)
     for line in lines.values():
         assert line["kept"] == (line["spread_mk"] > THIRD_OF_NETD_MK)
     assert dropped_mk == pytest.approx(sum(line["spread_mk"] for line in lines.values() if not line["kept"]))
+
+
+def test_what_water_mirrors_needs_an_engine_that_traces_it(veldt):
+    def blender(config):
+        _physical(config)
+        config["render"] = {"engine": "blender"}
+
+    traced, untraced = _budget(veldt)[0]["mirror"], _budget(veldt, blender)[0]["mirror"]
+    assert untraced["spread_mk"] == traced["spread_mk"] > THIRD_OF_NETD_MK
+    assert (traced["kept"], untraced["kept"]) == (True, False)
+    assert untraced["impossible"] == "the engine blender does not trace what water mirrors"
 
 
 def test_a_worse_camera_needs_fewer_terms(veldt):

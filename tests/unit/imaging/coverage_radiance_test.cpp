@@ -55,7 +55,7 @@ enum class Model { published, physical };
 PhysicsSettings all_terms() {
   PhysicsSettings settings;
   settings.terms = {
-      .variation = true, .parts = true, .sky = true, .angular = true, .path = true, .falloff = false};
+      .variation = true, .parts = true, .sky = true, .angular = true, .mirror = true, .path = true, .falloff = false};
   return settings;
 }
 

@@ -134,6 +134,7 @@ TEST_CASE("A written manifest is read back the same") {
   document["of_flight"] = "north";
   document["layer"] = "Scene";
   document["actor_layer"] = "Actors";
+  document["mirror_layer"] = "Mirror";
   document["supersample"] = 2;
   document["overscan_px"] = 3;
   document["camera"]["distortion"] = {{"k1", -0.1}, {"k2", 0.2}, {"p1", 0.03}, {"p2", 0.04}, {"k3", 5}};

@@ -23,7 +23,8 @@ PassNeeds ClipScenes::needs() const {
     const PassNeeds needs = scene.converter.needs();
     all = {.depth = all.depth || needs.depth,
            .normals = all.normals || needs.normals,
-           .actors = all.actors || needs.actors};
+           .actors = all.actors || needs.actors,
+           .mirrored = all.mirrored || needs.mirrored};
   }
   return all;
 }

@@ -60,6 +60,7 @@ ExrLayout layout_of(const std::optional<Manifest>& manifest, const InspectOption
     const CameraIntrinsics camera = passes_camera(*manifest);
     layout.layer = manifest->layer;
     layout.actor_layer = manifest->actor_layer;
+    layout.mirror_layer = manifest->mirror_layer;
     layout.channels = manifest->channels;
     layout.width_px = camera.width_px;
     layout.height_px = camera.height_px;

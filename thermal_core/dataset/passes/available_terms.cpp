@@ -36,6 +36,11 @@ std::string pose_lacking(const Manifest& manifest) {
   return "";
 }
 
+bool shows_water(const Manifest& manifest) {
+  const auto is_water = [](const auto& entry) { return entry.material == "water"; };
+  return std::ranges::any_of(manifest.objects, is_water) || std::ranges::any_of(manifest.materials, is_water);
+}
+
 /// What each term needs. The first missing input is reported; among several clips, that of the first.
 void add_impossible(const ClipPasses& source, const PassNeeds& planes, SceneOutline& outline) {
   const std::string depth = planes.depth ? "" : "no depth";
@@ -49,6 +54,7 @@ void add_impossible(const ClipPasses& source, const PassNeeds& planes, SceneOutl
   add("sky", normals.empty() ? poses : normals);
   add("angular", normals.empty() ? poses : normals);
   add("path", depth);
+  if (shows_water(source.manifest)) add("mirror", planes.mirrored ? poses : "no mirrored planes");
 }
 
 /// Angle of incidence of a ray on level ground; without a pose, as if perpendicular.

@@ -58,7 +58,20 @@ Passes filled_in(const Passes& passes) {
   full.depth_m = filled_in(passes.depth_m, fine.depth_m, fine);
   for (std::size_t axis = 0; axis < 3; ++axis)
     full.normal[axis] = filled_in(passes.normal[axis], fine.normal[axis], fine);
+  full.mirrored.object_index = filled_in(passes.mirrored.object_index, fine.mirrored.object_index, fine);
+  full.mirrored.material_index =
+      filled_in(passes.mirrored.material_index, fine.mirrored.material_index, fine);
+  full.mirrored.depth_m = filled_in(passes.mirrored.depth_m, fine.mirrored.depth_m, fine);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    full.mirrored.normal[axis] = filled_in(passes.mirrored.normal[axis], fine.mirrored.normal[axis], fine);
   return full;
+}
+
+bool has_water(const BakedScene& scene) {
+  return std::ranges::any_of(scene.objects,
+                             [](const ManifestObject& one) { return one.material == "water"; }) ||
+         std::ranges::any_of(scene.materials,
+                             [](const ManifestMaterial& one) { return one.material == "water"; });
 }
 
 /// Where kept frames are written.
@@ -80,7 +93,8 @@ class TracedPasses : public PassSource {
       return;
     }
     tracer_.trace(static_cast<std::size_t>(frame),
-                  {.depth = true, .normals = true, .actors = !kept_->actor_layer.empty()}, out);
+                  {.depth = true, .normals = true, .actors = !kept_->actor_layer.empty(), .mirrored = true},
+                  out);
     const Path file = kept_->folder / passes_name(frame);
     if (!std::filesystem::exists(file))
       write_passes(file, out.fine.factor > 1 ? filled_in(out) : out, kept_->layer, kept_->actor_layer,
@@ -123,6 +137,7 @@ Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const Cli
   manifest.frame_rate_hz = clip.frame_rate_hz;
   manifest.layer = "Scene";
   if (config.actor_layer) manifest.actor_layer = "Actors";
+  if (has_water(scene)) manifest.mirror_layer = kMirrorLayer;
   manifest.camera = scene.camera;
   manifest.supersample = config.supersample;
   manifest.lens = config.distortion;

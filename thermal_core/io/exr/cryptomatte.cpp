@@ -265,7 +265,8 @@ Passes decode(ExrFile& opened, const Chosen& chosen, const ExrLayout& layout, co
   std::optional<ExrIndexPlane> materials;
   if (const ExrChannel* channel = planes.materials())
     targets.push_back(materials.emplace(*channel, material_pixels).target());
-  for (const ExrTarget& target : shape_targets(planes, needs, passes)) targets.push_back(target);
+  for (const ExrTarget& target : shape_targets(planes, needs, passes.depth_m, passes.normal))
+    targets.push_back(target);
   opened.decode(targets);
   if (materials) materials->indices(passes.material_index);
   return passes;

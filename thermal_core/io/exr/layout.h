@@ -12,10 +12,11 @@ inline constexpr float kDepthOutsideM = 1e10F;
 
 /// Where to find the planes of a clip's EXR files.
 struct ExrLayout {
-  std::string layer = {};        ///< empty: the only one
-  std::string actor_layer = {};  ///< empty: none
-  PassChannels channels = {};    ///< those with unusual names
-  int width_px = 0;              ///< 0: any size
+  std::string layer = {};         ///< empty: the only one
+  std::string actor_layer = {};   ///< empty: none
+  std::string mirror_layer = {};  ///< empty: none
+  PassChannels channels = {};     ///< those with unusual names
+  int width_px = 0;               ///< 0: any size
   int height_px = 0;
   ExrLimits limits = {};
 };

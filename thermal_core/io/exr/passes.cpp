@@ -1,5 +1,6 @@
 #include "io/exr/passes.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -12,7 +13,19 @@
 namespace thermal {
 namespace {
 
-using IndexPlanes = std::array<std::optional<ExrIndexPlane>, 3>;  // of objects, materials and actors
+using IndexPlanes = std::array<std::optional<ExrIndexPlane>, 5>;  // as in PassBuffer
+
+/// Where the planes of what water mirrors are.
+ExrLayout mirror_of(const ExrLayout& layout) {
+  return {.layer = layout.mirror_layer, .width_px = layout.width_px, .height_px = layout.height_px};
+}
+
+/// Whether to read what water mirrors. Frames that show no water lack the layer.
+bool has_mirror(const ExrHeader& header, const ExrLayout& layout, const PassNeeds& needs) {
+  return needs.mirrored && !layout.mirror_layer.empty() &&
+         std::ranges::any_of(header.channels,
+                             [&](const ExrChannel& channel) { return channel.layer == layout.mirror_layer; });
+}
 
 IndexPlanes index_planes(const ExrPlanes& planes, const PassNeeds& needs, PassBuffer& out) {
   IndexPlanes indices;
@@ -34,17 +47,35 @@ void take(const std::optional<ExrIndexPlane>& plane, Plane<std::uint16_t>& out) 
 void read(ExrFile& opened, const ExrLayout& layout, const PassNeeds& needs, PassBuffer& out) {
   check_size(opened.header(), layout);
   const ExrPlanes planes(opened.header(), layout);
+  const ExrLayout mirror_layout = mirror_of(layout);
+  std::optional<ExrPlanes> mirror;
+  if (has_mirror(opened.header(), layout, needs)) mirror.emplace(opened.header(), mirror_layout);
   IndexPlanes indices = index_planes(planes, needs, out);
+  if (mirror) {
+    indices[3].emplace(mirror->objects(), out.pixels[3]);
+    if (const ExrChannel* materials = mirror->materials()) indices[4].emplace(*materials, out.pixels[4]);
+  }
   std::vector<ExrTarget> targets;
   for (std::optional<ExrIndexPlane>& plane : indices) {
     if (plane) targets.push_back(plane->target());
   }
   Passes& passes = out.passes;
-  for (const ExrTarget& target : shape_targets(planes, needs, passes)) targets.push_back(target);
+  for (const ExrTarget& target : shape_targets(planes, needs, passes.depth_m, passes.normal))
+    targets.push_back(target);
+  if (mirror) {
+    const PassNeeds all = {.depth = true, .normals = true};
+    for (const ExrTarget& target :
+         shape_targets(*mirror, all, passes.mirrored.depth_m, passes.mirrored.normal))
+      targets.push_back(target);
+  } else {
+    passes.mirrored = {};
+  }
   opened.decode(targets);
   take(indices[0], passes.object_index);
   take(indices[1], passes.material_index);
   take(indices[2], passes.actor_index);
+  take(indices[3], passes.mirrored.object_index);
+  take(indices[4], passes.mirrored.material_index);
   passes.ranks.clear();
 }
 
@@ -65,6 +96,7 @@ PassNeeds planes_in_exr(const Path& file, const ExrLayout& layout) {
     const ExrPlanes planes(opened.header(), layout);
     PassNeeds there = planes_beside(planes);
     there.actors = planes.actors() != nullptr;
+    there.mirrored = !layout.mirror_layer.empty();
     return there;
   });
 }

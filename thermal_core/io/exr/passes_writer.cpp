@@ -37,6 +37,13 @@ Planes planes_of(const Passes& passes, const std::string& layer, const std::stri
                    {layer + ".Normal.Y", passes.normal[1]},
                    {layer + ".Normal.Z", passes.normal[2]},
                    {actor_layer + ".IndexOB.X", as_floats(passes.actor_index)}};
+  const std::string mirror(kMirrorLayer);
+  planes.emplace(mirror + ".IndexOB.X", as_floats(passes.mirrored.object_index));
+  planes.emplace(mirror + ".IndexMA.X", as_floats(passes.mirrored.material_index));
+  planes.emplace(mirror + ".Depth.Z", passes.mirrored.depth_m);
+  planes.emplace(mirror + ".Normal.X", passes.mirrored.normal[0]);
+  planes.emplace(mirror + ".Normal.Y", passes.mirrored.normal[1]);
+  planes.emplace(mirror + ".Normal.Z", passes.mirrored.normal[2]);
   std::erase_if(planes, [](const auto& entry) { return entry.second.empty(); });
   return planes;
 }

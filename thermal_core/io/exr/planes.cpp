@@ -112,9 +112,11 @@ std::vector<std::string> ExrPlanes::index_layers() const {
 const ExrChannel& ExrPlanes::find_objects() const {
   std::optional<std::string> layer;
   if (!layout_.layer.empty()) layer = layout_.layer;
-  if (!layer && !layout_.actor_layer.empty()) {
+  if (!layer && !(layout_.actor_layer.empty() && layout_.mirror_layer.empty())) {
     std::vector<std::string> layers = index_layers();
-    std::erase(layers, layout_.actor_layer);
+    std::erase_if(layers, [this](const std::string& one) {
+      return !one.empty() && (one == layout_.actor_layer || one == layout_.mirror_layer);
+    });
     if (layers.size() == 1) layer = layers.front();
   }
   const ExrChannel* found = only_best_of(indices_in(layer), PassKind::object_index, "", "layer");
@@ -130,6 +132,7 @@ const ExrChannel& ExrPlanes::find_objects() const {
 const ExrChannel* ExrPlanes::find_beside(PassKind kind, std::string_view axis) const {
   std::vector<std::string> others = index_layers();
   if (!layout_.actor_layer.empty()) others.push_back(layout_.actor_layer);
+  if (!layout_.mirror_layer.empty()) others.push_back(layout_.mirror_layer);
   std::vector<const ExrChannel*> here;
   std::vector<const ExrChannel*> elsewhere;
   for (const ExrChannel& channel : header_.channels) {
@@ -167,6 +170,7 @@ const ExrChannel* ExrPlanes::actors() const {
     return named_objects_ != nullptr ? found.front() : best_of(found, PassKind::object_index);
   std::vector<std::string> layers = index_layers();
   std::erase(layers, objects_->layer);
+  if (!layout_.mirror_layer.empty()) std::erase(layers, layout_.mirror_layer);
   if (layers.empty()) return nullptr;
   throw DataError(wrong_layer("actor_layer", layout_.actor_layer, layers));
 }
@@ -190,20 +194,20 @@ void check_size(const ExrHeader& header, const ExrLayout& layout) {
                         fmt::format("the manifest's {} x {} px", layout.width_px, layout.height_px)));
 }
 
-std::vector<ExrTarget> shape_targets(const ExrPlanes& planes, const PassNeeds& needs, Passes& out) {
+std::vector<ExrTarget> shape_targets(const ExrPlanes& planes, const PassNeeds& needs, Plane<float>& depth_m,
+                                     std::array<Plane<float>, 3>& normal) {
   std::vector<ExrTarget> targets;
   if (needs.depth) {
-    targets.push_back(
-        {.channel = &planes.required_depth(), .plane = &out.depth_m, .outside = kDepthOutsideM});
+    targets.push_back({.channel = &planes.required_depth(), .plane = &depth_m, .outside = kDepthOutsideM});
   } else {
-    out.depth_m = {};
+    depth_m = {};
   }
   for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
     if (needs.normals) {
       targets.push_back(
-          {.channel = &planes.required_normal(kAxes[axis]), .plane = &out.normal[axis], .outside = 0});
+          {.channel = &planes.required_normal(kAxes[axis]), .plane = &normal[axis], .outside = 0});
     } else {
-      out.normal[axis] = {};
+      normal[axis] = {};
     }
   }
   return targets;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,9 +54,10 @@ class ExrPlanes {
 /// DataError (without the file's name) if the picture's size differs from the layout's, if that has one.
 void check_size(const ExrHeader& header, const ExrLayout& layout);
 
-/// Adds depth and normals to be decoded into `out`, if needed; planes that are not needed are emptied.
+/// Adds depth and normals to be decoded, if needed; planes that are not needed are emptied.
 [[nodiscard]] std::vector<ExrTarget> shape_targets(const ExrPlanes& planes, const PassNeeds& needs,
-                                                   Passes& out);
+                                                   Plane<float>& depth_m,
+                                                   std::array<Plane<float>, 3>& normal);
 
 /// Whether there are depth and normals; ignores actors.
 [[nodiscard]] PassNeeds planes_beside(const ExrPlanes& planes);

@@ -385,6 +385,34 @@ TEST_CASE("Written passes are read back with the same bits") {
   }
 }
 
+TEST_CASE("What water mirrors is written in a layer of its own, and read where it is needed") {
+  const TemporaryFolder folder;
+  Passes passes;
+  passes.object_index = Plane<std::uint16_t>(3, 2, 4);
+  write_passes(folder / "dry.exr", passes, "Scene", "", ExrPacking::run_lengths);
+  passes.mirrored.object_index = Plane<std::uint16_t>(3, 2, 101);
+  passes.mirrored.material_index = Plane<std::uint16_t>(3, 2, 7);
+  passes.mirrored.depth_m = Plane<float>(3, 2, 61.25F);
+  for (Plane<float>& axis : passes.mirrored.normal) axis = Plane<float>(3, 2, 0.57735026F);
+  passes.mirrored.object_index.at(1, 1) = 0;
+  write_passes(folder / "wet.exr", passes, "Scene", "", ExrPacking::run_lengths);
+  for (const char* layer : {"Scene", ""}) {
+    const ExrLayout layout = {
+        .layer = layer, .actor_layer = "", .mirror_layer = "Mirror", .width_px = 3, .height_px = 2};
+    const Passes wet = read_passes(folder / "wet.exr", layout, {.mirrored = true});
+    CHECK(wet.object_index == passes.object_index);
+    CHECK(wet.mirrored.object_index == passes.mirrored.object_index);
+    CHECK(wet.mirrored.material_index == passes.mirrored.material_index);
+    CHECK(wet.mirrored.depth_m == passes.mirrored.depth_m);
+    CHECK(wet.mirrored.normal == passes.mirrored.normal);
+    CHECK(wet.depth_m.empty());
+    CHECK(read_passes(folder / "wet.exr", layout).mirrored.empty());
+    CHECK(read_passes(folder / "dry.exr", layout, {.mirrored = true}).mirrored.empty());
+    CHECK(planes_in_exr(folder / "dry.exr", layout).mirrored);
+  }
+  CHECK_FALSE(planes_in_exr(folder / "wet.exr", {.layer = "Scene"}).mirrored);
+}
+
 TEST_CASE("Passes that cannot be written leave no file") {
   const TemporaryFolder folder;
   Passes passes;

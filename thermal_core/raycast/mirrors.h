@@ -1,0 +1,49 @@
+#pragma once
+
+#include <list>
+
+#include "raycast/seen_triangles.h"
+#include "raycast/shot.h"
+#include "raycast/sight.h"
+
+namespace thermal {
+
+/// The view that sees directly what a view sees in level water at a height: as far below it as that is above.
+[[nodiscard]] View mirrored(const View& view, double height_m) noexcept;
+
+/// A shot from below water of one height.
+class Mirror {
+ public:
+  Mirror(const Shot& shot, double height_m)
+      : height_m_(height_m),
+        shot_{.place = shot.place, .actors = shot.actors, .view = mirrored(shot.view, height_m)},
+        triangles_(shot_) {}
+  Mirror(const Mirror&) = delete;
+  Mirror& operator=(const Mirror&) = delete;
+
+  [[nodiscard]] double height_m() const noexcept { return height_m_; }
+  [[nodiscard]] const Shot& shot() const noexcept { return shot_; }
+  [[nodiscard]] SeenTriangles& triangles() noexcept { return triangles_; }
+
+  /// Depths at which rays leave the water: a millimetre above it, so that none of them hits it.
+  [[nodiscard]] Lanes<double> depths_m(const VectorLanes<double>& direction) const noexcept;
+
+ private:
+  double height_m_;
+  Shot shot_;
+  SeenTriangles triangles_;
+};
+
+/// The mirrors of a shot, made when they are first needed. For one thread.
+class Mirrors {
+ public:
+  explicit Mirrors(const Shot& shot) : shot_(shot) {}
+
+  [[nodiscard]] Mirror& at(double height_m);
+
+ private:
+  const Shot& shot_;
+  std::list<Mirror> made_;  ///< a place has few heights of water
+};
+
+}  // namespace thermal
