@@ -47,6 +47,17 @@ class Slopes {
 
 double share_of(std::uint8_t byte) { return byte / 255.0; }
 
+/// The sky view of a window's cells, above the value that texels count from.
+std::vector<float> sky_view_of(const GroundMaps& maps, const GroundWindow& window, float base) {
+  std::vector<float> view(window.width * window.height);
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    const std::size_t cell =
+        (window.first_y + i / window.width) * maps.cells + window.first_x + i % window.width;
+    view[i] = base + static_cast<float>(share_of(maps.sky_view[cell]));
+  }
+  return view;
+}
+
 /// A texel and its right neighbour in one word, which halves the reads.
 std::int32_t packed(float left_k, float right_k, float base_k) {
   const auto steps = [base_k](float value_k) {
@@ -234,6 +245,8 @@ GroundTemperatures::GroundTemperatures(const GroundMaps& maps, const GroundWindo
     }
   });
   base_k_ = covers_k.empty() ? 0 : std::round(covers_k.front().front());
+  covers_ = static_cast<std::int32_t>(covers_k.size());
+  covers_k.push_back(sky_view_of(maps, window, base_k_));
   std::size_t width = width_;
   std::size_t height = height_;
   for (double cells_per_m = per_m;; cells_per_m /= 2) {
@@ -260,8 +273,21 @@ void GroundTemperatures::add_level(const std::vector<std::vector<float>>& covers
 }
 
 void GroundTemperatures::sample(const Places& places, std::span<float> temperature_k) const noexcept {
+  sample_layers(places, base_k_, temperature_k);
+}
+
+void GroundTemperatures::sample_sky_view(const Places& places, std::span<float> sky_view) const {
+  std::vector<std::int32_t> layer(places.cover_of_surface.begin(), places.cover_of_surface.end());
+  for (std::int32_t& one : layer) one = one < 0 ? -1 : covers_;
+  Places of_layer = places;
+  of_layer.cover_of_surface = layer;
+  sample_layers(of_layer, 0, sky_view);
+}
+
+void GroundTemperatures::sample_layers(const Places& places, float base,
+                                       std::span<float> values) const noexcept {
   constexpr std::size_t kMostLevels = 16;
-  const std::size_t count = temperature_k.size();
+  const std::size_t count = values.size();
   assert(places.surface.size() == count && places.x_m.size() == count && levels_.size() <= kMostLevels);
   std::array<std::int32_t, kMostLevels> first{};
   std::array<std::int32_t, kMostLevels> width{};
@@ -273,7 +299,7 @@ void GroundTemperatures::sample(const Places& places, std::span<float> temperatu
     height[i] = levels_[i].height;
     per_m[i] = levels_[i].per_m;
   }
-  const Window window = {texels_.data(), origin_x_m_, origin_y_m_, base_k_};
+  const Window window = {texels_.data(), origin_x_m_, origin_y_m_, base};
   const LevelTables tables = {first.data(), width.data(), height.data(), per_m.data(),
                               static_cast<int>(levels_.size()) - 1};
   const std::uint16_t* surface = places.surface.data();
@@ -286,9 +312,9 @@ void GroundTemperatures::sample(const Places& places, std::span<float> temperatu
   if (range.largest < 0) return;
   const int low = level_of(std::bit_cast<float>(range.smallest) * per_m[0], tables.last);
   if (low == level_of(std::bit_cast<float>(range.largest) * per_m[0], tables.last)) {
-    sample_level(window, tables, low, surface, cover, x, y, footprint, temperature_k.data(), count);
+    sample_level(window, tables, low, surface, cover, x, y, footprint, values.data(), count);
   } else {
-    sample_levels(window, tables, surface, cover, x, y, footprint, temperature_k.data(), count);
+    sample_levels(window, tables, surface, cover, x, y, footprint, values.data(), count);
   }
 }
 

@@ -43,6 +43,9 @@ class GroundTemperatures {
   /// Steps of 1/512 K.
   void sample(const Places& places, std::span<float> temperature_k) const noexcept;
 
+  /// Share of the sky that level ground sees at these places, of the maps, for pixels with a cover. Otherwise as sample().
+  void sample_sky_view(const Places& places, std::span<float> sky_view) const;
+
   /// Height of the highest plant above a place, and of the ground where there is none [m]: in the world's coordinates.
   [[nodiscard]] float crown_top_m(float x_m, float y_m) const noexcept;
 
@@ -54,6 +57,7 @@ class GroundTemperatures {
     float per_m = 0;  ///< cells of this level in a metre
   };
 
+  void sample_layers(const Places& places, float base, std::span<float> values) const noexcept;
   void add_level(const std::vector<std::vector<float>>& covers_k, std::size_t width, std::size_t height,
                  double per_m);
 
@@ -61,7 +65,9 @@ class GroundTemperatures {
   float origin_y_m_ = 0;
   float base_k_ = 0;
   std::vector<Level> levels_;
-  std::vector<std::int32_t> texels_;  ///< level by level, cover by cover: a texel and its right neighbour
+  std::int32_t covers_ = 0;
+  /// Level by level, cover by cover, then the sky view: a texel and its right neighbour.
+  std::vector<std::int32_t> texels_;
   std::size_t width_ = 0;
   std::size_t height_ = 0;
   std::vector<float> crown_top_m_;  ///< of the window's cells

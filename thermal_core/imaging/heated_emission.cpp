@@ -18,13 +18,25 @@ float along(const kernels::CameraAxis& axis, const Row& row, std::size_t i) {
   return axis.right * row.ray_x[i] + axis.down * row.ray_y[i] + axis.forward;
 }
 
+/// The cover of each surface; -1: none.
+std::vector<std::int32_t> covers_of(const std::vector<HeatedSurface>& surfaces) {
+  std::vector<std::int32_t> covers;
+  for (const HeatedSurface& surface : surfaces)
+    covers.push_back(surface.kind == HeatedSurface::Kind::cover ? surface.cover : -1);
+  return covers;
+}
+
 /// The emission of one scene's surfaces.
 class HeatedEmission {
  public:
   HeatedEmission(std::vector<HeatedSurface> surfaces,
                  const std::vector<std::unique_ptr<RadianceTable>>& tables, const GroundTemperatures* ground,
                  const VariationField& field)
-      : surfaces_(std::move(surfaces)), ground_(ground), field_(field), ones_(surfaces_.size(), 1.0F) {
+      : surfaces_(std::move(surfaces)),
+        ground_(ground),
+        field_(field),
+        ones_(surfaces_.size(), 1.0F),
+        cover_(covers_of(surfaces_)) {
     std::vector<std::int32_t> first_node;
     for (const auto& table : tables) {
       first_node.push_back(static_cast<std::int32_t>(nodes_.size()));
@@ -32,7 +44,6 @@ class HeatedEmission {
     }
     for (const HeatedSurface& surface : surfaces_) {
       even_k_.push_back(surface.temperature_k);
-      cover_.push_back(surface.kind == HeatedSurface::Kind::cover ? surface.cover : -1);
       rate_k_h_.push_back(surface.rate_k_h);
       stddev_k_.push_back(surface.variation_stddev_k);
       varies_ = varies_ || surface.variation_stddev_k > 0;
@@ -156,8 +167,8 @@ class HeatedEmission {
   std::vector<float> nodes_;
   // By surface, as the kernels read them:
   std::vector<float> ones_;
-  std::vector<float> even_k_;
   std::vector<std::int32_t> cover_;
+  std::vector<float> even_k_;
   std::vector<float> rate_k_h_;
   std::vector<float> stddev_k_;
   std::vector<float> per_length_;
@@ -171,6 +182,17 @@ RowTerm heated_emission(std::vector<HeatedSurface> surfaces,
                         const std::vector<std::unique_ptr<RadianceTable>>& tables,
                         const GroundTemperatures* ground, const VariationField& field) {
   return HeatedEmission(std::move(surfaces), tables, ground, field);
+}
+
+RowTerm mapped_sky_view(const std::vector<HeatedSurface>& surfaces, const GroundTemperatures& ground) {
+  return [&ground, cover = covers_of(surfaces)](Row& row) {
+    ground.sample_sky_view({.surface = row.surface,
+                            .cover_of_surface = cover,
+                            .x_m = row.metres[0],
+                            .y_m = row.metres[1],
+                            .footprint_m = row.metres[2]},
+                           row.sky_view);
+  };
 }
 
 }  // namespace thermal

@@ -40,4 +40,9 @@ struct HeatedSurface {
                                       const std::vector<std::unique_ptr<RadianceTable>>& tables,
                                       const GroundTemperatures* ground, const VariationField& field);
 
+/// Replaces the sky view of ground, by its normal, by that of the maps, of what level ground sees past crowns and relief.
+/// Must follow heated_emission() and orientation(); `ground` outlives the term.
+[[nodiscard]] RowTerm mapped_sky_view(const std::vector<HeatedSurface>& surfaces,
+                                      const GroundTemperatures& ground);
+
 }  // namespace thermal

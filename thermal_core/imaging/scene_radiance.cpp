@@ -169,6 +169,8 @@ void SceneRadiance::compose(const PhysicsSettings& settings, bool has_poses) {
     chain_.push_back(orientation());
     chain_.push_back(water_pixels(optics));
   }
+  const GroundTemperatures* ground = held_->heat.ground.get();
+  if (terms.sky && ground != nullptr) chain_.push_back(mapped_sky_view(held_->heat.surfaces, *ground));
   if (terms.angular) chain_.push_back(angular_emissivity(optics));
   const RowTerm of_sky = sky_reflection(settings.weather.air);
   const RowTerm of_path =

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "imaging/actor_classes.h"
 #include "imaging/ground_noise.h"
 #include "imaging/ground_window.h"
+#include "imaging/heated_emission.h"
 #include "support/catch.h"
 
 namespace ground_temperatures_test {
@@ -77,6 +79,39 @@ TEST_CASE("Pixels without a cover or a place keep the temperature they had") {
   CHECK(at(ground, 0, 0, -1) == -1);
   CHECK(ground.crown_top_m(-32 + 7.5F, -32 + 5.5F) == 14);
   CHECK(ground.crown_top_m(0, 0) == 10);
+}
+
+TEST_CASE("The sky view of ground is that of its cells, and of other surfaces what it was") {
+  GroundMaps shaded = maps();
+  for (std::size_t i = 0; i < kCells * kCells; ++i)
+    shaded.sky_view[i] = static_cast<std::uint8_t>(3 * (i % kCells));
+  const MaterialMoment heat = by_moisture();
+  const GroundTemperatures::Cover cover = {.heat = &heat};
+  const GroundTemperatures ground(shaded, all(), {}, 0, {&cover, 1}, 1);
+  // Straight down from 20 m, one pixel on ground in the middle of column 10 and the other halfway to column 11.
+  const std::vector<HeatedSurface> surfaces = {
+      {}, {.kind = HeatedSurface::Kind::cover, .cover = 0}, {.kind = HeatedSurface::Kind::oriented}};
+  const CameraPose pose = {.position_m = {0, 3, 30}, .rotation = {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}}};
+  const std::vector<std::uint16_t> surface = {1, 1, 2};
+  const std::vector<float> x = {-21.5F / 20, -21.0F / 20, -21.5F / 20};
+  const std::vector<float> zero = {0, 0, 0};
+  const std::vector<float> depth = {20, 20, 20};
+  Row row;
+  row.surface = surface;
+  row.ray_x = x;
+  row.ray_y = zero;
+  row.depth_m = depth;
+  row.sample_width = 0.001F;
+  row.pose = &pose;
+  row.sky_view = {1, 1, 1};
+  mapped_sky_view(surfaces, ground)(row);
+  // Steps of 1/512, and rounding.
+  CHECK_THAT(row.sky_view[0], WithinAbs(30 / 255.0, 0.0011));
+  CHECK_THAT(row.sky_view[1], WithinAbs(31.5 / 255.0, 0.0011));
+  CHECK(row.sky_view[2] == 1);
+  // Temperatures are what they are under an open sky: this material does not ask for it.
+  CHECK(at(ground, -21.5F, 3, 0.05F) ==
+        at(GroundTemperatures(maps(), all(), {}, 0, {&cover, 1}, 1), -21.5F, 3, 0.05F));
 }
 
 TEST_CASE("A window shows what the whole place shows there, noise included") {
