@@ -9,7 +9,8 @@ from raster import covered_m2
 from veldt import assets
 from veldt.config import ROOT
 from veldt.faults import ConfigError
-from veldt.plants.plant_shapes import build_variants
+from veldt.plants import tree_shapes
+from veldt.plants.plant_shapes import build_variants, plant_parts
 
 SEED = 7
 NAMES = assets.names("plants")
@@ -127,7 +128,23 @@ def test_feet_reach_into_the_ground(name):
 def test_ten_thousands_are_light_enough(name):
     for mesh in _meshes(name):
         assert len(mesh.triangles) <= MOST_TRIANGLES[name]
-        assert (mesh.slot == 0).all()
+        assert set(mesh.slot) == set(range(len(plant_parts(assets.load("plants", name)))))
+
+
+@pytest.mark.parametrize("name", ("acacia", "hookthorn"))
+def test_stems_and_limbs_are_wood_and_crowns_are_leaves(name):
+    data = assets.load("plants", name)
+    assert plant_parts(data) == ("", "wood")
+    assert "wood" in assets.load("materials", data["material"])["parts"]
+    for mesh in _meshes(name):
+        wood, leaves = (
+            mesh.points_m[mesh.triangles[mesh.slot == slot]]
+            for slot in (tree_shapes.WOOD, tree_shapes.LEAVES)
+        )
+        assert wood[..., 2].min() < 0 < leaves[..., 2].min()
+        assert leaves[..., 2].max() == pytest.approx(data["height_m"])
+        # From above, leaves and twigs hide most of what there is.
+        assert covered_m2(wood) < 0.3 * covered_m2(leaves)
         corners = mesh.points_m[mesh.triangles]
         area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
         assert np.isfinite(area).all() and (area > 1e-9).mean() > 0.99

@@ -18,6 +18,9 @@ const std::string kWholeBody;
 /// Leaves without maps are seen in the middle of their crowns.
 constexpr double kMiddleOfCrown = 0.6;
 
+/// What a crown leaves of sky and sun to the wood below it: an estimate.
+constexpr double kBelowCrown = 0.6;
+
 /// The variation field has five octaves, each 0.6 times as strong as the one before. Those down to two cells of the maps
 /// are part of the maps; the field adds the finer ones.
 struct SplitVariation {
@@ -77,12 +80,17 @@ class Builder {
     const std::string& part = terms_.parts ? surface.part : kWholeBody;
     if (const BodyHeat* body = material.body_heat_of(part)) {
       set_body(*body, moment_of(ActorClass::of(surface.actor_class)), heated);
-    } else if (!material.heat) {
-      heated.temperature_k = static_cast<float>(material.part_temperature_k(part, weather_));
+    } else if (const MaterialHeat* heat = material.heat_of(surface.part)) {
+      const std::string name = material.heat_name(surface.part);
+      const MaterialMoment& by_place = moment_.materials.at(name);
+      heated.rate_k_h = static_cast<float>(settings_.day->rate_k_h(name, weather_.solar_h));
+      if (heat != material.heat_of("") && is_crown(material)) {
+        set_oriented(by_place.orientation(below_crown()), heated);
+      } else {
+        std::visit([&](const auto& kind) { set(kind, material, by_place, heated); }, *heat);
+      }
     } else {
-      const MaterialMoment& by_place = moment_.materials.at(material.name);
-      heated.rate_k_h = static_cast<float>(settings_.day->rate_k_h(material.name, weather_.solar_h));
-      std::visit([&](const auto& kind) { set(kind, material, by_place, heated); }, *material.heat);
+      heated.temperature_k = static_cast<float>(material.part_temperature_k(part, weather_));
     }
     heat_.surfaces.push_back(heated);
   }
@@ -98,6 +106,15 @@ class Builder {
 
  private:
   [[nodiscard]] SurfacePlace open_place() const { return {.moisture = moment_.ground_moisture}; }
+
+  [[nodiscard]] SurfacePlace below_crown() const {
+    return {.sky_view = kBelowCrown, .sunlit = kBelowCrown, .moisture = moment_.ground_moisture};
+  }
+
+  static bool is_crown(const Material& material) {
+    const auto* leaves = material.heat ? std::get_if<LeavesHeat>(&*material.heat) : nullptr;
+    return leaves != nullptr && !leaves->is_cover;
+  }
 
   void set_variation(const Material& material, HeatedSurface& heated) const {
     if (!terms_.variation) return;
@@ -229,6 +246,9 @@ std::map<std::string, MaterialHeat> heat_of_materials(const MaterialLibrary& mat
   std::map<std::string, MaterialHeat> heat;
   for (const auto& [name, material] : materials.all()) {
     if (material.heat) heat.emplace(name, *material.heat);
+    for (const auto& [part, values] : material.parts) {
+      if (values.heat) heat.emplace(material.heat_name(part), *values.heat);
+    }
   }
   return heat;
 }

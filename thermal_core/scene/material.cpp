@@ -41,6 +41,7 @@ void Material::validate() const {
   check_positive(where + ": variation.correlation_length_m", variation.correlation_length_m, "m");
   for (const auto& [part, values] : parts) {
     check_positive(where + ": parts." + part + ".cooling_time_s", values.cooling_time_s, "s");
+    if (values.heat) thermal::validate(*values.heat, where + ": parts." + part + ".heat");
   }
   if (heat) thermal::validate(*heat, where + ": heat");
 }
@@ -69,6 +70,17 @@ const BodyHeat* Material::body_heat_of(const std::string& part) const noexcept {
   const auto found = parts.find(part);
   if (found != parts.end() && found->second.body_heat) return &*found->second.body_heat;
   return body_heat ? &*body_heat : nullptr;
+}
+
+const MaterialHeat* Material::heat_of(const std::string& part) const noexcept {
+  const auto found = parts.find(part);
+  if (found != parts.end() && found->second.heat) return &*found->second.heat;
+  return heat ? &*heat : nullptr;
+}
+
+std::string Material::heat_name(const std::string& part) const {
+  const auto found = parts.find(part);
+  return found != parts.end() && found->second.heat ? name + " " + part : name;
 }
 
 void MaterialLibrary::add(Material material) {

@@ -13,7 +13,7 @@
 
 namespace thermal {
 
-/// How the temperature of an actor's part differs from the actor's mean.
+/// How the temperature of a part of an actor or a plant differs from the mean of the whole.
 struct MaterialPart {
   double excess_factor = 1;      ///< of the mean's excess over the air: 0 is at air temperature
   double offset_k = 0;           ///< added to that
@@ -21,6 +21,7 @@ struct MaterialPart {
   double cooling_time_s = 3600;  ///< time of decay to 1/e
   /// What its temperature follows from by the weather, instead of all of the above; the material's if there is none.
   std::optional<BodyHeat> body_heat = {};
+  std::optional<MaterialHeat> heat = {};  ///< as of a material: of a plant's wood beside its leaves
 };
 
 /// A fractal field of temperature, fixed to the ground: mean zero.
@@ -61,6 +62,12 @@ struct Material {
 
   /// What heats a part of an actor, or the whole actor if `part` is empty or not listed; nullptr if nothing is stated.
   [[nodiscard]] const BodyHeat* body_heat_of(const std::string& part) const noexcept;
+
+  /// How a part follows the weather: as it states itself, or as the whole; nullptr if neither states it.
+  [[nodiscard]] const MaterialHeat* heat_of(const std::string& part) const noexcept;
+
+  /// Name of that heat among those of all materials: "acacia", or "acacia wood" if the part states its own.
+  [[nodiscard]] std::string heat_name(const std::string& part) const;
 };
 
 /// Materials by name.

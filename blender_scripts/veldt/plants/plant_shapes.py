@@ -23,9 +23,15 @@ FORMS = {
 }
 
 
+WOOD_PART = "wood"
+WOODY = ("umbrella", "many_stemmed")  # forms with stems that have a slot of their own beside the leaves
+
+
 def plant_parts(data: dict) -> tuple[str, ...]:
-    """Parts of a plant's meshes by slot: a single unnamed part, unless a model from a file has several."""
-    return models.part_names(data) if "model" in data else ("",)
+    """Parts of a plant's meshes by slot: those of a model, or the whole ("") and, of trees in leaf, their wood."""
+    if "model" in data:
+        return models.part_names(data)
+    return ("", WOOD_PART) if data["form"] in WOODY else ("",)
 
 
 def build_variants(name: str, data: dict, seed: int) -> list[Mesh]:

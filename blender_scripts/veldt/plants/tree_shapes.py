@@ -9,6 +9,10 @@ from .branch_shapes import GOLDEN_ANGLE_RAD, curve, directions, limb, loft_trian
 from .leaf_shapes import blades, clumped_sprays
 
 _ROOT_M = -0.3  # depth of trunks below the ground, which may slope
+LEAVES, WOOD = (
+    0,
+    1,
+)  # material slots; twigs and thin stems, which follow the air as leaves do, are in the leaves'
 
 
 def umbrella(data: dict, rng: np.random.Generator) -> Mesh:
@@ -22,7 +26,7 @@ def umbrella(data: dict, rng: np.random.Generator) -> Mesh:
     wood = [limb(path, radius * np.array([0.62, 0.5, 0.34]), 4) for path in limbs]
     reach = _clump_reach(data) * np.array([1.0, 1.0, 0.0]) + [0.0, 0.0, 0.32 * thick]
     leaves = clumped_sprays(pads, reach, data["leaves"], data["leaf_m"], rng)
-    return joined([trunk, *wood, *twigs(pads, limbs, 0.24 * radius), leaves])
+    return joined([joined([trunk, *wood]).with_slot(WOOD), *twigs(pads, limbs, 0.24 * radius), leaves])
 
 
 def many_stemmed(data: dict, rng: np.random.Generator) -> Mesh:
@@ -37,7 +41,7 @@ def many_stemmed(data: dict, rng: np.random.Generator) -> Mesh:
         paths.append(curve(0.18 * out + [0.0, 0.0, _ROOT_M], 0.8 * out + 0.45 * (top - out), top, 3))
     wood = [limb(path, radius * np.array([1.0, 0.85, 0.65, 0.4]), 4) for path in paths]
     leaves = clumped_sprays(clumps, np.full(3, _clump_reach(data)), data["leaves"], data["leaf_m"], rng)
-    return joined([*wood, *twigs(clumps, paths, 0.35 * radius), leaves])
+    return joined([joined(wood).with_slot(WOOD), *twigs(clumps, paths, 0.35 * radius), leaves])
 
 
 def bush(data: dict, rng: np.random.Generator) -> Mesh:

@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "accuracy/heat_bodies/nights.h"
 #include "accuracy/physical/assets.h"
 #include "base/error.h"
 #include "heat/body/body_heat.h"
+#include "heat/surface/heat_of_day.h"
 #include "io/config/body_heat.h"
 #include "support/catch.h"
 #include "support/message_of.h"
@@ -37,8 +40,59 @@ TEST_CASE("Every part of every actor states what heats it, and nothing else does
     CHECK((one.body_heat_of("") != nullptr) == actor);
     for (const auto& [part, values] : one.parts) {
       CAPTURE(part);
-      CHECK(values.body_heat.has_value());
+      CHECK(values.body_heat.has_value() == actor);
+      CHECK(values.heat.has_value() != actor);
     }
+  }
+}
+
+TEST_CASE("By Table 1, wood is as warm as its tree; what states no heat of its own follows the whole") {
+  for (const char* tree : {"acacia", "hookthorn"}) {
+    const Material& one = material(tree);
+    for (const Season season : {Season::winter, Season::summer})
+      CHECK(one.part_temperature_k("wood", weather_of(season)) ==
+            one.part_temperature_k("", weather_of(season)));
+    CHECK(one.heat_name("wood") == one.name + " wood");
+    CHECK(one.heat_name("") == one.name);
+    CHECK(std::holds_alternative<GroundHeat>(*one.heat_of("wood")));
+    CHECK(one.heat_of("bark") == one.heat_of(""));
+  }
+  CHECK(material("baobab").heat_name("wood") == "baobab");
+  CHECK(material("elephant").heat_of("torso") == nullptr);
+}
+
+TEST_CASE(
+    "After sunset stems stay warmer than leaves, thick ones until the morning; so do baobabs and mounds") {
+  // Sides of stems, as a camera on a drone sees them, below crowns that leave 0.6 of sky and sun; means of all azimuths.
+  const auto side_of = [](const HeatOfMoment& moment, const std::string& name, double open) {
+    double sum_k = 0;
+    for (const EastNorthUp& normal : {EastNorthUp{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}})
+      sum_k += moment.materials.at(name).temperature_k({.normal = normal, .sky_view = open, .sunlit = open});
+    return sum_k / 4;
+  };
+  std::map<std::string, MaterialHeat> heat;
+  for (const char* name : {"soil", "acacia", "hookthorn", "baobab", "log", "termite_mound"}) {
+    const Material& one = material(name);
+    heat.emplace(name, *one.heat_of(""));
+    if (one.parts.contains("wood")) heat.emplace(one.heat_name("wood"), *one.heat_of("wood"));
+  }
+  for (const Season season : {Season::winter, Season::summer}) {
+    const HeatOfDay day(weather_of(season).day, heat);
+    const auto above_leaves_k = [&](const char* name, double open, double solar_h) {
+      const HeatOfMoment moment = day.at(solar_h);
+      return side_of(moment, name, open) - moment.materials.at("acacia").temperature_k({.sky_view = 0.6});
+    };
+    for (const double solar_h : {18.5, 20.0, 22.0}) {
+      CAPTURE(solar_h);
+      CHECK(above_leaves_k("acacia wood", 0.6, solar_h) > 2.5);
+      CHECK(above_leaves_k("hookthorn wood", 0.6, solar_h) > 2);
+      CHECK(above_leaves_k("baobab", 1, solar_h) > 2);
+      CHECK(above_leaves_k("termite_mound", 1, solar_h) > 2);
+    }
+    // Thin stems have given their warmth away by three at night, dry logs earlier.
+    CHECK(above_leaves_k("acacia wood", 0.6, 3) > 1);
+    CHECK(above_leaves_k("baobab", 1, 3) > above_leaves_k("log", 1, 3) + 1);
+    CHECK(std::abs(above_leaves_k("hookthorn wood", 0.6, 3)) < 1);
   }
 }
 

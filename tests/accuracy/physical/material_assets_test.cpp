@@ -112,6 +112,12 @@ TEST_CASE("A faulty material is reported with its file and key") {
         "ODD.json: parts.ear.source is missing; expected a value");
   CHECK(fault(R"("parts": {"ear": {"source": "a test", "cooling_time_s": 0}})") ==
         "ODD.json: parts.ear.cooling_time_s = 0 s; expected more than 0 and at most 1000000 s");
+  CHECK(fault(R"("parts": {"wood": {"source": "x", "heat": {"source": "x"}}})") ==
+        "ODD.json: parts.wood.heat = nothing; expected one of ground, leaves and slab");
+  CHECK(fault(R"("parts": {"wood": {"source": "x", "heat": {"band_emissivity": 0.9, "source": "x"}}})") ==
+        "ODD.json: parts.wood.heat.band_emissivity = 0.9; expected none, because parts have the emissivity "
+        "of their "
+        "material");
   CHECK(fault(R"("emisivity": 0.9)") ==
         "ODD.json: emisivity is not a known key; expected one of emissivity, winter_k, summer_k, colour, "
         "in_table_1, "

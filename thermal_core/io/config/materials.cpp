@@ -24,12 +24,21 @@ std::optional<BodyHeat> read_heat(const Json& json, const std::string& where) {
   return read_body_heat(json["body_heat"], where + "body_heat");
 }
 
+std::optional<MaterialHeat> read_part_heat(const Json& json, const std::string& where) {
+  if (!json.contains("heat")) return std::nullopt;
+  if (json["heat"].contains("band_emissivity"))
+    throw ConfigError(fault(where + ".heat.band_emissivity", brief(json["heat"]["band_emissivity"]), "",
+                            "none, because parts have the emissivity of their material"));
+  return read_material_heat(json["heat"], where + ".heat");
+}
+
 MaterialPart read_part(const Json& json, const std::string& where) {
   return {.excess_factor = json["excess_factor"],
           .offset_k = json["offset_k"],
           .cooling_excess_k = json["cooling_excess_k"],
           .cooling_time_s = json["cooling_time_s"],
-          .body_heat = read_heat(json, where + ".")};
+          .body_heat = read_heat(json, where + "."),
+          .heat = read_part_heat(json, where)};
 }
 
 Path spectrum_file(const std::string& text, const Path& material) {
