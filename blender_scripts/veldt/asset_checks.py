@@ -91,6 +91,7 @@ def _check_keys(where: str, data: dict, keys: dict[str, str]) -> None:
 
 
 def _check_species(where: str, data: dict) -> None:
+    _check_keys(f"{where}: ", data, {"wet_s": _PAIR} if "wet_s" in data else {})
     for name, variant in data["variants"].items():
         _check_object(f"{where}: variants.{name}", variant, {"share": _NUMBER, "size_range": _PAIR})
     if "model" in data:

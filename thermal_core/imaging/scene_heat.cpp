@@ -8,7 +8,6 @@
 #include "heat/surface/heat_report.h"
 #include "heat/surface/leaf_layer.h"
 #include "heat/weather/sun_memory.h"
-#include "imaging/actor_classes.h"
 
 namespace thermal {
 namespace {
@@ -70,29 +69,20 @@ std::vector<float> sunlit_cells(const GroundMaps& maps, const DayWeather& day, d
 /// Finds the temperatures of surfaces, one by one.
 class Builder {
  public:
-  Builder(const HeatSettings& settings, const Weather& weather, const SceneHeatTerms& terms)
-      : settings_(settings), weather_(weather), moment_(settings.day->at(weather.solar_h)), terms_(terms) {}
+  Builder(const std::vector<ActorState>& states, const HeatSettings& settings, const Weather& weather,
+          const SceneHeatTerms& terms)
+      : states_(states),
+        settings_(settings),
+        weather_(weather),
+        moment_(settings.day->at(weather.solar_h)),
+        terms_(terms) {}
 
   void add(const Surface& surface) {
-    HeatedSurface heated;
-    const Material& material = *surface.material;
-    set_variation(material, heated);
-    const std::string& part = terms_.parts ? surface.part : kWholeBody;
-    if (const BodyHeat* body = material.body_heat_of(part)) {
-      set_body(*body, moment_of(ActorClass::of(surface.actor_class)), heated);
-    } else if (const MaterialHeat* heat = material.heat_of(surface.part)) {
-      const std::string name = material.heat_name(surface.part);
-      const MaterialMoment& by_place = moment_.materials.at(name);
-      heated.rate_k_h = static_cast<float>(settings_.day->rate_k_h(name, weather_.solar_h));
-      if (heat != material.heat_of("") && is_crown(material)) {
-        set_oriented(by_place.orientation(below_crown()), heated);
-      } else {
-        std::visit([&](const auto& kind) { set(kind, material, by_place, heated); }, *heat);
-      }
-    } else {
-      heated.temperature_k = static_cast<float>(material.part_temperature_k(part, weather_));
-    }
-    heat_.surfaces.push_back(heated);
+    // What no actor's state concerns is the same in all classes.
+    const bool concerned =
+        surface.actor_class == 0 || surface.material->body_heat_of(surface.part) != nullptr;
+    heat_.surfaces.push_back(concerned ? heat_of(surface) : heat_.surfaces[heat_.surfaces.size() % first_]);
+    if (surface.actor_class == 0) first_ = heat_.surfaces.size();
   }
 
   SceneHeat finish(const Manifest& manifest, std::uint32_t seed) {
@@ -105,6 +95,28 @@ class Builder {
   }
 
  private:
+  [[nodiscard]] HeatedSurface heat_of(const Surface& surface) {
+    HeatedSurface heated;
+    const Material& material = *surface.material;
+    set_variation(material, heated);
+    const std::string& part = terms_.parts ? surface.part : kWholeBody;
+    if (const BodyHeat* body = material.body_heat_of(part)) {
+      set_body(*body, moment_of(states_.at(surface.actor_class)), heated);
+    } else if (const MaterialHeat* heat = material.heat_of(surface.part)) {
+      const std::string name = material.heat_name(surface.part);
+      const MaterialMoment& by_place = moment_.materials.at(name);
+      heated.rate_k_h = static_cast<float>(settings_.day->rate_k_h(name, weather_.solar_h));
+      if (heat != material.heat_of("") && is_crown(material)) {
+        set_oriented(by_place.orientation(below_crown()), heated);
+      } else {
+        std::visit([&](const auto& kind) { set(kind, material, by_place, heated); }, *heat);
+      }
+    } else {
+      heated.temperature_k = static_cast<float>(material.part_temperature_k(part, weather_));
+    }
+    return heated;
+  }
+
   [[nodiscard]] SurfacePlace open_place() const { return {.moisture = moment_.ground_moisture}; }
 
   [[nodiscard]] SurfacePlace below_crown() const {
@@ -148,11 +160,12 @@ class Builder {
     heated.temperature_k = static_cast<float>(by_place.temperature_k(open_place()));
   }
 
-  [[nodiscard]] BodyMoment moment_of(const ActorClass& actor) const {
+  [[nodiscard]] BodyMoment moment_of(const ActorState& actor) const {
     BodyMoment moment = {.around = {.forcing = moment_.forcing, .ground_k = moment_.ground_k}};
-    moment.activity = actor.moving ? Activity::walking : Activity::standing;
+    moment.activity = actor.activity;
     moment.dress = actor.dress;
-    moment.vehicle = {.driving = actor.moving, .since_s = actor.moving ? 3600 : weather_.vehicle_stopped_s};
+    moment.vehicle = actor.vehicle;
+    moment.since_bath_s = actor.since_bath_s;
     if (const auto water = moment_.materials.find("water"); water != moment_.materials.end())
       moment.refuge_k = water->second.temperature_k(open_place());
     return moment;
@@ -196,20 +209,22 @@ class Builder {
     heated.per_correlation_length = static_cast<float>(1 / variation.fine_length_m);
   }
 
+  const std::vector<ActorState>& states_;
   const HeatSettings& settings_;
   const Weather& weather_;
   HeatOfMoment moment_;
   SceneHeatTerms terms_;
   std::vector<GroundTemperatures::Cover> covers_;
   SceneHeat heat_;
+  std::size_t first_ = 0;  ///< how many surfaces are of the first class
 };
 
 }  // namespace
 
-SceneHeat heat_of_scene(const std::vector<Surface>& surfaces, const HeatSettings& settings,
-                        const Weather& weather, const Manifest& manifest, const SceneHeatTerms& terms,
-                        std::uint32_t seed) {
-  Builder builder(settings, weather, terms);
+SceneHeat heat_of_scene(const std::vector<Surface>& surfaces, const std::vector<ActorState>& states,
+                        const HeatSettings& settings, const Weather& weather, const Manifest& manifest,
+                        const SceneHeatTerms& terms, std::uint32_t seed) {
+  Builder builder(states, settings, weather, terms);
   for (const Surface& surface : surfaces) builder.add(surface);
   return builder.finish(manifest, seed);
 }
@@ -230,7 +245,7 @@ std::map<std::string, std::map<std::string, double>> open_temperatures_k(
   BodyMoment moment = {
       .around = {.forcing = forcing_at(weather.day, weather.solar_h),
                  .ground_k = soil == temperatures.end() ? weather.air.temperature_k : soil->second.at("")}};
-  moment.vehicle.since_s = weather.vehicle_stopped_s;
+  moment.vehicle.since_s = weather.vehicle_stopped_s.value_or(drawn_stop_s(0.5));
   for (const Material* material : materials) {
     if (const BodyHeat* whole = material->body_heat_of(""))
       temperatures[material->name][""] = part_temperature_k(*whole, moment, 0.0);

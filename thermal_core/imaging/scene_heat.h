@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "imaging/actor_states.h"
 #include "imaging/ground_temperatures.h"
 #include "imaging/heat_settings.h"
 #include "imaging/heated_emission.h"
@@ -29,8 +30,9 @@ struct SceneHeatTerms {
 };
 
 /// Works out how each surface's temperature is found. Surfaces whose material has no heat have the temperature of their
-/// part by Table 1's line.
-[[nodiscard]] SceneHeat heat_of_scene(const std::vector<Surface>& surfaces, const HeatSettings& settings,
+/// part by Table 1's line. @param states  of actors, by the class of a surface
+[[nodiscard]] SceneHeat heat_of_scene(const std::vector<Surface>& surfaces,
+                                      const std::vector<ActorState>& states, const HeatSettings& settings,
                                       const Weather& weather, const Manifest& manifest,
                                       const SceneHeatTerms& terms, std::uint32_t seed);
 

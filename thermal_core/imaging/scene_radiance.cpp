@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "imaging/actor_classes.h"
+#include "imaging/actor_states.h"
 #include "scene/camera_geometry.h"
 
 namespace thermal {
@@ -83,11 +83,17 @@ SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& ma
 
 SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials,
                              const PhysicsSettings& settings)
-    : map_(manifest, materials, settings.heat ? classes_of_actors(manifest, settings.seed) : ActorClasses()) {
+    : SceneRadiance(manifest, materials, settings,
+                    settings.heat ? states_of_actors(manifest, materials, settings.weather, settings.seed)
+                                  : ActorStates()) {}
+
+SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials,
+                             const PhysicsSettings& settings, const ActorStates& actors)
+    : map_(manifest, materials, actors.classes) {
   held_->rays = std::make_unique<CameraRays>(passes_camera(manifest), manifest.lens);
   if (manifest.supersample > 1)
     held_->pixel_rays = std::make_unique<CameraRays>(pixels_camera(manifest), manifest.lens);
-  if (settings.heat) add_heat(manifest, settings);
+  if (settings.heat) add_heat(manifest, settings, actors.states);
   for (std::size_t i = 0; i < map_.surfaces().size(); ++i) {
     const Surface& surface = map_.surfaces()[i];
     const bool parts = settings.terms.parts;
@@ -104,10 +110,11 @@ SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& ma
   find_brightest();
 }
 
-void SceneRadiance::add_heat(const Manifest& manifest, const PhysicsSettings& settings) {
+void SceneRadiance::add_heat(const Manifest& manifest, const PhysicsSettings& settings,
+                             const std::vector<ActorState>& states) {
   const Terms& terms = settings.terms;
   held_->heat = heat_of_scene(
-      map_.surfaces(), *settings.heat, settings.weather, manifest,
+      map_.surfaces(), states, *settings.heat, settings.weather, manifest,
       {.parts = terms.parts, .variation = terms.variation, .normals = terms.sky || terms.angular},
       settings.seed);
   if (!manifest.frames.empty())

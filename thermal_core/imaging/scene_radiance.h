@@ -66,7 +66,10 @@ class SceneRadiance {
 
  private:
   void add_optics(const Surface& surface, float surface_k, const PhysicsSettings& settings);
-  void add_heat(const Manifest& manifest, const PhysicsSettings& settings);
+  SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials, const PhysicsSettings& settings,
+                const ActorStates& actors);
+  void add_heat(const Manifest& manifest, const PhysicsSettings& settings,
+                const std::vector<ActorState>& states);
   void compose(const PhysicsSettings& settings, bool has_poses);
   void find_brightest();
   [[nodiscard]] float later_h(const ManifestFrame& frame) const noexcept;

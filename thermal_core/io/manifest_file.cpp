@@ -1,6 +1,8 @@
 #include "io/manifest_file.h"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -69,6 +71,13 @@ Manifest read_document(const Json& json) {
   return manifest;
 }
 
+constexpr std::array<std::string_view, 3> kEngineNames = {"driving", "idling", "parked"};  // of EngineState
+
+VehicleState read_engine(const Json& json) {
+  const auto found = std::ranges::find(kEngineNames, json.at("state").get<std::string>());
+  return {.engine = static_cast<EngineState>(found - kEngineNames.begin()), .since_s = json.at("since_s")};
+}
+
 constexpr std::array kClassNames = {"ground", "water", "plant", "actor"};  // of ObjectClass
 
 Json to_json(const ManifestObject& object) {
@@ -81,6 +90,10 @@ Json to_json(const ManifestObject& object) {
   json["species"] = object.species;
   json["track_id"] = object.track_id;
   if (object.bounds_m) json["bounds_m"] = *object.bounds_m;
+  if (object.engine)
+    json["engine"] = {{"state", kEngineNames.at(static_cast<std::size_t>(object.engine->engine))},
+                      {"since_s", object.engine->since_s}};
+  if (object.wet_s) json["wet_s"] = *object.wet_s;
   return json;
 }
 
@@ -151,6 +164,8 @@ ManifestObject manifest_object_of(const Json& json) {
   object.track_id = json.value("track_id", 0);
   if (json.contains("colour")) object.colour = json["colour"].get<Colour>();
   if (json.contains("mattes")) object.mattes = json["mattes"].get<std::vector<std::string>>();
+  if (json.contains("engine")) object.engine = read_engine(json["engine"]);
+  if (json.contains("wet_s")) object.wet_s = json["wet_s"].get<double>();
   if (json.contains("bounds_m"))
     object.bounds_m = json["bounds_m"].get<std::array<ManifestObject::Corner, 2>>();
   return object;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "heat/body/vehicle_heat.h"
 #include "scene/camera_intrinsics.h"
 #include "scene/lens_distortion.h"
 
@@ -37,9 +38,11 @@ struct ManifestObject {
   std::string species;   ///< actors
   int track_id = 0;      ///< actors
   std::optional<std::array<Corner, 2>>
-      bounds_m;                     ///< actors: box in actor axes, x forward, z up from the ground
-  std::optional<Colour> colour;     ///< in pictures that identify objects by colour
-  std::vector<std::string> mattes;  ///< names in a cryptomatte, * matches any letters; empty: `name`
+      bounds_m;                        ///< actors: box in actor axes, x forward, z up from the ground
+  std::optional<VehicleState> engine;  ///< actors: at time 0 of the scene; none: unknown
+  std::optional<double> wet_s;         ///< actors: time since a bath, at time 0 of the scene; none: dry
+  std::optional<Colour> colour;        ///< in pictures that identify objects by colour
+  std::vector<std::string> mattes;     ///< names in a cryptomatte, * matches any letters; empty: `name`
 };
 
 /// What one material index stands for.

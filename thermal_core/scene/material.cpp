@@ -57,12 +57,14 @@ double Material::temperature_k(double air_k) const noexcept {
 }
 
 double Material::part_temperature_k(const std::string& part, const Weather& weather) const noexcept {
+  constexpr double kStoppedS = 3600;  // where the weather does not say it
   const double air_k = weather.air.temperature_k;
   const double mean_k = temperature_k(air_k);
   const auto found = parts.find(part);
   if (found == parts.end()) return mean_k;
   const MaterialPart& p = found->second;
-  const double cooling_k = p.cooling_excess_k * std::exp(-weather.vehicle_stopped_s / p.cooling_time_s);
+  const double cooling_k =
+      p.cooling_excess_k * std::exp(-weather.vehicle_stopped_s.value_or(kStoppedS) / p.cooling_time_s);
   return air_k + p.excess_factor * (mean_k - air_k) + p.offset_k + cooling_k;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "heat/weather/day_weather.h"
 #include "radiometry/atmosphere.h"
 #include "scene/season.h"
@@ -8,10 +10,11 @@ namespace thermal {
 
 /// The conditions of a clip, for everything in the scene.
 struct Weather {
-  Air air;                          ///< at the clip's time
-  double vehicle_stopped_s = 3600;  ///< since engines were switched off
-  DayWeather day = {};              ///< around the clip, for the heat balance
-  double solar_h = 3;               ///< local solar time of the clip's middle
+  Air air;  ///< at the clip's time
+  std::optional<double> vehicle_stopped_s =
+      {};               ///< since engines were switched off; empty: of each vehicle its own
+  DayWeather day = {};  ///< around the clip, for the heat balance
+  double solar_h = 3;   ///< local solar time of the clip's middle
 
   [[nodiscard]] bool operator==(const Weather&) const = default;
 };

@@ -13,6 +13,7 @@ from ..anatomy.skeleton import part_names
 from ..camera import DEPTH_RANGE_M
 from ..geometry.shapes import Mesh, facets
 from ..groups.actors import Actor
+from ..groups.conditions import condition
 from ..land.covers import SOIL
 from ..land.ground import GroundMesh
 from ..land.ground_maps import Ground
@@ -71,7 +72,7 @@ def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
         "view_margin_px": world.view_margin_px,
         "depth_range_m": list(DEPTH_RANGE_M),
         "materials": _materials(world),
-        "objects": [*_place(world), *(_object(actor) for actor in world.actors)],
+        "objects": [*_place(world), *_cast(world)],
         "meshes": meshes.entries,
         "surfaces": surfaces,
         "plants": plants,
@@ -203,6 +204,17 @@ def _place(world: World) -> list[dict]:
             material = assets.load("plants", name)["material"]
             place.append({"index": index, "name": name, "class": "plant", "material": material})
     return place
+
+
+def _cast(world: World) -> list[dict]:
+    """Every actor, with what the config says of its engine or its bath."""
+    groups = {group["name"]: group for group in world.config["scene"]["groups"]}
+    member: dict[str, int] = {}
+    objects = []
+    for actor in world.actors:
+        k = member[actor.group] = member.get(actor.group, -1) + 1
+        objects.append(_object(actor) | condition(groups[actor.group], k, world.config["seed"]))
+    return objects
 
 
 def _object(actor: Actor) -> dict:

@@ -8,6 +8,7 @@ from .. import assets
 from ..anatomy.bodies import variant_names
 from ..faults import ConfigError, check_known, listing
 from .behaviours import POSTURES, WALKING, behaviour_of
+from .conditions import check_condition
 
 
 def check_groups(groups: list[dict], paths: Collection[str]) -> None:
@@ -21,6 +22,7 @@ def check_groups(groups: list[dict], paths: Collection[str]) -> None:
             check_known(variant, variant_names(species), f"{where}.variants[{j}]", f"a variant of {species}")
         _check_where(where, group, paths)
         _check_behaviour(where, group)
+        check_condition(where, group)
         if "meets" in group:
             _check_meeting(where, k, groups, names)
 

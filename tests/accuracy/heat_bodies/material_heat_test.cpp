@@ -130,12 +130,40 @@ TEST_CASE("A vehicle that drives is warm, one that stands is as cold as its shee
   BodyMoment moment = {.around = warm_night()};
   for (const char* part : {"hood", "tyres", "hubs", "chassis", "cabin", "windows"}) {
     CAPTURE(part);
-    moment.vehicle = {.driving = true, .since_s = 7200};
+    moment.vehicle = {.engine = EngineState::driving, .since_s = 7200};
     const double driving_k = side_k("truck", part, moment);
     moment.vehicle = {.since_s = 86400};
     const double cold_k = side_k("truck", part, moment);
     CHECK(driving_k > cold_k + 4);
     CHECK(cold_k < 293);
+  }
+}
+
+TEST_CASE(
+    "An exhaust is the hottest part of a vehicle that drives, stands or has just stopped; tyres tell these "
+    "apart") {
+  BodyMoment moment = {.around = cold_night()};
+  const auto excess_k = [&](const char* part, EngineState engine, double since_s) {
+    moment.vehicle = {.engine = engine, .since_s = since_s};
+    const double now_k = side_k("truck", part, moment);
+    moment.vehicle = {};
+    return now_k - side_k("truck", part, moment);
+  };
+  CHECK_THAT(excess_k("exhaust", EngineState::driving, 3600), WithinAbs(110, 0.1));
+  CHECK_THAT(excess_k("exhaust", EngineState::idling, 3600), WithinAbs(40, 0.1));
+  CHECK(excess_k("exhaust", EngineState::parked, 60) > 110);
+  CHECK(excess_k("exhaust", EngineState::parked, 3600) < 1);
+  CHECK(excess_k("hood", EngineState::parked, 3600) > 8);
+  for (const char* part : {"tyres", "hubs"}) {
+    CHECK(excess_k(part, EngineState::driving, 3600) > 15);
+    CHECK(excess_k(part, EngineState::idling, 3600) == 0);
+  }
+  for (const auto& [part, values] : material("truck").parts) {
+    CAPTURE(part);
+    if (part != "exhaust")
+      CHECK(
+          side_k("truck", part, {.around = cold_night(), .vehicle = {.engine = EngineState::driving}}) <
+          side_k("truck", "exhaust", {.around = cold_night(), .vehicle = {.engine = EngineState::driving}}));
   }
 }
 

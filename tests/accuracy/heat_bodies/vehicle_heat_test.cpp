@@ -13,9 +13,9 @@ using namespace thermal;
 namespace {
 
 const EngineWarmth kHood = {
-    .driving_k = 20, .parked_k = 30, .soak_s = 300, .cooling_s = 3600, .warming_s = 600};
+    .driving_k = 20, .idling_k = 25, .parked_k = 30, .soak_s = 300, .cooling_s = 3600, .warming_s = 600};
 const EngineWarmth kExhaust = {
-    .driving_k = 250, .parked_k = 340, .soak_s = 45, .cooling_s = 600, .warming_s = 120};
+    .driving_k = 250, .idling_k = 60, .parked_k = 340, .soak_s = 45, .cooling_s = 600, .warming_s = 120};
 
 double parked_k(const EngineWarmth& warmth, double since_s) { return warmth_k(warmth, {.since_s = since_s}); }
 
@@ -23,8 +23,9 @@ double parked_k(const EngineWarmth& warmth, double since_s) { return warmth_k(wa
 
 TEST_CASE("A part keeps its warmth when the vehicle stops") {
   CHECK_THAT(parked_k(kHood, 0), WithinAbs(20, 1e-12));
-  CHECK_THAT(warmth_k(kHood, {.driving = true, .since_s = 1e6}), WithinAbs(20, 1e-12));
-  CHECK(warmth_k(kHood, {.driving = true, .since_s = 0}) == 0);
+  CHECK_THAT(warmth_k(kHood, {.engine = EngineState::driving, .since_s = 1e6}), WithinAbs(20, 1e-12));
+  CHECK(warmth_k(kHood, {.engine = EngineState::driving, .since_s = 0}) == 0);
+  CHECK_THAT(warmth_k(kHood, {.engine = EngineState::idling, .since_s = 1e6}), WithinAbs(25, 1e-12));
   CHECK_THAT(warmth_k(kHood, {.since_s = 0, .from_cold = 0.5}), WithinAbs(10, 1e-12));
 }
 
@@ -49,7 +50,8 @@ TEST_CASE("An exhaust peaks 1 to 2 min after stopping and is below 533 K within 
 }
 
 TEST_CASE("Coolant that cools from 366 K to 300 K in 7 h in air of 293 K has a time of 3 h") {
-  const EngineWarmth coolant = {.driving_k = 73, .parked_k = 73, .soak_s = 1, .cooling_s = 10750};
+  const EngineWarmth coolant = {
+      .driving_k = 73, .idling_k = 73, .parked_k = 73, .soak_s = 1, .cooling_s = 10750};
   CHECK_THAT(293 + parked_k(coolant, 7 * 3600.0), WithinAbs(300, 0.1));
 }
 

@@ -66,7 +66,7 @@ TEST_CASE("Without weather in the config, a clip's air is its season's") {
   CHECK_THAT(winter.air.temperature_k, WithinAbs(273, 0.01));
   CHECK_THAT(winter.air.relative_humidity, WithinAbs(0.6, 0.002));
   CHECK(winter.air.cloud_fraction == 0);
-  CHECK(winter.vehicle_stopped_s == 3600);
+  CHECK_FALSE(winter.vehicle_stopped_s.has_value());
   const Weather summer = weather_of(config, Season::summer);
   CHECK_THAT(summer.air.temperature_k, WithinAbs(293, 0.01));
   CHECK_THAT(summer.air.relative_humidity, WithinAbs(0.7, 0.002));

@@ -4,7 +4,6 @@
 #include <limits>
 #include <vector>
 
-#include "imaging/actor_classes.h"
 #include "imaging/ground_noise.h"
 #include "imaging/ground_window.h"
 #include "imaging/heated_emission.h"
@@ -159,30 +158,6 @@ TEST_CASE("A window holds what a camera sees, and everything where it sees the h
   CHECK(window_of(maps(), manifest) == all());
   manifest.frames[0].camera_to_world.reset();
   CHECK(window_of(maps(), manifest) == all());
-}
-
-TEST_CASE("Actors are of the class of their clothes, and of those that move if they ever do") {
-  Manifest manifest;
-  for (const std::uint16_t index : {std::uint16_t{101}, std::uint16_t{102}}) {
-    ManifestObject actor;
-    actor.index = index;
-    actor.object_class = ObjectClass::actor;
-    manifest.objects.push_back(actor);
-  }
-  manifest.frames.resize(2);
-  for (std::size_t frame = 0; frame < 2; ++frame) {
-    manifest.frames[frame].actors = {{.index = 101, .position_m = {static_cast<double>(frame), 0, 0}},
-                                     {.index = 102, .position_m = {5, 0, 0}}};
-  }
-  const ActorClasses classes = classes_of_actors(manifest, 1);
-  CHECK(ActorClass::of(classes.of_object[101]).moving);
-  CHECK_FALSE(ActorClass::of(classes.of_object[102]).moving);
-  CHECK(classes_of_actors(manifest, 1).of_object == classes.of_object);
-  int drawn[ActorClass::kDresses] = {};
-  for (std::uint32_t seed = 0; seed < 400; ++seed)
-    ++drawn[static_cast<int>(4 * ActorClass::of(classes_of_actors(manifest, seed).of_object[102]).dress)];
-  // Binomial of 400 and a quarter: standard deviation 8.7; five of them.
-  for (const int count : drawn) CHECK_THAT(count, WithinAbs(100, 44));
 }
 
 }  // namespace ground_temperatures_test

@@ -139,6 +139,12 @@ TEST_CASE("A written manifest is read back the same") {
   document["overscan_px"] = 3;
   document["camera"]["distortion"] = {{"k1", -0.1}, {"k2", 0.2}, {"p1", 0.03}, {"p2", 0.04}, {"k3", 5}};
   document["scene"] = "valley";
+  for (Json& object : document["objects"]) {
+    if (object["class"] == "actor") {
+      object["engine"] = {{"state", "idling"}, {"since_s", 90}};
+      object["wet_s"] = 600;
+    }
+  }
   document["materials"].push_back({{"index", 3}, {"material", "human"}, {"part", "face"}});
   document["frames"][0]["look_angle_deg"] = 1.0 / 3;
   document["frames"][1]["time_s"] = 0;

@@ -34,6 +34,7 @@ double sheet_k(const Sheet& sheet, const Surroundings& around, std::optional<dou
 
 void EngineWarmth::validate(const std::string& where) const {
   require_range(where + ".driving_k", driving_k, "K", 0, 900);
+  require_range(where + ".idling_k", idling_k, "K", 0, 900);
   require_range(where + ".parked_k", parked_k, "K", 0, 900);
   require_range(where + ".cooling_s", cooling_s, "s", 1, 1e6);
   require_range(where + ".soak_s", soak_s, "s", 1, 1e5);
@@ -44,7 +45,10 @@ void EngineWarmth::validate(const std::string& where) const {
 }
 
 double warmth_k(const EngineWarmth& warmth, const VehicleState& state) noexcept {
-  if (state.driving) return warmth.driving_k * -std::expm1(-state.since_s / warmth.warming_s);
+  if (state.engine != EngineState::parked) {
+    const double running_k = state.engine == EngineState::driving ? warmth.driving_k : warmth.idling_k;
+    return running_k * -std::expm1(-state.since_s / warmth.warming_s);
+  }
   const double soaked_k = warmth.parked_k * std::exp(-state.since_s / warmth.cooling_s) -
                           (warmth.parked_k - warmth.driving_k) * std::exp(-state.since_s / warmth.soak_s);
   return state.from_cold * soaked_k;

@@ -8,10 +8,16 @@
 
 namespace thermal {
 
+enum class EngineState {
+  driving,
+  idling,  ///< runs while the vehicle stands
+  parked   ///< off
+};
+
 /// What a vehicle's engine does.
 struct VehicleState {
-  bool driving = false;
-  double since_s = 1e9;  ///< since it started or stopped, at least 0
+  EngineState engine = EngineState::parked;
+  double since_s = 1e9;  ///< since when, at least 0
   double from_cold = 1;  ///< share of its full heat that it had when it stopped, 0 to 1
 
   /// ConfigError with `where` if a value is outside its domain.
@@ -43,6 +49,7 @@ struct Sheet {
 /// Warmth of a part of a vehicle above what the weather gives it.
 struct EngineWarmth {
   double driving_k = 0;  ///< after a long drive, 0 to 900
+  double idling_k = 0;   ///< after a long time with the engine running while it stands, 0 to 900
   double parked_k = 0;  ///< to which it tends just after stopping, when no wind of driving cools it, 0 to 900
   double soak_s = 300;  ///< time of that to 1/e, 1 to 1e5; shorter than cooling_s
   double cooling_s = 3600;  ///< time of its decay to 1/e, 1 to 1e6
@@ -54,7 +61,7 @@ struct EngineWarmth {
   [[nodiscard]] bool operator==(const EngineWarmth&) const = default;
 };
 
-/// Excess [K]: driving, driving_k (1 - exp(-t / warming)); parked, parked_k exp(-t / cooling) - (parked_k - driving_k)
+/// Excess [K]: driving, driving_k (1 - exp(-t / warming)); idling, the same with idling_k; parked, parked_k exp(-t / cooling) - (parked_k - driving_k)
 /// exp(-t / soak), times the share of heat that it had.
 [[nodiscard]] double warmth_k(const EngineWarmth& warmth, const VehicleState& state) noexcept;
 

@@ -120,6 +120,7 @@ BodyHeat engine(HeatKeys& keys) {
   EngineWarmed part;
   take_sheet(keys, part.sheet);
   keys.take("driving_k", part.warmth.driving_k);
+  keys.take("idling_k", part.warmth.idling_k);
   keys.take("parked_k", part.warmth.parked_k);
   keys.take("soak_s", part.warmth.soak_s);
   keys.take("cooling_s", part.warmth.cooling_s);
