@@ -34,6 +34,17 @@ def plan_plant_indices(plant_names: Sequence[str]) -> dict[str, int]:
     return {name: FIRST_PLANT + k for k, name in enumerate(plant_names)}
 
 
+def plan_fire_indices(plants: int, fires: int) -> list[int]:
+    """Indices of the fires, after those of all plant species; ConfigError past FIRST_ACTOR."""
+    first = FIRST_PLANT + plants
+    if first + fires > FIRST_ACTOR:
+        raise ConfigError(
+            f"scene.fires = {fires} fires; expected at most {FIRST_ACTOR - first} beside {plants} species of plants,"
+            " one object index each"
+        )
+    return list(range(first, first + fires))
+
+
 def plan_material_indices(pairs: Sequence[tuple[str, str]]) -> dict[tuple[str, str], int]:
     """Index of each (material, part), with an empty part for surfaces without parts, from 1 in order of first use."""
     return {pair: 1 + k for k, pair in enumerate(dict.fromkeys(pairs))}

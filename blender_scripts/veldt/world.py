@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from . import assets, checks, ids
+from . import assets, checks, fires, ids
 from .anatomy.skeleton import part_names
 from .camera import Intrinsics, intrinsics_of, widened
 from .flight.pilots import Pilot
@@ -40,6 +40,8 @@ class World:
     covers: list[Layer]
     plantings: dict[str, Planting]
     plant_indices: dict[str, int]
+    fires: list[fires.Fire]
+    fire_indices: list[int]
     actors: list[Actor]
     material_indices: dict[tuple[str, str], int]
     pilot: Pilot
@@ -72,7 +74,9 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
     checks.check_loops(scene, loops)
     cast = plan_cast(scene["groups"], Land(terrain, loops), seed)
     areas = plan_density(terrain, scene["terrain"], seed)
-    site = Site(terrain, areas.shares, terrain.road_m, cast.corridors)
+    burning = fires.plan_fires(scene.get("fires", []), terrain)
+    clear = [*cast.corridors, *(fire.clearing for fire in burning)]
+    site = Site(terrain, areas.shares, terrain.road_m, clear)
     plantings = cores.start(lambda: place_plants(scene["plants"], site, seed))
     measure(cast.actors, cores)
     intrinsics = intrinsics_of(config["camera"])
@@ -84,21 +88,25 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
         covers=covers,
         plantings=plantings(),
         plant_indices=ids.plan_plant_indices(sorted(scene["plants"])),
+        fires=burning,
+        fire_indices=ids.plan_fire_indices(len(scene["plants"]), len(burning)),
         actors=cast.actors,
-        material_indices=ids.plan_material_indices(_materials(terrain, covers, scene["plants"], cast.actors)),
+        material_indices=ids.plan_material_indices(_materials(terrain, covers, scene, cast.actors)),
         pilot=Pilot(config, terrain, cast.actors, intrinsics),
         ground=ground(),
     )
 
 
 def _materials(
-    terrain: Terrain, covers: list[Layer], plants: dict, actors: list[Actor]
+    terrain: Terrain, covers: list[Layer], scene: dict, actors: list[Actor]
 ) -> list[tuple[str, str]]:
     """Every (material, part) of the scene, those of the place first."""
     names = [SOIL, *(layer.material for layer in covers), *([WATER] if terrain.waters else [])]
     pairs = [(name, "") for name in names]
-    for plant in (assets.load("plants", name) for name in sorted(plants)):
+    for plant in (assets.load("plants", name) for name in sorted(scene["plants"])):
         pairs += [(plant["material"], part) for part in plant_parts(plant)]
+    if scene.get("fires"):
+        pairs += [(fires.MATERIAL, part) for part in fires.PARTS]
     for species in dict.fromkeys(actor.species for actor in actors):
         data = assets.load("species", species)
         pairs += [(data["material"], part) for part in part_names(data)]

@@ -70,11 +70,6 @@ VehicleState vehicle_of(const ManifestObject& object, bool moves, double later_s
                                                : drawn_stop_s(uniform_of(object.index, seed, kStopStream))};
 }
 
-double middle_s(const Manifest& manifest) {
-  if (manifest.frames.empty()) return 0;
-  return 0.5 * (manifest.frames.front().time_s + manifest.frames.back().time_s);
-}
-
 std::uint8_t number_of(const ActorState& state, std::vector<ActorState>& states) {
   const auto found = std::ranges::find(states, state);
   const auto number = static_cast<std::size_t>(found - states.begin());
@@ -85,7 +80,31 @@ std::uint8_t number_of(const ActorState& state, std::vector<ActorState>& states)
   return static_cast<std::uint8_t>(number);
 }
 
+ActorState state_of(const ManifestObject& object, const Material& material, bool moves, double later_s,
+                    const Weather& weather, std::uint32_t seed) {
+  ActorState state = {.activity = moves ? Activity::walking : Activity::standing};
+  if (has<Clothing>(material)) state.dress = dress_of(object.index, seed);
+  if (has<EngineWarmed>(material)) state.vehicle = vehicle_of(object, moves, later_s, weather, seed);
+  if (object.wet_s) state.since_bath_s = *object.wet_s + later_s;
+  return state;
+}
+
 }  // namespace
+
+FireState fire_state(const FirePlace& place, double later_s) {
+  FireState state = {.fire = {.diameter_m = place.diameter_m}, .burning = place.burning};
+  if (place.burning) {
+    state.fire.burning_s = place.since_s + later_s;
+  } else {
+    state.since_s = place.since_s + later_s;
+  }
+  return state;
+}
+
+double middle_s(const Manifest& manifest) {
+  if (manifest.frames.empty()) return 0;
+  return 0.5 * (manifest.frames.front().time_s + manifest.frames.back().time_s);
+}
 
 double drawn_stop_s(double uniform) noexcept {
   constexpr double kShortestS = 120;
@@ -100,15 +119,17 @@ ActorStates states_of_actors(const Manifest& manifest, const MaterialLibrary& ma
   const double later_s = middle_s(manifest);
   ActorStates all = {.classes = {.of_object = std::vector<std::uint8_t>(kLargestIndex + 1)}, .states = {{}}};
   for (const ManifestObject& object : manifest.objects) {
-    if (object.object_class != ObjectClass::actor) continue;
-    const Material& material =
-        materials.find(object.material, fmt::format("object {}: material", object.name));
-    const auto found = movement.find(object.index);
-    const bool moves = found != movement.end() && found->second;
-    ActorState state = {.activity = moves ? Activity::walking : Activity::standing};
-    if (has<Clothing>(material)) state.dress = dress_of(object.index, seed);
-    if (has<EngineWarmed>(material)) state.vehicle = vehicle_of(object, moves, later_s, weather, seed);
-    if (object.wet_s) state.since_bath_s = *object.wet_s + later_s;
+    ActorState state;
+    if (object.fire) {
+      state.fire = fire_state(*object.fire, later_s);
+    } else if (object.object_class == ObjectClass::actor) {
+      const Material& material =
+          materials.find(object.material, fmt::format("object {}: material", object.name));
+      const auto found = movement.find(object.index);
+      state = state_of(object, material, found != movement.end() && found->second, later_s, weather, seed);
+    } else {
+      continue;
+    }
     all.classes.of_object[object.index] = number_of(state, all.states);
   }
   all.classes.count = static_cast<std::uint8_t>(all.states.size());

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "heat/body/body_heat.h"
 #include "heat/body/tissue.h"
 #include "heat/body/vehicle_heat.h"
 #include "imaging/surfaces.h"
@@ -13,12 +14,13 @@
 
 namespace thermal {
 
-/// What tells the temperatures of one actor from those of another of its species.
+/// What tells the temperatures of one actor from those of another of its species, or one camp fire from another.
 struct ActorState {
   Activity activity = Activity::standing;
   double dress = 0.5;  ///< of people, 0 (thin clothes) to 1: the middle of one of four equal parts
   VehicleState vehicle = {};
   double since_bath_s = std::numeric_limits<double>::infinity();
+  FireState fire = {};  ///< of a camp fire instead of an actor
 
   [[nodiscard]] bool operator==(const ActorState&) const = default;
 };
@@ -32,6 +34,12 @@ struct ActorStates {
     return states.at(classes.of_object.at(index));
   }
 };
+
+/// The state of a fire some time after time 0 of the scene.
+[[nodiscard]] FireState fire_state(const FirePlace& place, double later_s);
+
+/// Middle of a clip's frames in the time of its scene [s]; 0 without frames.
+[[nodiscard]] double middle_s(const Manifest& manifest);
 
 /// Time since a parked vehicle stopped, where nothing states it [s]: 120 to 43200, even in its logarithm, in 16 steps.
 /// An estimate: some have just arrived, some stand since the evening before. @param uniform  of the vehicle, 0 to 1

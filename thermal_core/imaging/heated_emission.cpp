@@ -31,12 +31,14 @@ class HeatedEmission {
  public:
   HeatedEmission(std::vector<HeatedSurface> surfaces,
                  const std::vector<std::unique_ptr<RadianceTable>>& tables, const GroundTemperatures* ground,
-                 const VariationField& field)
+                 const WarmSpots& spots, const VariationField& field)
       : surfaces_(std::move(surfaces)),
         ground_(ground),
+        spots_(spots),
         field_(field),
         ones_(surfaces_.size(), 1.0F),
-        cover_(covers_of(surfaces_)) {
+        cover_(covers_of(surfaces_)),
+        hot_(!spots.empty()) {
     std::vector<std::int32_t> first_node;
     for (const auto& table : tables) {
       first_node.push_back(static_cast<std::int32_t>(nodes_.size()));
@@ -48,6 +50,8 @@ class HeatedEmission {
       stddev_k_.push_back(surface.variation_stddev_k);
       varies_ = varies_ || surface.variation_stddev_k > 0;
       per_length_.push_back(surface.per_correlation_length);
+      table_.push_back(tables.at(surface.table).get());
+      hot_ = hot_ || surface.temperature_k >= RadianceTable::kHottest;
       first_node_.push_back(first_node.at(surface.table));
     }
   }
@@ -66,6 +70,7 @@ class HeatedEmission {
                        .y_m = row.metres[1],
                        .footprint_m = row.metres[2]},
                       row.temperature_k);
+      spots_.add(row.surface, cover_, row.metres[0], row.metres[1], row.temperature_k);
     }
     add_bodies_and_crowns(row);
     if (varies_) {
@@ -91,9 +96,18 @@ class HeatedEmission {
                           .nodes_per_k = RadianceTable::kNodesPerKelvin,
                           .last_node = RadianceTable::kSteps - 1},
                          row.radiance_w_m2_sr.data(), width);
+    if (hot_) emit_hot(row);
   }
 
  private:
+  /// Where the tables end.
+  void emit_hot(Row& row) const {
+    for (std::size_t i = 0; i < row.surface.size(); ++i) {
+      if (row.temperature_k[i] >= RadianceTable::kHottest)
+        row.radiance_w_m2_sr[i] = table_[row.surface[i]]->radiance(row.temperature_k[i]);
+    }
+  }
+
   void find_places(Row& row) const {
     kernels::find_places({.surface = row.surface.data(),
                           .per_correlation_length = ones_.data(),
@@ -163,6 +177,7 @@ class HeatedEmission {
 
   std::vector<HeatedSurface> surfaces_;
   const GroundTemperatures* ground_;
+  const WarmSpots& spots_;
   const VariationField& field_;
   std::vector<float> nodes_;
   // By surface, as the kernels read them:
@@ -173,15 +188,18 @@ class HeatedEmission {
   std::vector<float> stddev_k_;
   std::vector<float> per_length_;
   std::vector<std::int32_t> first_node_;
+  std::vector<const RadianceTable*> table_;
   bool varies_ = false;  ///< any of them
+  bool hot_ = false;     ///< something may be hotter than the tables
 };
 
 }  // namespace
 
 RowTerm heated_emission(std::vector<HeatedSurface> surfaces,
                         const std::vector<std::unique_ptr<RadianceTable>>& tables,
-                        const GroundTemperatures* ground, const VariationField& field) {
-  return HeatedEmission(std::move(surfaces), tables, ground, field);
+                        const GroundTemperatures* ground, const WarmSpots& spots,
+                        const VariationField& field) {
+  return HeatedEmission(std::move(surfaces), tables, ground, spots, field);
 }
 
 RowTerm mapped_sky_view(const std::vector<HeatedSurface>& surfaces, const GroundTemperatures& ground) {

@@ -6,6 +6,7 @@
 
 #include "imaging/ground_temperatures.h"
 #include "imaging/row_terms.h"
+#include "imaging/warm_spots.h"
 #include "radiometry/radiance_table.h"
 #include "scene/variation_field.h"
 
@@ -35,10 +36,12 @@ struct HeatedSurface {
 };
 
 /// Emission of surfaces whose temperature follows the weather, with the fractal field on those that have one. `ground`
-/// is null without maps; all outlive the term. Depths that are not positive and finite give temperature_k.
+/// is null without maps; all outlive the term. Depths that are not positive and finite give temperature_k. `spots` warm
+/// the ground's covers, with maps. What is hotter than the tables, such as fires, costs a hundred times as much.
 [[nodiscard]] RowTerm heated_emission(std::vector<HeatedSurface> surfaces,
                                       const std::vector<std::unique_ptr<RadianceTable>>& tables,
-                                      const GroundTemperatures* ground, const VariationField& field);
+                                      const GroundTemperatures* ground, const WarmSpots& spots,
+                                      const VariationField& field);
 
 /// Replaces the sky view of ground, by its normal, by that of the maps, of what level ground sees past crowns and relief.
 /// Must follow heated_emission() and orientation(); `ground` outlives the term.

@@ -5,6 +5,8 @@
 #include <span>
 
 #include "heat/body/body_heat.h"
+#include "heat/body/fire.h"
+#include "heat/body/warm_ground.h"
 #include "heat/surface/heat_report.h"
 #include "heat/surface/leaf_layer.h"
 #include "heat/weather/sun_memory.h"
@@ -66,6 +68,25 @@ std::vector<float> sunlit_cells(const GroundMaps& maps, const DayWeather& day, d
   return share;
 }
 
+/// Ground around a fire. What it took up while the fire burnt, it gives back as a bed does.
+WarmSpot fireside(const FirePlace& place, double later_s, const Surroundings& around) {
+  constexpr double kReachM = 12;
+  constexpr std::size_t kSteps = 96;
+  const FireState state = fire_state(place, later_s);
+  const GroundProperties ground;
+  const double left =
+      state.burning ? 1 : bed_share_left(state.fire.burning_s, std::max(1.0, state.since_s), WarmedGround());
+  WarmSpot spot = {.x_m = place.place_m[0], .y_m = place.place_m[1], .reach = kReachM, .excess_k = {}};
+  for (std::size_t step = 0; step <= kSteps; ++step) {
+    const double distance_m = kReachM * static_cast<double>(step) / kSteps;
+    const double warm_k = fireside_ground_k(state.fire, around, ground, around.ground_k, distance_m);
+    spot.excess_k.push_back(static_cast<float>(left * (warm_k - around.ground_k)));
+  }
+  const float last_k = spot.excess_k.back();  // without a step at its end
+  for (float& excess_k : spot.excess_k) excess_k = std::max(0.0F, excess_k - last_k);
+  return spot;
+}
+
 /// Finds the temperatures of surfaces, one by one.
 class Builder {
  public:
@@ -86,6 +107,7 @@ class Builder {
   }
 
   SceneHeat finish(const Manifest& manifest, std::uint32_t seed) {
+    heat_.spots = WarmSpots(warm_spots(manifest));
     if (settings_.ground == nullptr) return std::move(heat_);
     const GroundMaps& maps = *settings_.ground;
     heat_.ground = std::make_unique<GroundTemperatures>(
@@ -99,7 +121,7 @@ class Builder {
     HeatedSurface heated;
     const Material& material = *surface.material;
     set_variation(material, heated);
-    const std::string& part = terms_.parts ? surface.part : kWholeBody;
+    const std::string& part = terms_.parts || is_fire(material) ? surface.part : kWholeBody;
     if (const BodyHeat* body = material.body_heat_of(part)) {
       set_body(*body, moment_of(states_.at(surface.actor_class)), heated);
     } else if (const MaterialHeat* heat = material.heat_of(surface.part)) {
@@ -119,8 +141,21 @@ class Builder {
 
   [[nodiscard]] SurfacePlace open_place() const { return {.moisture = moment_.ground_moisture}; }
 
+  [[nodiscard]] std::vector<WarmSpot> warm_spots(const Manifest& manifest) const {
+    const Surroundings around = {.forcing = moment_.forcing, .ground_k = moment_.ground_k};
+    std::vector<WarmSpot> spots;
+    for (const ManifestObject& object : manifest.objects) {
+      if (object.fire) spots.push_back(fireside(*object.fire, middle_s(manifest), around));
+    }
+    return spots;
+  }
+
   [[nodiscard]] SurfacePlace below_crown() const {
     return {.sky_view = kBelowCrown, .sunlit = kBelowCrown, .moisture = moment_.ground_moisture};
+  }
+
+  static bool is_fire(const Material& material) {
+    return material.body_heat && std::holds_alternative<FirePart>(*material.body_heat);
   }
 
   static bool is_crown(const Material& material) {
@@ -166,6 +201,7 @@ class Builder {
     moment.dress = actor.dress;
     moment.vehicle = actor.vehicle;
     moment.since_bath_s = actor.since_bath_s;
+    moment.fire = actor.fire;
     if (const auto water = moment_.materials.find("water"); water != moment_.materials.end())
       moment.refuge_k = water->second.temperature_k(open_place());
     return moment;

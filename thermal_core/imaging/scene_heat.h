@@ -11,6 +11,7 @@
 #include "imaging/heat_settings.h"
 #include "imaging/heated_emission.h"
 #include "imaging/surfaces.h"
+#include "imaging/warm_spots.h"
 #include "scene/manifest.h"
 #include "scene/weather.h"
 
@@ -20,6 +21,7 @@ namespace thermal {
 struct SceneHeat {
   std::vector<HeatedSurface> surfaces;         ///< without their tables; the sky's is unused
   std::unique_ptr<GroundTemperatures> ground;  ///< null without maps
+  WarmSpots spots{{}};                         ///< of the ground
 };
 
 /// What the passes of a scene allow, and which terms it keeps.

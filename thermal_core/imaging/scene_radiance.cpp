@@ -161,8 +161,8 @@ void SceneRadiance::compose(const PhysicsSettings& settings, bool has_poses) {
   const SurfaceOpticsList& optics = held_->optics;
   if (settings.heat) {
     held_->field = std::make_unique<VariationField>(settings.seed);
-    chain_.push_back(
-        heated_emission(held_->heat.surfaces, held_->tables, held_->heat.ground.get(), *held_->field));
+    chain_.push_back(heated_emission(held_->heat.surfaces, held_->tables, held_->heat.ground.get(),
+                                     held_->heat.spots, *held_->field));
   } else if (terms.variation) {
     held_->field = std::make_unique<VariationField>(settings.seed);
     chain_.push_back(varied_emission(optics, *held_->field));

@@ -78,6 +78,13 @@ VehicleState read_engine(const Json& json) {
   return {.engine = static_cast<EngineState>(found - kEngineNames.begin()), .since_s = json.at("since_s")};
 }
 
+FirePlace read_fire(const Json& json) {
+  return {.place_m = json.at("place_m").get<std::array<double, 2>>(),
+          .diameter_m = json.at("diameter_m"),
+          .burning = json.at("state") == "burning",
+          .since_s = json.at("since_s")};
+}
+
 constexpr std::array kClassNames = {"ground", "water", "plant", "actor"};  // of ObjectClass
 
 Json to_json(const ManifestObject& object) {
@@ -85,6 +92,11 @@ Json to_json(const ManifestObject& object) {
                {"name", object.name},
                {"class", kClassNames.at(static_cast<std::size_t>(object.object_class))},
                {"material", object.material}};
+  if (object.fire)
+    json["fire"] = {{"place_m", object.fire->place_m},
+                    {"diameter_m", object.fire->diameter_m},
+                    {"state", object.fire->burning ? "burning" : "embers"},
+                    {"since_s", object.fire->since_s}};
   if (object.object_class != ObjectClass::actor) return json;
   json["category"] = object.category;
   json["species"] = object.species;
@@ -165,6 +177,7 @@ ManifestObject manifest_object_of(const Json& json) {
   if (json.contains("colour")) object.colour = json["colour"].get<Colour>();
   if (json.contains("mattes")) object.mattes = json["mattes"].get<std::vector<std::string>>();
   if (json.contains("engine")) object.engine = read_engine(json["engine"]);
+  if (json.contains("fire")) object.fire = read_fire(json["fire"]);
   if (json.contains("wet_s")) object.wet_s = json["wet_s"].get<double>();
   if (json.contains("bounds_m"))
     object.bounds_m = json["bounds_m"].get<std::array<ManifestObject::Corner, 2>>();

@@ -27,6 +27,14 @@ struct PassChannels {
   std::string normal;  ///< prefix of .X, .Y and .Z
 };
 
+/// A camp fire at time 0 of the scene.
+struct FirePlace {
+  std::array<double, 2> place_m{};  ///< middle of its bed
+  double diameter_m = 0.6;
+  bool burning = true;  ///< has flames
+  double since_s = 0;   ///< for which it burns, or since its flames went out
+};
+
 /// What one object index stands for.
 struct ManifestObject {
   using Corner = std::array<double, 3>;
@@ -41,6 +49,7 @@ struct ManifestObject {
       bounds_m;                        ///< actors: box in actor axes, x forward, z up from the ground
   std::optional<VehicleState> engine;  ///< actors: at time 0 of the scene; none: unknown
   std::optional<double> wet_s;         ///< actors: time since a bath, at time 0 of the scene; none: dry
+  std::optional<FirePlace> fire;       ///< camp fires
   std::optional<Colour> colour;        ///< in pictures that identify objects by colour
   std::vector<std::string> mattes;     ///< names in a cryptomatte, * matches any letters; empty: `name`
 };

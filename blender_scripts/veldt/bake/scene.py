@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import assets, ids
+from .. import assets, fires, ids
 from ..anatomy.skeleton import part_names
 from ..camera import DEPTH_RANGE_M
 from ..geometry.shapes import Mesh, facets
@@ -115,7 +115,7 @@ def _water(water: Water, meshes: _Meshes) -> dict:
 def _all_plants(
     world: World, model_mesh: ModelMesh, meshes: _Meshes
 ) -> tuple[list[dict], dict[str, np.ndarray]]:
-    """An instance table for each species that grows in the scene, and their arrays."""
+    """An instance table for each species that grows in the scene and for each fire, and their arrays."""
     entries, arrays = [], {}
     for name, planting in world.plantings.items():
         if len(planting.scale) == 0:
@@ -125,6 +125,13 @@ def _all_plants(
         arrays[keys["transform"]] = _transforms(planting)
         arrays[keys["mesh"]] = (first + planting.variant).astype("<u4")
         entries.append({"name": name, "object": world.plant_indices[name], **keys})
+    slots = [(fires.MATERIAL, part) for part in fires.PARTS]
+    for fire, index in zip(world.fires, world.fire_indices):
+        number = meshes.add(fire.name, fires.fire_mesh(fire, world.config["seed"]), slots, smooth=False)
+        keys = {kind: f"fires/{fire.name}/{kind}" for kind in ("transform", "mesh")}
+        arrays[keys["transform"]] = np.eye(3, 4)[None] + [0.0, 0.0, 0.0, 1.0] * fire.position_m[:, None]
+        arrays[keys["mesh"]] = np.array([number], "<u4")
+        entries.append({"name": fire.name, "object": index, **keys})
     return entries, arrays
 
 
@@ -195,7 +202,7 @@ def _materials(world: World) -> list[dict]:
 
 
 def _place(world: World) -> list[dict]:
-    """Ground, and the water and plants of the scene, if any."""
+    """Ground, and the water, plants and fires of the scene, if any."""
     place = [{"index": ids.GROUND, "name": "ground", "class": "ground", "material": SOIL}]
     if world.terrain.waters:
         place.append({"index": ids.WATER, "name": "water", "class": "water", "material": WATER})
@@ -203,6 +210,9 @@ def _place(world: World) -> list[dict]:
         if len(world.plantings[name].scale) > 0:
             material = assets.load("plants", name)["material"]
             place.append({"index": index, "name": name, "class": "plant", "material": material})
+    for fire, index in zip(world.fires, world.fire_indices):
+        thing = {"index": index, "name": fire.name, "class": "plant", "material": fires.MATERIAL}
+        place.append(thing | {"fire": fire.state()})
     return place
 
 

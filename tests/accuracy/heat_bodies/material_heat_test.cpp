@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -17,8 +18,8 @@ using namespace thermal;
 
 namespace {
 
-const char* const kActors[] = {"crocodile", "elephant", "giraffe",    "hippopotamus", "human",
-                               "impala",    "lion",     "rhinoceros", "truck",        "zebra"};
+const char* const kActors[] = {"crocodile", "elephant", "fire",       "giraffe", "hippopotamus", "human",
+                               "impala",    "lion",     "rhinoceros", "truck",   "zebra"};
 
 /// Temperature of the side of a part.
 double side_k(const std::string& material_name, const std::string& part, const BodyMoment& moment) {
@@ -165,6 +166,30 @@ TEST_CASE(
           side_k("truck", part, {.around = cold_night(), .vehicle = {.engine = EngineState::driving}}) <
           side_k("truck", "exhaust", {.around = cold_night(), .vehicle = {.engine = EngineState::driving}}));
   }
+}
+
+TEST_CASE("A fire burns at 600 to 1200 K, and what is left of it cools for hours") {
+  BodyMoment moment = {.around = cold_night()};
+  moment.fire = {.fire = {.diameter_m = 0.6, .burning_s = 3600}};
+  for (const char* part : {"embers", "ash", "flames"}) {
+    CAPTURE(part);
+    CHECK(side_k("fire", part, moment) > 600);
+    CHECK(side_k("fire", part, moment) < 1200);
+  }
+  CHECK(side_k("fire", "embers", moment) > side_k("fire", "ash", moment));
+  // 1 - exp(-0.8 x 0.6) = 0.3812 of the radiation of 1150 K.
+  CHECK_THAT(side_k("fire", "flames", moment), WithinAbs(1150 * std::pow(0.38122, 0.25), 0.1));
+  double before_k = 900;
+  for (const double since_s : {1.0, 600.0, 3600.0, 4 * 3600.0}) {
+    moment.fire.burning = false;
+    moment.fire.since_s = since_s;
+    const double now_k = side_k("fire", "ash", moment);
+    CHECK(now_k < before_k);
+    CHECK(side_k("fire", "embers", moment) == now_k);
+    before_k = now_k;
+  }
+  CHECK(before_k > moment.around.ground_k);
+  CHECK(before_k < 400);
 }
 
 TEST_CASE("Keys of other kinds and values outside of their domain are refused") {

@@ -113,6 +113,18 @@ TEST_CASE("What is stated of engines and baths holds at time 0 of the scene") {
   CHECK(states.of_object(1) == ActorState{});
 }
 
+TEST_CASE("Fires have a state each, at the middle of the clip") {
+  ManifestObject burning;
+  burning.index = 7;
+  burning.fire = {.place_m = {1, 2}, .diameter_m = 1.2, .burning = true, .since_s = 600};
+  ManifestObject embers = burning;
+  embers.index = 8;
+  embers.fire->burning = false;
+  const ActorStates states = states_of(scene({burning, embers}));
+  CHECK(states.of_object(7).fire == FireState{.fire = {.diameter_m = 1.2, .burning_s = 800}});
+  CHECK(states.of_object(8).fire == FireState{.fire = {.diameter_m = 1.2}, .burning = false, .since_s = 800});
+}
+
 TEST_CASE("Actors in equal states share a class, and there are at most 250 states") {
   std::vector<ManifestObject> objects;
   for (std::uint16_t k = 0; k < 300; ++k)

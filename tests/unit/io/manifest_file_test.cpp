@@ -139,6 +139,10 @@ TEST_CASE("A written manifest is read back the same") {
   document["overscan_px"] = 3;
   document["camera"]["distortion"] = {{"k1", -0.1}, {"k2", 0.2}, {"p1", 0.03}, {"p2", 0.04}, {"k3", 5}};
   document["scene"] = "valley";
+  document["objects"].push_back(
+      {{"index", 90}, {"name", "fire_1"}, {"class", "plant"}, {"material", "fire"}});
+  document["objects"].back()["fire"] = {
+      {"place_m", {1, -2.5}}, {"diameter_m", 0.6}, {"state", "embers"}, {"since_s", 60}};
   for (Json& object : document["objects"]) {
     if (object["class"] == "actor") {
       object["engine"] = {{"state", "idling"}, {"since_s", 90}};

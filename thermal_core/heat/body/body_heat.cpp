@@ -37,6 +37,14 @@ struct PartTemperature {
   double operator()(const EngineWarmed& part) const {
     return (*this)(part.sheet) + warmth_k(part.warmth, moment.vehicle);
   }
+  double operator()(const FirePart& part) const {
+    const CampFire& fire = moment.fire.fire;
+    if (!moment.fire.burning)
+      return ash_bed_k(fire, moment.around, GroundProperties(), moment.around.ground_k, moment.fire.since_s);
+    if (part.of == FirePart::Of::flames)
+      return fire.flame_k * std::sqrt(std::sqrt(flame_emissivity(fire)));  // radiates as much as a blackbody
+    return part.of == FirePart::Of::embers ? fire.ember_k : fire.ash_k;
+  }
 };
 
 struct Validate {

@@ -7,6 +7,7 @@
 
 #include "heat/body/clothing.h"
 #include "heat/body/coat.h"
+#include "heat/body/fire.h"
 #include "heat/body/vehicle_heat.h"
 
 namespace thermal {
@@ -26,8 +27,27 @@ struct EngineWarmed {
   [[nodiscard]] bool operator==(const EngineWarmed&) const = default;
 };
 
+/// A part of a camp fire.
+struct FirePart {
+  enum class Of { embers, ash, flames };
+  Of of = Of::ash;
+
+  void validate(const std::string&) const {}
+  [[nodiscard]] bool operator==(const FirePart&) const = default;
+};
+
+/// What a camp fire does.
+struct FireState {
+  CampFire fire = {};   ///< its burning_s is that until the moment, or until its flames went out
+  bool burning = true;  ///< has flames
+  double since_s = 0;   ///< since its flames went out
+
+  [[nodiscard]] bool operator==(const FireState&) const = default;
+};
+
 /// What heats or cools a part of an actor; std::monostate: it has the temperature of the air.
-using BodyHeat = std::variant<std::monostate, Clothing, Coat, ColdBlooded, Unheated, Sheet, EngineWarmed>;
+using BodyHeat =
+    std::variant<std::monostate, Clothing, Coat, ColdBlooded, Unheated, Sheet, EngineWarmed, FirePart>;
 
 /// ConfigError with `where` if a value is outside its domain.
 void validate(const BodyHeat& heat, const std::string& where);
@@ -41,6 +61,7 @@ struct BodyMoment {
   /// Temperature of what a cold-blooded animal came from, water or ground; without, that of the ground around.
   std::optional<double> refuge_k = {};
   VehicleState vehicle = {};
+  FireState fire = {};
   std::optional<double> roof_k = {};  ///< of a level sheet of metal, from day_of_slab(); without, its balance
 };
 

@@ -19,6 +19,9 @@ class HeatKeys {
   void take(const char* key, double& value) {
     if (const Json* given = find(key)) value = given->get<double>();
   }
+  void take(const char* key, std::string& value) {
+    if (const Json* given = find(key)) value = given->get<std::string>();
+  }
   void take(const char* key, DrawnRange& value) {
     if (const Json* given = find(key)) value = {.low = (*given)[0], .high = (*given)[1]};
   }
@@ -128,6 +131,13 @@ BodyHeat engine(HeatKeys& keys) {
   return part;
 }
 
+BodyHeat fire_part(HeatKeys& keys) {
+  std::string of = "ash";
+  keys.take("of", of);
+  if (of == "embers") return FirePart{FirePart::Of::embers};
+  return FirePart{of == "flames" ? FirePart::Of::flames : FirePart::Of::ash};
+}
+
 BodyHeat read_kind(HeatKeys& keys, const std::string& kind) {
   if (kind == "clothing") return clothing(keys);
   if (kind == "skin") return skin(keys);
@@ -136,6 +146,7 @@ BodyHeat read_kind(HeatKeys& keys, const std::string& kind) {
   if (kind == "unheated") return unheated(keys);
   if (kind == "sheet") return sheet(keys);
   if (kind == "engine") return engine(keys);
+  if (kind == "fire") return fire_part(keys);
   return {};  // "air", the only other kind of the schema
 }
 
