@@ -40,6 +40,7 @@ def build_manifest(
         "camera": header["camera"],
         "objects": header["objects"],
         "materials": header["materials"],
+        **({"beds": header["beds"]} if "beds" in header else {}),
         "frames": _frames(track, [actor["object"] for actor in header["actors"]]),
     }
 

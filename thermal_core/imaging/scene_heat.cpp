@@ -87,6 +87,29 @@ WarmSpot fireside(const FirePlace& place, double later_s, const Surroundings& ar
   return spot;
 }
 
+/// Even below the body, and vague at its rim (estimate); none where the ground is warmer than an animal.
+WarmSpot warm_bed(const WarmBed& bed, double later_s, double ground_k) {
+  constexpr double kReach = 1.1;
+  constexpr double kEven = 0.85;
+  constexpr std::size_t kSteps = 44;
+  const WarmedGround ground;
+  const double excess_k = std::max(0.0, bed_excess_k({.time_s = bed.lain_s}, ground, ground_k)) *
+                          bed_share_left(bed.lain_s, bed.left_s + later_s, ground);
+  WarmSpot spot = {.x_m = bed.place_m[0],
+                   .y_m = bed.place_m[1],
+                   .heading_rad = bed.heading_rad,
+                   .half_length_m = bed.half_m[0],
+                   .half_width_m = bed.half_m[1],
+                   .reach = kReach,
+                   .excess_k = {}};
+  for (std::size_t step = 0; step <= kSteps; ++step) {
+    const double out = kReach * static_cast<double>(step) / kSteps;
+    const double share = std::clamp((kReach - out) / (kReach - kEven), 0.0, 1.0);
+    spot.excess_k.push_back(static_cast<float>(share * excess_k));
+  }
+  return spot;
+}
+
 /// Finds the temperatures of surfaces, one by one.
 class Builder {
  public:
@@ -147,6 +170,8 @@ class Builder {
     for (const ManifestObject& object : manifest.objects) {
       if (object.fire) spots.push_back(fireside(*object.fire, middle_s(manifest), around));
     }
+    for (const WarmBed& bed : manifest.beds)
+      spots.push_back(warm_bed(bed, middle_s(manifest), moment_.ground_k));
     return spots;
   }
 

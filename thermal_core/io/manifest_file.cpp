@@ -67,6 +67,7 @@ Manifest read_document(const Json& json) {
   if (json["camera"].contains("distortion")) manifest.lens = distortion_of(json["camera"]["distortion"]);
   for (const Json& object : json["objects"]) manifest.objects.push_back(manifest_object_of(object));
   for (const Json& material : json["materials"]) manifest.materials.push_back(manifest_material_of(material));
+  for (const Json& bed : json["beds"]) manifest.beds.push_back(warm_bed_of(bed));
   for (const Json& frame : json["frames"]) manifest.frames.push_back(read_frame(frame));
   return manifest;
 }
@@ -115,6 +116,14 @@ Json to_json(const ManifestMaterial& material) {
   return json;
 }
 
+Json to_json(const WarmBed& bed) {
+  return {{"place_m", bed.place_m},
+          {"heading_rad", bed.heading_rad},
+          {"half_m", bed.half_m},
+          {"left_s", bed.left_s},
+          {"lain_s", bed.lain_s}};
+}
+
 Json to_json(const ManifestFrame& frame) {
   Json json = {{"file", frame.file}, {"time_s", frame.time_s}};
   if (frame.agl_m) json["agl_m"] = *frame.agl_m;
@@ -151,6 +160,7 @@ Json head_of(const Manifest& manifest) {
   if (!manifest.lens.is_none()) json["camera"]["distortion"] = to_json(manifest.lens);
   json["objects"] = list_of(manifest.objects);
   json["materials"] = list_of(manifest.materials);
+  if (!manifest.beds.empty()) json["beds"] = list_of(manifest.beds);
   return json;
 }
 
@@ -186,6 +196,14 @@ ManifestObject manifest_object_of(const Json& json) {
 
 ManifestMaterial manifest_material_of(const Json& json) {
   return {.index = json.at("index"), .material = json.at("material"), .part = json.value("part", "")};
+}
+
+WarmBed warm_bed_of(const Json& json) {
+  return {.place_m = json.at("place_m").get<std::array<double, 2>>(),
+          .heading_rad = json.at("heading_rad"),
+          .half_m = json.at("half_m").get<std::array<double, 2>>(),
+          .left_s = json.at("left_s"),
+          .lain_s = json.at("lain_s")};
 }
 
 Manifest read_manifest(const Path& file, const Assets& assets) {

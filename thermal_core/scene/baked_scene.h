@@ -74,6 +74,7 @@ struct BakedScene {
   std::vector<BakedSurface> surfaces;
   std::vector<BakedPlants> plants;
   std::vector<BakedActor> actors;
+  std::vector<WarmBed> beds = {};
   BakedGround ground;
   std::vector<std::byte> data;  ///< what the spans refer to
 };

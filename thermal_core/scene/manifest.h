@@ -35,6 +35,15 @@ struct FirePlace {
   double since_s = 0;   ///< for which it burns, or since its flames went out
 };
 
+/// Ground on which an animal lay until some time before time 0 of the scene: an ellipse.
+struct WarmBed {
+  std::array<double, 2> place_m{};  ///< its middle
+  double heading_rad = 0;           ///< of its length, counter-clockwise from +x
+  std::array<double, 2> half_m{};   ///< half of its length and of its width
+  double left_s = 0;                ///< since it got up
+  double lain_s = 3600;             ///< for which it had lain
+};
+
 /// What one object index stands for.
 struct ManifestObject {
   using Corner = std::array<double, 3>;
@@ -98,6 +107,7 @@ struct Manifest {
   int overscan_px = 0;  ///< additional camera pixels on every side
   std::vector<ManifestObject> objects;
   std::vector<ManifestMaterial> materials;
+  std::vector<WarmBed> beds = {};
   std::vector<ManifestFrame> frames;
   std::string document_sha256 =
       {};  ///< of the JSON it was read from, without its layout; empty if there is none

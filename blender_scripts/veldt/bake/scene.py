@@ -13,6 +13,7 @@ from ..anatomy.skeleton import part_names
 from ..camera import DEPTH_RANGE_M
 from ..geometry.shapes import Mesh, facets
 from ..groups.actors import Actor
+from ..groups.beds import plan_beds
 from ..groups.conditions import condition
 from ..land.covers import SOIL
 from ..land.ground import GroundMesh
@@ -63,6 +64,7 @@ def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
     bodies: dict[tuple[str, str], list[dict]] = {}
     actors = [_actor(actor, bodies, model_mesh, meshes) for actor in world.actors]
     maps = _maps(world, world.ground)
+    beds = plan_beds(world.config["scene"]["groups"], world.actors, world.terrain, world.config["seed"])
     header = {
         "format": SCENE,
         "version": VERSION,
@@ -77,6 +79,7 @@ def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
         "surfaces": surfaces,
         "plants": plants,
         "actors": actors,
+        **({"beds": beds} if beds else {}),
         "ground": {
             "size_m": world.terrain.size_m,
             "cells": len(world.ground.height_m) - 1,

@@ -7,6 +7,7 @@ from collections.abc import Collection
 from .. import assets
 from ..anatomy.bodies import variant_names
 from ..faults import ConfigError, check_known, listing
+from .beds import check_beds
 from .behaviours import POSTURES, WALKING, behaviour_of
 from .conditions import check_condition
 
@@ -23,6 +24,7 @@ def check_groups(groups: list[dict], paths: Collection[str]) -> None:
         _check_where(where, group, paths)
         _check_behaviour(where, group)
         check_condition(where, group)
+        check_beds(where, group)
         if "meets" in group:
             _check_meeting(where, k, groups, names)
 

@@ -139,6 +139,8 @@ TEST_CASE("A written manifest is read back the same") {
   document["overscan_px"] = 3;
   document["camera"]["distortion"] = {{"k1", -0.1}, {"k2", 0.2}, {"p1", 0.03}, {"p2", 0.04}, {"k3", 5}};
   document["scene"] = "valley";
+  document["beds"] = {
+      {{"place_m", {4, 5}}, {"heading_rad", 0.5}, {"half_m", {0.9, 0.3}}, {"left_s", 300}, {"lain_s", 5400}}};
   document["objects"].push_back(
       {{"index", 90}, {"name", "fire_1"}, {"class", "plant"}, {"material", "fire"}});
   document["objects"].back()["fire"] = {

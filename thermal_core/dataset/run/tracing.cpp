@@ -143,6 +143,7 @@ Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const Cli
   manifest.lens = config.distortion;
   manifest.objects = scene.objects;
   manifest.materials = scene.materials;
+  manifest.beds = scene.beds;
   for (std::size_t k = 0; k < track.frames; ++k) manifest.frames.push_back(frame_of(scene, track, k));
   return manifest;
 }

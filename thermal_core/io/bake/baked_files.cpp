@@ -58,6 +58,7 @@ class SceneReader {
     each("actors", [this](const Json& entry, const std::string& where) {
       scene_.actors.push_back(actor_of(entry, where));
     });
+    for (const Json& bed : json.value("beds", Json::array())) scene_.beds.push_back(warm_bed_of(bed));
     scene_.ground = ground_of(json.at("ground"));
     scene_.data = file_.take_data();
     return std::move(scene_);
