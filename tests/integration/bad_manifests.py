@@ -126,7 +126,7 @@ MANIFESTS = [
     _manifest(
         "unknown key",
         lambda m: m.update(clips="one"),
-        'one/manifest.json: clips is not a known key; expected one of format, version, clip, of_flight, scene, seed, frame_rate_hz, layer, actor_layer, mirror_layer, channels, cryptomatte, sky_colour, sequence, supersample, overscan_px, camera, objects, materials, frames; did you mean "clip"?',
+        'one/manifest.json: clips is not a known key; expected one of format, version, clip, of_flight, scene, seed, frame_rate_hz, layer, actor_layer, mirror_layer, channels, cryptomatte, sky_colour, sequence, supersample, overscan_px, camera, objects, materials, beds, frames; did you mean "clip"?',
     ),
     _manifest(
         "a text for a number",
