@@ -17,13 +17,16 @@ void print_materials(const thermal::SceneOutline& outline) {
     if (night.looks.empty()) continue;
     const auto nearest = std::min_element(night.looks.begin(), night.looks.end(),
                                           [](const auto& a, const auto& b) { return a.range_m < b.range_m; });
-    print("\nair at {:.5g} K, humidity {:.2g}, range {:.0f} m [mK]\n{:<16}{:>10}{:>10}\n",
+    const bool inverted = night.weather.air.inversion_k > 0;
+    print("\nair at {:.5g} K, humidity {:.2g}, range {:.0f} m [mK]\n{:<16}{:>10}{:>10}{}\n",
           night.weather.air.temperature_k, night.weather.air.relative_humidity, nearest->range_m, "", "sky",
-          "path");
+          "path", inverted ? ", of it inversion" : "");
     for (const thermal::SceneOutline::Cover& cover : outline.covers) {
       const thermal::MaterialShift shift =
           thermal::shift_of(*cover.material, night, nearest->range_m, outline.response);
-      print("{:<16}{:>+10.0f}{:>+10.0f}\n", cover.material->name, 1e3 * shift.sky_k, 1e3 * shift.path_k);
+      print("{:<16}{:>+10.0f}{:>+10.0f}", cover.material->name, 1e3 * shift.sky_k, 1e3 * shift.path_k);
+      if (inverted) print("{:>+17.0f}", 1e3 * shift.inversion_k);
+      print("\n");
     }
   }
 }

@@ -68,7 +68,15 @@ class MaterialModel {
 
   [[nodiscard]] double with_path(double radiance, double range_m) const {
     const double through = path_transmittance(weather_.air, range_m);
-    return through * radiance + (1 - through) * air_radiance_;
+    return through * radiance + (1 - through) * air_radiance_ + from_inversion(range_m);
+  }
+
+  /// What the path radiates more because of an inversion.
+  [[nodiscard]] double from_inversion(double range_m) const {
+    const Air& air = weather_.air;
+    if (!(air.inversion_k > 0)) return 0;
+    return (blackbody_.radiance(air.temperature_k + air.inversion_k) - air_radiance_) *
+           mean_path_absorption(air, range_m);
   }
 
  private:
@@ -237,7 +245,10 @@ MaterialShift shift_of(const Material& material, const SceneOutline::Night& nigh
   const double direct_k = model.apparent_k(model.emitted(model.temperature_k()));
   const double sky = model.with_sky(1, 1);
   const double sky_k = model.apparent_k(sky);
-  return {.sky_k = sky_k - direct_k, .path_k = model.apparent_k(model.with_path(sky, range_m)) - sky_k};
+  const double seen = model.with_path(sky, range_m);
+  return {.sky_k = sky_k - direct_k,
+          .path_k = model.apparent_k(seen) - sky_k,
+          .inversion_k = model.apparent_k(seen) - model.apparent_k(seen - model.from_inversion(range_m))};
 }
 
 }  // namespace thermal

@@ -66,11 +66,12 @@ struct Budget {
 /// ConfigError if the config requires one.
 [[nodiscard]] Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices);
 
-/// Shift of a material's apparent temperature by sky reflection, and by the path on top of it [K]; level surface
-/// under an open sky, seen from straight above.
+/// Shift of a material's apparent temperature by sky reflection, and by the path on top of it [K], of which the inversion
+/// makes a part; level surface under an open sky, seen from straight above.
 struct MaterialShift {
   double sky_k = 0;
   double path_k = 0;
+  double inversion_k = 0;
 };
 [[nodiscard]] MaterialShift shift_of(const Material& material, const SceneOutline::Night& night,
                                      double range_m, const SpectralResponse& response);

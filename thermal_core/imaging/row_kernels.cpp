@@ -175,4 +175,21 @@ VELDT_CLONES void pass_air(const PathInput& in, const Absorption& absorption, fl
   }
 }
 
+VELDT_CLONES void warm_air(const WarmAirInput& in, const Absorption& share, float* __restrict radiance,
+                           std::size_t count) noexcept {
+  const WarmAirInput p = in;
+  const Absorption a = share;
+  const float per_near = 1 / a.near_end_m;
+  const float per_half = 1 / a.far_half;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float range_m = p.depth_m[i] * p.ray_length[i];
+    const float within_m = range_m < a.farthest_m ? range_m : a.farthest_m;  // NaN: the farthest
+    const float clamped_m = within_m > 0 ? within_m : 0.0F;
+    const float near = polynomial(a.near, clamped_m * per_near);
+    const float far = polynomial(a.far, (std::sqrt(clamped_m) - a.far_middle) * per_half);
+    const float mean = clamped_m < a.near_end_m ? near : far;
+    radiance[i] += (p.surface[i] != 0 ? mean : 0.0F) * p.more_w_m2_sr;
+  }
+}
+
 }  // namespace thermal::kernels

@@ -135,4 +135,13 @@ struct PathInput {
 };
 void pass_air(const PathInput& in, const Absorption& absorption, float* radiance, std::size_t count) noexcept;
 
+/// Adds `more_w_m2_sr` times a share of the path, in the form of an absorption, to pixels that show a surface.
+struct WarmAirInput {
+  const std::uint16_t* surface;
+  const float* depth_m;
+  const float* ray_length;
+  float more_w_m2_sr;
+};
+void warm_air(const WarmAirInput& in, const Absorption& share, float* radiance, std::size_t count) noexcept;
+
 }  // namespace thermal::kernels

@@ -76,6 +76,22 @@ kernels::Absorption fit_absorption(const Air& air) {
   return fit;
 }
 
+/// The same for the mean of the absorption over the path.
+kernels::Absorption fit_mean_absorption(const Air& air) {
+  kernels::Absorption fit = fit_absorption(air);
+  for (std::size_t k = 1; k < fit.near.size(); ++k) fit.near.at(k) /= static_cast<float>(k + 1);
+  const auto middle = static_cast<double>(fit.far_middle);
+  const auto half = static_cast<double>(fit.far_half);
+  const auto far = fit_polynomial(
+      [&](double x) {
+        const double root = middle + x * half;
+        return mean_path_absorption(air, root * root);
+      },
+      kernels::Absorption::kTerms);
+  std::transform(far.begin(), far.end(), fit.far.begin(), [](double c) { return static_cast<float>(c); });
+  return fit;
+}
+
 }  // namespace
 
 RowTerm emission(const SurfaceOpticsList& surfaces) {
@@ -303,6 +319,16 @@ RowTerm path(const Air& air, float air_radiance_w_m2_sr) {
                        .ray_length = row.ray_length.data(),
                        .air_w_m2_sr = air_radiance_w_m2_sr},
                       absorption, row.radiance_w_m2_sr.data(), row.surface.size());
+  };
+}
+
+RowTerm path_inversion(const Air& air, float more_w_m2_sr) {
+  return [share = fit_mean_absorption(air), more_w_m2_sr](Row& row) {
+    kernels::warm_air({.surface = row.surface.data(),
+                       .depth_m = row.depth_m.data(),
+                       .ray_length = row.ray_length.data(),
+                       .more_w_m2_sr = more_w_m2_sr},
+                      share, row.radiance_w_m2_sr.data(), row.surface.size());
   };
 }
 

@@ -98,4 +98,8 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 /// counts as 1000 m; the sky is unaffected.
 [[nodiscard]] RowTerm path(const Air& air, float air_radiance_w_m2_sr);
 
+/// What the path radiates more because the air is warmer towards the camera, whose radiance is `more_w_m2_sr` higher there
+/// than at the ground; see mean_path_absorption(). Must follow path().
+[[nodiscard]] RowTerm path_inversion(const Air& air, float more_w_m2_sr);
+
 }  // namespace thermal

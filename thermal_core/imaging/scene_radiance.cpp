@@ -190,6 +190,11 @@ void SceneRadiance::compose(const PhysicsSettings& settings, bool has_poses) {
   }
   if (terms.sky) chain_.push_back(of_sky);
   if (of_path) chain_.push_back(of_path);
+  const Air& air = settings.weather.air;
+  if (of_path && air.inversion_k > 0) {
+    const double at_camera = BandRadiance(settings.response).radiance(air.temperature_k + air.inversion_k);
+    chain_.push_back(path_inversion(air, static_cast<float>(at_camera - air_radiance)));
+  }
   const bool has_maps = settings.heat && settings.heat->ground;
   needs_ = {.depth = terms.variation || terms.path || has_maps || mirrors,
             .normals = terms.sky || terms.angular,

@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kZeroCelsius = 273.15;
 
+constexpr double kLongest = 1000;  // m; path_transmittance() is Beer's law below kShortest
+constexpr double kShortest = 30;
+
 double with_clouds(double clear, double cloud_fraction) noexcept {
   constexpr double kCloudGain = 0.84;
   return clear + kCloudGain * (1 - clear) * cloud_fraction;
@@ -31,6 +34,7 @@ void Air::validate() const {
   require_range("weather.air_temperature_k", temperature_k, "K", kColdestAirK, kHottestAirK);
   require_range("weather.relative_humidity", relative_humidity, "", 0, 1);
   require_range("weather.cloud_fraction", cloud_fraction, "", 0, 1);
+  require_range("weather.inversion_k", inversion_k, "K", 0, kLargestInversionK);
 }
 
 double vapour_pressure_hpa(const Air& air) noexcept {
@@ -47,11 +51,30 @@ double path_water_g_m3(const Air& air) noexcept {
 }
 
 double path_transmittance(const Air& air, double range_m) noexcept {
-  constexpr double kLongest = 1000;
-  constexpr double kShortest = 30;
   const double range = range_m < kLongest ? std::max(range_m, 0.0) : kLongest;  // NaN: the longest
   if (range < kShortest) return std::pow(fitted_transmittance(air, kShortest), range / kShortest);
   return fitted_transmittance(air, range);
+}
+
+double mean_path_absorption(const Air& air, double range_m) noexcept {
+  const double range = range_m < kLongest ? std::max(range_m, 0.0) : kLongest;
+  const double near = std::min(range, kShortest);
+  if (!(near > 0)) return 0;
+  // Beer's law: the mean of 1 - exp(-x) from 0 to x is 1 + expm1(-x) / x; by its series where that cancels.
+  const double depth = -std::log(fitted_transmittance(air, kShortest)) * near / kShortest;
+  const double near_mean = depth < 1e-3 ? depth / 2 - depth * depth / 6 + depth * depth * depth / 24
+                                        : 1 + std::expm1(-depth) / depth;
+  // Simpson's rule in the root of the range, in which the fit is smooth.
+  constexpr int kPanels = 64;
+  const double first = std::sqrt(kShortest);
+  const double step = (std::sqrt(range) - first) / kPanels;
+  double far_sum = 0;
+  for (int node = 0; range > kShortest && node <= kPanels; ++node) {
+    const double root = first + node * step;
+    const double weight = node == 0 || node == kPanels ? 1 : (node % 2 == 1 ? 4 : 2);
+    far_sum += weight * 2 * root * (1 - fitted_transmittance(air, root * root));
+  }
+  return (near_mean * near + far_sum * step / 3) / range;
 }
 
 double clear_zenith_emissivity(const Air& air) noexcept {

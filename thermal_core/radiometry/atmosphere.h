@@ -9,13 +9,18 @@ namespace thermal {
 inline constexpr double kColdestAirK = 233;
 inline constexpr double kHottestAirK = 323;
 
+/// The largest inversion that is accepted [K]: the camera's radiance of air is taken to change linearly along the path.
+inline constexpr double kLargestInversionK = 20;
+
 /// The state of the air near the ground.
 struct Air {
   double temperature_k = 293;
   double relative_humidity = 0.7;  ///< 0 to 1
   double cloud_fraction = 0;       ///< 0 clear to 1 overcast
+  double inversion_k = 0;          ///< how much warmer the air is at the camera, see mean_path_absorption()
 
-  /// ConfigError unless from kColdestAirK to kHottestAirK, and the others from 0 to 1.
+  /// ConfigError unless from kColdestAirK to kHottestAirK, the inversion from 0 to kLargestInversionK, and the others
+  /// from 0 to 1.
   void validate() const;
 
   [[nodiscard]] bool operator==(const Air&) const = default;
@@ -33,6 +38,14 @@ struct Air {
 /// law through its value there takes over. The range is clamped to [0, 1000] m and the result to [0, 1], beyond
 /// which the fit turns unphysical. NaN and infinity count as 1000 m.
 [[nodiscard]] double path_transmittance(const Air& air, double range_m) noexcept;
+
+/// 1 minus the mean of path_transmittance() over a path from the camera to `range_m`; 0 at a range of 0, NaN and infinity
+/// count as 1000 m, as there. Under an inversion the air's temperature rises linearly in height (an estimate; measured
+/// inversions are steeper near the ground), hence linearly along any straight path from what stands near the ground up
+/// to the camera. The path then radiates more than air of the ground's temperature by this share of the difference
+/// between blackbodies at the camera's and at the ground's air: the integral of (1 - r / range) d(1 - transmittance).
+/// Relative error below 1e-10.
+[[nodiscard]] double mean_path_absorption(const Air& air, double range_m) noexcept;
 
 /// Emissivity of a clear sky at the zenith in 8-14 um: 0.24 + 2.98e-8 e^2 exp(3000 / T), e in hPa, at most 1
 /// (Idso, Water Resour. Res. 17, 295, 1981).

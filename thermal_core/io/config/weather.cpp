@@ -56,6 +56,7 @@ Weather read_weather(const Json& weather, Season season) {
   replace(weather, "air_temperature_k", read.air.temperature_k);
   replace(weather, "relative_humidity", read.air.relative_humidity);
   replace(weather, "cloud_fraction", read.air.cloud_fraction);
+  replace(weather, "inversion_k", read.air.inversion_k);
   if (weather.contains("vehicle_stopped_s")) read.vehicle_stopped_s = weather["vehicle_stopped_s"];
   DayWeather& day = read.day;
   if (weather.contains("date")) day.sun.day_of_year = day_of_year(date_of(weather["date"]));
