@@ -122,8 +122,13 @@ ClipTask task_of(const BenchScene& scene) {
 ClipTask physical_task_of(const BenchScene& scene) {
   ClipTask task = task_of(scene);
   task.sensor = full_camera();
-  const Terms terms = {
-      .variation = true, .parts = true, .sky = true, .angular = true, .mirror = true, .path = true, .falloff = false};
+  const Terms terms = {.variation = true,
+                       .parts = true,
+                       .sky = true,
+                       .angular = true,
+                       .mirror = true,
+                       .path = true,
+                       .falloff = false};
   task.physics = PhysicsSettings{
       .terms = terms, .weather = weather_of(Season::winter), .response = task.sensor.response, .seed = 1};
   return task;

@@ -187,8 +187,13 @@ std::vector<BenchRow> term_rows(const MaterialLibrary& materials) {
     one.*term.kept = true;
     rows.push_back(term_row("emission + " + std::string(term.name), one, scene, materials));
   }
-  const Terms all = {
-      .variation = true, .parts = true, .sky = true, .angular = true, .mirror = true, .path = true, .falloff = true};
+  const Terms all = {.variation = true,
+                     .parts = true,
+                     .sky = true,
+                     .angular = true,
+                     .mirror = true,
+                     .path = true,
+                     .falloff = true};
   rows.push_back(term_row("all terms", all, scene, materials));
   return rows;
 }

@@ -54,8 +54,13 @@ enum class Model { published, physical };
 /// Everything that depends on a pixel's position, range and normal.
 PhysicsSettings all_terms() {
   PhysicsSettings settings;
-  settings.terms = {
-      .variation = true, .parts = true, .sky = true, .angular = true, .mirror = true, .path = true, .falloff = false};
+  settings.terms = {.variation = true,
+                    .parts = true,
+                    .sky = true,
+                    .angular = true,
+                    .mirror = true,
+                    .path = true,
+                    .falloff = false};
   return settings;
 }
 
