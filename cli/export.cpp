@@ -20,17 +20,18 @@ struct ExportArguments {
   std::string source;
   std::string format;
   std::string out;
-  std::string link = "hard";
+  std::string link;
   std::string images = "ir8";
   std::string split;
   std::string selection;
+  std::string scratch;
 };
 
 thermal::ExportFormat format_named(const std::string& name) {
   using Format = thermal::ExportFormat;
-  for (const Format format : {Format::coco, Format::yolo, Format::mot})
+  for (const Format format : {Format::coco, Format::yolo, Format::mot, Format::birdsai})
     if (name == thermal::format_name(format)) return format;
-  return Format::birdsai;
+  return Format::webdataset;
 }
 
 thermal::Linking linking_named(const std::string& name) {
@@ -43,10 +44,11 @@ thermal::ExportOptions request_of(const ExportArguments& options) {
   request.source = options.source;
   request.format = format_named(options.format);
   request.out = options.out;
-  request.linking = linking_named(options.link);
+  if (!options.link.empty()) request.linking = linking_named(options.link);
   request.ir16 = options.images == "ir16";
   if (!options.split.empty()) request.splits = thermal::parse_splits(options.split);
   request.selection = options.selection;
+  request.scratch = options.scratch;
   return request;
 }
 
@@ -115,8 +117,9 @@ int run_export(const ExportArguments& options, const CommonOptions& common) {
 }  // namespace
 
 void add_export(CLI::App& app, Session& session) {
-  CLI::App* command = add_command(
-      app, session, "export", "Write a dataset as other programs read it: COCO, YOLO, MOTChallenge, BIRDSAI");
+  CLI::App* command =
+      add_command(app, session, "export",
+                  "Write a dataset as other programs read it: COCO, YOLO, MOTChallenge, BIRDSAI, WebDataset");
   auto options = std::make_shared<ExportArguments>();
   command
       ->add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file; never modified")
@@ -124,12 +127,12 @@ void add_export(CLI::App& app, Session& session) {
       ->type_name("DATASET");
   command->add_option("--format", options->format, "Layout and files to write")
       ->required()
-      ->check(CLI::IsMember({"coco", "yolo", "mot", "birdsai"}));
+      ->check(CLI::IsMember({"coco", "yolo", "mot", "birdsai", "webdataset"}));
   command->add_option("--out", options->out, "Folder of the export, empty or new")->required();
   command
       ->add_option("--link", options->link, "How to place pictures; copies where the file system cannot link")
       ->check(CLI::IsMember({"hard", "symlink", "copy"}))
-      ->capture_default_str();
+      ->default_str("hard");
   command
       ->add_option("--images", options->images,
                    "8-bit pictures after gain control, or 16-bit pictures in kelvin")
@@ -144,6 +147,15 @@ void add_export(CLI::App& app, Session& session) {
       ->needs(split);
   command->add_option("--selection", options->selection, "Export only the frames that veldt balance selected")
       ->type_name("FILE");
+  command
+      ->add_option("--samples-per-shard", options->what.samples_per_shard,
+                   "Most pictures in a tar file of --format webdataset")
+      ->default_str("1000");
+  command
+      ->add_option("--scratch", options->scratch,
+                   "Make each tar file of --format webdataset here, then copy it to --out, which may be an "
+                   "object store")
+      ->type_name("DIR");
   command->add_flag("--unfinished", options->what.unfinished_too, "Accept a dataset with missing clips");
   command->callback([options, &session] {
     session.run = [options, &session] { return run_export(*options, session.common); };

@@ -37,7 +37,7 @@ USAGE = {
     "no format": ([], "--format is required; see veldt export --help"),
     "a format that there is not": (
         ["--format", "voc"],
-        "--format: voc not in {coco,yolo,mot,birdsai}; see veldt export --help",
+        "--format: voc not in {coco,yolo,mot,birdsai,webdataset}; see veldt export --help",
     ),
     "a way to link that there is not": (
         ["--format", "yolo", "--link", "soft"],
@@ -67,6 +67,30 @@ USAGE = {
         ["--format", "coco", "--split", "a:0.5,b:0.3,c:0.2"],
         "--split = 3 splits; expected no more than there are clips with pictures, 2: frames of one clip never go to "
         "several splits",
+    ),
+    "no sample in a shard": (
+        ["--format", "webdataset", "--samples-per-shard", "0"],
+        "--samples-per-shard = 0; expected 1 to 1000000",
+    ),
+    "too many samples in a shard": (
+        ["--format", "webdataset", "--samples-per-shard", "1000001"],
+        "--samples-per-shard = 1000001; expected 1 to 1000000",
+    ),
+    "samples that are no number": (
+        ["--format", "webdataset", "--samples-per-shard", "many"],
+        "Could not convert: --samples-per-shard = many; see veldt export --help",
+    ),
+    "samples of another format": (
+        ["--format", "yolo", "--samples-per-shard", "10"],
+        "--samples-per-shard = 10; expected none with --format yolo: only webdataset has tar files",
+    ),
+    "a scratch folder of another format": (
+        ["--format", "coco", "--scratch", "s"],
+        "--scratch = s; expected none with --format coco: only webdataset has tar files",
+    ),
+    "links into a tar file": (
+        ["--format", "webdataset", "--link", "hard"],
+        "--link = hard; expected none with --format webdataset: pictures are copied into tar files",
     ),
     "a selection for trackers": (
         ["--format", "mot", "--selection", "s.json"],
@@ -164,7 +188,7 @@ def test_a_missing_picture(place, veldt):
         "data: no picture clips/one/ir8/000002.png, clips/two/ir8/000000.png, clips/two/ir8/000001.png, … "
         "(4 in all); expected all 6 that the labels refer to"
     )
-    for kind in ("coco", "yolo", "mot", "birdsai"):
+    for kind in ("coco", "yolo", "mot", "birdsai", "webdataset"):
         _check(veldt, _export(veldt, "--format", kind), 1, message)
 
 
@@ -224,7 +248,7 @@ def _coco(veldt, images: list[dict], annotations: list[dict]) -> None:
     veldt.write("labels.json", {"images": filled, "annotations": labels, "categories": categories})
 
 
-@pytest.mark.parametrize("kind", ["coco", "yolo", "mot", "birdsai"])
+@pytest.mark.parametrize("kind", ["coco", "yolo", "mot", "birdsai", "webdataset"])
 def test_names_that_lead_out_of_the_folder(veldt, kind):
     (veldt.folder / "in").mkdir()
     (veldt.folder / "secret.png").write_bytes(b"mine")
@@ -265,6 +289,26 @@ LABELS = {
         [],
         '"annotations.json" and "annotations.json" would both become annotations.json; expected names that differ',
     ),
+    "samples of one key": (
+        "webdataset",
+        [{"file_name": "d/e.f.png"}, {"file_name": "d/e_f.jpg"}],
+        [],
+        '"d/e.f.png" and "d/e_f.jpg" would both become d_e_f.jpg; expected names that differ',
+    ),
+    "a picture without an extension": (
+        "webdataset",
+        [{"file_name": "picture"}],
+        [],
+        'file_name of image 1 = "picture"; expected the extension of a picture, such as .png, as --format webdataset '
+        "requires",
+    ),
+    "a picture with the extension of the labels": (
+        "webdataset",
+        [{"file_name": "annotations.json"}],
+        [],
+        'file_name of image 1 = "annotations.json"; expected the extension of a picture, such as .png, as --format '
+        "webdataset requires",
+    ),
     "sizes that differ in a clip": (
         "mot",
         [{}, {"file_name": "b.png", "width": 8}],
@@ -285,7 +329,8 @@ LABELS = {
 @pytest.mark.parametrize("name", LABELS)
 def test_labels_that_a_format_cannot_hold(veldt, name):
     kind, images, annotations, message = LABELS[name]
-    for other in ("annotations.json", "b.png"):
+    (veldt.folder / "d").mkdir()
+    for other in ("annotations.json", "b.png", "picture", "d/e.f.png", "d/e_f.jpg"):
         (veldt.folder / other).write_bytes(b"a picture")
     _coco(veldt, images, annotations)
     done = _export(veldt, "--format", kind, source="labels.json")

@@ -118,8 +118,8 @@ void use(const Place& place) {
   const Path set = place.at("set");
   tolerate([&set] { (void)thermal::validate_dataset(set); });
   tolerate([&] { thermal::merge({.sources = {set}, .out = place.at("merged")}, {}); });
-  for (const auto format :
-       {thermal::ExportFormat::coco, thermal::ExportFormat::yolo, thermal::ExportFormat::mot})
+  for (const auto format : {thermal::ExportFormat::coco, thermal::ExportFormat::yolo,
+                            thermal::ExportFormat::mot, thermal::ExportFormat::webdataset})
     tolerate([&] {
       thermal::ExportOptions options;
       options.source = set;

@@ -49,6 +49,24 @@ def test_this_file_as_root_of_a_namespace():
     assert done.returncode == 0, done.stdout
 
 
+def test_a_disk_that_fills_with_tar_files(veldt, disk):
+    """Exit code 75 and the tar file's name, nothing half written; with enough disk space the same command passes."""
+    passes.write_clip(veldt.folder / "one", frames=40)
+    assert veldt("convert", "one", "--out", "usual", "--quiet").code == 0
+    export = ("export", "usual", "--format", "webdataset", "--samples-per-shard", 10, "--quiet")
+    for options, made in (([], "x.part"), (["--scratch", "scratch"], "x")):
+        disk.leave(5 * BLOCK)
+        done = veldt(*export, "--out", "disk/x", *options)
+        assert (done.code, done.out) == (75, "")
+        assert re.fullmatch(rf"veldt: cannot write disk/{made}/train/\w+-00000[0-3]\.tar: {FULL}\n", done.err)
+        assert files_below(disk.folder) == ["filling"]
+        assert files_below(veldt.folder / "scratch") == []
+    disk.free_space()
+    done = veldt(*export, "--out", "disk/x")
+    assert (done.code, done.out, done.err) == (0, "", "")
+    assert len(files_below(disk.folder / "x")) == 5
+
+
 def test_a_disk_that_fills_with_pictures(veldt, disk):
     """Exit code 75 and the file's name; with enough disk space the same command makes the usual dataset."""
     passes.write_clip(veldt.folder / "one", frames=40)

@@ -44,8 +44,9 @@ struct LabelImage {
   std::string file;  ///< relative to LabelSet::root, "/" between folders
   int width_px = 0;  ///< 0: unknown
   int height_px = 0;
-  std::size_t video = 0;  ///< index into LabelSet::videos
-  int frame_index = 0;    ///< in its video, from 0
+  std::size_t video = 0;              ///< index into LabelSet::videos
+  int frame_index = 0;                ///< in its video, from 0
+  std::optional<double> time_s = {};  ///< not given by every source
 };
 
 /// One target in one picture. Optional members are not given by every source.

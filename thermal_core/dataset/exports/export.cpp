@@ -13,18 +13,21 @@
 #include "base/version.h"
 #include "dataset/exports/birdsai.h"
 #include "dataset/exports/coco.h"
+#include "dataset/exports/export_folder.h"
 #include "dataset/exports/mot.h"
 #include "dataset/exports/source.h"
+#include "dataset/exports/webdataset.h"
 #include "dataset/exports/yolo.h"
 #include "dataset/label_pictures.h"
 #include "io/json/file.h"
 #include "io/system/files.h"
-#include "io/system/folder_lock.h"
 
 namespace thermal {
 namespace {
 
 constexpr const char* kRecord = "export.json";
+constexpr int kSamplesPerShard = 1000;
+constexpr int kMostSamplesPerShard = 1'000'000;
 
 std::string why_not(ExportFormat format, const LabelSet& set, const Label& label) {
   if (format == ExportFormat::yolo) return why_not_in_yolo(set, label);
@@ -34,6 +37,10 @@ std::string why_not(ExportFormat format, const LabelSet& set, const Label& label
 std::string linking_name(Linking linking) {
   constexpr std::array kNames = {"hard", "symlink", "copy"};
   return kNames[static_cast<std::size_t>(linking)];
+}
+
+int samples_per_shard(const ExportOptions& options) {
+  return options.samples_per_shard.value_or(kSamplesPerShard);
 }
 
 ExportPlan make_plan(const ExportOptions& options, const ExportSource& source) {
@@ -46,6 +53,8 @@ ExportPlan make_plan(const ExportOptions& options, const ExportSource& source) {
       return plan_mot(source.input);
     case ExportFormat::birdsai:
       return plan_birdsai(source.input);
+    case ExportFormat::webdataset:
+      return plan_webdataset(source.input, static_cast<std::size_t>(samples_per_shard(options)));
   }
   return {};
 }
@@ -79,8 +88,11 @@ Json request_of(const ExportOptions& options, const ExportSource& source) {
   Json request = {{"dataset", source.input.set.name},
                   {"labels_sha256", source.labels_sha256},
                   {"format", format_name(options.format)},
-                  {"images", options.ir16 ? "ir16" : "ir8"},
-                  {"link", linking_name(options.linking)}};
+                  {"images", options.ir16 ? "ir16" : "ir8"}};
+  if (options.format == ExportFormat::webdataset)
+    request["samples_per_shard"] = samples_per_shard(options);
+  else
+    request["link"] = linking_name(options.linking.value_or(Linking::hard));
   if (!options.splits.empty()) request["split"] = splits;
   if (!options.splits.empty()) request["seed"] = source.seed;
   if (!options.selection.empty()) request["selection_sha256"] = sha256_of_file(options.selection);
@@ -107,9 +119,18 @@ bool is_empty_or_new(const Path& folder) {
          (std::filesystem::is_directory(folder) && std::filesystem::is_empty(folder));
 }
 
+/// Whether a folder holds tar files of such an export alone, as a killed run leaves it that puts one by one.
+bool is_half_put(const Path& out, const ExportInput& input) {
+  if (!std::filesystem::is_directory(out)) return false;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
+    if (!entry.is_directory() && !is_shard_name(entry.path().lexically_relative(out), input)) return false;
+  return true;
+}
+
 /// Whether `out` holds this very export. ConfigError if it holds anything else.
-bool is_there(const Path& out, const Json& request) {
+bool is_there(const ExportOptions& options, const Path& out, const Json& request, const ExportInput& input) {
   if (is_empty_or_new(out)) return false;
+  if (!options.scratch.empty() && is_half_put(out, input)) return false;
   if (!std::filesystem::exists(out / kRecord))
     throw ConfigError(fault("--out", out.string(), "", "an empty or new folder"));
   const Json record = read_json(out / kRecord);
@@ -121,59 +142,9 @@ bool is_there(const Path& out, const Json& request) {
                   out.string(), list_names(found, kMost)));
 }
 
-/// The folder in which an export is made; removed unless it is completed.
-class Part {
- public:
-  explicit Part(const Path& out) : out_(out), part_(part_of(out)), lock_(part_) { clear(); }
-  ~Part() {
-    std::error_code ignored;
-    if (!done_) std::filesystem::remove_all(part_, ignored);
-  }
-  Part(const Part&) = delete;
-  Part& operator=(const Part&) = delete;
-
-  [[nodiscard]] const Path& path() const { return part_; }
-
-  void finish() {
-    sync_folder(part_);
-    std::error_code error;
-    std::filesystem::rename(part_, out_, error);
-    if (error)
-      throw IoError(
-          fmt::format("cannot rename {} to {}: {}", part_.string(), out_.string(), error.message()));
-    done_ = true;
-    std::filesystem::remove(out_ / kLock, error);
-    sync_folder(out_.parent_path());
-  }
-
- private:
-  static constexpr const char* kLock = ".lock";
-
-  /// A folder left by a killed run has a lock in it; one without belongs to the user.
-  static Path part_of(const Path& out) {
-    Path part = out;
-    part += ".part";
-    if (!is_empty_or_new(part) && !std::filesystem::exists(part / kLock))
-      throw ConfigError(
-          fmt::format("{} is in the way; expected to make the export there before it becomes {}",
-                      part.string(), out.string()));
-    return part;
-  }
-
-  void clear() const {
-    for (const auto& entry : std::filesystem::directory_iterator(part_))
-      if (entry.path().filename() != kLock) std::filesystem::remove_all(entry.path());
-  }
-
-  Path out_;
-  Path part_;
-  FolderLock lock_;
-  bool done_ = false;
-};
-
 /// Returns the number of pictures copied because links were impossible.
-int write_pictures(const ExportPlan& plan, const LabelSet& set, const Path& folder, Linking linking,
-                   const RunHooks& hooks) {
+int link_pictures(const ExportPlan& plan, const LabelSet& set, const Path& folder, Linking linking,
+                  const RunHooks& hooks) {
   Progress progress{.clip = "", .done = 0, .total = static_cast<int>(plan.pictures.size())};
   int copied = 0;
   for (const PlannedPicture& picture : plan.pictures) {
@@ -187,11 +158,28 @@ int write_pictures(const ExportPlan& plan, const LabelSet& set, const Path& fold
   return copied;
 }
 
-void write_texts(const ExportPlan& plan, const Path& folder, const RunHooks& hooks) {
+void write_shards(const ExportPlan& plan, const LabelSet& set, ExportFolder& folder, const RunHooks& hooks) {
+  const std::vector<std::size_t> first = first_labels(set);
+  Progress progress{.clip = "", .done = 0, .total = static_cast<int>(set.images.size())};
+  const auto begin_sample = [&](const LabelImage& image) {
+    if (hooks.stop_wanted()) throw Cancelled();
+    progress.clip = set.videos[image.video].name;
+    ++progress.done;
+    hooks.report(progress);
+  };
+  for (const PlannedShard& shard : plan.shards) {
+    make_folder((folder.path() / shard.to).parent_path());
+    write_shard(folder.path() / shard.to, shard, set, first, begin_sample);
+    folder.put(shard.to);
+  }
+}
+
+void write_texts(const ExportPlan& plan, ExportFolder& folder, const RunHooks& hooks) {
   for (const PlannedText& text : plan.texts) {
     if (hooks.stop_wanted()) throw Cancelled();
-    make_folder((folder / text.to).parent_path());
-    write_file(folder / text.to, std::as_bytes(std::span(text.content)));
+    make_folder((folder.path() / text.to).parent_path());
+    write_file(folder.path() / text.to, std::as_bytes(std::span(text.content)));
+    folder.put(text.to);
   }
 }
 
@@ -202,16 +190,38 @@ Path named(const Path& folder) {
   return path.has_filename() ? path : path.parent_path();
 }
 
+void check_shards(const ExportOptions& options) {
+  const int samples = samples_per_shard(options);
+  if (samples < 1 || samples > kMostSamplesPerShard)
+    throw ConfigError(fault("--samples-per-shard", std::to_string(samples), "",
+                            fmt::format("1 to {}", kMostSamplesPerShard)));
+  if (options.linking)
+    throw ConfigError(fault("--link", linking_name(*options.linking), "",
+                            "none with --format webdataset: pictures are copied into tar files"));
+}
+
+void check_no_shards(const ExportOptions& options) {
+  const std::string rule =
+      fmt::format("none with --format {}: only webdataset has tar files", format_name(options.format));
+  if (options.samples_per_shard)
+    throw ConfigError(fault("--samples-per-shard", std::to_string(*options.samples_per_shard), "", rule));
+  if (!options.scratch.empty()) throw ConfigError(fault("--scratch", options.scratch.string(), "", rule));
+}
+
 void check_options(const ExportOptions& options) {
   if (options.format == ExportFormat::mot && !options.selection.empty())
     throw ConfigError(fault("--selection", options.selection.string(), "",
                             "none with --format mot: trackers are trained and judged on whole clips"));
+  if (options.format == ExportFormat::webdataset)
+    check_shards(options);
+  else
+    check_no_shards(options);
 }
 
 }  // namespace
 
 std::string format_name(ExportFormat format) noexcept {
-  constexpr std::array kNames = {"coco", "yolo", "mot", "birdsai"};
+  constexpr std::array kNames = {"coco", "yolo", "mot", "birdsai", "webdataset"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -221,17 +231,20 @@ ExportOutcome export_dataset(const ExportOptions& options, const RunHooks& hooks
   const ExportSource source = read_export_source(options);
   const Json request = request_of(options, source);
   ExportOutcome outcome = tally(source.input, options.format);
-  outcome.already_there = is_there(out, request);
+  outcome.already_there = is_there(options, out, request, source.input);
   if (outcome.already_there) return outcome;
   ExportPlan plan = make_plan(options, source);
   plan.texts.push_back({.to = kRecord, .content = record_of(request, outcome)});
   check_targets(plan, source.input.set);
-  Part part(out);
-  outcome.already_there = is_there(out, request);  // made by another run in the meantime
+  ExportFolder folder(out, options.scratch);
+  // Made by another run in the meantime?
+  outcome.already_there = is_there(options, out, request, source.input);
   if (outcome.already_there) return outcome;
-  outcome.copied = write_pictures(plan, source.input.set, part.path(), options.linking, hooks);
-  write_texts(plan, part.path(), hooks);
-  part.finish();
+  outcome.copied =
+      link_pictures(plan, source.input.set, folder.path(), options.linking.value_or(Linking::hard), hooks);
+  write_shards(plan, source.input.set, folder, hooks);
+  write_texts(plan, folder, hooks);  // last of all the record
+  folder.finish();
   return outcome;
 }
 

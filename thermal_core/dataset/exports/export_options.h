@@ -9,18 +9,21 @@
 
 namespace thermal {
 
-enum class ExportFormat { coco, yolo, mot, birdsai };
+enum class ExportFormat { coco, yolo, mot, birdsai, webdataset };
 
 struct ExportOptions {
   Path source;  ///< as read_labels() accepts it
   ExportFormat format = ExportFormat::coco;
   Path out;  ///< empty or not existing yet
-  Linking linking = Linking::hard;
+  /// Of pictures; empty: hard. Not of webdataset, which copies them into tar files.
+  std::optional<Linking> linking = {};
   bool ir16 = false;                  ///< 16-bit pictures, which only Veldt datasets have
   std::vector<SplitShare> splits;     ///< empty: no split
   std::optional<std::uint32_t> seed;  ///< seed of the splits; empty: the dataset's own, or 1
   Path selection;                     ///< frames to export; empty: all
   bool unfinished_too = false;
+  std::optional<int> samples_per_shard = {};  ///< of webdataset alone, 1 to 1,000,000; empty: 1000
+  Path scratch = {};  ///< of webdataset alone: tar files are made here, one at a time; empty: in OUT.part
 };
 
 }  // namespace thermal

@@ -61,6 +61,7 @@ void check_targets(const ExportPlan& plan, const LabelSet& set) {
                                   there->second, file, to));
   };
   for (const PlannedText& text : plan.texts) check(text.to, text.to);
+  for (const PlannedShard& shard : plan.shards) check(shard.to, shard.to);
   for (const PlannedPicture& picture : plan.pictures) check(picture.to, set.images[picture.image].file);
 }
 

@@ -27,9 +27,17 @@ struct PlannedText {
   std::string content;
 };
 
-/// All files of an export: each picture, with labels or without, and the text files beside them.
+/// A tar file of pictures with their labels.
+struct PlannedShard {
+  std::string to;
+  std::vector<std::size_t> images;  ///< indices into the set's images
+};
+
+/// All files of an export: each picture, with labels or without, by itself or in a shard, and the text files beside
+/// them.
 struct ExportPlan {
   std::vector<PlannedPicture> pictures;
+  std::vector<PlannedShard> shards;
   std::vector<PlannedText> texts;
 };
 

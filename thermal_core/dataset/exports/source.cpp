@@ -79,6 +79,12 @@ void check_pictures(const LabelSet& set) {
                               set.images.size()));
 }
 
+bool has_folders_of_splits(ExportFormat format) {
+  return format != ExportFormat::coco && format != ExportFormat::birdsai;
+}
+
+bool needs_sizes(ExportFormat format) { return has_folders_of_splits(format); }
+
 void find_sizes(LabelSet& set) {
   for (LabelImage& image : set.images) {
     if (image.width_px > 0 && image.height_px > 0) continue;
@@ -100,8 +106,7 @@ void share_out(ExportInput& input, const ExportOptions& options, std::uint32_t s
     input.of_video = split_videos(input.set, options.splits, seed);
     return;
   }
-  const bool has_folder = options.format == ExportFormat::yolo || options.format == ExportFormat::mot;
-  input.splits = {has_folder ? "train" : "all"};
+  input.splits = {has_folders_of_splits(options.format) ? "train" : "all"};
   input.of_video.resize(input.set.videos.size(), 0);
 }
 
@@ -113,11 +118,12 @@ ExportSource read_export_source(const ExportOptions& options) {
   set = read_set(options);
   if (options.ir16) use_ir16(set, options.source);
   check_pictures(set);
-  if (options.format == ExportFormat::yolo || options.format == ExportFormat::mot) find_sizes(set);
+  if (needs_sizes(options.format)) find_sizes(set);
   const Path file = coco_file_of(options.source);
-  source.coco = file.empty() ? coco_text(set) : read_file(file);
+  if (options.format == ExportFormat::coco || file.empty())
+    source.coco = file.empty() ? coco_text(set) : read_file(file);
   source.coco_name = file.empty() ? set.name : file.string();
-  source.labels_sha256 = sha256_of(source.coco);
+  source.labels_sha256 = source.coco.empty() ? sha256_of_file(file) : sha256_of(source.coco);
   source.all = options.selection.empty() && options.splits.empty() && !options.ir16;
   source.seed = options.seed ? *options.seed : own_seed(options.source);
   share_out(source.input, options, source.seed);

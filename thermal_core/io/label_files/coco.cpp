@@ -102,7 +102,8 @@ class CocoReader {
                   .width_px = entry.has("width") ? entry.count("width") : 0,
                   .height_px = entry.has("height") ? entry.count("height") : 0,
                   .frame_index = entry.has("frame_index") ? entry.count("frame_index")
-                                                          : static_cast<int>(images_.size())};
+                                                          : static_cast<int>(images_.size()),
+                  .time_s = entry.optional_number("time_s")};
     if (entry.has("video_id")) read.video_id = entry.integer("video_id");
     images_.push_back(std::move(read));
   }
