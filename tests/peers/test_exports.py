@@ -13,7 +13,9 @@ import motmetrics
 import numpy as np
 import pytest
 import supervision
+import webdataset
 import yaml
+from PIL import Image
 from pycocotools import mask as coco_mask
 from pycocotools.coco import COCO
 from pycocotools.cocoeval import COCOeval
@@ -237,3 +239,45 @@ def test_data_yaml_leads_to_the_pictures(export):
     assert data["names"] == {0: "human", 1: "elephant", 2: "zebra"}
     for split in ("train", "val"):
         assert len(list((folder / data["path"] / data[split]).glob("*.png"))) == 21
+
+
+# --- tar files in webdataset ------------------------------------------------------------------------------------------
+
+
+def _samples(shards: list, *stages) -> list:
+    """Samples as a training reads them: JSON and pictures decoded, shards and samples in their order."""
+    urls = [str(shard) for shard in shards]
+    dataset = webdataset.WebDataset(urls, shardshuffle=False, empty_check=True).decode("l8")
+    for stage, arguments in stages:
+        dataset = getattr(dataset, stage)(*arguments)
+    return list(dataset)
+
+
+@pytest.mark.parametrize("size", [7, 1000])
+def test_samples_are_the_pictures_with_their_labels(export, place, size):
+    folder = export("masks", "webdataset", "--samples-per-shard", str(size))
+    document = json.loads((place.folder / "masks" / "annotations.json").read_text())
+    samples = _samples(sorted(folder.glob("train/*.tar")))
+    assert len(samples) == len(document["images"]) == 18
+    for sample, image in zip(samples, document["images"]):
+        clip = document["videos"][image["video_id"] - 1]["name"]
+        assert sample["__key__"] == f"{clip}_{image['frame_index']:06d}"
+        labels = sample["json"]
+        assert (labels["clip"], labels["frame_index"]) == (clip, image["frame_index"])
+        found = [(a["category_id"], a["track_id"], a["bbox"]) for a in labels["annotations"]]
+        of_image = [a for a in document["annotations"] if a["image_id"] == image["id"]]
+        assert found == [(a["category_id"], a["track_id"], a["bbox"]) for a in of_image]
+
+
+def test_pictures_have_the_dataset_s_pixels(export, place):
+    folder = export("march", "webdataset", "--split", "train:0.5,val:0.5")
+    for split in ("train", "val"):
+        shards = list((folder / split).glob("*.tar"))
+        pairs = _samples(shards, ("to_tuple", ("png", "json")))
+        assert len(pairs) == 21
+        for picture, labels in pairs:
+            file = (
+                place.folder / "march" / "clips" / labels["clip"] / "ir8" / f"{labels['frame_index']:06d}.png"
+            )
+            assert (np.asarray(picture) == np.asarray(Image.open(file))).all()
+            assert picture.shape == (labels["height"], labels["width"])
