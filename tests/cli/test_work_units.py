@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+import tarfile
 from pathlib import Path
 
 import pytest
@@ -149,6 +150,33 @@ def test_an_object_store_needs_the_scratch_disk(place, tmp_path, store):
     done = place("generate", "--plan", "plan", "--out", tmp_path / "out", "--quiet", env=env)
     assert done.code == 1
     assert done.err == f"veldt: cannot lock {tmp_path}/out/.lock: Operation not supported\n"
+
+
+def _samples_of(folder: Path) -> dict[str, bytes]:
+    """Every file in the tar files of an export."""
+    content: dict[str, bytes] = {}
+    for shard in sorted((folder / "train").iterdir()):
+        with tarfile.open(shard) as tar:
+            content |= {member.name: tar.extractfile(member).read() for member in tar}
+    return content
+
+
+def test_shards_exported_one_by_one_have_the_pictures_of_the_undivided_dataset(place, tmp_path, store):
+    bucket = tmp_path / "bucket"
+    env = {"LD_PRELOAD": str(store), "OBJECT_STORE": str(bucket)}
+    found: dict[str, bytes] = {}
+    for shard in range(_SHARDS):
+        options = ["--unfinished", "--format", "webdataset", "--scratch", tmp_path / "scratch", "--quiet"]
+        done = place("export", f"shards/{shard}", "--out", bucket / str(shard), *options, env=env)
+        assert (done.code, done.out, done.err) == (0, "", "")
+        samples = _samples_of(bucket / str(shard))
+        assert not found.keys() & samples.keys()
+        found |= samples
+    done = place("export", "whole", "--format", "webdataset", "--out", tmp_path / "whole", "--quiet")
+    assert (done.code, done.out, done.err) == (0, "", "")
+    whole = _samples_of(tmp_path / "whole")
+    assert found.keys() == whole.keys()
+    assert all(found[name] == whole[name] for name in whole if name.endswith(".png"))
 
 
 def test_a_clip_without_its_record_is_made_again(place, tmp_path):
