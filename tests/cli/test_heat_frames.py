@@ -102,9 +102,9 @@ def _kelvin(veldt: Veldt, name: str, **weather) -> np.ndarray:
 
 def test_temperatures_move_within_a_long_clip(veldt):
     """Frames of a clip of ten minutes have the temperatures of their own time: as clips of one frame then."""
-    long = _kelvin(veldt, "long", frames=61)
-    then = _kelvin(veldt, "then")
-    middle = _kelvin(veldt, "middle", time="06:55")
+    long = _kelvin(veldt, "long", time="09:00", frames=61)
+    then = _kelvin(veldt, "then", time="09:00")
+    middle = _kelvin(veldt, "middle", time="09:05")
     moved_k = np.abs(middle - then).mean()
     assert moved_k > 0.1
     assert np.abs(long - then).mean() < 0.3 * moved_k

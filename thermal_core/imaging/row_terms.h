@@ -51,7 +51,7 @@ struct Row {
   std::vector<float> place_x;            ///< on the ground [correlation lengths]
   std::vector<float> place_y;
   std::vector<float> footprint;
-  std::array<std::vector<float>, 3> metres;  ///< the same three in metres
+  std::array<std::vector<float>, 3> metres;  ///< the same three in metres, of heated_emission()
   std::vector<float> variation;
   std::vector<float> temperature_k;  ///< where it follows the weather
 };

@@ -87,21 +87,13 @@ TEST_CASE("The sky view of ground is that of its cells, and of other surfaces wh
   const MaterialMoment heat = by_moisture();
   const GroundTemperatures::Cover cover = {.heat = &heat};
   const GroundTemperatures ground(shaded, all(), {}, 0, {&cover, 1}, 1);
-  // Straight down from 20 m, one pixel on ground in the middle of column 10 and the other halfway to column 11.
+  // One pixel on ground in the middle of column 10, one halfway to column 11, one on a body.
   const std::vector<HeatedSurface> surfaces = {
       {}, {.kind = HeatedSurface::Kind::cover, .cover = 0}, {.kind = HeatedSurface::Kind::oriented}};
-  const CameraPose pose = {.position_m = {0, 3, 30}, .rotation = {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}}};
   const std::vector<std::uint16_t> surface = {1, 1, 2};
-  const std::vector<float> x = {-21.5F / 20, -21.0F / 20, -21.5F / 20};
-  const std::vector<float> zero = {0, 0, 0};
-  const std::vector<float> depth = {20, 20, 20};
   Row row;
   row.surface = surface;
-  row.ray_x = x;
-  row.ray_y = zero;
-  row.depth_m = depth;
-  row.sample_width = 0.001F;
-  row.pose = &pose;
+  row.metres = {std::vector<float>{-21.5F, -21.0F, -21.5F}, {3, 3, 3}, {0.02F, 0.02F, 0.02F}};
   row.sky_view = {1, 1, 1};
   mapped_sky_view(surfaces, ground)(row);
   // Steps of 1/512, and rounding.

@@ -78,7 +78,7 @@ struct TarFile::Impl {
   }
   ~Impl() {
     if (number < 0) return;
-    ::archive_write_fail(tar.get());  // what it holds back is not written
+    discards = true;
     tar.reset();
     ::close(number);
     ::unlink(file.c_str());
@@ -86,11 +86,28 @@ struct TarFile::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  /// Throws unless libarchive reports success.
+  /// For libarchive, which is told of no failure: after one it would not free what it holds.
+  static la_ssize_t take(archive*, void* self, const void* bytes, std::size_t count) noexcept {
+    static_cast<Impl*>(self)->write({static_cast<const char*>(bytes), count});
+    return static_cast<la_ssize_t>(count);
+  }
+
+  void write(std::string_view bytes) noexcept {
+    while (!bytes.empty() && !discards && error == 0) {
+      const ssize_t written = ::write(number, bytes.data(), bytes.size());
+      if (written >= 0) {
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+      } else if (errno != EINTR) {
+        error = errno;
+      }
+    }
+  }
+
+  /// Throws unless libarchive reports success and everything was written.
   void check(la_ssize_t status) const {
+    if (error != 0) fail_at("write", file, error);
     if (status >= ARCHIVE_OK) return;
-    const int error = ::archive_errno(tar.get());
-    if (error > 0) fail_at("write", file, error);
+    if (const int reason = ::archive_errno(tar.get()); reason > 0) fail_at("write", file, reason);
     const char* words = ::archive_error_string(tar.get());
     throw IoError(fmt::format("cannot write {}: {}", file.string(), words ? words : "unknown error"));
   }
@@ -98,10 +115,12 @@ struct TarFile::Impl {
   Archive tar = new_archive();
   Path file;
   int number;
+  int error = 0;  ///< of the first write that failed
+  bool discards = false;
 };
 
 TarFile::TarFile(const Path& file) : impl_(std::make_unique<Impl>(file)) {
-  impl_->check(::archive_write_open_fd(impl_->tar.get(), impl_->number));
+  impl_->check(::archive_write_open(impl_->tar.get(), impl_.get(), nullptr, &Impl::take, nullptr));
 }
 
 TarFile::~TarFile() = default;
