@@ -63,9 +63,9 @@ class Piece {
 
 std::vector<RenderRow> column_rows(const Materials& materials) {
   struct Case {
-    const char* material;
-    const char* name;
-    HeatSteps steps;
+    const char* material = nullptr;
+    const char* name = nullptr;
+    HeatSteps steps = {};
   };
   const HeatSteps frames = {.per_day = 144};
   const Case cases[] = {
@@ -188,8 +188,9 @@ std::shared_ptr<const GroundMaps> maps_of_crowns() {
   maps->cells = kCells;
   std::vector<std::uint32_t> hours;
   for (std::size_t i = 0; i < kCells * kCells; ++i) {
+    const std::size_t row = i / kCells;
     const auto x = static_cast<double>(i % kCells);
-    const auto y = static_cast<double>(i / kCells);
+    const auto y = static_cast<double>(row);
     const double crown = std::sin(0.7 * x) * std::sin(0.7 * y);  // above 0.5: below a crown
     const bool below = crown > 0.5;
     maps->sky_view.push_back(

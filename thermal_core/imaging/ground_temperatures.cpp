@@ -107,7 +107,9 @@ struct LevelTables {
 /// Whether a pixel has a place on the ground. False for NaN.
 VELDT_INLINE bool has_place(std::int32_t cover, float x, float y, float footprint) noexcept {
   constexpr float kFarthest = 1e6F;
-  return (cover >= 0) & (std::abs(x) < kFarthest) & (std::abs(y) < kFarthest) & (footprint >= 0) &
+  const float far_x = std::abs(x);
+  const float far_y = std::abs(y);
+  return (cover >= 0) & (far_x < kFarthest) & (far_y < kFarthest) & (footprint >= 0) &
          (footprint < kFarthest);
 }
 

@@ -33,13 +33,13 @@ Json over_the_day(const TemperatureAt& temperature_k) {
 
 }  // namespace
 
-Json day_figures(const Json& json, const Assets& assets) {
+Json day_figures(const Json& config, const Assets& assets) {
   Json days = Json::array();
-  const std::optional<Config> config = readable(json, assets);
-  if (!config || !config->physical || !config->heat_balance) return days;
+  const std::optional<Config> read = readable(config, assets);
+  if (!read || !read->physical || !read->heat_balance) return days;
   const auto materials = heat_of_materials(read_materials(assets));
-  for (const auto& [season, flown_h] : flown_hours(*config)) {
-    const DayWeather& day = config->weather.at(static_cast<std::size_t>(season)).day;
+  for (const auto& [season, flown_h] : flown_hours(*read)) {
+    const DayWeather& day = read->weather.at(static_cast<std::size_t>(season)).day;
     Json by_material = Json::object();
     for (const HeatCurve& curve : open_curves(day, materials))
       by_material[curve.material] = over_the_day([&](double hour) { return curve.day.at_k(hour); });
