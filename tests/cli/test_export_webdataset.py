@@ -4,7 +4,6 @@ import json
 import os
 import shutil
 import signal
-import subprocess
 import tarfile
 from pathlib import Path
 
@@ -13,7 +12,7 @@ import pytest
 
 import passes
 from pictures import write_exr
-from program import ROOT, Veldt, check_fault, files_below
+from program import Veldt, check_fault, files_below
 
 CLIPS = ("one", "two", "three")
 FRAMES = passes.FRAMES
@@ -31,14 +30,6 @@ def _place(tmp_path_factory) -> Veldt:
     done = veldt("convert", *clips, "--out", "data", "--quiet")
     assert (done.code, done.out, done.err) == (0, "", "")
     return veldt
-
-
-@pytest.fixture(scope="module", name="store")
-def _store(tmp_path_factory) -> Path:
-    library = tmp_path_factory.mktemp("store") / "object_store.so"
-    source = ROOT / "tests" / "support" / "object_store.c"
-    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", library, source], check=True)
-    return library
 
 
 def _made(place, out, *options, source="data", env=None) -> Path:

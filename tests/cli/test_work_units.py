@@ -10,7 +10,7 @@ import pytest
 
 from configs import tiny
 from datasets import content_of, flip_bit
-from program import PROGRAM, ROOT, Veldt, check_fault, files_below
+from program import PROGRAM, Veldt, check_fault, files_below
 
 _NO_PROGRAMS = {"PATH": "/nonexistent"}
 _SHARDS = 3
@@ -124,14 +124,6 @@ def test_clips_made_on_a_scratch_disk_are_the_same(place, tmp_path):
     assert content_of(tmp_path / "out") == made
     assert files_below(tmp_path / "scratch") == [".lock"]
     assert ".lock" not in files_below(tmp_path / "out")
-
-
-@pytest.fixture(scope="module", name="store")
-def _store(tmp_path_factory) -> Path:
-    library = tmp_path_factory.mktemp("store") / "object_store.so"
-    source = ROOT / "tests" / "support" / "object_store.c"
-    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", library, source], check=True)
-    return library
 
 
 def test_an_object_store_gets_whole_files_and_records_last(place, tmp_path, store):

@@ -61,9 +61,9 @@ struct Budget {
 
 /// Decides which terms a scene needs: an automatic term is kept if its effect varies across the pictures by more than
 /// a third of the NETD; dropping less than that adds at most 5 % to the noise in quadrature. Percentiles are over
-/// what fills the pictures; for `parts` over the actors, for `mirror` over the water. Shifts of emission and reflection are relative to the terms
-/// before them in kTerms, with level surfaces under an open sky. An automatic term that is impossible is dropped;
-/// ConfigError if the config requires one.
+/// what fills the pictures; for `parts` over the actors, for `mirror` over the water. Shifts of emission and reflection
+/// are relative to the terms before them in kTerms, with level surfaces under an open sky. An automatic term that is
+/// impossible is dropped; ConfigError if the config requires one.
 [[nodiscard]] Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices);
 
 /// Shift of a material's apparent temperature by sky reflection, and by the path on top of it [K], of which the inversion

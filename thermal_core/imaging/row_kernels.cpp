@@ -18,6 +18,21 @@ inline float along(const CameraAxis& axis, float ray_x, float ray_y) noexcept {
   return axis.down * ray_y + axis.forward + axis.right * ray_x;
 }
 
+/// Of the absorption's polynomials at a range; those at the farthest beyond it, and for NaN.
+VELDT_INLINE float share_at(const Absorption& a, float range_m) noexcept {
+  const float within_m = range_m < a.farthest_m ? range_m : a.farthest_m;
+  const float clamped_m = within_m > 0 ? within_m : 0.0F;
+  const float near = polynomial(a.near, clamped_m * (1 / a.near_end_m));
+  const float far = polynomial(a.far, (std::sqrt(clamped_m) - a.far_middle) * (1 / a.far_half));
+  return clamped_m < a.near_end_m ? near : far;
+}
+
+/// How far a normal points away from the camera, times the length of the ray.
+VELDT_INLINE float inward(const CameraAxis& x, const CameraAxis& y, const CameraAxis& z, float nx, float ny,
+                          float nz, float ray_x, float ray_y) noexcept {
+  return nx * along(x, ray_x, ray_y) + ny * along(y, ray_x, ray_y) + nz * along(z, ray_x, ray_y);
+}
+
 }  // namespace
 
 VELDT_CLONES void look_up(const std::uint16_t* __restrict surface, const float* __restrict by_surface,
@@ -88,13 +103,12 @@ VELDT_CLONES void warm_by_normal(const FacingInput& in, float* __restrict temper
     const float nx = p.nx[i];
     const float ny = p.ny[i];
     const float nz = p.nz[i];
-    const float inward = nx * along(p.x, p.ray_x[i], p.ray_y[i]) + ny * along(p.y, p.ray_x[i], p.ray_y[i]) +
-                         nz * along(p.z, p.ray_x[i], p.ray_y[i]);
+    const float away = inward(p.x, p.y, p.z, nx, ny, nz, p.ray_x[i], p.ray_y[i]);
     const float norm2 = nx * nx + ny * ny + nz * nz;
     const bool usable = (norm2 > 0.81F) & (norm2 < 1.21F);  // false for NaN
     const float level2 = usable ? nx * nx + ny * ny : 0.0F;
     const float reach = level2 > p.steepest * p.steepest ? p.steepest / std::sqrt(level2) : 1.0F;
-    const float side = inward > 0 ? -1.0F : 1.0F;
+    const float side = away > 0 ? -1.0F : 1.0F;
     const float x = usable ? nx * side * reach : 0.0F;
     const float y = usable ? ny * side * reach : 0.0F;
     const float z = usable ? nz * side : 1.0F;
@@ -127,13 +141,12 @@ VELDT_CLONES void orient(const OrientationInput& in, float* __restrict sky_view,
     const float nx = p.nx[i];
     const float ny = p.ny[i];
     const float nz = p.nz[i];
-    const float inward = nx * along(p.x, p.ray_x[i], p.ray_y[i]) + ny * along(p.y, p.ray_x[i], p.ray_y[i]) +
-                         nz * along(p.z, p.ray_x[i], p.ray_y[i]);
+    const float away = inward(p.x, p.y, p.z, nx, ny, nz, p.ray_x[i], p.ray_y[i]);
     const float norm2 = nx * nx + ny * ny + nz * nz;
     const bool usable = (norm2 > 0.81F) & (norm2 < 1.21F);  // false for NaN
-    const float up = 0.5F + 0.5F * (inward > 0 ? -nz : nz);
+    const float up = 0.5F + 0.5F * (away > 0 ? -nz : nz);
     const float clamped = up > 0 ? (up < 1 ? up : 1.0F) : 0.0F;
-    const float seen = std::abs(inward) / p.ray_length[i];
+    const float seen = std::abs(away) / p.ray_length[i];
     sky_view[i] = usable ? clamped : 1.0F;
     cosine[i] = usable ? (seen < 1 ? seen : 1.0F) : 1.0F;
   }
@@ -161,15 +174,8 @@ VELDT_CLONES void pass_air(const PathInput& in, const Absorption& absorption, fl
                            std::size_t count) noexcept {
   const PathInput p = in;
   const Absorption a = absorption;
-  const float per_near = 1 / a.near_end_m;
-  const float per_half = 1 / a.far_half;
   for (std::size_t i = 0; i < count; ++i) {
-    const float range_m = p.depth_m[i] * p.ray_length[i];
-    const float within_m = range_m < a.farthest_m ? range_m : a.farthest_m;  // NaN: the farthest
-    const float clamped_m = within_m > 0 ? within_m : 0.0F;
-    const float near = polynomial(a.near, clamped_m * per_near);
-    const float far = polynomial(a.far, (std::sqrt(clamped_m) - a.far_middle) * per_half);
-    const float absorbed = clamped_m < a.near_end_m ? near : far;
+    const float absorbed = share_at(a, p.depth_m[i] * p.ray_length[i]);
     const float share = p.surface[i] != 0 ? absorbed : 0.0F;
     radiance[i] += share * (p.air_w_m2_sr - radiance[i]);
   }
@@ -179,15 +185,8 @@ VELDT_CLONES void warm_air(const WarmAirInput& in, const Absorption& share, floa
                            std::size_t count) noexcept {
   const WarmAirInput p = in;
   const Absorption a = share;
-  const float per_near = 1 / a.near_end_m;
-  const float per_half = 1 / a.far_half;
   for (std::size_t i = 0; i < count; ++i) {
-    const float range_m = p.depth_m[i] * p.ray_length[i];
-    const float within_m = range_m < a.farthest_m ? range_m : a.farthest_m;  // NaN: the farthest
-    const float clamped_m = within_m > 0 ? within_m : 0.0F;
-    const float near = polynomial(a.near, clamped_m * per_near);
-    const float far = polynomial(a.far, (std::sqrt(clamped_m) - a.far_middle) * per_half);
-    const float mean = clamped_m < a.near_end_m ? near : far;
+    const float mean = share_at(a, p.depth_m[i] * p.ray_length[i]);
     radiance[i] += (p.surface[i] != 0 ? mean : 0.0F) * p.more_w_m2_sr;
   }
 }

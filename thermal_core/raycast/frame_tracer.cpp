@@ -44,6 +44,16 @@ T* samples_of(std::vector<T>& list, bool wanted, std::size_t samples) {
   return wanted ? list.data() : nullptr;
 }
 
+/// Where planes or lists get what is hit; `place_in` makes room in one if it is wanted.
+template <typename Sights, typename PlaceIn>
+SightSink sink_for(Sights& out, bool indices, bool depth, bool normals, const PlaceIn& place_in) {
+  return {.object_index = place_in(out.object_index, indices),
+          .material_index = place_in(out.material_index, indices),
+          .depth_m = place_in(out.depth_m, depth),
+          .normal = {place_in(out.normal[0], normals), place_in(out.normal[1], normals),
+                     place_in(out.normal[2], normals)}};
+}
+
 /// What one thread traces a shot with.
 struct TriangleCaches {
   explicit TriangleCaches(const Shot& shot) : seen(shot), mirrors(shot) {}
@@ -165,19 +175,10 @@ void trace_row(const RayTracer& tracer, const PixelRays& rays, const Plane<std::
 void trace_pixels(const Shot& shot, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
                   const PassNeeds& needs, Passes& out) {
   const bool mirrored = needs.mirrored && shot.place.has_water();
-  const Sink sink = {.seen = {.object_index = pixels_of(out.object_index, true, rays),
-                              .material_index = pixels_of(out.material_index, true, rays),
-                              .depth_m = pixels_of(out.depth_m, needs.depth, rays),
-                              .normal = {pixels_of(out.normal[0], needs.normals, rays),
-                                         pixels_of(out.normal[1], needs.normals, rays),
-                                         pixels_of(out.normal[2], needs.normals, rays)}},
-                     .mirrored = {.object_index = pixels_of(out.mirrored.object_index, mirrored, rays),
-                                  .material_index = pixels_of(out.mirrored.material_index, mirrored, rays),
-                                  .depth_m = pixels_of(out.mirrored.depth_m, mirrored, rays),
-                                  .normal = {pixels_of(out.mirrored.normal[0], mirrored, rays),
-                                             pixels_of(out.mirrored.normal[1], mirrored, rays),
-                                             pixels_of(out.mirrored.normal[2], mirrored, rays)}},
-                     .actor_index = pixels_of(out.actor_index, needs.actors, rays)};
+  const auto pixels = [&](auto& plane, bool wanted) { return pixels_of(plane, wanted, rays); };
+  const Sink sink = {.seen = sink_for(out, true, needs.depth, needs.normals, pixels),
+                     .mirrored = sink_for(out.mirrored, mirrored, mirrored, mirrored, pixels),
+                     .actor_index = pixels(out.actor_index, needs.actors)};
   out.ranks.clear();
   const RayTracer tracer(shot, sink);
   const auto rows = static_cast<std::size_t>((rays.height_px() + kBlockPx - 1) / kBlockPx);
@@ -196,20 +197,10 @@ void trace_samples(const Shot& shot, const PixelRays& rays, const Plane<std::uin
   const auto side = static_cast<std::size_t>(fine.factor);
   const std::size_t samples = side * side * fine.x_px.size();
   const bool mirrored = needs.mirrored && shot.place.has_water();
-  const Sink sink = {
-      .seen = {.object_index = samples_of(fine.object_index, true, samples),
-               .material_index = samples_of(fine.material_index, true, samples),
-               .depth_m = samples_of(fine.depth_m, needs.depth, samples),
-               .normal = {samples_of(fine.normal[0], needs.normals, samples),
-                          samples_of(fine.normal[1], needs.normals, samples),
-                          samples_of(fine.normal[2], needs.normals, samples)}},
-      .mirrored = {.object_index = samples_of(fine.mirrored.object_index, mirrored, samples),
-                   .material_index = samples_of(fine.mirrored.material_index, mirrored, samples),
-                   .depth_m = samples_of(fine.mirrored.depth_m, mirrored, samples),
-                   .normal = {samples_of(fine.mirrored.normal[0], mirrored, samples),
-                              samples_of(fine.mirrored.normal[1], mirrored, samples),
-                              samples_of(fine.mirrored.normal[2], mirrored, samples)}},
-      .actor_index = samples_of(fine.actor_index, needs.actors, samples)};
+  const auto list = [&](auto& values, bool wanted) { return samples_of(values, wanted, samples); };
+  const Sink sink = {.seen = sink_for(fine, true, needs.depth, needs.normals, list),
+                     .mirrored = sink_for(fine.mirrored, mirrored, mirrored, mirrored, list),
+                     .actor_index = list(fine.actor_index, needs.actors)};
   const RayTracer tracer(shot, sink);
   parallel_for(static_cast<std::size_t>(near_actors.height_px()), 8, [&](std::size_t begin, std::size_t end) {
     TriangleCaches caches(shot);

@@ -61,8 +61,8 @@ struct EngineWarmth {
   [[nodiscard]] bool operator==(const EngineWarmth&) const = default;
 };
 
-/// Excess [K]: driving, driving_k (1 - exp(-t / warming)); idling, the same with idling_k; parked, parked_k exp(-t / cooling) - (parked_k - driving_k)
-/// exp(-t / soak), times the share of heat that it had.
+/// Excess [K]: driving, driving_k (1 - exp(-t / warming)); idling, the same with idling_k; parked, parked_k
+/// exp(-t / cooling) - (parked_k - driving_k) exp(-t / soak), times the share of heat that it had.
 [[nodiscard]] double warmth_k(const EngineWarmth& warmth, const VehicleState& state) noexcept;
 
 }  // namespace thermal
