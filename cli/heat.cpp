@@ -7,7 +7,7 @@
 #include "cli/heat_plot.h"
 #include "cli/output.h"
 #include "heat/surface/heat_report.h"
-#include "imaging/scene_heat.h"
+#include "imaging/typical_heat.h"
 #include "io/assets.h"
 #include "io/config/materials.h"
 #include "io/system/text_file.h"

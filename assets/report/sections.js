@@ -112,6 +112,8 @@ function clipsSection({ labels, record, flights }) {
 // --- physics
 
 const TERMS = {
+  place: "ground and leaves are as warm as shade, sky view and moisture make them",
+  facing: "surfaces are as warm as the direction that they face makes them",
   variation: "the temperature of ground and plants varies in space",
   parts: "parts of a body have their own temperatures",
   sky: "surfaces reflect the sky and their surroundings",

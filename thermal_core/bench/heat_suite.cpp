@@ -16,6 +16,7 @@
 #include "bench/bench_scene.h"
 #include "bench/measure.h"
 #include "imaging/scene_radiance.h"
+#include "imaging/typical_heat.h"
 
 namespace thermal {
 namespace {
@@ -126,8 +127,8 @@ std::vector<RenderRow> table_rows(const Materials& materials) {
           table_row("acacia and soil", only({"acacia"})), table_row("all materials", materials)};
 }
 
-/// One of many places: slopes up to 35 deg, a third of them shaded, a quarter moist at random; or bodies in the open that
-/// face any direction.
+/// One of many places: slopes up to 35 deg, a third of them shaded, a quarter moist at random; or bodies in the open
+/// that face any direction.
 SurfacePlace place_of(int number, bool is_body) {
   std::array<float, kRandomBatch> random{};
   fill_uniform({.seed = 7, .stream = 0, .clip = 0, .frame = static_cast<std::uint32_t>(number)}, 0, random);
@@ -211,8 +212,9 @@ std::vector<RenderRow> frame_rows(const MaterialLibrary& materials) {
   const std::size_t bytes =
       (2 * sizeof(std::uint16_t) + 5 * sizeof(float)) * scene.passes.object_index.size();
   const double copy_s = memcpy_s(bytes);
-  PhysicsSettings settings = {.terms = {.variation = true, .parts = true, .sky = true, .path = true},
-                              .weather = weather_of(Season::winter)};
+  PhysicsSettings settings = {
+      .terms = {.place = true, .facing = true, .variation = true, .parts = true, .sky = true, .path = true},
+      .weather = weather_of(Season::winter)};
   double before_s = 0;
   std::vector<RenderRow> rows;
   const auto add = [&](const std::string& name) {

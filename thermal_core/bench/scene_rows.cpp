@@ -181,8 +181,9 @@ std::vector<BenchRow> term_rows(const MaterialLibrary& materials) {
   const BenchScene scene = rolling_ground();
   std::vector<BenchRow> rows = {term_row("emission alone", {}, scene, materials)};
   for (const TermInfo& term : kTerms) {
-    if (term.name == "parts" || term.name == "falloff")
-      continue;  // they change values, not the work per pixel
+    // Some change values, not the work per pixel; others need the heat balance, see --suite heat.
+    if (term.name == "parts" || term.name == "falloff" || term.name == "place" || term.name == "facing")
+      continue;
     Terms one;
     one.*term.kept = true;
     rows.push_back(term_row("emission + " + std::string(term.name), one, scene, materials));

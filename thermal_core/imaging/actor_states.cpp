@@ -91,6 +91,14 @@ ActorState state_of(const ManifestObject& object, const Material& material, bool
 
 }  // namespace
 
+ActorState later_by(ActorState state, double later_s) noexcept {
+  const auto move = [later_s](double& since_s) { since_s = std::max(0.0, since_s + later_s); };
+  move(state.vehicle.since_s);
+  move(state.since_bath_s);
+  move(state.fire.burning ? state.fire.fire.burning_s : state.fire.since_s);
+  return state;
+}
+
 FireState fire_state(const FirePlace& place, double later_s) {
   FireState state = {.fire = {.diameter_m = place.diameter_m}, .burning = place.burning};
   if (place.burning) {

@@ -35,6 +35,9 @@ struct ActorStates {
   }
 };
 
+/// The state some time later, or earlier.
+[[nodiscard]] ActorState later_by(ActorState state, double later_s) noexcept;
+
 /// The state of a fire some time after time 0 of the scene.
 [[nodiscard]] FireState fire_state(const FirePlace& place, double later_s);
 
@@ -47,8 +50,8 @@ struct ActorStates {
 
 /// The states in the middle of a clip. Actors walk or drive if they are ever more than a decimetre from their first
 /// place. What the manifest states of an engine or a bath holds at time 0 of the scene; vehicles of which it states
-/// nothing drive if they move, and have stopped as the weather says or else as drawn_stop_s() says. Clothes and stops are
-/// drawn from (seed, object index), the same in all clips. DataError if there are more than 250 different states.
+/// nothing drive if they move, and have stopped as the weather says or else as drawn_stop_s() says. Clothes and stops
+/// are drawn from (seed, object index), the same in all clips. DataError if there are more than 250 different states.
 [[nodiscard]] ActorStates states_of_actors(const Manifest& manifest, const MaterialLibrary& materials,
                                            const Weather& weather, std::uint32_t seed);
 

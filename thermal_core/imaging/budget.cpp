@@ -89,9 +89,9 @@ class MaterialModel {
   double emitted_as_air_;
 };
 
-/// How much of a water mirrors what stands at its shore, seen at an angle of incidence: rays that rise from it as steeply
-/// reach the far shore below the height of what stands there. Of a disc, by 2 distance / (pi radius). Both lengths are
-/// estimates.
+/// How much of a water mirrors what stands at its shore, seen at an angle of incidence: rays that rise from it as
+/// steeply reach the far shore below the height of what stands there. Of a disc, by 2 distance / (pi radius). Both
+/// lengths are estimates.
 double shore_share(double cosine) {
   constexpr double kHeightM = 4;
   constexpr double kRadiusM = 50;
@@ -115,7 +115,7 @@ class NightShifts {
     const std::vector<Weighted>& all = shifts_.at(index_of(term.name));
     return {.name = std::string(term.name),
             .choice = TermChoice::automatic,
-            .spread_k = spread(all),
+            .spread_k = std::max(spread(all), spread(on_actors_.at(index_of(term.name)))),
             .actor_shift_k = actor_shifts_.at(index_of(term.name)),
             .kept = false};
   }
@@ -135,6 +135,7 @@ class NightShifts {
 
   void add_cover(const SceneOutline::Cover& cover) {
     const MaterialModel model(*cover.material, night_, outline_.response);
+    add_heat(cover);
     add_variation(cover);
     add_parts(cover, model);
     const double direct_k = model.apparent_k(model.emitted(model.temperature_k()));
@@ -163,6 +164,22 @@ class NightShifts {
         const double share = shore_share(look.ground_cosine);
         add("mirror", shift_k, cover.share * share, false);
         add("mirror", 0, cover.share * (1 - share), false);
+      }
+    }
+  }
+
+  /// What place and direction do. The percentiles of actors are over them alone.
+  void add_heat(const SceneOutline::Cover& cover) {
+    if (const auto found = night_.by_place.find(cover.material->name); found != night_.by_place.end()) {
+      for (const auto& [shift_k, share] : found->second) {
+        add("place", shift_k, share * cover.share, cover.actor);
+        if (cover.actor) on_actors_.at(index_of("place")).push_back({shift_k, share});
+      }
+    }
+    if (const auto found = night_.facing.find(cover.material->name); found != night_.facing.end()) {
+      for (const auto& [shift_k, share] : found->second) {
+        add("facing", shift_k, share * cover.share, cover.actor);
+        if (cover.actor) on_actors_.at(index_of("facing")).push_back({shift_k, share});
       }
     }
   }
@@ -196,8 +213,15 @@ class NightShifts {
   const SceneOutline& outline_;
   const SceneOutline::Night& night_;
   std::array<std::vector<Weighted>, std::size(kTerms)> shifts_;
+  std::array<std::vector<Weighted>, std::size(kTerms)>
+      on_actors_;  ///< those of actors again, where they count alone
   std::array<double, std::size(kTerms)> actor_shifts_{};
 };
+
+std::string_view name_of(bool Terms::*term) {
+  const auto* found = std::ranges::find(kTerms, term, &TermInfo::kept);
+  return found->name;
+}
 
 bool is_kept(const TermEffect& effect, double netd_k) {
   if (effect.choice == TermChoice::on && !effect.impossible.empty())
@@ -221,7 +245,8 @@ Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices) {
     }
     effect.choice = choices.*term.choice;
     const bool matters = effect.choice == TermChoice::on || effect.spread_k > 0;
-    if (effect.name == "mirror" && !budget.kept.sky && matters) effect.impossible = "the term sky is off";
+    if (term.needed != nullptr && !(budget.kept.*term.needed) && matters)
+      effect.impossible = "the term " + std::string(name_of(term.needed)) + " is off";
     if (const auto lacking = outline.impossible.find(effect.name); lacking != outline.impossible.end())
       effect.impossible = lacking->second;
     effect.kept = is_kept(effect, outline.netd_k);

@@ -25,13 +25,21 @@ struct SceneOutline {
     double ground_cosine = 1;
     double axis_cosine = 1;
   };
+  /// What a kind of place does to a surface's temperature, and the share of the surface that lies there.
+  struct PlaceShift {
+    double shift_k = 0;
+    double share = 0;
+  };
   /// One season's flights.
   struct Night {
     Weather weather;
     std::vector<Look>
         looks;  ///< empty: viewing directions are unknown; terms that depend on them then have no effect
-    /// Temperatures by the heat balance, by material and part ("" is the whole); those of Table 1's line where there is none.
+    /// Temperatures by the heat balance, by material and part ("" is the whole); those of Table 1's line where there is
+    /// none.
     std::map<std::string, std::map<std::string, double>> heated_k = {};
+    std::map<std::string, std::vector<PlaceShift>> by_place = {};  ///< by material; see heat_night()
+    std::map<std::string, std::vector<PlaceShift>> facing = {};
 
     [[nodiscard]] double temperature_k(const Material& material, const std::string& part) const;
   };
@@ -59,15 +67,16 @@ struct Budget {
   double dropped_k = 0;  ///< sum of the spreads of dropped terms
 };
 
-/// Decides which terms a scene needs: an automatic term is kept if its effect varies across the pictures by more than
-/// a third of the NETD; dropping less than that adds at most 5 % to the noise in quadrature. Percentiles are over
-/// what fills the pictures; for `parts` over the actors, for `mirror` over the water. Shifts of emission and reflection
-/// are relative to the terms before them in kTerms, with level surfaces under an open sky. An automatic term that is
-/// impossible is dropped; ConfigError if the config requires one.
+/// Decides which terms a scene needs: an automatic term is kept if its effect varies across the pictures by more than a
+/// third of the NETD; dropping less than that adds at most 5 % to the noise in quadrature. Percentiles are over what
+/// fills the pictures; for `parts` over the actors, for `facing` over actors or all else, whichever differ more, for
+/// `mirror` over the water. Shifts of emission and reflection are relative to the terms before them in kTerms, with
+/// level surfaces under an open sky. An automatic term that is impossible is dropped; ConfigError if the config
+/// requires one.
 [[nodiscard]] Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices);
 
-/// Shift of a material's apparent temperature by sky reflection, and by the path on top of it [K], of which the inversion
-/// makes a part; level surface under an open sky, seen from straight above.
+/// Shift of a material's apparent temperature by sky reflection, and by the path on top of it [K], of which the
+/// inversion makes a part; level surface under an open sky, seen from straight above.
 struct MaterialShift {
   double sky_k = 0;
   double path_k = 0;

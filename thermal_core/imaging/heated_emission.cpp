@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "imaging/row_kernels.h"
@@ -26,17 +27,16 @@ std::vector<std::int32_t> covers_of(const std::vector<HeatedSurface>& surfaces) 
   return covers;
 }
 
-/// The emission of one scene's surfaces.
+/// The emission of one scene's surfaces during a span.
 class HeatedEmission {
  public:
-  HeatedEmission(std::vector<HeatedSurface> surfaces,
-                 const std::vector<std::unique_ptr<RadianceTable>>& tables, const GroundTemperatures* ground,
+  HeatedEmission(const HeatSpan& span, const std::vector<std::unique_ptr<RadianceTable>>& tables,
                  const WarmSpots& spots, const VariationField& field)
-      : surfaces_(std::move(surfaces)),
-        ground_(ground),
+      : middle_h_(static_cast<float>(span.middle_h)),
+        surfaces_(span.surfaces),
+        ground_(span.ground.get()),
         spots_(spots),
         field_(field),
-        ones_(surfaces_.size(), 1.0F),
         cover_(covers_of(surfaces_)),
         hot_(!spots.empty()) {
     std::vector<std::int32_t> first_node;
@@ -45,13 +45,14 @@ class HeatedEmission {
       table->append_nodes(nodes_);
     }
     for (const HeatedSurface& surface : surfaces_) {
-      even_k_.push_back(surface.temperature_k);
-      rate_k_h_.push_back(surface.rate_k_h);
+      kind_.push_back(surface.kind);
+      even_k_.push_back(surface.middle.temperature_k);
+      even_k_h_.push_back(surface.per_h.temperature_k);
       stddev_k_.push_back(surface.variation_stddev_k);
       varies_ = varies_ || surface.variation_stddev_k > 0;
       per_length_.push_back(surface.per_correlation_length);
       table_.push_back(tables.at(surface.table).get());
-      hot_ = hot_ || surface.temperature_k >= RadianceTable::kHottest;
+      hot_ = hot_ || surface.middle.temperature_k >= RadianceTable::kHottest;
       first_node_.push_back(first_node.at(surface.table));
     }
   }
@@ -59,17 +60,21 @@ class HeatedEmission {
   void operator()(Row& row) const {
     const std::size_t width = row.surface.size();
     for (auto* scratch : {&row.place_x, &row.place_y, &row.footprint, &row.variation, &row.temperature_k,
-                          &row.metres[0], &row.metres[1], &row.metres[2]})
+                          &row.ground_sky_view, &row.metres[0], &row.metres[1], &row.metres[2]})
       scratch->resize(width);
-    kernels::look_up(row.surface.data(), even_k_.data(), row.temperature_k.data(), width);
-    if (ground_ != nullptr || varies_) find_places(row);
+    row.even_k.resize(even_k_.size());
+    for (std::size_t i = 0; i < even_k_.size(); ++i) row.even_k[i] = even_k_[i] + later_h(row) * even_k_h_[i];
+    kernels::look_up(row.surface.data(), row.even_k.data(), row.temperature_k.data(), width);
+    kernels::FootprintRange footprints;
+    if (ground_ != nullptr || varies_) footprints = find_places(row);
     if (ground_ != nullptr) {
-      ground_->sample({.surface = row.surface,
-                       .cover_of_surface = cover_,
-                       .x_m = row.metres[0],
-                       .y_m = row.metres[1],
-                       .footprint_m = row.metres[2]},
-                      row.temperature_k);
+      ground_->texture().sample({.surface = row.surface,
+                                 .cover_of_surface = cover_,
+                                 .x_m = row.metres[0],
+                                 .y_m = row.metres[1],
+                                 .footprint_m = row.metres[2],
+                                 .footprints = footprints},
+                                later_h(row), row.temperature_k, row.ground_sky_view);
       spots_.add(row.surface, cover_, row.metres[0], row.metres[1], row.temperature_k);
     }
     add_bodies_and_crowns(row);
@@ -86,12 +91,10 @@ class HeatedEmission {
     }
     kernels::emit_heated({.surface = row.surface.data(),
                           .temperature_k = row.temperature_k.data(),
-                          .rate_k_h = rate_k_h_.data(),
                           .stddev_k = stddev_k_.data(),
                           .table = first_node_.data(),
                           .node_w_m2_sr = nodes_.data(),
                           .variation = row.variation.data(),
-                          .later_h = row.later_h,
                           .coldest_k = RadianceTable::kColdest,
                           .nodes_per_k = RadianceTable::kNodesPerKelvin,
                           .last_node = RadianceTable::kSteps - 1},
@@ -100,6 +103,9 @@ class HeatedEmission {
   }
 
  private:
+  /// Than the middle of the span.
+  [[nodiscard]] float later_h(const Row& row) const noexcept { return row.later_h - middle_h_; }
+
   /// Where the tables end.
   void emit_hot(Row& row) const {
     for (std::size_t i = 0; i < row.surface.size(); ++i) {
@@ -108,19 +114,17 @@ class HeatedEmission {
     }
   }
 
-  void find_places(Row& row) const {
-    kernels::find_places({.surface = row.surface.data(),
-                          .per_correlation_length = ones_.data(),
-                          .depth_m = row.depth_m.data(),
-                          .ray_x = row.ray_x.data(),
-                          .ray_y = row.ray_y.data(),
-                          .origin_x_m = row.pose->position_m[0],
-                          .origin_y_m = row.pose->position_m[1],
-                          .x = world_axis(row, 0),
-                          .y = world_axis(row, 1),
-                          .pixel_width = row.sample_width},
-                         row.metres[0].data(), row.metres[1].data(), row.metres[2].data(),
-                         row.surface.size());
+  static kernels::FootprintRange find_places(Row& row) {
+    return kernels::find_metres({.depth_m = row.depth_m.data(),
+                                 .ray_x = row.ray_x.data(),
+                                 .ray_y = row.ray_y.data(),
+                                 .origin_x_m = row.pose->position_m[0],
+                                 .origin_y_m = row.pose->position_m[1],
+                                 .x = world_axis(row, 0),
+                                 .y = world_axis(row, 1),
+                                 .pixel_width = row.sample_width},
+                                row.metres[0].data(), row.metres[1].data(), row.metres[2].data(),
+                                row.surface.size());
   }
 
   /// Runs of pixels of one surface.
@@ -128,28 +132,42 @@ class HeatedEmission {
     const std::size_t width = row.surface.size();
     for (std::size_t begin = 0; begin < width;) {
       const std::uint16_t number = row.surface[begin];
-      std::size_t end = begin + 1;
-      while (end < width && row.surface[end] == number) ++end;
-      const HeatedSurface& surface = surfaces_[number];
-      if (surface.kind == HeatedSurface::Kind::oriented) face(surface, row, begin, end);
-      if (surface.kind == HeatedSurface::Kind::crown) add_depths(surface, row, begin, end);
+      const std::size_t end = end_of_run(row.surface, begin);
+      if (kind_[number] == HeatedSurface::Kind::oriented) face(surfaces_[number], row, begin, end);
+      if (kind_[number] == HeatedSurface::Kind::crown) add_depths(surfaces_[number], row, begin, end);
       begin = end;
     }
   }
 
-  static void face(const HeatedSurface& surface, Row& row, std::size_t begin, std::size_t end) {
-    kernels::warm_by_normal({.nx = row.normal[0].data() + begin,
-                             .ny = row.normal[1].data() + begin,
-                             .nz = row.normal[2].data() + begin,
-                             .ray_x = row.ray_x.data() + begin,
-                             .ray_y = row.ray_y.data() + begin,
-                             .x = world_axis(row, 0),
-                             .y = world_axis(row, 1),
-                             .z = world_axis(row, 2),
-                             .steepest = surface.steepest,
-                             .sun = surface.sun,
-                             .coefficients = surface.by_normal},
-                            row.temperature_k.data() + begin, end - begin);
+  /// Four pixels at a time, then one by one.
+  static std::size_t end_of_run(std::span<const std::uint16_t> surface, std::size_t begin) {
+    constexpr std::uint64_t kEach = 0x0001000100010001;
+    const std::uint64_t all_alike = kEach * surface[begin];
+    std::size_t end = begin + 1;
+    for (std::uint64_t four = 0; end + 4 <= surface.size(); end += 4) {
+      std::memcpy(&four, &surface[end], sizeof four);
+      if (four != all_alike) break;
+    }
+    while (end < surface.size() && surface[end] == surface[begin]) ++end;
+    return end;
+  }
+
+  void face(const HeatedSurface& surface, Row& row, std::size_t begin, std::size_t end) const {
+    kernels::FacingInput facing = {.nx = row.normal[0].data() + begin,
+                                   .ny = row.normal[1].data() + begin,
+                                   .nz = row.normal[2].data() + begin,
+                                   .ray_x = row.ray_x.data() + begin,
+                                   .ray_y = row.ray_y.data() + begin,
+                                   .x = world_axis(row, 0),
+                                   .y = world_axis(row, 1),
+                                   .z = world_axis(row, 2),
+                                   .steepest = surface.steepest,
+                                   .sun = surface.middle.sun,
+                                   .coefficients = surface.middle.by_normal};
+    for (std::size_t i = 0; i < facing.sun.size(); ++i) facing.sun[i] += later_h(row) * surface.per_h.sun[i];
+    for (std::size_t i = 0; i < facing.coefficients.size(); ++i)
+      facing.coefficients[i] += later_h(row) * surface.per_h.by_normal[i];
+    kernels::warm_by_normal(facing, row.temperature_k.data() + begin, end - begin);
   }
 
   void add_depths(const HeatedSurface& surface, Row& row, std::size_t begin, std::size_t end) const {
@@ -158,7 +176,7 @@ class HeatedEmission {
       if (!(row.depth_m[i] > 0 && row.depth_m[i] < kSkyFromM)) continue;
       const float from_z_m = row.origin_z_m.empty() ? row.pose->position_m[2] : row.origin_z_m[i];
       const float z_m = from_z_m + row.depth_m[i] * along(up, row, i);
-      row.temperature_k[i] = by_depth_k(surface, crown_top_m(row, i) - z_m);
+      row.temperature_k[i] = by_depth_k(surface, crown_top_m(row, i) - z_m, later_h(row));
     }
   }
 
@@ -166,25 +184,28 @@ class HeatedEmission {
     return ground_->crown_top_m(row.metres[0][i], row.metres[1][i]);
   }
 
-  static float by_depth_k(const HeatedSurface& surface, float depth_m) {
-    constexpr float kPerM = 4;
-    constexpr auto kLast = static_cast<float>(HeatedSurface::kDepths - 1);
+  static float by_depth_k(const HeatedSurface& surface, float depth_m, float later_h) {
+    constexpr auto kPerM = static_cast<float>(1 / kCrownStepM);
+    constexpr auto kLast = static_cast<float>(SurfaceWarmth::kDepths - 1);
     const float position = std::clamp(depth_m * kPerM, 0.0F, kLast - 0.001F);
     const auto node = static_cast<std::size_t>(position);
-    const float from = surface.by_depth_k[node];
-    return from + (position - static_cast<float>(node)) * (surface.by_depth_k[node + 1] - from);
+    const auto node_k = [&](std::size_t number) {
+      return surface.middle.by_depth_k[number] + later_h * surface.per_h.by_depth_k[number];
+    };
+    return node_k(node) + (position - static_cast<float>(node)) * (node_k(node + 1) - node_k(node));
   }
 
-  std::vector<HeatedSurface> surfaces_;
+  float middle_h_;
+  const std::vector<HeatedSurface>& surfaces_;
   const GroundTemperatures* ground_;
   const WarmSpots& spots_;
   const VariationField& field_;
   std::vector<float> nodes_;
   // By surface, as the kernels read them:
-  std::vector<float> ones_;
   std::vector<std::int32_t> cover_;
+  std::vector<HeatedSurface::Kind> kind_;
   std::vector<float> even_k_;
-  std::vector<float> rate_k_h_;
+  std::vector<float> even_k_h_;
   std::vector<float> stddev_k_;
   std::vector<float> per_length_;
   std::vector<std::int32_t> first_node_;
@@ -195,21 +216,25 @@ class HeatedEmission {
 
 }  // namespace
 
-RowTerm heated_emission(std::vector<HeatedSurface> surfaces,
-                        const std::vector<std::unique_ptr<RadianceTable>>& tables,
-                        const GroundTemperatures* ground, const WarmSpots& spots,
+RowTerm heated_emission(const std::vector<HeatSpan>& spans,
+                        const std::vector<std::unique_ptr<RadianceTable>>& tables, const WarmSpots& spots,
                         const VariationField& field) {
-  return HeatedEmission(std::move(surfaces), tables, ground, spots, field);
+  std::vector<HeatedEmission> emissions;
+  std::vector<float> ends_h;
+  for (const HeatSpan& span : spans) {
+    emissions.emplace_back(span, tables, spots, field);
+    ends_h.push_back(static_cast<float>(span.middle_h + span.hours / 2));
+  }
+  ends_h.pop_back();
+  return [emissions = std::move(emissions), ends_h = std::move(ends_h)](Row& row) {
+    const auto span = std::ranges::lower_bound(ends_h, row.later_h) - ends_h.begin();
+    emissions[static_cast<std::size_t>(span)](row);
+  };
 }
 
-RowTerm mapped_sky_view(const std::vector<HeatedSurface>& surfaces, const GroundTemperatures& ground) {
-  return [&ground, cover = covers_of(surfaces)](Row& row) {
-    ground.sample_sky_view({.surface = row.surface,
-                            .cover_of_surface = cover,
-                            .x_m = row.metres[0],
-                            .y_m = row.metres[1],
-                            .footprint_m = row.metres[2]},
-                           row.sky_view);
+RowTerm mapped_sky_view() {
+  return [](Row& row) {
+    kernels::map_sky_view(row.ground_sky_view.data(), row.sky_view.data(), row.sky_view.size());
   };
 }
 

@@ -1,5 +1,6 @@
 #include "imaging/row_kernels.h"
 
+#include <bit>
 #include <cmath>
 
 #include "base/clones.h"
@@ -52,6 +53,37 @@ VELDT_CLONES void find_places(const PlaceInput& in, float* __restrict x, float* 
   }
 }
 
+namespace {
+
+VELDT_CLONES void find_all_metres(const MetresInput& in, float* __restrict x_m, float* __restrict y_m,
+                                  float* __restrict footprint_m, std::size_t count,
+                                  FootprintRange& range) noexcept {
+  const MetresInput p = in;
+  std::uint32_t smallest = range.smallest;
+  std::int32_t largest = range.largest;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float depth = p.depth_m[i];
+    x_m[i] = p.origin_x_m + depth * along(p.x, p.ray_x[i], p.ray_y[i]);
+    y_m[i] = p.origin_y_m + depth * along(p.y, p.ray_x[i], p.ray_y[i]);
+    const float footprint = depth > 0 ? depth * p.pixel_width : -1.0F;
+    footprint_m[i] = footprint;
+    const auto bits = std::bit_cast<std::uint32_t>(footprint);
+    const auto ordered = static_cast<std::int32_t>(bits);
+    smallest = bits < smallest ? bits : smallest;  // the sign makes a negative one large
+    largest = ordered > largest ? ordered : largest;
+  }
+  range = {.smallest = smallest, .largest = largest};
+}
+
+}  // namespace
+
+FootprintRange find_metres(const MetresInput& in, float* x_m, float* y_m, float* footprint_m,
+                           std::size_t count) noexcept {
+  FootprintRange range;
+  find_all_metres(in, x_m, y_m, footprint_m, count, range);
+  return range;
+}
+
 VELDT_CLONES void emit_varied(const VariedInput& in, float* __restrict radiance, std::size_t count) noexcept {
   const VariedInput p = in;
   for (std::size_t i = 0; i < count; ++i) {
@@ -79,17 +111,18 @@ VELDT_INLINE float wave(float x) noexcept {
 
 VELDT_CLONES void unsettle(const UnsettledInput& in, float* __restrict x, float* __restrict y,
                            float* __restrict footprint, std::size_t count) noexcept {
-  // Lengths and amplitudes in correlation lengths: shears of at most 8 times reach over length, 0.1 each.
-  constexpr float kLong = 157.3F;
-  constexpr float kAcross = 211.7F;
-  constexpr float kReach = 2;
+  // In correlation lengths. Two oblique waves: together they stretch and shrink by at most 22 %.
+  constexpr float kLong = 127.3F;
+  constexpr float kLonger = 171.7F;
+  constexpr float kSlant = 0.7F;
+  constexpr float kReach = 3;
   const UnsettledInput p = in;
   for (std::size_t i = 0; i < count; ++i) {
     const float scale = p.per_correlation_length[p.surface[i]];
     const float east = p.x_m[i] * scale;
     const float north = p.y_m[i] * scale;
-    x[i] = east + kReach * (wave(north * (1 / kLong)) + wave((east + north) * (1 / kAcross)));
-    y[i] = north + kReach * (wave(east * (1 / kLong) + 0.3F) + wave((north - east) * (1 / kAcross)));
+    x[i] = east + kReach * wave((north + kSlant * east) * (1 / kLong));
+    y[i] = north + kReach * wave((east - kSlant * north) * (1 / kLonger) + 0.3F);
     footprint[i] = p.footprint_m[i] * scale;
   }
 }
@@ -123,8 +156,7 @@ VELDT_CLONES void emit_heated(const HeatedInput& in, float* __restrict radiance,
   const HeatedInput p = in;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint16_t surface = p.surface[i];
-    const float temperature_k =
-        p.temperature_k[i] + p.rate_k_h[surface] * p.later_h + p.stddev_k[surface] * p.variation[i];
+    const float temperature_k = p.temperature_k[i] + p.stddev_k[surface] * p.variation[i];
     const float wanted = (temperature_k - p.coldest_k) * p.nodes_per_k;
     const float positive = wanted > 0 ? wanted : 0.0F;
     const float position = positive < p.last_node ? positive : p.last_node;
@@ -150,6 +182,11 @@ VELDT_CLONES void orient(const OrientationInput& in, float* __restrict sky_view,
     sky_view[i] = usable ? clamped : 1.0F;
     cosine[i] = usable ? (seen < 1 ? seen : 1.0F) : 1.0F;
   }
+}
+
+VELDT_CLONES void map_sky_view(const float* __restrict mapped, float* __restrict sky_view,
+                               std::size_t count) noexcept {
+  for (std::size_t i = 0; i < count; ++i) sky_view[i] = mapped[i] >= 0 ? mapped[i] : sky_view[i];
 }
 
 VELDT_CLONES void fall_off(const AngularInput& in, float* __restrict radiance, float* __restrict reflected,

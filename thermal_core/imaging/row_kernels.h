@@ -30,6 +30,25 @@ struct PlaceInput {
 };
 void find_places(const PlaceInput& in, float* x, float* y, float* footprint, std::size_t count) noexcept;
 
+/// Smallest and largest footprint of pixels that have one, 0 or more: as bits, which positive floats are ordered as.
+/// NaN and infinity count as large. Without any the largest is negative.
+struct FootprintRange {
+  std::uint32_t smallest = 0xFFFFFFFF;
+  std::int32_t largest = -1;
+};
+
+/// The same as find_places() in metres.
+struct MetresInput {
+  const float* depth_m;
+  const float* ray_x;
+  const float* ray_y;
+  float origin_x_m, origin_y_m;
+  CameraAxis x, y;
+  float pixel_width;
+};
+[[nodiscard]] FootprintRange find_metres(const MetresInput& in, float* x_m, float* y_m, float* footprint_m,
+                                         std::size_t count) noexcept;
+
 /// Radiance of temperatures that vary about each surface's mean, linear between the nodes of its table. A surface
 /// with constant temperature has a single node, a position of 0 and a spread of 0.
 struct VariedInput {
@@ -43,8 +62,8 @@ struct VariedInput {
 };
 void emit_varied(const VariedInput& in, float* radiance, std::size_t count) noexcept;
 
-/// Places and sizes in metres in correlation lengths, and turned about so slowly that nobody sees it, and by so much that
-/// a field which repeats itself no longer does so at the same distance everywhere.
+/// Places and sizes in metres in correlation lengths, and turned about so slowly that nobody sees it, and by so much
+/// that a field which repeats itself no longer does so at the same distance everywhere.
 struct UnsettledInput {
   const std::uint16_t* surface;
   const float* per_correlation_length;  ///< by surface [1/m]
@@ -54,8 +73,8 @@ struct UnsettledInput {
 };
 void unsettle(const UnsettledInput& in, float* x, float* y, float* footprint, std::size_t count) noexcept;
 
-/// Temperatures of one surface by its normals, as Orientation has them. Normals that face away from the camera are turned
-/// round; those that are far from unit length count as facing up, those steeper than `steepest` as that steep.
+/// Temperatures of one surface by its normals, as Orientation has them. Normals that face away from the camera are
+/// turned round; those that are far from unit length count as facing up, those steeper than `steepest` as that steep.
 struct FacingInput {
   const float* nx;
   const float* ny;
@@ -73,12 +92,10 @@ void warm_by_normal(const FacingInput& in, float* temperature_k, std::size_t cou
 struct HeatedInput {
   const std::uint16_t* surface;
   const float* temperature_k;
-  const float* rate_k_h;      ///< by surface
   const float* stddev_k;      ///< by surface: of the variation
   const std::int32_t* table;  ///< by surface: index of its first node
   const float* node_w_m2_sr;  ///< of all surfaces: radiance and step to the next node's, alternating
   const float* variation;
-  float later_h;
   float coldest_k;    ///< of a table
   float nodes_per_k;  ///< the same
   float last_node;    ///< the same
@@ -96,6 +113,9 @@ struct OrientationInput {
   CameraAxis x, y, z;
 };
 void orient(const OrientationInput& in, float* sky_view, float* cosine, std::size_t count) noexcept;
+
+/// Replaces the sky view where the maps have one; -1: they have none.
+void map_sky_view(const float* mapped, float* sky_view, std::size_t count) noexcept;
 
 /// Multiplies radiance by the fall-off of soil, 1 - loss (1 - cosine)^2, and moves the rest to `reflected`.
 struct AngularInput {

@@ -53,7 +53,9 @@ struct Row {
   std::vector<float> footprint;
   std::array<std::vector<float>, 3> metres;  ///< the same three in metres, of heated_emission()
   std::vector<float> variation;
-  std::vector<float> temperature_k;  ///< where it follows the weather
+  std::vector<float> even_k;           ///< of surfaces that are everywhere as warm, by surface
+  std::vector<float> temperature_k;    ///< where it follows the weather
+  std::vector<float> ground_sky_view;  ///< by maps of the ground; -1 where they have none
 };
 
 /// Adds one term to a row. A scene's chain is a list of these; dropped terms are not in it.
@@ -85,8 +87,8 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 /// Fills `reflected` with each surface's reflectivity at normal incidence. Must precede angular_emissivity.
 [[nodiscard]] RowTerm reflectivity(const SurfaceOpticsList& surfaces);
 
-/// Adds the reflection of surfaces by water that mirrors them: what `terms` make of these surfaces, and `path`, which may
-/// be empty, of the air between them and the water. They are then no longer in `reflected`. Must precede
+/// Adds the reflection of surfaces by water that mirrors them: what `terms` make of these surfaces, and `path`, which
+/// may be empty, of the air between them and the water. They are then no longer in `reflected`. Must precede
 /// sky_reflection().
 [[nodiscard]] RowTerm mirrored_surfaces(std::vector<RowTerm> terms, RowTerm path, float air_radiance_w_m2_sr);
 
@@ -98,8 +100,8 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 /// counts as 1000 m; the sky is unaffected.
 [[nodiscard]] RowTerm path(const Air& air, float air_radiance_w_m2_sr);
 
-/// What the path radiates more because the air is warmer towards the camera, whose radiance is `more_w_m2_sr` higher there
-/// than at the ground; see mean_path_absorption(). Must follow path().
+/// What the path radiates more because the air is warmer towards the camera, whose radiance is `more_w_m2_sr` higher
+/// there than at the ground; see mean_path_absorption(). Must follow path().
 [[nodiscard]] RowTerm path_inversion(const Air& air, float more_w_m2_sr);
 
 }  // namespace thermal

@@ -2,28 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <functional>
+#include <memory>
+#include <utility>
 
-#include "heat/body/body_heat.h"
 #include "heat/body/fire.h"
 #include "heat/body/warm_ground.h"
-#include "heat/surface/heat_report.h"
-#include "heat/surface/leaf_layer.h"
 #include "heat/weather/sun_memory.h"
 
 namespace thermal {
 namespace {
 
-const std::string kWholeBody;
-
-/// Leaves without maps are seen in the middle of their crowns.
-constexpr double kMiddleOfCrown = 0.6;
-
-/// What a crown leaves of sky and sun to the wood below it: an estimate.
-constexpr double kBelowCrown = 0.6;
-
-/// The variation field has five octaves, each 0.6 times as strong as the one before. Those down to two cells of the maps
-/// are part of the maps; the field adds the finer ones.
+/// The variation field has five octaves, each 0.6 times as strong as the one before. Those down to two cells of the
+/// maps are part of the maps; the field adds the finer ones.
 struct SplitVariation {
   double map_stddev_k = 0;
   double fine_stddev_k = 0;
@@ -110,221 +101,187 @@ WarmSpot warm_bed(const WarmBed& bed, double later_s, double ground_k) {
   return spot;
 }
 
-/// Finds the temperatures of surfaces, one by one.
-class Builder {
- public:
-  Builder(const std::vector<ActorState>& states, const HeatSettings& settings, const Weather& weather,
-          const SceneHeatTerms& terms)
-      : states_(states),
-        settings_(settings),
-        weather_(weather),
-        moment_(settings.day->at(weather.solar_h)),
-        terms_(terms) {}
-
-  void add(const Surface& surface) {
-    // What no actor's state concerns is the same in all classes.
-    const bool concerned =
-        surface.actor_class == 0 || surface.material->body_heat_of(surface.part) != nullptr;
-    heat_.surfaces.push_back(concerned ? heat_of(surface) : heat_.surfaces[heat_.surfaces.size() % first_]);
-    if (surface.actor_class == 0) first_ = heat_.surfaces.size();
+WarmSpots warm_spots(const Manifest& manifest, const HeatOfMoment& moment) {
+  const Surroundings around = {.forcing = moment.forcing, .ground_k = moment.ground_k};
+  std::vector<WarmSpot> spots;
+  for (const ManifestObject& object : manifest.objects) {
+    if (object.fire) spots.push_back(fireside(*object.fire, middle_s(manifest), around));
   }
+  for (const WarmBed& bed : manifest.beds)
+    spots.push_back(warm_bed(bed, middle_s(manifest), moment.ground_k));
+  return WarmSpots(std::move(spots));
+}
 
-  SceneHeat finish(const Manifest& manifest, std::uint32_t seed) {
-    heat_.spots = WarmSpots(warm_spots(manifest));
-    if (settings_.ground == nullptr) return std::move(heat_);
-    const GroundMaps& maps = *settings_.ground;
-    heat_.ground = std::make_unique<GroundTemperatures>(
-        maps, window_of(maps, manifest), sunlit_cells(maps, settings_.day->weather(), weather_.solar_h),
-        moment_.ground_moisture, covers_, seed);
-    return std::move(heat_);
+/// The surfaces at a moment of a clip.
+struct Moment {
+  double later_h = 0;  ///< than the middle of the clip
+  std::shared_ptr<const HeatedSurfaces> surfaces;
+};
+
+/// Two moments, between which temperatures follow straight lines.
+struct Ends {
+  Moment first;
+  Moment last;
+
+  [[nodiscard]] double hours() const noexcept { return last.later_h - first.later_h; }
+  [[nodiscard]] double middle_h() const noexcept { return (first.later_h + last.later_h) / 2; }
+};
+
+/// Cuts a clip into spans.
+class Spans {
+ public:
+  explicit Spans(std::function<Moment(double later_h)> moment_at) : moment_at_(std::move(moment_at)) {}
+
+  [[nodiscard]] std::vector<Ends> of_clip(double hours) {
+    if (!(hours > 0)) return {{moment_at_(0), moment_at_(0)}};
+    constexpr int kMostHalvings = 4;
+    cut({moment_at_(-hours / 2), moment_at_(hours / 2)}, kMostHalvings);
+    return std::move(spans_);
   }
 
  private:
-  [[nodiscard]] HeatedSurface heat_of(const Surface& surface) {
-    HeatedSurface heated;
-    const Material& material = *surface.material;
-    set_variation(material, heated);
-    const std::string& part = terms_.parts || is_fire(material) ? surface.part : kWholeBody;
-    if (const BodyHeat* body = material.body_heat_of(part)) {
-      set_body(*body, moment_of(states_.at(surface.actor_class)), heated);
-    } else if (const MaterialHeat* heat = material.heat_of(surface.part)) {
-      const std::string name = material.heat_name(surface.part);
-      const MaterialMoment& by_place = moment_.materials.at(name);
-      heated.rate_k_h = static_cast<float>(settings_.day->rate_k_h(name, weather_.solar_h));
-      if (heat != material.heat_of("") && is_crown(material)) {
-        set_oriented(by_place.orientation(below_crown()), heated);
-      } else {
-        std::visit([&](const auto& kind) { set(kind, material, by_place, heated); }, *heat);
-      }
-    } else {
-      heated.temperature_k = static_cast<float>(material.part_temperature_k(part, weather_));
+  void cut(const Ends& ends, int halvings) {
+    constexpr float kBendK = 0.01F;
+    const Moment middle = moment_at_(ends.middle_h());
+    if (halvings == 0 || bend_k(ends, middle) <= kBendK) return spans_.push_back(ends);
+    cut({ends.first, middle}, halvings - 1);
+    cut({middle, ends.last}, halvings - 1);
+  }
+
+  /// How far open level surfaces are from a straight line.
+  static float bend_k(const Ends& ends, const Moment& middle) {
+    float most_k = 0;
+    for (std::size_t i = 0; i < middle.surfaces->surfaces().size(); ++i) {
+      const auto at_k = [i](const Moment& moment) {
+        return moment.surfaces->surfaces()[i].middle.temperature_k;
+      };
+      most_k = std::max(most_k, std::abs(at_k(middle) - (at_k(ends.first) + at_k(ends.last)) / 2));
     }
-    return heated;
+    return most_k;
   }
 
-  [[nodiscard]] SurfacePlace open_place() const { return {.moisture = moment_.ground_moisture}; }
-
-  [[nodiscard]] std::vector<WarmSpot> warm_spots(const Manifest& manifest) const {
-    const Surroundings around = {.forcing = moment_.forcing, .ground_k = moment_.ground_k};
-    std::vector<WarmSpot> spots;
-    for (const ManifestObject& object : manifest.objects) {
-      if (object.fire) spots.push_back(fireside(*object.fire, middle_s(manifest), around));
-    }
-    for (const WarmBed& bed : manifest.beds)
-      spots.push_back(warm_bed(bed, middle_s(manifest), moment_.ground_k));
-    return spots;
-  }
-
-  [[nodiscard]] SurfacePlace below_crown() const {
-    return {.sky_view = kBelowCrown, .sunlit = kBelowCrown, .moisture = moment_.ground_moisture};
-  }
-
-  static bool is_fire(const Material& material) {
-    return material.body_heat && std::holds_alternative<FirePart>(*material.body_heat);
-  }
-
-  static bool is_crown(const Material& material) {
-    const auto* leaves = material.heat ? std::get_if<LeavesHeat>(&*material.heat) : nullptr;
-    return leaves != nullptr && !leaves->is_cover;
-  }
-
-  void set_variation(const Material& material, HeatedSurface& heated) const {
-    if (!terms_.variation) return;
-    heated.variation_stddev_k = static_cast<float>(material.variation.stddev_k);
-    heated.per_correlation_length = static_cast<float>(1 / material.variation.correlation_length_m);
-  }
-
-  void set(const GroundHeat& heat, const Material& material, const MaterialMoment& by_place,
-           HeatedSurface& heated) {
-    heat.is_body ? set_oriented(by_place, heated) : set_cover(material, by_place, heated);
-  }
-
-  void set(const LeavesHeat& heat, const Material& material, const MaterialMoment& by_place,
-           HeatedSurface& heated) {
-    if (heat.is_cover) return set_cover(material, by_place, heated);
-    SurfacePlace place = open_place();
-    place.sky_view = kMiddleOfCrown;
-    heated.temperature_k = static_cast<float>(by_place.temperature_k(place));
-    if (settings_.ground == nullptr) return;
-    heated.kind = HeatedSurface::Kind::crown;
-    for (std::size_t node = 0; node < HeatedSurface::kDepths; ++node) {
-      constexpr double kNodeM = 0.25;
-      place.sky_view = diffuse_through_leaves(heat.leaf_density_m2_m3 * kNodeM * static_cast<double>(node));
-      heated.by_depth_k[node] = static_cast<float>(by_place.temperature_k(place));
-    }
-  }
-
-  void set(const SlabHeat& heat, const Material&, const MaterialMoment& by_place,
-           HeatedSurface& heated) const {
-    if (heat.is_body) return set_oriented(by_place, heated);
-    heated.temperature_k = static_cast<float>(by_place.temperature_k(open_place()));
-  }
-
-  [[nodiscard]] BodyMoment moment_of(const ActorState& actor) const {
-    BodyMoment moment = {.around = {.forcing = moment_.forcing, .ground_k = moment_.ground_k}};
-    moment.activity = actor.activity;
-    moment.dress = actor.dress;
-    moment.vehicle = actor.vehicle;
-    moment.since_bath_s = actor.since_bath_s;
-    moment.fire = actor.fire;
-    if (const auto water = moment_.materials.find("water"); water != moment_.materials.end())
-      moment.refuge_k = water->second.temperature_k(open_place());
-    return moment;
-  }
-
-  void set_body(const BodyHeat& body, const BodyMoment& moment, HeatedSurface& heated) const {
-    static const OrientationFit kFit = OrientationFit::of_bodies();
-    std::vector<double> values_k;
-    for (const EastNorthUp& direction : kFit.directions())
-      values_k.push_back(part_temperature_k(body, moment, direction));
-    set_oriented(kFit.fit(values_k, moment_.sun), heated);
-    heated.temperature_k = static_cast<float>(part_temperature_k(body, moment, 0.0));
-  }
-
-  void set_oriented(const MaterialMoment& by_place, HeatedSurface& heated) const {
-    set_oriented(by_place.orientation(open_place()), heated);
-  }
-
-  void set_oriented(const Orientation& orientation, HeatedSurface& heated) const {
-    heated.temperature_k = static_cast<float>(orientation.at({0, 0, 1}));
-    if (!terms_.normals) return;
-    heated.kind = HeatedSurface::Kind::oriented;
-    const auto rounded = [](double value) { return static_cast<float>(value); };
-    std::ranges::transform(orientation.coefficients, heated.by_normal.begin(), rounded);
-    std::ranges::transform(orientation.sun, heated.sun.begin(), rounded);
-  }
-
-  void set_cover(const Material& material, const MaterialMoment& by_place, HeatedSurface& heated) {
-    set_oriented(by_place, heated);
-    heated.steepest = 0.77F;
-    if (settings_.ground == nullptr) return;
-    heated.kind = HeatedSurface::Kind::cover;
-    heated.cover = static_cast<std::int32_t>(covers_.size());
-    const GroundMaps& maps = *settings_.ground;
-    const SplitVariation variation = split(terms_.variation ? material.variation : TemperatureVariation{},
-                                           maps.size_m / static_cast<double>(maps.cells));
-    covers_.push_back({.heat = &by_place,
-                       .stddev_k = variation.map_stddev_k,
-                       .correlation_length_m = material.variation.correlation_length_m});
-    heated.variation_stddev_k = static_cast<float>(variation.fine_stddev_k);
-    heated.per_correlation_length = static_cast<float>(1 / variation.fine_length_m);
-  }
-
-  const std::vector<ActorState>& states_;
-  const HeatSettings& settings_;
-  const Weather& weather_;
-  HeatOfMoment moment_;
-  SceneHeatTerms terms_;
-  std::vector<GroundTemperatures::Cover> covers_;
-  SceneHeat heat_;
-  std::size_t first_ = 0;  ///< how many surfaces are of the first class
+  std::function<Moment(double later_h)> moment_at_;
+  std::vector<Ends> spans_;
 };
 
+/// What an hour adds, and what is half-way between the ends.
+void set_between(const SurfaceWarmth& first, const SurfaceWarmth& last, double hours,
+                 HeatedSurface& surface) {
+  const auto set = [per_hours = hours > 0 ? static_cast<float>(1 / hours) : 0.0F](
+                       float from, float to, float& middle, float& per_h) {
+    middle = from + (to - from) / 2;
+    per_h = (to - from) * per_hours;
+  };
+  const auto set_all = [&set](const auto& from, const auto& to, auto& middle, auto& per_h) {
+    for (std::size_t i = 0; i < from.size(); ++i) set(from[i], to[i], middle[i], per_h[i]);
+  };
+  SurfaceWarmth& middle = surface.middle;
+  SurfaceWarmth& per_h = surface.per_h;
+  set(first.temperature_k, last.temperature_k, middle.temperature_k, per_h.temperature_k);
+  set_all(first.by_normal, last.by_normal, middle.by_normal, per_h.by_normal);
+  set_all(first.sun, last.sun, middle.sun, per_h.sun);
+  set_all(first.by_depth_k, last.by_depth_k, middle.by_depth_k, per_h.by_depth_k);
+}
+
+std::vector<HeatedSurface> surfaces_between(const Ends& ends) {
+  const std::vector<HeatedSurface>& first = ends.first.surfaces->surfaces();
+  const std::vector<HeatedSurface>& last = ends.last.surfaces->surfaces();
+  std::vector<HeatedSurface> surfaces = first;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    set_between(first[i].middle, last[i].middle, ends.hours(), surfaces[i]);
+  return surfaces;
+}
+
+/// Ground of a clip by its maps.
+class GroundOfClip {
+ public:
+  GroundOfClip(const HeatSettings& settings, const Weather& weather, const Manifest& manifest,
+               const SceneHeatTerms& terms, std::uint32_t seed)
+      : settings_(settings), weather_(weather), manifest_(manifest), terms_(terms), seed_(seed) {}
+
+  void add_to(const Ends& ends, HeatSpan& span) const {
+    const std::vector<Cover>& covers = ends.first.surfaces->covers();
+    for (HeatedSurface& surface : span.surfaces) {
+      if (surface.cover >= 0) refine(*covers[static_cast<std::size_t>(surface.cover)].material, surface);
+    }
+    const std::vector<float> sunlit_first = sunlit_at(ends.first);
+    const std::vector<float> sunlit_last = sunlit_at(ends.last);
+    const GroundWarmth warmth = {.first = moment_of(ends.first, sunlit_first),
+                                 .last = moment_of(ends.last, sunlit_last),
+                                 .hours = ends.hours(),
+                                 .open_moisture = ends.first.surfaces->moment().ground_moisture,
+                                 .by_slope = terms_.facing};
+    std::vector<CoverVariation> variations;
+    for (const Cover& cover : covers) variations.push_back(map_variation(*cover.material));
+    span.ground = std::make_unique<GroundTemperatures>(
+        *settings_.ground, window_of(*settings_.ground, manifest_), variations, warmth, seed_);
+  }
+
+ private:
+  /// Leaves to the field what the maps are too coarse for.
+  void refine(const Material& material, HeatedSurface& surface) const {
+    const SplitVariation variation = split_of(material);
+    surface.variation_stddev_k = static_cast<float>(variation.fine_stddev_k);
+    surface.per_correlation_length = static_cast<float>(1 / variation.fine_length_m);
+  }
+
+  [[nodiscard]] std::vector<float> sunlit_at(const Moment& moment) const {
+    return sunlit_cells(*settings_.ground, settings_.day->weather(), weather_.solar_h + moment.later_h);
+  }
+
+  static GroundMoment moment_of(const Moment& moment, const std::vector<float>& sunlit) {
+    GroundMoment ground = {.covers = {}, .sunlit = sunlit};
+    for (const Cover& cover : moment.surfaces->covers())
+      ground.covers.push_back(&moment.surfaces->moment().materials.at(cover.heat));
+    return ground;
+  }
+
+  [[nodiscard]] SplitVariation split_of(const Material& material) const {
+    return split(terms_.variation ? material.variation : TemperatureVariation{},
+                 settings_.ground->size_m / static_cast<double>(settings_.ground->cells));
+  }
+
+  [[nodiscard]] CoverVariation map_variation(const Material& material) const {
+    return {.stddev_k = split_of(material).map_stddev_k,
+            .correlation_length_m = material.variation.correlation_length_m};
+  }
+
+  const HeatSettings& settings_;
+  const Weather& weather_;
+  const Manifest& manifest_;
+  const SceneHeatTerms& terms_;
+  std::uint32_t seed_;
+};
+
+double hours_of(const Manifest& manifest) {
+  if (manifest.frames.empty()) return 0;
+  return (manifest.frames.back().time_s - manifest.frames.front().time_s) / 3600;
+}
+
 }  // namespace
+
+float SceneHeat::middle_k(std::size_t surface) const {
+  const auto holds_middle = [](const HeatSpan& span) { return span.middle_h + span.hours / 2 >= 0; };
+  const HeatSpan& span = *std::ranges::find_if(spans, holds_middle);
+  const HeatedSurface& heated = span.surfaces.at(surface);
+  return heated.middle.temperature_k - static_cast<float>(span.middle_h) * heated.per_h.temperature_k;
+}
 
 SceneHeat heat_of_scene(const std::vector<Surface>& surfaces, const std::vector<ActorState>& states,
                         const HeatSettings& settings, const Weather& weather, const Manifest& manifest,
                         const SceneHeatTerms& terms, std::uint32_t seed) {
-  Builder builder(states, settings, weather, terms);
-  for (const Surface& surface : surfaces) builder.add(surface);
-  return builder.finish(manifest, seed);
-}
-
-std::map<std::string, std::map<std::string, double>> open_temperatures_k(
-    const std::vector<const Material*>& materials, const MaterialLibrary& library, const Weather& weather) {
-  std::map<std::string, MaterialHeat> heat;
-  for (const auto& entry : heat_of_materials(library)) {
-    const std::string& name = entry.first;
-    const bool wanted =
-        std::ranges::any_of(materials, [&](const Material* material) { return material->name == name; });
-    if (wanted || std::holds_alternative<GroundHeat>(entry.second)) heat.insert(entry);
-  }
-  std::map<std::string, std::map<std::string, double>> temperatures;
-  for (const HeatCurve& curve : open_curves(weather.day, heat))
-    temperatures[curve.material][""] = curve.day.at_k(weather.solar_h);
-  const auto soil = temperatures.find("soil");
-  BodyMoment moment = {
-      .around = {.forcing = forcing_at(weather.day, weather.solar_h),
-                 .ground_k = soil == temperatures.end() ? weather.air.temperature_k : soil->second.at("")}};
-  moment.vehicle.since_s = weather.vehicle_stopped_s.value_or(drawn_stop_s(0.5));
-  for (const Material* material : materials) {
-    if (const BodyHeat* whole = material->body_heat_of(""))
-      temperatures[material->name][""] = part_temperature_k(*whole, moment, 0.0);
-    for (const auto& [part, values] : material->parts) {
-      if (const BodyHeat* body = material->body_heat_of(part))
-        temperatures[material->name][part] = part_temperature_k(*body, moment, 0.0);
-    }
-  }
-  return temperatures;
-}
-
-std::map<std::string, MaterialHeat> heat_of_materials(const MaterialLibrary& materials) {
-  std::map<std::string, MaterialHeat> heat;
-  for (const auto& [name, material] : materials.all()) {
-    if (material.heat) heat.emplace(name, *material.heat);
-    for (const auto& [part, values] : material.parts) {
-      if (values.heat) heat.emplace(material.heat_name(part), *values.heat);
-    }
+  const auto moment_at = [&](double later_h) {
+    return Moment{later_h, std::make_shared<const HeatedSurfaces>(surfaces, states, settings, weather,
+                                                                  3600 * later_h, terms)};
+  };
+  SceneHeat heat = {.spans = {}, .spots = warm_spots(manifest, settings.day->at(weather.solar_h))};
+  const GroundOfClip ground(settings, weather, manifest, terms, seed);
+  for (const Ends& ends : Spans(moment_at).of_clip(hours_of(manifest))) {
+    heat.spans.push_back({.middle_h = ends.middle_h(),
+                          .hours = ends.hours(),
+                          .surfaces = surfaces_between(ends),
+                          .ground = nullptr});
+    if (terms.place) ground.add_to(ends, heat.spans.back());
   }
   return heat;
 }

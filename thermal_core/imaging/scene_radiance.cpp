@@ -16,6 +16,9 @@ namespace {
 
 constexpr std::size_t kSceneRowsAChunk = 8;
 
+/// So few that what the terms keep of them stays in the first cache.
+constexpr std::size_t kPixelsAtOnce = 320;
+
 /// In the planes' precision, so that pixels of the brightest material have exactly the brightest count.
 float emitted(const Material& material, Season season, const SceneRadiance::RadianceOf& radiance_of) {
   return static_cast<float>(material.emissivity * radiance_of(material.temperature_k(season)));
@@ -54,6 +57,10 @@ void require_poses(const Manifest& manifest) {
 
 CameraPose pose_in(const ManifestFrame& frame) {
   return frame.camera_to_world ? pose_of(*frame.camera_to_world) : CameraPose{};
+}
+
+bool knows_ground(const SceneHeat& heat) {
+  return !heat.spans.empty() && heat.spans.front().ground != nullptr;
 }
 
 /// Adds what work(begin, end) returns for chunks of the rows; sums of any order are equal.
@@ -98,27 +105,29 @@ SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& ma
     const Surface& surface = map_.surfaces()[i];
     const bool parts = settings.terms.parts;
     add_optics(surface,
-               settings.heat ? held_->heat.surfaces[i].temperature_k
+               settings.heat ? held_->heat.middle_k(i)
                              : static_cast<float>(surface.material->part_temperature_k(
                                    parts ? surface.part : "", settings.weather)),
                settings);
   }
   compose(settings, has_poses(manifest));
   const Terms& terms = settings.terms;
-  const bool has_maps = settings.heat && settings.heat->ground;
-  if (terms.variation || terms.sky || terms.angular || has_maps) require_poses(manifest);
+  const bool by_place = knows_ground(held_->heat);
+  const bool by_facing = settings.heat && terms.facing;
+  if (terms.variation || terms.sky || terms.angular || by_place || by_facing) require_poses(manifest);
   find_brightest();
 }
 
 void SceneRadiance::add_heat(const Manifest& manifest, const PhysicsSettings& settings,
                              const std::vector<ActorState>& states) {
   const Terms& terms = settings.terms;
-  held_->heat = heat_of_scene(
-      map_.surfaces(), states, *settings.heat, settings.weather, manifest,
-      {.parts = terms.parts, .variation = terms.variation, .normals = terms.sky || terms.angular},
-      settings.seed);
-  if (!manifest.frames.empty())
-    middle_s_ = 0.5 * (manifest.frames.front().time_s + manifest.frames.back().time_s);
+  held_->heat = heat_of_scene(map_.surfaces(), states, *settings.heat, settings.weather, manifest,
+                              {.parts = terms.parts,
+                               .variation = terms.variation,
+                               .place = terms.place && settings.heat->ground != nullptr,
+                               .facing = terms.facing},
+                              settings.seed);
+  middle_s_ = middle_s(manifest);
   std::map<const Material*, std::size_t> table_of;
   for (std::size_t i = 0; i < map_.surfaces().size(); ++i) {
     const Material* material = map_.surfaces()[i].material;
@@ -127,7 +136,7 @@ void SceneRadiance::add_heat(const Manifest& manifest, const PhysicsSettings& se
       held_->tables.push_back(
           std::make_unique<RadianceTable>(BandRadiance(settings.response, spectrum_of(*material, true))));
     }
-    held_->heat.surfaces[i].table = found->second;
+    for (HeatSpan& span : held_->heat.spans) span.surfaces[i].table = found->second;
   }
 }
 
@@ -161,8 +170,7 @@ void SceneRadiance::compose(const PhysicsSettings& settings, bool has_poses) {
   const SurfaceOpticsList& optics = held_->optics;
   if (settings.heat) {
     held_->field = std::make_unique<VariationField>(settings.seed);
-    chain_.push_back(heated_emission(held_->heat.surfaces, held_->tables, held_->heat.ground.get(),
-                                     held_->heat.spots, *held_->field));
+    chain_.push_back(heated_emission(held_->heat.spans, held_->tables, held_->heat.spots, *held_->field));
   } else if (terms.variation) {
     held_->field = std::make_unique<VariationField>(settings.seed);
     chain_.push_back(varied_emission(optics, *held_->field));
@@ -176,8 +184,7 @@ void SceneRadiance::compose(const PhysicsSettings& settings, bool has_poses) {
     chain_.push_back(orientation());
     chain_.push_back(water_pixels(optics));
   }
-  const GroundTemperatures* ground = held_->heat.ground.get();
-  if (terms.sky && ground != nullptr) chain_.push_back(mapped_sky_view(held_->heat.surfaces, *ground));
+  if (terms.sky && knows_ground(held_->heat)) chain_.push_back(mapped_sky_view());
   if (terms.angular) chain_.push_back(angular_emissivity(optics));
   const RowTerm of_sky = sky_reflection(settings.weather.air);
   const RowTerm of_path =
@@ -195,9 +202,8 @@ void SceneRadiance::compose(const PhysicsSettings& settings, bool has_poses) {
     const double at_camera = BandRadiance(settings.response).radiance(air.temperature_k + air.inversion_k);
     chain_.push_back(path_inversion(air, static_cast<float>(at_camera - air_radiance)));
   }
-  const bool has_maps = settings.heat && settings.heat->ground;
-  needs_ = {.depth = terms.variation || terms.path || has_maps || mirrors,
-            .normals = terms.sky || terms.angular,
+  needs_ = {.depth = terms.variation || terms.path || knows_ground(held_->heat) || mirrors,
+            .normals = terms.sky || terms.angular || (settings.heat && terms.facing),
             .actors = false,
             .mirrored = mirrors};
 }
@@ -217,27 +223,33 @@ float SceneRadiance::later_h(const ManifestFrame& frame) const noexcept {
 }
 
 /// What a row's water mirrors. `numbers` holds the surfaces of the row, and is empty if none are mirrored.
-void SceneRadiance::begin_mirrored(const Mirrored<Plane>& mirrored, int y, std::span<std::uint16_t> numbers,
-                                   Row& row) const {
+void SceneRadiance::begin_mirrored(const Mirrored<Plane>& mirrored, int y, std::size_t first,
+                                   std::span<std::uint16_t> numbers, Row& row) const {
   if (numbers.empty()) return;
+  const auto part = [&](const auto& plane) { return plane.row(y).subspan(first, numbers.size()); };
   const Plane<std::uint16_t>& materials = mirrored.material_index;
-  map_.number(mirrored.object_index.row(y),
-              materials.empty() ? std::span<const std::uint16_t>() : materials.row(y), numbers);
+  map_.number(part(mirrored.object_index),
+              materials.empty() ? std::span<const std::uint16_t>() : part(materials), numbers);
   row.mirrored_surface = numbers;
-  row.mirrored_depth_m = mirrored.depth_m.row(y);
-  for (std::size_t axis = 0; axis < 3; ++axis) row.mirrored_normal[axis] = mirrored.normal[axis].row(y);
+  row.mirrored_depth_m = part(mirrored.depth_m);
+  for (std::size_t axis = 0; axis < 3; ++axis) row.mirrored_normal[axis] = part(mirrored.normal[axis]);
 }
 
-void SceneRadiance::begin_row(const Passes& passes, const CameraRays* rays, int y, Row& row) const {
+void SceneRadiance::begin_row(const Passes& passes, const CameraRays* rays, int y, std::size_t first,
+                              std::span<std::uint16_t> numbers, Row& row) const {
+  const auto part = [&](const auto& plane) { return plane.row(y).subspan(first, numbers.size()); };
+  const Plane<std::uint16_t>& materials = passes.material_index;
+  map_.number(part(passes.object_index),
+              materials.empty() ? std::span<const std::uint16_t>() : part(materials), numbers);
+  row.surface = numbers;
   if (rays != nullptr) {
-    row.ray_x = rays->x().row(y);
-    row.ray_y = rays->y().row(y);
-    row.ray_length = rays->length().row(y);
+    row.ray_x = part(rays->x());
+    row.ray_y = part(rays->y());
+    row.ray_length = part(rays->length());
     row.sample_width = rays->pixel_width();
   }
-  if (needs_.depth) row.depth_m = passes.depth_m.row(y);
-  for (std::size_t axis = 0; needs_.normals && axis < 3; ++axis)
-    row.normal[axis] = passes.normal[axis].row(y);
+  if (needs_.depth) row.depth_m = part(passes.depth_m);
+  for (std::size_t axis = 0; needs_.normals && axis < 3; ++axis) row.normal[axis] = part(passes.normal[axis]);
 }
 
 Plane<float> SceneRadiance::radiance(const Passes& passes, const ManifestFrame& frame) const {
@@ -249,29 +261,30 @@ Plane<float> SceneRadiance::radiance(const Passes& passes, const ManifestFrame& 
 PassChecks SceneRadiance::radiance(const Passes& passes, const ManifestFrame& frame,
                                    Plane<float>& out) const {
   const Plane<std::uint16_t>& objects = passes.object_index;
-  const bool has_materials = !passes.material_index.empty();
-  assert(!has_materials || passes.material_index.size() == objects.size());
+  assert(passes.material_index.empty() || passes.material_index.size() == objects.size());
   const CameraRays* rays = passes.fine.factor > 1 ? held_->pixel_rays.get() : held_->rays.get();
   const CameraPose pose = pose_in(frame);
   if (out.width_px() != objects.width_px() || out.height_px() != objects.height_px()) {
     out = Plane<float>(objects.width_px(), objects.height_px());
   }
   return sum_over_rows(objects.height_px(), [&](int begin, int end) {
-    std::vector<std::uint16_t> numbers(static_cast<std::size_t>(objects.width_px()));
+    const auto width = static_cast<std::size_t>(objects.width_px());
+    std::vector<std::uint16_t> numbers(std::min(width, kPixelsAtOnce));
     std::vector<std::uint16_t> mirrored(mirrors(passes.mirrored.empty()) ? numbers.size() : 0);
     PassChecks checks;
     Row row;
     row.pose = &pose;
     row.later_h = later_h(frame);
-    row.surface = numbers;
     for (int y = begin; y < end; ++y) {
-      const auto materials = has_materials ? passes.material_index.row(y) : std::span<const std::uint16_t>();
-      map_.number(objects.row(y), materials, numbers);
-      begin_row(passes, rays, y, row);
-      begin_mirrored(passes.mirrored, y, mirrored, row);
-      checks += check_row(row);
-      row.radiance_w_m2_sr = out.row(y);
-      for (const RowTerm& term : chain_) term(row);
+      for (std::size_t first = 0; first < width; first += kPixelsAtOnce) {
+        const std::size_t count = std::min(width - first, kPixelsAtOnce);
+        begin_row(passes, rays, y, first, std::span(numbers).first(count), row);
+        begin_mirrored(passes.mirrored, y, first, std::span(mirrored).first(mirrored.empty() ? 0 : count),
+                       row);
+        checks += check_row(row);
+        row.radiance_w_m2_sr = out.row(y).subspan(first, count);
+        for (const RowTerm& term : chain_) term(row);
+      }
     }
     return checks;
   });

@@ -6,6 +6,8 @@ namespace thermal {
 
 /// Physical contributions to the signal besides the surface's own emission, which is always included.
 struct Terms {
+  bool place = false;      ///< sky view, shade and moisture of the ground by maps, depth in crowns
+  bool facing = false;     ///< the direction that a surface faces
   bool variation = false;  ///< fractal temperature field over ground and plants
   bool parts = false;      ///< parts of an actor at their own temperatures
   bool sky = false;        ///< reflection of sky and surroundings
@@ -26,6 +28,8 @@ enum class TermChoice { off, on, automatic };
 }
 
 struct TermChoices {
+  TermChoice place = TermChoice::off;
+  TermChoice facing = TermChoice::off;
   TermChoice variation = TermChoice::off;
   TermChoice parts = TermChoice::off;
   TermChoice sky = TermChoice::off;
@@ -35,17 +39,20 @@ struct TermChoices {
   TermChoice falloff = TermChoice::off;
 };
 
-/// One row per term, in order: name, choice, outcome.
+/// One row per term, in order: name, choice, outcome, and the term before it without which it has no effect.
 struct TermInfo {
   std::string_view name;
   TermChoice TermChoices::*choice;
   bool Terms::*kept;
+  bool Terms::*needed = nullptr;
 };
-inline constexpr TermInfo kTerms[] = {{"variation", &TermChoices::variation, &Terms::variation},
+inline constexpr TermInfo kTerms[] = {{"place", &TermChoices::place, &Terms::place},
+                                      {"facing", &TermChoices::facing, &Terms::facing},
+                                      {"variation", &TermChoices::variation, &Terms::variation},
                                       {"parts", &TermChoices::parts, &Terms::parts},
                                       {"sky", &TermChoices::sky, &Terms::sky},
                                       {"angular", &TermChoices::angular, &Terms::angular},
-                                      {"mirror", &TermChoices::mirror, &Terms::mirror},
+                                      {"mirror", &TermChoices::mirror, &Terms::mirror, &Terms::sky},
                                       {"path", &TermChoices::path, &Terms::path},
                                       {"falloff", &TermChoices::falloff, &Terms::falloff}};
 

@@ -59,7 +59,11 @@ Material made_of(const std::string& name, double emissivity) {
 }
 
 constexpr TermChoice kAuto = TermChoice::automatic;
-constexpr TermChoices kAllAuto = {kAuto, kAuto, kAuto, kAuto, kAuto, kAuto, kAuto};
+constexpr TermChoices kAllAuto = [] {
+  TermChoices choices;
+  for (const TermInfo& term : kTerms) choices.*term.choice = kAuto;
+  return choices;
+}();
 
 /// Soil, grass and a person seen from straight above at a distance in a winter night.
 SceneOutline savanna_from(double range_m) {
@@ -288,6 +292,29 @@ TEST_CASE("Parts are measured over actors only") {
   SceneOutline empty = savanna_from(61);
   empty.covers.pop_back();
   CHECK(effect(weigh_terms(empty, kAllAuto), "parts").spread_k == 0);
+}
+
+TEST_CASE("What places do to the ground counts by how much of the pictures lies there") {
+  SceneOutline outline = savanna_from(61);
+  // Nine tenths of the soil, half of the pictures, lie open; grass does not care: 5 % at 4 K, and none at more.
+  outline.nights.front().by_place["soil"] = {{0, 0.88}, {4, 0.12}};
+  CHECK(effect(weigh_terms(outline, kAllAuto), "place").spread_k == 4);
+  outline.nights.front().by_place["soil"] = {{0, 0.98}, {4, 0.02}};
+  const Budget level = weigh_terms(outline, kAllAuto);
+  CHECK(effect(level, "place").spread_k == 0);
+  CHECK_FALSE(level.kept.place);
+  CHECK_FALSE(level.kept.facing);
+}
+
+TEST_CASE("The sides of actors count beside all else, however small actors are") {
+  SceneOutline outline = savanna_from(61);
+  outline.nights.front().facing["soil"] = {{-0.1, 0.5}, {0.1, 0.5}};
+  CHECK_THAT(effect(weigh_terms(outline, kAllAuto), "facing").spread_k, WithinAbs(0.2, 1e-12));
+  outline.nights.front().facing["human"] = {{-1.5, 0.5}, {1, 0.5}};
+  const Budget budget = weigh_terms(outline, kAllAuto);
+  CHECK(effect(budget, "facing").spread_k == 2.5);
+  CHECK(effect(budget, "facing").actor_shift_k == 1.5);
+  CHECK(budget.kept.facing);
 }
 
 }  // namespace budget_test

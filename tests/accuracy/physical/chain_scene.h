@@ -121,6 +121,10 @@ inline thermal::Plane<float> radiance(const thermal::Terms& terms, const thermal
   return thermal::SceneRadiance(described, library(), settings(terms)).radiance(from, described.frames[0]);
 }
 
-inline constexpr thermal::Terms kAllTerms = {true, true, true, true, true, true, true};
+inline constexpr thermal::Terms kAllTerms = [] {
+  thermal::Terms terms;
+  for (const thermal::TermInfo& term : thermal::kTerms) terms.*term.kept = true;
+  return terms;
+}();
 
 }  // namespace chain_scene

@@ -54,7 +54,8 @@ TEST_CASE("A term's setting overrides the model's") {
 TEST_CASE("A term has one of three choices and a known name") {
   CHECK(fault_of("terms.sky=maybe") == R"(test.json: terms.sky = "maybe"; expected one of on, off, auto)");
   CHECK(fault_of("terms.skies=on") ==
-        "test.json: terms.skies is not a known key; expected one of variation, parts, sky, angular, mirror, "
+        "test.json: terms.skies is not a known key; expected one of place, facing, variation, parts, sky, "
+        "angular, mirror, "
         "path, "
         "falloff");
 }

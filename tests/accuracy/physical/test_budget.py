@@ -4,7 +4,7 @@ import pytest
 
 from configs import tiny
 
-TERMS = ["variation", "parts", "sky", "angular", "mirror", "path", "falloff"]
+TERMS = ["place", "facing", "variation", "parts", "sky", "angular", "mirror", "path", "falloff"]
 THIRD_OF_NETD_MK = 40 / 3
 
 
@@ -46,6 +46,30 @@ def test_what_water_mirrors_needs_an_engine_that_traces_it(veldt):
     assert untraced["spread_mk"] == traced["spread_mk"] > THIRD_OF_NETD_MK
     assert (traced["kept"], untraced["kept"]) == (True, False)
     assert untraced["impossible"] == "the engine blender does not trace what water mirrors"
+
+
+def _heated(config):
+    _physical(config)
+    config["scene"]["temperatures"] = "heat_balance"
+
+
+def test_place_and_direction_count_where_the_weather_makes_temperatures(veldt):
+    heated, table = _budget(veldt, _heated)[0], _budget(veldt)[0]
+    for term in ("place", "facing"):
+        assert heated[term]["kept"] and heated[term]["spread_mk"] > 300
+        assert (table[term]["spread_mk"], table[term]["kept"]) == (0, False)
+    assert heated["facing"]["actor_shift_mk"] > 300 and heated["place"]["actor_shift_mk"] == 0
+
+
+def test_table_1_knows_no_places(veldt):
+    def demanded(config):
+        _physical(config)
+        config["terms"] = {"place": "on"}
+
+    veldt.write("config.json", tiny(demanded))
+    done = veldt("budget", "config.json", "--json")
+    assert done.code == 2
+    assert "terms.place = on; expected off or auto, because temperatures are those of Table 1" in done.err
 
 
 def test_a_worse_camera_needs_fewer_terms(veldt):

@@ -1,5 +1,6 @@
 #include "imaging/ground_temperatures.h"
 
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -32,32 +33,55 @@ GroundMaps maps() {
   return maps;
 }
 
-/// 270 K where it is dry, 280 K where it is wet.
-MaterialMoment by_moisture() {
-  return {{.sky_view = {1}, .sunlit = {1}, .moisture = {0, 1}}, {270, 280}, {Orientation(), Orientation()}};
+MaterialMoment between_moistures(double dry_k, double wet_k) {
+  return {
+      {.sky_view = {1}, .sunlit = {1}, .moisture = {0, 1}}, {dry_k, wet_k}, {Orientation(), Orientation()}};
 }
+
+/// 270 K where it is dry, 280 K where it is wet.
+MaterialMoment by_moisture() { return between_moistures(270, 280); }
 
 GroundWindow all() { return {.width = kCells, .height = kCells}; }
 
-float at(const GroundTemperatures& ground, float x_m, float y_m, float footprint_m) {
-  const std::uint16_t surface = 0;
-  const std::int32_t cover = 0;
+/// Of one cover that keeps its temperatures.
+GroundWarmth steady(const MaterialMoment& heat) {
+  return {.first = {.covers = {&heat}, .sunlit = {}}, .last = {}};
+}
+
+GroundTemperatures ground_of(const GroundMaps& maps, const GroundWindow& window, const GroundWarmth& warmth,
+                             const CoverVariation& variation = {}) {
+  return {maps, window, {&variation, 1}, warmth, 3};
+}
+
+struct Sampled {
   float temperature_k = -1;
-  ground.sample({.surface = {&surface, 1},
-                 .cover_of_surface = {&cover, 1},
-                 .x_m = {&x_m, 1},
-                 .y_m = {&y_m, 1},
-                 .footprint_m = {&footprint_m, 1}},
-                {&temperature_k, 1});
-  return temperature_k;
+  float sky_view = 2;
+};
+
+Sampled sampled(const GroundTemperatures& ground, float x_m, float y_m, float footprint_m, float later_h = 0,
+                std::int32_t cover = 0) {
+  const std::uint16_t surface = 0;
+  Sampled result;
+  const auto bits = std::bit_cast<std::int32_t>(footprint_m);
+  ground.texture().sample({.surface = {&surface, 1},
+                           .cover_of_surface = {&cover, 1},
+                           .x_m = {&x_m, 1},
+                           .y_m = {&y_m, 1},
+                           .footprint_m = {&footprint_m, 1},
+                           .footprints = {static_cast<std::uint32_t>(bits), bits}},
+                          later_h, {&result.temperature_k, 1}, {&result.sky_view, 1});
+  return result;
+}
+
+float at(const GroundTemperatures& ground, float x_m, float y_m, float footprint_m) {
+  return sampled(ground, x_m, y_m, footprint_m).temperature_k;
 }
 
 }  // namespace
 
 TEST_CASE("Temperatures are those of the cells, in straight lines between their middles") {
   const MaterialMoment heat = by_moisture();
-  const GroundTemperatures::Cover cover = {.heat = &heat};
-  const GroundTemperatures ground(maps(), all(), {}, 0, {&cover, 1}, 1);
+  const GroundTemperatures ground = ground_of(maps(), all(), steady(heat));
   // The middle of column 10 is at -32 + 10.5 m; its moisture is 40 of 255. Steps of 1/512 K, and rounding.
   const double k10 = 270 + 10 * 40 / 255.0;
   const double k11 = 270 + 10 * 44 / 255.0;
@@ -70,8 +94,7 @@ TEST_CASE("Temperatures are those of the cells, in straight lines between their 
 
 TEST_CASE("Pixels without a cover or a place keep the temperature they had") {
   const MaterialMoment heat = by_moisture();
-  const GroundTemperatures::Cover cover = {.heat = &heat};
-  const GroundTemperatures ground(maps(), all(), {}, 0, {&cover, 1}, 1);
+  const GroundTemperatures ground = ground_of(maps(), all(), steady(heat));
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   CHECK(at(ground, kNaN, 0, 0.1F) == -1);
   CHECK(at(ground, 0, 0, kNaN) == -1);
@@ -85,32 +108,52 @@ TEST_CASE("The sky view of ground is that of its cells, and of other surfaces wh
   for (std::size_t i = 0; i < kCells * kCells; ++i)
     shaded.sky_view[i] = static_cast<std::uint8_t>(3 * (i % kCells));
   const MaterialMoment heat = by_moisture();
-  const GroundTemperatures::Cover cover = {.heat = &heat};
-  const GroundTemperatures ground(shaded, all(), {}, 0, {&cover, 1}, 1);
-  // One pixel on ground in the middle of column 10, one halfway to column 11, one on a body.
-  const std::vector<HeatedSurface> surfaces = {
-      {}, {.kind = HeatedSurface::Kind::cover, .cover = 0}, {.kind = HeatedSurface::Kind::oriented}};
-  const std::vector<std::uint16_t> surface = {1, 1, 2};
+  const GroundTemperatures ground = ground_of(shaded, all(), steady(heat));
+  // In the middle of column 10, and halfway to column 11.
+  CHECK_THAT(sampled(ground, -21.5F, 3, 0.02F).sky_view, WithinAbs(30 / 255.0, 0.0001));
+  CHECK_THAT(sampled(ground, -21.0F, 3, 0.02F).sky_view, WithinAbs(31.5 / 255.0, 0.0001));
+  CHECK(sampled(ground, -21.5F, 3, 0.02F, 0, -1).sky_view == -1);
+  CHECK(sampled(ground, -21.5F, 3, -1).sky_view == -1);
   Row row;
-  row.surface = surface;
-  row.metres = {std::vector<float>{-21.5F, -21.0F, -21.5F}, {3, 3, 3}, {0.02F, 0.02F, 0.02F}};
-  row.sky_view = {1, 1, 1};
-  mapped_sky_view(surfaces, ground)(row);
-  // Steps of 1/512, and rounding.
-  CHECK_THAT(row.sky_view[0], WithinAbs(30 / 255.0, 0.0011));
-  CHECK_THAT(row.sky_view[1], WithinAbs(31.5 / 255.0, 0.0011));
-  CHECK(row.sky_view[2] == 1);
+  row.ground_sky_view = {0.25F, -1};
+  row.sky_view = {1, 0.5F};
+  mapped_sky_view()(row);
+  CHECK(row.sky_view == std::vector<float>{0.25F, 0.5F});
   // Temperatures are what they are under an open sky: this material does not ask for it.
-  CHECK(at(ground, -21.5F, 3, 0.05F) ==
-        at(GroundTemperatures(maps(), all(), {}, 0, {&cover, 1}, 1), -21.5F, 3, 0.05F));
+  CHECK(at(ground, -21.5F, 3, 0.05F) == at(ground_of(maps(), all(), steady(heat)), -21.5F, 3, 0.05F));
+}
+
+TEST_CASE("Ground warms in a straight line through the clip, each place at its own pace") {
+  // From the first to the last frame, half an hour, dry ground warms by 1 K and wet ground by 3 K.
+  const MaterialMoment first = between_moistures(269.5, 278.5);
+  const MaterialMoment last = between_moistures(270.5, 281.5);
+  GroundWarmth warmth = steady(first);
+  warmth.last.covers = {&last};
+  warmth.hours = 0.5;
+  const GroundTemperatures ground = ground_of(maps(), all(), warmth);
+  const float x_m = GENERATE(-31.5F, -21.5F, 20.5F);
+  const double moisture = std::floor(static_cast<double>(x_m) + 32) * 4 / 255;
+  const double now_k = static_cast<double>(at(ground, x_m, 3, 0.05F));
+  for (const float later_h : {-0.25F, 0.1F, 0.25F}) {
+    // 1/127 of the fastest warming, 6 K/h, and rounding.
+    const double expected_k = now_k + (2 + 4 * moisture) * static_cast<double>(later_h);
+    CHECK_THAT(sampled(ground, x_m, 3, 0.05F, later_h).temperature_k,
+               WithinAbs(expected_k, 0.25 * 6 / 127 / 2 + 1e-4));
+  }
+}
+
+TEST_CASE("Ground without a cover has neither temperature nor sky view") {
+  const GroundTemperatures ground(maps(), all(), {}, {}, 1);
+  CHECK(sampled(ground, 0, 0, 0.1F).temperature_k == -1);
+  CHECK(sampled(ground, 0, 0, 0.1F).sky_view == -1);
 }
 
 TEST_CASE("A window shows what the whole place shows there, noise included") {
   const MaterialMoment heat = by_moisture();
-  const GroundTemperatures::Cover cover = {.heat = &heat, .stddev_k = 1, .correlation_length_m = 8};
-  const GroundTemperatures whole(maps(), all(), {}, 0, {&cover, 1}, 3);
-  const GroundTemperatures part(maps(), {.first_x = 20, .first_y = 30, .width = 12, .height = 9}, {}, 0,
-                                {&cover, 1}, 3);
+  const CoverVariation variation = {.stddev_k = 1, .correlation_length_m = 8};
+  const GroundTemperatures whole = ground_of(maps(), all(), steady(heat), variation);
+  const GroundTemperatures part =
+      ground_of(maps(), {.first_x = 20, .first_y = 30, .width = 12, .height = 9}, steady(heat), variation);
   for (float x = -11; x < -1; x += 0.7F)
     CHECK_THAT(at(part, x, 2.4F, 0.1F), WithinAbs(at(whole, x, 2.4F, 0.1F), 0.003));
 }

@@ -1,10 +1,19 @@
 #include "dataset/clip/heat_days.h"
 
 #include "base/parallel.h"
-#include "imaging/scene_heat.h"
+#include "imaging/typical_heat.h"
 #include "io/bake/ground_maps_file.h"
 
 namespace thermal {
+namespace {
+
+Path folder_of_clips(const Path& clip_passes) {
+  return std::filesystem::absolute(clip_passes).lexically_normal().parent_path();
+}
+
+}  // namespace
+
+bool has_ground_beside(const Path& clip_passes) { return has_ground_maps(folder_of_clips(clip_passes)); }
 
 std::shared_ptr<const HeatOfDay> HeatDays::of(const DayWeather& weather) {
   const std::scoped_lock lock(mutex_);
@@ -18,7 +27,7 @@ std::shared_ptr<const HeatOfDay> HeatDays::of(const DayWeather& weather) {
 }
 
 std::shared_ptr<const GroundMaps> HeatDays::ground_beside(const Path& clip_passes) {
-  const Path folder = std::filesystem::absolute(clip_passes).lexically_normal().parent_path();
+  const Path folder = folder_of_clips(clip_passes);
   const std::scoped_lock lock(mutex_);
   const auto [found, is_new] = grounds_.try_emplace(folder);
   if (is_new && assets_ && has_ground_maps(folder))

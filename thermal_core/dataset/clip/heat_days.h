@@ -14,8 +14,11 @@
 
 namespace thermal {
 
-/// The heat of a library's materials on the days of a dataset, each computed when it is first asked for, and the maps of
-/// the ground beside passes, each read once. Safe to use from several threads.
+/// Whether there are maps of the ground beside the folder of a clip's passes.
+[[nodiscard]] bool has_ground_beside(const Path& clip_passes);
+
+/// The heat of a library's materials on the days of a dataset, each computed when it is first asked for, and the maps
+/// of the ground beside passes, each read once. Safe to use from several threads.
 class HeatDays {
  public:
   /// `materials` must outlive this object.
@@ -26,7 +29,8 @@ class HeatDays {
 
   [[nodiscard]] std::shared_ptr<const HeatOfDay> of(const DayWeather& weather);
 
-  /// The maps beside the folder of a clip's passes, as `generate --keep-passes` leaves them; null without any. Needs assets.
+  /// The maps beside the folder of a clip's passes, as `generate --keep-passes` leaves them; null without any. Needs
+  /// assets.
   [[nodiscard]] std::shared_ptr<const GroundMaps> ground_beside(const Path& clip_passes);
 
  private:

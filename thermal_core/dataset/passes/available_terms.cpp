@@ -42,7 +42,9 @@ bool shows_water(const Manifest& manifest) {
 }
 
 /// What each term needs. The first missing input is reported; among several clips, that of the first.
-void add_impossible(const ClipPasses& source, const PassNeeds& planes, SceneOutline& outline) {
+void add_impossible(const ClipPasses& source, const PassesView& view, bool heat_balance,
+                    SceneOutline& outline) {
+  const PassNeeds& planes = *view.planes;
   const std::string depth = planes.depth ? "" : "no depth";
   const std::string normals = planes.normals ? "" : "no normals";
   const std::string poses = pose_lacking(source.manifest);
@@ -50,6 +52,11 @@ void add_impossible(const ClipPasses& source, const PassNeeds& planes, SceneOutl
     if (!lacking.empty())
       outline.impossible.emplace(term, fmt::format("clip {}: {}", source.manifest.clip, lacking));
   };
+  if (heat_balance) {
+    const std::string maps = view.has_ground_maps ? "" : "no maps of the ground";
+    add("place", !maps.empty() ? maps : depth.empty() ? poses : depth);
+    add("facing", normals.empty() ? poses : normals);
+  }
   add("variation", depth.empty() ? poses : depth);
   add("sky", normals.empty() ? poses : normals);
   add("angular", normals.empty() ? poses : normals);
@@ -118,7 +125,9 @@ bool tells_height(const Manifest& manifest) {
 PassesView view_of(const ClipPasses& source) {
   const PassReader reader = reader_for(source);
   const auto planes_in = [&](int frame) { return reader.planes_in(file_of(source, frame)); };
-  PassesView view = {.planes = of_a_frame(source, planes_in), .looks = {}};
+  PassesView view = {.planes = of_a_frame(source, planes_in),
+                     .looks = {},
+                     .has_ground_maps = has_ground_beside(source.folder)};
   if (view.planes && view.planes->depth && !tells_height(source.manifest))
     view.looks = looks_of(source, reader);
   return view;
@@ -152,7 +161,7 @@ SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
     const Season season = config.clip(manifest.clip, "manifest: clip").season;
     add_told_height(manifest, season, nights);
     if (!config.physical) continue;
-    if (views[i].planes) add_impossible(sources[i], *views[i].planes, outline);
+    if (views[i].planes) add_impossible(sources[i], views[i], config.heat_balance, outline);
     nights.add(season, views[i].looks);
   }
   add_ground(ground, materials, outline);

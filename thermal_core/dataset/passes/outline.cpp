@@ -4,6 +4,8 @@
 #include <numbers>
 #include <utility>
 
+#include "imaging/typical_heat.h"
+
 namespace thermal {
 namespace {
 
@@ -32,7 +34,15 @@ std::vector<SceneOutline::Look> looks_from(double height_m, double look_angle_ra
 }  // namespace
 
 SceneOutline empty_outline(const Config& config) {
-  return {.covers = {}, .nights = {}, .response = config.sensor.response, .netd_k = config.netd_k};
+  SceneOutline outline = {
+      .covers = {}, .nights = {}, .response = config.sensor.response, .netd_k = config.netd_k};
+  if (config.heat_balance) return outline;
+  const std::pair<std::string, TermChoice> of_heat[] = {{"place", config.terms.place},
+                                                        {"facing", config.terms.facing}};
+  for (const auto& [term, choice] : of_heat) {
+    if (choice == TermChoice::on) outline.impossible.emplace(term, "temperatures are those of Table 1");
+  }
+  return outline;
 }
 
 void add_actors(const std::set<std::string>& names, const MaterialLibrary& materials, SceneOutline& outline) {
@@ -56,13 +66,10 @@ void Nights::add(Season season, const std::vector<SceneOutline::Look>& looks) {
 
 std::vector<SceneOutline::Night> Nights::list(const SceneOutline& outline,
                                               const MaterialLibrary& library) const {
-  std::vector<const Material*> materials;
-  for (const SceneOutline::Cover& cover : outline.covers) materials.push_back(cover.material);
   std::vector<SceneOutline::Night> nights;
   for (const auto& [season, looks] : looks_) {
     nights.push_back({.weather = weather_of(config_, season), .looks = looks});
-    if (config_.heat_balance)
-      nights.back().heated_k = open_temperatures_k(materials, library, nights.back().weather);
+    if (config_.heat_balance) heat_night(outline.covers, library, nights.back());
   }
   return nights;
 }

@@ -49,7 +49,8 @@ class Nights {
 };
 
 /// What the pictures of a planned dataset will show: its ground, plants and species, and the viewing directions of its
-/// clips, one for each metre and degree. `config` has the plan's clips (with_flights_cut). Actors together count for 3 %. `materials` must outlive the result.
+/// clips, one for each metre and degree. `config` has the plan's clips (with_flights_cut). Actors together count for 3
+/// %. `materials` must outlive the result.
 [[nodiscard]] SceneOutline outline_of(const Config& config, const DatasetPlan& plan,
                                       const MaterialLibrary& materials);
 
@@ -57,6 +58,7 @@ class Nights {
 struct PassesView {
   std::optional<PassNeeds> planes;        ///< of its first readable frame; empty: none is readable
   std::vector<SceneOutline::Look> looks;  ///< from that frame's depths, if the manifest has no height
+  bool has_ground_maps = false;           ///< beside the passes
 };
 
 /// Inspects the first readable frame of each clip.

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "heat/surface/heat_report.h"
-#include "imaging/scene_heat.h"
+#include "imaging/typical_heat.h"
 #include "io/config/config.h"
 #include "io/config/materials.h"
 

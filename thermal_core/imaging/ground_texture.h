@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "imaging/row_kernels.h"
+
+namespace thermal {
+
+/// Values of the cells of a rectangle of the ground, [row of y, column of x], from south and west.
+struct GroundGrid {
+  std::size_t width = 0;
+  std::size_t height = 0;
+  double cells_per_m = 1;
+  double origin_x_m = 0;  ///< of its south-west corner
+  double origin_y_m = 0;
+};
+
+/// Temperature and warming of one cover, a value a cell.
+struct CoverGrid {
+  std::vector<float> temperature_k;
+  std::vector<float> per_h_k;  ///< what an hour adds
+};
+
+/// Temperatures of the covers of the ground and how much sky level ground sees, as a texture: four bytes a cell and cover,
+/// in levels of which each is half as fine as the one before.
+class GroundTexture {
+ public:
+  GroundTexture() = default;  ///< of no cover
+  GroundTexture(const GroundGrid& grid, std::vector<CoverGrid> covers, std::vector<float> sky_view);
+
+  /// Where to read: a row of places [m], the size of a pixel there [m], and the cover of each pixel by its surface; no
+  /// cover is -1.
+  struct Places {
+    std::span<const std::uint16_t> surface;
+    std::span<const std::int32_t> cover_of_surface;
+    std::span<const float> x_m;
+    std::span<const float> y_m;
+    std::span<const float> footprint_m;
+    kernels::FootprintRange footprints;  ///< that holds all of footprint_m that are finite and not negative
+  };
+
+  /// Temperatures [K] of the pixels with a cover, `later_h` after the moment of the grids, and the share of the sky that
+  /// level ground sees there: in straight lines between the middles of cells, detail smaller than a pixel averaged out.
+  /// Other pixels keep their temperature and get -1 as their sky view, as do those with a place or footprint that is not
+  /// finite or a negative footprint. Places beyond the grid have what is at its border. Steps of 1/512 K, of 1/255, and of
+  /// 1/127 of the fastest warming.
+  void sample(const Places& places, float later_h, std::span<float> temperature_k,
+              std::span<float> sky_view) const noexcept;
+
+ private:
+  struct Level {
+    std::int32_t first = 0;  ///< of its texels
+    std::int32_t width = 0;
+    std::int32_t height = 0;
+    float per_m = 0;  ///< cells of this level in a metre
+  };
+
+  void add_level(const std::vector<CoverGrid>& covers, const std::vector<float>& sky_view, std::size_t width,
+                 std::size_t height, double per_m);
+
+  float origin_x_m_ = 0;
+  float origin_y_m_ = 0;
+  float base_k_ = 0;
+  float warming_step_k_h_ = 0;
+  std::vector<Level> levels_;
+  std::vector<std::int32_t> texels_;  ///< level by level, cover by cover
+};
+
+}  // namespace thermal

@@ -1,0 +1,143 @@
+#include "imaging/heated_surfaces.h"
+
+#include <algorithm>
+
+#include "heat/body/body_heat.h"
+#include "heat/surface/leaf_layer.h"
+
+namespace thermal {
+namespace {
+
+const std::string kWholeBody;
+
+/// What a crown leaves of sky and sun to the wood below it: an estimate.
+constexpr double kBelowCrown = 0.6;
+
+/// Largest horizontal part of the normals of ground: 50 deg.
+constexpr float kSteepestGround = 0.77F;
+
+bool is_fire(const Material& material) {
+  return material.body_heat && std::holds_alternative<FirePart>(*material.body_heat);
+}
+
+}  // namespace
+
+bool is_crown(const Material& material) {
+  const auto* leaves = material.heat ? std::get_if<LeavesHeat>(&*material.heat) : nullptr;
+  return leaves != nullptr && !leaves->is_cover;
+}
+
+HeatedSurfaces::HeatedSurfaces(const std::vector<Surface>& surfaces, const std::vector<ActorState>& states,
+                               const HeatSettings& settings, const Weather& weather, double later_s,
+                               const SceneHeatTerms& terms)
+    : states_(states),
+      settings_(settings),
+      weather_(weather),
+      later_s_(later_s),
+      terms_(terms),
+      moment_(settings.day->at(weather.solar_h + later_s / 3600)) {
+  std::size_t of_first_class = 1;
+  for (const Surface& surface : surfaces) {
+    // What no actor's state concerns is the same in all classes.
+    const bool concerned =
+        surface.actor_class == 0 || surface.material->body_heat_of(surface.part) != nullptr;
+    surfaces_.push_back(concerned ? heat_of(surface) : surfaces_[surfaces_.size() % of_first_class]);
+    if (surface.actor_class == 0) of_first_class = surfaces_.size();
+  }
+}
+
+HeatedSurface HeatedSurfaces::heat_of(const Surface& surface) {
+  HeatedSurface heated;
+  const Material& material = *surface.material;
+  if (terms_.variation) {
+    heated.variation_stddev_k = static_cast<float>(material.variation.stddev_k);
+    heated.per_correlation_length = static_cast<float>(1 / material.variation.correlation_length_m);
+  }
+  const std::string& part = terms_.parts || is_fire(material) ? surface.part : kWholeBody;
+  if (const BodyHeat* body = material.body_heat_of(part)) {
+    set_body(*body, moment_of(later_by(states_.at(surface.actor_class), later_s_)), heated);
+  } else if (const MaterialHeat* heat = material.heat_of(surface.part)) {
+    const MaterialMoment& by_place = moment_.materials.at(material.heat_name(surface.part));
+    if (heat != material.heat_of("") && is_crown(material)) {
+      set_oriented(by_place.orientation(
+                       {.sky_view = kBelowCrown, .sunlit = kBelowCrown, .moisture = moment_.ground_moisture}),
+                   heated);
+    } else {
+      std::visit([&](const auto& kind) { set(kind, surface, by_place, heated); }, *heat);
+    }
+  } else {
+    heated.middle.temperature_k = static_cast<float>(material.part_temperature_k(part, weather_));
+  }
+  return heated;
+}
+
+SurfacePlace HeatedSurfaces::open_place() const { return {.moisture = moment_.ground_moisture}; }
+
+void HeatedSurfaces::set(const GroundHeat& heat, const Surface& surface, const MaterialMoment& by_place,
+                         HeatedSurface& heated) {
+  if (!heat.is_body) return set_cover(surface, by_place, heated);
+  set_oriented(by_place.orientation(open_place()), heated);
+}
+
+void HeatedSurfaces::set(const LeavesHeat& heat, const Surface& surface, const MaterialMoment& by_place,
+                         HeatedSurface& heated) {
+  if (heat.is_cover) return set_cover(surface, by_place, heated);
+  SurfacePlace place = open_place();
+  place.sky_view = kMiddleOfCrown;
+  heated.middle.temperature_k = static_cast<float>(by_place.temperature_k(place));
+  if (!terms_.place) return;
+  heated.kind = HeatedSurface::Kind::crown;
+  for (std::size_t node = 0; node < SurfaceWarmth::kDepths; ++node) {
+    const double depth_m = kCrownStepM * static_cast<double>(node);
+    place.sky_view = diffuse_through_leaves(heat.leaf_density_m2_m3 * depth_m);
+    heated.middle.by_depth_k[node] = static_cast<float>(by_place.temperature_k(place));
+  }
+}
+
+void HeatedSurfaces::set(const SlabHeat& heat, const Surface&, const MaterialMoment& by_place,
+                         HeatedSurface& heated) {
+  if (heat.is_body) return set_oriented(by_place.orientation(open_place()), heated);
+  heated.middle.temperature_k = static_cast<float>(by_place.temperature_k(open_place()));
+}
+
+BodyMoment HeatedSurfaces::moment_of(const ActorState& actor) const {
+  BodyMoment moment = {.around = {.forcing = moment_.forcing, .ground_k = moment_.ground_k}};
+  moment.activity = actor.activity;
+  moment.dress = actor.dress;
+  moment.vehicle = actor.vehicle;
+  moment.since_bath_s = actor.since_bath_s;
+  moment.fire = actor.fire;
+  if (const auto water = moment_.materials.find("water"); water != moment_.materials.end())
+    moment.refuge_k = water->second.temperature_k(open_place());
+  return moment;
+}
+
+void HeatedSurfaces::set_body(const BodyHeat& body, const BodyMoment& moment, HeatedSurface& heated) const {
+  static const OrientationFit kFit = OrientationFit::of_bodies();
+  std::vector<double> values_k;
+  for (const EastNorthUp& direction : kFit.directions())
+    values_k.push_back(part_temperature_k(body, moment, direction));
+  set_oriented(kFit.fit(values_k, moment_.sun), heated);
+  heated.middle.temperature_k = static_cast<float>(part_temperature_k(body, moment, 0.0));
+}
+
+void HeatedSurfaces::set_oriented(const Orientation& orientation, HeatedSurface& heated) const {
+  SurfaceWarmth& warmth = heated.middle;
+  warmth.temperature_k = static_cast<float>(orientation.at({0, 0, 1}));
+  if (!terms_.facing) return;
+  heated.kind = HeatedSurface::Kind::oriented;
+  const auto rounded = [](double value) { return static_cast<float>(value); };
+  std::ranges::transform(orientation.coefficients, warmth.by_normal.begin(), rounded);
+  std::ranges::transform(orientation.sun, warmth.sun.begin(), rounded);
+}
+
+void HeatedSurfaces::set_cover(const Surface& surface, const MaterialMoment& by_place,
+                               HeatedSurface& heated) {
+  set_oriented(by_place.orientation(open_place()), heated);
+  heated.steepest = kSteepestGround;
+  heated.cover = static_cast<std::int32_t>(covers_.size());
+  covers_.push_back({.material = surface.material, .heat = surface.material->heat_name(surface.part)});
+  if (terms_.place) heated.kind = HeatedSurface::Kind::cover;
+}
+
+}  // namespace thermal

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "imaging/actor_states.h"
+#include "imaging/heat_settings.h"
+#include "imaging/heated_emission.h"
+#include "imaging/surfaces.h"
+#include "scene/weather.h"
+
+namespace thermal {
+
+/// What the passes of a scene allow, and which terms it keeps.
+struct SceneHeatTerms {
+  bool parts = false;
+  bool variation = false;  ///< depths and poses are known
+  bool place =
+      false;  ///< the same, and maps of the ground; otherwise all places are open, and leaves mid-crown
+  bool facing = false;  ///< normals and poses are known; otherwise ground faces up, and bodies sideways
+};
+
+/// Whether a material is leaves of shrubs or trees, not a cover of the ground.
+[[nodiscard]] bool is_crown(const Material& material);
+
+/// A cover of the ground, in the order of its numbers.
+struct Cover {
+  const Material* material = nullptr;
+  std::string heat;  ///< its material's name among the heat of a day
+};
+
+/// The surfaces of a scene and their temperatures at one moment: `middle` of each.
+class HeatedSurfaces {
+ public:
+  /// @param states  of actors in the middle of the clip, by the class of a surface
+  /// @param later_s  of the moment than the middle of the clip, whose weather is given
+  HeatedSurfaces(const std::vector<Surface>& surfaces, const std::vector<ActorState>& states,
+                 const HeatSettings& settings, const Weather& weather, double later_s,
+                 const SceneHeatTerms& terms);
+
+  [[nodiscard]] const HeatOfMoment& moment() const noexcept { return moment_; }
+  [[nodiscard]] const std::vector<HeatedSurface>& surfaces() const noexcept { return surfaces_; }
+  [[nodiscard]] const std::vector<Cover>& covers() const noexcept { return covers_; }
+
+ private:
+  [[nodiscard]] HeatedSurface heat_of(const Surface& surface);
+  [[nodiscard]] SurfacePlace open_place() const;
+  [[nodiscard]] BodyMoment moment_of(const ActorState& actor) const;
+  void set(const GroundHeat& heat, const Surface& surface, const MaterialMoment& by_place,
+           HeatedSurface& heated);
+  void set(const LeavesHeat& heat, const Surface& surface, const MaterialMoment& by_place,
+           HeatedSurface& heated);
+  void set(const SlabHeat& heat, const Surface& surface, const MaterialMoment& by_place,
+           HeatedSurface& heated);
+  void set_body(const BodyHeat& body, const BodyMoment& moment, HeatedSurface& heated) const;
+  void set_oriented(const Orientation& orientation, HeatedSurface& heated) const;
+  void set_cover(const Surface& surface, const MaterialMoment& by_place, HeatedSurface& heated);
+
+  const std::vector<ActorState>& states_;
+  const HeatSettings& settings_;
+  Weather weather_;
+  double later_s_;
+  SceneHeatTerms terms_;
+  HeatOfMoment moment_;
+  std::vector<HeatedSurface> surfaces_;
+  std::vector<Cover> covers_;
+};
+
+}  // namespace thermal
