@@ -61,7 +61,7 @@ def test_more_than_one_percent_is_named_and_exits_3(veldt):
         f"veldt: clip one: unusable_normal_share = 0.125; {rule}"
     )
     assert (done.code, done.err) == (3, message)
-    assert done.out == "out: 1 clip made, 1 frame\n"
+    assert done.out.startswith("out: 1 clip made, 1 frame\n")
     assert _shares(veldt) == (0.25, 0.125)
     again = _convert(veldt)  # a dataset that is there says the same
     assert (again.code, again.err) == (3, message)

@@ -41,9 +41,11 @@ def _kept(veldt, dataset="out") -> set:
 
 LACKING = {
     "depth": ({"depth": False}, {"variation", "path"}, "no depth"),
-    "normals": ({"normals": False}, {"sky", "angular"}, "no normals"),
-    "poses": ({"poses": False}, {"variation", "sky", "angular"}, "frames[0] has no camera_to_world"),
+    "normals": ({"normals": False}, {"facing", "sky", "angular"}, "no normals"),
+    "poses": ({"poses": False}, {"facing", "variation", "sky", "angular"}, "frames[0] has no camera_to_world"),
 }
+# Maps of the ground come with plans alone.
+NO_MAPS = {"place": "clip one: no maps of the ground"}
 
 
 @pytest.mark.parametrize("what", LACKING)
@@ -53,7 +55,7 @@ def test_automatic_terms_are_dropped_and_reported(veldt, what):
     done = veldt("convert", "one", "--out", "out", "--progress", "none", *PHYSICAL)
     assert (done.code, done.err) == (0, "")
     reasons = {name: term["impossible"] for name, term in _terms(veldt).items() if "impossible" in term}
-    assert reasons == {name: f"clip one: {lacking}" for name in dropped}
+    assert reasons == NO_MAPS | {name: f"clip one: {lacking}" for name in dropped}
     assert not _kept(veldt) & dropped
     for name in sorted(dropped, key=list(_terms(veldt)).index):
         assert f"out: without the term {name} (clip one: {lacking})\n" in done.out
@@ -70,10 +72,18 @@ def test_a_term_asked_for_is_a_fault(veldt, what):
         assert not (veldt.folder / "out").exists()
 
 
-def test_whole_passes_lack_nothing(veldt):
+def test_whole_passes_lack_maps_alone(veldt):
     _write_clip(veldt.folder / "one")
     done = veldt("convert", "one", "--out", "out", "--progress", "none", *PHYSICAL)
-    assert (done.code, done.out) == (0, "out: 1 clip made, 3 frames\n")
+    lacking = f"out: without the term place ({NO_MAPS['place']})\n"
+    assert (done.code, done.out) == (0, "out: 1 clip made, 3 frames\n" + lacking)
+    assert {name for name, term in _terms(veldt).items() if "impossible" in term} == set(NO_MAPS)
+
+
+def test_table_1_needs_no_maps(veldt):
+    _write_clip(veldt.folder / "one")
+    done = veldt("convert", "one", "--out", "out", *PHYSICAL, "scene.temperatures=table_1")
+    assert (done.code, done.out.splitlines()[-1]) == (0, "out: 1 clip made, 3 frames")
     assert not any("impossible" in term for term in _terms(veldt).values())
 
 

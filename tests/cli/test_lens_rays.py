@@ -24,7 +24,8 @@ def _check(done) -> None:
 def _made(tmp_path_factory) -> Veldt:
     """A physical dataset with its passes: every term of the radiance follows the rays."""
     veldt = Veldt(tmp_path_factory.mktemp("made"))
-    terms = dict.fromkeys(("variation", "parts", "sky", "angular", "mirror", "path", "falloff"), "on")
+    names = ("place", "facing", "variation", "parts", "sky", "angular", "mirror", "path", "falloff")
+    terms = dict.fromkeys(names, "on")
     veldt.write("config.json", tiny(behind_a_lens) | {"sensor": {"model": "physical"}, "terms": terms})
     _check(_embree(veldt, "--keep-passes"))
     return veldt

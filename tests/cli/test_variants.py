@@ -29,7 +29,7 @@ VARIANTS = {
             "sensor": {"preset": "boson_640_14mm"},
             "camera": {"distortion": {"k1": 0}},  # the passes have no overscan
             "weather": {"air_temperature_k": 280},
-            "terms": {"sky": "on", "angular": "off"},
+            "terms": {"sky": "on", "angular": "off", "place": "off"},  # the passes have no maps of the ground
         },
         [
             "sensor.preset=boson_640_14mm",
@@ -37,6 +37,7 @@ VARIANTS = {
             "weather.air_temperature_k=280",
             "terms.sky=on",
             "terms.angular=off",
+            "terms.place=off",
         ],
     ),
     "noiseless": ({"sensor": {"noise": {"amount": 0}}}, ["sensor.noise.amount=0"]),  # the scene of "plain"

@@ -166,4 +166,54 @@ TEST_CASE("In a camera's picture 1/f noise adds its variance at the requested kn
              WithinRel(0.01 * (1 + flicker) + 1e-4 / 12, kSigmas * std::sqrt(2.0) / kSide));
 }
 
+TEST_CASE("A closing of the shutter makes 1/f noise independent of all before it, and no weaker") {
+  const FlickerFilter filter = FlickerFilter::design(kFrameRate);
+  const bool closes = GENERATE(false, true);
+  FlickerNoise noise(5, "clip", filter, kPixels);
+  std::vector<std::vector<float>> frames;
+  for (std::uint32_t frame = 0; frame < 3; ++frame) {
+    if (closes && frame > 0) noise.restart_at(frame);
+    frames.emplace_back(kPixels);
+    for (std::size_t first = 0; first < kPixels; first += 1024)
+      noise.add_next(frame, first, 1, std::span(frames.back()).subspan(first, 1024));
+  }
+  constexpr double kScatter = 1 / 101.19;  // of a correlation of 10,240 independent pairs
+  for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {0, 2}}) {
+    double product = 0;
+    for (std::size_t i = 0; i < kPixels; ++i)
+      product += static_cast<double>(frames[static_cast<std::size_t>(a)][i]) *
+                 static_cast<double>(frames[static_cast<std::size_t>(b)][i]);
+    const double correlation = product / kPixels / filter.variance();
+    CAPTURE(closes, a, b, correlation);
+    CHECK((closes ? std::abs(correlation) < kSigmas * kScatter : correlation > 0.5));
+  }
+  for (const std::vector<float>& frame : frames)
+    CHECK_THAT(mean_square(frame) / filter.variance(), WithinAbs(1, kSigmas * std::sqrt(2.0 / kPixels)));
+}
+
+TEST_CASE("The camera begins its 1/f noise again when the shutter closes, and only then") {
+  SensorParameters parameters;
+  parameters.noise.flicker_knee_hz = 100;
+  parameters.shutter.interval_s = 1;
+  parameters.netd_mk = 100;
+  const auto pictures = [&](double interval_s) {
+    parameters.shutter.interval_s = interval_s;
+    ThermalCamera camera =
+        cameras::camera(parameters, {.width_px = 128, .height_px = 80, .frame_rate_hz = 10});
+    std::vector<Plane<std::uint16_t>> frames;
+    for (int frame = 0; frame < 11; ++frame)
+      frames.push_back(camera.expose(Plane<float>(128, 80, 50.0F)).ir16);
+    return frames;
+  };
+  const auto shutter = pictures(1);
+  const auto none = pictures(0);
+  int closed = -1;
+  for (int frame = 0; frame < 11 && closed < 0; ++frame) {
+    if (shutter[static_cast<std::size_t>(frame)].pixels()[0] !=
+        none[static_cast<std::size_t>(frame)].pixels()[0])
+      closed = frame;
+  }
+  CHECK(closed > 0);  // within a second and a frame, the same bits until then
+}
+
 }  // namespace flicker_noise_test

@@ -155,6 +155,8 @@ FlickerNoise::FlickerNoise(std::uint32_t seed, std::string_view clip, const Flic
 void FlickerNoise::start(std::size_t first, std::size_t count) {
   std::array<float, kBlock> normals{};
   RandomField field = field_;
+  field.frame = restarts_;
+  for (std::vector<float>& state : states_) std::ranges::fill(std::span(state).subspan(first, count), 0.0F);
   for (std::size_t column = 0; column < poles_.size(); ++column) {
     field.stream = kFlickerStartStream + static_cast<std::uint32_t>(column);
     fill_normal(field, first, std::span(normals).first(count));

@@ -41,6 +41,13 @@ class FlickerNoise {
   /// Sets the frame at which add_next() is first called, if it is not 0.
   void begin_at(std::uint32_t frame) noexcept { begins_ = frame; }
 
+  /// Begins again at a frame, independent of all before it: as a shutter's closing does, which measures and removes what
+  /// each pixel has gathered.
+  void restart_at(std::uint32_t frame) noexcept {
+    begins_ = frame;
+    ++restarts_;
+  }
+
   /// Steps pixels [first, first + out.size()) to their next frame and adds `stddev` times the noise. `first` is a
   /// multiple of kRandomBatch. Safe to call from several threads on different pixels; every pixel must be stepped
   /// once per frame, with `frame` increasing from that of begin_at().
@@ -54,6 +61,7 @@ class FlickerNoise {
   std::vector<float> residues_;
   float direct_;
   std::uint32_t begins_ = 0;
+  std::uint32_t restarts_ = 0;
   std::vector<double> start_;  ///< Cholesky factor of the states' stationary covariance, lower, row by row
   std::vector<std::vector<float>> states_;  ///< by pole, before the step to the next frame
 };

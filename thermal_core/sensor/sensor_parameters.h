@@ -103,10 +103,10 @@ struct SensorParameters {
   double kelvin_per_count = 0.01;  ///< step of the 16-bit frames
   AgcParameters agc;
 
-  /// NETD [K] with the camera's own lens: the light that reaches a pixel falls with the square of the f-number.
+  /// NETD [K] with the camera's own lens: a pixel gets the light of a cone whose sine, squared, is 1 / (4 F^2 + 1).
   [[nodiscard]] double netd_k() const noexcept {
-    const double stops = optics.f_number / netd_f_number;
-    return 1e-3 * netd_mk * stops * stops;
+    const auto per_light = [](double f_number) { return 4 * f_number * f_number + 1; };
+    return 1e-3 * netd_mk * per_light(optics.f_number) / per_light(netd_f_number);
   }
 };
 

@@ -195,6 +195,8 @@ void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& ou
   take_in(radiance_w_m2_sr);
   if (look) look(signal_);
   pattern_.begin_frame(frame_, time_s, shutter);
+  if (flicker_ && event_ && *event_ != shutter.event) flicker_->restart_at(frame_);
+  event_ = shutter.event;
   expose_signal();
   bad_pixels_.apply(frame_, white_w_m2_sr_, signal_);
   ++frame_;

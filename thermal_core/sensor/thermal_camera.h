@@ -112,6 +112,7 @@ class ThermalCamera {
   Shutter shutter_;
   PatternNoise pattern_;
   std::optional<FlickerNoise> flicker_;
+  std::optional<std::uint32_t> event_;  ///< of the shutter, in the frame before
   BadPixels bad_pixels_;
   Agc agc_;
   Plane<float> signal_;             ///< radiance as measured by the detector

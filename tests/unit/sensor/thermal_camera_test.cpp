@@ -189,7 +189,7 @@ TEST_CASE("Noise has the standard deviation of its NETD, behind any lens and at 
   const SensorFrame frame = sensor.expose(uniform_scene(kWidth, kHeight, 300));
   double squares_k2 = 0;
   for (const std::uint16_t count : frame.ir16.pixels()) squares_k2 += std::pow(0.01 * count - 300, 2);
-  const double sigma_k = 0.040 * 1.25 * 1.25 * 1.5 * parameters.noise.amount;
+  const double sigma_k = 0.040 * (7.25 / 5) * 1.5 * parameters.noise.amount;
   constexpr double kPixels = kWidth * kHeight;
   // Rounding to counts adds 1/12. The variance of n independent normals scatters by sqrt(2 / n): 5 sigma.
   CHECK_THAT(squares_k2 / kPixels, WithinRel(sigma_k * sigma_k + 1e-4 / 12, 5 * std::sqrt(2 / kPixels)));
