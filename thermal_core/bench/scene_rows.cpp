@@ -5,6 +5,7 @@
 #include "bench/bench_scene.h"
 #include "imaging/frame_converter.h"
 #include "radiometry/band_radiance.h"
+#include "radiometry/spectral_air.h"
 
 namespace thermal {
 namespace {
@@ -21,6 +22,7 @@ class ExactChain {
         field_(settings.seed),
         rays_(scene.manifest.camera),
         pose_(pose_of(*scene.manifest.frames[0].camera_to_world)),
+        air_(settings.weather.air, settings.response),
         blackbody_(settings.response),
         air_radiance_(blackbody_.radiance(settings.weather.air.temperature_k)) {}
 
@@ -38,7 +40,7 @@ class ExactChain {
     if (terms.sky) value += reflected * surroundings_at(x, y, material, cosine);
     if (!terms.path) return value;
     const double range_m = depth_m * static_cast<double>(rays_.length().at(x, y));
-    const double through = path_transmittance(air, range_m);
+    const double through = air_.path_transmittance(range_m);
     return through * value + (1 - through) * air_radiance_;
   }
 
@@ -87,13 +89,12 @@ class ExactChain {
   }
 
   [[nodiscard]] double surroundings_at(int x, int y, const Material& material, double cosine) const {
-    const Air& air = settings_.weather.air;
     if (material.angular == AngularLaw::water) {
       const double mirrored = settings_.terms.angular || settings_.terms.sky ? cosine : 1;
-      return 1 - std::pow(1 - zenith_emissivity(air), 1 / std::max(mirrored, 0.05));
+      return air_.sky_emissivity(mirrored);
     }
     const double sky_view = 0.5 + 0.5 * static_cast<double>(scene_.passes.normal[2].at(x, y));
-    return 1 - sky_view * (1 - sky_emissivity(air));
+    return 1 - sky_view * (1 - air_.sky_emissivity());
   }
 
   const BenchScene& scene_;
@@ -102,6 +103,7 @@ class ExactChain {
   VariationField field_;
   CameraRays rays_;
   CameraPose pose_;
+  BandAir air_;
   BandRadiance blackbody_;
   double air_radiance_;
 };

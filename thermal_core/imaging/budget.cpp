@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "radiometry/band_radiance.h"
+#include "radiometry/spectral_air.h"
 
 namespace thermal {
 namespace {
@@ -43,6 +44,7 @@ class MaterialModel {
       : material_(material),
         weather_(night.weather),
         temperature_k_(night.temperature_k(material, "")),
+        air_(night.weather.air, response),
         blackbody_(response),
         band_(response, material.spectrum.value_or(EmissivitySpectrum(
                             night.heated_k.empty() ? material.emissivity : material.measured_emissivity))),
@@ -55,8 +57,8 @@ class MaterialModel {
 
   /// Emission and reflection at an angle; a fall-off factor of 1 ignores the angle.
   [[nodiscard]] double with_sky(double factor, double cosine) const {
-    const double sky = material_.angular == AngularLaw::water ? mirrored_sky_emissivity(weather_.air, cosine)
-                                                              : sky_emissivity(weather_.air);
+    const double sky =
+        material_.angular == AngularLaw::water ? air_.sky_emissivity(cosine) : air_.sky_emissivity();
     return factor * emitted(temperature_k()) + (air_radiance_ - factor * emitted_as_air_) * sky;
   }
 
@@ -67,7 +69,7 @@ class MaterialModel {
   }
 
   [[nodiscard]] double with_path(double radiance, double range_m) const {
-    const double through = path_transmittance(weather_.air, range_m);
+    const double through = air_.path_transmittance(range_m);
     return through * radiance + (1 - through) * air_radiance_ + from_inversion(range_m);
   }
 
@@ -76,13 +78,14 @@ class MaterialModel {
     const Air& air = weather_.air;
     if (!(air.inversion_k > 0)) return 0;
     return (blackbody_.radiance(air.temperature_k + air.inversion_k) - air_radiance_) *
-           mean_path_absorption(air, range_m);
+           air_.mean_path_absorption(range_m);
   }
 
  private:
   const Material& material_;
   const Weather& weather_;
   double temperature_k_;
+  BandAir air_;
   BandRadiance blackbody_;
   BandRadiance band_;
   double air_radiance_;

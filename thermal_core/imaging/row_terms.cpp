@@ -46,21 +46,21 @@ class AngleCurve {
 
 bool is_water(const SurfaceOptics& surface) { return surface.angular == AngularLaw::water; }
 
-/// Polynomials for the absorption of the path. See path_transmittance: Beer's law up to 30 m, then the fit in
-/// sqrt(range). Error against it in double precision below 1e-7, or 0.01 mK for 20 K between surface and air.
-kernels::Absorption fit_absorption(const Air& air) {
+/// Polynomials for the absorption of the path. See BandAir::path_transmittance(): Beer's law up to 30 m, then the fit
+/// in sqrt(range). Error against it in double precision below 1e-7, or 0.01 mK for 20 K between surface and air.
+kernels::Absorption fit_absorption(const BandAir& air) {
   constexpr double kNearEnd = 30;
   constexpr double kFarthest = 1000;
   const double first = std::sqrt(kNearEnd);
   const double last = std::sqrt(kFarthest);
-  const auto absorbed = [&air](double range_m) { return 1 - path_transmittance(air, range_m); };
+  const auto absorbed = [&air](double range_m) { return 1 - air.path_transmittance(range_m); };
   kernels::Absorption fit;
   fit.near_end_m = static_cast<float>(kNearEnd);
   fit.farthest_m = static_cast<float>(kFarthest);
   fit.far_middle = static_cast<float>((first + last) / 2);
   fit.far_half = static_cast<float>((last - first) / 2);
   // A power series about 0 for the near part: at range 0 the absorption must be exactly 0.
-  const double exponent = std::log(path_transmittance(air, kNearEnd));
+  const double exponent = std::log(air.path_transmittance(kNearEnd));
   double term = 1;
   for (std::size_t k = 1; k < kernels::Absorption::kTerms; ++k) {
     term *= exponent / static_cast<double>(k);
@@ -77,7 +77,7 @@ kernels::Absorption fit_absorption(const Air& air) {
 }
 
 /// The same for the mean of the absorption over the path.
-kernels::Absorption fit_mean_absorption(const Air& air) {
+kernels::Absorption fit_mean_absorption(const BandAir& air) {
   kernels::Absorption fit = fit_absorption(air);
   for (std::size_t k = 1; k < fit.near.size(); ++k) fit.near.at(k) /= static_cast<float>(k + 1);
   const auto middle = static_cast<double>(fit.far_middle);
@@ -85,7 +85,7 @@ kernels::Absorption fit_mean_absorption(const Air& air) {
   const auto far = fit_polynomial(
       [&](double x) {
         const double root = middle + x * half;
-        return mean_path_absorption(air, root * root);
+        return air.mean_path_absorption(root * root);
       },
       kernels::Absorption::kTerms);
   std::transform(far.begin(), far.end(), fit.far.begin(), [](double c) { return static_cast<float>(c); });
@@ -100,8 +100,8 @@ RowTerm emission(const SurfaceOpticsList& surfaces) {
   };
 }
 
-RowTerm sky_emission(const Air& air, float air_radiance_w_m2_sr) {
-  const AngleCurve slant([&air](double cosine) { return mirrored_sky_emissivity(air, cosine); });
+RowTerm sky_emission(const BandAir& air, float air_radiance_w_m2_sr) {
+  const AngleCurve slant([&air](double cosine) { return air.sky_emissivity(cosine); });
   return [slant, air_radiance_w_m2_sr](Row& row) {
     const kernels::CameraAxis up = axis_of(row, 2);
     for (std::size_t i = 0; i < row.surface.size(); ++i) {
@@ -296,9 +296,9 @@ RowTerm mirrored_surfaces(std::vector<RowTerm> terms, RowTerm path, float air_ra
   };
 }
 
-RowTerm sky_reflection(const Air& air) {
-  const auto sky_deficit = static_cast<float>(1 - sky_emissivity(air));
-  const AngleCurve mirrored([&air](double cosine) { return mirrored_sky_emissivity(air, cosine); });
+RowTerm sky_reflection(const BandAir& air) {
+  const auto sky_deficit = static_cast<float>(1 - air.sky_emissivity());
+  const AngleCurve mirrored([&air](double cosine) { return air.sky_emissivity(cosine); });
   return [sky_deficit, mirrored](Row& row) {
     // Water first: the diffuse kernel that follows then has nothing left to reflect there.
     for (const std::size_t i : row.water) {
@@ -312,7 +312,7 @@ RowTerm sky_reflection(const Air& air) {
   };
 }
 
-RowTerm path(const Air& air, float air_radiance_w_m2_sr) {
+RowTerm path(const BandAir& air, float air_radiance_w_m2_sr) {
   return [absorption = fit_absorption(air), air_radiance_w_m2_sr](Row& row) {
     kernels::pass_air({.surface = row.surface.data(),
                        .depth_m = row.depth_m.data(),
@@ -322,7 +322,7 @@ RowTerm path(const Air& air, float air_radiance_w_m2_sr) {
   };
 }
 
-RowTerm path_inversion(const Air& air, float more_w_m2_sr) {
+RowTerm path_inversion(const BandAir& air, float more_w_m2_sr) {
   return [share = fit_mean_absorption(air), more_w_m2_sr](Row& row) {
     kernels::warm_air({.surface = row.surface.data(),
                        .depth_m = row.depth_m.data(),

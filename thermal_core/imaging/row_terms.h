@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "radiometry/atmosphere.h"
 #include "radiometry/radiance_table.h"
+#include "radiometry/spectral_air.h"
 #include "scene/camera_geometry.h"
 #include "scene/passes.h"
 #include "scene/variation_field.h"
@@ -67,8 +67,8 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 [[nodiscard]] RowTerm emission(const SurfaceOpticsList& surfaces);
 
 /// Emission of the sky by the angle at which it is seen, for pixels without a surface; others stay as they are. See
-/// mirrored_sky_emissivity(); a ray that goes down meets the sky's rim.
-[[nodiscard]] RowTerm sky_emission(const Air& air, float air_radiance_w_m2_sr);
+/// BandAir::sky_emissivity(); a ray that goes down meets the sky's rim.
+[[nodiscard]] RowTerm sky_emission(const BandAir& air, float air_radiance_w_m2_sr);
 
 /// Emission with the fractal temperature field on the surfaces that have one. Where depth is not a positive finite
 /// number below 1e9, a surface has its mean; temperatures are clamped to the tables' 180 to 436 K.
@@ -94,14 +94,14 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 
 /// Adds the reflection of sky and surroundings: diffuse surfaces see a fraction sky_view of sky, water the mirror
 /// direction.
-[[nodiscard]] RowTerm sky_reflection(const Air& air);
+[[nodiscard]] RowTerm sky_reflection(const BandAir& air);
 
 /// Transmission and emission of the air over the true range. Depth that is NaN, infinite or beyond the path model
 /// counts as 1000 m; the sky is unaffected.
-[[nodiscard]] RowTerm path(const Air& air, float air_radiance_w_m2_sr);
+[[nodiscard]] RowTerm path(const BandAir& air, float air_radiance_w_m2_sr);
 
 /// What the path radiates more because the air is warmer towards the camera, whose radiance is `more_w_m2_sr` higher
-/// there than at the ground; see mean_path_absorption(). Must follow path().
-[[nodiscard]] RowTerm path_inversion(const Air& air, float more_w_m2_sr);
+/// there than at the ground; see BandAir::mean_path_absorption(). Must follow path().
+[[nodiscard]] RowTerm path_inversion(const BandAir& air, float more_w_m2_sr);
 
 }  // namespace thermal

@@ -150,8 +150,9 @@ void SceneRadiance::add_optics(const Surface& surface, float surface_k, const Ph
   SurfaceOptics optics;
   const bool is_sky = held_->optics.empty();
   optics.temperature_k = surface_k;
-  optics.emitted_w_m2_sr = static_cast<float>(is_sky ? sky_emissivity(weather.air) * blackbody.radiance(air_k)
-                                                     : band.radiance(temperature_k));
+  optics.emitted_w_m2_sr = static_cast<float>(
+      is_sky ? BandAir(weather.air, settings.response).sky_emissivity() * blackbody.radiance(air_k)
+             : band.radiance(temperature_k));
   optics.emitted_as_air_w_m2_sr = static_cast<float>(band.radiance(air_k));
   optics.reflected_air_w_m2_sr =
       is_sky ? 0.0F : static_cast<float>(blackbody.radiance(air_k) - band.radiance(air_k));
@@ -178,7 +179,8 @@ void SceneRadiance::compose(const PhysicsSettings& settings, bool has_poses) {
     chain_.push_back(emission(optics));
   }
   const double air_radiance = BandRadiance(settings.response).radiance(settings.weather.air.temperature_k);
-  if (has_poses) chain_.push_back(sky_emission(settings.weather.air, static_cast<float>(air_radiance)));
+  const BandAir band_air(settings.weather.air, settings.response);
+  if (has_poses) chain_.push_back(sky_emission(band_air, static_cast<float>(air_radiance)));
   if (terms.sky) chain_.push_back(reflectivity(optics));
   if (terms.sky || terms.angular) {
     chain_.push_back(orientation());
@@ -186,9 +188,8 @@ void SceneRadiance::compose(const PhysicsSettings& settings, bool has_poses) {
   }
   if (terms.sky && knows_ground(held_->heat)) chain_.push_back(mapped_sky_view());
   if (terms.angular) chain_.push_back(angular_emissivity(optics));
-  const RowTerm of_sky = sky_reflection(settings.weather.air);
-  const RowTerm of_path =
-      terms.path ? path(settings.weather.air, static_cast<float>(air_radiance)) : RowTerm();
+  const RowTerm of_sky = sky_reflection(band_air);
+  const RowTerm of_path = terms.path ? path(band_air, static_cast<float>(air_radiance)) : RowTerm();
   const bool mirrors = terms.mirror && terms.sky;
   if (mirrors) {
     std::vector<RowTerm> of_surfaces = chain_;
@@ -200,7 +201,7 @@ void SceneRadiance::compose(const PhysicsSettings& settings, bool has_poses) {
   const Air& air = settings.weather.air;
   if (of_path && air.inversion_k > 0) {
     const double at_camera = BandRadiance(settings.response).radiance(air.temperature_k + air.inversion_k);
-    chain_.push_back(path_inversion(air, static_cast<float>(at_camera - air_radiance)));
+    chain_.push_back(path_inversion(band_air, static_cast<float>(at_camera - air_radiance)));
   }
   needs_ = {.depth = terms.variation || terms.path || knows_ground(held_->heat) || mirrors,
             .normals = terms.sky || terms.angular || (settings.heat && terms.facing),

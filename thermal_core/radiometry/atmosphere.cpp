@@ -13,11 +13,6 @@ constexpr double kZeroCelsius = 273.15;
 constexpr double kLongest = 1000;  // m; path_transmittance() is Beer's law below kShortest
 constexpr double kShortest = 30;
 
-double with_clouds(double clear, double cloud_fraction) noexcept {
-  constexpr double kCloudGain = 0.84;
-  return clear + kCloudGain * (1 - clear) * cloud_fraction;
-}
-
 /// The published fit, clamped to where a transmittance can be.
 double fitted_transmittance(const Air& air, double range_m) noexcept {
   constexpr double kWeight = 1.9;
@@ -56,27 +51,6 @@ double path_transmittance(const Air& air, double range_m) noexcept {
   return fitted_transmittance(air, range);
 }
 
-double mean_path_absorption(const Air& air, double range_m) noexcept {
-  const double range = range_m < kLongest ? std::max(range_m, 0.0) : kLongest;
-  const double near = std::min(range, kShortest);
-  if (!(near > 0)) return 0;
-  // Beer's law: the mean of 1 - exp(-x) from 0 to x is 1 + expm1(-x) / x; by its series where that cancels.
-  const double depth = -std::log(fitted_transmittance(air, kShortest)) * near / kShortest;
-  const double near_mean = depth < 1e-3 ? depth / 2 - depth * depth / 6 + depth * depth * depth / 24
-                                        : 1 + std::expm1(-depth) / depth;
-  // Simpson's rule in the root of the range, in which the fit is smooth.
-  constexpr int kPanels = 64;
-  const double first = std::sqrt(kShortest);
-  const double step = (std::sqrt(range) - first) / kPanels;
-  double far_sum = 0;
-  for (int node = 0; range > kShortest && node <= kPanels; ++node) {
-    const double root = first + node * step;
-    const double weight = node == 0 || node == kPanels ? 1 : (node % 2 == 1 ? 4 : 2);
-    far_sum += weight * 2 * root * (1 - fitted_transmittance(air, root * root));
-  }
-  return (near_mean * near + far_sum * step / 3) / range;
-}
-
 double clear_zenith_emissivity(const Air& air) noexcept {
   const double e = vapour_pressure_hpa(air);
   return std::min(1.0, 0.24 + 2.98e-8 * e * e * std::exp(3000 / air.temperature_k));
@@ -85,19 +59,6 @@ double clear_zenith_emissivity(const Air& air) noexcept {
 double clear_sky_emissivity(const Air& air) noexcept {
   const double zenith = clear_zenith_emissivity(air);
   return zenith * (1.4 - 0.4 * zenith);
-}
-
-double sky_emissivity(const Air& air) noexcept {
-  return with_clouds(clear_sky_emissivity(air), air.cloud_fraction);
-}
-
-double zenith_emissivity(const Air& air) noexcept {
-  return with_clouds(clear_zenith_emissivity(air), air.cloud_fraction);
-}
-
-double mirrored_sky_emissivity(const Air& air, double cosine) noexcept {
-  constexpr double kLowest = 0.05;
-  return 1 - std::pow(1 - zenith_emissivity(air), 1 / std::max(cosine, kLowest));
 }
 
 }  // namespace thermal

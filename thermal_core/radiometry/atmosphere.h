@@ -2,22 +2,24 @@
 
 namespace thermal {
 
-/// Air temperatures that are accepted [K]: -40 to 50 deg C. Beyond, the vapour pressure's fit ends (-45 to 60 deg C), and
-/// the sky's was not measured; Table 1's temperatures are straight lines through 273 K and 293 K of air, extrapolated.
-/// Humid air ends sooner: above 25 g m^-3 of water (310 K and 60 %, 300 K and 100 %) the path stays what it is there,
-/// and a sky is never more than a blackbody (from 312 K and 60 %, 300 K and 100 %).
+/// Air temperatures that are accepted [K]: -40 to 50 deg C. Beyond, the vapour pressure's fit ends (-45 to 60 deg C),
+/// and the sky's was not measured; Table 1's temperatures are straight lines through 273 K and 293 K of air,
+/// extrapolated. Humid air ends sooner: above 25 g m^-3 of water (310 K and 60 %, 300 K and 100 %) the path stays
+/// what it is there, and a sky is never more than a blackbody (from 312 K and 60 %, 300 K and 100 %).
 inline constexpr double kColdestAirK = 233;
 inline constexpr double kHottestAirK = 323;
 
-/// The largest inversion that is accepted [K]: the camera's radiance of air is taken to change linearly along the path.
+/// The largest inversion that is accepted [K]: the camera's radiance of air is taken to change linearly along the
+/// path.
 inline constexpr double kLargestInversionK = 20;
 
-/// The state of the air near the ground.
+/// The state of the air near the ground. The functions below are figures as published, each for one band; BandAir
+/// spreads them over the spectrum.
 struct Air {
   double temperature_k = 293;
   double relative_humidity = 0.7;  ///< 0 to 1
   double cloud_fraction = 0;       ///< 0 clear to 1 overcast
-  double inversion_k = 0;          ///< how much warmer the air is at the camera, see mean_path_absorption()
+  double inversion_k = 0;  ///< how much warmer the air is at the camera, see BandAir::mean_path_absorption()
 
   /// ConfigError unless from kColdestAirK to kHottestAirK, the inversion from 0 to kLargestInversionK, and the others
   /// from 0 to 1.
@@ -39,14 +41,6 @@ struct Air {
 /// which the fit turns unphysical. NaN and infinity count as 1000 m.
 [[nodiscard]] double path_transmittance(const Air& air, double range_m) noexcept;
 
-/// 1 minus the mean of path_transmittance() over a path from the camera to `range_m`; 0 at a range of 0, NaN and infinity
-/// count as 1000 m, as there. Under an inversion the air's temperature rises linearly in height (an estimate; measured
-/// inversions are steeper near the ground), hence linearly along any straight path from what stands near the ground up
-/// to the camera. The path then radiates more than air of the ground's temperature by this share of the difference
-/// between blackbodies at the camera's and at the ground's air: the integral of (1 - r / range) d(1 - transmittance).
-/// Relative error below 1e-10.
-[[nodiscard]] double mean_path_absorption(const Air& air, double range_m) noexcept;
-
 /// Emissivity of a clear sky at the zenith in 8-14 um: 0.24 + 2.98e-8 e^2 exp(3000 / T), e in hPa, at most 1
 /// (Idso, Water Resour. Res. 17, 295, 1981).
 [[nodiscard]] double clear_zenith_emissivity(const Air& air) noexcept;
@@ -54,13 +48,5 @@ struct Air {
 /// The same averaged over the hemisphere as a diffuse surface sees it: e_z (1.4 - 0.4 e_z) (Kimball, Idso and
 /// Aase, Water Resour. Res. 18, 931, 1982).
 [[nodiscard]] double clear_sky_emissivity(const Air& air) noexcept;
-
-/// With clouds: e_0 + G (1 - e_0) n, G = 0.84 (published .78 to .9).
-[[nodiscard]] double sky_emissivity(const Air& air) noexcept;
-[[nodiscard]] double zenith_emissivity(const Air& air) noexcept;
-
-/// Emissivity of the sky in the direction that still water mirrors: the zenith's, seen through a path longer by
-/// the secant. A cosine below 0.05, 3 deg above the horizon, where no plane's secant holds, counts as 0.05.
-[[nodiscard]] double mirrored_sky_emissivity(const Air& air, double cosine) noexcept;
 
 }  // namespace thermal

@@ -4,7 +4,7 @@
 
 #include "accuracy/physical/chain_scene.h"
 #include "base/error.h"
-#include "radiometry/atmosphere.h"
+#include "radiometry/spectral_air.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 
@@ -108,7 +108,7 @@ TEST_CASE("The sky keeps its radiance whatever the other planes hold") {
   }
   const PhysicsSettings settings = chain_scene::settings({});
   // The pixel looks straight down, where no sky is: at its rim.
-  const double expected = mirrored_sky_emissivity(settings.weather.air, 0) *
+  const double expected = BandAir(settings.weather.air, settings.response).sky_emissivity(0) *
                           BandRadiance(settings.response).radiance(settings.weather.air.temperature_k);
   CHECK_THAT(static_cast<double>(sky), WithinRel(expected, 3 * kFloatRounding));
 }
@@ -199,12 +199,13 @@ TEST_CASE("The air is correct at every range and in every weather, to float roun
     const Plane<float> plane =
         SceneRadiance(manifest, chain_scene::library(), settings).radiance(passes, manifest.frames[0]);
     const Material& human = material("human");
+    const BandAir band_air(air, settings.response);
     const BandRadiance blackbody(settings.response);
     const double emitted = human.emissivity * blackbody.radiance(human.temperature_k(air.temperature_k));
     const double of_air = blackbody.radiance(air.temperature_k);
     for (int x = 0; x < kPixels; ++x) {
       const double range_m = static_cast<double>(passes.depth_m.at(x, 0) * rays.length().at(x, 0));
-      const double through = path_transmittance(air, range_m);
+      const double through = band_air.path_transmittance(range_m);
       CAPTURE(air.temperature_k, air.relative_humidity, range_m);
       // Surface and air differ by less than 30 %: the absorption of the path is accurate to 2e-7, two roundings;
       // result, one.

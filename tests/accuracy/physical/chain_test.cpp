@@ -5,7 +5,7 @@
 #include "accuracy/physical/chain_scene.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "radiometry/atmosphere.h"
+#include "radiometry/spectral_air.h"
 #include "scene/variation_field.h"
 #include "support/catch.h"
 #include "support/message_of.h"
@@ -24,6 +24,7 @@ class ExactChain {
   explicit ExactChain(const Terms& terms)
       : terms_(terms),
         settings_(chain_scene::settings(terms)),
+        band_air_(settings_.weather.air, settings_.response),
         blackbody_(settings_.response),
         field_(settings_.seed) {
     for (const auto& [name, one] : chain_scene::library().all()) {
@@ -35,7 +36,7 @@ class ExactChain {
   [[nodiscard]] double radiance(int x, int y) const {
     const Air& air = settings_.weather.air;
     if (passes_.object_index.at(x, y) == chain_scene::kSky)
-      return mirrored_sky_emissivity(air, std::max(0.0, ray(x, y, 2) / ray_length(x, y))) * air_radiance();
+      return band_air_.sky_emissivity(std::max(0.0, ray(x, y, 2) / ray_length(x, y))) * air_radiance();
     const Material& surface = material_at(x, y);
     const BandRadiance& band = bands_.at(surface.name);
     const double factor = terms_.angular ? angular_factor(surface.angular, cosine(x, y)) : 1;
@@ -44,7 +45,7 @@ class ExactChain {
       result += (air_radiance() - factor * band.radiance(air.temperature_k)) * surroundings(surface, x, y);
     }
     if (!terms_.path) return result;
-    const double through = path_transmittance(air, depth_m(x, y) * ray_length(x, y));
+    const double through = band_air_.path_transmittance(depth_m(x, y) * ray_length(x, y));
     return through * result + (1 - through) * air_radiance();
   }
 
@@ -111,19 +112,17 @@ class ExactChain {
 
   /// Reflected radiance, relative to a blackbody at air temperature.
   [[nodiscard]] double surroundings(const Material& surface, int x, int y) const {
-    const Air& air = settings_.weather.air;
     if (surface.angular == AngularLaw::water) {
-      // The sky towards the horizon: the zenith's, through a path longer by the secant; down to 3 deg above the
-      // horizon.
-      return 1 - std::pow(1 - zenith_emissivity(air), 1 / std::max(cosine(x, y), 0.05));
+      return band_air_.sky_emissivity(cosine(x, y));
     }
     const double up = along_ray(x, y) > 0 ? -normal(x, y, 2) : normal(x, y, 2);
     const double sky_view = (1 + up) / 2;
-    return sky_view * sky_emissivity(air) + (1 - sky_view);
+    return sky_view * band_air_.sky_emissivity() + (1 - sky_view);
   }
 
   Terms terms_;
   PhysicsSettings settings_;
+  BandAir band_air_;
   BandRadiance blackbody_;
   VariationField field_;
   Manifest manifest_ = chain_scene::manifest();

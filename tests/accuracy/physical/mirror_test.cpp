@@ -5,8 +5,8 @@
 
 #include "accuracy/physical/assets.h"
 #include "imaging/scene_radiance.h"
-#include "radiometry/atmosphere.h"
 #include "radiometry/band_radiance.h"
+#include "radiometry/spectral_air.h"
 #include "support/catch.h"
 #include "support/traced.h"
 
@@ -98,6 +98,7 @@ TEST_CASE("The image of a warm post in water has the water's reflectivity times 
   const BandRadiance black(response);
   const Material& water = library().find("water", "test");
   const BandRadiance of_water(response, water.spectrum.value_or(EmissivitySpectrum(water.emissivity)));
+  const BandAir band_air(air, response);
   const double air_w = black.radiance(kAirK);
   const Passes from = passes();
   for (const bool path : {false, true}) {
@@ -121,9 +122,11 @@ TEST_CASE("The image of a warm post in water has the water's reflectivity times 
             1 - angular_factor(AngularLaw::water, cosine) * of_water.radiance(kAirK) / air_w;
         const double to_water_m = kHeightM / cosine;
         const double to_post_m = static_cast<double>(from.mirrored.depth_m.at(x, y)) * length - to_water_m;
-        const auto through = [&](double range_m) { return path ? path_transmittance(air, range_m) : 1.0; };
+        const auto through = [&](double range_m) {
+          return path ? band_air.path_transmittance(range_m) : 1.0;
+        };
         const double post_w = through(to_post_m) * black.radiance(kPostK) + (1 - through(to_post_m)) * air_w;
-        const double sky_w = air_w * mirrored_sky_emissivity(air, cosine);
+        const double sky_w = air_w * band_air.sky_emissivity(cosine);
         const double expected = through(to_water_m) * reflectivity * (post_w - sky_w);
         const auto radiance_w = static_cast<double>(without.at(x, y));
         const double shift_w = static_cast<double>(with.at(x, y)) - radiance_w;
