@@ -11,6 +11,7 @@
 #include "bench/radiance_suite.h"
 #include "bench/render_suite.h"
 #include "bench/sensor_suite.h"
+#include "bench/truth_suite.h"
 #include "cli/command.h"
 #include "cli/output.h"
 #include "io/assets.h"
@@ -143,7 +144,7 @@ int show(const std::string& suite, const std::vector<Row>& rows, bool json) {
 }
 
 std::vector<std::string> suite_names() {
-  std::vector<std::string> names = {"radiance", "heat", "sensor", "labels", "convert"};
+  std::vector<std::string> names = {"radiance", "heat", "sensor", "truth", "labels", "convert"};
 #if VELDT_BALANCE
   names.emplace_back("balance");
 #endif
@@ -182,6 +183,8 @@ std::vector<thermal::RenderRow> measure_engines(const BenchArguments& options, c
 int run_bench(const BenchArguments& options, const CommonOptions& common) {
   const bool quiet = common.quiet;
   if (options.suite == "sensor") return show(options.suite, thermal::run_sensor_suite(), options.json);
+  if (options.suite == "truth")
+    return show(options.suite, thermal::run_truth_suite(teller(quiet)), options.json);
   if (options.suite == "labels") return show(options.suite, thermal::run_labels_suite(), options.json);
 #if VELDT_BALANCE
   if (options.suite == "balance")

@@ -1,0 +1,179 @@
+#include "bench/truth_case.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thermal {
+namespace {
+
+constexpr double kPsfReachPx = 2;        // by which a target's box grows: most of the light is within it
+constexpr double kTrail = 3;             // time constants of motion that belong to a moving target
+constexpr double kSignalReachPx = 6;     // of the sum over a target's signal
+constexpr double kSaturationK = 655.35;  // of 16-bit frames
+
+SensorParameters noiseless(double begin_um, double end_um, const OpticsParameters& optics, double tau_s) {
+  SensorParameters sensor;
+  sensor.response = SpectralResponse::flat(begin_um, end_um);
+  sensor.optics = optics;
+  sensor.time_constant_s = tau_s;
+  sensor.noise.amount = 0;
+  sensor.agc.mode = AgcMode::plateau;
+  return sensor;
+}
+
+TruthPreset preset_of(const std::string& name, const SensorParameters& sensor, double focal_length_mm) {
+  const OpticsParameters& optics = sensor.optics;
+  return {.name = name,
+          .sensor = sensor,
+          .truth = {.begin_um = sensor.response.begin_um(),
+                    .end_um = sensor.response.end_um(),
+                    .f_number = optics.f_number,
+                    .pitch_um = optics.pixel_pitch_um,
+                    .aberration_sigma_px = optics.aberration_sigma_px,
+                    .gaussian_sigma_px = optics.psf == Psf::gaussian ? optics.blur_sigma_px : 0,
+                    .focal_length_px = 1e3 * focal_length_mm / optics.pixel_pitch_um,
+                    .time_constant_s = sensor.time_constant_s}};
+}
+
+double lateral(double middle, double half, double pixel) { return std::abs(pixel - middle) - half; }
+
+/// A target's box, with the trail that it leaves to the right.
+TruthShape with_trail(const TruthCase& measured, TruthShape box) {
+  const double trail_px = kTrail * smear_px(measured);
+  box.x += trail_px / 2;
+  box.half_x += trail_px / 2;
+  return box;
+}
+
+}  // namespace
+
+std::vector<TruthPreset> truth_presets() {
+  return {preset_of("vue_pro 13 mm",
+                    noiseless(7.5, 13.5, {.psf = Psf::physical, .f_number = 1.25, .pixel_pitch_um = 17}, 0.01),
+                    13),
+          preset_of("boson 14 mm",
+                    noiseless(8, 14, {.psf = Psf::physical, .f_number = 1, .pixel_pitch_um = 12}, 0.01), 14),
+          preset_of("airsim_w", noiseless(8, 14, {.psf = Psf::gaussian, .blur_sigma_px = 1}, 0), 13)};
+}
+
+double px_per_m(const TruthCase& measured) {
+  return measured.preset.truth.focal_length_px / measured.distance_m;
+}
+
+double px_per_s(const TruthCase& measured) {
+  return px_per_m(measured) * (measured.speed_m_s + (measured.walks ? measured.target.walks_m_s : 0));
+}
+
+double smear_px(const TruthCase& measured) {
+  return px_per_s(measured) * measured.preset.truth.time_constant_s;
+}
+
+TruthView view_of_place(const TruthCase& measured, int place) {
+  constexpr double kGolden = 0.6180339887498949;
+  constexpr double kPlastic = 0.7548776662466927;
+  constexpr double kMarginPx = kSignalReachPx + 3;
+  const TruthShape box = bounds_of(placed(measured.target, px_per_m(measured), 0, 0));
+  const double left = std::ceil(box.half_x - box.x + kMarginPx);
+  const double top = std::ceil(box.half_y - box.y + kMarginPx);
+  const double right = box.x + box.half_x + kMarginPx + kTrail * smear_px(measured);
+  TruthView view;
+  view.width_px = static_cast<int>(left + std::ceil(right)) + 1;
+  view.height_px = static_cast<int>(top + std::ceil(box.y + box.half_y + kMarginPx)) + 1;
+  view.shapes = placed(measured.target, px_per_m(measured), left + std::fmod(kGolden * (place + 0.5), 1.0),
+                       top + std::fmod(kPlastic * (place + 0.5), 1.0));
+  return view;
+}
+
+Plane<double> apparent_k(const TruthCase& measured, const Plane<double>& radiance) {
+  Plane<double> out(radiance.width_px(), radiance.height_px());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double kelvin = truth_temperature_k(measured.preset.truth, radiance.pixels()[i]);
+    out.pixels()[i] = std::min(kelvin, kSaturationK);
+  }
+  return out;
+}
+
+Plane<double> shipped_image_k(const TruthCase& measured, const TruthView& view) {
+  constexpr double kSettled = 14;  // time constants after which a pixel has forgotten its first frame
+  ShippedClip clip = {.sensor = measured.preset.sensor,
+                      .sampling = measured.sampling,
+                      .target = measured.target.surface,
+                      .ground = kTruthSoil,
+                      .width_px = view.width_px,
+                      .height_px = view.height_px,
+                      .frame_rate_hz = measured.frame_rate_hz};
+  if (smear_px(measured) > 0) {
+    clip.frames +=
+        static_cast<int>(kSettled * measured.preset.truth.time_constant_s * measured.frame_rate_hz) + 1;
+  }
+  const double step_px = px_per_s(measured) / measured.frame_rate_hz;
+  return shipped_temperature_k(clip, [&](int frames) {
+    std::vector<TruthShape> shapes = view.shapes;
+    for (TruthShape& shape : shapes) shape.x += frames * step_px;  // it moves to the left
+    return shapes;
+  });
+}
+
+void ErrorSum::add(const TruthCase& measured, const TruthShape& box, const Plane<double>& image_k,
+                   const Plane<double>& truth_k) {
+  const TruthCamera& camera = measured.preset.truth;
+  const auto radiance = [&camera](double kelvin) {
+    return truth_band_radiance(camera.begin_um, camera.end_um, kelvin);
+  };
+  const TruthShape whole = with_trail(measured, box);
+  const double ground = kTruthSoil.emissivity * radiance(kTruthSoil.temperature_k);
+  double shipped = 0;
+  double exact = 0;
+  for (int y = 0; y < truth_k.height_px(); ++y) {
+    for (int x = 0; x < truth_k.width_px(); ++x) {
+      const double outside =
+          std::max(lateral(whole.x, whole.half_x, x + 0.5), lateral(whole.y, whole.half_y, y + 0.5));
+      if (outside > kSignalReachPx) continue;
+      shipped += radiance(image_k.at(x, y)) - ground;
+      exact += radiance(truth_k.at(x, y)) - ground;
+      if (outside > kPsfReachPx) continue;
+      const double error_k = image_k.at(x, y) - truth_k.at(x, y);
+      sum2_k2_ += error_k * error_k;
+      worst_k_ = std::max(worst_k_, std::abs(error_k));
+      ++pixels_;
+    }
+  }
+  signal_.push_back(100 * (shipped / exact - 1));
+}
+
+TruthErrors ErrorSum::errors() const {
+  const auto count = static_cast<double>(signal_.size());
+  double mean = 0;
+  for (const double value : signal_) mean += value / count;
+  double variance = 0;
+  for (const double value : signal_) variance += (value - mean) * (value - mean) / count;
+  return {.rms_mk = 1e3 * std::sqrt(sum2_k2_ / static_cast<double>(pixels_)),
+          .worst_mk = 1e3 * worst_k_,
+          .signal_percent = mean,
+          .scatter_percent = std::sqrt(variance)};
+}
+
+TruthErrors shipped_errors(const TruthCase& measured, const ContrastKernel& still) {
+  const TruthCamera& camera = measured.preset.truth;
+  const ContrastKernel kernel = still.smeared(smear_px(measured));
+  const double ground =
+      kTruthSoil.emissivity * truth_band_radiance(camera.begin_um, camera.end_um, kTruthSoil.temperature_k);
+  ErrorSum sum;
+  for (int place = 0; place < measured.places; ++place) {
+    const TruthView view = view_of_place(measured, place);
+    const Plane<double> truth = true_radiance(kernel, view.shapes, ground, view.width_px, view.height_px);
+    sum.add(measured, bounds_of(view.shapes), shipped_image_k(measured, view), apparent_k(measured, truth));
+  }
+  return sum.errors();
+}
+
+double shipped_ms(const TruthCase& measured) {
+  const ShippedClip clip = {.sensor = measured.preset.sensor,
+                            .sampling = measured.sampling,
+                            .target = measured.target.surface,
+                            .ground = kTruthSoil,
+                            .frame_rate_hz = measured.frame_rate_hz};
+  return 1e3 * shipped_frame_s(clip, placed(measured.target, px_per_m(measured), 320, 256));
+}
+
+}  // namespace thermal

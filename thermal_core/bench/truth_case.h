@@ -1,0 +1,83 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/truth_shipped.h"
+#include "bench/truth_targets.h"
+
+namespace thermal {
+
+/// A camera of the product, and the same in the truth's terms.
+struct TruthPreset {
+  std::string name;
+  SensorParameters sensor;
+  TruthCamera truth;
+};
+
+/// flir_vue_pro_640_13mm: f/1.25, 17 um; boson_640_14mm: f/1.0, 12 um; airsim_w: a Gaussian of 1 px. Without noise.
+[[nodiscard]] std::vector<TruthPreset> truth_presets();
+
+/// One measurement.
+struct TruthCase {
+  TruthTarget target;
+  TruthPreset preset = truth_presets().front();
+  ShippedSampling sampling = {"1 ray", ShippedSampling::Kind::full, 1};
+  double distance_m = 122;
+  double speed_m_s = 12;  ///< of the camera; the target walks towards it
+  bool walks = true;
+  double frame_rate_hz = 30;
+  int places = 8;  ///< between pixels
+};
+
+/// Errors of one measurement.
+struct TruthErrors {
+  double rms_mk = 0;          ///< over the target's pixels, all places
+  double worst_mk = 0;
+  double signal_percent = 0;  ///< of the sum of radiance above the ground, mean over places
+  double scatter_percent = 0; ///< its standard deviation over places
+};
+
+/// Differences of two images of apparent temperature over the target's pixels, and of their signal.
+class ErrorSum {
+ public:
+  void add(const TruthCase& measured, const TruthShape& box, const Plane<double>& image_k,
+           const Plane<double>& truth_k);
+  [[nodiscard]] TruthErrors errors() const;
+
+ private:
+  double sum2_k2_ = 0;
+  double worst_k_ = 0;
+  std::size_t pixels_ = 0;
+  std::vector<double> signal_;
+};
+
+/// The bare ground of all measurements: soil of Table 1 on a winter night.
+inline constexpr GreySurface kTruthSoil = {278, 0.914};
+
+/// Pixels per metre at the target, and how far it moves in a second and in a time constant [px].
+[[nodiscard]] double px_per_m(const TruthCase& measured);
+[[nodiscard]] double px_per_s(const TruthCase& measured);
+[[nodiscard]] double smear_px(const TruthCase& measured);
+
+/// The image around the target: its size, and the target's shapes in it at one of the places.
+struct TruthView {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<TruthShape> shapes;
+};
+[[nodiscard]] TruthView view_of_place(const TruthCase& measured, int place);
+
+/// Apparent temperature of each pixel; above the range of the 16-bit frames, its end.
+[[nodiscard]] Plane<double> apparent_k(const TruthCase& measured, const Plane<double>& radiance);
+
+/// The shipped chain's image at a place.
+[[nodiscard]] Plane<double> shipped_image_k(const TruthCase& measured, const TruthView& view);
+
+/// The shipped chain against the truth. `still` is the truth's kernel without motion.
+[[nodiscard]] TruthErrors shipped_errors(const TruthCase& measured, const ContrastKernel& still);
+
+/// Time of a whole frame of the shipped chain [ms].
+[[nodiscard]] double shipped_ms(const TruthCase& measured);
+
+}  // namespace thermal

@@ -1,0 +1,118 @@
+#include "bench/truth_rows.h"
+
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace thermal {
+namespace {
+
+double soil_radiance(const TruthCase& measured) {
+  const TruthCamera& camera = measured.preset.truth;
+  return kTruthSoil.emissivity *
+         truth_band_radiance(camera.begin_um, camera.end_um, kTruthSoil.temperature_k);
+}
+
+/// An image of a place.
+using TruthImage = std::function<Plane<double>(const TruthView& view)>;
+
+RenderRow row_of(const std::string& group, const std::string& name, const TruthCase& measured,
+                 const TruthImage& image_k, const TruthImage& truth_k) {
+  ErrorSum sum;
+  for (int place = 0; place < measured.places; ++place) {
+    const TruthView view = view_of_place(measured, place);
+    sum.add(measured, bounds_of(view.shapes), image_k(view), truth_k(view));
+  }
+  const TruthErrors errors = sum.errors();
+  return {.group = group,
+          .name = name,
+          .figures = {{"rms mK", errors.rms_mk},
+                      {"worst mK", errors.worst_mk},
+                      {"signal %", errors.signal_percent},
+                      {"scatter %", errors.scatter_percent}}};
+}
+
+TruthImage image_by(const TruthCase& measured, const ContrastKernel& kernel, int samples = 0) {
+  return [&measured, &kernel, samples](const TruthView& view) {
+    return apparent_k(measured, true_radiance(kernel, view.shapes, soil_radiance(measured), view.width_px,
+                                              view.height_px, samples));
+  };
+}
+
+/// The still image of each frame, mixed as the shipped camera mixes frames.
+TruthImage image_with_lag(const TruthCase& measured, const ContrastKernel& still) {
+  return [&measured, &still](const TruthView& view) {
+    const double kept = std::exp(-1 / (measured.frame_rate_hz * measured.preset.truth.time_constant_s));
+    const double step_px = px_per_s(measured) / measured.frame_rate_hz;
+    Plane<double> mixed(view.width_px, view.height_px);
+    std::vector<TruthShape> shapes = view.shapes;
+    double weight = 1 - kept;
+    double rest = 1;
+    while (rest > 1e-6) {
+      const Plane<double> frame =
+          true_radiance(still, shapes, soil_radiance(measured), view.width_px, view.height_px);
+      rest -= weight;
+      if (rest <= 1e-6) weight += rest;
+      for (std::size_t i = 0; i < mixed.size(); ++i) mixed.pixels()[i] += weight * frame.pixels()[i];
+      for (TruthShape& shape : shapes) shape.x += step_px;
+      weight *= kept;
+    }
+    return apparent_k(measured, mixed);
+  };
+}
+
+TruthCase at_rest(TruthCase measured) {
+  measured.speed_m_s = 0;
+  measured.walks = false;
+  return measured;
+}
+
+}  // namespace
+
+std::vector<RenderRow> share_rows(const TruthCase& usual, const ContrastKernel& still) {
+  const std::string group = "share of the error";
+  const TruthCase resting = at_rest(usual);
+  const ContrastKernel moving = still.smeared(smear_px(usual));
+  const ContrastKernel grey(usual.preset.truth, usual.target.surface, kTruthSoil, {}, 300);
+  TruthCase fine = resting;
+  fine.sampling = {"32 x 32", ShippedSampling::Kind::full, 32};
+  const TruthImage shipped = [&fine](const TruthView& view) { return shipped_image_k(fine, view); };
+  std::vector<RenderRow> rows;
+  for (const int factor : {1, 2, 4, 8}) {
+    rows.push_back(row_of(group, "sampling, " + std::to_string(factor) + " x " + std::to_string(factor),
+                          resting, image_by(resting, still, factor), image_by(resting, still)));
+  }
+  rows.push_back(row_of(group, "optics", resting, shipped, image_by(resting, still)));
+  rows.push_back(row_of(group, "band", resting, image_by(resting, grey), image_by(resting, still)));
+  rows.push_back(row_of(group, "lag by frames", usual, image_with_lag(usual, still), image_by(usual, moving)));
+  return rows;
+}
+
+std::vector<RenderRow> convergence_rows(const TruthCase& usual, const ContrastKernel& still) {
+  const TruthSteps steps = still.steps();
+  const TruthSteps lines = {.lines_per_px = 2 * steps.lines_per_px};
+  const TruthSteps cells = {.cells_per_px = 2 * steps.cells_per_px};
+  const TruthSteps times = {.times_per_cell = 2 * steps.times_per_cell};
+  const TruthSteps wavelengths = {.wavelengths = 2 * steps.wavelengths};
+  const TruthSteps radius = {.radius_px = 2 * steps.radius_px};
+  const TruthSteps all = {.lines_per_px = lines.lines_per_px,
+                          .cells_per_px = cells.cells_per_px,
+                          .wavelengths = wavelengths.wavelengths,
+                          .times_per_cell = times.times_per_cell};
+  TruthCase fewer = usual;
+  fewer.places = 2;
+  const ContrastKernel moving = still.smeared(smear_px(fewer));
+  std::vector<RenderRow> rows;
+  for (const auto& [name, finer] : {std::pair{"64 x 64 rays", lines}, std::pair{"cells of 1/32 px", cells},
+                                    std::pair{"half the time step", times},
+                                    std::pair{"twice the wavelengths", wavelengths},
+                                    std::pair{"twice the radius", radius}, std::pair{"all but the radius", all}}) {
+    const ContrastKernel kernel =
+        ContrastKernel(fewer.preset.truth, fewer.target.surface, kTruthSoil, finer).smeared(smear_px(fewer));
+    rows.push_back(row_of("convergence of the truth", name, fewer, image_by(fewer, kernel),
+                          image_by(fewer, moving)));
+  }
+  return rows;
+}
+
+}  // namespace thermal

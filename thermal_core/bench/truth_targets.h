@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/image.h"
+#include "bench/truth_optics.h"
+
+namespace thermal {
+
+/// An ellipse or a rectangle about a middle; lengths are half sides.
+struct TruthShape {
+  bool is_ellipse = true;
+  double x = 0;
+  double y = 0;
+  double half_x = 1;
+  double half_y = 1;
+};
+
+/// A silhouette from straight above, of one temperature. Its shapes are in metres, or in pixels.
+struct TruthTarget {
+  std::string name;
+  GreySurface surface;
+  std::vector<TruthShape> shapes;
+  double walks_m_s = 0;
+  bool in_px = false;
+};
+
+/// Person, impala, elephant, truck and fire, simple shapes of true size; of 1 and 0.3 px; an edge and bars of 6 px.
+[[nodiscard]] std::vector<TruthTarget> truth_targets();
+[[nodiscard]] const TruthTarget& truth_target(const std::vector<TruthTarget>& targets,
+                                              const std::string& name);
+
+/// The target in pixels, moved to a place.
+[[nodiscard]] std::vector<TruthShape> placed(const TruthTarget& target, double px_per_m, double x_px,
+                                             double y_px);
+
+[[nodiscard]] bool is_inside(const std::vector<TruthShape>& shapes, double x_px, double y_px) noexcept;
+
+/// Where a line of an image is on the target: pairs of begin and end, disjoint, from left to right.
+[[nodiscard]] std::vector<std::pair<double, double>> spans_at(const std::vector<TruthShape>& shapes,
+                                                              double y_px);
+
+/// The smallest rectangle around all shapes.
+[[nodiscard]] TruthShape bounds_of(const std::vector<TruthShape>& shapes);
+
+/// Radiance of each pixel [W m^-2 sr^-1] of a target in front of ground of this radiance.
+/// @param samples  0: lines with exact edges. Otherwise only this many rays across a pixel see the target, as those of a
+/// renderer, and the optics are still exact: what sampling alone is worth
+[[nodiscard]] Plane<double> true_radiance(const ContrastKernel& kernel, const std::vector<TruthShape>& shapes,
+                                          double ground_w_m2_sr, int width_px, int height_px, int samples = 0);
+
+}  // namespace thermal
