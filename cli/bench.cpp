@@ -156,6 +156,7 @@ std::vector<std::string> suite_names() {
 struct BenchArguments {
   std::string suite = "radiance";
   std::string blender;
+  std::string only;
   bool json = false;
 };
 
@@ -184,7 +185,7 @@ int run_bench(const BenchArguments& options, const CommonOptions& common) {
   const bool quiet = common.quiet;
   if (options.suite == "sensor") return show(options.suite, thermal::run_sensor_suite(), options.json);
   if (options.suite == "truth")
-    return show(options.suite, thermal::run_truth_suite(teller(quiet)), options.json);
+    return show(options.suite, thermal::run_truth_suite(teller(quiet), options.only), options.json);
   if (options.suite == "labels") return show(options.suite, thermal::run_labels_suite(), options.json);
 #if VELDT_BALANCE
   if (options.suite == "balance")
@@ -213,6 +214,9 @@ void add_bench(CLI::App& app, Session& session) {
       ->add_option("--blender", options->blender,
                    "Blender that --suite render and engines measure, instead of the one on PATH")
       ->type_name("PATH");
+  command->add_option("--only", options->only, "Group of rows that --suite truth measures, instead of all")
+      ->check(CLI::IsMember(thermal::truth_groups()))
+      ->type_name("GROUP");
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &session] {
     session.run = [options, &session] { return run_bench(*options, session.common); };

@@ -6,7 +6,8 @@
 namespace thermal {
 namespace {
 
-constexpr double kPsfReachPx = 2;        // by which a target's box grows: most of the light is within it
+// By which a target's box grows: half a pixel and the first dark ring, 1.22 wavelengths x f-number / pitch = 0.95 px at f/1.25.
+constexpr double kPsfReachPx = 1.5;
 constexpr double kTrail = 3;             // time constants of motion that belong to a moving target
 constexpr double kSignalReachPx = 6;     // of the sum over a target's signal
 constexpr double kSaturationK = 655.35;  // of 16-bit frames
@@ -48,9 +49,9 @@ TruthShape with_trail(const TruthCase& measured, TruthShape box) {
 }  // namespace
 
 std::vector<TruthPreset> truth_presets() {
-  return {preset_of("vue_pro 13 mm",
-                    noiseless(7.5, 13.5, {.psf = Psf::physical, .f_number = 1.25, .pixel_pitch_um = 17}, 0.01),
-                    13),
+  return {preset_of(
+              "vue_pro 13 mm",
+              noiseless(7.5, 13.5, {.psf = Psf::physical, .f_number = 1.25, .pixel_pitch_um = 17}, 0.01), 13),
           preset_of("boson 14 mm",
                     noiseless(8, 14, {.psf = Psf::physical, .f_number = 1, .pixel_pitch_um = 12}, 0.01), 14),
           preset_of("airsim_w", noiseless(8, 14, {.psf = Psf::gaussian, .blur_sigma_px = 1}, 0), 13)};
@@ -122,6 +123,8 @@ void ErrorSum::add(const TruthCase& measured, const TruthShape& box, const Plane
   };
   const TruthShape whole = with_trail(measured, box);
   const double ground = kTruthSoil.emissivity * radiance(kTruthSoil.temperature_k);
+  const double counts = kelvin_per_count_ > 0 ? truth_temperature_k(camera, ground) / kelvin_per_count_ : 0;
+  const double image_ground = counts > 0 ? radiance(kelvin_per_count_ * std::round(counts)) : ground;
   double shipped = 0;
   double exact = 0;
   for (int y = 0; y < truth_k.height_px(); ++y) {
@@ -129,7 +132,7 @@ void ErrorSum::add(const TruthCase& measured, const TruthShape& box, const Plane
       const double outside =
           std::max(lateral(whole.x, whole.half_x, x + 0.5), lateral(whole.y, whole.half_y, y + 0.5));
       if (outside > kSignalReachPx) continue;
-      shipped += radiance(image_k.at(x, y)) - ground;
+      shipped += radiance(image_k.at(x, y)) - image_ground;
       exact += radiance(truth_k.at(x, y)) - ground;
       if (outside > kPsfReachPx) continue;
       const double error_k = image_k.at(x, y) - truth_k.at(x, y);
@@ -158,7 +161,7 @@ TruthErrors shipped_errors(const TruthCase& measured, const ContrastKernel& stil
   const ContrastKernel kernel = still.smeared(smear_px(measured));
   const double ground =
       kTruthSoil.emissivity * truth_band_radiance(camera.begin_um, camera.end_um, kTruthSoil.temperature_k);
-  ErrorSum sum;
+  ErrorSum sum(measured.preset.sensor.kelvin_per_count);
   for (int place = 0; place < measured.places; ++place) {
     const TruthView view = view_of_place(measured, place);
     const Plane<double> truth = true_radiance(kernel, view.shapes, ground, view.width_px, view.height_px);

@@ -27,25 +27,29 @@ struct TruthCase {
   double speed_m_s = 12;  ///< of the camera; the target walks towards it
   bool walks = true;
   double frame_rate_hz = 30;
-  int places = 8;  ///< between pixels
+  int places = 32;  ///< between pixels
 };
 
 /// Errors of one measurement.
 struct TruthErrors {
-  double rms_mk = 0;          ///< over the target's pixels, all places
+  double rms_mk = 0;  ///< over the target's pixels, all places
   double worst_mk = 0;
-  double signal_percent = 0;  ///< of the sum of radiance above the ground, mean over places
-  double scatter_percent = 0; ///< its standard deviation over places
+  double signal_percent = 0;   ///< of the sum of radiance above the ground, mean over places
+  double scatter_percent = 0;  ///< its standard deviation over places
 };
 
 /// Differences of two images of apparent temperature over the target's pixels, and of their signal.
 class ErrorSum {
  public:
+  /// @param kelvin_per_count  to which the image is rounded, and the ground in it; 0: not rounded
+  explicit ErrorSum(double kelvin_per_count) : kelvin_per_count_(kelvin_per_count) {}
+
   void add(const TruthCase& measured, const TruthShape& box, const Plane<double>& image_k,
            const Plane<double>& truth_k);
   [[nodiscard]] TruthErrors errors() const;
 
  private:
+  double kelvin_per_count_;
   double sum2_k2_ = 0;
   double worst_k_ = 0;
   std::size_t pixels_ = 0;

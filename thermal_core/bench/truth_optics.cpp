@@ -46,8 +46,7 @@ std::vector<double> lens_by_radius(const TruthCamera& camera, const std::vector<
     const double wavelength_um =
         camera.begin_um + (camera.end_um - camera.begin_um) * (static_cast<double>(i) + 0.5) / count;
     for (std::size_t r = 0; r < radii; ++r) {
-      table[r] +=
-          weights[i] * airy_per_px2(camera, wavelength_um, static_cast<double>(r) / kTruthRadiiPerPx);
+      table[r] += weights[i] * airy_per_px2(camera, wavelength_um, static_cast<double>(r) / kTruthRadiiPerPx);
     }
   }
   return table;
@@ -141,15 +140,13 @@ std::array<double, 4> cubic_weights(double t) noexcept {
 void integrate_row(const std::vector<double>& half, double cell_px, double* sums, std::size_t columns) {
   const std::size_t middle = columns / 2;
   const auto value = [&](std::ptrdiff_t column) {
-    const auto from_middle =
-        static_cast<std::size_t>(std::abs(column - static_cast<std::ptrdiff_t>(middle)));
+    const auto from_middle = static_cast<std::size_t>(std::abs(column - static_cast<std::ptrdiff_t>(middle)));
     return half[std::min(from_middle, half.size() - 1)];
   };
   sums[0] = 0;
   for (std::size_t x = 1; x < columns; ++x) {
     const auto at = static_cast<std::ptrdiff_t>(x);
-    sums[x] = sums[x - 1] + cell_px / 24 *
-                                (13 * (value(at - 1) + value(at)) - value(at - 2) - value(at + 1));
+    sums[x] = sums[x - 1] + cell_px / 24 * (13 * (value(at - 1) + value(at)) - value(at - 2) - value(at + 1));
   }
 }
 
@@ -159,8 +156,8 @@ std::array<double, 4> smear_weights(double cells_per_time_constant, int times) {
   for (int i = 0; i < times; ++i) {
     const double begin = static_cast<double>(i) / times;
     const double end = static_cast<double>(i + 1) / times;
-    const double share = std::exp(-(1 - end) / cells_per_time_constant) -
-                         std::exp(-(1 - begin) / cells_per_time_constant);
+    const double share =
+        std::exp(-(1 - end) / cells_per_time_constant) - std::exp(-(1 - begin) / cells_per_time_constant);
     const std::array<double, 4> cubic = cubic_weights(0.5 * (begin + end));
     for (std::size_t k = 0; k < 4; ++k) weights[k] += share * cubic[k];
   }
@@ -170,7 +167,7 @@ std::array<double, 4> smear_weights(double cells_per_time_constant, int times) {
 }  // namespace
 
 double truth_band_radiance(double begin_um, double end_um, double temperature_k) {
-  constexpr int kSteps = 1000;
+  constexpr int kSteps = 120;
   const double step_um = (end_um - begin_um) / kSteps;
   double sum = truth_planck(begin_um, temperature_k) + truth_planck(end_um, temperature_k);
   for (int i = 1; i < kSteps; ++i)

@@ -17,8 +17,8 @@ double soil_radiance(const TruthCase& measured) {
 using TruthImage = std::function<Plane<double>(const TruthView& view)>;
 
 RenderRow row_of(const std::string& group, const std::string& name, const TruthCase& measured,
-                 const TruthImage& image_k, const TruthImage& truth_k) {
-  ErrorSum sum;
+                 const TruthImage& image_k, const TruthImage& truth_k, double kelvin_per_count = 0) {
+  ErrorSum sum(kelvin_per_count);
   for (int place = 0; place < measured.places; ++place) {
     const TruthView view = view_of_place(measured, place);
     sum.add(measured, bounds_of(view.shapes), image_k(view), truth_k(view));
@@ -69,8 +69,8 @@ TruthCase at_rest(TruthCase measured) {
 
 }  // namespace
 
-std::vector<RenderRow> share_rows(const TruthCase& usual, const ContrastKernel& still) {
-  const std::string group = "share of the error";
+std::vector<RenderRow> share_rows(const std::string& group, const TruthCase& usual,
+                                  const ContrastKernel& still) {
   const TruthCase resting = at_rest(usual);
   const ContrastKernel moving = still.smeared(smear_px(usual));
   const ContrastKernel grey(usual.preset.truth, usual.target.surface, kTruthSoil, {}, 300);
@@ -82,13 +82,16 @@ std::vector<RenderRow> share_rows(const TruthCase& usual, const ContrastKernel& 
     rows.push_back(row_of(group, "sampling, " + std::to_string(factor) + " x " + std::to_string(factor),
                           resting, image_by(resting, still, factor), image_by(resting, still)));
   }
-  rows.push_back(row_of(group, "optics", resting, shipped, image_by(resting, still)));
+  rows.push_back(row_of(group, "optics", resting, shipped, image_by(resting, still),
+                        fine.preset.sensor.kelvin_per_count));
   rows.push_back(row_of(group, "band", resting, image_by(resting, grey), image_by(resting, still)));
-  rows.push_back(row_of(group, "lag by frames", usual, image_with_lag(usual, still), image_by(usual, moving)));
+  rows.push_back(
+      row_of(group, "lag by frames", usual, image_with_lag(usual, still), image_by(usual, moving)));
   return rows;
 }
 
-std::vector<RenderRow> convergence_rows(const TruthCase& usual, const ContrastKernel& still) {
+std::vector<RenderRow> convergence_rows(const std::string& group, const TruthCase& usual,
+                                        const ContrastKernel& still) {
   const TruthSteps steps = still.steps();
   const TruthSteps lines = {.lines_per_px = 2 * steps.lines_per_px};
   const TruthSteps cells = {.cells_per_px = 2 * steps.cells_per_px};
@@ -100,17 +103,16 @@ std::vector<RenderRow> convergence_rows(const TruthCase& usual, const ContrastKe
                           .wavelengths = wavelengths.wavelengths,
                           .times_per_cell = times.times_per_cell};
   TruthCase fewer = usual;
-  fewer.places = 2;
+  fewer.places = 4;
   const ContrastKernel moving = still.smeared(smear_px(fewer));
   std::vector<RenderRow> rows;
-  for (const auto& [name, finer] : {std::pair{"64 x 64 rays", lines}, std::pair{"cells of 1/32 px", cells},
-                                    std::pair{"half the time step", times},
-                                    std::pair{"twice the wavelengths", wavelengths},
-                                    std::pair{"twice the radius", radius}, std::pair{"all but the radius", all}}) {
+  for (const auto& [name, finer] :
+       {std::pair{"64 x 64 rays", lines}, std::pair{"cells of 1/32 px", cells},
+        std::pair{"half the time step", times}, std::pair{"twice the wavelengths", wavelengths},
+        std::pair{"twice the radius", radius}, std::pair{"all but the radius", all}}) {
     const ContrastKernel kernel =
         ContrastKernel(fewer.preset.truth, fewer.target.surface, kTruthSoil, finer).smeared(smear_px(fewer));
-    rows.push_back(row_of("convergence of the truth", name, fewer, image_by(fewer, kernel),
-                          image_by(fewer, moving)));
+    rows.push_back(row_of(group, name, fewer, image_by(fewer, kernel), image_by(fewer, moving)));
   }
   return rows;
 }

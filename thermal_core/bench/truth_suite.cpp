@@ -1,6 +1,5 @@
 #include "bench/truth_suite.h"
 
-#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -13,12 +12,22 @@ namespace {
 
 using Kind = ShippedSampling::Kind;
 
+const std::string kMoving = "sampling, moving";
+const std::string kStill = "sampling, still";
+const std::string kSpeed = "speed of the camera";
+const std::string kFrameRate = "frame rate";
+const std::string kOptics = "optics, still";
+const std::string kShares = "share of the error";
+const std::string kConvergence = "convergence of the truth";
+
 const std::vector<ShippedSampling>& samplings() {
-  static const std::vector<ShippedSampling> all = {
-      {"1 ray", Kind::full, 1},          {"2 x 2", Kind::full, 2},
-      {"4 x 4", Kind::full, 4},          {"8 x 8", Kind::full, 8},
-      {"adaptive 2 x 2", Kind::adaptive, 2}, {"adaptive 4 x 4", Kind::adaptive, 4},
-      {"coverage", Kind::coverage, 32}};
+  static const std::vector<ShippedSampling> all = {{"1 ray", Kind::full, 1},
+                                                   {"2 x 2", Kind::full, 2},
+                                                   {"4 x 4", Kind::full, 4},
+                                                   {"8 x 8", Kind::full, 8},
+                                                   {"adaptive 2 x 2", Kind::adaptive, 2},
+                                                   {"adaptive 4 x 4", Kind::adaptive, 4},
+                                                   {"coverage", Kind::coverage, 32}};
   return all;
 }
 
@@ -26,11 +35,11 @@ const std::vector<ShippedSampling>& samplings() {
 class Kernels {
  public:
   const ContrastKernel& of(const TruthCase& measured) {
-    const std::string name = measured.preset.name + std::to_string(measured.target.surface.temperature_k);
+    const GreySurface& surface = measured.target.surface;
+    const std::string name = measured.preset.name + std::to_string(surface.temperature_k);
     const auto found = kernels_.find(name);
     if (found != kernels_.end()) return found->second;
-    return kernels_
-        .emplace(name, ContrastKernel(measured.preset.truth, measured.target.surface, kTruthSoil, {}))
+    return kernels_.emplace(name, ContrastKernel(measured.preset.truth, surface, kTruthSoil, {}))
         .first->second;
   }
 
@@ -40,9 +49,13 @@ class Kernels {
 
 class TruthTable {
  public:
-  explicit TruthTable(std::function<void(const std::string&)> announce) : announce_(std::move(announce)) {}
+  TruthTable(std::function<void(const std::string&)> announce, std::string only)
+      : announce_(std::move(announce)), only_(std::move(only)) {}
+
+  [[nodiscard]] bool wants(const std::string& group) const { return only_.empty() || only_ == group; }
 
   void add(const std::string& group, const std::string& name, const TruthCase& measured) {
+    if (!wants(group)) return;
     announce_(group + ", " + name);
     const TruthErrors errors = shipped_errors(measured, kernels_.of(measured));
     rows_.push_back({.group = group,
@@ -67,6 +80,7 @@ class TruthTable {
   }
 
   std::function<void(const std::string&)> announce_;
+  std::string only_;
   std::vector<RenderRow> rows_;
   Kernels kernels_;
   std::map<std::string, double> ms_;
@@ -81,15 +95,15 @@ void add_axes(TruthTable& table, const TruthCase& usual) {
   for (const ShippedSampling& sampling : samplings()) {
     TruthCase one = usual;
     one.sampling = sampling;
-    table.add("sampling, moving", sampling.name, one);
+    table.add(kMoving, sampling.name, one);
     one.speed_m_s = 0;
     one.walks = false;
-    table.add("sampling, still", sampling.name, one);
+    table.add(kStill, sampling.name, one);
   }
   for (const TruthTarget& target : targets) {
     TruthCase one = usual;
     one.target = target;
-    if (target.name == "elephant" || target.name == "truck") one.places = 4;  // they have many edges
+    if (target.name == "elephant" || target.name == "truck") one.places = 8;  // they have many pixels
     table.add("target", target.name, one);
   }
   for (const double distance_m : {61.0, 122.0, 300.0, 1000.0}) {
@@ -102,15 +116,15 @@ void add_axes(TruthTable& table, const TruthCase& usual) {
   for (const double speed_m_s : {0.0, 6.0, 12.0, 20.0}) {
     TruthCase one = stands;
     one.speed_m_s = speed_m_s;
-    table.add("speed of the camera", number(speed_m_s) + " m/s", one);
+    table.add(kSpeed, number(speed_m_s) + " m/s", one);
   }
   TruthCase walks = usual;
   walks.speed_m_s = 0;
-  table.add("speed of the camera", "0, target walks", walks);
+  table.add(kSpeed, "0, target walks", walks);
   for (const double rate_hz : {9.0, 30.0, 60.0}) {
     TruthCase one = usual;
     one.frame_rate_hz = rate_hz;
-    table.add("frame rate", number(rate_hz) + " Hz", one);
+    table.add(kFrameRate, number(rate_hz) + " Hz", one);
   }
   for (const TruthPreset& preset : truth_presets()) {
     TruthCase one = stands;
@@ -118,19 +132,15 @@ void add_axes(TruthTable& table, const TruthCase& usual) {
     one.speed_m_s = 0;
     for (const int factor : {1, 4}) {
       one.sampling = {number(factor) + " x " + number(factor), Kind::full, factor};
-      table.add("optics, still", preset.name + ", " + one.sampling.name, one);
+      table.add(kOptics, preset.name + ", " + one.sampling.name, one);
     }
   }
 }
 
-/// Rows of one group together, in the order in which the groups begin.
+/// In the order of truth_groups().
 std::vector<RenderRow> grouped(const std::vector<RenderRow>& rows) {
   std::vector<RenderRow> out;
-  std::vector<std::string> groups;
-  for (const RenderRow& row : rows) {
-    if (std::ranges::find(groups, row.group) == groups.end()) groups.push_back(row.group);
-  }
-  for (const std::string& group : groups) {
+  for (const std::string& group : truth_groups()) {
     for (const RenderRow& row : rows)
       if (row.group == group) out.push_back(row);
   }
@@ -139,15 +149,26 @@ std::vector<RenderRow> grouped(const std::vector<RenderRow>& rows) {
 
 }  // namespace
 
-std::vector<RenderRow> run_truth_suite(const std::function<void(const std::string&)>& announce) {
+const std::vector<std::string>& truth_groups() {
+  static const std::vector<std::string> groups = {kMoving,    kStill,  "target", "distance",  kSpeed,
+                                                  kFrameRate, kOptics, kShares,  kConvergence};
+  return groups;
+}
+
+std::vector<RenderRow> run_truth_suite(const std::function<void(const std::string&)>& announce,
+                                       const std::string& only) {
   return with_threads(1, [&] {
-    TruthTable table(announce);
+    TruthTable table(announce, only);
     const TruthCase usual = {.target = truth_target(truth_targets(), "person")};
     add_axes(table, usual);
-    announce("shares of the error");
-    table.add(share_rows(usual, table.kernel(usual)));
-    announce("convergence of the truth");
-    table.add(convergence_rows(usual, table.kernel(usual)));
+    if (table.wants(kShares)) {
+      announce(kShares);
+      table.add(share_rows(kShares, usual, table.kernel(usual)));
+    }
+    if (table.wants(kConvergence)) {
+      announce(kConvergence);
+      table.add(convergence_rows(kConvergence, usual, table.kernel(usual)));
+    }
     return grouped(table.rows());
   });
 }

@@ -12,6 +12,11 @@ namespace thermal {
 /// aperture wavelength by wavelength, and exposure over a pixel's time constant while camera and target move. Errors of
 /// apparent temperature over the target's pixels, of the target's signal, and the time of a frame; each of target,
 /// distance, speed, frame rate, sampling and optics varied around a person at 122 m. Takes about a minute.
-[[nodiscard]] std::vector<RenderRow> run_truth_suite(const std::function<void(const std::string&)>& announce);
+/// @param only  one of truth_groups(); empty: all
+[[nodiscard]] std::vector<RenderRow> run_truth_suite(const std::function<void(const std::string&)>& announce,
+                                                     const std::string& only = "");
+
+/// Groups of its rows.
+[[nodiscard]] const std::vector<std::string>& truth_groups();
 
 }  // namespace thermal

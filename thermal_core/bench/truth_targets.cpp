@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <utility>
 
 namespace thermal {
 namespace {
@@ -22,19 +22,27 @@ double half_width_at(const TruthShape& shape, double y) noexcept {
   return shape.is_ellipse ? shape.half_x * std::sqrt(1 - down * down) : shape.half_x;
 }
 
-/// A line of rays' worth of one stretch of the target, for a pixel with its middle at x_px.
-double of_stretch(const ContrastKernel& kernel, double x_px, std::pair<double, double> stretch, int line) {
-  return kernel.up_to(x_px - stretch.first, line) - kernel.up_to(x_px - stretch.second, line);
+/// Half of a shape's width, integrated from its middle to a height; beyond its end: to the end.
+double half_area_to(const TruthShape& shape, double y) noexcept {
+  const double v = std::clamp((y - shape.y) / shape.half_y, -1.0, 1.0);
+  const double unit = shape.is_ellipse ? 0.5 * (v * std::sqrt(1 - v * v) + std::asin(v)) : v;
+  return unit * shape.half_x * shape.half_y;
 }
 
-double from_lines(const ContrastKernel& kernel, const std::vector<std::vector<std::pair<double, double>>>& lines,
+/// What a line sees of a part of the target, for a pixel with its middle at x_px.
+double of_stretch(const ContrastKernel& kernel, double x_px, const TruthStretch& stretch, int line) {
+  return stretch.share *
+         (kernel.up_to(x_px - stretch.begin_px, line) - kernel.up_to(x_px - stretch.end_px, line));
+}
+
+double from_lines(const ContrastKernel& kernel, const std::vector<std::vector<TruthStretch>>& lines,
                   int first_line, int x, int y) {
   const int per_px = kernel.steps().lines_per_px;
   double sum = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     // Line j is at (j + 1/2) / per_px, the pixel's middle at y + 1/2: between lines for an even per_px.
     const int line = first_line + static_cast<int>(i) - (y * per_px + per_px / 2);
-    for (const auto& stretch : lines[i]) sum += of_stretch(kernel, x + 0.5, stretch, line);
+    for (const TruthStretch& stretch : lines[i]) sum += of_stretch(kernel, x + 0.5, stretch, line);
   }
   return sum / per_px;
 }
@@ -45,10 +53,28 @@ double of_ray(const ContrastKernel& kernel, double dx_px, double dy_px) {
   const double place = -dy_px * kernel.steps().lines_per_px - 0.5;
   const auto line = static_cast<int>(std::floor(place));
   const double share = place - std::floor(place);
-  const std::pair stretch = {-kHalf, kHalf};
+  const TruthStretch stretch = {-kHalf, kHalf, 1};
   return ((1 - share) * of_stretch(kernel, dx_px, stretch, line) +
           share * of_stretch(kernel, dx_px, stretch, line + 1)) /
          (2 * kHalf);
+}
+
+/// Where rays hit [px].
+using Rays = std::vector<std::pair<double, double>>;
+
+/// Those that hit the target, of so many across a pixel.
+Rays rays_on(const std::vector<TruthShape>& shapes, int per_px) {
+  const TruthShape box = bounds_of(shapes);
+  const auto ray = [per_px](double px) { return static_cast<int>(std::floor(px * per_px)); };
+  Rays rays;
+  for (int j = ray(box.y - box.half_y); j <= ray(box.y + box.half_y); ++j) {
+    for (int k = ray(box.x - box.half_x); k <= ray(box.x + box.half_x); ++k) {
+      const double x_px = (k + 0.5) / per_px;
+      const double y_px = (j + 0.5) / per_px;
+      if (is_inside(shapes, x_px, y_px)) rays.emplace_back(x_px, y_px);
+    }
+  }
+  return rays;
 }
 
 }  // namespace
@@ -94,24 +120,28 @@ std::vector<TruthShape> placed(const TruthTarget& target, double px_per_m, doubl
 }
 
 bool is_inside(const std::vector<TruthShape>& shapes, double x_px, double y_px) noexcept {
-  return std::ranges::any_of(shapes, [&](const TruthShape& shape) {
-    return std::abs(x_px - shape.x) < half_width_at(shape, y_px);
-  });
+  return std::ranges::any_of(
+      shapes, [&](const TruthShape& shape) { return std::abs(x_px - shape.x) < half_width_at(shape, y_px); });
 }
 
-std::vector<std::pair<double, double>> spans_at(const std::vector<TruthShape>& shapes, double y_px) {
-  std::vector<std::pair<double, double>> spans;
+std::vector<TruthStretch> stretches_between(const std::vector<TruthShape>& shapes, double top_px,
+                                            double bottom_px) {
+  std::vector<TruthStretch> parts;
   for (const TruthShape& shape : shapes) {
-    const double half = half_width_at(shape, y_px);
-    if (half > 0) spans.emplace_back(shape.x - half, shape.x + half);
+    const double begin = std::max(top_px, shape.y - shape.half_y);
+    const double end = std::min(bottom_px, shape.y + shape.half_y);
+    if (end <= begin) continue;
+    const double half = (half_area_to(shape, end) - half_area_to(shape, begin)) / (end - begin);
+    parts.push_back({shape.x - half, shape.x + half, (end - begin) / (bottom_px - top_px)});
   }
-  std::ranges::sort(spans);
-  std::vector<std::pair<double, double>> joined;
-  for (const auto& span : spans) {
-    if (!joined.empty() && span.first <= joined.back().second) {
-      joined.back().second = std::max(joined.back().second, span.second);
+  std::ranges::sort(parts, {}, &TruthStretch::begin_px);
+  std::vector<TruthStretch> joined;
+  for (const TruthStretch& part : parts) {
+    if (!joined.empty() && part.begin_px <= joined.back().end_px) {
+      joined.back().end_px = std::max(joined.back().end_px, part.end_px);
+      joined.back().share = std::max(joined.back().share, part.share);
     } else {
-      joined.push_back(span);
+      joined.push_back(part);
     }
   }
   return joined;
@@ -133,24 +163,20 @@ TruthShape bounds_of(const std::vector<TruthShape>& shapes) {
 
 Plane<double> true_radiance(const ContrastKernel& kernel, const std::vector<TruthShape>& shapes,
                             double ground_w_m2_sr, int width_px, int height_px, int samples) {
+  const Rays rays = samples > 0 ? rays_on(shapes, samples) : Rays();
   const TruthShape box = bounds_of(shapes);
-  const int per_px = samples > 0 ? samples : kernel.steps().lines_per_px;
+  const int per_px = kernel.steps().lines_per_px;
   const auto first_line = static_cast<int>(std::floor((box.y - box.half_y) * per_px));
-  const auto last_line = static_cast<int>(std::ceil((box.y + box.half_y) * per_px));
-  std::vector<std::vector<std::pair<double, double>>> lines;
-  for (int j = first_line; j <= last_line; ++j) lines.push_back(spans_at(shapes, (j + 0.5) / per_px));
-  std::vector<std::pair<double, double>> rays;  // that hit the target
-  for (std::size_t i = 0; samples > 0 && i < lines.size(); ++i) {
-    const auto begin = static_cast<int>(std::floor((box.x - box.half_x) * samples));
-    const auto end = static_cast<int>(std::ceil((box.x + box.half_x) * samples));
-    const double y_px = (first_line + static_cast<int>(i) + 0.5) / samples;
-    for (int k = begin; k <= end; ++k)
-      if (is_inside(shapes, (k + 0.5) / samples, y_px)) rays.emplace_back((k + 0.5) / samples, y_px);
+  const auto end_line = samples > 0 ? first_line : static_cast<int>(std::ceil((box.y + box.half_y) * per_px));
+  std::vector<std::vector<TruthStretch>> lines;
+  for (int j = first_line; j < end_line; ++j) {
+    lines.push_back(
+        stretches_between(shapes, static_cast<double>(j) / per_px, static_cast<double>(j + 1) / per_px));
   }
   Plane<double> out(width_px, height_px, ground_w_m2_sr);
   for (int y = 0; y < height_px; ++y) {
     for (int x = 0; x < width_px; ++x) {
-      if (samples == 0) out.at(x, y) += from_lines(kernel, lines, first_line, x, y);
+      out.at(x, y) += from_lines(kernel, lines, first_line, x, y);
       for (const auto& [x_px, y_px] : rays)
         out.at(x, y) += of_ray(kernel, x + 0.5 - x_px, y + 0.5 - y_px) / (samples * samples);
     }

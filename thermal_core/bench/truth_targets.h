@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/image.h"
@@ -38,9 +37,17 @@ struct TruthTarget {
 
 [[nodiscard]] bool is_inside(const std::vector<TruthShape>& shapes, double x_px, double y_px) noexcept;
 
-/// Where a line of an image is on the target: pairs of begin and end, disjoint, from left to right.
-[[nodiscard]] std::vector<std::pair<double, double>> spans_at(const std::vector<TruthShape>& shapes,
-                                                              double y_px);
+/// Where a line of an image is on the target.
+struct TruthStretch {
+  double begin_px = 0;
+  double end_px = 0;
+  double share = 1;  ///< of the line's height that the target reaches
+};
+
+/// The stretches of the line between two heights, disjoint, from left to right. Along an ellipse's edge they have its
+/// mean width, so that a target's area is exact.
+[[nodiscard]] std::vector<TruthStretch> stretches_between(const std::vector<TruthShape>& shapes,
+                                                          double top_px, double bottom_px);
 
 /// The smallest rectangle around all shapes.
 [[nodiscard]] TruthShape bounds_of(const std::vector<TruthShape>& shapes);
@@ -49,6 +56,7 @@ struct TruthTarget {
 /// @param samples  0: lines with exact edges. Otherwise only this many rays across a pixel see the target, as those of a
 /// renderer, and the optics are still exact: what sampling alone is worth
 [[nodiscard]] Plane<double> true_radiance(const ContrastKernel& kernel, const std::vector<TruthShape>& shapes,
-                                          double ground_w_m2_sr, int width_px, int height_px, int samples = 0);
+                                          double ground_w_m2_sr, int width_px, int height_px,
+                                          int samples = 0);
 
 }  // namespace thermal
