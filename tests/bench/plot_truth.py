@@ -40,8 +40,11 @@ def draw(rows: list[dict], out: str) -> None:
             points = [(row["figures"]["ms/frame"], row["figures"][key]) for row in members]
             panel.plot(*zip(*points), "o", color=colour)
             panel.plot(*zip(*_front(points)), color=colour, linewidth=0.8, label=legend)
+            if group != "sampling, still":
+                continue  # at the same times
             for row, point in zip(members, points):
-                panel.annotate(row["name"], point, textcoords="offset points", xytext=(6, 4), fontsize=7)
+                place = (-10, -13) if row["name"].startswith("adaptive") else (6, 4)
+                panel.annotate(row["name"], point, textcoords="offset points", xytext=place, fontsize=7)
         panel.set(xscale="log", yscale="log", xlabel="ms a frame", ylabel=label)
         panel.margins(0.2)
         panel.grid(alpha=0.3)

@@ -39,13 +39,21 @@ TruthImage image_by(const TruthCase& measured, const ContrastKernel& kernel, int
   };
 }
 
-/// The still image of each frame, mixed as the shipped camera mixes frames.
-TruthImage image_with_lag(const TruthCase& measured, const ContrastKernel& still) {
-  return [&measured, &still](const TruthView& view) {
+/// How much older the truth's image of a moving target is than that of mixed frames, on average [px].
+double delay_px(const TruthCase& measured) {
+  const double tau_s = measured.preset.truth.time_constant_s;
+  return px_per_s(measured) *
+         (tau_s - 1 / (measured.frame_rate_hz * std::expm1(1 / (measured.frame_rate_hz * tau_s))));
+}
+
+/// The still image of each frame, mixed as the shipped camera mixes frames, and moved.
+TruthImage image_with_lag(const TruthCase& measured, const ContrastKernel& still, double moved_px) {
+  return [&measured, &still, moved_px](const TruthView& view) {
     const double kept = std::exp(-1 / (measured.frame_rate_hz * measured.preset.truth.time_constant_s));
     const double step_px = px_per_s(measured) / measured.frame_rate_hz;
     Plane<double> mixed(view.width_px, view.height_px);
     std::vector<TruthShape> shapes = view.shapes;
+    for (TruthShape& shape : shapes) shape.x += moved_px;
     double weight = 1 - kept;
     double rest = 1;
     while (rest > 1e-6) {
@@ -85,8 +93,11 @@ std::vector<RenderRow> share_rows(const std::string& group, const TruthCase& usu
   rows.push_back(row_of(group, "optics", resting, shipped, image_by(resting, still),
                         fine.preset.sensor.kelvin_per_count));
   rows.push_back(row_of(group, "band", resting, image_by(resting, grey), image_by(resting, still)));
-  rows.push_back(
-      row_of(group, "lag by frames", usual, image_with_lag(usual, still), image_by(usual, moving)));
+  for (const auto& [name, moved_px] :
+       {std::pair{"lag by frames", 0.0}, std::pair{"lag without its delay", delay_px(usual)}}) {
+    rows.push_back(
+        row_of(group, name, usual, image_with_lag(usual, still, moved_px), image_by(usual, moving)));
+  }
   return rows;
 }
 

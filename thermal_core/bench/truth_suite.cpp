@@ -21,14 +21,14 @@ const std::string kShares = "share of the error";
 const std::string kConvergence = "convergence of the truth";
 
 const std::vector<ShippedSampling>& samplings() {
-  static const std::vector<ShippedSampling> all = {{"1 ray", Kind::full, 1},
-                                                   {"2 x 2", Kind::full, 2},
-                                                   {"4 x 4", Kind::full, 4},
-                                                   {"8 x 8", Kind::full, 8},
-                                                   {"adaptive 2 x 2", Kind::adaptive, 2},
-                                                   {"adaptive 4 x 4", Kind::adaptive, 4},
-                                                   {"coverage", Kind::coverage, 32}};
-  return all;
+  static const std::vector<ShippedSampling> kAll = {{"1 ray", Kind::full, 1},
+                                                    {"2 x 2", Kind::full, 2},
+                                                    {"4 x 4", Kind::full, 4},
+                                                    {"8 x 8", Kind::full, 8},
+                                                    {"adaptive 2 x 2", Kind::adaptive, 2},
+                                                    {"adaptive 4 x 4", Kind::adaptive, 4},
+                                                    {"coverage", Kind::coverage, 32}};
+  return kAll;
 }
 
 /// Kernels without motion, each computed once.
@@ -150,9 +150,9 @@ std::vector<RenderRow> grouped(const std::vector<RenderRow>& rows) {
 }  // namespace
 
 const std::vector<std::string>& truth_groups() {
-  static const std::vector<std::string> groups = {kMoving,    kStill,  "target", "distance",  kSpeed,
-                                                  kFrameRate, kOptics, kShares,  kConvergence};
-  return groups;
+  static const std::vector<std::string> kGroups = {kMoving,    kStill,  "target", "distance",  kSpeed,
+                                                   kFrameRate, kOptics, kShares,  kConvergence};
+  return kGroups;
 }
 
 std::vector<RenderRow> run_truth_suite(const std::function<void(const std::string&)>& announce,
