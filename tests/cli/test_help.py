@@ -80,7 +80,7 @@ OPTIONS = {
         "--method",
         "--json",
     },
-    "bench": {"--suite", "--blender", "--json"},
+    "bench": {"--suite", "--only", "--blender", "--json"},
     "doctor": {"--json"},
 }
 COMMANDS = ", ".join(OPTIONS)
