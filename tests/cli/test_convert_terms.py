@@ -42,7 +42,11 @@ def _kept(veldt, dataset="out") -> set:
 LACKING = {
     "depth": ({"depth": False}, {"variation", "path"}, "no depth"),
     "normals": ({"normals": False}, {"facing", "sky", "angular"}, "no normals"),
-    "poses": ({"poses": False}, {"facing", "variation", "sky", "angular"}, "frames[0] has no camera_to_world"),
+    "poses": (
+        {"poses": False},
+        {"facing", "variation", "sky", "angular"},
+        "frames[0] has no camera_to_world",
+    ),
 }
 # Maps of the ground come with plans alone.
 NO_MAPS = {"place": "clip one: no maps of the ground"}

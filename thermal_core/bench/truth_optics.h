@@ -32,8 +32,8 @@ struct TruthSteps {
   int radius_px = 48;      ///< light that falls farther from its place is dropped
 };
 
-/// Planck's law integrated over the band [W m^-2 sr^-1], by Simpson's rule with 120 steps: relative error below 1e-7 (7 uK)
-/// of 200 to 2000 K within 7.5 to 14 um. Constants: exact SI.
+/// Planck's law integrated over the band [W m^-2 sr^-1], by Simpson's rule with 120 steps: relative error below 1e-7 (7
+/// uK) of 200 to 2000 K within 7.5 to 14 um. Constants: exact SI.
 [[nodiscard]] double truth_band_radiance(double begin_um, double end_um, double temperature_k);
 
 /// Temperature of the blackbody with a band radiance, by Newton's method; within 1e-6 K.

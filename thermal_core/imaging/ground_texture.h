@@ -24,8 +24,8 @@ struct CoverGrid {
   std::vector<float> per_h_k;  ///< what an hour adds
 };
 
-/// Temperatures of the covers of the ground and how much sky level ground sees, as a texture: four bytes a cell and cover,
-/// in levels of which each is half as fine as the one before.
+/// Temperatures of the covers of the ground and how much sky level ground sees, as a texture: four bytes a cell and
+/// cover, in levels of which each is half as fine as the one before.
 class GroundTexture {
  public:
   GroundTexture() = default;  ///< of no cover
@@ -42,11 +42,11 @@ class GroundTexture {
     kernels::FootprintRange footprints;  ///< that holds all of footprint_m that are finite and not negative
   };
 
-  /// Temperatures [K] of the pixels with a cover, `later_h` after the moment of the grids, and the share of the sky that
-  /// level ground sees there: in straight lines between the middles of cells, detail smaller than a pixel averaged out.
-  /// Other pixels keep their temperature and get -1 as their sky view, as do those with a place or footprint that is not
-  /// finite or a negative footprint. Places beyond the grid have what is at its border. Steps of 1/512 K, of 1/255, and of
-  /// 1/127 of the fastest warming.
+  /// Temperatures [K] of the pixels with a cover, `later_h` after the moment of the grids, and the share of the sky
+  /// that level ground sees there: in straight lines between the middles of cells, detail smaller than a pixel averaged
+  /// out. Other pixels keep their temperature and get -1 as their sky view, as do those with a place or footprint that
+  /// is not finite or a negative footprint. Places beyond the grid have what is at its border. Steps of 1/512 K, of
+  /// 1/255, and of 1/127 of the fastest warming.
   void sample(const Places& places, float later_h, std::span<float> temperature_k,
               std::span<float> sky_view) const noexcept;
 

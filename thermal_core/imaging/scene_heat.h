@@ -26,8 +26,8 @@ struct SceneHeat {
 };
 
 /// Works out how each surface's temperature is found. Surfaces whose material has no heat have the temperature of their
-/// part by Table 1's line. A clip is one span, or several where open level surfaces bend by more than 10 mK from a straight
-/// line, as at sunrise; none is shorter than a sixteenth of the clip.
+/// part by Table 1's line. A clip is one span, or several where open level surfaces bend by more than 10 mK from a
+/// straight line, as at sunrise; none is shorter than a sixteenth of the clip.
 /// @param states  of actors, by the class of a surface
 [[nodiscard]] SceneHeat heat_of_scene(const std::vector<Surface>& surfaces,
                                       const std::vector<ActorState>& states, const HeatSettings& settings,

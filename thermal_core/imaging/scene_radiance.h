@@ -57,8 +57,8 @@ class SceneRadiance {
   /// The same into a plane whose memory is reused if it has the right size. Returns how usable the planes were.
   PassChecks radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const;
 
-  /// The samples of passes that are sampled where it matters (Passes::fine): the mean over those of each of their pixels
-  /// replaces the pixel's radiance. Returns how usable the samples were. Otherwise as radiance().
+  /// The samples of passes that are sampled where it matters (Passes::fine): the mean over those of each of their
+  /// pixels replaces the pixel's radiance. Returns how usable the samples were. Otherwise as radiance().
   PassChecks refine(const FineSamples& fine, const ManifestFrame& frame, Plane<float>& out) const;
 
   /// Radiance of the most radiant surface that the manifest names; of the sky if it names none.

@@ -111,8 +111,8 @@ class Columns {
   std::vector<double> ground_k_;
 };
 
-/// Estimates: beside crowns lies as much ground as they cover, half as much is seen between and below them, and the shore
-/// that water moistens is as large as the water.
+/// Estimates: beside crowns lies as much ground as they cover, half as much is seen between and below them, and the
+/// shore that water moistens is as large as the water.
 Shifts cover_places(const Columns& columns, const MaterialHeat& heat, const Shares& shares) {
   SurfacePlace beside = columns.open();
   beside.sky_view = 0.75;

@@ -10,9 +10,9 @@
 
 namespace thermal {
 
-/// Fills a night's temperatures: those of materials that have a heat or a body's heat, on open level ground, by material
-/// and part ("" is the whole); leaves are those in the middle of their crowns, actors stand upright. And what places do:
-/// shade of crowns, moist shores, the depth in a crown; slopes and sides.
+/// Fills a night's temperatures: those of materials that have a heat or a body's heat, on open level ground, by
+/// material and part ("" is the whole); leaves are those in the middle of their crowns, actors stand upright. And what
+/// places do: shade of crowns, moist shores, the depth in a crown; slopes and sides.
 void heat_night(const std::vector<SceneOutline::Cover>& covers, const MaterialLibrary& library,
                 SceneOutline::Night& night);
 

@@ -61,7 +61,8 @@ Lines lines_at(double wavelength_um) noexcept {
 }
 
 /// Absorption by water vapour [m^-1 per g m^-3]: its lines and its continuum. The latter from Roberts, Selby and
-/// Biberman 1976, in g^-1 cm^2 atm^-1 for vapour of one atmosphere; air broadens .002 as much.
+/// Biberman 1976, in g^-1 cm^2 atm^-1 for vapour of one atmosphere; air broadens .002 as much. Its rise towards cold
+/// air and the .002 are quoted from memory of that paper: estimates here.
 double water_per_g(double wavelength_um, const Air& air) noexcept {
   constexpr double kAtmosphereHpa = 1013.25;
   constexpr double kForeign = 0.002;

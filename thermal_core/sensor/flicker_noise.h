@@ -41,8 +41,8 @@ class FlickerNoise {
   /// Sets the frame at which add_next() is first called, if it is not 0.
   void begin_at(std::uint32_t frame) noexcept { begins_ = frame; }
 
-  /// Begins again at a frame, independent of all before it: as a shutter's closing does, which measures and removes what
-  /// each pixel has gathered.
+  /// Begins again at a frame, independent of all before it: as a shutter's closing does, which measures and removes
+  /// what each pixel has gathered.
   void restart_at(std::uint32_t frame) noexcept {
     begins_ = frame;
     ++restarts_;

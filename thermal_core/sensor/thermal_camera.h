@@ -25,8 +25,8 @@ namespace thermal {
 [[nodiscard]] std::function<double(double temperature_k)> radiance_of(const SensorParameters& parameters);
 
 /// Inverse of exact Planck radiance for a ThermalCamera with this response, tabulated from 180 K to 420 K and, once
-/// something hotter is seen, to 2000 K. Building it takes about 16,000 exact inverses, so cameras with the same response
-/// may share it.
+/// something hotter is seen, to 2000 K. Building it takes about 16,000 exact inverses, so cameras with the same
+/// response may share it.
 [[nodiscard]] std::shared_ptr<const TemperatureTable> apparent_temperatures(const SpectralResponse& response);
 
 /// The output of the camera for one frame.
