@@ -46,6 +46,7 @@ def lowtran(path_type, emission, model=0, air_k=293.0, humidity=0.0, angle_deg=0
 
 
 def at_wavelengths(wavelengths, values):
+    """Means over 0.1 um about each of WAVELENGTHS_UM."""
     means = []
     for middle in WAVELENGTHS_UM:
         inside = np.abs(wavelengths - middle) <= 0.05 + 1e-9
@@ -141,6 +142,7 @@ def band_mean(values, weights, band_um):
 
 
 def write_bands(gases):
+    """Writes air_bands.csv, which the tests compare with."""
     lines = [
         "# LOWTRAN 7 in bands. tests/data/air_spectrum.py.",
         "# sky: emissivity at an angle from the zenith [deg], weighted with Planck's law at the air's temperature.",

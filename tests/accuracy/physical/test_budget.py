@@ -136,8 +136,8 @@ def test_the_weather_of_the_config_decides(veldt):
     clear, _ = _budget(veldt)
     cloudy, _ = _budget(veldt, overcast)
     # The sky's emissivity rises from .341 to .895 in winter's air and from .557 to .929 in summer's, and what is
-    # reflected with it: by factors of 2.6 and 1.7, to a few percent, as apparent temperature is not quite linear. Water, at
-    # the lower end of the spread, mirrors a slanted sky, which clouds change a little less.
+    # reflected with it: by factors of 2.6 and 1.7, to a few percent, as apparent temperature is not quite linear.
+    # Water, at the lower end of the spread, mirrors a slanted sky, which clouds change a little less.
     assert 1.55 < cloudy["sky"]["spread_mk"] / clear["sky"]["spread_mk"] < 2.7
 
 
