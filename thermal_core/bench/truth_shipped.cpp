@@ -7,6 +7,7 @@
 
 #include "bench/measure.h"
 #include "imaging/frame_converter.h"
+#include "scene/camera_geometry.h"
 #include "sensor/thermal_camera.h"
 
 namespace thermal {
@@ -39,7 +40,9 @@ Manifest truth_manifest(const ShippedClip& clip) {
                      .fy_px = 800,
                      .cx_px = clip.width_px / 2.0,
                      .cy_px = clip.height_px / 2.0};
-  manifest.supersample = clip.sampling.kind == ShippedSampling::Kind::coverage ? 1 : clip.sampling.factor;
+  const bool is_coverage = clip.sampling.kind == ShippedSampling::Kind::coverage;
+  manifest.supersample = is_coverage ? 1 : clip.sampling.factor;
+  if (is_coverage) manifest.cryptomatte = "CryptoObject";
   ManifestObject ground;
   ground.index = kTruthGround;
   ground.name = ground.material = "ground";
@@ -138,7 +141,7 @@ class ShippedChain {
                  .width_px = clip.width_px,
                  .height_px = clip.height_px,
                  .noise_gain = {},
-                 .supersample = manifest_.supersample},
+                 .supersample = samples_across_pixel(manifest_)},
                 converter_.brightest_w_m2_sr()) {}
 
   void expose(const Passes& passes, SensorFrame& out) {

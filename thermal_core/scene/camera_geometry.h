@@ -17,6 +17,10 @@ namespace thermal {
 /// The camera that the passes are a picture of: the manifest's, with overscan and supersampling.
 [[nodiscard]] CameraIntrinsics passes_camera(const Manifest& manifest) noexcept;
 
+/// How many evenly spread samples across a pixel of the camera its radiance is the mean of. A cryptomatte knows
+/// which share of a pixel each object covers, as if by a great many of them.
+[[nodiscard]] int samples_across_pixel(const Manifest& manifest) noexcept;
+
 /// The rays of a camera, the same for all its frames.
 class CameraRays {
  public:

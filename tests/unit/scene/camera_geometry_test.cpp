@@ -36,4 +36,13 @@ TEST_CASE("The camera of the passes has overscan on every side, then finer pixel
   CHECK(passes.cy_px == 2 * 266);
 }
 
+TEST_CASE("A cryptomatte is a mean over pixels, as if of very many samples") {
+  Manifest manifest;
+  CHECK(samples_across_pixel(manifest) == 1);
+  manifest.supersample = 4;
+  CHECK(samples_across_pixel(manifest) == 4);
+  manifest.cryptomatte = "CryptoObject";
+  CHECK(samples_across_pixel(manifest) >= 4 * 32);
+}
+
 }  // namespace camera_geometry_test

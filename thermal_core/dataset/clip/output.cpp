@@ -28,7 +28,7 @@ ThermalCamera::Clip sensor_clip(const ClipTask& task, const Manifest& manifest) 
           .width_px = manifest.camera.width_px,
           .height_px = manifest.camera.height_px,
           .noise_gain = falloff ? falloff_noise_gain(manifest.camera) : Plane<float>(),
-          .supersample = manifest.supersample};
+          .supersample = samples_across_pixel(manifest)};
 }
 
 template <typename T>
