@@ -120,6 +120,7 @@ const TERMS = {
   angular: "emissivity decreases towards grazing angles",
   path: "air between surface and camera absorbs and emits radiance",
   mirror: "water reflects what stands around it",
+  smear: "the picture moves while a pixel integrates",
   falloff: "the lens gathers less light off axis, so noise increases there",
 };
 

@@ -1,5 +1,7 @@
 """Physical terms on passes that lack their inputs: automatic terms are dropped and reported, others are faults."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -122,6 +124,60 @@ def test_terms_that_need_no_plane_stay(veldt):
     _write_clip(veldt.folder / "one", depth=False, normals=False, poses=False)
     assert veldt("convert", "one", "--out", "out", "--quiet", *PHYSICAL).code == 0
     assert _kept(veldt) == {"parts", "falloff"} - LOOKING
+
+
+def _fly(folder, step_m):
+    """The camera of a clip's passes flies east by so much a frame."""
+    document = json.loads((folder / "manifest.json").read_text())
+    for k, frame in enumerate(document["frames"]):
+        frame["camera_to_world"] = [*STRAIGHT_DOWN[:3], step_m * k, *STRAIGHT_DOWN[4:]]
+    passes.write_manifest(folder, document)
+
+
+SLOW = [*PHYSICAL, "sensor.time_constant_s=0.01"]
+
+
+def _sharp_and_smeared(veldt):
+    for name, choice in (("sharp", "off"), ("smeared", "auto")):
+        done = veldt(
+            "convert",
+            "one",
+            "--out",
+            name,
+            "--quiet",
+            *SLOW,
+            "sensor.noise.amount=0",
+            f"terms.smear={choice}",
+        )
+        assert (done.code, done.err) == (0, "")
+    return [(veldt.folder / name / "clips/one/ir16/000001.png").read_bytes() for name in ("sharp", "smeared")]
+
+
+def test_a_moving_picture_is_smeared(veldt):
+    _write_clip(veldt.folder / "one")
+    _fly(veldt.folder / "one", 5)
+    sharp, smeared = _sharp_and_smeared(veldt)
+    assert sharp != smeared
+    terms = [_terms(veldt, name)["smear"] for name in ("sharp", "smeared")]
+    assert [term["kept"] for term in terms] == [False, True]
+    assert terms[0]["spread_mk"] == terms[1]["spread_mk"] > 1000
+    labels = [veldt.read(f"{name}/annotations.json")["annotations"] for name in ("sharp", "smeared")]
+    assert [one["bbox"] for one in labels[0]] == [one["bbox"] for one in labels[1]]
+
+
+def test_a_still_picture_is_not(veldt):
+    _write_clip(veldt.folder / "one")
+    sharp, smeared = _sharp_and_smeared(veldt)
+    assert sharp == smeared
+    assert not _terms(veldt, "smeared")["smear"]["kept"]
+
+
+@pytest.mark.parametrize("what", ["depth", "poses"])
+def test_smear_needs_depth_and_poses_where_pixels_take_time(veldt, what):
+    without, _, lacking = LACKING[what]
+    _write_clip(veldt.folder / "one", **without)
+    assert veldt("convert", "one", "--out", "out", "--quiet", *SLOW).code == 0
+    assert _terms(veldt)["smear"]["impossible"] == f"clip one: {lacking}"
 
 
 def test_a_first_frame_that_cannot_be_read_is_passed_over(veldt):

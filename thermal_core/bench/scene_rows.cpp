@@ -183,8 +183,9 @@ std::vector<BenchRow> term_rows(const MaterialLibrary& materials) {
   const BenchScene scene = rolling_ground();
   std::vector<BenchRow> rows = {term_row("emission alone", {}, scene, materials)};
   for (const TermInfo& term : kTerms) {
-    // Some change values, not the work per pixel; others need the heat balance, see --suite heat.
-    if (term.name == "parts" || term.name == "falloff" || term.name == "place" || term.name == "facing")
+    // Some change values, not the work per pixel; others need the heat balance, see --suite heat, or belong to the
+    // sensor.
+    if (term.name == "smear" || term.name == "parts" || term.name == "falloff" || term.name == "place" || term.name == "facing")
       continue;
     Terms one;
     one.*term.kept = true;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/error.h"
 #include "radiometry/band_radiance.h"
@@ -111,6 +112,7 @@ class NightShifts {
       add_cover(cover);
       if (cover.material->angular == AngularLaw::water) add_mirror(cover);
     }
+    add_smear();
     add_falloff();
   }
 
@@ -203,6 +205,31 @@ class NightShifts {
     for (const auto& [part, values] : cover.material->parts) {
       const double part_k = night_.temperature_k(*cover.material, part);
       add("parts", model.apparent_k(model.emitted(part_k)) - mean_k, 1, true);
+    }
+  }
+
+  [[nodiscard]] double direct_k(const SceneOutline::Cover& cover) const {
+    const MaterialModel model(*cover.material, night_, outline_.response);
+    return model.apparent_k(model.emitted(model.temperature_k()));
+  }
+
+  /// At the borders of a surface with the mean ground, as much of the contrast as the picture moves in pixels.
+  void add_smear() {
+    if (!(outline_.smear_px > 0)) return;
+    double ground_k = 0;
+    double shares = 0;
+    for (const SceneOutline::Cover& cover : outline_.covers) {
+      if (cover.actor) continue;
+      ground_k += cover.share * direct_k(cover);
+      shares += cover.share;
+    }
+    for (const SceneOutline::Cover& cover : outline_.covers) {
+      if (!(shares > 0)) break;
+      const double shift_k = std::abs(direct_k(cover) - ground_k / shares) * std::min(1.0, outline_.smear_px);
+      for (const auto& [sign, part] : {std::pair{-1.0, 0.25}, {0.0, 0.5}, {1.0, 0.25}}) {
+        add("smear", sign * shift_k, part * cover.share, cover.actor);
+        if (cover.actor) on_actors_.at(index_of("smear")).push_back({sign * shift_k, part * cover.share});
+      }
     }
   }
 

@@ -10,6 +10,7 @@
 #include "labels/instances.h"
 #include "scene/lens_distortion.h"
 #include "sensor/sensor_parameters.h"
+#include "sensor/smear.h"
 
 namespace thermal {
 
@@ -18,6 +19,7 @@ struct SceneFrame {
   Plane<float> radiance_w_m2_sr;
   std::vector<Instance> instances;
   PassChecks checks = {};  ///< of the planes that the terms read
+  ImageMotion motion = {};  ///< as MotionFinder finds it; empty without the term `smear`
 };
 
 /// What a FrameConverter depends on besides a clip's manifest and materials: with equal settings, all frames are

@@ -14,6 +14,7 @@ struct Terms {
   bool angular = false;    ///< emissivity decreasing with the angle of view
   bool mirror = false;     ///< what stands around water, reflected in it; needs `sky`
   bool path = false;       ///< air between surface and camera: transmission and emission
+  bool smear = false;      ///< motion of the picture within the exposure
   bool falloff = false;    ///< of the lens: NUC removes it from the signal, and noise grows by its inverse
 
   [[nodiscard]] bool operator==(const Terms&) const = default;
@@ -36,6 +37,7 @@ struct TermChoices {
   TermChoice angular = TermChoice::off;
   TermChoice mirror = TermChoice::off;
   TermChoice path = TermChoice::off;
+  TermChoice smear = TermChoice::off;
   TermChoice falloff = TermChoice::off;
 };
 
@@ -54,6 +56,7 @@ inline constexpr TermInfo kTerms[] = {{"place", &TermChoices::place, &Terms::pla
                                       {"angular", &TermChoices::angular, &Terms::angular},
                                       {"mirror", &TermChoices::mirror, &Terms::mirror, &Terms::sky},
                                       {"path", &TermChoices::path, &Terms::path},
+                                      {"smear", &TermChoices::smear, &Terms::smear},
                                       {"falloff", &TermChoices::falloff, &Terms::falloff}};
 
 }  // namespace thermal

@@ -166,6 +166,7 @@ ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, floa
       noise_w_m2_sr_(static_cast<double>(white_w_m2_sr_) *
                      std::sqrt(noise_variance(parameters, clip_.frame_rate_hz))) {
   assert(brightest_w_m2_sr > 0);
+  if (parameters.time_constant_s > 0) smear_.emplace(1 / clip_.frame_rate_hz, parameters.time_constant_s);
   if (flicker_w_m2_sr_ > 0) {
     flicker_.emplace(clip_.seed, clip_.id, FlickerFilter::design(clip_.frame_rate_hz), signal_.size());
   }
@@ -190,10 +191,18 @@ double ThermalCamera::noise_w_m2_sr(int x_px, int y_px) const {
 }
 
 void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const Look& look) {
+  expose(radiance_w_m2_sr, {}, out, look);
+}
+
+void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, const ImageMotion& motion, SensorFrame& out,
+                           const Look& look) {
   const double time_s = frame_ / clip_.frame_rate_hz;
   const ShutterState shutter = shutter_.at(time_s);
   take_in(radiance_w_m2_sr);
   if (look) look(signal_);
+  if (smear_ && begun_) smear_->apply(motion, signal_);
+  if (smear_ && !begun_) smear_->apply_to_first(motion, signal_);
+  if (!begun_) begin();
   pattern_.begin_frame(frame_, time_s, shutter);
   if (flicker_ && event_ && *event_ != shutter.event) flicker_->restart_at(frame_);
   event_ = shutter.event;
@@ -229,7 +238,11 @@ void ThermalCamera::take_in(const Plane<float>& radiance_w_m2_sr) {
     copy_clipped(&in[begin], end - begin, saturation_w_m2_sr_, &signal[begin]);
   });
   optics_.apply(signal_);
-  if (begun_) return;
+}
+
+/// The states of the first frame that is exposed.
+void ThermalCamera::begin() {
+  const auto signal = signal_.pixels();
   begun_ = true;
   if (flicker_) flicker_->begin_at(frame_);
   if (follow_ < 1) membrane_.assign(signal.begin(), signal.end());  // at rest

@@ -16,6 +16,7 @@
 #include "sensor/pattern_noise.h"
 #include "sensor/sensor_parameters.h"
 #include "sensor/shutter.h"
+#include "sensor/smear.h"
 
 namespace thermal {
 
@@ -69,6 +70,12 @@ class ThermalCamera {
   /// light.
   /// `look` receives what the detector would measure without lag and noise: the radiance behind the optics at this
   /// frame's time, even while the shutter is closed.
+  /// `motion` smears the picture within the exposure, if there is a time constant. The pictures are then of the past,
+  /// by a time constant on average, as a membrane's are; without it, of this frame's time and those before.
+  void expose(const Plane<float>& radiance_w_m2_sr, const ImageMotion& motion, SensorFrame& out,
+              const Look& look = {});
+
+  /// The same without motion.
   void expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const Look& look = {});
 
   /// The same, into a new frame.
@@ -93,6 +100,7 @@ class ThermalCamera {
 
  private:
   void take_in(const Plane<float>& radiance_w_m2_sr);
+  void begin();
   void lag(std::size_t first, std::span<float> signal);
   void add_noise(std::size_t first, std::span<float> signal);
   void expose_signal();
@@ -109,6 +117,7 @@ class ThermalCamera {
   float saturation_w_m2_sr_;
   float follow_;  ///< fraction of a new radiance that a pixel reaches within one frame
   Convolution optics_;
+  std::optional<Smear> smear_;  ///< none without a time constant
   Shutter shutter_;
   PatternNoise pattern_;
   std::optional<FlickerNoise> flicker_;

@@ -319,4 +319,21 @@ TEST_CASE("The sides of actors count beside all else, however small actors are")
   CHECK(budget.kept.facing);
 }
 
+TEST_CASE("Smear counts with the motion within a time constant, up to the whole contrast of an actor") {
+  SceneOutline outline = savanna_from(61);
+  const auto smear_of = [&](double smear_px) {
+    outline.smear_px = smear_px;
+    return effect(weigh_terms(outline, kAllAuto), "smear");
+  };
+  CHECK(smear_of(0).spread_k == 0);
+  CHECK_FALSE(smear_of(0).kept);
+  const TermEffect whole = smear_of(1);
+  CHECK(whole.kept);
+  CHECK(whole.actor_shift_k > 5);  // a person on cold ground
+  CHECK(whole.spread_k == 2 * whole.actor_shift_k);
+  CHECK(smear_of(30).spread_k == whole.spread_k);
+  CHECK_THAT(smear_of(0.5).spread_k, WithinAbs(whole.spread_k / 2, 1e-12));
+  CHECK_FALSE(smear_of(1e-5).kept);
+}
+
 }  // namespace budget_test

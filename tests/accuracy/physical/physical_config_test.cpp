@@ -56,8 +56,7 @@ TEST_CASE("A term has one of three choices and a known name") {
   CHECK(fault_of("terms.skies=on") ==
         "test.json: terms.skies is not a known key; expected one of place, facing, variation, parts, sky, "
         "angular, mirror, "
-        "path, "
-        "falloff");
+        "path, smear, falloff");
 }
 
 TEST_CASE("Without weather in the config, a clip's air is its season's") {

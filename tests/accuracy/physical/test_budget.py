@@ -4,7 +4,7 @@ import pytest
 
 from configs import tiny
 
-TERMS = ["place", "facing", "variation", "parts", "sky", "angular", "mirror", "path", "falloff"]
+TERMS = ["place", "facing", "variation", "parts", "sky", "angular", "mirror", "path", "smear", "falloff"]
 THIRD_OF_NETD_MK = 40 / 3
 
 

@@ -56,7 +56,7 @@ ClipOutput::ClipOutput(const ClipTask& task, const Manifest& manifest, float bri
 void ClipOutput::expose(const SceneFrame& scene, Frame& frame) {
   frame.instances = scene.instances;
   frame.checks = scene.checks;
-  camera_.expose(scene.radiance_w_m2_sr, frame.pictures, [&](const Plane<float>& radiance_w_m2_sr) {
+  camera_.expose(scene.radiance_w_m2_sr, scene.motion, frame.pictures, [&](const Plane<float>& radiance_w_m2_sr) {
     set_contrast(camera_, radiance_w_m2_sr, frame.instances);
   });
 }

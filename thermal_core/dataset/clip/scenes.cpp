@@ -13,7 +13,10 @@ std::size_t ClipScenes::add(const ClipTask& task) {
                                   [&](const Scene& scene) { return scene.settings == settings; });
   if (found != scenes_.end()) return static_cast<std::size_t>(found - scenes_.begin());
   FrameConverter converter(manifest_, materials_, settings);
-  scenes_.push_back({.settings = std::move(settings), .converter = std::move(converter)});
+  std::optional<MotionFinder> motion;
+  if (settings.physics && settings.physics->terms.smear) motion.emplace(manifest_, settings.lens);
+  scenes_.push_back(
+      {.settings = std::move(settings), .converter = std::move(converter), .motion = std::move(motion)});
   return scenes_.size() - 1;
 }
 
@@ -21,7 +24,7 @@ PassNeeds ClipScenes::needs() const {
   PassNeeds all;
   for (const Scene& scene : scenes_) {
     const PassNeeds needs = scene.converter.needs();
-    all = {.depth = all.depth || needs.depth,
+    all = {.depth = all.depth || needs.depth || scene.motion,
            .normals = all.normals || needs.normals,
            .actors = all.actors || needs.actors,
            .mirrored = all.mirrored || needs.mirrored};
@@ -39,7 +42,10 @@ std::shared_ptr<const TemperatureTable> ClipScenes::temperatures(const SpectralR
 void ClipScenes::convert(const Passes& passes, int number, std::vector<SceneFrame>& out) const {
   out.resize(scenes_.size());
   const ManifestFrame& frame = manifest_.frames[static_cast<std::size_t>(number)];
-  for (std::size_t i = 0; i < scenes_.size(); ++i) scenes_[i].converter.convert(passes, frame, out[i]);
+  for (std::size_t i = 0; i < scenes_.size(); ++i) {
+    scenes_[i].converter.convert(passes, frame, out[i]);
+    if (scenes_[i].motion) scenes_[i].motion->find(passes, number, out[i].motion);
+  }
 }
 
 }  // namespace thermal

@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "dataset/clip/record.h"
 #include "dataset/clip/task.h"
 #include "imaging/frame_converter.h"
+#include "imaging/motion_finder.h"
 #include "radiometry/temperature_table.h"
 
 namespace thermal {
@@ -43,6 +45,7 @@ class ClipScenes {
   struct Scene {
     SceneSettings settings;
     FrameConverter converter;
+    std::optional<MotionFinder> motion;  ///< with the term `smear`, if anything moves
   };
   struct Temperatures {
     SpectralResponse response;

@@ -42,7 +42,7 @@ bool shows_water(const Manifest& manifest) {
 }
 
 /// What each term needs. The first missing input is reported; among several clips, that of the first.
-void add_impossible(const ClipPasses& source, const PassesView& view, bool heat_balance,
+void add_impossible(const ClipPasses& source, const PassesView& view, const Config& config,
                     SceneOutline& outline) {
   const PassNeeds& planes = *view.planes;
   const std::string depth = planes.depth ? "" : "no depth";
@@ -52,7 +52,7 @@ void add_impossible(const ClipPasses& source, const PassesView& view, bool heat_
     if (!lacking.empty())
       outline.impossible.emplace(term, fmt::format("clip {}: {}", source.manifest.clip, lacking));
   };
-  if (heat_balance) {
+  if (config.heat_balance) {
     const std::string maps = view.has_ground_maps ? "" : "no maps of the ground";
     add("place", !maps.empty() ? maps : depth.empty() ? poses : depth);
     add("facing", normals.empty() ? poses : normals);
@@ -61,6 +61,7 @@ void add_impossible(const ClipPasses& source, const PassesView& view, bool heat_
   add("sky", normals.empty() ? poses : normals);
   add("angular", normals.empty() ? poses : normals);
   add("path", depth);
+  if (config.sensor.time_constant_s > 0) add("smear", depth.empty() ? poses : depth);
   if (shows_water(source.manifest)) add("mirror", planes.mirrored ? poses : "no mirrored planes");
 }
 
@@ -116,6 +117,37 @@ std::vector<SceneOutline::Look> looks_of(const ClipPasses& source, const PassRea
   return of_a_frame(source, look).value_or(std::vector<SceneOutline::Look>());
 }
 
+/// The longest step of an actor between two frames [m].
+double longest_step_m(const ManifestFrame& before, const ManifestFrame& now) {
+  double longest = 0;
+  for (const ActorPose& pose : now.actors) {
+    const auto from = std::ranges::find(before.actors, pose.index, &ActorPose::index);
+    if (from == before.actors.end()) continue;
+    longest = std::max(longest, std::hypot(pose.position_m[0] - from->position_m[0],
+                                           pose.position_m[1] - from->position_m[1],
+                                           pose.position_m[2] - from->position_m[2]));
+  }
+  return longest;
+}
+
+/// How fast the poses move the picture [px / s]: the fastest step over level ground, of an actor too, and turn.
+double motion_px_per_s(const Manifest& manifest, const std::vector<SceneOutline::Look>& looks) {
+  constexpr double kUsualHeightM = 100;
+  double fastest = 0;
+  for (std::size_t i = 1; i < manifest.frames.size(); ++i) {
+    const ManifestFrame& frame = manifest.frames[i];
+    if (!frame.camera_to_world || !manifest.frames[i - 1].camera_to_world) continue;
+    const auto& now = *frame.camera_to_world;
+    const auto& before = *manifest.frames[i - 1].camera_to_world;
+    const double height_m = frame.agl_m.value_or(looks.empty() ? kUsualHeightM : looks.front().range_m);
+    const double moved_m = std::hypot(now[3] - before[3], now[7] - before[7], now[11] - before[11]) +
+                           longest_step_m(manifest.frames[i - 1], frame);
+    const double turned = std::hypot(now[2] - before[2], now[6] - before[6], now[10] - before[10]);
+    fastest = std::max(fastest, moved_m / std::max(1.0, height_m) + turned);
+  }
+  return fastest * manifest.frame_rate_hz * manifest.camera.fx_px;
+}
+
 /// Whether a frame gives the height of its camera.
 bool tells_height(const Manifest& manifest) {
   return std::ranges::any_of(manifest.frames,
@@ -161,8 +193,10 @@ SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
     const Season season = config.clip(manifest.clip, "manifest: clip").season;
     add_told_height(manifest, season, nights);
     if (!config.physical) continue;
-    if (views[i].planes) add_impossible(sources[i], views[i], config.heat_balance, outline);
+    if (views[i].planes) add_impossible(sources[i], views[i], config, outline);
     nights.add(season, views[i].looks);
+    outline.smear_px =
+        std::max(outline.smear_px, motion_px_per_s(manifest, views[i].looks) * config.sensor.time_constant_s);
   }
   add_ground(ground, materials, outline);
   add_actors(actors, materials, outline);

@@ -5,6 +5,25 @@
 #include "dataset/passes/outline.h"
 
 namespace thermal {
+namespace {
+
+constexpr double kWalkingMPerS = 1.5;  // of actors
+
+/// Of a clip's flight. Configs state it, or leave it at 12 m/s.
+double speed_m_s(const Json& config, const ClipPlan& clip) {
+  constexpr double kUsual = 12;
+  const std::string list = clip.of_flight.empty() ? "clips" : "flights";
+  const std::string& id = clip.of_flight.empty() ? clip.id : clip.of_flight;
+  if (!config.contains(list)) return kUsual;
+  for (const Json& entry : config[list]) {
+    if (entry.value("id", "") != id) continue;
+    const Json& flight = entry.contains("flight") ? entry["flight"] : entry;
+    return flight.value("speed_m_s", kUsual);
+  }
+  return kUsual;
+}
+
+}  // namespace
 
 SceneOutline outline_of(const Config& config, const DatasetPlan& plan, const MaterialLibrary& materials) {
   SceneOutline outline = empty_outline(config);
@@ -19,6 +38,9 @@ SceneOutline outline_of(const Config& config, const DatasetPlan& plan, const Mat
   for (const ClipPlan& clip : plan.clips) {
     nights.add(seasons.at(clip.id), std::max(1.0, std::round(clip.mean_agl_m)),
                std::round(clip.mean_look_angle_deg), config.camera);
+    const double px_per_s =
+        config.camera.fx_px * (speed_m_s(plan.config, clip) + kWalkingMPerS) / std::max(1.0, clip.mean_agl_m);
+    outline.smear_px = std::max(outline.smear_px, px_per_s * config.sensor.time_constant_s);
   }
   outline.nights = nights.list(outline, materials);
   return outline;

@@ -1,0 +1,281 @@
+#include "sensor/smear.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "base/clones.h"
+#include "base/parallel.h"
+
+namespace thermal {
+namespace {
+
+constexpr int kTileWidth = 32;
+constexpr int kTileHeight = 16;
+constexpr float kStillPx = 1.0F / 64;  // motion that is not worth mixing
+constexpr float kAlikePx = 1.0F / 8;   // difference within a tile that has one motion
+constexpr int kStepsPerPx = 16;        // to which motion is rounded, so that its samples can be used again
+constexpr float kFarthestPx = 4096;    // motion counts as this at most
+constexpr int kMarginPx = 44;          // kept beyond the edges: the reach of all but long motion
+constexpr double kSettled = 8;         // time constants after which a pixel has forgotten what was
+constexpr std::size_t kMostRemembered = 4096;
+constexpr std::int64_t kAxis = std::int64_t{1} << 32U;  // between the axes of a motion in one number
+
+/// Adds four weighted samples to each sum, and finds the least of all. A function of its own: within the loop over the
+/// samples, GCC 12 joins two rounds into one that it cannot vectorise.
+VELDT_CLONES void mix_four(const float* from, const std::ptrdiff_t* offsets, const float* weights,
+                           std::size_t count, float* __restrict sum, float* __restrict least) {
+  const float* a = from + offsets[0];
+  const float* b = from + offsets[1];
+  const float* c = from + offsets[2];
+  const float* d = from + offsets[3];
+  const float wa = weights[0];
+  const float wb = weights[1];
+  const float wc = weights[2];
+  const float wd = weights[3];
+  for (std::size_t i = 0; i < count; ++i) {
+    sum[i] += (wa * a[i] + wb * b[i]) + (wc * c[i] + wd * d[i]);
+    const float ab = a[i] < b[i] ? a[i] : b[i];
+    const float cd = c[i] < d[i] ? c[i] : d[i];
+    const float low = ab < cd ? ab : cd;
+    least[i] = low < least[i] ? low : least[i];
+  }
+}
+
+VELDT_CLONES void greater(const float* one, const float* other, std::size_t count, float* out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = one[i] > other[i] ? one[i] : other[i];
+}
+
+/// The sum of weighted samples, but not less than the least of them. `count` is at most kTileWidth.
+void mix_line(const float* from, const std::ptrdiff_t* offsets, const float* weights, std::size_t taps,
+              std::size_t count, float* out) {
+  std::array<float, kTileWidth> sum{};
+  std::array<float, kTileWidth> least{};
+  least.fill(std::numeric_limits<float>::max());
+  for (std::size_t tap = 0; tap < taps; tap += 4)
+    mix_four(from, offsets + tap, weights + tap, count, sum.data(), least.data());
+  greater(sum.data(), least.data(), count, out);
+}
+
+/// The picture, with a margin that goes on as it ends.
+void copy_with_margin(const Plane<float>& picture, Plane<float>& out) {
+  const int width = picture.width_px() + 2 * kMarginPx;
+  const int height = picture.height_px() + 2 * kMarginPx;
+  if (out.width_px() != width || out.height_px() != height) out = Plane<float>(width, height);
+  for (int y = 0; y < height; ++y) {
+    const std::span<const float> from = picture.row(std::clamp(y - kMarginPx, 0, picture.height_px() - 1));
+    const std::span<float> to = out.row(y);
+    std::ranges::fill(to.first(kMarginPx), from.front());
+    std::ranges::copy(from, to.begin() + kMarginPx);
+    std::ranges::fill(to.last(kMarginPx), from.back());
+  }
+}
+
+/// What is not finite is 0.
+float limited(float px) { return std::isfinite(px) ? std::clamp(px, -kFarthestPx, kFarthestPx) : 0; }
+
+struct Steps {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+};
+
+Steps steps_of(float x_px, float y_px) {
+  return {std::lround(limited(x_px) * kStepsPerPx), std::lround(limited(y_px) * kStepsPerPx)};
+}
+
+/// NaN is still.
+bool is_still(float x_px, float y_px) {
+  return !(std::abs(x_px) >= kStillPx) && !(std::abs(y_px) >= kStillPx);
+}
+
+/// Least and greatest value of a tile, by column and in all. NaN is left out.
+class Range {
+ public:
+  Range() {
+    low_.fill(std::numeric_limits<float>::max());
+    high_.fill(std::numeric_limits<float>::lowest());
+  }
+  void widen(std::span<const float> line) noexcept {
+    widen(line.data(), line.size(), low_.data(), high_.data());
+  }
+  [[nodiscard]] float low() const { return *std::ranges::min_element(low_); }
+  [[nodiscard]] float high() const { return *std::ranges::max_element(high_); }
+
+ private:
+  VELDT_CLONES static void widen(const float* values, std::size_t count, float* __restrict low,
+                                 float* __restrict high) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+      low[i] = values[i] < low[i] ? values[i] : low[i];
+      high[i] = values[i] > high[i] ? values[i] : high[i];
+    }
+  }
+
+  std::array<float, kTileWidth> low_{};
+  std::array<float, kTileWidth> high_{};
+};
+
+}  // namespace
+
+/// Cuts a row of tiles into pieces.
+class Smear::Cutter {
+ public:
+  Cutter(const ImageMotion& motion, std::vector<Piece>& out) : motion_(motion), out_(out) {}
+
+  void cut(int x, int y, int width, int height) {
+    Range across;
+    Range down;
+    for (int row = y; row < y + height; ++row) {
+      const auto line = [&](const Plane<float>& plane) {
+        return plane.row(row).subspan(static_cast<std::size_t>(x), static_cast<std::size_t>(width));
+      };
+      across.widen(line(motion_.x_px));
+      down.widen(line(motion_.y_px));
+    }
+    const float left = across.low();
+    const float right = across.high();
+    const float top = down.low();
+    const float bottom = down.high();
+    if (is_still(left, top) && is_still(right, bottom)) return;
+    if (right - left <= kAlikePx && bottom - top <= kAlikePx) {
+      add({.x = x, .y = y, .width = width, .height = height},
+          steps_of((left + right) / 2, (top + bottom) / 2));
+      return;
+    }
+    for (int row = y; row < y + height; ++row) cut_row(x, row, x + width);
+  }
+
+ private:
+  /// Neighbours that move alike are one piece.
+  void cut_row(int begin, int y, int end) {
+    while (begin < end) {
+      const float x_px = motion_.x_px.at(begin, y);
+      const float y_px = motion_.y_px.at(begin, y);
+      int after = begin + 1;
+      while (after < end && std::abs(motion_.x_px.at(after, y) - x_px) <= kAlikePx / 2 &&
+             std::abs(motion_.y_px.at(after, y) - y_px) <= kAlikePx / 2)
+        ++after;
+      if (!is_still(x_px, y_px))
+        add({.x = begin, .y = y, .width = after - begin, .height = 1}, steps_of(x_px, y_px));
+      begin = after;
+    }
+  }
+
+  void add(Piece piece, const Steps& steps) {
+    if (steps.x == 0 && steps.y == 0) return;
+    piece.motion = steps.x * kAxis + steps.y;
+    out_.push_back(piece);
+  }
+
+  const ImageMotion& motion_;
+  std::vector<Piece>& out_;
+};
+
+Smear::Smear(double interval_s, double time_constant_s) : ages_(interval_s / time_constant_s) {
+  assert(interval_s > 0 && time_constant_s > 0);
+}
+
+void Smear::apply(const ImageMotion& motion, Plane<float>& picture) { apply(motion, picture, ages_, 1); }
+
+void Smear::apply_to_first(const ImageMotion& motion, Plane<float>& picture) {
+  const double intervals = std::max(1.0, kSettled / ages_);
+  apply(motion, picture, ages_ * intervals, intervals);
+  samples_.clear();
+}
+
+void Smear::apply(const ImageMotion& motion, Plane<float>& picture, double ages, double intervals) {
+  if (motion.empty() || picture.empty()) return;
+  assert(motion.x_px.size() == picture.size() && motion.y_px.size() == picture.size());
+  const auto rows = static_cast<std::size_t>((picture.height_px() + kTileHeight - 1) / kTileHeight);
+  pieces_.resize(rows);
+  parallel_for(rows, 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      pieces_[row].clear();
+      Cutter cutter(motion, pieces_[row]);
+      const int y = static_cast<int>(row) * kTileHeight;
+      const int height = std::min(kTileHeight, picture.height_px() - y);
+      for (int x = 0; x < picture.width_px(); x += kTileWidth)
+        cutter.cut(x, y, std::min(kTileWidth, picture.width_px() - x), height);
+    }
+  });
+  if (std::ranges::all_of(pieces_, [](const auto& row) { return row.empty(); })) return;
+  copy_with_margin(picture, sharp_);
+  find_samples(ages, intervals);
+  parallel_for(rows, 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row)
+      for (const Piece& piece : pieces_[row]) mix(piece, picture);
+  });
+}
+
+void Smear::find_samples(double ages, double intervals) {
+  if (samples_.size() > kMostRemembered) samples_.clear();
+  for (std::vector<Piece>& row : pieces_) {
+    for (Piece& piece : row) {
+      auto found = samples_.find(piece.motion);
+      if (found == samples_.end())
+        found = samples_.emplace(piece.motion, samples_of(piece.motion, ages, intervals)).first;
+      piece.samples = &found->second;
+    }
+  }
+}
+
+Smear::Samples Smear::samples_of(std::int64_t motion, double ages, double intervals) const {
+  const std::int64_t x = (motion + (motion < 0 ? -kAxis / 2 : kAxis / 2)) / kAxis;
+  const double interval_px = intervals / kStepsPerPx;
+  Samples samples;
+  samples.taps = smear_taps(static_cast<double>(x) * interval_px,
+                            static_cast<double>(motion - x * kAxis) * interval_px, ages);
+  while (samples.taps.size() % 4 != 0) {
+    samples.taps.push_back(samples.taps.front());
+    samples.taps.back().weight = 0;
+  }
+  for (const SmearTap& tap : samples.taps) {
+    samples.weights.push_back(tap.weight);
+    samples.offsets.push_back(static_cast<std::ptrdiff_t>(tap.y_px) * sharp_.width_px() + tap.x_px);
+    samples.left_px = std::min(samples.left_px, tap.x_px);
+    samples.right_px = std::max(samples.right_px, tap.x_px);
+    samples.up_px = std::min(samples.up_px, tap.y_px);
+    samples.down_px = std::max(samples.down_px, tap.y_px);
+  }
+  return samples;
+}
+
+void Smear::mix(const Piece& piece, Plane<float>& picture) const {
+  const Samples& samples = *piece.samples;
+  const int x = piece.x + kMarginPx;
+  const int y = piece.y + kMarginPx;
+  if (x + samples.left_px < 0 || x + piece.width + samples.right_px > sharp_.width_px() ||
+      y + samples.up_px < 0 || y + piece.height + samples.down_px > sharp_.height_px()) {
+    mix_far(piece, picture);
+    return;
+  }
+  for (int line = 0; line < piece.height; ++line)
+    mix_line(&sharp_.at(x, y + line), samples.offsets.data(), samples.weights.data(), samples.weights.size(),
+             static_cast<std::size_t>(piece.width), &picture.at(piece.x, piece.y + line));
+}
+
+/// Beyond the margin too: copies the samples of each line.
+void Smear::mix_far(const Piece& piece, Plane<float>& picture) const {
+  const Samples& samples = *piece.samples;
+  const auto width = static_cast<std::size_t>(piece.width);
+  std::vector<float> copied(samples.taps.size() * width);
+  std::vector<std::ptrdiff_t> offsets(samples.taps.size());
+  for (std::size_t tap = 0; tap < offsets.size(); ++tap)
+    offsets[tap] = static_cast<std::ptrdiff_t>(tap * width);
+  for (int y = piece.y; y < piece.y + piece.height; ++y) {
+    for (std::size_t tap = 0; tap < samples.taps.size(); ++tap) {
+      const SmearTap& from = samples.taps[tap];
+      const std::span<const float> row =
+          sharp_.row(std::clamp(y + kMarginPx + from.y_px, 0, sharp_.height_px() - 1));
+      for (int i = 0; i < piece.width; ++i)
+        copied[tap * width + static_cast<std::size_t>(i)] = row[static_cast<std::size_t>(
+            std::clamp(piece.x + kMarginPx + from.x_px + i, 0, sharp_.width_px() - 1))];
+    }
+    mix_line(copied.data(), offsets.data(), samples.weights.data(), offsets.size(), width,
+             &picture.at(piece.x, y));
+  }
+}
+
+}  // namespace thermal

@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "sensor/smear.h"
+
+namespace thermal {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kOldest = 16;         // time constants: what is older weighs 1e-7
+constexpr double kLongPx = 40;         // motion from here on is sampled with less effort
+constexpr int kMostNodes = 66;         // of the quadrature of shorter motion
+constexpr int kMostSteps = 256;        // of longer motion
+constexpr int kReachPx = 3;            // of the interpolation
+constexpr double kLeastWeight = 1e-3;  // of a sample that is kept
+
+struct Node {
+  double place = 0;  ///< 0 to 1 within the interval
+  double weight = 0;
+};
+
+/// Nodes and weights of Gauss and Legendre on 0 to 1, by Newton's method (Numerical Recipes, 4.6).
+std::vector<Node> legendre_nodes(int count) {
+  std::vector<Node> nodes;
+  for (int i = 0; i < count; ++i) {
+    double x = std::cos(pi * (i + 0.75) / (count + 0.5));
+    double slope = 1;
+    for (int step = 0; step < 8; ++step) {
+      double value = 1;
+      double before = 0;
+      for (int k = 0; k < count; ++k) {
+        const double older = before;
+        before = value;
+        value = ((2 * k + 1) * x * before - k * older) / (k + 1);
+      }
+      slope = count * (x * value - before) / (x * x - 1);
+      x -= value / slope;
+    }
+    nodes.push_back({.place = (1 - x) / 2, .weight = 1 / ((1 - x * x) * slope * slope)});
+  }
+  return nodes;
+}
+
+const std::vector<Node>& nodes_of(int count) {
+  static const auto kAll = [] {
+    std::array<std::vector<Node>, kMostNodes + 1> all;
+    for (int n = 1; n <= kMostNodes; ++n) all.at(static_cast<std::size_t>(n)) = legendre_nodes(n);
+    return all;
+  }();
+  return kAll.at(static_cast<std::size_t>(count));
+}
+
+constexpr std::size_t kSamples = 2 * kReachPx;
+using Weights = std::array<double, kSamples>;
+
+/// Integral of cos(2 pi f x) over the frequencies that are interpolated best, over their number.
+double correlation(double px) {
+  constexpr double kBand = 0.32;  // cycles per pixel
+  const double x = 2 * pi * kBand * px;
+  return std::abs(x) < 1e-9 ? 1 : std::sin(x) / x;
+}
+
+/// Weights whose sum is 1 and whose transfer is nearest, by least squares over these frequencies, to that of a shift by
+/// a fraction of a pixel. Normal equations with one multiplier, by Gauss and Jordan; they are well conditioned.
+Weights shift_weights(double fraction) {
+  constexpr std::size_t kRows = kSamples + 1;
+  std::array<std::array<double, kRows + 1>, kRows> rows{};
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const double place = static_cast<double>(i) - (kReachPx - 1);
+    for (std::size_t k = 0; k < kSamples; ++k)
+      rows.at(i).at(k) = correlation(static_cast<double>(i) - static_cast<double>(k));
+    rows.at(i).at(kSamples) = rows.at(kSamples).at(i) = 1;
+    rows.at(i).at(kRows) = correlation(place - fraction);
+  }
+  rows.at(kSamples).at(kRows) = 1;
+  for (std::size_t pivot = 0; pivot < kRows; ++pivot) {
+    const double diagonal = rows.at(pivot).at(pivot);
+    for (double& value : rows.at(pivot)) value /= diagonal;
+    for (std::size_t i = 0; i < kRows; ++i) {
+      const double share = i == pivot ? 0 : rows.at(i).at(pivot);
+      for (std::size_t k = 0; k <= kRows; ++k) rows.at(i).at(k) -= share * rows.at(pivot).at(k);
+    }
+  }
+  Weights weights{};
+  for (std::size_t i = 0; i < kSamples; ++i) weights.at(i) = rows.at(i).at(kRows);
+  return weights;
+}
+
+/// The interpolation's weights of the 6 samples around a place, by its fraction of a pixel.
+class Interpolation {
+ public:
+  Interpolation() {
+    for (std::size_t step = 0; step < all_.size(); ++step)
+      all_.at(step) = shift_weights(static_cast<double>(step) / kSteps);
+  }
+
+  [[nodiscard]] Weights at(double fraction) const {
+    const double place = fraction * kSteps;
+    const auto step = static_cast<std::size_t>(std::min(place, kSteps - 1.0));
+    const double share = place - static_cast<double>(step);
+    Weights weights{};
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      weights.at(i) = (1 - share) * all_.at(step).at(i) + share * all_.at(step + 1).at(i);
+    return weights;
+  }
+
+ private:
+  static constexpr int kSteps = 256;
+  std::array<Weights, kSteps + 1> all_{};
+};
+
+/// Sums of weights over a rectangle of samples.
+class TapGrid {
+ public:
+  TapGrid(double x_px, double y_px)
+      : left_(static_cast<int>(std::floor(std::min(x_px, 0.0))) - kReachPx),
+        top_(static_cast<int>(std::floor(std::min(y_px, 0.0))) - kReachPx),
+        width_(static_cast<int>(std::ceil(std::abs(x_px))) + 2 * kReachPx + 2),
+        weights_(static_cast<std::size_t>(width_) *
+                 static_cast<std::size_t>(static_cast<int>(std::ceil(std::abs(y_px))) + 2 * kReachPx + 2)) {}
+
+  void add(double x_px, double y_px, double weight) {
+    static const Interpolation kInterpolation;
+    const double x = std::floor(x_px);
+    const double y = std::floor(y_px);
+    const Weights across = kInterpolation.at(x_px - x);
+    const Weights down = kInterpolation.at(y_px - y);
+    const int first_x = static_cast<int>(x) - (kReachPx - 1) - left_;
+    const int first_y = static_cast<int>(y) - (kReachPx - 1) - top_;
+    for (int row = 0; row < static_cast<int>(kSamples); ++row) {
+      double* out = &weights_[static_cast<std::size_t>((first_y + row) * width_ + first_x)];
+      const double share = weight * down[static_cast<std::size_t>(row)];
+      for (std::size_t i = 0; i < across.size(); ++i) out[i] += share * across[i];
+    }
+  }
+
+  [[nodiscard]] std::vector<SmearTap> taps() const {
+    std::vector<SmearTap> taps;
+    double sum = 0;
+    for (const double weight : weights_) sum += std::abs(weight) < kLeastWeight ? 0 : weight;
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      if (std::abs(weights_[i]) < kLeastWeight) continue;
+      const auto at = static_cast<int>(i);
+      taps.push_back({.x_px = left_ + at % width_,
+                      .y_px = top_ + at / width_,
+                      .weight = static_cast<float>(weights_[i] / sum)});
+    }
+    return taps;
+  }
+
+ private:
+  int left_;
+  int top_;
+  int width_;
+  std::vector<double> weights_;
+};
+
+std::vector<SmearTap> short_taps(double x_px, double y_px, double ages) {
+  const double length_px = std::hypot(x_px, y_px);
+  TapGrid grid(x_px, y_px);
+  for (const Node& node : nodes_of(6 + static_cast<int>(std::ceil(1.5 * length_px)))) {
+    const double density = ages * std::exp(-ages * node.place) / -std::expm1(-ages);
+    grid.add(node.place * x_px, node.place * y_px, node.weight * density);
+  }
+  return grid.taps();
+}
+
+/// Integral of the age, in intervals, over the youngest `share` of the weight.
+double age_integral(double share, double ages) {
+  const double all = -std::expm1(-ages);
+  const double rest = 1 - all * share;
+  return ((rest > 0 ? rest * std::log(rest) : 0) + all * share) / (all * ages);
+}
+
+/// Steps of equal weight, each at its mean age, between four pixels.
+std::vector<SmearTap> long_taps(double x_px, double y_px, double ages) {
+  const double length_px = std::hypot(x_px, y_px);
+  const double dense_px = length_px * std::min(1.0, 1 / ages);
+  const int steps = std::clamp(static_cast<int>(std::ceil(8 * dense_px)), 64, kMostSteps);
+  std::vector<SmearTap> taps;
+  for (int i = 0; i < steps; ++i) {
+    const double place =
+        steps * (age_integral((i + 1.0) / steps, ages) - age_integral(static_cast<double>(i) / steps, ages));
+    const double x = std::floor(place * x_px);
+    const double y = std::floor(place * y_px);
+    const double right = place * x_px - x;
+    const double down = place * y_px - y;
+    for (int corner = 0; corner < 4; ++corner) {
+      const double share = (corner % 2 == 1 ? right : 1 - right) * (corner / 2 == 1 ? down : 1 - down);
+      taps.push_back({.x_px = static_cast<int>(x) + corner % 2,
+                      .y_px = static_cast<int>(y) + corner / 2,
+                      .weight = static_cast<float>(share / steps)});
+    }
+  }
+  return taps;
+}
+
+}  // namespace
+
+std::vector<SmearTap> smear_taps(double x_px, double y_px, double ages) {
+  const double shown = std::min(1.0, kOldest / ages);
+  const double right_px = x_px * shown;
+  const double down_px = y_px * shown;
+  if (std::hypot(right_px, down_px) < kLongPx) return short_taps(right_px, down_px, ages * shown);
+  return long_taps(right_px, down_px, ages * shown);
+}
+
+}  // namespace thermal
