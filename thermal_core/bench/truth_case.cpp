@@ -102,7 +102,9 @@ Plane<double> shipped_image_k(const TruthCase& measured, const TruthView& view) 
                       .ground = kTruthSoil,
                       .width_px = view.width_px,
                       .height_px = view.height_px,
-                      .frame_rate_hz = measured.frame_rate_hz};
+                      .frame_rate_hz = measured.frame_rate_hz,
+                      .camera_px = px_per_m(measured) * measured.speed_m_s / measured.frame_rate_hz};
+  clip.walk_px = px_per_s(measured) / measured.frame_rate_hz - clip.camera_px;
   if (smear_px(measured) > 0) {
     clip.frames +=
         static_cast<int>(kSettled * measured.preset.truth.time_constant_s * measured.frame_rate_hz) + 1;
@@ -175,7 +177,8 @@ double shipped_ms(const TruthCase& measured) {
                             .sampling = measured.sampling,
                             .target = measured.target.surface,
                             .ground = kTruthSoil,
-                            .frame_rate_hz = measured.frame_rate_hz};
+                            .frame_rate_hz = measured.frame_rate_hz,
+                            .camera_px = px_per_s(measured) / measured.frame_rate_hz};
   return 1e3 * shipped_frame_s(clip, placed(measured.target, px_per_m(measured), 320, 256));
 }
 

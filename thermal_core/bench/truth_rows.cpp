@@ -4,6 +4,8 @@
 #include <functional>
 #include <utility>
 
+#include "sensor/smear.h"
+
 namespace thermal {
 namespace {
 
@@ -46,9 +48,24 @@ double delay_px(const TruthCase& measured) {
          (tau_s - 1 / (measured.frame_rate_hz * std::expm1(1 / (measured.frame_rate_hz * tau_s))));
 }
 
-/// The still image of each frame, mixed as the shipped camera mixes frames, and moved.
-TruthImage image_with_lag(const TruthCase& measured, const ContrastKernel& still, double moved_px) {
-  return [&measured, &still, moved_px](const TruthView& view) {
+/// A still image of a frame, smeared as the shipped camera does.
+Plane<double> smeared(const TruthCase& measured, const Plane<double>& radiance, double step_px) {
+  Plane<float> picture(radiance.width_px(), radiance.height_px());
+  for (std::size_t i = 0; i < picture.size(); ++i)
+    picture.pixels()[i] = static_cast<float>(radiance.pixels()[i]);
+  const ImageMotion motion = {
+      .x_px = Plane<float>(picture.width_px(), picture.height_px(), static_cast<float>(-step_px)),
+      .y_px = Plane<float>(picture.width_px(), picture.height_px())};
+  Smear(1 / measured.frame_rate_hz, measured.preset.truth.time_constant_s).apply(motion, picture);
+  Plane<double> out(picture.width_px(), picture.height_px());
+  for (std::size_t i = 0; i < out.size(); ++i) out.pixels()[i] = static_cast<double>(picture.pixels()[i]);
+  return out;
+}
+
+/// The still image of each frame, mixed as the shipped camera mixes frames, and moved; with its smear or without.
+TruthImage image_with_lag(const TruthCase& measured, const ContrastKernel& still, double moved_px,
+                          bool with_smear = false) {
+  return [&measured, &still, moved_px, with_smear](const TruthView& view) {
     const double kept = std::exp(-1 / (measured.frame_rate_hz * measured.preset.truth.time_constant_s));
     const double step_px = px_per_s(measured) / measured.frame_rate_hz;
     Plane<double> mixed(view.width_px, view.height_px);
@@ -57,8 +74,9 @@ TruthImage image_with_lag(const TruthCase& measured, const ContrastKernel& still
     double weight = 1 - kept;
     double rest = 1;
     while (rest > 1e-6) {
-      const Plane<double> frame =
+      Plane<double> frame =
           true_radiance(still, shapes, soil_radiance(measured), view.width_px, view.height_px);
+      if (with_smear) frame = smeared(measured, frame, step_px);
       rest -= weight;
       if (rest <= 1e-6) weight += rest;
       for (std::size_t i = 0; i < mixed.size(); ++i) mixed.pixels()[i] += weight * frame.pixels()[i];
@@ -98,6 +116,8 @@ std::vector<RenderRow> share_rows(const std::string& group, const TruthCase& usu
     rows.push_back(
         row_of(group, name, usual, image_with_lag(usual, still, moved_px), image_by(usual, moving)));
   }
+  rows.push_back(
+      row_of(group, "smear and lag", usual, image_with_lag(usual, still, 0, true), image_by(usual, moving)));
   return rows;
 }
 

@@ -7,6 +7,7 @@
 
 #include "bench/measure.h"
 #include "imaging/frame_converter.h"
+#include "imaging/motion_finder.h"
 #include "scene/camera_geometry.h"
 #include "sensor/thermal_camera.h"
 
@@ -28,6 +29,20 @@ MaterialLibrary truth_materials(const ShippedClip& clip) {
   add("target", clip.target);
   add("sky", {250, 1});
   return library;
+}
+
+constexpr double kTruthDepthM = 100;
+
+/// A camera that looks straight down on level ground, and flies to the right of its picture; the target walks to the left.
+ManifestFrame truth_frame(const ShippedClip& clip, const CameraIntrinsics& camera, int number) {
+  const double m_per_px = kTruthDepthM / camera.fx_px;
+  const double flown_m = number * clip.camera_px * m_per_px;
+  const double walked_m = -number * clip.walk_px * m_per_px;
+  ManifestFrame frame;
+  frame.time_s = number / clip.frame_rate_hz;
+  frame.camera_to_world = {1, 0, 0, flown_m, 0, -1, 0, 0, 0, 0, -1, kTruthDepthM, 0, 0, 0, 1};
+  frame.actors = {{.index = kTruthTarget, .position_m = {walked_m, 0, 0}}};
+  return frame;
 }
 
 Manifest truth_manifest(const ShippedClip& clip) {
@@ -53,6 +68,7 @@ Manifest truth_manifest(const ShippedClip& clip) {
   target.category = "target";
   target.track_id = 1;
   manifest.objects = {ground, target};
+  for (int n = 0; n < clip.frames; ++n) manifest.frames.push_back(truth_frame(clip, manifest.camera, n));
   return manifest;
 }
 
@@ -124,6 +140,9 @@ Passes passes_of(const ShippedClip& clip, const std::vector<TruthShape>& shapes)
   const bool is_full = clip.sampling.kind == ShippedSampling::Kind::full;
   passes.object_index = index_plane(clip, shapes, is_full ? clip.sampling.factor : 1);
   if (clip.sampling.kind == ShippedSampling::Kind::adaptive) passes.fine = samples_near(clip, shapes);
+  if (clip.smear)
+    passes.depth_m = Plane<float>(passes.object_index.width_px(), passes.object_index.height_px(),
+                                  static_cast<float>(kTruthDepthM));
   if (clip.sampling.kind == ShippedSampling::Kind::coverage) passes.ranks = shares_of(clip, shapes);
   return passes;
 }
@@ -135,6 +154,7 @@ class ShippedChain {
       : manifest_(truth_manifest(clip)),
         materials_(truth_materials(clip)),
         converter_(manifest_, materials_, Season::winter, clip.sensor),
+        motion_(manifest_, {}),
         camera_(clip.sensor,
                 {.id = "truth",
                  .frame_rate_hz = clip.frame_rate_hz,
@@ -146,15 +166,19 @@ class ShippedChain {
 
   void expose(const Passes& passes, SensorFrame& out) {
     converter_.convert(passes, {}, scene_);
-    camera_.expose(scene_.radiance_w_m2_sr, out);
+    motion_.find(passes, frame_, scene_.motion);
+    if (frame_ + 1 < static_cast<int>(manifest_.frames.size())) ++frame_;
+    camera_.expose(scene_.radiance_w_m2_sr, scene_.motion, out);
   }
 
  private:
   Manifest manifest_;
   MaterialLibrary materials_;
   FrameConverter converter_;
+  MotionFinder motion_;
   ThermalCamera camera_;
   SceneFrame scene_;
+  int frame_ = 0;
 };
 
 }  // namespace
@@ -173,6 +197,7 @@ double shipped_frame_s(ShippedClip clip, const std::vector<TruthShape>& shapes) 
   constexpr double kMeasuredS = 0.2;
   clip.width_px = 640;
   clip.height_px = 512;
+  clip.frames = 2;
   const Passes passes = passes_of(clip, shapes);
   ShippedChain chain(clip);
   SensorFrame frame;
