@@ -140,9 +140,8 @@ Passes passes_of(const ShippedClip& clip, const std::vector<TruthShape>& shapes)
   const bool is_full = clip.sampling.kind == ShippedSampling::Kind::full;
   passes.object_index = index_plane(clip, shapes, is_full ? clip.sampling.factor : 1);
   if (clip.sampling.kind == ShippedSampling::Kind::adaptive) passes.fine = samples_near(clip, shapes);
-  if (clip.smear)
-    passes.depth_m = Plane<float>(passes.object_index.width_px(), passes.object_index.height_px(),
-                                  static_cast<float>(kTruthDepthM));
+  passes.depth_m = Plane<float>(passes.object_index.width_px(), passes.object_index.height_px(),
+                                static_cast<float>(kTruthDepthM));
   if (clip.sampling.kind == ShippedSampling::Kind::coverage) passes.ranks = shares_of(clip, shapes);
   return passes;
 }

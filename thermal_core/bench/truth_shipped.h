@@ -31,7 +31,6 @@ struct ShippedClip {
   int frames = 1;  ///< the last of which is looked at
   double camera_px = 0;  ///< by which the camera's motion moves the picture to the left, a frame
   double walk_px = 0;    ///< by which the target moves more
-  bool smear = true;     ///< the camera is given the picture's motion
 };
 
 /// The target's shapes in the n-th frame before the last.

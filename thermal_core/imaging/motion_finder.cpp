@@ -255,9 +255,11 @@ void MotionFinder::move_actors(const Passes& passes, const Step& step, ImageMoti
   const auto index_at = [&](int x, int y) {
     return passes.object_index.pixels()[source(passes.depth_m, x, y)];
   };
+  const bool is_direct = shown_.empty() && passes.depth_m.width_px() == camera_.width_px;
   for (int y = 0; y < camera_.height_px; ++y) {
+    const std::uint16_t* line = is_direct ? passes.object_index.row(y).data() : nullptr;
     for (int x = 0; x < camera_.width_px; ++x) {
-      const std::uint16_t number = number_of[index_at(x, y)];
+      const std::uint16_t number = number_of[line != nullptr ? line[x] : index_at(x, y)];
       if (number == 0) continue;
       float x_px = 0;
       float y_px = 0;
