@@ -156,6 +156,26 @@ std::vector<std::int32_t> shown_pixels(const Manifest& manifest, const CameraInt
   return shown;
 }
 
+/// Depth and index of the samples that planes with all samples would be read at: those of finer pixels replaced.
+Passes read_at_samples(const Passes& passes) {
+  Passes out;
+  out.depth_m = passes.depth_m;
+  out.object_index = passes.object_index;
+  const FineSamples& fine = passes.fine;
+  const auto side = static_cast<std::size_t>(fine.factor);
+  for (int y = 0; y < out.depth_m.height_px(); ++y) {
+    const std::size_t first = fine.row_begin[static_cast<std::size_t>(y)];
+    const std::size_t line = fine.line_begin(y, fine.factor / 2);
+    for (std::size_t i = 0; i < fine.pixels_in(y); ++i) {
+      const int x = fine.x_px[first + i];
+      const std::size_t sample = line + i * side + side / 2;
+      out.depth_m.at(x, y) = fine.depth_m[sample];
+      out.object_index.at(x, y) = fine.object_index[sample];
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 MotionFinder::MotionFinder(const Manifest& manifest, const LensDistortion& lens)
@@ -206,6 +226,10 @@ void MotionFinder::find(const Passes& passes, int frame, ImageMotion& out) const
   const Step& step = steps_[static_cast<std::size_t>(frame)];
   if (!step.moves || passes.depth_m.empty()) {
     out = {};
+    return;
+  }
+  if (passes.fine.factor > 1 && !passes.fine.depth_m.empty()) {
+    find(read_at_samples(passes), frame, out);
     return;
   }
   if (out.x_px.width_px() != camera_.width_px || out.x_px.height_px() != camera_.height_px) {

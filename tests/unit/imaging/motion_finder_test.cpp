@@ -1,5 +1,6 @@
 #include "imaging/motion_finder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -150,6 +151,26 @@ TEST_CASE("Finer passes, a lens and overscan give the camera's pixels their moti
   MotionFinder(manifest, barrel).find(scene(80, 64), 1, motion);
   CHECK(motion.x_px.width_px() == 64);
   CHECK_THAT(motion.x_px.at(5, 24), WithinAbs(-kPxPerM, 0.02F));
+}
+
+TEST_CASE("Passes that are sampled where it matters move as those with all samples do") {
+  Manifest manifest = still_clip(2);
+  manifest.frames[1].camera_to_world = above(1, 0);
+  manifest.supersample = 2;
+  Passes adaptive = scene();
+  FineSamples& fine = adaptive.fine;
+  fine.factor = 2;
+  fine.row_begin.assign(49, 0);
+  for (int y = 11; y <= 48; ++y) fine.row_begin[static_cast<std::size_t>(y)] = 1;
+  fine.x_px = {20};
+  fine.object_index = {1, 1, 1, 1};
+  fine.depth_m = {kDepthM, kDepthM, kDepthM, kDepthM / 2};
+  Passes full = scene(128, 96);
+  for (Passes* passes : {&adaptive, &full}) std::ranges::fill(passes->depth_m.pixels(), kDepthM);
+  full.depth_m.at(41, 21) = kDepthM / 2;
+  const ImageMotion motion = motion_in(manifest, 1, adaptive);
+  CHECK(motion.x_px == motion_in(manifest, 1, full).x_px);
+  CHECK_THAT(motion.x_px.at(20, 10), WithinAbs(-2 * kPxPerM, 1e-3F));
 }
 
 TEST_CASE("Motion over several intervals counts for one") {
