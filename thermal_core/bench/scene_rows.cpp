@@ -185,7 +185,8 @@ std::vector<BenchRow> term_rows(const MaterialLibrary& materials) {
   for (const TermInfo& term : kTerms) {
     // Some change values, not the work per pixel; others need the heat balance, see --suite heat, or belong to the
     // sensor.
-    if (term.name == "smear" || term.name == "parts" || term.name == "falloff" || term.name == "place" || term.name == "facing")
+    if (term.name == "smear" || term.name == "parts" || term.name == "falloff" || term.name == "place" ||
+        term.name == "facing")
       continue;
     Terms one;
     one.*term.kept = true;

@@ -28,7 +28,7 @@ struct ShippedClip {
   int width_px = 0;
   int height_px = 0;
   double frame_rate_hz = 30;
-  int frames = 1;  ///< the last of which is looked at
+  int frames = 1;        ///< the last of which is looked at
   double camera_px = 0;  ///< by which the camera's motion moves the picture to the left, a frame
   double walk_px = 0;    ///< by which the target moves more
 };

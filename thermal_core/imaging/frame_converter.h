@@ -18,7 +18,7 @@ namespace thermal {
 struct SceneFrame {
   Plane<float> radiance_w_m2_sr;
   std::vector<Instance> instances;
-  PassChecks checks = {};  ///< of the planes that the terms read
+  PassChecks checks = {};   ///< of the planes that the terms read
   ImageMotion motion = {};  ///< as MotionFinder finds it; empty without the term `smear`
 };
 

@@ -56,9 +56,10 @@ ClipOutput::ClipOutput(const ClipTask& task, const Manifest& manifest, float bri
 void ClipOutput::expose(const SceneFrame& scene, Frame& frame) {
   frame.instances = scene.instances;
   frame.checks = scene.checks;
-  camera_.expose(scene.radiance_w_m2_sr, scene.motion, frame.pictures, [&](const Plane<float>& radiance_w_m2_sr) {
-    set_contrast(camera_, radiance_w_m2_sr, frame.instances);
-  });
+  camera_.expose(scene.radiance_w_m2_sr, scene.motion, frame.pictures,
+                 [&](const Plane<float>& radiance_w_m2_sr) {
+                   set_contrast(camera_, radiance_w_m2_sr, frame.instances);
+                 });
 }
 
 void ClipOutput::write(int number, Frame& frame) const {
