@@ -33,7 +33,8 @@ MaterialLibrary truth_materials(const ShippedClip& clip) {
 
 constexpr double kTruthDepthM = 100;
 
-/// A camera that looks straight down on level ground, and flies to the right of its picture; the target walks to the left.
+/// A camera that looks straight down on level ground, and flies to the right of its picture; the target walks to the
+/// left.
 ManifestFrame truth_frame(const ShippedClip& clip, const CameraIntrinsics& camera, int number) {
   const double m_per_px = kTruthDepthM / camera.fx_px;
   const double flown_m = number * clip.camera_px * m_per_px;

@@ -72,9 +72,9 @@ struct Budget {
 /// third of the NETD; dropping less than that adds at most 5 % to the noise in quadrature. Percentiles are over what
 /// fills the pictures; for `parts` over the actors, for `facing` over actors or all else, whichever differ more, for
 /// `mirror` over the water. Shifts of emission and reflection are relative to the terms before them in kTerms, with
-/// level surfaces under an open sky. `smear` counts at borders, of actors alone or of all: half of their pixels differ, to
-/// either side, by the contrast to the mean ground times the motion in px within a time constant, at most 1. An automatic
-/// term that is impossible is dropped; ConfigError if the config requires one.
+/// level surfaces under an open sky. `smear` counts at borders, of actors alone or of all: half of their pixels differ,
+/// to either side, by the contrast to the mean ground times the motion in px within a time constant, at most 1. An
+/// automatic term that is impossible is dropped; ConfigError if the config requires one.
 [[nodiscard]] Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices);
 
 /// Shift of a material's apparent temperature by sky reflection, and by the path on top of it [K], of which the

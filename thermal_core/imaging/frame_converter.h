@@ -55,12 +55,12 @@ class FrameConverter {
   /// Planes that convert() needs besides the object index.
   [[nodiscard]] PassNeeds needs() const noexcept;
 
-  /// Converts the passes of one frame, `supersample` times finer than the camera and with overscan if the manifest
-  /// says so: physics first, then means of radiance, then the lens. Labels go through the lens like radiance. If the
-  /// passes have ranks, radiance combines all of them (coverage_radiance()), and labels use object_index. Passes that are sampled where it matters (Passes::fine) give
-  /// what those with all samples would, if the other pixels had one value each. Actors are
-  /// labelled by ActorLabeller.
-  /// DataError if the passes hold an index missing from the manifest. Safe to call from several threads.
+  /// Converts the passes of one frame, `supersample` times finer than the camera and with overscan if the manifest says
+  /// so: physics first, then means of radiance, then the lens. Labels go through the lens like radiance. If the passes
+  /// have ranks, radiance combines all of them (coverage_radiance()), and labels use object_index. Passes that are
+  /// sampled where it matters (Passes::fine) give what those with all samples would, if the other pixels had one value
+  /// each. Actors are labelled by ActorLabeller. DataError if the passes hold an index missing from the manifest. Safe
+  /// to call from several threads.
   [[nodiscard]] SceneFrame convert(const Passes& passes, const ManifestFrame& frame = {}) const;
 
   /// The same into a frame whose memory is reused.

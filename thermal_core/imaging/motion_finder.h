@@ -16,10 +16,10 @@ namespace thermal {
 /// How the picture of each frame moves, by depth, the camera's poses and those of the actors.
 ///
 /// A pixel's motion is how far what it shows moved since the frame before; in a clip's first frame, until the next one.
-/// Frames are 1 / frame_rate_hz apart, whatever their times say, or if their times grow by more, moved in
-/// proportion. Actors move rigidly, as their poses do; limbs do not, nor do plants. Sky moves with the camera's rotation.
-/// Behind an actor that moves otherwise than its background, pixels that it has just left move as it does, so that they
-/// still see it. Pixels without a usable depth, and frames without a usable pose here or before, do not move.
+/// Frames are 1 / frame_rate_hz apart, whatever their times say, or if their times grow by more, moved in proportion.
+/// Actors move rigidly, as their poses do; limbs do not, nor do plants. Sky moves with the camera's rotation. Behind an
+/// actor that moves otherwise than its background, pixels that it has just left move as it does, so that they still see
+/// it. Pixels without a usable depth, and frames without a usable pose here or before, do not move.
 class MotionFinder {
  public:
   /// @param lens  as FrameConverter's, which has checked it

@@ -40,8 +40,8 @@ struct SmearTap {
 /// Each pixel gathers along its own motion, from this picture alone: what something hid within the interval is unknown.
 /// Between pixels the picture is interpolated by 6 x 6 samples, best at low frequencies: samples of one picture do not
 /// tell how what is near Nyquist moves. smear_test.cpp has the errors. Beyond the edges the picture goes on as it ends.
-/// No result is below the coldest pixel that it was mixed from. Motions are exact within 1/16 px an interval; those below
-/// 1/64 px leave a pixel as it is. Motion of more than 40 px an interval takes up to a hundred times longer.
+/// No result is below the coldest pixel that it was mixed from. Motions are exact within 1/16 px an interval; those
+/// below 1/64 px leave a pixel as it is. Motion of more than 40 px an interval takes up to a hundred times longer.
 class Smear {
  public:
   /// @param interval_s  a frame interval, > 0

@@ -64,7 +64,8 @@ Plane<float> wave(double moved_px) {
   return picture;
 }
 
-/// A bar 10 K warmer and 6 px wide, through optics whose blur is a Gaussian of 0.5 px, as that of fast lenses and pixels.
+/// A bar 10 K warmer and 6 px wide, through optics whose blur is a Gaussian of 0.5 px, as that of fast lenses and
+/// pixels.
 double bar_k(double x_px) {
   constexpr double kBlur = 0.5 * std::numbers::sqrt2;
   return 30 + 5 * (std::erf((x_px + 3) / kBlur) - std::erf((x_px - 3) / kBlur));
