@@ -41,11 +41,13 @@ double spread(std::vector<Weighted> values) {
 /// Radiance of one material in one night, term by term.
 class MaterialModel {
  public:
-  MaterialModel(const Material& material, const SceneOutline::Night& night, const SpectralResponse& response)
+  /// @param air  the night's, as the response sees it; must outlive this object
+  MaterialModel(const Material& material, const SceneOutline::Night& night, const SpectralResponse& response,
+                const BandAir& air)
       : material_(material),
         weather_(night.weather),
         temperature_k_(night.temperature_k(material, "")),
-        air_(night.weather.air, response),
+        air_(air),
         blackbody_(response),
         band_(response, material.spectrum.value_or(EmissivitySpectrum(
                             night.heated_k.empty() ? material.emissivity : material.measured_emissivity))),
@@ -86,7 +88,7 @@ class MaterialModel {
   const Material& material_;
   const Weather& weather_;
   double temperature_k_;
-  BandAir air_;
+  const BandAir& air_;
   BandRadiance blackbody_;
   BandRadiance band_;
   double air_radiance_;
@@ -107,7 +109,7 @@ double shore_share(double cosine) {
 class NightShifts {
  public:
   NightShifts(const SceneOutline& outline, const SceneOutline::Night& night)
-      : outline_(outline), night_(night) {
+      : outline_(outline), night_(night), air_(night.weather.air, outline.response) {
     for (const SceneOutline::Cover& cover : outline.covers) {
       add_cover(cover);
       if (cover.material->angular == AngularLaw::water) add_mirror(cover);
@@ -138,9 +140,26 @@ class NightShifts {
     if (actor) actor_shifts_.at(index) = std::max(actor_shifts_.at(index), std::abs(shift_k));
   }
 
+  /// Adds what places or directions do to a cover. The percentiles of actors are over them alone.
+  void add_heat(std::string_view term,
+                const std::map<std::string, std::vector<SceneOutline::PlaceShift>>& by_material,
+                const SceneOutline::Cover& cover) {
+    const auto found = by_material.find(cover.material->name);
+    if (found == by_material.end()) return;
+    for (const auto& [shift_k, share] : found->second) {
+      add(term, shift_k, share * cover.share, cover.actor);
+      if (cover.actor) on_actors_.at(index_of(term)).push_back({shift_k, share});
+    }
+  }
+
+  [[nodiscard]] MaterialModel model_of(const SceneOutline::Cover& cover) const {
+    return {*cover.material, night_, outline_.response, air_};
+  }
+
   void add_cover(const SceneOutline::Cover& cover) {
-    const MaterialModel model(*cover.material, night_, outline_.response);
-    add_heat(cover);
+    const MaterialModel model = model_of(cover);
+    add_heat("place", night_.by_place, cover);
+    add_heat("facing", night_.facing, cover);
     add_variation(cover);
     add_parts(cover, model);
     const double direct_k = model.apparent_k(model.emitted(model.temperature_k()));
@@ -158,10 +177,10 @@ class NightShifts {
 
   /// Of water's pixels alone: those that mirror the sky are not shifted, the others mirror all that is not water.
   void add_mirror(const SceneOutline::Cover& water) {
-    const MaterialModel model(*water.material, night_, outline_.response);
+    const MaterialModel model = model_of(water);
     for (const SceneOutline::Cover& cover : outline_.covers) {
       if (cover.material->angular == AngularLaw::water) continue;
-      const double mirrored = MaterialModel(*cover.material, night_, outline_.response).with_sky(1, 1);
+      const double mirrored = model_of(cover).with_sky(1, 1);
       for (const SceneOutline::Look& look : night_.looks) {
         const double factor = angular_factor(water.material->angular, look.ground_cosine);
         const double sky_k = model.apparent_k(model.with_sky(factor, look.ground_cosine));
@@ -169,22 +188,6 @@ class NightShifts {
         const double share = shore_share(look.ground_cosine);
         add("mirror", shift_k, cover.share * share, false);
         add("mirror", 0, cover.share * (1 - share), false);
-      }
-    }
-  }
-
-  /// What place and direction do. The percentiles of actors are over them alone.
-  void add_heat(const SceneOutline::Cover& cover) {
-    if (const auto found = night_.by_place.find(cover.material->name); found != night_.by_place.end()) {
-      for (const auto& [shift_k, share] : found->second) {
-        add("place", shift_k, share * cover.share, cover.actor);
-        if (cover.actor) on_actors_.at(index_of("place")).push_back({shift_k, share});
-      }
-    }
-    if (const auto found = night_.facing.find(cover.material->name); found != night_.facing.end()) {
-      for (const auto& [shift_k, share] : found->second) {
-        add("facing", shift_k, share * cover.share, cover.actor);
-        if (cover.actor) on_actors_.at(index_of("facing")).push_back({shift_k, share});
       }
     }
   }
@@ -208,8 +211,9 @@ class NightShifts {
     }
   }
 
+  /// Without reflection and path.
   [[nodiscard]] double direct_k(const SceneOutline::Cover& cover) const {
-    const MaterialModel model(*cover.material, night_, outline_.response);
+    const MaterialModel model = model_of(cover);
     return model.apparent_k(model.emitted(model.temperature_k()));
   }
 
@@ -242,6 +246,7 @@ class NightShifts {
 
   const SceneOutline& outline_;
   const SceneOutline::Night& night_;
+  BandAir air_;
   std::array<std::vector<Weighted>, std::size(kTerms)> shifts_;
   std::array<std::vector<Weighted>, std::size(kTerms)>
       on_actors_;  ///< those of actors again, where they count alone
@@ -296,7 +301,8 @@ double SceneOutline::Night::temperature_k(const Material& material, const std::s
 
 MaterialShift shift_of(const Material& material, const SceneOutline::Night& night, double range_m,
                        const SpectralResponse& response) {
-  const MaterialModel model(material, night, response);
+  const BandAir air(night.weather.air, response);
+  const MaterialModel model(material, night, response, air);
   const double direct_k = model.apparent_k(model.emitted(model.temperature_k()));
   const double sky = model.with_sky(1, 1);
   const double sky_k = model.apparent_k(sky);

@@ -16,9 +16,6 @@ namespace {
 
 constexpr std::size_t kSceneRowsAChunk = 8;
 
-/// So few that what the terms keep of them stays in the first cache.
-constexpr std::size_t kPixelsAtOnce = 320;
-
 /// In the planes' precision, so that pixels of the brightest material have exactly the brightest count.
 float emitted(const Material& material, Season season, const SceneRadiance::RadianceOf& radiance_of) {
   return static_cast<float>(material.emissivity * radiance_of(material.temperature_k(season)));
@@ -224,33 +221,27 @@ float SceneRadiance::later_h(const ManifestFrame& frame) const noexcept {
 }
 
 /// What a row's water mirrors. `numbers` holds the surfaces of the row, and is empty if none are mirrored.
-void SceneRadiance::begin_mirrored(const Mirrored<Plane>& mirrored, int y, std::size_t first,
-                                   std::span<std::uint16_t> numbers, Row& row) const {
+void SceneRadiance::begin_mirrored(const Mirrored<Plane>& mirrored, int y, std::span<std::uint16_t> numbers,
+                                   Row& row) const {
   if (numbers.empty()) return;
-  const auto part = [&](const auto& plane) { return plane.row(y).subspan(first, numbers.size()); };
   const Plane<std::uint16_t>& materials = mirrored.material_index;
-  map_.number(part(mirrored.object_index),
-              materials.empty() ? std::span<const std::uint16_t>() : part(materials), numbers);
+  map_.number(mirrored.object_index.row(y),
+              materials.empty() ? std::span<const std::uint16_t>() : materials.row(y), numbers);
   row.mirrored_surface = numbers;
-  row.mirrored_depth_m = part(mirrored.depth_m);
-  for (std::size_t axis = 0; axis < 3; ++axis) row.mirrored_normal[axis] = part(mirrored.normal[axis]);
+  row.mirrored_depth_m = mirrored.depth_m.row(y);
+  for (std::size_t axis = 0; axis < 3; ++axis) row.mirrored_normal[axis] = mirrored.normal[axis].row(y);
 }
 
-void SceneRadiance::begin_row(const Passes& passes, const CameraRays* rays, int y, std::size_t first,
-                              std::span<std::uint16_t> numbers, Row& row) const {
-  const auto part = [&](const auto& plane) { return plane.row(y).subspan(first, numbers.size()); };
-  const Plane<std::uint16_t>& materials = passes.material_index;
-  map_.number(part(passes.object_index),
-              materials.empty() ? std::span<const std::uint16_t>() : part(materials), numbers);
-  row.surface = numbers;
+void SceneRadiance::begin_row(const Passes& passes, const CameraRays* rays, int y, Row& row) const {
   if (rays != nullptr) {
-    row.ray_x = part(rays->x());
-    row.ray_y = part(rays->y());
-    row.ray_length = part(rays->length());
+    row.ray_x = rays->x().row(y);
+    row.ray_y = rays->y().row(y);
+    row.ray_length = rays->length().row(y);
     row.sample_width = rays->pixel_width();
   }
-  if (needs_.depth) row.depth_m = part(passes.depth_m);
-  for (std::size_t axis = 0; needs_.normals && axis < 3; ++axis) row.normal[axis] = part(passes.normal[axis]);
+  if (needs_.depth) row.depth_m = passes.depth_m.row(y);
+  for (std::size_t axis = 0; needs_.normals && axis < 3; ++axis)
+    row.normal[axis] = passes.normal[axis].row(y);
 }
 
 Plane<float> SceneRadiance::radiance(const Passes& passes, const ManifestFrame& frame) const {
@@ -262,30 +253,29 @@ Plane<float> SceneRadiance::radiance(const Passes& passes, const ManifestFrame& 
 PassChecks SceneRadiance::radiance(const Passes& passes, const ManifestFrame& frame,
                                    Plane<float>& out) const {
   const Plane<std::uint16_t>& objects = passes.object_index;
-  assert(passes.material_index.empty() || passes.material_index.size() == objects.size());
+  const bool has_materials = !passes.material_index.empty();
+  assert(!has_materials || passes.material_index.size() == objects.size());
   const CameraRays* rays = passes.fine.factor > 1 ? held_->pixel_rays.get() : held_->rays.get();
   const CameraPose pose = pose_in(frame);
   if (out.width_px() != objects.width_px() || out.height_px() != objects.height_px()) {
     out = Plane<float>(objects.width_px(), objects.height_px());
   }
   return sum_over_rows(objects.height_px(), [&](int begin, int end) {
-    const auto width = static_cast<std::size_t>(objects.width_px());
-    std::vector<std::uint16_t> numbers(std::min(width, kPixelsAtOnce));
+    std::vector<std::uint16_t> numbers(static_cast<std::size_t>(objects.width_px()));
     std::vector<std::uint16_t> mirrored(mirrors(passes.mirrored.empty()) ? numbers.size() : 0);
     PassChecks checks;
     Row row;
     row.pose = &pose;
     row.later_h = later_h(frame);
+    row.surface = numbers;
     for (int y = begin; y < end; ++y) {
-      for (std::size_t first = 0; first < width; first += kPixelsAtOnce) {
-        const std::size_t count = std::min(width - first, kPixelsAtOnce);
-        begin_row(passes, rays, y, first, std::span(numbers).first(count), row);
-        begin_mirrored(passes.mirrored, y, first, std::span(mirrored).first(mirrored.empty() ? 0 : count),
-                       row);
-        checks += check_row(row);
-        row.radiance_w_m2_sr = out.row(y).subspan(first, count);
-        for (const RowTerm& term : chain_) term(row);
-      }
+      const auto materials = has_materials ? passes.material_index.row(y) : std::span<const std::uint16_t>();
+      map_.number(objects.row(y), materials, numbers);
+      begin_row(passes, rays, y, row);
+      begin_mirrored(passes.mirrored, y, mirrored, row);
+      checks += check_row(row);
+      row.radiance_w_m2_sr = out.row(y);
+      for (const RowTerm& term : chain_) term(row);
     }
     return checks;
   });

@@ -74,10 +74,9 @@ class SceneRadiance {
   void find_brightest();
   [[nodiscard]] float later_h(const ManifestFrame& frame) const noexcept;
   struct FineLine;
-  void begin_row(const Passes& passes, const CameraRays* rays, int y, std::size_t first,
-                 std::span<std::uint16_t> numbers, Row& row) const;
-  void begin_mirrored(const Mirrored<Plane>& mirrored, int y, std::size_t first,
-                      std::span<std::uint16_t> numbers, Row& row) const;
+  void begin_row(const Passes& passes, const CameraRays* rays, int y, Row& row) const;
+  void begin_mirrored(const Mirrored<Plane>& mirrored, int y, std::span<std::uint16_t> numbers,
+                      Row& row) const;
   [[nodiscard]] bool mirrors(bool is_sky) const noexcept { return needs_.mirrored && !is_sky; }
 
   // The chain's terms point to these members, so none of them may move.
