@@ -62,7 +62,7 @@ struct ClipOf {
   std::string id = "a";
   std::uint32_t seed = 1;
   double frame_rate_hz = 9;
-  int supersample = 1;
+  thermal::PixelSampling sampling = {};
 };
 
 inline thermal::ThermalCamera camera(const thermal::SensorParameters& parameters, const ClipOf& clip) {
@@ -73,7 +73,7 @@ inline thermal::ThermalCamera camera(const thermal::SensorParameters& parameters
            .width_px = clip.width_px,
            .height_px = clip.height_px,
            .noise_gain = {},
-           .supersample = clip.supersample},
+           .sampling = clip.sampling},
           kBrightest};
 }
 

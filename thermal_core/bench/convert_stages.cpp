@@ -101,7 +101,7 @@ class Line {
             .width_px = manifest_.camera.width_px,
             .height_px = manifest_.camera.height_px,
             .noise_gain = {},
-            .supersample = 1};
+            .sampling = {}};
   }
 
   const Manifest& manifest_;

@@ -8,7 +8,7 @@
 #include "bench/sensor_scene.h"
 #include "bench/spectrum.h"
 #include "radiometry/band_radiance.h"
-#include "sensor/psf.h"
+#include "sensor/optics.h"
 #include "sensor/streams.h"
 #include "sensor/vector_math.h"
 
@@ -195,7 +195,7 @@ StageRow bad_pixel_row() {
   for (int y = 0; y < kSceneHeightPx; ++y) {
     for (int x = 0; x < kSceneWidthPx; ++x) truth.at(x, y) = static_cast<float>(scene_k(x + 0.5, y + 0.5));
   }
-  Convolution(psf_kernel(camera.optics, camera.response, 1)).apply(truth);
+  Optics(camera.optics, camera.response, {}).apply({}, truth);
   const BadPixelParameters parameters = camera.bad_pixels;
   BadPixels bad(parameters, kDetectorSeed, "bench", kSceneRateHz, kSceneWidthPx, kSceneHeightPx);
   Plane<float> shown = truth;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "bench/sensor_scene.h"
 #include "imaging/resample.h"
+#include "sensor/optics.h"
 #include "sensor/psf.h"
 
 namespace thermal {
@@ -13,31 +13,15 @@ namespace {
 
 constexpr int kFrequencies = 100;  // from 0 to Nyquist
 
-double sinc(double cycles_per_px) {
-  const double x = std::numbers::pi * cycles_per_px;
-  return x == 0 ? 1 : std::sin(x) / x;
-}
-
-/// Transfer at a two-dimensional frequency. The lens is round and the pixel square; the Gaussian rest is separable
-/// into rows and columns.
-double true_mtf(const OpticsParameters& optics, const SpectralResponse& response, double across,
-                double down) {
-  const double radius = std::hypot(across, down);
-  const double whole = optics_mtf(optics, response, radius);
-  if (optics.psf == Psf::gaussian) return whole;
-  return whole / sinc(radius) * sinc(across) * sinc(down);
-}
-
-double worst_mtf_error(const OpticsParameters& optics, const SpectralResponse& response,
-                       const HalfKernel& kernel, bool in_plane) {
+/// Largest difference of two transfers along rows, or over all directions.
+template <typename Transfer>
+double worst_mtf_error(const OpticsTransfer& wanted, const Transfer& transfer, bool in_plane) {
   double worst = 0;
   for (int i = 0; i <= kFrequencies; ++i) {
     for (int j = 0; j <= (in_plane ? kFrequencies : 0); ++j) {
       const double across = 0.5 * i / kFrequencies;
       const double down = 0.5 * j / kFrequencies;
-      const double error =
-          kernel_mtf(kernel, across) * kernel_mtf(kernel, down) - true_mtf(optics, response, across, down);
-      worst = std::max(worst, std::abs(error));
+      worst = std::max(worst, std::abs(transfer(across, down) - wanted.at(across, down)));
     }
   }
   return worst;
@@ -49,20 +33,37 @@ double sum_of(const Plane<float>& plane) {
   return sum;
 }
 
-StageRow kernel_row(const std::string& name, const OpticsParameters& optics) {
+/// A row of a point spread.
+template <typename Transfer>
+StageRow psf_row(const std::string& name, const OpticsParameters& parameters, const PixelSampling& sampling,
+                 const Transfer& transfer) {
   const SpectralResponse response = SensorParameters().response;
-  const HalfKernel kernel = psf_kernel(optics, response, 1);
-  Convolution convolution(kernel);
+  const OpticsTransfer wanted(parameters, response);
+  Optics optics(parameters, response, sampling);
   Plane<float> picture = scene_radiance(response);
+  SubpixelDetail detail;
+  if (sampling.quarters) detail = {.across = picture, .down = picture, .crossed = picture};
   const double before = sum_of(picture);
-  convolution.apply(picture);
+  optics.apply({}, picture);
   const StageRow row = {.group = "optics",
                         .name = name,
-                        .figures = {{"mtf_rows", worst_mtf_error(optics, response, kernel, false)},
-                                    {"mtf_plane", worst_mtf_error(optics, response, kernel, true)},
-                                    {"energy", std::abs(sum_of(picture) / before - 1)},
-                                    {"taps", static_cast<double>(2 * kernel.size() - 1)}}};
-  return timed(row, 2 * sizeof(float), [&] { convolution.apply(picture); });
+                        .figures = {{"mtf_rows", worst_mtf_error(wanted, transfer, false)},
+                                    {"mtf_plane", worst_mtf_error(wanted, transfer, true)},
+                                    {"energy", std::abs(sum_of(picture) / before - 1)}}};
+  return timed(row, 2 * sizeof(float), [&] { optics.apply(detail, picture); });
+}
+
+StageRow gaussian_row() {
+  const OpticsParameters optics = {.psf = Psf::gaussian, .blur_sigma_px = 1};
+  return psf_row("gaussian, 1 px", optics, {}, [kernel = gaussian_psf(1)](double across, double down) {
+    return kernel_mtf(kernel, across) * kernel_mtf(kernel, down);
+  });
+}
+
+StageRow round_row(const std::string& name, const OpticsParameters& optics, const PixelSampling& sampling) {
+  const RoundKernel kernel = round_kernel(optics, SensorParameters().response, sampling);
+  return psf_row(name, optics, sampling,
+                 [&](double across, double down) { return sampled_mtf(kernel, sampling, across, down); });
 }
 
 /// Temperatures stand for radiances, so that the error of linear interpolation is in kelvin.
@@ -109,11 +110,18 @@ StageRow distortion_row() {
 }  // namespace
 
 std::vector<StageRow> optics_rows() {
-  return {
-      kernel_row("gaussian, 1 px", {.psf = Psf::gaussian, .blur_sigma_px = 1}),
-      kernel_row("physical, f/1.0, 12 um", {.psf = Psf::physical, .f_number = 1, .pixel_pitch_um = 12}),
-      kernel_row("physical, f/1.25, 17 um", {.psf = Psf::physical, .f_number = 1.25, .pixel_pitch_um = 17}),
-      distortion_row()};
+  const OpticsParameters boson = {.psf = Psf::physical, .f_number = 1, .pixel_pitch_um = 12};
+  const OpticsParameters vue_pro = {.psf = Psf::physical, .f_number = 1.25, .pixel_pitch_um = 17};
+  OpticsParameters blurred = vue_pro;
+  blurred.defocus_um = 40;
+  const PixelSampling quarters = {.across = 4, .quarters = true};
+  return {gaussian_row(),
+          round_row("f/1.0, 12 um, 1 ray", boson, {}),
+          round_row("f/1.25, 17 um, 1 ray", vue_pro, {}),
+          round_row("f/1.0, 12 um, 4 x 4", boson, quarters),
+          round_row("f/1.25, 17 um, 4 x 4", vue_pro, quarters),
+          round_row("the same, 40 um out of focus", blurred, quarters),
+          distortion_row()};
 }
 
 }  // namespace thermal

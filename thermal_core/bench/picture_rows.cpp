@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "bench/reference_agc.h"
 #include "bench/sensor_scene.h"
 #include "radiometry/band_radiance.h"
 #include "radiometry/temperature_table.h"
 #include "sensor/psf.h"
+#include "sensor/round_kernel.h"
 
 namespace thermal {
 namespace {
@@ -101,18 +103,63 @@ double blurred(const Plane<float>& scene, const HalfKernel& kernel, int x, int y
   return sum;
 }
 
+/// The same of a round kernel, whose halo is interpolated between the means of blocks.
+double blurred(const Plane<float>& scene, const RoundKernel& kernel, int x, int y) {
+  const auto sum_around = [](const QuadrantKernel& weights, const auto& value) {
+    double sum = 0;
+    for (int dy = -weights.radius; dy <= weights.radius; ++dy) {
+      for (int dx = -weights.radius; dx <= weights.radius; ++dx)
+        sum += static_cast<double>(weights.at(std::abs(dx), std::abs(dy))) * value(dx, dy);
+    }
+    return sum;
+  };
+  const auto block = [&scene](int column, int row) {
+    double sum = 0;
+    for (int i = 0; i < kHaloBlockPx * kHaloBlockPx; ++i)
+      sum += static_cast<double>(
+          scene.at(kHaloBlockPx * column + i % kHaloBlockPx, kHaloBlockPx * row + i / kHaloBlockPx));
+    return sum / (kHaloBlockPx * kHaloBlockPx);
+  };
+  const double column = (x + 0.5) / kHaloBlockPx - 0.5;
+  const double row = (y + 0.5) / kHaloBlockPx - 0.5;
+  double halo = 0;
+  for (int corner = 0; corner < 4; ++corner) {
+    const int at_column = static_cast<int>(column) + corner % 2;
+    const int at_row = static_cast<int>(row) + corner / 2;
+    const double share = (1 - std::abs(column - at_column)) * (1 - std::abs(row - at_row));
+    halo +=
+        share * sum_around(kernel.halo, [&](int dx, int dy) { return block(at_column + dx, at_row + dy); });
+  }
+  return halo + sum_around(kernel.pixel,
+                           [&](int dx, int dy) { return static_cast<double>(scene.at(x + dx, y + dy)); });
+}
+
+/// What the camera's optics make of a pixel of this scene.
+std::function<double(int x, int y)> reference_blur(const SensorParameters& parameters,
+                                                   const Plane<float>& scene) {
+  const OpticsParameters& optics = parameters.optics;
+  if (optics.psf == Psf::gaussian) {
+    return [&scene, kernel = gaussian_psf(optics.blur_sigma_px)](int x, int y) {
+      return blurred(scene, kernel, x, y);
+    };
+  }
+  return [&scene, kernel = round_kernel(optics, parameters.response, {})](int x, int y) {
+    return blurred(scene, kernel, x, y);
+  };
+}
+
 double worst_counts(SensorParameters parameters) {
-  constexpr int kBorderPx = 16;
+  constexpr int kBorderPx = 32;
   parameters.noise.amount = 0;
   parameters.bad_pixels = {};
   const BandRadiance band(parameters.response);
   const Plane<float> scene = scene_radiance(parameters.response);
   const SensorFrame frame = ThermalCamera(parameters, scene_clip(), 1).expose(scene);
-  const HalfKernel kernel = psf_kernel(parameters.optics, parameters.response, 1);
+  const auto blurred_at = reference_blur(parameters, scene);
   double worst = 0;
   for (int y = kBorderPx; y < kSceneHeightPx - kBorderPx; y += kEveryPx) {
     for (int x = kBorderPx; x < kSceneWidthPx - kBorderPx; x += kEveryPx) {
-      const double exact = band.temperature(blurred(scene, kernel, x, y)) / parameters.kelvin_per_count;
+      const double exact = band.temperature(blurred_at(x, y)) / parameters.kelvin_per_count;
       worst = std::max(worst, std::abs(frame.ir16.at(x, y) - exact));
     }
   }

@@ -8,6 +8,7 @@
 #include "bench/measure.h"
 #include "imaging/frame_converter.h"
 #include "imaging/motion_finder.h"
+#include "imaging/pixel_quarters.h"
 #include "scene/camera_geometry.h"
 #include "sensor/thermal_camera.h"
 
@@ -161,14 +162,14 @@ class ShippedChain {
                  .width_px = clip.width_px,
                  .height_px = clip.height_px,
                  .noise_gain = {},
-                 .supersample = samples_across_pixel(manifest_)},
+                 .sampling = pixel_sampling(manifest_, {})},
                 converter_.brightest_w_m2_sr()) {}
 
   void expose(const Passes& passes, SensorFrame& out) {
     converter_.convert(passes, {}, scene_);
     motion_.find(passes, frame_, scene_.motion);
     if (frame_ + 1 < static_cast<int>(manifest_.frames.size())) ++frame_;
-    camera_.expose(scene_.radiance_w_m2_sr, scene_.motion, out);
+    camera_.expose(scene_.radiance_w_m2_sr, scene_.detail, scene_.motion, out);
   }
 
  private:

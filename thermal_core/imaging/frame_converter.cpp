@@ -6,7 +6,9 @@
 
 #include "base/error.h"
 #include "imaging/coverage_radiance.h"
+#include "imaging/pixel_quarters.h"
 #include "imaging/supersample.h"
+#include "scene/fine_samples.h"
 #include "sensor/thermal_camera.h"
 
 namespace thermal {
@@ -58,6 +60,7 @@ SceneSettings scene_settings(Season season, const SensorParameters& parameters,
 FrameConverter::FrameConverter(const Manifest& manifest, const MaterialLibrary& materials,
                                const SceneSettings& settings)
     : supersample_(manifest.supersample),
+      has_quarters_(pixel_sampling(manifest, settings.lens).quarters),
       map_(make_map(manifest, settings.lens)),
       scene_radiance_(make_scene(manifest, materials, settings)),
       brightest_w_m2_sr_(settings.table_is_brightest
@@ -105,7 +108,7 @@ void FrameConverter::convert(const Passes& passes, const ManifestFrame& frame, S
   }
   Plane<float> fine;
   out.checks = radiance(passes, frame, fine);
-  reshape(std::move(fine), out.radiance_w_m2_sr);
+  reshape(std::move(fine), out);
 }
 
 /// Labels are those of planes with all samples everywhere.
@@ -122,7 +125,10 @@ void FrameConverter::convert_samples(const Passes& passes, const ManifestFrame& 
   out.instances = labeller_.label(labelled, uses, frame);
   Plane<float> radiance;
   out.checks = scene_radiance_.radiance(passes, frame, map_ ? radiance : out.radiance_w_m2_sr);
-  out.checks += scene_radiance_.refine(fine, frame, map_ ? radiance : out.radiance_w_m2_sr);
+  if (has_quarters_)
+    clear_detail(passes.object_index.width_px(), passes.object_index.height_px(), out.detail);
+  out.checks += scene_radiance_.refine(fine, frame, map_ ? radiance : out.radiance_w_m2_sr,
+                                       has_quarters_ ? &out.detail : nullptr);
   if (map_) map_->resample_linear(radiance, out.radiance_w_m2_sr);
 }
 
@@ -134,12 +140,16 @@ PassChecks FrameConverter::radiance(const Passes& passes, const ManifestFrame& f
 }
 
 /// From the passes' pixels to the camera's.
-void FrameConverter::reshape(Plane<float> fine, Plane<float>& out) const {
+void FrameConverter::reshape(Plane<float> fine, SceneFrame& out) const {
+  if (has_quarters_) {
+    mean_quarters(fine, supersample_, out.radiance_w_m2_sr, out.detail);
+    return;
+  }
   Plane<float> radiance = supersample_ > 1 ? block_means(fine, supersample_) : std::move(fine);
   if (map_) {
-    map_->resample_linear(radiance, out);
+    map_->resample_linear(radiance, out.radiance_w_m2_sr);
   } else {
-    out = std::move(radiance);
+    out.radiance_w_m2_sr = std::move(radiance);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "scene/lens_distortion.h"
 #include "sensor/sensor_parameters.h"
 #include "sensor/smear.h"
+#include "sensor/subpixel_detail.h"
 
 namespace thermal {
 
@@ -18,8 +19,9 @@ namespace thermal {
 struct SceneFrame {
   Plane<float> radiance_w_m2_sr;
   std::vector<Instance> instances;
-  PassChecks checks = {};   ///< of the planes that the terms read
-  ImageMotion motion = {};  ///< as MotionFinder finds it; empty without the term `smear`
+  SubpixelDetail detail = {};  ///< empty if pixel_sampling() has no quarters
+  PassChecks checks = {};      ///< of the planes that the terms read
+  ImageMotion motion = {};     ///< as MotionFinder finds it; empty without the term `smear`
 };
 
 /// What a FrameConverter depends on besides a clip's manifest and materials: with equal settings, all frames are
@@ -72,9 +74,10 @@ class FrameConverter {
  private:
   void convert_samples(const Passes& passes, const ManifestFrame& frame, SceneFrame& out) const;
   PassChecks radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const;
-  void reshape(Plane<float> fine, Plane<float>& out) const;
+  void reshape(Plane<float> fine, SceneFrame& out) const;
 
   int supersample_;
+  bool has_quarters_;                       ///< frames come with detail
   std::shared_ptr<const ResampleMap> map_;  ///< null: the passes show the camera's picture unchanged
   SceneRadiance scene_radiance_;
   float brightest_w_m2_sr_;

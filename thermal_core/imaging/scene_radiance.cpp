@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "imaging/actor_states.h"
+#include "imaging/pixel_quarters.h"
 #include "scene/camera_geometry.h"
 
 namespace thermal {
@@ -338,34 +339,42 @@ void SceneRadiance::FineLine::begin_mirrored(const Mirrored<SampleList>& mirrore
     row.mirrored_normal[axis] = std::span(mirrored.normal[axis]).subspan(first, count);
 }
 
-PassChecks SceneRadiance::refine(const FineSamples& fine, const ManifestFrame& frame,
-                                 Plane<float>& out) const {
+PassChecks SceneRadiance::refine(const FineSamples& fine, const ManifestFrame& frame, Plane<float>& out,
+                                 SubpixelDetail* detail) const {
   const CameraPose pose = pose_in(frame);
-  const auto side = static_cast<std::size_t>(fine.factor);
-  const float share = 1.0F / static_cast<float>(side * side);
-  const std::span materials(fine.material_index);
   return sum_over_rows(out.height_px(), [&](int begin, int end) {
     PassChecks checks;
     FineLine line;
     line.row.pose = &pose;
     line.row.later_h = later_h(frame);
-    std::vector<float> sums;
+    QuarterSums sums(fine);
     for (int y = begin; y < end; ++y) {
-      sums.assign(fine.pixels_in(y), 0.0F);
-      for (int k = 0; k < fine.factor && !sums.empty(); ++k) {
-        line.begin(fine, y, k, held_->rays.get(), needs_);
-        map_.number(std::span(fine.object_index).subspan(line.first, line.count),
-                    materials.empty() ? materials : materials.subspan(line.first, line.count), line.numbers);
-        if (mirrors(fine.mirrored.empty())) line.begin_mirrored(fine.mirrored, map_);
-        checks += check_row(line.row);
-        for (const RowTerm& term : chain_) term(line.row);
-        for (std::size_t i = 0; i < line.count; ++i) sums[i / side] += line.radiance_w_m2_sr[i];
+      sums.begin(fine.pixels_in(y));
+      for (int k = 0; k < fine.factor && fine.pixels_in(y) > 0; ++k) {
+        checks += radiance_of(fine, y, k, line);
+        sums.add(k, std::span<const float>(line.radiance_w_m2_sr).first(line.count));
       }
       const std::size_t first = fine.row_begin[static_cast<std::size_t>(y)];
-      for (std::size_t i = 0; i < sums.size(); ++i) out.row(y)[fine.x_px[first + i]] = sums[i] * share;
+      for (std::size_t i = 0; i < fine.pixels_in(y); ++i) {
+        const int x = fine.x_px[first + i];
+        out.at(x, y) = sums.mean(i);
+        if (detail != nullptr) set_detail(sums.quarters(i), x, y, *detail);
+      }
     }
     return checks;
   });
+}
+
+/// Of a line of samples.
+PassChecks SceneRadiance::radiance_of(const FineSamples& fine, int y, int number, FineLine& line) const {
+  const std::span materials(fine.material_index);
+  line.begin(fine, y, number, held_->rays.get(), needs_);
+  map_.number(std::span(fine.object_index).subspan(line.first, line.count),
+              materials.empty() ? materials : materials.subspan(line.first, line.count), line.numbers);
+  if (mirrors(fine.mirrored.empty())) line.begin_mirrored(fine.mirrored, map_);
+  const PassChecks checks = check_row(line.row);
+  for (const RowTerm& term : chain_) term(line.row);
+  return checks;
 }
 
 float brightest_of_table_1(const MaterialLibrary& materials, Season season,

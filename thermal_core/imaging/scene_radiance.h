@@ -16,6 +16,7 @@
 #include "scene/season.h"
 #include "scene/terms.h"
 #include "scene/weather.h"
+#include "sensor/subpixel_detail.h"
 
 namespace thermal {
 
@@ -58,8 +59,10 @@ class SceneRadiance {
   PassChecks radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const;
 
   /// The samples of passes that are sampled where it matters (Passes::fine): the mean over those of each of their
-  /// pixels replaces the pixel's radiance. Returns how usable the samples were. Otherwise as radiance().
-  PassChecks refine(const FineSamples& fine, const ManifestFrame& frame, Plane<float>& out) const;
+  /// pixels replaces the pixel's radiance, and their quarters its detail if `detail` is given, a cleared one of the same
+  /// size. Returns how usable the samples were. Otherwise as radiance().
+  PassChecks refine(const FineSamples& fine, const ManifestFrame& frame, Plane<float>& out,
+                    SubpixelDetail* detail = nullptr) const;
 
   /// Radiance of the most radiant surface that the manifest names; of the sky if it names none.
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
@@ -74,6 +77,7 @@ class SceneRadiance {
   void find_brightest();
   [[nodiscard]] float later_h(const ManifestFrame& frame) const noexcept;
   struct FineLine;
+  PassChecks radiance_of(const FineSamples& fine, int y, int number, FineLine& line) const;
   void begin_row(const Passes& passes, const CameraRays* rays, int y, Row& row) const;
   void begin_mirrored(const Mirrored<Plane>& mirrored, int y, std::span<std::uint16_t> numbers,
                       Row& row) const;

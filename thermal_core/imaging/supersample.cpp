@@ -24,39 +24,7 @@ int pixels_in_block(const Plane<std::uint16_t>& fine, int factor, int x, int y, 
   return pixels;
 }
 
-/// Repeats each pixel factor x factor times, then puts the samples in their places.
-template <typename T>
-Plane<T> filled(const Plane<T>& pixels, const std::vector<T>& samples, const FineSamples& fine) {
-  const auto side = static_cast<std::size_t>(fine.factor);
-  Plane<T> out(pixels.width_px() * fine.factor, pixels.height_px() * fine.factor);
-  if (pixels.empty()) return out;
-  for (int y = 0; y < pixels.height_px(); ++y) {
-    const auto first = out.row(y * fine.factor);
-    for (std::size_t x = 0; x < first.size(); ++x) first[x] = pixels.row(y)[x / side];
-    for (int line = 1; line < fine.factor; ++line)
-      std::ranges::copy(first, out.row(y * fine.factor + line).begin());
-    const std::uint16_t* const x_px = fine.x_px.data() + fine.row_begin[static_cast<std::size_t>(y)];
-    for (int line = 0; line < fine.factor; ++line) {
-      const auto row = out.row(y * fine.factor + line);
-      const T* const values = samples.data() + fine.line_begin(y, line);
-      for (std::size_t k = 0; k < side * fine.pixels_in(y); ++k)
-        row[x_px[k / side] * side + k % side] = values[k];
-    }
-  }
-  return out;
-}
-
 }  // namespace
-
-Plane<std::uint16_t> filled_in(const Plane<std::uint16_t>& pixels, const std::vector<std::uint16_t>& samples,
-                               const FineSamples& fine) {
-  return filled(pixels, samples, fine);
-}
-
-Plane<float> filled_in(const Plane<float>& pixels, const std::vector<float>& samples,
-                       const FineSamples& fine) {
-  return filled(pixels, samples, fine);
-}
 
 Plane<float> block_means(const Plane<float>& fine, int factor) {
   assert(factor >= 1 && fine.width_px() % factor == 0 && fine.height_px() % factor == 0);

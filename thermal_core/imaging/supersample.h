@@ -12,14 +12,6 @@ namespace thermal {
 /// Means of blocks of factor x factor pixels; sides must be multiples of it. NaN spreads to its block.
 [[nodiscard]] Plane<float> block_means(const Plane<float>& fine, int factor);
 
-/// A plane of passes that are sampled where it matters, with all samples everywhere: each pixel's value factor x factor
-/// times, or its samples, which are a list of `fine`. An empty plane stays empty.
-[[nodiscard]] Plane<std::uint16_t> filled_in(const Plane<std::uint16_t>& pixels,
-                                             const std::vector<std::uint16_t>& samples,
-                                             const FineSamples& fine);
-[[nodiscard]] Plane<float> filled_in(const Plane<float>& pixels, const std::vector<float>& samples,
-                                     const FineSamples& fine);
-
 /// Index plane for labels: in each block of factor x factor pixels, the actor that covers at least half of it,
 /// otherwise 0. If two actors cover half each: the lower index. `uses` is the fine plane's survey; pixels outside the
 /// actors' boxes are not read.

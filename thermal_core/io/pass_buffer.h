@@ -18,7 +18,8 @@ struct IndexPixels {
 /// contents: also after a failed read, which leaves it in an unspecified state.
 struct PassBuffer {
   Passes passes;
-  std::array<IndexPixels, 5> pixels;  ///< of objects, materials, actors, mirrored objects and their materials
+  /// Of objects, materials, actors, mirrored objects, their materials, and places sampled.
+  std::array<IndexPixels, 6> pixels;
 };
 
 }  // namespace thermal

@@ -17,6 +17,7 @@ ExrLayout layout_of(const Manifest& manifest, const ReadLimits& limits) {
           .actor_layer = manifest.actor_layer,
           .mirror_layer = manifest.mirror_layer,
           .channels = manifest.channels,
+          .supersample = manifest.supersample,
           .width_px = camera.width_px,
           .height_px = camera.height_px,
           .limits = {.pixels = limits.pixels}};

@@ -4,29 +4,13 @@
 #include <cassert>
 #include <cmath>
 
-#include "base/clones.h"
 #include "base/parallel.h"
+#include "sensor/vector_math.h"
 
 namespace thermal {
 namespace {
 
 constexpr std::size_t kRowsAChunk = 16;
-
-/// Index inside [0, size) that a mirrored picture shows at `at`.
-int mirrored(int at, int size) {
-  const int period = 2 * size;
-  const int wrapped = ((at % period) + period) % period;
-  return wrapped < size ? wrapped : period - 1 - wrapped;
-}
-
-VELDT_CLONES void scale(const float* in, std::size_t count, float weight, float* out) {
-  for (std::size_t i = 0; i < count; ++i) out[i] = weight * in[i];
-}
-
-VELDT_CLONES void add_pair(const float* one, const float* other, std::size_t count, float weight,
-                           float* out) {
-  for (std::size_t i = 0; i < count; ++i) out[i] += weight * (one[i] + other[i]);
-}
 
 /// The row with `radius` mirrored pixels on either side.
 void pad_row(std::span<const float> row, std::size_t radius, std::vector<float>& padded) {
@@ -45,23 +29,30 @@ void convolve_row(std::span<const float> row, const HalfKernel& kernel, std::vec
                   std::span<float> out) {
   const std::size_t radius = kernel.size() - 1;
   pad_row(row, radius, padded);
-  const float* centre = padded.data() + radius;
-  scale(centre, row.size(), kernel[0], out.data());
-  for (std::size_t offset = 1; offset <= radius; ++offset) {
-    add_pair(centre - offset, centre + offset, row.size(), kernel[offset], out.data());
-  }
+  const auto from = [&](std::size_t first) {
+    return std::span<const float>(padded).subspan(first, row.size());
+  };
+  set_scaled(from(radius), kernel[0], out);
+  for (std::size_t offset = 1; offset <= radius; ++offset)
+    add_sum(from(radius - offset), from(radius + offset), kernel[offset], out);
 }
 
 void convolve_column(const Plane<float>& picture, int y, const HalfKernel& kernel, std::span<float> out) {
-  scale(picture.row(y).data(), out.size(), kernel[0], out.data());
+  set_scaled(picture.row(y), kernel[0], out);
   for (int offset = 1; offset < static_cast<int>(kernel.size()); ++offset) {
     const auto above = picture.row(mirrored(y - offset, picture.height_px()));
     const auto below = picture.row(mirrored(y + offset, picture.height_px()));
-    add_pair(above.data(), below.data(), out.size(), kernel[static_cast<std::size_t>(offset)], out.data());
+    add_sum(above, below, kernel[static_cast<std::size_t>(offset)], out);
   }
 }
 
 }  // namespace
+
+int mirrored(int at, int size) noexcept {
+  const int period = 2 * size;
+  const int wrapped = ((at % period) + period) % period;
+  return wrapped < size ? wrapped : period - 1 - wrapped;
+}
 
 HalfKernel rounded_kernel(const std::vector<double>& half_weights) {
   assert(!half_weights.empty());

@@ -6,6 +6,9 @@
 
 namespace thermal {
 
+/// Index inside [0, size) that a picture mirrored at its border (edge pixel repeated) shows at `at`.
+[[nodiscard]] int mirrored(int at, int size) noexcept;
+
 /// Weights of a symmetric kernel at distances 0, 1, …, radius. With the mirrored half they sum to 1.
 using HalfKernel = std::vector<float>;
 

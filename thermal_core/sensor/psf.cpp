@@ -13,8 +13,9 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kSpectrumTemperatureK = 300;
-constexpr int kWavelengths = 96;   // midpoints; twice as many change no transfer by 1e-5
-constexpr int kFrequencies = 512;  // midpoints from 0 to Nyquist
+constexpr int kWavelengths = 96;         // midpoints; twice as many change no transfer by 1e-5
+constexpr double kHighestOfTable = 4.4;  // cycles per pixel
+constexpr int kFrequencies = 512;        // midpoints from 0 to Nyquist
 constexpr double kLargestMisfit = 0.015;
 constexpr int kLargestRadius = 15;
 
@@ -29,12 +30,6 @@ double footprint_mtf(double cycles_per_px) {
   return std::abs(x) < 1e-6 ? 1 : std::sin(x) / x;
 }
 
-/// Of the mean of `count` samples evenly spread over a pixel.
-double sampled_footprint_mtf(double cycles_per_px, int count) {
-  const double x = pi * cycles_per_px / count;
-  return std::abs(x) < 1e-6 ? 1 : std::sin(count * x) / (count * std::sin(x));
-}
-
 double band_diffraction_mtf(const OpticsParameters& optics, const SpectralResponse& response,
                             double cycles_per_px) {
   const double cycles_per_mm = 1e3 * cycles_per_px / optics.pixel_pitch_um;
@@ -44,10 +39,32 @@ double band_diffraction_mtf(const OpticsParameters& optics, const SpectralRespon
   for (int i = 0; i < kWavelengths; ++i) {
     const double wavelength_um = response.begin_um() + (i + 0.5) * step_um;
     const double weight = response.at(wavelength_um) * planck_radiance(wavelength_um, kSpectrumTemperatureK);
-    sum += weight * diffraction_mtf(cycles_per_mm, wavelength_um, optics.f_number);
+    sum += weight * diffraction_mtf(cycles_per_mm, wavelength_um, optics.f_number, optics.defocus_um);
     weights += weight;
   }
   return sum / weights;
+}
+
+/// Of all that is round.
+double lens_mtf(const OpticsParameters& optics, const SpectralResponse& response, double cycles_per_px) {
+  if (optics.psf == Psf::gaussian) return gaussian_mtf(cycles_per_px, optics.blur_sigma_px);
+  return band_diffraction_mtf(optics, response, cycles_per_px) *
+         gaussian_mtf(cycles_per_px, optics.aberration_sigma_px);
+}
+
+/// Overlap of two discs of radius 1 whose centres are 2 v apart, weighted by cos(phase x) with x along the line between
+/// the centres, as a share of a disc. With y = sin(angle) the integrand is smooth, and midpoints converge fast.
+double defocused_overlap(double v, double phase) {
+  const double top = std::sqrt(1 - v * v);
+  const int points = 64 + static_cast<int>(4 * phase);
+  double sum = 0;
+  for (int i = 0; i < points; ++i) {
+    const double angle = pi * ((i + 0.5) / points - 0.5);
+    const double y = top * std::sin(angle);
+    const double half_width = std::sqrt(1 - y * y) - v;
+    sum += std::cos(angle) * std::sin(phase * half_width) / phase;
+  }
+  return 2 * top * sum / points;
 }
 
 /// Least squares over all frequencies is the Fourier series; to make H(0) = 1, the remainder is shared equally by all
@@ -76,14 +93,11 @@ double worst_misfit(const HalfKernel& kernel, const std::vector<double>& transfe
   return worst;
 }
 
-/// The smallest kernel whose transfer fits optics_mtf(), divided by that of `supersample` samples per pixel.
-HalfKernel fitted_kernel(const OpticsParameters& optics, const SpectralResponse& response, int supersample) {
+/// The smallest kernel whose transfer fits a Gaussian's.
+HalfKernel fitted_gaussian(double sigma_px) {
   std::vector<double> transfer;
-  for (int k = 0; k < kFrequencies; ++k) {
-    const double cycles_per_px = 0.5 * (k + 0.5) / kFrequencies;
-    transfer.push_back(optics_mtf(optics, response, cycles_per_px) /
-                       sampled_footprint_mtf(cycles_per_px, supersample));
-  }
+  for (int k = 0; k < kFrequencies; ++k)
+    transfer.push_back(gaussian_mtf(0.5 * (k + 0.5) / kFrequencies, sigma_px));
   HalfKernel kernel;
   for (int radius = 1; radius <= kLargestRadius;
        radius += 2) {  // even ones fit hardly better than the odd one below
@@ -95,25 +109,43 @@ HalfKernel fitted_kernel(const OpticsParameters& optics, const SpectralResponse&
 
 }  // namespace
 
-double diffraction_mtf(double cycles_per_mm, double wavelength_um, double f_number) noexcept {
+double diffraction_mtf(double cycles_per_mm, double wavelength_um, double f_number,
+                       double defocus_um) noexcept {
+  constexpr double kLeastPhase = 1e-4;
   const double v = 1e-3 * cycles_per_mm * wavelength_um * f_number;
-  return v >= 1 ? 0 : 2 / pi * (std::acos(v) - v * std::sqrt(1 - v * v));
+  if (v >= 1) return 0;
+  const double edge_um = std::abs(defocus_um) / (8 * f_number * f_number);
+  const double phase = 8 * pi * edge_um * v / wavelength_um;
+  if (phase > kLeastPhase) return defocused_overlap(v, phase);
+  return 2 / pi * (std::acos(v) - v * std::sqrt(1 - v * v));
 }
 
 double optics_mtf(const OpticsParameters& optics, const SpectralResponse& response, double cycles_per_px) {
-  if (optics.psf == Psf::gaussian) return gaussian_mtf(cycles_per_px, optics.blur_sigma_px);
-  return band_diffraction_mtf(optics, response, cycles_per_px) * footprint_mtf(cycles_per_px) *
-         gaussian_mtf(cycles_per_px, optics.aberration_sigma_px);
+  const double lens = lens_mtf(optics, response, cycles_per_px);
+  return optics.psf == Psf::gaussian ? lens : lens * footprint_mtf(cycles_per_px);
 }
 
-HalfKernel psf_kernel(const OpticsParameters& optics, const SpectralResponse& response, int supersample) {
-  assert(supersample >= 1);
-  if (optics.psf == Psf::physical) return fitted_kernel(optics, response, supersample);
+OpticsTransfer::OpticsTransfer(const OpticsParameters& optics, const SpectralResponse& response)
+    : has_footprint_(optics.psf == Psf::physical) {
+  constexpr int kSteps = 1024;
+  per_step_ = kSteps / kHighestOfTable;
+  for (int step = 0; step <= kSteps; ++step) round_.push_back(lens_mtf(optics, response, step / per_step_));
+}
+
+double OpticsTransfer::at(double across_cycles_per_px, double down_cycles_per_px) const noexcept {
+  const double step = per_step_ * std::hypot(across_cycles_per_px, down_cycles_per_px);
+  const auto below = static_cast<std::size_t>(step);
+  if (below + 1 >= round_.size()) return 0;
+  const double share = step - static_cast<double>(below);
+  const double lens = (1 - share) * round_[below] + share * round_[below + 1];
+  return has_footprint_ ? lens * footprint_mtf(across_cycles_per_px) * footprint_mtf(down_cycles_per_px)
+                        : lens;
+}
+
+HalfKernel gaussian_psf(double sigma_px) {
   // Samples of a Gaussian narrower than this have aliases; with 0 there is nothing to fit.
   constexpr double kSampledWellPx = 1;
-  const double sigma_px = optics.blur_sigma_px;
-  return sigma_px == 0 || sigma_px >= kSampledWellPx ? gaussian_kernel(sigma_px)
-                                                     : fitted_kernel(optics, response, 1);
+  return sigma_px == 0 || sigma_px >= kSampledWellPx ? gaussian_kernel(sigma_px) : fitted_gaussian(sigma_px);
 }
 
 double kernel_mtf(const HalfKernel& kernel, double cycles_per_px) noexcept {

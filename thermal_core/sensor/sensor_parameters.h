@@ -21,6 +21,7 @@ struct OpticsParameters {
   double blur_sigma_px = 1;           ///< gaussian; 0: no blur
   double f_number = 1;                ///< focal length / aperture
   double aberration_sigma_px = 0.25;  ///< physical
+  double defocus_um = 0;              ///< physical: distance of the pixels from the plane of focus
   double pixel_pitch_um = 17;         ///< the camera's
 
   [[nodiscard]] bool operator==(const OpticsParameters&) const = default;

@@ -12,7 +12,6 @@
 #include "base/rng.h"
 #include "radiometry/band_radiance.h"
 #include "radiometry/script_radiance.h"
-#include "sensor/psf.h"
 #include "sensor/streams.h"
 #include "sensor/vector_math.h"
 
@@ -20,6 +19,7 @@ namespace thermal {
 namespace {
 
 constexpr double kNetdTemperatureK = 300;  // at which a NETD is stated
+constexpr double kHottestSceneK = 6000;
 constexpr float kLargestCount = 65535;
 constexpr std::size_t kPixelsAChunk = 16384;
 constexpr std::size_t kPixelsABlock = 256;
@@ -150,13 +150,15 @@ ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, floa
       temperatures_(temperatures ? std::move(temperatures) : apparent_temperatures(parameters.response)),
       white_w_m2_sr_(netd_w_m2_sr(parameters)),
       flicker_w_m2_sr_(white_w_m2_sr_ * static_cast<float>(std::sqrt(parameters.noise.flicker_knee_hz))),
+      brightest_taken_w_m2_sr_(
+          static_cast<float>(BandRadiance(parameters.response).radiance(kHottestSceneK))),
       saturation_w_m2_sr_(static_cast<float>(
           BandRadiance(parameters.response)
               .radiance((static_cast<double>(kLargestCount) + 1) * parameters.kelvin_per_count))),
       follow_(parameters.time_constant_s > 0
                   ? static_cast<float>(-std::expm1(-1 / (clip_.frame_rate_hz * parameters.time_constant_s)))
                   : 1),
-      optics_(psf_kernel(parameters.optics, parameters.response, clip_.supersample)),
+      optics_(parameters.optics, parameters.response, clip_.sampling),
       shutter_(parameters.shutter, clip_.seed, clip_.id),
       pattern_(parameters.noise, clip_.seed, clip_.id, clip_.width_px, clip_.height_px),
       bad_pixels_(parameters.bad_pixels, clip_.seed, clip_.id, clip_.frame_rate_hz, clip_.width_px,
@@ -191,14 +193,14 @@ double ThermalCamera::noise_w_m2_sr(int x_px, int y_px) const {
 }
 
 void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const Look& look) {
-  expose(radiance_w_m2_sr, {}, out, look);
+  expose(radiance_w_m2_sr, {}, {}, out, look);
 }
 
-void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, const ImageMotion& motion, SensorFrame& out,
-                           const Look& look) {
+void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail,
+                           const ImageMotion& motion, SensorFrame& out, const Look& look) {
   const double time_s = frame_ / clip_.frame_rate_hz;
   const ShutterState shutter = shutter_.at(time_s);
-  take_in(radiance_w_m2_sr);
+  take_in(radiance_w_m2_sr, detail);
   if (look) look(signal_);
   if (smear_ && begun_) smear_->apply(motion, signal_);
   if (smear_ && !begun_) smear_->apply_to_first(motion, signal_);
@@ -230,14 +232,15 @@ void ThermalCamera::show(SensorFrame& frame) const {
 }
 
 /// Radiance at the detector.
-void ThermalCamera::take_in(const Plane<float>& radiance_w_m2_sr) {
+void ThermalCamera::take_in(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail) {
   assert(radiance_w_m2_sr.size() == signal_.size());
+  assert(detail.empty() || clip_.sampling.quarters);
   const auto in = radiance_w_m2_sr.pixels();
   const auto signal = signal_.pixels();
   parallel_for(in.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
-    copy_clipped(&in[begin], end - begin, saturation_w_m2_sr_, &signal[begin]);
+    copy_clipped(&in[begin], end - begin, brightest_taken_w_m2_sr_, &signal[begin]);
   });
-  optics_.apply(signal_);
+  optics_.apply(detail, signal_);
 }
 
 /// The states of the first frame that is exposed.
@@ -295,10 +298,12 @@ void ThermalCamera::count(Plane<std::uint16_t>& ir16) const {
   const auto signal = signal_.pixels();
   const auto out = ir16.pixels();
   parallel_for(signal.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
+    std::array<float, kPixelsABlock> radiances{};
     std::array<float, kPixelsABlock> temperatures_k{};
     for (std::size_t first = begin; first < end; first += kPixelsABlock) {
       const std::size_t size = std::min(kPixelsABlock, end - first);
-      temperatures_->temperatures(signal.subspan(first, size), std::span(temperatures_k).first(size));
+      copy_clipped(&signal[first], size, saturation_w_m2_sr_, radiances.data());
+      temperatures_->temperatures(std::span(radiances).first(size), std::span(temperatures_k).first(size));
       round_to_counts(temperatures_k.data(), size, counts_per_kelvin, &out[first]);
     }
   });

@@ -11,12 +11,13 @@
 #include "radiometry/temperature_table.h"
 #include "sensor/agc.h"
 #include "sensor/bad_pixels.h"
-#include "sensor/convolution.h"
 #include "sensor/flicker_noise.h"
+#include "sensor/optics.h"
 #include "sensor/pattern_noise.h"
 #include "sensor/sensor_parameters.h"
 #include "sensor/shutter.h"
 #include "sensor/smear.h"
+#include "sensor/subpixel_detail.h"
 
 namespace thermal {
 
@@ -52,8 +53,8 @@ class ThermalCamera {
     double frame_rate_hz = 9;
     int width_px = 0;
     int height_px = 0;
-    Plane<float> noise_gain;  ///< factor on each pixel's noise, from lens fall-off; empty: 1
-    int supersample = 1;      ///< number of samples across a pixel that the radiance already averages
+    Plane<float> noise_gain;      ///< factor on each pixel's noise, from lens fall-off; empty: 1
+    PixelSampling sampling = {};  ///< of the scene that the radiance averages
   };
 
   /// Receives a radiance plane [W m^-2 sr^-1], valid only during the call.
@@ -65,17 +66,17 @@ class ThermalCamera {
                 std::shared_ptr<const TemperatureTable> temperatures = nullptr);
 
   /// Makes the pictures of the next frame from its radiance plane [W m^-2 sr^-1]; `out` is reused if it has the right
-  /// size. NaN and negative radiance count as 0, and radiance above the range of the 16-bit picture as the top of
-  /// that range: nothing that is not finite reaches the optics or the camera's state. Count 0 and level 0 mean no
-  /// light.
+  /// size. NaN and negative radiance count as 0, and radiance above that of 6000 K as that: nothing that is not finite
+  /// reaches the optics or the camera's state. Count 0 and level 0 mean no light; the 16-bit picture ends at 65535.
+  /// `detail` is what is known within pixels, finite, or empty; with it, `sampling` must have quarters.
   /// `look` receives what the detector would measure without lag and noise: the radiance behind the optics at this
   /// frame's time, even while the shutter is closed.
   /// `motion` smears the picture within the exposure, if there is a time constant. The pictures are then of the past,
   /// by a time constant on average, as a membrane's are; without it, of this frame's time and those before.
-  void expose(const Plane<float>& radiance_w_m2_sr, const ImageMotion& motion, SensorFrame& out,
-              const Look& look = {});
+  void expose(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail, const ImageMotion& motion,
+              SensorFrame& out, const Look& look = {});
 
-  /// The same without motion.
+  /// The same without detail and motion.
   void expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const Look& look = {});
 
   /// The same, into a new frame.
@@ -99,7 +100,7 @@ class ThermalCamera {
   [[nodiscard]] double noise_w_m2_sr(int x_px, int y_px) const;
 
  private:
-  void take_in(const Plane<float>& radiance_w_m2_sr);
+  void take_in(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail);
   void begin();
   void lag(std::size_t first, std::span<float> signal);
   void add_noise(std::size_t first, std::span<float> signal);
@@ -112,11 +113,12 @@ class ThermalCamera {
   std::uint64_t clip_hash_;
   double brightest_w_m2_sr_;
   std::shared_ptr<const TemperatureTable> temperatures_;
-  float white_w_m2_sr_;    ///< standard deviation of white temporal noise
-  float flicker_w_m2_sr_;  ///< of 1/f noise in units of FlickerFilter's
-  float saturation_w_m2_sr_;
-  float follow_;  ///< fraction of a new radiance that a pixel reaches within one frame
-  Convolution optics_;
+  float white_w_m2_sr_;            ///< standard deviation of white temporal noise
+  float flicker_w_m2_sr_;          ///< of 1/f noise in units of FlickerFilter's
+  float brightest_taken_w_m2_sr_;  ///< what is brighter counts as this
+  float saturation_w_m2_sr_;       ///< of the 16-bit picture
+  float follow_;                   ///< fraction of a new radiance that a pixel reaches within one frame
+  Optics optics_;
   std::optional<Smear> smear_;  ///< none without a time constant
   Shutter shutter_;
   PatternNoise pattern_;

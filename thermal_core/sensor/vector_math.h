@@ -10,4 +10,19 @@ void add_scaled(std::span<const float> in, float scale, std::span<float> out) no
 /// out *= in, element by element; same size.
 void multiply(std::span<const float> in, std::span<float> out) noexcept;
 
+/// out = scale * in, element by element; same size.
+void set_scaled(std::span<const float> in, float scale, std::span<float> out) noexcept;
+
+/// out = one_scale * one + other_scale * other, element by element; same size.
+void set_sum(std::span<const float> one, float one_scale, std::span<const float> other, float other_scale,
+             std::span<float> out) noexcept;
+
+/// out += scale * (one + other), element by element; same size.
+void add_sum(std::span<const float> one, std::span<const float> other, float scale,
+             std::span<float> out) noexcept;
+
+/// out += scale * (one - other), element by element; same size.
+void add_difference(std::span<const float> one, std::span<const float> other, float scale,
+                    std::span<float> out) noexcept;
+
 }  // namespace thermal

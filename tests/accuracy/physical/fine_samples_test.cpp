@@ -1,9 +1,11 @@
 // Passes that are sampled where it matters give what passes with all samples give.
 
+#include "scene/fine_samples.h"
+
 #include "accuracy/physical/chain_scene.h"
 #include "base/error.h"
 #include "imaging/frame_converter.h"
-#include "imaging/supersample.h"
+#include "imaging/pixel_quarters.h"
 #include "support/catch.h"
 
 namespace fine_samples_test {
@@ -82,11 +84,23 @@ Plane<float> refined(const Passes& passes) {
 
 bool is_chosen(int x, int y) { return (x * 7 + y * 3) % 5 < 2; }
 
+/// Means and detail as the converter makes them of full passes.
+struct Quarters {
+  Plane<float> means;
+  SubpixelDetail detail;
+};
+
+Quarters quarters_of(const Passes& full) {
+  Quarters quarters;
+  mean_quarters(scene().radiance(full, coarse_manifest().frames[0]), kSide, quarters.means, quarters.detail);
+  return quarters;
+}
+
 }  // namespace
 
 TEST_CASE("Samples of all pixels give the bits of full passes") {
   const Passes full = chain_scene::passes();
-  const Plane<float> expected = block_means(scene().radiance(full, coarse_manifest().frames[0]), kSide);
+  const Plane<float> expected = quarters_of(full).means;
   const Passes passes = sampled(full, [](int, int) { return true; });
   CHECK(refined(passes) == expected);
   CHECK(filled_in(passes.object_index, passes.fine.object_index, passes.fine) == full.object_index);
@@ -95,7 +109,7 @@ TEST_CASE("Samples of all pixels give the bits of full passes") {
 
 TEST_CASE("Samples replace the radiance of their pixels and of no others") {
   const Passes full = chain_scene::passes();
-  const Plane<float> all = block_means(scene().radiance(full, coarse_manifest().frames[0]), kSide);
+  const Plane<float> all = quarters_of(full).means;
   const Passes passes = sampled(full, is_chosen);
   Manifest one_each = coarse_manifest();
   one_each.supersample = 1;
@@ -106,6 +120,25 @@ TEST_CASE("Samples replace the radiance of their pixels and of no others") {
   for (int y = 0; y < mixed.height_px(); ++y) {
     for (int x = 0; x < mixed.width_px(); ++x)
       CHECK(mixed.at(x, y) == (is_chosen(x, y) ? all.at(x, y) : one.at(x, y)));
+  }
+}
+
+TEST_CASE("Detail is that of full passes in the chosen pixels, and 0 elsewhere") {
+  const Passes full = chain_scene::passes();
+  const SubpixelDetail all = quarters_of(full).detail;
+  const Passes passes = sampled(full, is_chosen);
+  const SceneRadiance chain = scene();
+  const ManifestFrame frame = coarse_manifest().frames[0];
+  Plane<float> radiance = chain.radiance(passes, frame);
+  SubpixelDetail detail;
+  clear_detail(radiance.width_px(), radiance.height_px(), detail);
+  (void)chain.refine(passes.fine, frame, radiance, &detail);
+  for (int y = 0; y < radiance.height_px(); ++y) {
+    for (int x = 0; x < radiance.width_px(); ++x) {
+      CHECK(detail.across.at(x, y) == (is_chosen(x, y) ? all.across.at(x, y) : 0));
+      CHECK(detail.down.at(x, y) == (is_chosen(x, y) ? all.down.at(x, y) : 0));
+      CHECK(detail.crossed.at(x, y) == (is_chosen(x, y) ? all.crossed.at(x, y) : 0));
+    }
   }
 }
 

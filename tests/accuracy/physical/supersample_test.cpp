@@ -5,6 +5,7 @@
 
 #include "accuracy/physical/chain_scene.h"
 #include "imaging/frame_converter.h"
+#include "imaging/pixel_quarters.h"
 #include "support/catch.h"
 
 namespace supersample_test {
@@ -72,6 +73,47 @@ TEST_CASE("A NaN spreads to its block and no further") {
                                          2);
   CHECK(std::isnan(means.at(0, 0)));
   CHECK(means.at(1, 0) == 1);
+}
+
+TEST_CASE("A pixel's quarters are its mean, give or take its detail") {
+  Plane<float> means;
+  SubpixelDetail detail;
+  mean_quarters(plane_of<float>(4, {1, 1, 2, 2,  //
+                                    1, 1, 2, 2,  //
+                                    4, 4, 9, 9,  //
+                                    4, 4, 9, 13}),
+                4, means, detail);
+  CHECK(means.at(0, 0) == 4.25F);
+  CHECK(detail.across.at(0, 0) == 1.75F);   // 2 and 10 on the right, 1 and 4 on the left
+  CHECK(detail.down.at(0, 0) == 2.75F);     // 4 and 10 below, 1 and 2 above
+  CHECK(detail.crossed.at(0, 0) == 1.25F);  // 1 and 10, 2 and 4
+}
+
+TEST_CASE("A pixel with a NaN has no detail, and its neighbours keep theirs") {
+  Plane<float> means;
+  SubpixelDetail detail;
+  mean_quarters(plane_of<float>(4, {kNaN, 1, 1, 3,  //
+                                    1, 1, 1, 3}),
+                2, means, detail);
+  CHECK(std::isnan(means.at(0, 0)));
+  CHECK(detail.across.at(0, 0) == 0);
+  CHECK(means.at(1, 0) == 2);
+  CHECK(detail.across.at(1, 0) == 1);
+}
+
+TEST_CASE("Quarters are known if samples are even and not resampled for the lens") {
+  Manifest manifest = chain_scene::manifest();
+  const LensDistortion lens = {.k1 = -0.1};
+  manifest.supersample = 4;
+  CHECK(pixel_sampling(manifest, {}) == PixelSampling{4, true});
+  CHECK(pixel_sampling(manifest, lens) == PixelSampling{4, false});
+  manifest.lens = lens;  // the rays follow it
+  CHECK(pixel_sampling(manifest, lens) == PixelSampling{4, true});
+  manifest.supersample = 3;
+  CHECK(pixel_sampling(manifest, lens) == PixelSampling{3, false});
+  manifest = chain_scene::manifest();
+  manifest.cryptomatte = "CryptoObject";
+  CHECK_FALSE(pixel_sampling(manifest, {}).quarters);
 }
 
 TEST_CASE("Means of many values are accurate to float rounding") {

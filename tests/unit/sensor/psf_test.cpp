@@ -80,7 +80,7 @@ TEST_CASE("The plain Gaussian is its own transfer function") {
     CHECK_THAT(optics_mtf(optics, kBand, cycles), WithinAbs(gaussian(cycles, 1), 1e-15));
     // Sampling adds the aliases. The truncation at 4 sigma drops 6.3e-5 of the weight, and scaling distributes it:
     // twice that.
-    CHECK_THAT(kernel_mtf(psf_kernel(optics, kBand, 1), cycles),
+    CHECK_THAT(kernel_mtf(gaussian_psf(optics.blur_sigma_px), cycles),
                WithinAbs(gaussian(cycles, 1) + gaussian(1 - cycles, 1) + gaussian(1 + cycles, 1), 1.3e-4));
   }
   CHECK_THAT(optics_mtf(optics, kBand, kNyquist), WithinAbs(0.0072, 5e-5));  // PHYSICS.md: .007, far too soft
@@ -89,7 +89,7 @@ TEST_CASE("The plain Gaussian is its own transfer function") {
 TEST_CASE("A Gaussian too narrow for its samples is fitted instead") {
   const double sigma_px = GENERATE(0.25, 0.5, 0.7, 0.9, 1.0, 2.5);
   const OpticsParameters optics = {.psf = Psf::gaussian, .blur_sigma_px = sigma_px};
-  const HalfKernel kernel = psf_kernel(optics, kBand, 1);
+  const HalfKernel kernel = gaussian_psf(optics.blur_sigma_px);
   for (double cycles = 0; cycles <= 0.5; cycles += 0.005) {
     CAPTURE(sigma_px, cycles);
     REQUIRE_THAT(kernel_mtf(kernel, cycles), WithinAbs(gaussian(cycles, sigma_px), 0.015));
@@ -97,7 +97,7 @@ TEST_CASE("A Gaussian too narrow for its samples is fitted instead") {
 }
 
 TEST_CASE("Without a sigma a Gaussian leaves the picture sharp") {
-  CHECK(psf_kernel({.psf = Psf::gaussian, .blur_sigma_px = 0}, kBand, 1) == HalfKernel{1.0F});
+  CHECK(gaussian_psf(0) == HalfKernel{1.0F});
 }
 
 TEST_CASE("A sharp lens and a narrow band leave the footprint alone") {
@@ -107,24 +107,68 @@ TEST_CASE("A sharp lens and a narrow band leave the footprint alone") {
   }
 }
 
-TEST_CASE("The kernel of a physical lens has the lens's transfer") {
-  const double f_number = GENERATE(1.0, 1.25, 2.0);
-  const double pixel_pitch_um = GENERATE(12.0, 17.0);
-  const int supersample = GENERATE(1, 2, 4);
-  CAPTURE(f_number, pixel_pitch_um, supersample);
-  const OpticsParameters optics = physical(f_number, pixel_pitch_um);
-  const HalfKernel kernel = psf_kernel(optics, kBand, supersample);
-  CHECK_THAT(kernel_mtf(kernel, 0), WithinAbs(1, 6e-8));
-  for (double cycles = 0.005; cycles <= 0.5; cycles += 0.005) {
-    CAPTURE(cycles);
-    // The mean of a pixel's samples acts before the kernel.
-    double before = 0;
-    for (int i = 0; i < supersample; ++i) {
-      before += std::cos(2 * pi * cycles * ((i + 0.5) / supersample - 0.5)) / supersample;
+namespace {
+
+/// Transfer of a defocused lens by sums over the overlap of two apertures, point by point.
+double transfer_by_points(double v, double phase) {
+  constexpr int kSide = 2000;
+  double sum = 0;
+  for (int row = 0; row < kSide; ++row) {
+    for (int column = 0; column < kSide; ++column) {
+      const double x = (column + 0.5) * 2 / kSide - 1;
+      const double y = (row + 0.5) * 2 / kSide - 1;
+      if (std::hypot(x - v, y) <= 1 && std::hypot(x + v, y) <= 1) sum += std::cos(phase * x);
     }
-    const double ripple = 0.015;  // as documented for psf_kernel()
-    REQUIRE_THAT(before * kernel_mtf(kernel, cycles), WithinAbs(optics_mtf(optics, kBand, cycles), ripple));
   }
+  return sum * 4 / (pi * kSide * kSide);
+}
+
+}  // namespace
+
+TEST_CASE("Out of focus, the apertures' overlap is weighted by the difference in phase") {
+  constexpr double kWavelengthUm = 10;
+  constexpr double kFNumber = 1.25;
+  for (const double v : {0.1, 0.3, 0.6}) {
+    for (const double defocus_um : {0.01, 5.0, 40.0, -40.0, 150.0}) {
+      CAPTURE(v, defocus_um);
+      // W = defocus / (8 F^2) at the aperture's edge; a shift of 2 v differs by 4 v W x, times 2 pi / wavelength.
+      const double phase = 8 * pi * v * defocus_um / (8 * kFNumber * kFNumber) / kWavelengthUm;
+      CHECK_THAT(diffraction_mtf(1000 * v / (kWavelengthUm * kFNumber), kWavelengthUm, kFNumber, defocus_um),
+                 WithinAbs(transfer_by_points(v, phase), 1e-4));  // 4 million points
+    }
+  }
+}
+
+TEST_CASE("Far out of focus, a point is a disc of light") {
+  // Geometric optics: the image of a point is a disc of diameter defocus / F, whose transfer is 2 J1(z) / z,
+  // z = pi f diameter. Diffraction is small if the disc is much wider than the Airy pattern.
+  constexpr double kDefocusUm = 2000;
+  constexpr double kFNumber = 2;
+  for (const double z : {0.5, 1.0, 2.0, 3.0, 5.0}) {
+    CAPTURE(z);
+    const double cycles_per_mm = 1e3 * z / (pi * kDefocusUm / kFNumber);
+    const double disc = 2 * std::cyl_bessel_j(1, z) / z;
+    CHECK_THAT(diffraction_mtf(cycles_per_mm, 10, kFNumber, kDefocusUm), WithinAbs(disc, 0.02));
+  }
+}
+
+TEST_CASE("The tabulated transfer is that of the lens, and of a square pixel in all directions") {
+  OpticsParameters optics = physical(1.25, 17);
+  optics.defocus_um = GENERATE(0.0, 40.0);
+  const OpticsTransfer transfer(optics, kBand);
+  for (double cycles = 0; cycles < 2; cycles += 0.0137) {
+    CAPTURE(cycles);
+    REQUIRE_THAT(transfer.at(cycles, 0), WithinAbs(optics_mtf(optics, kBand, cycles), 2e-5));
+    REQUIRE(transfer.at(0, cycles) == transfer.at(cycles, 0));
+    const double x = cycles * 0.6;
+    const double y = cycles * 0.8;
+    const auto sinc = [](double at) { return at == 0 ? 1 : std::sin(pi * at) / (pi * at); };
+    if (std::abs(sinc(cycles)) > 0.1) {
+      REQUIRE_THAT(transfer.at(x, y),
+                   WithinAbs(optics_mtf(optics, kBand, cycles) / sinc(cycles) * sinc(x) * sinc(y), 1e-4));
+    }
+  }
+  CHECK(transfer.at(5, 5) == 0);
 }
 
 TEST_CASE("A kernel's transfer is the Fourier sum of its weights") {

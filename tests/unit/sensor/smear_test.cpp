@@ -187,7 +187,7 @@ TEST_CASE("A camera without a time constant has no smear") {
                          {.id = "c", .frame_rate_hz = 30, .width_px = 64, .height_px = 48, .noise_gain = {}},
                          60);
     SensorFrame frame;
-    for (int n = 0; n < 2; ++n) camera.expose(picture, motion, frame);
+    for (int n = 0; n < 2; ++n) camera.expose(picture, {}, motion, frame);
     return frame.ir16;
   };
   const ImageMotion moving = motion_of(64, 48, 3, 1);

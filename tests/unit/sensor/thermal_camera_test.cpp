@@ -147,13 +147,22 @@ TEST_CASE("White noise is a function of seed and clip") {
 TEST_CASE("A camera that receives means of samples leaves their part of the footprint out of its blur") {
   SensorParameters parameters = perfect_sensor();
   parameters.optics.psf = Psf::physical;
-  const int supersample = GENERATE(1, 2, 4);
+  const PixelSampling sampling =
+      GENERATE(PixelSampling{1, false}, PixelSampling{2, false}, PixelSampling{4, true});
+  SubpixelDetail detail;
+  if (sampling.quarters) {
+    detail = {.across = Plane<float>(kWidth, kHeight, 3 * kLevel),
+              .down = Plane<float>(kWidth, kHeight),
+              .crossed = Plane<float>(kWidth, kHeight)};
+  }
   Plane<float> blurred = two_parts();
-  Convolution(psf_kernel(parameters.optics, parameters.response, supersample)).apply(blurred);
+  Optics(parameters.optics, parameters.response, sampling).apply(detail, blurred);
   cameras::ClipOf sampled = clip();
-  sampled.supersample = supersample;
+  sampled.sampling = sampling;
   const SensorFrame expected = camera(perfect_sensor(), clip()).expose(blurred);
-  CHECK(same_pixels(camera(parameters, sampled).expose(two_parts()), expected));
+  SensorFrame frame;
+  camera(parameters, sampled).expose(two_parts(), detail, {}, frame);
+  CHECK(same_pixels(frame, expected));
 }
 
 TEST_CASE("The paper's fixed pattern is scaled by the first frame, and stays") {

@@ -6,9 +6,9 @@
 
 #include "dataset/clip/tone_record.h"
 #include "dataset/layout.h"
+#include "imaging/pixel_quarters.h"
 #include "imaging/target_contrast.h"
 #include "io/system/files.h"
-#include "scene/camera_geometry.h"
 
 namespace thermal {
 namespace {
@@ -28,7 +28,7 @@ ThermalCamera::Clip sensor_clip(const ClipTask& task, const Manifest& manifest) 
           .width_px = manifest.camera.width_px,
           .height_px = manifest.camera.height_px,
           .noise_gain = falloff ? falloff_noise_gain(manifest.camera) : Plane<float>(),
-          .supersample = samples_across_pixel(manifest)};
+          .sampling = pixel_sampling(manifest, task.distortion)};
 }
 
 template <typename T>
@@ -56,7 +56,7 @@ ClipOutput::ClipOutput(const ClipTask& task, const Manifest& manifest, float bri
 void ClipOutput::expose(const SceneFrame& scene, Frame& frame) {
   frame.instances = scene.instances;
   frame.checks = scene.checks;
-  camera_.expose(scene.radiance_w_m2_sr, scene.motion, frame.pictures,
+  camera_.expose(scene.radiance_w_m2_sr, scene.detail, scene.motion, frame.pictures,
                  [&](const Plane<float>& radiance_w_m2_sr) {
                    set_contrast(camera_, radiance_w_m2_sr, frame.instances);
                  });

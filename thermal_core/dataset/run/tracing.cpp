@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "dataset/clip/pass_source.h"
 #include "dataset/layout.h"
-#include "imaging/supersample.h"
 #include "io/bake/baked_files.h"
 #include "io/exr/passes_writer.h"
 #include "io/manifest_file.h"
@@ -48,25 +47,6 @@ ManifestFrame frame_of(const BakedScene& scene, const BakedTrack& track, std::si
   return frame;
 }
 
-/// Files have all samples of all pixels.
-Passes filled_in(const Passes& passes) {
-  const FineSamples& fine = passes.fine;
-  Passes full;
-  full.object_index = filled_in(passes.object_index, fine.object_index, fine);
-  full.material_index = filled_in(passes.material_index, fine.material_index, fine);
-  full.actor_index = filled_in(passes.actor_index, fine.actor_index, fine);
-  full.depth_m = filled_in(passes.depth_m, fine.depth_m, fine);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    full.normal[axis] = filled_in(passes.normal[axis], fine.normal[axis], fine);
-  full.mirrored.object_index = filled_in(passes.mirrored.object_index, fine.mirrored.object_index, fine);
-  full.mirrored.material_index =
-      filled_in(passes.mirrored.material_index, fine.mirrored.material_index, fine);
-  full.mirrored.depth_m = filled_in(passes.mirrored.depth_m, fine.mirrored.depth_m, fine);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    full.mirrored.normal[axis] = filled_in(passes.mirrored.normal[axis], fine.mirrored.normal[axis], fine);
-  return full;
-}
-
 bool has_water(const BakedScene& scene) {
   return std::ranges::any_of(scene.objects,
                              [](const ManifestObject& one) { return one.material == "water"; }) ||
@@ -97,8 +77,7 @@ class TracedPasses : public PassSource {
                   out);
     const Path file = kept_->folder / passes_name(frame);
     if (!std::filesystem::exists(file))
-      write_passes(file, out.fine.factor > 1 ? filled_in(out) : out, kept_->layer, kept_->actor_layer,
-                   ExrPacking::run_lengths);
+      write_passes(file, out, kept_->layer, kept_->actor_layer, ExrPacking::run_lengths);
   }
 
  private:

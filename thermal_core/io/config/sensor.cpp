@@ -62,6 +62,7 @@ OpticsParameters read_optics(const Json& json, const Json& camera) {
           .blur_sigma_px = json["blur_sigma_px"],
           .f_number = json["f_number"],
           .aberration_sigma_px = json["aberration_sigma_px"],
+          .defocus_um = json["defocus_um"],
           .pixel_pitch_um = camera["pixel_pitch_um"]};
 }
 

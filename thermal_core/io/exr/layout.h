@@ -16,6 +16,7 @@ struct ExrLayout {
   std::string actor_layer = {};   ///< empty: none
   std::string mirror_layer = {};  ///< empty: none
   PassChannels channels = {};     ///< those with unusual names
+  int supersample = 1;            ///< samples along each side of a pixel of the camera
   int width_px = 0;               ///< 0: any size
   int height_px = 0;
   ExrLimits limits = {};

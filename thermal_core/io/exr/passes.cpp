@@ -9,11 +9,12 @@
 #include "io/exr/file.h"
 #include "io/exr/indices.h"
 #include "io/exr/planes.h"
+#include "scene/fine_samples.h"
 
 namespace thermal {
 namespace {
 
-using IndexPlanes = std::array<std::optional<ExrIndexPlane>, 5>;  // as in PassBuffer
+using IndexPlanes = std::array<std::optional<ExrIndexPlane>, 6>;  // as in PassBuffer
 
 /// Where the planes of what water mirrors are.
 ExrLayout mirror_of(const ExrLayout& layout) {
@@ -59,6 +60,8 @@ void read(ExrFile& opened, const ExrLayout& layout, const PassNeeds& needs, Pass
   for (std::optional<ExrIndexPlane>& plane : indices) {
     if (plane) targets.push_back(plane->target());
   }
+  const ExrChannel* const sampled = layout.supersample > 1 ? planes.sampled() : nullptr;
+  if (sampled != nullptr) targets.push_back(indices[5].emplace(*sampled, out.pixels[5]).target());
   Passes& passes = out.passes;
   for (const ExrTarget& target : shape_targets(planes, needs, passes.depth_m, passes.normal))
     targets.push_back(target);
@@ -77,6 +80,11 @@ void read(ExrFile& opened, const ExrLayout& layout, const PassNeeds& needs, Pass
   take(indices[3], passes.mirrored.object_index);
   take(indices[4], passes.mirrored.material_index);
   passes.ranks.clear();
+  passes.fine = {};
+  if (!indices[5]) return;
+  Plane<std::uint16_t> places;
+  indices[5]->indices(places);
+  passes = separated(passes, places, layout.supersample);
 }
 
 }  // namespace

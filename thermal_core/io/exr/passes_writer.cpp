@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "scene/fine_samples.h"
 
 namespace thermal {
 namespace {
@@ -30,6 +31,12 @@ Plane<float> as_floats(const Plane<std::uint16_t>& indices) {
 }
 
 Planes planes_of(const Passes& passes, const std::string& layer, const std::string& actor_layer) {
+  if (passes.fine.factor > 1) {
+    Planes planes = planes_of(filled_in(passes), layer, actor_layer);
+    planes.emplace(fmt::format("{}.{}.X", layer, kSampledPass),
+                   as_floats(sampled_places(passes.fine, passes.object_index.width_px())));
+    return planes;
+  }
   Planes planes = {{layer + ".IndexOB.X", as_floats(passes.object_index)},
                    {layer + ".IndexMA.X", as_floats(passes.material_index)},
                    {layer + ".Depth.Z", passes.depth_m},

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/exr/header.h"
+#include "io/exr/passes_writer.h"
 #include "io/exr/pixels.h"
 
 namespace thermal {
@@ -173,6 +174,13 @@ const ExrChannel* ExrPlanes::actors() const {
   if (!layout_.mirror_layer.empty()) std::erase(layers, layout_.mirror_layer);
   if (layers.empty()) return nullptr;
   throw DataError(wrong_layer("actor_layer", layout_.actor_layer, layers));
+}
+
+const ExrChannel* ExrPlanes::sampled() const {
+  const auto found = std::ranges::find_if(header_.channels, [this](const ExrChannel& channel) {
+    return channel.layer == layer_ && channel.pass == kSampledPass;
+  });
+  return found == header_.channels.end() ? nullptr : &*found;
 }
 
 const ExrChannel& ExrPlanes::required(const ExrChannel* channel, const std::string& plane) const {

@@ -30,6 +30,8 @@ class ExrPlanes {
   /// typing error.
   [[nodiscard]] const ExrChannel* actors() const;
 
+  [[nodiscard]] const ExrChannel* sampled() const;  ///< kSampledPass; null if there is none
+
   [[nodiscard]] const ExrChannel& required_depth()
       const;  ///< DataError with a list of the channels if there is none
   [[nodiscard]] const ExrChannel& required_normal(std::string_view axis) const;

@@ -413,6 +413,46 @@ TEST_CASE("What water mirrors is written in a layer of its own, and read where i
   CHECK_FALSE(planes_in_exr(folder / "wet.exr", {.layer = "Scene"}).mirrored);
 }
 
+TEST_CASE("Passes that are sampled where it matters are read as they were written") {
+  const TemporaryFolder folder;
+  Passes passes;
+  passes.object_index = Plane<std::uint16_t>(3, 2, 4);
+  passes.material_index = Plane<std::uint16_t>(3, 2, 9);
+  passes.depth_m = Plane<float>(3, 2, 61.25F);
+  FineSamples& fine = passes.fine;
+  fine.factor = 2;
+  fine.row_begin = {0, 1, 3};
+  fine.x_px = {1, 0, 2};
+  fine.object_index = {5, 6, 7, 8, 10, 11, 12, 13, 14, 15, 16, 17};  // 2 lines of a pixel, 2 of two
+  fine.material_index.assign(12, 1);
+  fine.depth_m.assign(12, 60.5F);
+  // A file has no room for what such pixels would have with one sample: their first one.
+  passes.object_index.at(1, 0) = 5;
+  passes.object_index.at(0, 1) = 10;
+  passes.object_index.at(2, 1) = 12;
+  for (const auto& [x, y] : {std::pair{1, 0}, {0, 1}, {2, 1}}) {
+    passes.material_index.at(x, y) = 1;
+    passes.depth_m.at(x, y) = 60.5F;
+  }
+  write_passes(folder / "000000.exr", passes, "Scene", "", ExrPacking::run_lengths);
+  const ExrLayout layout = {.layer = "Scene", .supersample = 2, .width_px = 6, .height_px = 4};
+  const Passes read = read_passes(folder / "000000.exr", layout, {.depth = true});
+  CHECK(read.object_index == passes.object_index);
+  CHECK(read.material_index == passes.material_index);
+  CHECK(read.depth_m == passes.depth_m);
+  CHECK(read.fine.factor == 2);
+  CHECK(read.fine.row_begin == fine.row_begin);
+  CHECK(read.fine.x_px == fine.x_px);
+  CHECK(read.fine.object_index == fine.object_index);
+  CHECK(read.fine.material_index == fine.material_index);
+  CHECK(read.fine.depth_m == fine.depth_m);
+  CHECK(read_passes(folder / "000000.exr", layout).fine.depth_m.empty());
+  // To a manifest without supersampling, it is a larger picture.
+  const Passes large = read_passes(folder / "000000.exr", {.layer = "Scene", .width_px = 6, .height_px = 4});
+  CHECK(large.fine.factor == 1);
+  CHECK(large.object_index.at(3, 1) == 8);
+}
+
 TEST_CASE("Passes that cannot be written leave no file") {
   const TemporaryFolder folder;
   Passes passes;

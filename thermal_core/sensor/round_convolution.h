@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/image.h"
+#include "sensor/round_kernel.h"
+#include "sensor/subpixel_detail.h"
+
+namespace thermal {
+
+/// Applies a RoundKernel to pictures. Pictures are mirrored at the border (edge pixel repeated), which preserves the sum
+/// of all pixels up to rounding, if whole halo blocks fit. Keeps its buffers for reuse. The result does not depend on
+/// the number of threads.
+class RoundConvolution {
+ public:
+  explicit RoundConvolution(RoundKernel kernel) : kernel_(std::move(kernel)) {}
+
+  [[nodiscard]] const RoundKernel& kernel() const noexcept { return kernel_; }
+
+  /// Convolves in place. `detail` is empty, or of the picture's size.
+  void apply(const SubpixelDetail& detail, Plane<float>& picture);
+
+ private:
+  /// Columns of a row that have detail.
+  struct Extent {
+    int begin = 0;
+    int end = 0;
+  };
+  class RowSums;
+
+  void find_extents(const SubpixelDetail& detail);
+  void make_halo(const Plane<float>& picture);
+  [[nodiscard]] Extent extent_around(int y) const;
+  void add_detail(const SubpixelDetail& detail, int y, RowSums& sums, std::span<float> out) const;
+  void add_halo(int y, std::vector<float>& blocks, std::span<float> out) const;
+
+  RoundKernel kernel_;
+  Plane<float> out_;
+  Plane<float> blocks_;          ///< means of blocks
+  Plane<float> halo_;            ///< the same, spread
+  std::vector<Extent> extents_;  ///< of the rows; empty: no detail
+};
+
+}  // namespace thermal
