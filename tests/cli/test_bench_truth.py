@@ -22,7 +22,18 @@ def test_each_term_has_its_share(veldt):
     assert sampling == sorted(sampling, reverse=True)
     assert sampling[0] > 3 * sampling[2]
     assert rows["band"]["rms mK"] < 50
+    assert rows["optics"]["rms mK"] < 100
     assert set(rows["optics"]) == {"rms mK", "worst mK", "signal %", "scatter %"}
+    assert rows["bars, smear and lag"]["worst mK"] < 500 < rows["bars, lag by frames"]["worst mK"] / 5
+
+
+def test_a_person_at_122_m_is_right_by_default(veldt):
+    """The defaults of a physical sensor: with Embree adaptive 4 x 4, with Blender 4 x 4."""
+    for group in ("sampling, still", "sampling, moving"):
+        rows = _rows_of(veldt, group)
+        for name in ("4 x 4", "adaptive 4 x 4"):
+            assert rows[name]["rms mK"] < 300
+            assert abs(rows[name]["signal %"]) < 3 and rows[name]["scatter %"] < 3
 
 
 def test_an_unknown_group_is_refused(veldt):

@@ -22,7 +22,7 @@ struct TruthPreset {
 struct TruthCase {
   TruthTarget target;
   TruthPreset preset = truth_presets().front();
-  ShippedSampling sampling = {"1 ray", ShippedSampling::Kind::full, 1};
+  ShippedSampling sampling = {"adaptive 4 x 4", ShippedSampling::Kind::adaptive, 4};  ///< a config's default
   double distance_m = 122;
   double speed_m_s = 12;  ///< of the camera; the target walks towards it
   bool walks = true;

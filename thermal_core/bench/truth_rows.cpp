@@ -118,6 +118,14 @@ std::vector<RenderRow> share_rows(const std::string& group, const TruthCase& usu
   }
   rows.push_back(
       row_of(group, "smear and lag", usual, image_with_lag(usual, still, 0, true), image_by(usual, moving)));
+  TruthCase bars = usual;
+  bars.target = truth_target(truth_targets(), "bars");
+  bars.walks = false;
+  const ContrastKernel at_speed = still.smeared(smear_px(bars));
+  for (const bool with_smear : {false, true}) {
+    rows.push_back(row_of(group, with_smear ? "bars, smear and lag" : "bars, lag by frames", bars,
+                          image_with_lag(bars, still, 0, with_smear), image_by(bars, at_speed)));
+  }
   return rows;
 }
 

@@ -104,6 +104,14 @@ Json parse_value(const std::string& text) {
   }
 }
 
+/// A real camera's pixels average what they see: 4 x 4 samples, with the engine `embree` only where they differ. The
+/// published model has one sample a pixel.
+void fill_sampling(Json& render, bool physical) {
+  if (!render.contains("supersample")) render["supersample"] = physical ? 4 : 1;
+  const bool by_default = physical && render["engine"] == "embree" && render["supersample"] > 1;
+  if (!render.contains("sampling")) render["sampling"] = by_default ? "adaptive" : "full";
+}
+
 }  // namespace
 
 const ClipConfig& Config::clip(const std::string& id, const std::string& where) const {
@@ -222,6 +230,7 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   config.camera = read_intrinsics(document["camera"]);
   config.gives_intrinsics = gives_intrinsics(document["camera"]);
   check_intrinsics(config.camera, faults);
+  fill_sampling(document["render"], config.physical);
   const Json& render = document["render"];
   if (render["sampling"] == "adaptive" && render["engine"] != "embree")
     faults.emplace_back("render.sampling = \"adaptive\"; expected \"full\", or render.engine = \"embree\"");
