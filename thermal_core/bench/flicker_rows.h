@@ -6,9 +6,10 @@
 
 namespace thermal {
 
-/// Generators of 1/f noise at 30 Hz: the sensor's pole-zero filter by poles per decade, and banks of
-/// Ornstein-Uhlenbeck processes. slope_error and ripple_db: of the designed spectrum over three decades, 0.01 to 10
-/// Hz; measured_slope_error: of the spectrum measured from 128 pixels and 32768 frames (its standard error is 0.004);
+/// White and 1/f noise with a knee of 0.5 Hz, both together: the sensor's processes at several rates, and a bank of
+/// Ornstein-Uhlenbeck processes that are stepped in every frame. worst_db: of the designed spectrum against
+/// 1 + knee / f, from 3e-3 Hz to Nyquist; measured_db: the same of the spectrum measured from 128 pixels and 32768
+/// frames, in bands of an eighth of a decade from 0.01 to 10 Hz or 0.8 of Nyquist (the lowest scatter by 0.2 dB);
 /// variance_sigma: of all pixels after 8 frames against the design.
 [[nodiscard]] std::vector<StageRow> flicker_rows();
 

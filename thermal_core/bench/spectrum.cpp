@@ -39,32 +39,6 @@ void transform(std::vector<Complex>& values) {
 
 }  // namespace
 
-FlickerFit fit_flicker(const Density& density, double low_hz, double high_hz, int points) {
-  std::vector<double> levels;  // ln(f S): flat for 1/f
-  std::vector<double> places;  // ln f about their middle
-  const double span = std::log(high_hz / low_hz);
-  double sum = 0;
-  for (int i = 0; i < points; ++i) {
-    const double share = (i + 0.5) / points;
-    const double frequency_hz = low_hz * std::exp(span * share);
-    places.push_back(span * (share - 0.5));
-    levels.push_back(std::log(frequency_hz * density(frequency_hz)));
-    sum += levels.back();
-  }
-  double product = 0;
-  double squares = 0;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    product += places[i] * levels[i];
-    squares += places[i] * places[i];
-  }
-  FlickerFit fit = {.slope_error = product / squares};
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const double rest = levels[i] - sum / points - fit.slope_error * places[i];
-    fit.ripple_db = std::max(fit.ripple_db, 10 / std::numbers::ln10 * std::abs(rest));
-  }
-  return fit;
-}
-
 std::vector<double> mean_periodogram(const std::vector<std::vector<float>>& series, double rate_hz) {
   const std::size_t length = series.front().size();
   assert(std::has_single_bit(length));

@@ -38,7 +38,13 @@ BadPixels::BadPixels(const BadPixelParameters& parameters, std::uint32_t seed, s
 }
 
 void BadPixels::apply(std::uint32_t frame, float noise_stddev, Plane<float>& signal) {
-  blink(frame, noise_stddev * static_cast<float>(parameters_.blinking_ratio), signal);
+  if (!blinking_.empty()) {
+    while (next_ <= frame) blink(next_++);
+  }
+  const float height = noise_stddev * static_cast<float>(parameters_.blinking_ratio);
+  for (std::size_t i = 0; i < blinking_.size(); ++i) {
+    if (is_up_[i]) signal.pixels()[blinking_[i]] += height;
+  }
   std::vector<float> shown;  // all are computed before any is changed; dead neighbours do not count
   for (const std::size_t pixel : dead_) {
     shown.push_back(parameters_.replace_dead ? living_mean(pixel, signal) : 0.0F);
@@ -46,15 +52,12 @@ void BadPixels::apply(std::uint32_t frame, float noise_stddev, Plane<float>& sig
   for (std::size_t i = 0; i < dead_.size(); ++i) signal.pixels()[dead_[i]] = shown[i];
 }
 
-void BadPixels::blink(std::uint32_t frame, float height, Plane<float>& signal) {
-  if (blinking_.empty()) return;
+void BadPixels::blink(std::uint32_t frame) {
   std::vector<float> numbers(blinking_.size());
   fill_uniform({.seed = seed_, .stream = kBlinkStream, .clip = clip_, .frame = frame}, 0, numbers);
-  const float probability = begun_ ? flip_probability_ : 0.5F;  // both states are equally likely at first
-  begun_ = true;
+  const float probability = frame > 0 ? flip_probability_ : 0.5F;  // both states are equally likely at first
   for (std::size_t i = 0; i < blinking_.size(); ++i) {
     if (numbers[i] < probability) is_up_[i] = !is_up_[i];
-    if (is_up_[i]) signal.pixels()[blinking_[i]] += height;
   }
 }
 

@@ -18,14 +18,15 @@ class BadPixels {
   BadPixels(const BadPixelParameters& parameters, std::uint32_t seed, std::string_view clip,
             double frame_rate_hz, int width_px, int height_px);
 
-  /// Modifies the next frame's signal. `noise_stddev` is that of the white temporal noise, in the signal's unit.
+  /// Modifies a frame's signal; frames must increase, and some may be left out. `noise_stddev` is that of the white
+  /// temporal noise, in the signal's unit.
   void apply(std::uint32_t frame, float noise_stddev, Plane<float>& signal);
 
   [[nodiscard]] const std::vector<std::size_t>& dead() const noexcept { return dead_; }
   [[nodiscard]] const std::vector<std::size_t>& blinking() const noexcept { return blinking_; }
 
  private:
-  void blink(std::uint32_t frame, float height, Plane<float>& signal);
+  void blink(std::uint32_t frame);
   [[nodiscard]] float living_mean(std::size_t pixel, const Plane<float>& signal) const;
 
   BadPixelParameters parameters_;
@@ -36,7 +37,7 @@ class BadPixels {
   std::vector<bool> is_dead_;  ///< empty: none
   std::vector<std::size_t> blinking_;
   std::vector<bool> is_up_;  ///< of the blinking ones
-  bool begun_ = false;       ///< at least one frame was made
+  std::uint32_t next_ = 0;   ///< the first frame whose jumps are not made
 };
 
 }  // namespace thermal

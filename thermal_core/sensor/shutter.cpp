@@ -27,4 +27,14 @@ ShutterState Shutter::at(double time_s) const noexcept {
           .closed = since_s < parameters_.freeze_s};
 }
 
+std::uint32_t Shutter::first_frame(std::uint32_t event, double rate_hz) const noexcept {
+  if (event == 0) return 0;
+  const double begins = (event * parameters_.interval_s - begins_s_) * rate_hz;
+  auto frame = static_cast<std::uint32_t>(std::max(0.0, std::ceil(begins)));
+  // at() decides: rounding may differ by a frame.
+  while (frame > 0 && at((frame - 1) / rate_hz).event >= event) --frame;
+  while (at(frame / rate_hz).event < event) ++frame;
+  return frame;
+}
+
 }  // namespace thermal

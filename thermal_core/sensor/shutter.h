@@ -24,6 +24,10 @@ class Shutter {
   /// A frame is frozen if the shutter closed at its time or less than freeze_s before.
   [[nodiscard]] ShutterState at(double time_s) const noexcept;
 
+  /// The first frame of an event at a rate of frames, 0 if it began before the clip. Requires an interval, if the event
+  /// is not 0.
+  [[nodiscard]] std::uint32_t first_frame(std::uint32_t event, double rate_hz) const noexcept;
+
   /// Time from the last closing to the start of the clip [s].
   [[nodiscard]] double begins_s() const noexcept { return begins_s_; }
 

@@ -20,8 +20,10 @@ enum SensorStream : std::uint32_t {
   kDeadPixelStream = 12,
   kBlinkingPixelStream = 13,
   kBlinkStream = 14,
-  kFlickerStream = 15,
-  kFlickerStartStream = 16,  ///< and the numbers after it, one for each pole
+  // 15 was an earlier 1/f noise.
+  kFlickerStartStream = 16,  ///< and the 31 numbers after it, one for each process
+  kFlickerPhaseStream = 48,
+  kFlickerStream = 64,  ///< and the 31 numbers after it, one for each process
 };
 
 }  // namespace thermal

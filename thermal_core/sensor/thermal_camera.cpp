@@ -47,8 +47,9 @@ VELDT_CLONES void copy_clipped(const float* in, std::size_t count, float most, f
   }
 }
 
-VELDT_CLONES void follow(const float* target, std::size_t count, float share, float* state) {
-  for (std::size_t i = 0; i < count; ++i) state[i] += share * (target[i] - state[i]);
+/// The signal becomes the state.
+VELDT_CLONES void follow(float* signal, std::size_t count, float share, float* state) {
+  for (std::size_t i = 0; i < count; ++i) signal[i] = state[i] += share * (signal[i] - state[i]);
 }
 
 VELDT_CLONES void round_to_counts(const float* in, std::size_t count, float counts_per_unit,
@@ -105,7 +106,7 @@ std::vector<float> uniform_pattern(std::uint32_t seed, const std::string& clip, 
 constexpr double kDriftGrowth2 = 49.0 / 120;
 
 /// Variance of a pixel's noise in units of that of its white noise; see ThermalCamera::noise_w_m2_sr().
-double noise_variance(const SensorParameters& parameters, double frame_rate_hz) {
+double noise_variance(const SensorParameters& parameters, double native_rate_hz) {
   const NoiseParameters& ratios = parameters.noise;
   double variance = 1;
   for (const double ratio : {ratios.fixed_pattern_ratio, ratios.row_ratio, ratios.column_ratio,
@@ -113,7 +114,8 @@ double noise_variance(const SensorParameters& parameters, double frame_rate_hz) 
     variance += ratio * ratio;
   }
   if (ratios.flicker_knee_hz > 0)
-    variance += ratios.flicker_knee_hz * FlickerFilter::design(frame_rate_hz).variance();
+    variance +=
+        ratios.flicker_knee_hz * FlickerDesign::fit(native_rate_hz, ratios.flicker_knee_hz).variance();
   if (parameters.shutter.interval_s > 0) variance += kDriftGrowth2 * ratios.drift_ratio * ratios.drift_ratio;
   return variance;
 }
@@ -148,7 +150,9 @@ ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, floa
       clip_hash_(hash_name(clip_.id)),
       brightest_w_m2_sr_(static_cast<double>(brightest_w_m2_sr)),
       temperatures_(temperatures ? std::move(temperatures) : apparent_temperatures(parameters.response)),
+      native_(NativeRate::of(parameters.native_rate_hz, clip_.frame_rate_hz)),
       white_w_m2_sr_(netd_w_m2_sr(parameters)),
+      fast_w_m2_sr_(white_w_m2_sr_),
       flicker_w_m2_sr_(white_w_m2_sr_ * static_cast<float>(std::sqrt(parameters.noise.flicker_knee_hz))),
       brightest_taken_w_m2_sr_(
           static_cast<float>(BandRadiance(parameters.response).radiance(kHottestSceneK))),
@@ -161,16 +165,19 @@ ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, floa
       optics_(parameters.optics, parameters.response, clip_.sampling),
       shutter_(parameters.shutter, clip_.seed, clip_.id),
       pattern_(parameters.noise, clip_.seed, clip_.id, clip_.width_px, clip_.height_px),
-      bad_pixels_(parameters.bad_pixels, clip_.seed, clip_.id, clip_.frame_rate_hz, clip_.width_px,
+      bad_pixels_(parameters.bad_pixels, clip_.seed, clip_.id, native_.rate_hz, clip_.width_px,
                   clip_.height_px),
       agc_(parameters.agc, agc_scene(parameters, clip_.frame_rate_hz, brightest_w_m2_sr)),
       signal_(clip_.width_px, clip_.height_px),
       noise_w_m2_sr_(static_cast<double>(white_w_m2_sr_) *
-                     std::sqrt(noise_variance(parameters, clip_.frame_rate_hz))) {
+                     std::sqrt(noise_variance(parameters, native_.rate_hz))) {
   assert(brightest_w_m2_sr > 0);
   if (parameters.time_constant_s > 0) smear_.emplace(1 / clip_.frame_rate_hz, parameters.time_constant_s);
   if (flicker_w_m2_sr_ > 0) {
-    flicker_.emplace(clip_.seed, clip_.id, FlickerFilter::design(clip_.frame_rate_hz), signal_.size());
+    const double knee_hz = parameters.noise.flicker_knee_hz;
+    const FlickerDesign design = FlickerDesign::fit(native_.rate_hz, knee_hz);
+    fast_w_m2_sr_ *= static_cast<float>(std::sqrt(1 + knee_hz * design.white_variance));
+    flicker_.emplace(clip_.seed, clip_.id, design, signal_.size());
   }
 }
 
@@ -198,28 +205,53 @@ void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& ou
 
 void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail,
                            const ImageMotion& motion, SensorFrame& out, const Look& look) {
-  const double time_s = frame_ / clip_.frame_rate_hz;
-  const ShutterState shutter = shutter_.at(time_s);
+  const std::uint32_t native = frame_++ * native_.step;
   take_in(radiance_w_m2_sr, detail);
   if (look) look(signal_);
   if (smear_ && begun_) smear_->apply(motion, signal_);
   if (smear_ && !begun_) smear_->apply_to_first(motion, signal_);
   if (!begun_) begin();
-  pattern_.begin_frame(frame_, time_s, shutter);
-  if (flicker_ && event_ && *event_ != shutter.event) flicker_->restart_at(frame_);
-  event_ = shutter.event;
-  expose_signal();
-  bad_pixels_.apply(frame_, white_w_m2_sr_, signal_);
-  ++frame_;
-  if (shutter.closed && !shown_.ir16.empty()) {
+  if (!membrane_.empty()) lag();
+  const std::uint32_t shown = shown_at(native);
+  if (pictured_ && shown <= *pictured_) {
     out = shown_;
   } else {
-    count(out.ir16);
-    out.curve = agc_.next(out.ir16);
-    show(out);
+    make_picture(shown, out);
     if (parameters_.shutter.interval_s > 0) shown_ = out;
   }
-  out.shutter_closed = shutter.closed;
+  out.shutter_closed = shutter_.at(native / native_.rate_hz).closed;
+}
+
+std::uint32_t ThermalCamera::shown_at(std::uint32_t native) const noexcept {
+  const std::uint32_t last = pictured_.value_or(0);
+  std::uint32_t shown = native;
+  for (ShutterState shutter; shown > last;) {
+    shutter = shutter_.at(shown / native_.rate_hz);
+    if (!shutter.closed) break;
+    const std::uint32_t closing = shutter_.first_frame(shutter.event, native_.rate_hz);
+    shown = closing > 0 ? closing - 1 : 0;
+  }
+  return shown;
+}
+
+/// Shows what the detector measures as it does at a native frame.
+void ThermalCamera::make_picture(std::uint32_t native, SensorFrame& out) {
+  const double time_s = native / native_.rate_hz;
+  const ShutterState shutter = shutter_.at(time_s);
+  pattern_.begin_frame(native, time_s, shutter);
+  if (flicker_ && event_ != shutter.event)
+    flicker_->restart_at(shutter_.first_frame(shutter.event, native_.rate_hz), shutter.event);
+  event_ = shutter.event;
+  const auto signal = signal_.pixels();
+  parallel_for(signal.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end; first += kPixelsABlock)  // blocks that stay in the L1 cache
+      add_noise(native, first, signal.subspan(first, std::min(kPixelsABlock, end - first)));
+  });
+  bad_pixels_.apply(native, white_w_m2_sr_, signal_);
+  pictured_ = native;
+  count(out.ir16);
+  out.curve = agc_.next(out.ir16);
+  show(out);
 }
 
 void ThermalCamera::show(SensorFrame& frame) const {
@@ -247,7 +279,6 @@ void ThermalCamera::take_in(const Plane<float>& radiance_w_m2_sr, const Subpixel
 void ThermalCamera::begin() {
   const auto signal = signal_.pixels();
   begun_ = true;
-  if (flicker_) flicker_->begin_at(frame_);
   if (follow_ < 1) membrane_.assign(signal.begin(), signal.end());  // at rest
   const double ratio = parameters_.noise.amount * parameters_.noise.first_frame_ratio;
   if (ratio > 0) {
@@ -256,33 +287,23 @@ void ThermalCamera::begin() {
   }
 }
 
-/// Passes every pixel through the detector, in blocks that stay in the L1 cache.
-void ThermalCamera::expose_signal() {
+void ThermalCamera::lag() {
   const auto signal = signal_.pixels();
   parallel_for(signal.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t first = begin; first < end; first += kPixelsABlock) {
-      const std::span<float> block = signal.subspan(first, std::min(kPixelsABlock, end - first));
-      if (!membrane_.empty()) lag(first, block);
-      add_noise(first, block);
-    }
+    follow(&signal[begin], end - begin, follow_, &membrane_[begin]);
   });
 }
 
-void ThermalCamera::lag(std::size_t first, std::span<float> signal) {
-  follow(signal.data(), signal.size(), follow_, &membrane_[first]);
-  std::copy_n(membrane_.begin() + static_cast<std::ptrdiff_t>(first), signal.size(), signal.begin());
-}
-
-void ThermalCamera::add_noise(std::size_t first, std::span<float> signal) {
+void ThermalCamera::add_noise(std::uint32_t native, std::size_t first, std::span<float> signal) {
   std::array<float, kPixelsABlock> normals{};
   std::array<float, kPixelsABlock> buffer{};
   const std::size_t count = signal.size();
   const std::span<float> noise = std::span(buffer).first(count);
   if (white_w_m2_sr_ > 0) {
-    fill_normal({.seed = clip_.seed, .stream = kWhiteStream, .clip = clip_hash_, .frame = frame_}, first,
+    fill_normal({.seed = clip_.seed, .stream = kWhiteStream, .clip = clip_hash_, .frame = native}, first,
                 std::span(normals).first(count));
-    add_scaled(std::span(normals).first(count), white_w_m2_sr_, noise);
-    if (flicker_) flicker_->add_next(frame_, first, flicker_w_m2_sr_, noise);
+    add_scaled(std::span(normals).first(count), fast_w_m2_sr_, noise);
+    if (flicker_) flicker_->add(native, first, flicker_w_m2_sr_, noise);
     pattern_.add(first, white_w_m2_sr_, noise);
   }
   if (!first_frame_.empty()) add_scaled(std::span(first_frame_).subspan(first, count), 1, noise);

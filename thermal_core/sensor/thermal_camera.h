@@ -12,6 +12,7 @@
 #include "sensor/agc.h"
 #include "sensor/bad_pixels.h"
 #include "sensor/flicker_noise.h"
+#include "sensor/native_rate.h"
 #include "sensor/optics.h"
 #include "sensor/pattern_noise.h"
 #include "sensor/sensor_parameters.h"
@@ -44,7 +45,8 @@ struct SensorFrame {
 /// One uncooled camera through one clip: optics, thermal lag, noise, bad pixels, both outputs. Holds all state that a
 /// clip carries from frame to frame; frames must come in order, from the first. All processes start stationary: the
 /// first frame is statistically like any other. Pixels are a function of (parameters, clip, radiances), whatever the
-/// number of threads.
+/// number of threads. Noise and the shutter are functions of the native frame (NativeRate): of a still scene, the
+/// 16-bit pictures at the native rate / n are every n-th of those at the native rate, bit for bit.
 class ThermalCamera {
  public:
   struct Clip {
@@ -83,8 +85,8 @@ class ThermalCamera {
   [[nodiscard]] SensorFrame expose(const Plane<float>& radiance_w_m2_sr);
 
   /// Advances the clock past a frame whose radiance is unknown. The noise of later frames is unaffected; state that
-  /// depends on earlier frames (lag, 1/f noise, blinking pixels, gain control) is not advanced or, before the first
-  /// frame, starts with the first one given.
+  /// depends on earlier frames' radiance (lag, gain control) is not advanced or, before the first frame, starts with
+  /// the first one given.
   void skip() noexcept { ++frame_; }
 
   /// Apparent temperature [K] of a radiance [W m^-2 sr^-1], as in the 16-bit picture before rounding.
@@ -100,11 +102,13 @@ class ThermalCamera {
   [[nodiscard]] double noise_w_m2_sr(int x_px, int y_px) const;
 
  private:
+  /// The native frame that the camera shows at one: itself, or the last one before a closing of the shutter.
+  [[nodiscard]] std::uint32_t shown_at(std::uint32_t native) const noexcept;
+  void make_picture(std::uint32_t native, SensorFrame& out);
   void take_in(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail);
   void begin();
-  void lag(std::size_t first, std::span<float> signal);
-  void add_noise(std::size_t first, std::span<float> signal);
-  void expose_signal();
+  void lag();
+  void add_noise(std::uint32_t native, std::size_t first, std::span<float> signal);
   void count(Plane<std::uint16_t>& ir16) const;
   void show(SensorFrame& frame) const;
 
@@ -113,11 +117,13 @@ class ThermalCamera {
   std::uint64_t clip_hash_;
   double brightest_w_m2_sr_;
   std::shared_ptr<const TemperatureTable> temperatures_;
-  float white_w_m2_sr_;            ///< standard deviation of white temporal noise
-  float flicker_w_m2_sr_;          ///< of 1/f noise in units of FlickerFilter's
+  NativeRate native_;
+  float white_w_m2_sr_;    ///< standard deviation of white temporal noise …
+  float fast_w_m2_sr_;     ///< … with what 1/f noise adds to it
+  float flicker_w_m2_sr_;  ///< of 1/f noise in units of FlickerDesign's
   float brightest_taken_w_m2_sr_;  ///< what is brighter counts as this
   float saturation_w_m2_sr_;       ///< of the 16-bit picture
-  float follow_;                   ///< fraction of a new radiance that a pixel reaches within one frame
+  float follow_;  ///< fraction of a new radiance that a pixel reaches within one frame
   Optics optics_;
   std::optional<Smear> smear_;  ///< none without a time constant
   Shutter shutter_;
@@ -126,12 +132,13 @@ class ThermalCamera {
   std::optional<std::uint32_t> event_;  ///< of the shutter, in the frame before
   BadPixels bad_pixels_;
   Agc agc_;
-  Plane<float> signal_;             ///< radiance as measured by the detector
-  std::vector<float> membrane_;     ///< lagging radiance; empty: no lag
-  std::vector<float> first_frame_;  ///< the paper's fixed pattern; empty: none
-  double first_frame_w_m2_sr_ = 0;  ///< its half width
-  double noise_w_m2_sr_;            ///< of a pixel, without that pattern and the gain
-  SensorFrame shown_;               ///< the last picture before the shutter closed
+  Plane<float> signal_;                    ///< radiance as measured by the detector
+  std::vector<float> membrane_;            ///< lagging radiance; empty: no lag
+  std::vector<float> first_frame_;         ///< the paper's fixed pattern; empty: none
+  double first_frame_w_m2_sr_ = 0;         ///< its half width
+  double noise_w_m2_sr_;                   ///< of a pixel, without that pattern and the gain
+  SensorFrame shown_;                      ///< the last picture before the shutter closed
+  std::optional<std::uint32_t> pictured_;  ///< the native frame of the last picture
   std::uint32_t frame_ = 0;
   bool begun_ = false;  ///< a frame was exposed
 };

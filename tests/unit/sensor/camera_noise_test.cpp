@@ -50,7 +50,7 @@ TEST_CASE("Patterns add to it in quadrature; noise shared by whole frames does n
 TEST_CASE("The 1/f part and the drift count by their variances") {
   SensorParameters parameters = white_only();
   parameters.noise.flicker_knee_hz = 2;
-  const double flicker = 2 * FlickerFilter::design(9).variance();
+  const double flicker = 2 * FlickerDesign::fit(9, 2).variance();
   CHECK_THAT(noise_of(parameters), WithinRel(white() * std::sqrt(1 + flicker), 1e-6));
   parameters.noise.flicker_knee_hz = 0;
   parameters.noise.drift_ratio = 2;

@@ -134,6 +134,7 @@ SensorParameters read_sensor(const Json& document, const std::string& name, cons
           .optics = read_optics(json["optics"], document["camera"]),
           .time_constant_s = json["time_constant_s"],
           .netd_mk = json["netd_mk"],
+          .native_rate_hz = json["native_rate_hz"],
           .netd_f_number = json["netd_f_number"],
           .noise = read_noise(json["noise"]),
           .shutter = {.interval_s = json["shutter"]["interval_s"], .freeze_s = json["shutter"]["freeze_s"]},
