@@ -13,16 +13,20 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kBlockPixels = kRandomBatch;
+constexpr std::size_t kBlockPixels = FlickerNoise::kBlockPixels;
 constexpr std::uint64_t kNotStarted = std::numeric_limits<std::uint64_t>::max();
 
 VELDT_CLONES void renew(const float* normals, float keep, float scale, float* state) {
   for (std::size_t i = 0; i < kBlockPixels; ++i) state[i] = keep * state[i] + scale * normals[i];
 }
 
+VELDT_CLONES void sum_two(const float* one, const float* other, float* out) {
+  for (std::size_t i = 0; i < kBlockPixels; ++i) out[i] = one[i] + other[i];
+}
+
 VELDT_CLONES void sum_states(const float* states, std::size_t processes, float* out) {
-  for (std::size_t i = 0; i < kBlockPixels; ++i) out[i] = states[i];
-  for (std::size_t k = 1; k < processes; ++k) {
+  for (std::size_t i = 0; i < kBlockPixels; ++i) out[i] = 0;
+  for (std::size_t k = 0; k < processes; ++k) {
     for (std::size_t i = 0; i < kBlockPixels; ++i) out[i] += states[k * kBlockPixels + i];
   }
 }
@@ -35,6 +39,7 @@ FlickerNoise::FlickerNoise(std::uint32_t seed, std::string_view clip, const Flic
   const std::size_t blocks = (pixels + kBlockPixels - 1) / kBlockPixels;
   ticks_.assign(blocks, kNotStarted);
   states_.resize(blocks * design.processes.size() * kBlockPixels);
+  slow_.resize(blocks * kBlockPixels);
   sums_.resize(blocks * kBlockPixels);
   if (design.processes.empty()) return;
   period_ = design.processes.front().period_frames;
@@ -53,9 +58,8 @@ void FlickerNoise::restart_at(std::uint32_t frame, std::uint32_t event) {
   std::ranges::fill(ticks_, kNotStarted);
 }
 
-std::span<float> FlickerNoise::state(std::size_t block, std::size_t process) noexcept {
-  return std::span(states_).subspan((block * design_.processes.size() + process) * kBlockPixels,
-                                    kBlockPixels);
+float* FlickerNoise::state(std::size_t block, std::size_t process) noexcept {
+  return states_.data() + (block * design_.processes.size() + process) * kBlockPixels;
 }
 
 void FlickerNoise::start(std::size_t block) {
@@ -65,25 +69,26 @@ void FlickerNoise::start(std::size_t block) {
   for (std::size_t k = 0; k < design_.processes.size(); ++k) {
     field.stream = kFlickerStartStream + static_cast<std::uint32_t>(k);
     fill_normal(field, block * kBlockPixels, normals);
-    renew(normals.data(), 0, static_cast<float>(std::sqrt(design_.processes[k].variance)),
-          state(block, k).data());
+    renew(normals.data(), 0, static_cast<float>(std::sqrt(design_.processes[k].variance)), state(block, k));
   }
+  sum_states(state(block, 1), design_.processes.size() - 1, &slow_[block * kBlockPixels]);
 }
 
 void FlickerNoise::tick(std::size_t block, std::uint64_t tick) {
   std::array<float, kBlockPixels> normals{};
   RandomField field = field_;
-  for (std::size_t k = 0; k < design_.processes.size(); ++k) {
+  std::size_t k = 0;
+  for (; k < design_.processes.size(); ++k) {
     const FlickerProcess& process = design_.processes[k];
     const std::uint64_t ratio = process.period_frames / period_;
-    if (tick % ratio != 0) return;  // slower ones do not tick either
+    if (tick % ratio != 0) break;  // slower ones do not tick either
     field.stream = kFlickerStream + static_cast<std::uint32_t>(k);
     field.frame = static_cast<std::uint32_t>(tick / ratio);
     fill_normal(field, block * kBlockPixels, normals);
     const double renewed = std::sqrt((1 - process.keep * process.keep) * process.variance);
-    renew(normals.data(), static_cast<float>(process.keep), static_cast<float>(renewed),
-          state(block, k).data());
+    renew(normals.data(), static_cast<float>(process.keep), static_cast<float>(renewed), state(block, k));
   }
+  if (k > 1) sum_states(state(block, 1), design_.processes.size() - 1, &slow_[block * kBlockPixels]);
 }
 
 void FlickerNoise::advance(std::size_t block, std::uint32_t frame) {
@@ -94,7 +99,7 @@ void FlickerNoise::advance(std::size_t block, std::uint32_t frame) {
     ticks_[block] = (std::uint64_t{phases_[block]} + begins_) / period_;
   }
   while (ticks_[block] < now) tick(block, ++ticks_[block]);
-  sum_states(state(block, 0).data(), design_.processes.size(), &sums_[block * kBlockPixels]);
+  sum_two(state(block, 0), &slow_[block * kBlockPixels], &sums_[block * kBlockPixels]);
 }
 
 void FlickerNoise::add(std::uint32_t frame, std::size_t first, float stddev, std::span<float> out) {

@@ -15,6 +15,8 @@ namespace thermal {
 /// frame on. Blocks of pixels tick at random phases, so that all frames cost the same.
 class FlickerNoise {
  public:
+  static constexpr std::size_t kBlockPixels = 256;
+
   FlickerNoise(std::uint32_t seed, std::string_view clip, const FlickerDesign& design, std::size_t pixels);
 
   /// Begins again at a frame, independent of all before it: as a shutter's closing does, which measures and removes
@@ -23,12 +25,12 @@ class FlickerNoise {
   void restart_at(std::uint32_t frame, std::uint32_t event);
 
   /// Takes pixels [first, first + out.size()) to a frame and adds `stddev` times the noise. `first` is a multiple of
-  /// kRandomBatch. Frames must not decrease; those that are left out cost their ticks alone. Safe to call from several
+  /// kBlockPixels. Frames must not decrease; those that are left out cost their ticks alone. Safe to call from several
   /// threads on different pixels.
   void add(std::uint32_t frame, std::size_t first, float stddev, std::span<float> out);
 
  private:
-  [[nodiscard]] std::span<float> state(std::size_t block, std::size_t process) noexcept;
+  [[nodiscard]] float* state(std::size_t block, std::size_t process) noexcept;
   void start(std::size_t block);
   void tick(std::size_t block, std::uint64_t tick);
   void advance(std::size_t block, std::uint32_t frame);
@@ -38,11 +40,11 @@ class FlickerNoise {
   std::uint64_t period_ = 1;  ///< of the fastest process
   std::uint32_t begins_ = 0;
   std::uint32_t event_ = 0;
-  std::vector<std::uint32_t>
-      phases_;                        ///< by block: native frames since the tick of all processes, at frame 0
-  std::vector<std::uint64_t> ticks_;  ///< by block: the last one of the fastest process, or none
-  std::vector<float> states_;         ///< by block, process and pixel
-  std::vector<float> sums_;           ///< by pixel: what add() adds until the next tick
+  std::vector<std::uint32_t> phases_;  ///< by block: native frames from a tick of all processes to frame 0
+  std::vector<std::uint64_t> ticks_;   ///< by block: the last one of the fastest process, or none
+  std::vector<float> states_;          ///< by block, process and pixel
+  std::vector<float> slow_;            ///< by pixel: sum of all processes but the fastest
+  std::vector<float> sums_;            ///< by pixel: sum of all, which add() adds until the next tick
 };
 
 }  // namespace thermal

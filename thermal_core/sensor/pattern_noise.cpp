@@ -16,6 +16,12 @@ VELDT_CLONES void add_row(const float* columns, std::size_t count, float row, fl
   for (std::size_t i = 0; i < count; ++i) out[i] += stddev * (row + columns[i]);
 }
 
+/// Both patterns in one pass, which memory limits.
+VELDT_CLONES void add_two(const float* fixed, float fixed_stddev, const float* drift, float drift_stddev,
+                          std::size_t count, float* out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = out[i] + fixed_stddev * fixed[i] + drift_stddev * drift[i];
+}
+
 }  // namespace
 
 PatternNoise::PatternNoise(const NoiseParameters& parameters, std::uint32_t seed, std::string_view clip,
@@ -73,8 +79,13 @@ void PatternNoise::begin_frame(std::uint32_t frame, double time_s, const Shutter
 }
 
 void PatternNoise::add(std::size_t first, float stddev, std::span<float> out) const {
-  if (!fixed_.empty()) add_scaled(std::span(fixed_).subspan(first, out.size()), stddev, out);
-  if (!drift_.empty()) add_scaled(std::span(drift_).subspan(first, out.size()), stddev * drifted_, out);
+  if (!fixed_.empty() && !drift_.empty()) {
+    add_two(&fixed_[first], stddev, &drift_[first], stddev * drifted_, out.size(), out.data());
+  } else if (!fixed_.empty()) {
+    add_scaled(std::span(fixed_).subspan(first, out.size()), stddev, out);
+  } else if (!drift_.empty()) {
+    add_scaled(std::span(drift_).subspan(first, out.size()), stddev * drifted_, out);
+  }
   const auto width = static_cast<std::size_t>(width_px_);
   for (std::size_t done = 0; done < out.size();) {
     const std::size_t column = (first + done) % width;

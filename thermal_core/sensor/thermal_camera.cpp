@@ -22,7 +22,7 @@ constexpr double kNetdTemperatureK = 300;  // at which a NETD is stated
 constexpr double kHottestSceneK = 6000;
 constexpr float kLargestCount = 65535;
 constexpr std::size_t kPixelsAChunk = 16384;
-constexpr std::size_t kPixelsABlock = 256;
+constexpr std::size_t kPixelsABlock = FlickerNoise::kBlockPixels;
 
 float netd_w_m2_sr(const SensorParameters& parameters) {
   const BandValue at_300_k = BandRadiance(parameters.response).evaluate(kNetdTemperatureK);
@@ -211,13 +211,13 @@ void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, const SubpixelD
   if (smear_ && begun_) smear_->apply(motion, signal_);
   if (smear_ && !begun_) smear_->apply_to_first(motion, signal_);
   if (!begun_) begin();
-  if (!membrane_.empty()) lag();
   const std::uint32_t shown = shown_at(native);
   if (pictured_ && shown <= *pictured_) {
+    for_blocks([&](std::size_t first, std::span<float> block) { lag(first, block); });
     out = shown_;
   } else {
     make_picture(shown, out);
-    if (parameters_.shutter.interval_s > 0) shown_ = out;
+    if (shutter_.at(frame_ * native_.step / native_.rate_hz).closed) shown_ = out;
   }
   out.shutter_closed = shutter_.at(native / native_.rate_hz).closed;
 }
@@ -242,10 +242,9 @@ void ThermalCamera::make_picture(std::uint32_t native, SensorFrame& out) {
   if (flicker_ && event_ != shutter.event)
     flicker_->restart_at(shutter_.first_frame(shutter.event, native_.rate_hz), shutter.event);
   event_ = shutter.event;
-  const auto signal = signal_.pixels();
-  parallel_for(signal.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t first = begin; first < end; first += kPixelsABlock)  // blocks that stay in the L1 cache
-      add_noise(native, first, signal.subspan(first, std::min(kPixelsABlock, end - first)));
+  for_blocks([&](std::size_t first, std::span<float> block) {
+    lag(first, block);
+    add_noise(native, first, block);
   });
   bad_pixels_.apply(native, white_w_m2_sr_, signal_);
   pictured_ = native;
@@ -287,24 +286,32 @@ void ThermalCamera::begin() {
   }
 }
 
-void ThermalCamera::lag() {
+void ThermalCamera::lag(std::size_t first, std::span<float> signal) {
+  if (!membrane_.empty()) follow(signal.data(), signal.size(), follow_, &membrane_[first]);
+}
+
+/// Passes the signal on in blocks that stay in the L1 cache.
+template <typename Work>
+void ThermalCamera::for_blocks(const Work& work) {
   const auto signal = signal_.pixels();
   parallel_for(signal.size(), kPixelsAChunk, [&](std::size_t begin, std::size_t end) {
-    follow(&signal[begin], end - begin, follow_, &membrane_[begin]);
+    for (std::size_t first = begin; first < end; first += kPixelsABlock)
+      work(first, signal.subspan(first, std::min(kPixelsABlock, end - first)));
   });
 }
 
 void ThermalCamera::add_noise(std::uint32_t native, std::size_t first, std::span<float> signal) {
-  std::array<float, kPixelsABlock> normals{};
-  std::array<float, kPixelsABlock> buffer{};
+  std::array<float, kPixelsABlock> buffer;  // NOLINT(*-member-init): filled below
   const std::size_t count = signal.size();
   const std::span<float> noise = std::span(buffer).first(count);
   if (white_w_m2_sr_ > 0) {
     fill_normal({.seed = clip_.seed, .stream = kWhiteStream, .clip = clip_hash_, .frame = native}, first,
-                std::span(normals).first(count));
-    add_scaled(std::span(normals).first(count), fast_w_m2_sr_, noise);
+                noise);
+    scale(fast_w_m2_sr_, noise);
     if (flicker_) flicker_->add(native, first, flicker_w_m2_sr_, noise);
     pattern_.add(first, white_w_m2_sr_, noise);
+  } else {
+    std::ranges::fill(noise, 0.0F);
   }
   if (!first_frame_.empty()) add_scaled(std::span(first_frame_).subspan(first, count), 1, noise);
   if (!clip_.noise_gain.empty()) multiply(clip_.noise_gain.pixels().subspan(first, count), noise);

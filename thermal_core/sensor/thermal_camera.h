@@ -107,7 +107,9 @@ class ThermalCamera {
   void make_picture(std::uint32_t native, SensorFrame& out);
   void take_in(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail);
   void begin();
-  void lag();
+  template <typename Work>
+  void for_blocks(const Work& work);
+  void lag(std::size_t first, std::span<float> signal);
   void add_noise(std::uint32_t native, std::size_t first, std::span<float> signal);
   void count(Plane<std::uint16_t>& ir16) const;
   void show(SensorFrame& frame) const;

@@ -11,6 +11,10 @@ VELDT_CLONES void add_scaled_floats(const float* in, std::size_t count, float sc
   for (std::size_t i = 0; i < count; ++i) out[i] += scale * in[i];
 }
 
+VELDT_CLONES void scale_floats(float factor, std::size_t count, float* values) {
+  for (std::size_t i = 0; i < count; ++i) values[i] *= factor;
+}
+
 VELDT_CLONES void multiply_floats(const float* in, std::size_t count, float* out) {
   for (std::size_t i = 0; i < count; ++i) out[i] *= in[i];
 }
@@ -39,6 +43,10 @@ VELDT_CLONES void add_difference_of_floats(const float* one, const float* other,
 void add_scaled(std::span<const float> in, float scale, std::span<float> out) noexcept {
   assert(in.size() == out.size());
   add_scaled_floats(in.data(), in.size(), scale, out.data());
+}
+
+void scale(float factor, std::span<float> values) noexcept {
+  scale_floats(factor, values.size(), values.data());
 }
 
 void multiply(std::span<const float> in, std::span<float> out) noexcept {

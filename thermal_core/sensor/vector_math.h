@@ -7,6 +7,9 @@ namespace thermal {
 /// out += scale * in, element by element; same size.
 void add_scaled(std::span<const float> in, float scale, std::span<float> out) noexcept;
 
+/// values *= factor; the same bits as adding `factor` times them to 0.
+void scale(float factor, std::span<float> values) noexcept;
+
 /// out *= in, element by element; same size.
 void multiply(std::span<const float> in, std::span<float> out) noexcept;
 
