@@ -62,8 +62,7 @@ void PatternNoise::draw_fixed(std::uint32_t event) {
 void PatternNoise::begin_frame(std::uint32_t frame, double time_s, const ShutterState& shutter) {
   if (event_ != shutter.event) draw_fixed(shutter.event);
   event_ = shutter.event;
-  const double growth = 0.5 * std::sqrt(shutter.since_intervals) + 0.5 * shutter.since_intervals;
-  drifted_ = static_cast<float>(parameters_.drift_ratio * growth);
+  drifted_ = static_cast<float>(parameters_.drift_ratio * shutter.growth());
   columns_ = normals(kTemporalColumnStream, frame, width_px_);
   for (float& value : columns_) value *= static_cast<float>(parameters_.temporal_column_ratio);
   rows_ = normals(kTemporalRowStream, frame, height_px_);

@@ -16,8 +16,7 @@ namespace thermal {
 /// temporal noise of single pixels. In units of that noise's standard deviation.
 ///
 /// The fixed part (vh, v, h) is the residue of the last shutter correction, drawn anew at every closing. Since then a
-/// second pattern has grown by sqrt(t) / 2 + t / 2, with t the elapsed fraction of the shutter's interval: a power
-/// law plus a linear part, as measured on uncooled cameras (SPIE 12533); the weights are an estimate.
+/// second pattern has grown by ShutterState::growth().
 class PatternNoise {
  public:
   PatternNoise(const NoiseParameters& parameters, std::uint32_t seed, std::string_view clip, int width_px,

@@ -56,6 +56,16 @@ struct ShutterParameters {
   [[nodiscard]] bool operator==(const ShutterParameters&) const = default;
 };
 
+/// The camera's housing, which the pixels see around the lens; see Housing. Factors of the noise apply here too.
+struct HousingParameters {
+  double excess_k = 0;          ///< how much warmer than the air around the camera
+  double gain_error_share = 0;  ///< standard deviation of the pixels' gains
+  double halo_k =
+      0;  ///< standard deviation of the halo at the corners one shutter interval after a closing, at 300 K
+
+  [[nodiscard]] bool operator==(const HousingParameters&) const = default;
+};
+
 struct BadPixelParameters {
   double dead_share = 0;       ///< of all pixels; dead pixels measure nothing
   bool replace_dead = true;    ///< by the mean of their working neighbours, as cameras do
@@ -101,6 +111,7 @@ struct SensorParameters {
   double netd_f_number = 1;    ///< … behind a lens of this f-number
   NoiseParameters noise;
   ShutterParameters shutter;
+  HousingParameters housing;
   BadPixelParameters bad_pixels;
   double kelvin_per_count = 0.01;  ///< step of the 16-bit frames
   AgcParameters agc;

@@ -23,6 +23,9 @@ enum SensorStream : std::uint32_t {
   // 15 was an earlier 1/f noise.
   kFlickerStartStream = 16,  ///< and the 31 numbers after it, one for each process
   kFlickerPhaseStream = 48,
+  kGainPixelStream = 49,
+  kGainWaveStream = 50,
+  kHaloStream = 51,
   kFlickerStream = 64,  ///< and the 31 numbers after it, one for each process
 };
 

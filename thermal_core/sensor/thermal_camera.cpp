@@ -68,8 +68,13 @@ struct Moments {
   double squares = 0;
 };
 
-/// Standard deviation of all pixels; the order of summation depends on the size of the picture alone.
-double standard_deviation(const Plane<float>& picture) {
+struct MeanAndDeviation {
+  double mean = 0;
+  double deviation = 0;
+};
+
+/// Of all pixels; the order of summation depends on the size of the picture alone.
+MeanAndDeviation statistics_of(const Plane<float>& picture) {
   const auto pixels = picture.pixels();
   const double middle = static_cast<double>(pixels.front());  // any value of the picture's order of magnitude
   std::vector<Moments> chunks((pixels.size() + kPixelsAChunk - 1) / kPixelsAChunk);
@@ -88,7 +93,7 @@ double standard_deviation(const Plane<float>& picture) {
   }
   const auto count = static_cast<double>(pixels.size());
   const double mean = total.sum / count;
-  return std::sqrt(std::max(0.0, total.squares / count - mean * mean));
+  return {.mean = middle + mean, .deviation = std::sqrt(std::max(0.0, total.squares / count - mean * mean))};
 }
 
 /// Uniform in +-half width, the paper's fixed pattern.
@@ -118,6 +123,19 @@ double noise_variance(const SensorParameters& parameters, double native_rate_hz)
         ratios.flicker_knee_hz * FlickerDesign::fit(native_rate_hz, ratios.flicker_knee_hz).variance();
   if (parameters.shutter.interval_s > 0) variance += kDriftGrowth2 * ratios.drift_ratio * ratios.drift_ratio;
   return variance;
+}
+
+Housing housing_of(const SensorParameters& parameters, const ThermalCamera::Clip& clip) {
+  const BandRadiance band(parameters.response);
+  const HousingParameters& housing = parameters.housing;
+  return {housing,
+          parameters.noise.amount,
+          clip.seed,
+          clip.id,
+          clip.width_px,
+          clip.height_px,
+          band.radiance(clip.air_k + housing.excess_k),
+          band.evaluate(kNetdTemperatureK).derivative_w_m2_sr_k};
 }
 
 }  // namespace
@@ -165,6 +183,7 @@ ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, floa
       optics_(parameters.optics, parameters.response, clip_.sampling),
       shutter_(parameters.shutter, clip_.seed, clip_.id),
       pattern_(parameters.noise, clip_.seed, clip_.id, clip_.width_px, clip_.height_px),
+      housing_(housing_of(parameters, clip_)),
       bad_pixels_(parameters.bad_pixels, clip_.seed, clip_.id, native_.rate_hz, clip_.width_px,
                   clip_.height_px),
       agc_(parameters.agc, agc_scene(parameters, clip_.frame_rate_hz, brightest_w_m2_sr)),
@@ -196,7 +215,8 @@ double ThermalCamera::temperature_k(double radiance_w_m2_sr) const {
 
 double ThermalCamera::noise_w_m2_sr(int x_px, int y_px) const {
   const double gain = clip_.noise_gain.empty() ? 1 : static_cast<double>(clip_.noise_gain.at(x_px, y_px));
-  return gain * std::hypot(noise_w_m2_sr_, first_frame_w_m2_sr_ / std::numbers::sqrt3);
+  return std::hypot(gain * std::hypot(noise_w_m2_sr_, first_frame_w_m2_sr_ / std::numbers::sqrt3),
+                    gain_w_m2_sr_);
 }
 
 void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, SensorFrame& out, const Look& look) {
@@ -239,11 +259,13 @@ void ThermalCamera::make_picture(std::uint32_t native, SensorFrame& out) {
   const double time_s = native / native_.rate_hz;
   const ShutterState shutter = shutter_.at(time_s);
   pattern_.begin_frame(native, time_s, shutter);
+  housing_.begin_frame(shutter);
   if (flicker_ && event_ != shutter.event)
     flicker_->restart_at(shutter_.first_frame(shutter.event, native_.rate_hz), shutter.event);
   event_ = shutter.event;
   for_blocks([&](std::size_t first, std::span<float> block) {
     lag(first, block);
+    housing_.apply(first, block);
     add_noise(native, first, block);
   });
   bad_pixels_.apply(native, white_w_m2_sr_, signal_);
@@ -279,9 +301,10 @@ void ThermalCamera::begin() {
   const auto signal = signal_.pixels();
   begun_ = true;
   if (follow_ < 1) membrane_.assign(signal.begin(), signal.end());  // at rest
+  if (housing_.has_gain()) gain_w_m2_sr_ = housing_.pixel_stddev_w_m2_sr(statistics_of(signal_).mean);
   const double ratio = parameters_.noise.amount * parameters_.noise.first_frame_ratio;
   if (ratio > 0) {
-    first_frame_w_m2_sr_ = ratio * standard_deviation(signal_);
+    first_frame_w_m2_sr_ = ratio * statistics_of(signal_).deviation;
     first_frame_ = uniform_pattern(clip_.seed, clip_.id, first_frame_w_m2_sr_, signal_.size());
   }
 }

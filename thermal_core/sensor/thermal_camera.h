@@ -12,6 +12,7 @@
 #include "sensor/agc.h"
 #include "sensor/bad_pixels.h"
 #include "sensor/flicker_noise.h"
+#include "sensor/housing.h"
 #include "sensor/native_rate.h"
 #include "sensor/optics.h"
 #include "sensor/pattern_noise.h"
@@ -57,6 +58,7 @@ class ThermalCamera {
     int height_px = 0;
     Plane<float> noise_gain;      ///< factor on each pixel's noise, from lens fall-off; empty: 1
     PixelSampling sampling = {};  ///< of the scene that the radiance averages
+    double air_k = 293;           ///< around the camera, whose housing is HousingParameters::excess_k warmer
   };
 
   /// Receives a radiance plane [W m^-2 sr^-1], valid only during the call.
@@ -97,8 +99,9 @@ class ThermalCamera {
   /// pixel's noise gain. Parts are independent, so variances add: k is the knee of the 1/f noise and f its variance
   /// for a knee at 1 Hz; vh to drift are ratios of NoiseParameters; g is the mean square of the drift's growth over a
   /// shutter interval, 0 without one; the paper's pattern is uniform, so its standard deviation is its half width /
-  /// sqrt(3). Noise shared by whole frames is excluded, because it shifts a target and its surroundings alike. So are
-  /// bad pixels.
+  /// sqrt(3). The errors of the pixels' gains count by their standard deviation at the mean of the first frame. What is
+  /// shared by whole frames or smooth is excluded, because it shifts a target and its surroundings alike. So are bad
+  /// pixels.
   [[nodiscard]] double noise_w_m2_sr(int x_px, int y_px) const;
 
  private:
@@ -130,6 +133,7 @@ class ThermalCamera {
   std::optional<Smear> smear_;  ///< none without a time constant
   Shutter shutter_;
   PatternNoise pattern_;
+  Housing housing_;
   std::optional<FlickerNoise> flicker_;
   std::optional<std::uint32_t> event_;  ///< of the shutter, in the frame before
   BadPixels bad_pixels_;
@@ -139,6 +143,7 @@ class ThermalCamera {
   std::vector<float> first_frame_;         ///< the paper's fixed pattern; empty: none
   double first_frame_w_m2_sr_ = 0;         ///< its half width
   double noise_w_m2_sr_;                   ///< of a pixel, without that pattern and the gain
+  double gain_w_m2_sr_ = 0;                ///< of a pixel, by the errors of its gain in the first frame
   SensorFrame shown_;                      ///< the last picture before the shutter closed
   std::optional<std::uint32_t> pictured_;  ///< the native frame of the last picture
   std::uint32_t frame_ = 0;

@@ -20,6 +20,8 @@ Path fresh_folder(const Path& folder) {
   return folder;
 }
 
+double air_at_camera_k(const Air& air) { return air.temperature_k + air.inversion_k; }
+
 ThermalCamera::Clip sensor_clip(const ClipTask& task, const Manifest& manifest) {
   const bool falloff = task.physics && task.physics->terms.falloff;
   return {.id = task.clip.id,
@@ -28,7 +30,8 @@ ThermalCamera::Clip sensor_clip(const ClipTask& task, const Manifest& manifest) 
           .width_px = manifest.camera.width_px,
           .height_px = manifest.camera.height_px,
           .noise_gain = falloff ? falloff_noise_gain(manifest.camera) : Plane<float>(),
-          .sampling = pixel_sampling(manifest, task.distortion)};
+          .sampling = pixel_sampling(manifest, task.distortion),
+          .air_k = task.physics ? air_at_camera_k(task.physics->weather.air) : ThermalCamera::Clip().air_k};
 }
 
 template <typename T>

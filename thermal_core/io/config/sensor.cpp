@@ -138,6 +138,9 @@ SensorParameters read_sensor(const Json& document, const std::string& name, cons
           .netd_f_number = json["netd_f_number"],
           .noise = read_noise(json["noise"]),
           .shutter = {.interval_s = json["shutter"]["interval_s"], .freeze_s = json["shutter"]["freeze_s"]},
+          .housing = {.excess_k = json["housing"]["excess_k"],
+                      .gain_error_share = json["housing"]["gain_error_share"],
+                      .halo_k = json["housing"]["halo_k"]},
           .bad_pixels = read_bad_pixels(json["bad_pixels"]),
           .kelvin_per_count = json["kelvin_per_count"],
           .agc = read_agc(json["agc"])};
