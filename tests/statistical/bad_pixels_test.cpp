@@ -74,4 +74,33 @@ TEST_CASE("A blinking pixel jumps at the requested rate, without memory") {
   }
 }
 
+TEST_CASE("Pixels fail at the requested rate, evenly over a clip") {
+  constexpr double kPixels = 640 * 512;
+  constexpr double kPerHour = 0.02;
+  const BadPixels bad({.late_dead_per_hour = kPerHour}, 5, "clip", kFrameRate, 640, 512);
+  const double frames_an_hour = 3600 * kFrameRate;
+  double survivors = kPixels;
+  for (int quarter = 0; quarter < 8; ++quarter) {
+    double failed = 0;
+    for (const BadPixels::LateDead& late : bad.late_dead()) {
+      const double quarters = 4 * late.frame / frames_an_hour;
+      failed += quarters >= quarter && quarters < quarter + 1 ? 1 : 0;
+    }
+    CAPTURE(quarter);
+    const double share = -std::expm1(-kPerHour / 4);  // binomial
+    CHECK_THAT(failed, WithinAbs(survivors * share, kSigmas * std::sqrt(survivors * share)));
+    survivors -= failed;
+  }
+}
+
+TEST_CASE("The first of few failures is not on a grid of times") {
+  // A share of 1e-9 an hour is 2 % of a uniform number's last bit.
+  double earliest = 1e300;
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    const BadPixels bad({.late_dead_per_hour = 1e-9}, seed, "clip", kFrameRate, 640, 512);
+    for (const BadPixels::LateDead& late : bad.late_dead()) earliest = std::min(earliest, late.frame);
+  }
+  CHECK(earliest > 0);
+}
+
 }  // namespace bad_pixels_test

@@ -1,5 +1,6 @@
 #include "sensor/bad_pixels.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/rng.h"
@@ -35,6 +36,23 @@ BadPixels::BadPixels(const BadPixelParameters& parameters, std::uint32_t seed, s
   blinking_ = chosen({.seed = seed, .stream = kBlinkingPixelStream, .clip = clip_, .frame = 0},
                      parameters.blinking_share, pixels);
   is_up_.resize(blinking_.size());
+  if (parameters.late_dead_per_hour > 0) draw_late_dead(frame_rate_hz, pixels);
+}
+
+/// Lifetimes are exponential. A uniform number has 24 bits, too few for the early ones, so a second one continues it.
+void BadPixels::draw_late_dead(double frame_rate_hz, std::size_t pixels) {
+  constexpr double kSecondsAnHour = 3600;
+  std::vector<float> numbers(pixels);
+  std::vector<float> finer(pixels);
+  fill_uniform({.seed = seed_, .stream = kLateDeadStream, .clip = clip_, .frame = 0}, 0, numbers);
+  fill_uniform({.seed = seed_, .stream = kLateDeadMomentStream, .clip = clip_, .frame = 0}, 0, finer);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double number = static_cast<double>(numbers[i]) + 0x1p-24 * static_cast<double>(finer[i]);
+    const double hours = -std::log1p(-number) / parameters_.late_dead_per_hour;
+    if (hours < kLateDeadHours)
+      late_dead_.push_back({.frame = hours * kSecondsAnHour * frame_rate_hz, .pixel = i});
+  }
+  std::ranges::stable_sort(late_dead_, {}, &LateDead::frame);
 }
 
 void BadPixels::apply(std::uint32_t frame, float noise_stddev, Plane<float>& signal) {
@@ -44,6 +62,10 @@ void BadPixels::apply(std::uint32_t frame, float noise_stddev, Plane<float>& sig
   const float height = noise_stddev * static_cast<float>(parameters_.blinking_ratio);
   for (std::size_t i = 0; i < blinking_.size(); ++i) {
     if (is_up_[i]) signal.pixels()[blinking_[i]] += height;
+  }
+  for (const LateDead& late : late_dead_) {
+    if (late.frame > frame) break;
+    signal.pixels()[late.pixel] = 0;
   }
   std::vector<float> shown;  // all are computed before any is changed; dead neighbours do not count
   for (const std::size_t pixel : dead_) {

@@ -72,6 +72,8 @@ struct BadPixelParameters {
   double blinking_share = 0;   ///< of all pixels; they jump up and back
   double blinking_ratio = 10;  ///< height of the jump / white temporal noise
   double blinking_hz = 1;      ///< jumps per second
+  double late_dead_per_hour =
+      0;  ///< share of all pixels that fail during the clip, which the camera does not know
 
   [[nodiscard]] bool operator==(const BadPixelParameters&) const = default;
 };

@@ -26,6 +26,8 @@ enum SensorStream : std::uint32_t {
   kGainPixelStream = 49,
   kGainWaveStream = 50,
   kHaloStream = 51,
+  kLateDeadStream = 52,
+  kLateDeadMomentStream = 53,
   kFlickerStream = 64,  ///< and the 31 numbers after it, one for each process
 };
 

@@ -137,4 +137,39 @@ TEST_CASE("Which pixels are bad is a function of seed and clip") {
   CHECK(std::includes(more.dead().begin(), more.dead().end(), bad.dead().begin(), bad.dead().end()));
 }
 
+TEST_CASE("A pixel that fails during the clip shows 0 from then on, and the camera does not know it") {
+  const BadPixelParameters parameters = {.late_dead_per_hour = 2};  // 3600 s at 30 Hz: 108,000 frames
+  BadPixels bad(parameters, 1, "a", kFrameRate, 40, 30);
+  BadPixels leaping(parameters, 1, "a", kFrameRate, 40, 30);
+  REQUIRE_FALSE(bad.late_dead().empty());
+  std::set<std::size_t> failed;
+  for (const std::uint32_t frame : {0U, 1000U, 20000U, 108000U}) {
+    Plane<float> picture = ramp(40, 30);
+    bad.apply(frame, 1, picture);
+    for (const BadPixels::LateDead& late : bad.late_dead())
+      if (late.frame <= frame) failed.insert(late.pixel);
+    for (std::size_t i = 0; i < picture.size(); ++i)
+      REQUIRE(picture.pixels()[i] == (failed.count(i) > 0 ? 0 : ramp(40, 30).pixels()[i]));
+    if (frame == 108000U) {
+      Plane<float> same = ramp(40, 30);
+      leaping.apply(frame, 1, same);
+      CHECK(same == picture);
+    }
+  }
+  CHECK(failed.size() > 900);
+  for (std::size_t i = 1; i < bad.late_dead().size(); ++i)
+    REQUIRE(bad.late_dead()[i].frame >= bad.late_dead()[i - 1].frame);
+}
+
+TEST_CASE("A pixel fails at the same time at every frame rate, a function of seed and clip") {
+  const auto first_s = [](double rate_hz, std::uint32_t seed, const char* clip) {
+    return BadPixels({.late_dead_per_hour = 0.1}, seed, clip, rate_hz, 40, 30).late_dead().front().frame /
+           rate_hz;
+  };
+  CHECK_THAT(first_s(9, 1, "a"), WithinRel(first_s(60, 1, "a"), 1e-12));
+  CHECK(first_s(60, 2, "a") != first_s(60, 1, "a"));
+  CHECK(first_s(60, 1, "b") != first_s(60, 1, "a"));
+  CHECK(BadPixels({.dead_share = 0.1}, 1, "a", 60, 40, 30).late_dead().empty());
+}
+
 }  // namespace bad_pixels_test

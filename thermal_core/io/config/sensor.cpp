@@ -87,7 +87,8 @@ BadPixelParameters read_bad_pixels(const Json& json) {
           .replace_dead = json["replace_dead"],
           .blinking_share = json["blinking_share"],
           .blinking_ratio = json["blinking_ratio"],
-          .blinking_hz = json["blinking_hz"]};
+          .blinking_hz = json["blinking_hz"],
+          .late_dead_per_hour = json["late_dead_per_hour"]};
 }
 
 AgcMode read_mode(const std::string& name) {
