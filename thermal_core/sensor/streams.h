@@ -28,6 +28,8 @@ enum SensorStream : std::uint32_t {
   kHaloStream = 51,
   kLateDeadStream = 52,
   kLateDeadMomentStream = 53,
+  kAccuracyStream = 54,
+  kAccuracyDriftStream = 55,
   kFlickerStream = 64,  ///< and the 31 numbers after it, one for each process
 };
 

@@ -52,11 +52,13 @@ VELDT_CLONES void follow(float* signal, std::size_t count, float share, float* s
   for (std::size_t i = 0; i < count; ++i) signal[i] = state[i] += share * (signal[i] - state[i]);
 }
 
-VELDT_CLONES void round_to_counts(const float* in, std::size_t count, float counts_per_unit,
+/// With an offset to all but 0, which is no light.
+VELDT_CLONES void round_to_counts(const float* in, std::size_t count, float offset, float counts_per_unit,
                                   std::uint16_t* out) {
   for (std::size_t i = 0; i < count; ++i) {
-    const float value = in[i] * counts_per_unit + 0.5F;
-    const float positive = value > 0.0F ? value : 0.0F;  // NaN compares false: 0
+    const float light = in[i] > 0.0F ? in[i] + offset : 0.0F;  // NaN compares false: 0
+    const float value = light * counts_per_unit + 0.5F;
+    const float positive = value > 0.0F ? value : 0.0F;
     out[i] = static_cast<std::uint16_t>(
         static_cast<std::int32_t>(positive < kLargestCount ? positive : kLargestCount));
   }
@@ -182,6 +184,7 @@ ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, floa
                   : 1),
       optics_(parameters.optics, parameters.response, clip_.sampling),
       shutter_(parameters.shutter, clip_.seed, clip_.id),
+      radiometric_error_(parameters.accuracy_k, clip_.seed, clip_.id),
       pattern_(parameters.noise, clip_.seed, clip_.id, clip_.width_px, clip_.height_px),
       housing_(housing_of(parameters, clip_)),
       bad_pixels_(parameters.bad_pixels, clip_.seed, clip_.id, native_.rate_hz, clip_.width_px,
@@ -270,7 +273,7 @@ void ThermalCamera::make_picture(std::uint32_t native, SensorFrame& out) {
   });
   bad_pixels_.apply(native, white_w_m2_sr_, signal_);
   pictured_ = native;
-  count(out.ir16);
+  count(radiometric_error_.at_k(shutter), out.ir16);
   out.curve = agc_.next(out.ir16);
   show(out);
 }
@@ -341,7 +344,7 @@ void ThermalCamera::add_noise(std::uint32_t native, std::size_t first, std::span
   add_scaled(noise, 1, signal);
 }
 
-void ThermalCamera::count(Plane<std::uint16_t>& ir16) const {
+void ThermalCamera::count(double error_k, Plane<std::uint16_t>& ir16) const {
   if (ir16.width_px() != clip_.width_px || ir16.height_px() != clip_.height_px) {
     ir16 = Plane<std::uint16_t>(clip_.width_px, clip_.height_px);
   }
@@ -355,7 +358,8 @@ void ThermalCamera::count(Plane<std::uint16_t>& ir16) const {
       const std::size_t size = std::min(kPixelsABlock, end - first);
       copy_clipped(&signal[first], size, saturation_w_m2_sr_, radiances.data());
       temperatures_->temperatures(std::span(radiances).first(size), std::span(temperatures_k).first(size));
-      round_to_counts(temperatures_k.data(), size, counts_per_kelvin, &out[first]);
+      round_to_counts(temperatures_k.data(), size, static_cast<float>(error_k), counts_per_kelvin,
+                      &out[first]);
     }
   });
 }

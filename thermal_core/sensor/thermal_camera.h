@@ -16,6 +16,7 @@
 #include "sensor/native_rate.h"
 #include "sensor/optics.h"
 #include "sensor/pattern_noise.h"
+#include "sensor/radiometric_error.h"
 #include "sensor/sensor_parameters.h"
 #include "sensor/shutter.h"
 #include "sensor/smear.h"
@@ -36,7 +37,7 @@ namespace thermal {
 /// The output of the camera for one frame.
 struct SensorFrame {
   Plane<std::uint8_t> ir8;  ///< `curve` applied to ir16; in mode table_max, to radiance
-  /// Apparent temperature / kelvin_per_count, rounded; clipped to 0..65535. 65535 is the camera's saturation: 655.35 K
+  /// Apparent temperature, with the camera's radiometric error, / kelvin_per_count, rounded; clipped to 0..65535. 65535 is the camera's saturation: 655.35 K
   /// and more at the default of 0.01 K.
   Plane<std::uint16_t> ir16;
   ToneCurve curve;
@@ -91,7 +92,8 @@ class ThermalCamera {
   /// the first one given.
   void skip() noexcept { ++frame_; }
 
-  /// Apparent temperature [K] of a radiance [W m^-2 sr^-1], as in the 16-bit picture before rounding.
+  /// Apparent temperature [K] of a radiance [W m^-2 sr^-1], as in the 16-bit picture before rounding and without
+  /// the camera's radiometric error.
   [[nodiscard]] double temperature_k(double radiance_w_m2_sr) const;
 
   /// Standard deviation [W m^-2 sr^-1] of a pixel's noise in the frames exposed so far: of white noise, times sqrt(1
@@ -114,7 +116,7 @@ class ThermalCamera {
   void for_blocks(const Work& work);
   void lag(std::size_t first, std::span<float> signal);
   void add_noise(std::uint32_t native, std::size_t first, std::span<float> signal);
-  void count(Plane<std::uint16_t>& ir16) const;
+  void count(double error_k, Plane<std::uint16_t>& ir16) const;
   void show(SensorFrame& frame) const;
 
   SensorParameters parameters_;
@@ -132,6 +134,7 @@ class ThermalCamera {
   Optics optics_;
   std::optional<Smear> smear_;  ///< none without a time constant
   Shutter shutter_;
+  RadiometricError radiometric_error_;
   PatternNoise pattern_;
   Housing housing_;
   std::optional<FlickerNoise> flicker_;

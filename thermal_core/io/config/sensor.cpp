@@ -143,6 +143,7 @@ SensorParameters read_sensor(const Json& document, const std::string& name, cons
                       .gain_error_share = json["housing"]["gain_error_share"],
                       .halo_k = json["housing"]["halo_k"]},
           .bad_pixels = read_bad_pixels(json["bad_pixels"]),
+          .accuracy_k = json["accuracy_k"],
           .kelvin_per_count = json["kelvin_per_count"],
           .agc = read_agc(json["agc"])};
 }
