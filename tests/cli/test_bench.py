@@ -59,7 +59,7 @@ def test_every_stage_has_a_row_with_its_cost_and_figures(rows):
     assert {group: len(members) for group, members in names.items()} == {
         "optics": 6,
         "lens distortion": 1,
-        "detector": 4,
+        "detector": 5,
         "white and 1/f noise": 6,
         "16-bit": 1,
         "AGC": 5,

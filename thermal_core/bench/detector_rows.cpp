@@ -8,6 +8,7 @@
 #include "bench/sensor_scene.h"
 #include "bench/spectrum.h"
 #include "radiometry/band_radiance.h"
+#include "sensor/housing.h"
 #include "sensor/optics.h"
 #include "sensor/streams.h"
 #include "sensor/vector_math.h"
@@ -187,6 +188,26 @@ StageRow pattern_row() {
   });
 }
 
+/// Steps between neighbours have the variance of the gain errors: twice that of the half which is not smooth.
+StageRow housing_row() {
+  const HousingParameters parameters = full_camera().housing;
+  Housing housing(parameters, 1, kDetectorSeed, "bench", kSceneWidthPx, kSceneHeightPx, 1, 1);
+  std::vector<float> out(kScenePixels);
+  housing.apply(0, out);  // a scene without radiance, a housing of 1
+  double squares = 0;
+  for (std::size_t i = 0; i < out.size(); i += 2)
+    squares += std::pow(static_cast<double>(out[i]) - static_cast<double>(out[i + 1]), 2);
+  const double pairs = 0.5 * kScenePixels;
+  const double variance = std::pow(parameters.gain_error_share, 2);
+  const StageRow row = {.group = "detector",
+                        .name = "housing: gain, halo",
+                        .figures = {{"gain_sigma", variance_sigma(squares / pairs, variance, pairs)}}};
+  return timed(row, 2 * sizeof(float), [&] {
+    housing.begin_frame({.since_intervals = 0.5});
+    housing.apply(0, out);
+  });
+}
+
 /// Temperatures stand for radiances, so that means of neighbours are in kelvin. Applied behind the optics, as in a
 /// camera.
 StageRow bad_pixel_row() {
@@ -216,6 +237,8 @@ StageRow bad_pixel_row() {
 
 }  // namespace
 
-std::vector<StageRow> detector_rows() { return {lag_row(), white_row(), pattern_row(), bad_pixel_row()}; }
+std::vector<StageRow> detector_rows() {
+  return {lag_row(), white_row(), pattern_row(), housing_row(), bad_pixel_row()};
+}
 
 }  // namespace thermal

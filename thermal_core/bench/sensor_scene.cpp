@@ -43,6 +43,7 @@ SensorParameters full_camera() {
                   .drift_ratio = 0.5};
   camera.shutter = {.interval_s = 180,
                     .freeze_s = 0};  // a frame with a closed shutter is cheap, and would be the shortest run
+  camera.housing = {.excess_k = 10, .gain_error_share = 0.003, .halo_k = 0.1};
   camera.bad_pixels = {.dead_share = 1e-3, .blinking_share = 1e-4};
   camera.agc.mode = AgcMode::plateau;
   return camera;

@@ -19,7 +19,7 @@ inline constexpr double kSceneRateHz = 30;
 /// In-band radiance of scene_k(), one value per pixel.
 [[nodiscard]] Plane<float> scene_radiance(const SpectralResponse& response);
 
-/// A camera with every stage enabled: physical optics f/1.0 12 um, 10 ms of lag, white and 1/f noise, every pattern,
+/// A camera with every stage enabled: physical optics f/1.0 12 um, 10 ms of lag, white and 1/f noise, every pattern, a warm housing,
 /// bad pixels, plateau equalisation. Ratios are typical of presets, but not those of any camera.
 [[nodiscard]] SensorParameters full_camera();
 
