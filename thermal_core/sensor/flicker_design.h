@@ -18,10 +18,9 @@ struct FlickerProcess {
 /// tick 1.25 to 2.5 times in their time constant. What 1/f noise has above them is small beside the white noise and
 /// is added to its variance.
 ///
-/// Why ticks and no filter in every frame: a video of a ninth of the sensor's rate then costs as few normals a second as
-/// any other (6 a pixel at a knee of 0.5 Hz), and a frame is the same whichever frames are asked for. Why constant
-/// between ticks and no straight lines: the variance is then the same in every frame. A step is a tenth of the white
-/// noise.
+/// Why ticks and no filter in every frame: a slow video of a fast sensor then needs as few normals a second as any other
+/// (6 a pixel at a knee of 0.5 Hz), and a frame is the same whichever frames are asked for. Why constant between ticks
+/// and no straight lines: the variance is then the same in every frame. A step is a tenth of the white noise.
 struct FlickerDesign {
   std::vector<FlickerProcess> processes;  ///< the fastest first, every period a multiple of those before it
   double white_variance = 0;              ///< of the rest, in each frame
