@@ -235,21 +235,21 @@ void ThermalCamera::expose(const Plane<float>& radiance_w_m2_sr, const SubpixelD
   if (smear_ && !begun_) smear_->apply_to_first(motion, signal_);
   if (!begun_) begin();
   const std::uint32_t shown = shown_at(native);
-  if (pictured_ && shown <= *pictured_) {
+  if (seen_ && shown <= *seen_) {  // closed since then
     for_blocks([&](std::size_t first, std::span<float> block) { lag(first, block); });
     out = shown_;
   } else {
     make_picture(shown, out);
     if (shutter_.at(frame_ * native_.step / native_.rate_hz).closed) shown_ = out;
   }
+  seen_ = native;
   out.shutter_closed = shutter_.at(native / native_.rate_hz).closed;
 }
 
 std::uint32_t ThermalCamera::shown_at(std::uint32_t native) const noexcept {
-  const std::uint32_t last = pictured_.value_or(0);
   std::uint32_t shown = native;
-  for (ShutterState shutter; shown > last;) {
-    shutter = shutter_.at(shown / native_.rate_hz);
+  while (shown > seen_.value_or(0)) {
+    const ShutterState shutter = shutter_.at(shown / native_.rate_hz);
     if (!shutter.closed) break;
     const std::uint32_t closing = shutter_.first_frame(shutter.event, native_.rate_hz);
     shown = closing > 0 ? closing - 1 : 0;
@@ -272,7 +272,6 @@ void ThermalCamera::make_picture(std::uint32_t native, SensorFrame& out) {
     add_noise(native, first, block);
   });
   bad_pixels_.apply(native, white_w_m2_sr_, signal_);
-  pictured_ = native;
   count(radiometric_error_.at_k(shutter), out.ir16);
   out.curve = agc_.next(out.ir16);
   show(out);

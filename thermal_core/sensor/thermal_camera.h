@@ -107,7 +107,8 @@ class ThermalCamera {
   [[nodiscard]] double noise_w_m2_sr(int x_px, int y_px) const;
 
  private:
-  /// The native frame that the camera shows at one: itself, or the last one before a closing of the shutter.
+  /// The native frame that the camera shows at one: itself, or the last one before a closing of the shutter; anything up
+  /// to seen_ stands for what was shown then.
   [[nodiscard]] std::uint32_t shown_at(std::uint32_t native) const noexcept;
   void make_picture(std::uint32_t native, SensorFrame& out);
   void take_in(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail);
@@ -141,14 +142,14 @@ class ThermalCamera {
   std::optional<std::uint32_t> event_;  ///< of the shutter, in the frame before
   BadPixels bad_pixels_;
   Agc agc_;
-  Plane<float> signal_;                    ///< radiance as measured by the detector
-  std::vector<float> membrane_;            ///< lagging radiance; empty: no lag
-  std::vector<float> first_frame_;         ///< the paper's fixed pattern; empty: none
-  double first_frame_w_m2_sr_ = 0;         ///< its half width
-  double noise_w_m2_sr_;                   ///< of a pixel, without that pattern and the gain
-  double gain_w_m2_sr_ = 0;                ///< of a pixel, by the errors of its gain in the first frame
-  SensorFrame shown_;                      ///< the last picture before the shutter closed
-  std::optional<std::uint32_t> pictured_;  ///< the native frame of the last picture
+  Plane<float> signal_;                ///< radiance as measured by the detector
+  std::vector<float> membrane_;        ///< lagging radiance; empty: no lag
+  std::vector<float> first_frame_;     ///< the paper's fixed pattern; empty: none
+  double first_frame_w_m2_sr_ = 0;     ///< its half width
+  double noise_w_m2_sr_;               ///< of a pixel, without that pattern and the gain
+  double gain_w_m2_sr_ = 0;            ///< of a pixel, by the errors of its gain in the first frame
+  SensorFrame shown_;                  ///< the last picture before the shutter closed
+  std::optional<std::uint32_t> seen_;  ///< native frame of the last frame that was exposed
   std::uint32_t frame_ = 0;
   bool begun_ = false;  ///< a frame was exposed
 };
