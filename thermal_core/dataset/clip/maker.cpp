@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -85,12 +86,15 @@ class ClipMaker {
                                    .work = [this](std::size_t frame) { read(slot(frame)); }};
     const PipelineStage exposing = {.in_order = true,
                                     .work = [this](std::size_t frame) { expose(slot(frame)); }};
+    const PipelineStage encoding = {.in_order = true,
+                                    .work = [this](std::size_t frame) { encode(slot(frame)); }};
     const PipelineStage writing = {.in_order = false,
                                    .work = [this](std::size_t frame) { write(slot(frame)); }};
     const PipelineStage leaving = {.in_order = true,
                                    .work = [this](std::size_t frame) { collect(slot(frame)); }};
     run_pipeline(frames_in_flight(passes_.manifest.camera),
-                 [this](std::size_t frame) { return enter(frame); }, {reading, exposing, writing, leaving});
+                 [this](std::size_t frame) { return enter(frame); },
+                 {reading, exposing, encoding, writing, leaving});
     if (frames_skipped_ == frame_count()) throw DataError(no_frame_left(first_fault_, frames_skipped_));
     std::vector<ClipRecord> records;
     for (ClipResult& output : outputs_) records.push_back(output.clip.finish());
@@ -149,10 +153,8 @@ class ClipMaker {
       skip(work);
       return;
     }
-    parallel_for(outputs_.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        outputs_[i].clip.expose(work.scenes[outputs_[i].scene], work.frames[i]);
-    });
+    for_each_output(
+        [&](std::size_t i) { outputs_[i].clip.expose(work.scenes[outputs_[i].scene], work.frames[i]); });
   }
 
   void skip(FrameWork& work) {
@@ -160,6 +162,18 @@ class ClipMaker {
     work.skipped = skipped_frame(passes_, work.number, work.fault);
     for (ClipResult& output : outputs_) output.clip.skip(work.number, work.skipped->reason);
     if (frames_skipped_++ == 0) first_fault_ = message_of(work.fault);
+  }
+
+  /// Apart from exposing, so that the codec works on one frame while the camera works on the next.
+  void encode(FrameWork& work) {
+    if (work.skipped) return;
+    for_each_output([&](std::size_t i) { outputs_[i].clip.encode(work.frames[i]); });
+  }
+
+  void for_each_output(const std::function<void(std::size_t output)>& work) const {
+    parallel_for(outputs_.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) work(i);
+    });
   }
 
   void write(FrameWork& work) const {
@@ -171,9 +185,7 @@ class ClipMaker {
     if (work.skipped) {
       if (hooks_.frame_skipped) hooks_.frame_skipped(*work.skipped);
     } else {
-      parallel_for(outputs_.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) outputs_[i].clip.collect(work.number, work.frames[i]);
-      });
+      for_each_output([&](std::size_t i) { outputs_[i].clip.collect(work.number, work.frames[i]); });
     }
     if (hooks_.frame_done) hooks_.frame_done();
   }

@@ -34,6 +34,11 @@ ThermalCamera::Clip sensor_clip(const ClipTask& task, const Manifest& manifest) 
           .air_k = task.physics ? air_at_camera_k(task.physics->weather.air) : ThermalCamera::Clip().air_k};
 }
 
+std::optional<VideoCodec> codec_of(const ClipTask& task, const Manifest& manifest) {
+  if (!task.codec) return std::nullopt;
+  return VideoCodec(*task.codec, manifest.frame_rate_hz, manifest.camera.width_px, manifest.camera.height_px);
+}
+
 template <typename T>
 ClipOutput::WrittenPicture write_picture(const Plane<T>& picture, const Path& file,
                                          std::vector<std::byte>& png) {
@@ -51,6 +56,7 @@ ClipOutput::ClipOutput(const ClipTask& task, const Manifest& manifest, float bri
       folder_(fresh_folder(task.folder)),
       brightest_w_m2_sr_(brightest_w_m2_sr),
       camera_(task.sensor, sensor_clip(task, manifest), brightest_w_m2_sr, std::move(temperatures)),
+      codec_(codec_of(task, manifest)),
       video_(folder_ / "preview.mp4", manifest.frame_rate_hz, manifest.camera.width_px,
              manifest.camera.height_px),
       annotations_(manifest, task.distortion, task.labels, folder_ / "labels.spool"),
@@ -63,6 +69,10 @@ void ClipOutput::expose(const SceneFrame& scene, Frame& frame) {
                  [&](const Plane<float>& radiance_w_m2_sr) {
                    set_contrast(camera_, radiance_w_m2_sr, frame.instances);
                  });
+}
+
+void ClipOutput::encode(Frame& frame) {
+  if (codec_) frame.encoded_bytes = codec_->pass(frame.pictures.ir8);
 }
 
 void ClipOutput::write(int number, Frame& frame) const {
@@ -118,6 +128,7 @@ Json ClipOutput::frame_line(int number, const Frame& frame) const {
   if (pose.camera_to_world) line["camera_to_world"] = *pose.camera_to_world;
   line["ffc"] = frame.pictures.shutter_closed;
   line["agc"] = tone_record(frame.pictures.curve, task_.sensor.agc, brightest_w_m2_sr_);
+  if (codec_) line["encoded_bytes"] = frame.encoded_bytes;
   line["ir8_sha256"] = frame.ir8.pixels_sha256;
   line["ir16_sha256"] = frame.ir16.pixels_sha256;
   return line;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,13 +14,14 @@
 #include "io/system/files.h"
 #include "io/system/sha256.h"
 #include "io/video/preview_video.h"
+#include "io/video/video_codec.h"
 #include "sensor/thermal_camera.h"
 
 namespace thermal {
 
 /// One task's clip while it is made: its camera and its files, in the task's folder. A frame of its scene
-/// goes through expose, write and collect; different frames may be written at the same time, expose and collect must
-/// be called one by one and in order.
+/// goes through expose, encode, write and collect; different frames may be written at the same time, the others must be
+/// called one by one and in order.
 class ClipOutput {
  public:
   /// Checksums of one written picture: of its pixels and of its file.
@@ -31,6 +34,7 @@ class ClipOutput {
     std::vector<Instance> instances;
     PassChecks checks;
     SensorFrame pictures;
+    std::size_t encoded_bytes = 0;  ///< of ir8, by the task's codec
     WrittenPicture ir8;
     WrittenPicture ir16;
     std::vector<std::byte> png;
@@ -44,6 +48,8 @@ class ClipOutput {
 
   /// `scene` may be shared with other outputs: this camera's properties of actors are written into the frame.
   void expose(const SceneFrame& scene, Frame& frame);
+  /// Passes ir8 through the task's codec, if it has one.
+  void encode(Frame& frame);
   void write(int number, Frame& frame) const;
   void collect(int number, const Frame& frame);
 
@@ -64,6 +70,7 @@ class ClipOutput {
   Path folder_;
   float brightest_w_m2_sr_;
   ThermalCamera camera_;
+  std::optional<VideoCodec> codec_;
   PreviewVideo video_;
   ClipAnnotations annotations_;
   Sha256 pixels_;

@@ -99,6 +99,7 @@ ClipTask task_of(const Config& config, const ClipConfig& clip, const Terms& term
           .sensor = config.sensor,
           .distortion = config.distortion,
           .labels = config.labels,
+          .codec = config.codec,
           .physics = physics_of(config, clip, terms, heat, std::move(ground)),
           .folder = {}};
 }

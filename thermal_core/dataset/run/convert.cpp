@@ -201,10 +201,21 @@ class Dataset {
   RunOutcome outcome_;
 };
 
+void check_codec(const ConvertRequest& request, const Manifest& manifest) {
+  if (!request.config.codec) return;
+  try {
+    check_video_codec(*request.config.codec, manifest.frame_rate_hz, manifest.camera.width_px,
+                      manifest.camera.height_px);
+  } catch (const ConfigError& error) {
+    throw ConfigError(request.where.empty() ? error.what() : request.where + ": " + error.what());
+  }
+}
+
 std::vector<std::unique_ptr<Dataset>> open_datasets(const std::vector<ConvertRequest>& requests,
                                                     const std::vector<ClipPasses>& sources, HeatDays& heat) {
-  // First, because a required term that is impossible is a fault, and then no folder is touched.
+  // First, because a required term that is impossible, or a missing codec, is a fault: then no folder is touched.
   const std::vector<Budget> budgets = budgets_of(requests, heat.materials(), sources);
+  for (const ConvertRequest& request : requests) check_codec(request, sources.front().manifest);
   std::vector<std::unique_ptr<Dataset>> datasets;
   for (std::size_t i = 0; i < requests.size(); ++i)
     datasets.push_back(std::make_unique<Dataset>(requests[i], budgets[i], heat, sources));

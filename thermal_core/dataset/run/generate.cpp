@@ -205,6 +205,8 @@ class Generator {
 
 RunOutcome generate(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
                     const RunHooks& hooks) {
+  if (config.codec && !config.clips.empty())
+    check_video_codec(*config.codec, config.clips.front().frame_rate_hz, config.width_px, config.height_px);
   return with_threads(options.threads, [&] { return Generator(config, plan, options, hooks).run(); });
 }
 

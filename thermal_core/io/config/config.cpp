@@ -38,6 +38,13 @@ LabelParameters read_label_parameters(const Json& json) {
           .ignore_below_area_px = json["ignore_below_area_px"]};
 }
 
+/// Empty: frames are kept without loss.
+std::optional<VideoCodecSettings> read_codec(const Json& output) {
+  if (!output.contains("codec")) return std::nullopt;
+  return VideoCodecSettings{.name = output["codec"]["name"],
+                            .bitrate_kbit_s = output["codec"]["bitrate_kbit_s"]};
+}
+
 ClipConfig read_clip(const Json& json) {
   return {.id = json["id"],
           .season = season_of(json["season"].get<std::string>()),
@@ -214,6 +221,7 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   config.distortion = distortion_of(document["camera"]["distortion"]);
   config.sensor = read_sensor(document, name, assets);
   config.labels = read_label_parameters(document["labels"]);
+  if (document.contains("output")) config.codec = read_codec(document["output"]);
   config.physical = document["sensor"]["model"] == "physical";
   config.terms = read_terms(document["terms"], config.physical ? TermChoice::automatic : TermChoice::off);
   config.netd_k = config.sensor.netd_k();

@@ -3,12 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "io/assets.h"
 #include "io/json/file.h"
+#include "io/video/video_codec.h"
 #include "labels/label_parameters.h"
 #include "scene/lens_distortion.h"
 #include "scene/manifest.h"
@@ -47,7 +49,8 @@ struct Config {
   bool adaptive_sampling = false;  ///< all rays only for pixels that need them; with `embree`
   SensorParameters sensor;
   LabelParameters labels;
-  bool physical = false;  ///< every term the scene needs; otherwise the published model
+  std::optional<VideoCodecSettings> codec;  ///< that 8-bit frames pass through; empty: none
+  bool physical = false;                    ///< every term the scene needs; otherwise the published model
   TermChoices terms;
   double netd_k = 0.04;
   bool heat_balance = false;       ///< temperatures follow the weather; otherwise those of Table 1

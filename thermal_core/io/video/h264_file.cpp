@@ -8,57 +8,27 @@
 #include "base/error.h"
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/log.h>
 #include <libavutil/opt.h>
 }
 
+#include "io/video/ffmpeg.h"
+
 namespace thermal {
-namespace {
-
-/// Keeps the encoder's messages below any level that FFmpeg prints; an exception reports what goes wrong.
-constexpr int kSilent = 100;
-
-/// H.264 stores colour at half size, so sides are even; a picture of odd size shows its edge twice.
-int even(int size_px) { return size_px + size_px % 2; }
-
-std::string reason_of(int error) {
-  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-  return av_make_error_string(text.data(), text.size(), error);
-}
-
-struct FreeFormat {
-  void operator()(AVFormatContext* format) const {
-    if (format->pb != nullptr) avio_closep(&format->pb);
-    avformat_free_context(format);
-  }
-};
-struct FreeEncoder {
-  void operator()(AVCodecContext* encoder) const { avcodec_free_context(&encoder); }
-};
-struct FreePicture {
-  void operator()(AVFrame* picture) const { av_frame_free(&picture); }
-};
-struct FreePacket {
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
-
-}  // namespace
 
 struct H264File::Impl {
   Path file;
   H264Settings settings;
-  std::unique_ptr<AVFormatContext, FreeFormat> format;
-  std::unique_ptr<AVCodecContext, FreeEncoder> encoder;
-  std::unique_ptr<AVFrame, FreePicture> picture{av_frame_alloc()};
-  std::unique_ptr<AVPacket, FreePacket> packet{av_packet_alloc()};
+  ffmpeg::Format format;
+  ffmpeg::Codec encoder;
+  ffmpeg::Picture picture{av_frame_alloc()};
+  ffmpeg::Packet packet{av_packet_alloc()};
 
   void check(int result) const {
     if (result >= 0) return;
     const bool full = result == AVERROR(ENOSPC) || result == AVERROR(EDQUOT);
-    if (full) throw TryAgainError(fmt::format("cannot write {}: {}", file.string(), reason_of(result)));
-    throw IoError(fmt::format("cannot write {}: {}", file.string(), reason_of(result)));
+    if (full)
+      throw TryAgainError(fmt::format("cannot write {}: {}", file.string(), ffmpeg::reason_of(result)));
+    throw IoError(fmt::format("cannot write {}: {}", file.string(), ffmpeg::reason_of(result)));
   }
 
   void open_file() {
@@ -73,9 +43,9 @@ struct H264File::Impl {
     const AVCodec* codec = avcodec_find_encoder_by_name("libx264");
     encoder.reset(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
     if (!encoder) throw IoError(fmt::format("cannot write {}: FFmpeg has no libx264", file.string()));
-    encoder->log_level_offset = kSilent;
-    encoder->width = even(settings.width_px);
-    encoder->height = even(settings.height_px);
+    encoder->log_level_offset = ffmpeg::kSilent;
+    encoder->width = ffmpeg::even(settings.width_px);
+    encoder->height = ffmpeg::even(settings.height_px);
     encoder->pix_fmt = AV_PIX_FMT_YUV420P;  // what every browser plays
     encoder->framerate = av_d2q(settings.frame_rate_hz, 100000);
     encoder->time_base = av_inv_q(encoder->framerate);

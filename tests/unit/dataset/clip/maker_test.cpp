@@ -112,6 +112,25 @@ TEST_CASE("Another seed or another id gives other pixels") {
   CHECK(place.make(other_id).pixels_sha256 != record.pixels_sha256);
 }
 
+TEST_CASE(
+    "A codec changes ir8, not ir16 or labels, and each frame's record has the size of what was encoded") {
+  const Workplace place;
+  const ClipRecord plain = place.make();
+  ClipTask task = place.task("coded");
+  task.codec = VideoCodecSettings{.name = "mjpeg", .bitrate_kbit_s = 20};
+  const ClipRecord coded = place.make(task);
+  for (const auto& [name, sum] : plain.files) {
+    if (name == "preview.mp4") continue;  // lossy, and the encoder's own
+    CAPTURE(name);
+    const bool is_same = name.starts_with("ir16/") || name == "labels.json";
+    CHECK((coded.files.at(name) == sum) == is_same);
+  }
+  const std::string lines = read_file(place.folder / "coded/frames.jsonl");
+  const Json line = parse_json(lines.substr(0, lines.find('\n')), "");
+  CHECK(line.at("encoded_bytes").get<int>() > 100);
+  CHECK(read_file(place.clip / "frames.jsonl").find("encoded_bytes") == std::string::npos);
+}
+
 TEST_CASE("Every frame is reported through the hooks") {
   int waited = 0;
   int done = 0;

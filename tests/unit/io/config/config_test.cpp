@@ -226,4 +226,20 @@ TEST_CASE("The clips of flights follow a config's own") {
   CHECK(resolved(cut.resolved).resolved == cut.resolved);
 }
 
+TEST_CASE("8-bit frames pass through a codec only if the config names one, with its bit rate") {
+  CHECK(resolved(least()).codec == std::nullopt);
+  CHECK_FALSE(resolved(least()).resolved.contains("output"));
+  Json document = least();
+  document["output"] = {{"codec", {{"name", "mpeg4"}, {"bitrate_kbit_s", 800}}}};
+  const Config config = resolved(document);
+  CHECK(config.codec == VideoCodecSettings{.name = "mpeg4", .bitrate_kbit_s = 800});
+  CHECK(config.resolved["output"] == document["output"]);
+  document["output"]["codec"]["name"] = "h265";
+  CHECK(fault_in(document) ==
+        "night.json: output.codec.name = \"h265\"; expected one of h264, mpeg4, mjpeg; did you mean "
+        "\"h264\"?");
+  document["output"]["codec"] = {{"name", "h264"}};
+  CHECK(fault_in(document) == "night.json: output.codec.bitrate_kbit_s is missing; expected a value");
+}
+
 }  // namespace config_test

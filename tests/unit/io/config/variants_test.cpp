@@ -70,7 +70,7 @@ TEST_CASE("Invalid lists are errors") {
         "list.json: variants[2].name = \"a\"; expected each name once");
   CHECK(fault_in(R"({"variants": [{"name": "a", "sensr": {}}]})") ==
         "list.json: variants[0].sensr is not a known key; expected one of name, season, seed, weather, "
-        "sensor, terms, camera; did you mean \"sensor\"?");
+        "sensor, output, terms, camera; did you mean \"sensor\"?");
   CHECK(fault_in(R"({"variants": [{"name": "a", "camera": {"width_px": 320}}]})") ==
         "list.json: variants[0].camera.width_px is not a known key; expected one of distortion");
   CHECK(fault_in(R"({"variants": [{"name": "a", "sensor": "boson"}]})") ==
