@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "sensor/local_information.h"
 
 namespace thermal {
 namespace {
@@ -41,6 +42,17 @@ std::pair<std::size_t, std::size_t> without_tails(const std::vector<std::uint32_
   return {low, high};
 }
 
+LevelBins bins_of(const AgcParameters& parameters, const AgcScene& scene) {
+  const auto counts = static_cast<std::size_t>(std::max(1L, std::lround(kBinK / scene.kelvin_per_count)));
+  const double counts_per_netd = scene.netd_k / scene.kelvin_per_count;
+  return {.counts = counts,
+          .steepest = parameters.max_gain_dn_per_netd * static_cast<double>(counts) / counts_per_netd};
+}
+
+bool is_adaptive(AgcMode mode) {
+  return mode == AgcMode::percentile || mode == AgcMode::plateau || mode == AgcMode::information;
+}
+
 }  // namespace
 
 Agc::Agc(const AgcParameters& parameters, AgcScene scene)
@@ -49,13 +61,17 @@ Agc::Agc(const AgcParameters& parameters, AgcScene scene)
       share_of_new_(
           parameters.damping_s <= 0 ? 1 : -std::expm1(-1 / (scene_.frame_rate_hz * parameters.damping_s))),
       counts_per_netd_(scene_.netd_k / scene_.kelvin_per_count),
-      bin_counts_(static_cast<std::size_t>(std::max(1L, std::lround(kBinK / scene_.kelvin_per_count)))) {
+      bins_(bins_of(parameters, scene_)) {
   curve_.thresholds.fill(static_cast<std::uint16_t>(kClipped));
   if (parameters_.mode == AgcMode::scene_max) make_radiance_curve(0.5);
   if (parameters_.mode == AgcMode::table_max) make_radiance_curve(0);
   if (parameters_.mode == AgcMode::linear) {
     make_linear_curve(parameters_.low_k / scene_.kelvin_per_count,
                       parameters_.high_k / scene_.kelvin_per_count);
+  }
+  if (parameters_.mode == AgcMode::clahe) {
+    local_.emplace(parameters_, bins_, share_of_new_);
+    curve_.is_local = true;
   }
 }
 
@@ -79,7 +95,8 @@ void Agc::make_linear_curve(double low_count, double high_count) {
 }
 
 const ToneCurve& Agc::next(const Plane<std::uint16_t>& ir16) {
-  if (parameters_.mode != AgcMode::percentile && parameters_.mode != AgcMode::plateau) return curve_;
+  if (local_) adapt_locally(ir16);
+  if (!is_adaptive(parameters_.mode)) return curve_;
   histogram_.assign(kCounts, 0);
   for (const std::uint16_t count : ir16.pixels()) ++histogram_[count];
   const std::size_t measured = ir16.size() - histogram_[0] - histogram_[kClipped];
@@ -89,10 +106,28 @@ const ToneCurve& Agc::next(const Plane<std::uint16_t>& ir16) {
   if (parameters_.mode == AgcMode::percentile) {
     adapt_percentiles(low, high);
   } else {
+    count_information(ir16);
     adapt_plateau(low, high, measured);
   }
   adapted_ = true;
   return curve_;
+}
+
+void Agc::show(const Plane<std::uint16_t>& ir16, Plane<std::uint8_t>& ir8) const {
+  if (!local_) {
+    apply_tone_curve(curve_, parameters_.polarity, ir16, ir8);
+    return;
+  }
+  fit_size(ir16, ir8);
+  local_->show(ir16, ir8);
+  const std::uint8_t flip = flip_of(parameters_.polarity);
+  for (std::uint8_t& level : ir8.pixels()) level = static_cast<std::uint8_t>(level ^ flip);
+}
+
+void Agc::adapt_locally(const Plane<std::uint16_t>& ir16) {
+  local_->adapt(ir16);
+  curve_.low_k = static_cast<double>(local_->range().low) * scene_.kelvin_per_count;
+  curve_.high_k = static_cast<double>(local_->range().high) * scene_.kelvin_per_count;
 }
 
 void Agc::adapt_percentiles(std::size_t low, std::size_t high) {
@@ -105,35 +140,40 @@ void Agc::adapt_percentiles(std::size_t low, std::size_t high) {
   make_linear_curve(low_count_, high_count_);
 }
 
+/// For mode information; for plateau, all pixels count alike.
+void Agc::count_information(const Plane<std::uint16_t>& ir16) {
+  if (parameters_.mode != AgcMode::information) return;
+  mark_information(ir16, parameters_.information_threshold_netd * counts_per_netd_, marks_);
+  informed_.assign(kCounts, 0);
+  for (std::size_t i = 0; i < ir16.size(); ++i) informed_[ir16.pixels()[i]] += marks_.pixels()[i];
+}
+
+/// Pixels of the counts [begin, end), of which flat ones have less weight in mode information.
+double Agc::weight_of(std::size_t begin, std::size_t end) const {
+  const auto sum = [&](const Histogram& histogram) {
+    const auto at = [&](std::size_t count) { return histogram.begin() + static_cast<std::ptrdiff_t>(count); };
+    return static_cast<double>(std::accumulate(at(begin), at(end), std::uint64_t{0}));
+  };
+  const double all = sum(histogram_);
+  if (parameters_.mode != AgcMode::information) return all;
+  const double informed = sum(informed_);
+  return informed + parameters_.flat_weight * (all - informed);
+}
+
 /// Level at the lower edge of every bin: levels rise in proportion to a bin's pixels, limited by the plateau and by
-/// the largest gain. Levels left over are split between both ends, where the largest gain continues.
+/// the largest gain.
 std::vector<double> Agc::equalised(std::size_t low, std::size_t high, std::size_t measured) const {
-  const std::size_t bins = (kCounts + bin_counts_ - 1) / bin_counts_;
-  const std::size_t first = low / bin_counts_;
-  const std::size_t last = high / bin_counts_;
-  const double plateau = std::max(1.0, parameters_.plateau_percent / 100 * static_cast<double>(measured));
-  const double steepest =
-      parameters_.max_gain_dn_per_netd * static_cast<double>(bin_counts_) / counts_per_netd_;
-  std::vector<double> rise(bins, steepest);
-  double pixels = 0;
-  for (std::size_t bin = first; bin <= last; ++bin) {
-    const auto begin = histogram_.begin() + static_cast<std::ptrdiff_t>(std::max(low, bin * bin_counts_));
-    const auto end = histogram_.begin() +
-                     static_cast<std::ptrdiff_t>(std::min(high, bin * bin_counts_ + bin_counts_ - 1)) + 1;
-    rise[bin] = std::min(plateau, static_cast<double>(std::accumulate(begin, end, std::uint64_t{0})));
-    pixels += rise[bin];
+  const std::size_t width = bins_.counts;
+  const bool weighted = parameters_.mode == AgcMode::information;
+  const double all = weighted ? weight_of(1, kClipped) : static_cast<double>(measured);
+  const double plateau = std::max(weighted ? 0.0 : 1.0, parameters_.plateau_percent / 100 * all);
+  std::vector<double> shares;
+  for (std::size_t bin = low / width; bin <= high / width; ++bin) {
+    const std::size_t begin = std::max(low, bin * width);
+    const std::size_t end = std::min(high, bin * width + width - 1) + 1;
+    shares.push_back(std::min(plateau, weight_of(begin, end)));
   }
-  double risen = 0;
-  for (std::size_t bin = first; bin <= last; ++bin) {
-    rise[bin] = std::min(steepest, rise[bin] * kLargestLevel / pixels);
-    risen += rise[bin];
-  }
-  std::vector<double> levels(bins + 1);
-  levels[first] = 0.5 * (kLargestLevel - risen);
-  for (std::size_t bin = first; bin < bins; ++bin)
-    levels[bin + 1] = std::min(kLargestLevel, levels[bin] + rise[bin]);
-  for (std::size_t bin = first; bin > 0; --bin) levels[bin - 1] = std::max(0.0, levels[bin] - rise[bin - 1]);
-  return levels;
+  return equalised_levels(bins_, low / width, shares);
 }
 
 void Agc::adapt_plateau(std::size_t low, std::size_t high, std::size_t measured) {
@@ -156,7 +196,7 @@ void Agc::make_thresholds_of_levels() {
     while (bin < bins && levels_[bin + 1] < wanted) ++bin;
     const double share = bin < bins ? (wanted - levels_[bin]) / (levels_[bin + 1] - levels_[bin]) : 0;
     curve_.thresholds[level - 1] =
-        threshold((static_cast<double>(bin) + share) * static_cast<double>(bin_counts_));
+        threshold((static_cast<double>(bin) + share) * static_cast<double>(bins_.counts));
   }
 }
 

@@ -3,9 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "base/image.h"
+#include "sensor/equalised_levels.h"
+#include "sensor/local_tone.h"
 #include "sensor/sensor_parameters.h"
 
 namespace thermal {
@@ -15,12 +18,14 @@ inline constexpr std::size_t kLevels = 256;
 /// How one 8-bit frame was made from its 16-bit frame: thresholds[k] is the smallest 16-bit count shown as level k +
 /// 1 or higher (65535: only clipped pixels), so that
 ///   level = number of thresholds <= count; black-hot shows 255 - level.
-/// Exact in every mode except table_max, whose levels are computed from radiance, as in the published script; there
-/// the curve is within one level.
+/// Exact in every mode except two: table_max, whose levels are computed from radiance, as in the published script, so
+/// that the curve is within one level; and clahe, which has a curve for each pixel: is_local is set, and there are no
+/// thresholds.
 struct ToneCurve {
   std::array<std::uint16_t, kLevels - 1> thresholds{};
-  double low_k = 0;   ///< linear, percentile: start of level 0; plateau: end of the tail dropped
+  double low_k = 0;   ///< linear, percentile: start of level 0; others that adapt: end of the tail dropped
   double high_k = 0;  ///< end of level 255; likewise
+  bool is_local = false;  ///< level depends on the pixel's place too
 
   [[nodiscard]] bool operator==(const ToneCurve&) const = default;
 };
@@ -37,12 +42,12 @@ struct AgcScene {
   TemperatureOf temperature_of;  ///< scene_max, table_max
 };
 
-/// Automatic gain control of one clip: makes each frame's tone curve from its 16-bit counts and earlier frames.
+/// Automatic gain control of one clip: makes each frame's 8-bit picture from its 16-bit counts and earlier frames.
 ///
 /// Counts 0 (nothing measured: NaN, no light) and 65535 (clipped) are shown, but the adaptive modes ignore them. A
-/// frame without any other count keeps the previous frame's curve; a first frame of that kind is black. percentile
-/// and plateau never spread one NETD over more than max_gain_dn_per_netd levels, so that a scene of low contrast
-/// stays near middle grey instead of showing its noise.
+/// frame without any other count keeps the previous frame's curve; a first frame of that kind is black. The adaptive
+/// modes never spread one NETD over more than max_gain_dn_per_netd levels, so that a scene of low contrast stays near
+/// middle grey instead of showing its noise.
 class Agc {
  public:
   Agc(const AgcParameters& parameters, AgcScene scene);
@@ -50,13 +55,20 @@ class Agc {
   /// The next frame's curve. Frames must come in order, from the first.
   const ToneCurve& next(const Plane<std::uint16_t>& ir16);
 
+  /// The 8-bit frame of a picture by the latest curve, or, in mode clahe, by those of its tiles. For table_max, see
+  /// truncate_to_levels().
+  void show(const Plane<std::uint16_t>& ir16, Plane<std::uint8_t>& ir8) const;
+
  private:
   using Histogram = std::vector<std::uint32_t>;
 
   void make_radiance_curve(double rounding);
   void make_linear_curve(double low_count, double high_count);
   void adapt_percentiles(std::size_t low, std::size_t high);
+  void adapt_locally(const Plane<std::uint16_t>& ir16);
   void adapt_plateau(std::size_t low, std::size_t high, std::size_t measured);
+  void count_information(const Plane<std::uint16_t>& ir16);
+  [[nodiscard]] double weight_of(std::size_t begin, std::size_t end) const;
   [[nodiscard]] std::vector<double> equalised(std::size_t low, std::size_t high, std::size_t measured) const;
   void make_thresholds_of_levels();
 
@@ -67,9 +79,12 @@ class Agc {
   bool adapted_ = false;  ///< a frame has set the curve
   double low_count_ = 0;  ///< percentile
   double high_count_ = 0;
-  std::size_t bin_counts_ = 1;  ///< plateau: counts a bin of the histogram holds
-  std::vector<double> levels_;  ///< plateau: at the lower edge of each bin, damped
-  Histogram histogram_;         ///< of counts
+  LevelBins bins_;                  ///< plateau, information, clahe
+  std::vector<double> levels_;      ///< plateau, information: at the lower edge of each bin, damped
+  Histogram histogram_;             ///< of counts
+  Histogram informed_;              ///< information: of the counts of pixels that have some
+  Plane<std::uint8_t> marks_;       ///< information: those pixels
+  std::optional<LocalTone> local_;  ///< clahe
   ToneCurve curve_;
 };
 

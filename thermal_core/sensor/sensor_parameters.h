@@ -80,11 +80,13 @@ struct BadPixelParameters {
 
 /// How the 8-bit picture is made from apparent temperature.
 enum class AgcMode {
-  scene_max,   ///< proportional to radiance; 255 is the most radiant material of the clip, as in the paper
-  table_max,   ///< the same; 255 is the most radiant row of Table 1; counts are truncated, as in the script
-  linear,      ///< from low_k to high_k
-  percentile,  ///< between two percentiles of the frame, damped in time
-  plateau      ///< histogram equalisation with a plateau, damped in time
+  scene_max,    ///< proportional to radiance; 255 is the most radiant material of the clip, as in the paper
+  table_max,    ///< the same; 255 is the most radiant row of Table 1; counts are truncated, as in the script
+  linear,       ///< from low_k to high_k
+  percentile,   ///< between two percentiles of the frame, damped in time
+  plateau,      ///< histogram equalisation with a plateau, damped in time
+  information,  ///< the same; pixels without information around them count less
+  clahe         ///< histogram equalisation in tiles, with a clip limit, damped in time
 };
 
 enum class Polarity { white_hot, black_hot };
@@ -92,12 +94,19 @@ enum class Polarity { white_hot, black_hot };
 struct AgcParameters {
   AgcMode mode = AgcMode::scene_max;
   Polarity polarity = Polarity::white_hot;
-  double low_k = 263;               ///< linear: count 0
-  double high_k = 313;              ///< linear: count 255
-  double tail_percent = 0.05;       ///< percentile, plateau: fraction of the pixels dropped at either end
-  double plateau_percent = 0.07;    ///< plateau: fraction of the pixels; larger bins are clipped to it
-  double max_gain_dn_per_netd = 8;  ///< percentile, plateau: largest number of 8-bit counts per NETD
-  double damping_s = 0.5;           ///< percentile, plateau: time constant
+  double low_k = 263;   ///< linear: count 0
+  double high_k = 313;  ///< linear: count 255
+  // Of the adaptive modes, which are those below linear:
+  double tail_percent = 0.05;  ///< fraction of the pixels dropped at either end
+  double plateau_percent =
+      0.07;  ///< plateau, information: fraction of the pixels; larger bins are clipped to it
+  double max_gain_dn_per_netd = 8;        ///< largest number of 8-bit counts per NETD
+  double damping_s = 0.5;                 ///< time constant
+  double information_threshold_netd = 3;  ///< information: change across a pixel that is more than noise
+  double flat_weight = 0.1;               ///< information: of pixels with less than that; 1: as plateau
+  double clip_limit = 2;                  ///< clahe: largest bin / mean bin of a tile
+  int tiles_across = 8;                   ///< clahe
+  int tiles_down = 8;                     ///< clahe
 
   [[nodiscard]] bool operator==(const AgcParameters&) const = default;
 };

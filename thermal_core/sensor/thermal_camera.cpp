@@ -282,7 +282,7 @@ void ThermalCamera::show(SensorFrame& frame) const {
   if (agc.mode == AgcMode::table_max) {
     truncate_to_levels(signal_, brightest_w_m2_sr_, agc.polarity, frame.ir8);
   } else {
-    apply_tone_curve(frame.curve, agc.polarity, frame.ir16, frame.ir8);
+    agc_.show(frame.ir16, frame.ir8);
   }
 }
 

@@ -36,7 +36,7 @@ namespace thermal {
 
 /// The output of the camera for one frame.
 struct SensorFrame {
-  Plane<std::uint8_t> ir8;  ///< `curve` applied to ir16; in mode table_max, to radiance
+  Plane<std::uint8_t> ir8;  ///< `curve` applied to ir16; in mode table_max, to radiance; in clahe, a curve by place
   /// Apparent temperature, with the camera's radiometric error, / kelvin_per_count, rounded; clipped to 0..65535. 65535
   /// is the camera's saturation: 655.35 K and more at the default of 0.01 K.
   Plane<std::uint16_t> ir16;

@@ -138,7 +138,7 @@ TEST_CASE("A tail drops the requested number of pixels, to the pixel") {
   Counts counts(200, 1);
   for (int i = 0; i < 200; ++i) counts.at(i, 0) = static_cast<std::uint16_t>(20000 + 50 * i);
   const int dropped = GENERATE(0, 1, 2, 50);
-  const AgcMode mode = GENERATE(AgcMode::percentile, AgcMode::plateau);
+  const AgcMode mode = GENERATE(AgcMode::percentile, AgcMode::plateau, AgcMode::information);
   Agc agc({.mode = mode, .tail_percent = 0.5 * dropped}, scene_of());
   const ToneCurve& curve = agc.next(counts);
   CHECK_THAT(curve.low_k, WithinAbs(200 + 0.5 * dropped, 1e-9));
@@ -169,7 +169,7 @@ TEST_CASE("plateau equalises the histogram up to its plateau and its largest gai
 }
 
 TEST_CASE("No adaptive mode spreads one NETD over more than the largest gain") {
-  const AgcMode mode = GENERATE(AgcMode::percentile, AgcMode::plateau);
+  const AgcMode mode = GENERATE(AgcMode::percentile, AgcMode::plateau, AgcMode::information);
   const double spread = GENERATE(0.0, 1.0, 5.0, 60.0, 2000.0);
   const double gain = GENERATE(2.0, 8.0);
   Agc agc({.mode = mode, .max_gain_dn_per_netd = gain}, scene_of());
@@ -183,7 +183,7 @@ TEST_CASE("No adaptive mode spreads one NETD over more than the largest gain") {
 }
 
 TEST_CASE("A scene of pure noise keeps its noise below the largest gain") {
-  const AgcMode mode = GENERATE(AgcMode::percentile, AgcMode::plateau);
+  const AgcMode mode = GENERATE(AgcMode::percentile, AgcMode::plateau, AgcMode::information, AgcMode::clahe);
   SensorParameters parameters;  // white noise of 40 mK at 300 K
   parameters.agc.mode = mode;
   ThermalCamera camera = cameras::camera(parameters, {.width_px = 160, .height_px = 120});
@@ -224,6 +224,39 @@ TEST_CASE("A change of scene fades by the damping's time constant") {
     const double left = std::exp(-frame / (kFrameRate * damping_s));
     REQUIRE_THAT(agc.next(after).high_k, WithinAbs(after_k + left * (before_k - after_k), 1e-9));
   }
+}
+
+TEST_CASE("information is plateau if flat pixels count in full") {
+  const AgcParameters weighted = {.mode = AgcMode::information, .flat_weight = 1};
+  Agc information(weighted, scene_of());
+  Agc plateau({.mode = AgcMode::plateau}, scene_of());
+  for (int frame = 0; frame < 3; ++frame) {
+    const Counts counts = random_counts(frame, 28000, 200);
+    CHECK(information.next(counts) == plateau.next(counts));
+  }
+}
+
+TEST_CASE("information gives flat ground fewer levels than plateau, and a textured part more") {
+  Counts counts(80, 60);  // flat ground with noise of one NETD above, stripes of +- 6 NETDs about 300 K below
+  std::mt19937 random(1);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 80; ++x) {
+      const int noise = static_cast<int>(random() % 11) - 5;
+      const int middle = y < 40 ? 28000 : 30000 + (x / 2 % 2 == 0 ? 30 : -30);
+      counts.at(x, y) = static_cast<std::uint16_t>(middle + noise);
+    }
+  const auto levels_over = [&](AgcMode mode, std::size_t low, std::size_t high) {
+    Agc agc({.mode = mode, .plateau_percent = 100, .max_gain_dn_per_netd = 255}, scene_of());
+    const std::vector<int> levels = levels_of(agc.next(counts));
+    return levels[high] - levels[low];
+  };
+  const int flat = levels_over(AgcMode::information, 27990, 28010);
+  const int textured = levels_over(AgcMode::information, 29960, 30040);
+  CAPTURE(flat, textured);
+  // 3200 flat pixels, of which those beside the stripes have information: (3120 x 0.1 + 80) of 255 levels.
+  CHECK_THAT(flat, WithinAbs(255 * (312.0 + 80) / (312 + 80 + 1600), 4));
+  CHECK_THAT(textured, WithinAbs(255 * 1600.0 / (312 + 80 + 1600), 4));
+  CHECK(levels_over(AgcMode::plateau, 27990, 28010) > 2 * flat);
 }
 
 }  // namespace agc_test

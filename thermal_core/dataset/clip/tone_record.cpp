@@ -14,6 +14,10 @@ std::string mode_name(AgcMode mode) {
       return "percentile";
     case AgcMode::plateau:
       return "plateau";
+    case AgcMode::information:
+      return "information";
+    case AgcMode::clahe:
+      return "clahe";
   }
   return "";
 }
@@ -26,7 +30,7 @@ Json tone_record(const ToneCurve& curve, const AgcParameters& agc, float brighte
   if (agc.mode == AgcMode::scene_max || agc.mode == AgcMode::table_max) {
     record["brightest_w_m2_sr"] = brightest_w_m2_sr;
   }
-  record["thresholds"] = curve.thresholds;
+  if (!curve.is_local) record["thresholds"] = curve.thresholds;
   return record;
 }
 

@@ -97,7 +97,7 @@ Plane<std::uint8_t> CellPainter::levels_of(std::size_t number) const {
 
 KelvinScale CellPainter::scale_of(const FilmFrame& frame) const {
   return style_.range ? linear_scale(*style_.range)
-                      : scale_of_curve(frame.thresholds, dataset_.kelvin_per_count);
+                      : scale_of_curve(frame.thresholds.value(), dataset_.kelvin_per_count);
 }
 
 void CellPainter::paint_frame(std::size_t number, cv::Mat& picture) const {

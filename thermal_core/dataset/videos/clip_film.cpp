@@ -31,9 +31,18 @@ int whole_number(const Json& value, const char* name, int most) {
   return value.get<int>();
 }
 
+std::array<std::uint16_t, kLevels - 1> read_thresholds(const Json& json) {
+  constexpr int kMostCounts = 65535;
+  std::array<std::uint16_t, kLevels - 1> thresholds{};
+  for (std::size_t k = 0; k < thresholds.size(); ++k)
+    thresholds[k] = static_cast<std::uint16_t>(whole_number(json.at(k), "agc.thresholds", kMostCounts));
+  if (!std::ranges::is_sorted(thresholds))
+    throw DataError("agc.thresholds fall; expected them in rising order");
+  return thresholds;
+}
+
 FilmFrame read_frame(const Json& json) {
   constexpr int kMostFrames = 1'000'000'000;
-  constexpr int kMostCounts = 65535;
   FilmFrame frame;
   frame.frame_index = whole_number(json.at("frame_index"), "frame_index", kMostFrames);
   frame.time_s = json.at("time_s");
@@ -41,12 +50,8 @@ FilmFrame read_frame(const Json& json) {
   if (json.contains("camera_to_world"))
     frame.camera_to_world = json["camera_to_world"].get<std::array<double, 16>>();
   frame.shutter_closed = json.at("ffc");
-  const Json& thresholds = json.at("agc").at("thresholds");
-  for (std::size_t k = 0; k < frame.thresholds.size(); ++k)
-    frame.thresholds[k] =
-        static_cast<std::uint16_t>(whole_number(thresholds.at(k), "agc.thresholds", kMostCounts));
-  if (!std::ranges::is_sorted(frame.thresholds))
-    throw DataError("agc.thresholds fall; expected them in rising order");
+  const Json& agc = json.at("agc");
+  if (agc.at("mode") != "clahe") frame.thresholds = read_thresholds(agc.at("thresholds"));
   return frame;
 }
 

@@ -36,7 +36,8 @@ struct FilmFrame {
   std::optional<double> agl_m;
   std::optional<std::array<double, 16>> camera_to_world;  ///< row by row
   bool shutter_closed = false;
-  std::array<std::uint16_t, kLevels - 1> thresholds{};  ///< see ToneCurve
+  std::optional<std::array<std::uint16_t, kLevels - 1>>
+      thresholds;  ///< see ToneCurve; empty: the curve is local
 };
 
 /// The camera of a clip's labels, with the coefficients of its lens in OpenCV's order: k1, k2, p1, p2, k3, k4, k5, k6.

@@ -117,6 +117,19 @@ struct Programme {
   }
 };
 
+/// A bar of temperatures needs one curve for the whole frame.
+void check_curves(const Programme& programme) {
+  for (const ClipFilm& film : programme.films) {
+    const bool is_local =
+        std::ranges::any_of(film.frames, [](const FilmFrame& frame) { return !frame.thresholds; });
+    if (is_local)
+      throw ConfigError(
+          fmt::format("--scale: clip {} has the gain control {}, whose levels depend on the place; "
+                      "expected --range as well, or no --scale",
+                      film.id, film.agc_mode));
+  }
+}
+
 Programme read_programme(const VideoRequest& request) {
   const ClipSource source = find_source(request.source);
   std::vector<std::string> ids = choose(source, request);
@@ -131,6 +144,7 @@ Programme read_programme(const VideoRequest& request) {
     for (const FilmedDataset& dataset : programme.datasets)
       programme.films.push_back(read_clip_film(dataset, id, request.boxes || request.tracks));
   }
+  if (request.scale && !request.range) check_curves(programme);
   if (request.clips.empty() && source.clip.empty())
     std::ranges::copy_if(source.dataset.clips, std::back_inserter(programme.not_made), [&](const auto& id) {
       return std::ranges::find(source.dataset.made, id) == source.dataset.made.end();

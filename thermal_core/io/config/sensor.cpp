@@ -95,6 +95,8 @@ AgcMode read_mode(const std::string& name) {
   if (name == "table_max") return AgcMode::table_max;
   if (name == "linear") return AgcMode::linear;
   if (name == "percentile") return AgcMode::percentile;
+  if (name == "information") return AgcMode::information;
+  if (name == "clahe") return AgcMode::clahe;
   return name == "plateau" ? AgcMode::plateau : AgcMode::scene_max;
 }
 
@@ -106,7 +108,12 @@ AgcParameters read_agc(const Json& json) {
           .tail_percent = json["tail_percent"],
           .plateau_percent = json["plateau_percent"],
           .max_gain_dn_per_netd = json["max_gain_dn_per_netd"],
-          .damping_s = json["damping_s"]};
+          .damping_s = json["damping_s"],
+          .information_threshold_netd = json["information_threshold_netd"],
+          .flat_weight = json["flat_weight"],
+          .clip_limit = json["clip_limit"],
+          .tiles_across = json["tiles_across"],
+          .tiles_down = json["tiles_down"]};
 }
 
 }  // namespace

@@ -75,7 +75,10 @@ TEST_CASE("Every value of a config's sensor reaches the library") {
     REQUIRE(check_and_fill(document, config_schema()).empty());
     const SensorParameters before = read_sensor(document, "", kAssets);
     Json& value = document["sensor"][key];
-    if (value.is_number()) value = value.get<double>() + 0.25;
+    if (value.is_number_integer())
+      value = value.get<int>() + 1;
+    else if (value.is_number())
+      value = value.get<double>() + 0.25;
     if (value.is_boolean()) value = !value.get<bool>();
     if (value.is_string()) value = rule["enum"].back();
     return !same_figures(read_sensor(document, "", kAssets), before);

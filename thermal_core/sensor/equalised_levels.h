@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace thermal {
+
+/// The bins of a histogram of 16-bit counts, and how steeply levels may rise over them.
+struct LevelBins {
+  std::size_t counts = 1;  ///< that a bin holds
+  double steepest = 255;   ///< levels over a bin, at most
+
+  /// Bins that hold all counts from 0 to 65535.
+  [[nodiscard]] std::size_t size() const noexcept { return (65536 + counts - 1) / counts; }
+};
+
+/// Levels 0 to 255 at the lower edge of every bin, and at the end of the last: they rise in proportion to `shares` over
+/// the bins from `first` on, but nowhere more steeply than `bins` allows. Levels left over are split between both ends,
+/// where the steepest rise continues.
+/// @param shares  of the bins first, first + 1, …; >= 0, not all 0
+[[nodiscard]] std::vector<double> equalised_levels(const LevelBins& bins, std::size_t first,
+                                                   const std::vector<double>& shares);
+
+}  // namespace thermal

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/image.h"
+#include "sensor/equalised_levels.h"
+#include "sensor/sensor_parameters.h"
+
+namespace thermal {
+
+/// Contrast-limited adaptive histogram equalisation (Zuiderveld, Graphics Gems IV, 1994): each tile of the picture has
+/// a tone curve of its own, and a pixel's level is interpolated bilinearly between those of the four nearest tiles.
+///
+/// An own kernel: cv::CLAHE takes 16-bit pictures with a bin for each of 65,536 counts, of which a night uses 3000,
+/// so that its clip limit is a whole pixel or none; it limits no gain in counts per NETD; and `veldt::core`, which has
+/// the sensor, needs no OpenCV.
+class LocalTone {
+ public:
+  /// Counts of the whole frame between the tails.
+  struct Range {
+    std::size_t low = 0;
+    std::size_t high = 0;
+  };
+
+  /// @param share_of_new  weight of a frame's own curves; the rest is the curves before
+  LocalTone(const AgcParameters& parameters, const LevelBins& bins, double share_of_new);
+
+  /// Follows the next frame. Counts 0 and 65535 are ignored; a tile without any other takes the frame's curve. A frame
+  /// without any other leaves all as it was; before the first one that has some, pictures are black.
+  void adapt(const Plane<std::uint16_t>& ir16);
+
+  /// The 8-bit frame, white-hot. Count 0 shows as 0 and 65535 as 255.
+  void show(const Plane<std::uint16_t>& ir16, Plane<std::uint8_t>& ir8) const;
+
+  [[nodiscard]] const Range& range() const noexcept { return range_; }
+
+ private:
+  using Histogram = std::vector<std::uint32_t>;  ///< by bin
+
+  /// Two tiles that a coordinate lies between, and the weight of the second.
+  struct Between {
+    std::size_t first = 0;
+    std::size_t second = 0;
+    float share = 0;
+  };
+
+  void count(const Plane<std::uint16_t>& ir16);
+  [[nodiscard]] std::vector<double> levels_of(const Histogram& histogram) const;
+  void follow(const std::vector<double>& wanted, float* levels) const;
+  void show_row(const Plane<std::uint16_t>& ir16, int y, const std::vector<Between>& columns,
+                Plane<std::uint8_t>& ir8) const;
+  [[nodiscard]] static Between between(int at_px, int size_px, std::size_t tiles);
+
+  AgcParameters parameters_;
+  LevelBins bins_;
+  double share_of_new_;
+  std::size_t across_ = 1;  ///< tiles
+  std::size_t down_ = 1;
+  bool adapted_ = false;
+  Range range_;
+  std::vector<Histogram> histograms_;  ///< of tiles, row by row
+  std::vector<float> levels_;          ///< bins_.size() + 1 for each tile
+};
+
+}  // namespace thermal
