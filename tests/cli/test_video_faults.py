@@ -6,7 +6,8 @@ import json
 
 import pytest
 
-from program import files_below
+import passes
+from program import check_fault, files_below
 from reports import CLIPS, change, make_dataset
 
 
@@ -170,4 +171,23 @@ def test_datasets_without_a_common_clip_are_refused(veldt, dataset):
     assert (done.code, done.out) == (2, "")
     assert done.err == (
         "veldt: --side-by-side other has none of the clips down, side; expected the same ids\n"
+    )
+
+
+def test_a_scale_of_local_gain_control_needs_a_range(veldt):
+    """A level has no temperature of its own in mode clahe."""
+    folder = passes.write_clip(veldt.folder / "one")
+    made = veldt("convert", folder, "--out", "out", "--quiet", "--set", "sensor.agc.mode=clahe")
+    assert (made.code, made.err) == (0, "")
+    lines = (veldt.folder / "out" / "clips" / "one" / "frames.jsonl").read_text(encoding="utf-8").splitlines()
+    agc = json.loads(lines[0])["agc"]
+    assert agc["mode"] == "clahe" and agc["low_k"] < agc["high_k"]
+    assert "thresholds" not in agc
+    assert veldt("video", "out", "--out", "v.mp4", "--quiet").code == 0
+    assert veldt("video", "out", "--out", "v.mp4", "--scale", "--range", "250:310", "--quiet").code == 0
+    check_fault(
+        veldt("video", "out", "--out", "v.mp4", "--scale"),
+        2,
+        "--scale: clip one has the gain control clahe, whose levels depend on the place; expected --range as well, "
+        "or no --scale",
     )

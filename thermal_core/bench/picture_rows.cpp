@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "bench/reference_agc.h"
+#include "bench/reference_clahe.h"
 #include "bench/sensor_scene.h"
 #include "radiometry/band_radiance.h"
 #include "radiometry/temperature_table.h"
@@ -52,8 +53,9 @@ Plane<std::uint16_t> counts_of(const std::vector<double>& temperatures_k, double
 }
 
 /// Differences of an AGC's pictures from the reference's in the second of two frames, the warmer one.
+template <typename Reference>
 std::vector<Figure> agc_figures(const AgcParameters& parameters, const AgcScene& scene) {
-  ReferenceAgc reference(parameters, scene);
+  Reference reference(parameters, scene);
   Agc agc(parameters, scene);
   std::vector<int> exact;
   Plane<std::uint8_t> ir8;
@@ -61,7 +63,8 @@ std::vector<Figure> agc_figures(const AgcParameters& parameters, const AgcScene&
     const std::vector<double> temperatures_k = temperatures(warmer_k);
     const Plane<std::uint16_t> ir16 = counts_of(temperatures_k, scene.kelvin_per_count);
     exact = reference.next(temperatures_k);
-    apply_tone_curve(agc.next(ir16), parameters.polarity, ir16, ir8);
+    (void)agc.next(ir16);
+    agc.show(ir16, ir8);
   }
   int worst = 0;
   std::size_t off = 0;
@@ -81,12 +84,17 @@ StageRow agc_row(const std::string& name, AgcMode mode) {
   const AgcScene scene = {.frame_rate_hz = kSceneRateHz,
                           .brightest_w_m2_sr = band.radiance(kBrightestK),
                           .temperature_of = [band](double radiance) { return band.temperature(radiance); }};
-  const StageRow row = {.group = "AGC", .name = name, .figures = agc_figures(parameters, scene)};
+  const StageRow row = {.group = "AGC",
+                        .name = name,
+                        .figures = mode == AgcMode::clahe ? agc_figures<ReferenceClahe>(parameters, scene)
+                                                          : agc_figures<ReferenceAgc>(parameters, scene)};
   Agc agc(parameters, scene);
   const Plane<std::uint16_t> ir16 = counts_of(temperatures(0), scene.kelvin_per_count);
   Plane<std::uint8_t> ir8;
-  return timed(row, sizeof(std::uint16_t) + sizeof(std::uint8_t),
-               [&] { apply_tone_curve(agc.next(ir16), parameters.polarity, ir16, ir8); });
+  return timed(row, sizeof(std::uint16_t) + sizeof(std::uint8_t), [&] {
+    (void)agc.next(ir16);
+    agc.show(ir16, ir8);
+  });
 }
 
 /// The pixel under the whole kernel, in double precision. It must be far enough from the border.
@@ -190,6 +198,8 @@ std::vector<StageRow> picture_rows() {
           agc_row("linear", AgcMode::linear),
           agc_row("percentile", AgcMode::percentile),
           agc_row("plateau", AgcMode::plateau),
+          agc_row("information", AgcMode::information),
+          agc_row("clahe", AgcMode::clahe),
           camera_row("both outputs alone", outputs),
           camera_row("as published: blur, white, 1/f", published),
           camera_row("every stage", full_camera())};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/sensor_scene.h"
 #include "radiometry/band_radiance.h"
 
 namespace thermal {
@@ -11,6 +12,8 @@ namespace {
 constexpr double kBinK = 0.04;
 constexpr std::size_t kBins = 16384;
 constexpr double kWhite = 255;
+
+bool is_equalising(AgcMode mode) { return mode == AgcMode::plateau || mode == AgcMode::information; }
 
 }  // namespace
 
@@ -36,7 +39,7 @@ std::vector<int> ReferenceAgc::next(const std::vector<double>& temperatures_k) {
 }
 
 void ReferenceAgc::adapt(const std::vector<double>& temperatures_k) {
-  if (parameters_.mode != AgcMode::percentile && parameters_.mode != AgcMode::plateau) return;
+  if (parameters_.mode != AgcMode::percentile && !is_equalising(parameters_.mode)) return;
   std::vector<double> kept_k = temperatures_k;
   std::sort(kept_k.begin(), kept_k.end());
   const auto tail =
@@ -44,8 +47,8 @@ void ReferenceAgc::adapt(const std::vector<double>& temperatures_k) {
   kept_k = std::vector<double>(kept_k.begin() + tail, kept_k.end() - tail);
   const double share = adapted_ ? share_of_new_ : 1;
   adapted_ = true;
-  if (parameters_.mode == AgcMode::plateau) {
-    const std::vector<double> wanted = equalised(kept_k);
+  if (is_equalising(parameters_.mode)) {
+    const std::vector<double> wanted = equalised(temperatures_k, kept_k.front(), kept_k.back());
     levels_.resize(wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i) levels_[i] += share * (wanted[i] - levels_[i]);
     return;
@@ -57,14 +60,40 @@ void ReferenceAgc::adapt(const std::vector<double>& temperatures_k) {
   high_k_ += share * (middle_k + half_k - high_k_);
 }
 
-std::vector<double> ReferenceAgc::equalised(const std::vector<double>& kept_k) const {
-  const double most = parameters_.plateau_percent / 100 *
-                      (static_cast<double>(kept_k.size()) / (1 - 0.02 * parameters_.tail_percent));
-  const double steepest = parameters_.max_gain_dn_per_netd * kBinK / scene_.netd_k;
-  const auto first = static_cast<std::size_t>(kept_k.front() / kBinK);
-  const auto last = static_cast<std::size_t>(kept_k.back() / kBinK);
+double ReferenceAgc::weight(const std::vector<double>& temperatures_k, std::size_t pixel) const {
+  if (parameters_.mode == AgcMode::plateau) return 1;
+  const auto here_x = static_cast<int>(pixel % kSceneWidthPx);
+  const auto here_y = static_cast<int>(pixel / kSceneWidthPx);
+  const auto at = [&](int dx, int dy) {
+    const int x = std::clamp(here_x + dx, 0, kSceneWidthPx - 1);
+    const int y = std::clamp(here_y + dy, 0, kSceneHeightPx - 1);
+    return temperatures_k[static_cast<std::size_t>(y * kSceneWidthPx + x)];
+  };
+  double across_k = 0;
+  double along_k = 0;
+  for (const int line : {-1, 0, 1}) {
+    across_k += (at(1, line) - at(-1, line)) / 3;
+    along_k += (at(line, 1) - at(line, -1)) / 3;
+  }
+  const double change_netd = std::max(std::abs(across_k), std::abs(along_k)) / scene_.netd_k;
+  return change_netd > parameters_.information_threshold_netd ? 1 : parameters_.flat_weight;
+}
+
+std::vector<double> ReferenceAgc::equalised(const std::vector<double>& temperatures_k, double low_k,
+                                            double high_k) const {
   std::vector<double> pixels(kBins, 0);
-  for (const double temperature_k : kept_k) ++pixels[static_cast<std::size_t>(temperature_k / kBinK)];
+  double all = 0;
+  for (std::size_t i = 0; i < temperatures_k.size(); ++i) {
+    const double counts = weight(temperatures_k, i);
+    const double temperature_k = temperatures_k[i];
+    all += counts;
+    if (temperature_k >= low_k && temperature_k <= high_k)
+      pixels[static_cast<std::size_t>(temperature_k / kBinK)] += counts;
+  }
+  const double most = parameters_.plateau_percent / 100 * all;
+  const double steepest = parameters_.max_gain_dn_per_netd * kBinK / scene_.netd_k;
+  const auto first = static_cast<std::size_t>(low_k / kBinK);
+  const auto last = static_cast<std::size_t>(high_k / kBinK);
   double counted = 0;
   for (double& bin : pixels) counted += bin = std::min(bin, most);
   double risen = 0;
@@ -82,7 +111,7 @@ std::vector<double> ReferenceAgc::equalised(const std::vector<double>& kept_k) c
 }
 
 double ReferenceAgc::level(double temperature_k, double radiance_share) const {
-  if (parameters_.mode == AgcMode::plateau) {
+  if (is_equalising(parameters_.mode)) {
     const double place = temperature_k / kBinK;
     const auto bin = static_cast<std::size_t>(place);
     return levels_[bin] + (place - static_cast<double>(bin)) * (levels_[bin + 1] - levels_[bin]);

@@ -1,23 +1,26 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "sensor/agc.h"
 
 namespace thermal {
 
-/// The AGC modes in double precision, on unrounded temperatures and without a table: the reference for Agc.
+/// The AGC modes but clahe in double precision, on unrounded temperatures and without a table: the reference for Agc.
 /// Histograms have bins of 0.04 K, like Agc's.
 class ReferenceAgc {
  public:
   ReferenceAgc(const AgcParameters& parameters, const AgcScene& scene);
 
-  /// Levels 0 to 255 of the next frame, white-hot. Every temperature is finite and in (0, 655) K.
+  /// Levels 0 to 255 of the next frame of the bench's scene, white-hot. Every temperature is finite and in (0, 655) K.
   [[nodiscard]] std::vector<int> next(const std::vector<double>& temperatures_k);
 
  private:
   void adapt(const std::vector<double>& temperatures_k);
-  [[nodiscard]] std::vector<double> equalised(const std::vector<double>& kept_k) const;
+  [[nodiscard]] double weight(const std::vector<double>& temperatures_k, std::size_t pixel) const;
+  [[nodiscard]] std::vector<double> equalised(const std::vector<double>& temperatures_k, double low_k,
+                                              double high_k) const;
   [[nodiscard]] double level(double temperature_k, double radiance_share) const;
 
   AgcParameters parameters_;
@@ -26,7 +29,7 @@ class ReferenceAgc {
   bool adapted_ = false;
   double low_k_;
   double high_k_;
-  std::vector<double> levels_;  ///< plateau: at the lower edge of each bin
+  std::vector<double> levels_;  ///< plateau, information: at the lower edge of each bin
 };
 
 }  // namespace thermal

@@ -91,6 +91,24 @@ enum class AgcMode {
 
 enum class Polarity { white_hot, black_hot };
 
+/// Sharpening of the 8-bit picture.
+struct DetailParameters {
+  double gain_dn_per_netd = 0;  ///< 8-bit counts added per NETD of detail; 0: none
+  int radius_px = 3;            ///< of the window in which detail is what differs from its surroundings
+  double edge_netd = 10;        ///< standard deviation of a window beyond which it holds an edge, not detail
+  double noise_netd = 4;        ///< of detail, that may be noise and is not added
+
+  [[nodiscard]] bool operator==(const DetailParameters&) const = default;
+};
+
+/// Temporal noise reduction.
+struct DenoiseParameters {
+  double share_of_new = 1;  ///< weight of a frame in the mean of a pixel, in (0, 1]; 1: no noise reduction
+  double motion_sigma = 4;  ///< change, in standard deviations of white noise, that a pixel follows at once
+
+  [[nodiscard]] bool operator==(const DenoiseParameters&) const = default;
+};
+
 struct AgcParameters {
   AgcMode mode = AgcMode::scene_max;
   Polarity polarity = Polarity::white_hot;
@@ -107,6 +125,7 @@ struct AgcParameters {
   double clip_limit = 2;                  ///< clahe: largest bin / mean bin of a tile
   int tiles_across = 8;                   ///< clahe
   int tiles_down = 8;                     ///< clahe
+  DetailParameters detail = {};           ///< in all modes
 
   [[nodiscard]] bool operator==(const AgcParameters&) const = default;
 };
@@ -125,6 +144,7 @@ struct SensorParameters {
   HousingParameters housing;
   BadPixelParameters bad_pixels;
   double accuracy_k = 0;           ///< error of all apparent temperatures, see RadiometricError; 0: none
+  DenoiseParameters denoise;
   double kelvin_per_count = 0.01;  ///< step of the 16-bit frames
   AgcParameters agc;
 

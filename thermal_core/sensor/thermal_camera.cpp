@@ -190,11 +190,14 @@ ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, floa
       bad_pixels_(parameters.bad_pixels, clip_.seed, clip_.id, native_.rate_hz, clip_.width_px,
                   clip_.height_px),
       agc_(parameters.agc, agc_scene(parameters, clip_.frame_rate_hz, brightest_w_m2_sr)),
+      detail_(parameters.agc.detail, parameters.netd_k() / parameters.kelvin_per_count,
+              parameters.agc.polarity),
       signal_(clip_.width_px, clip_.height_px),
       noise_w_m2_sr_(static_cast<double>(white_w_m2_sr_) *
                      std::sqrt(noise_variance(parameters, native_.rate_hz))) {
   assert(brightest_w_m2_sr > 0);
   if (parameters.time_constant_s > 0) smear_.emplace(1 / clip_.frame_rate_hz, parameters.time_constant_s);
+  if (parameters.denoise.share_of_new < 1) denoise_.emplace(parameters.denoise, white_w_m2_sr_);
   if (flicker_w_m2_sr_ > 0) {
     const double knee_hz = parameters.noise.flicker_knee_hz;
     const FlickerDesign design = FlickerDesign::fit(native_.rate_hz, knee_hz);
@@ -265,6 +268,7 @@ void ThermalCamera::make_picture(std::uint32_t native, SensorFrame& out) {
   housing_.begin_frame(shutter);
   if (flicker_ && event_ != shutter.event)
     flicker_->restart_at(shutter_.first_frame(shutter.event, native_.rate_hz), shutter.event);
+  if (denoise_ && event_ && *event_ != shutter.event) denoise_->restart();
   event_ = shutter.event;
   for_blocks([&](std::size_t first, std::span<float> block) {
     lag(first, block);
@@ -272,18 +276,20 @@ void ThermalCamera::make_picture(std::uint32_t native, SensorFrame& out) {
     add_noise(native, first, block);
   });
   bad_pixels_.apply(native, white_w_m2_sr_, signal_);
+  if (denoise_) denoise_->apply(signal_);
   count(radiometric_error_.at_k(shutter), out.ir16);
   out.curve = agc_.next(out.ir16);
   show(out);
 }
 
-void ThermalCamera::show(SensorFrame& frame) const {
+void ThermalCamera::show(SensorFrame& frame) {
   const AgcParameters& agc = parameters_.agc;
   if (agc.mode == AgcMode::table_max) {
     truncate_to_levels(signal_, brightest_w_m2_sr_, agc.polarity, frame.ir8);
   } else {
     agc_.show(frame.ir16, frame.ir8);
   }
+  detail_.sharpen(frame.ir16, frame.ir8);
 }
 
 /// Radiance at the detector.

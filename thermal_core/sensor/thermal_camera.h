@@ -11,6 +11,7 @@
 #include "radiometry/temperature_table.h"
 #include "sensor/agc.h"
 #include "sensor/bad_pixels.h"
+#include "sensor/detail.h"
 #include "sensor/flicker_noise.h"
 #include "sensor/housing.h"
 #include "sensor/native_rate.h"
@@ -21,6 +22,7 @@
 #include "sensor/shutter.h"
 #include "sensor/smear.h"
 #include "sensor/subpixel_detail.h"
+#include "sensor/temporal_filter.h"
 
 namespace thermal {
 
@@ -103,7 +105,7 @@ class ThermalCamera {
   /// shutter interval, 0 without one; the paper's pattern is uniform, so its standard deviation is its half width /
   /// sqrt(3). The errors of the pixels' gains count by their standard deviation at the mean of the first frame. What is
   /// shared by whole frames or smooth is excluded, because it shifts a target and its surroundings alike. So are bad
-  /// pixels.
+  /// pixels. It is the noise before denoise, which what moves keeps.
   [[nodiscard]] double noise_w_m2_sr(int x_px, int y_px) const;
 
  private:
@@ -118,7 +120,7 @@ class ThermalCamera {
   void lag(std::size_t first, std::span<float> signal);
   void add_noise(std::uint32_t native, std::size_t first, std::span<float> signal);
   void count(double error_k, Plane<std::uint16_t>& ir16) const;
-  void show(SensorFrame& frame) const;
+  void show(SensorFrame& frame);
 
   SensorParameters parameters_;
   Clip clip_;
@@ -141,7 +143,9 @@ class ThermalCamera {
   std::optional<FlickerNoise> flicker_;
   std::optional<std::uint32_t> event_;  ///< of the shutter, in the frame before
   BadPixels bad_pixels_;
+  std::optional<TemporalFilter> denoise_;  ///< none without noise reduction
   Agc agc_;
+  DetailEnhancer detail_;
   Plane<float> signal_;                ///< radiance as measured by the detector
   std::vector<float> membrane_;        ///< lagging radiance; empty: no lag
   std::vector<float> first_frame_;     ///< the paper's fixed pattern; empty: none

@@ -113,7 +113,11 @@ AgcParameters read_agc(const Json& json) {
           .flat_weight = json["flat_weight"],
           .clip_limit = json["clip_limit"],
           .tiles_across = json["tiles_across"],
-          .tiles_down = json["tiles_down"]};
+          .tiles_down = json["tiles_down"],
+          .detail = {.gain_dn_per_netd = json["detail"]["gain_dn_per_netd"],
+                     .radius_px = json["detail"]["radius_px"],
+                     .edge_netd = json["detail"]["edge_netd"],
+                     .noise_netd = json["detail"]["noise_netd"]}};
 }
 
 }  // namespace
@@ -151,6 +155,8 @@ SensorParameters read_sensor(const Json& document, const std::string& name, cons
                       .halo_k = json["housing"]["halo_k"]},
           .bad_pixels = read_bad_pixels(json["bad_pixels"]),
           .accuracy_k = json["accuracy_k"],
+          .denoise = {.share_of_new = json["denoise"]["share_of_new"],
+                      .motion_sigma = json["denoise"]["motion_sigma"]},
           .kelvin_per_count = json["kelvin_per_count"],
           .agc = read_agc(json["agc"])};
 }

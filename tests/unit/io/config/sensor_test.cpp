@@ -51,6 +51,7 @@ bool same_figures(const SensorParameters& a, const SensorParameters& b) {
          a.netd_mk == b.netd_mk && a.netd_f_number == b.netd_f_number &&
          a.native_rate_hz == b.native_rate_hz && a.noise == b.noise && a.shutter == b.shutter &&
          a.housing == b.housing && a.bad_pixels == b.bad_pixels && a.accuracy_k == b.accuracy_k &&
+         a.denoise == b.denoise &&
          a.kelvin_per_count == b.kelvin_per_count && a.agc == b.agc;
 }
 
@@ -78,7 +79,7 @@ TEST_CASE("Every value of a config's sensor reaches the library") {
     if (value.is_number_integer())
       value = value.get<int>() + 1;
     else if (value.is_number())
-      value = value.get<double>() + 0.25;
+      value = value.get<double>() == 1 ? 0.75 : value.get<double>() + 0.25;
     if (value.is_boolean()) value = !value.get<bool>();
     if (value.is_string()) value = rule["enum"].back();
     return !same_figures(read_sensor(document, "", kAssets), before);
@@ -88,11 +89,15 @@ TEST_CASE("Every value of a config's sensor reaches the library") {
     CAPTURE(key);
     CHECK(changes_something(Json::json_pointer() / key, rules[key]));
   }
-  for (const char* group : {"optics", "noise", "shutter", "housing", "bad_pixels", "agc"}) {
+  for (const char* group : {"optics", "noise", "shutter", "housing", "bad_pixels", "denoise", "agc"}) {
     for (const auto& [key, rule] : rules[group]["properties"].items()) {
       CAPTURE(group, key);
-      CHECK(changes_something(Json::json_pointer() / group / key, rule));
+      if (rule["type"] != "object") CHECK(changes_something(Json::json_pointer() / group / key, rule));
     }
+  }
+  for (const auto& [key, rule] : rules["agc"]["properties"]["detail"]["properties"].items()) {
+    CAPTURE(key);
+    CHECK(changes_something(Json::json_pointer("/agc/detail") / key, rule));
   }
 }
 

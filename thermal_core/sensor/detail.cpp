@@ -1,0 +1,164 @@
+#include "sensor/detail.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "base/clones.h"
+#include "base/parallel.h"
+
+namespace thermal {
+namespace {
+
+constexpr std::size_t kDetailRowsAChunk = 16;
+
+VELDT_CLONES void add_counts(const std::uint16_t* counts, std::size_t size, double* sum, double* squares) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto count = static_cast<double>(static_cast<std::int32_t>(counts[i]));
+    sum[i] += count;
+    squares[i] += count * count;
+  }
+}
+
+VELDT_CLONES void add_values(const float* values, std::size_t size, float* sum) {
+  for (std::size_t i = 0; i < size; ++i) sum[i] += values[i];
+}
+
+VELDT_CLONES void add_doubles(const double* values, std::size_t size, double* sum) {
+  for (std::size_t i = 0; i < size; ++i) sum[i] += values[i];
+}
+
+/// Gain and offset of He's local model base = gain x count + offset, from sums over `pixels`.
+VELDT_CLONES void fit_models(const double* sum, const double* squares, std::size_t size, double pixels,
+                             double edge_counts2, float* gain, float* offset) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const double mean = sum[i] / pixels;
+    const double variance =
+        squares[i] / pixels - mean * mean;  // of integers below 2^53: exact but for the mean
+    const double positive = variance > 0 ? variance : 0;
+    const double slope = positive / (positive + edge_counts2);
+    gain[i] = static_cast<float>(slope);
+    offset[i] = static_cast<float>(mean * (1 - slope));
+  }
+}
+
+VELDT_CLONES void subtract_base(const std::uint16_t* counts, const float* gains, const float* offsets,
+                                std::size_t size, float per_pixel, float* detail) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto count = static_cast<float>(static_cast<std::int32_t>(counts[i]));
+    detail[i] = count * (1 - per_pixel * gains[i]) - per_pixel * offsets[i];
+  }
+}
+
+/// Sums along a row over 2 radius + 1 values, from `padded`, which has `radius` more of them at either end.
+template <typename T, typename Add>
+void sum_along(const std::vector<T>& padded, int radius, Add add, std::vector<T>& out) {
+  std::ranges::fill(out, T{0});
+  for (int k = 0; k <= 2 * radius; ++k) add(&padded[static_cast<std::size_t>(k)], out.size(), out.data());
+}
+
+template <typename T>
+void repeat_ends(std::vector<T>& padded, int radius) {
+  const auto beyond = static_cast<std::size_t>(radius);
+  std::fill_n(padded.begin(), beyond, padded[beyond]);
+  std::fill_n(padded.end() - radius, beyond, padded[padded.size() - beyond - 1]);
+}
+
+/// Rows and columns of a picture within a radius; beyond the border, the border's.
+struct Window {
+  int width_px;
+  int height_px;
+  int radius_px;
+
+  [[nodiscard]] std::size_t padded() const { return static_cast<std::size_t>(width_px + 2 * radius_px); }
+  [[nodiscard]] int row(int y) const { return std::clamp(y, 0, height_px - 1); }
+  [[nodiscard]] double pixels() const { return (2.0 * radius_px + 1) * (2.0 * radius_px + 1); }
+};
+
+/// Of a row of windows.
+void fit_row(const Plane<std::uint16_t>& ir16, const Window& window, int y, double edge_counts2, float* gain,
+             float* offset) {
+  std::vector<double> sum(window.padded());
+  std::vector<double> squares(window.padded());
+  const auto width = static_cast<std::size_t>(window.width_px);
+  for (int k = -window.radius_px; k <= window.radius_px; ++k)
+    add_counts(ir16.row(window.row(y + k)).data(), width, &sum[static_cast<std::size_t>(window.radius_px)],
+               &squares[static_cast<std::size_t>(window.radius_px)]);
+  repeat_ends(sum, window.radius_px);
+  repeat_ends(squares, window.radius_px);
+  std::vector<double> all(width);
+  std::vector<double> all_squares(width);
+  sum_along(sum, window.radius_px, add_doubles, all);
+  sum_along(squares, window.radius_px, add_doubles, all_squares);
+  fit_models(all.data(), all_squares.data(), width, window.pixels(), edge_counts2, gain, offset);
+}
+
+/// Sums of a plane over the windows of a row.
+void sum_row(const Plane<float>& plane, const Window& window, int y, std::vector<float>& out) {
+  std::vector<float> sum(window.padded());
+  for (int k = -window.radius_px; k <= window.radius_px; ++k)
+    add_values(plane.row(window.row(y + k)).data(), out.size(),
+               &sum[static_cast<std::size_t>(window.radius_px)]);
+  repeat_ends(sum, window.radius_px);
+  sum_along(sum, window.radius_px, add_values, out);
+}
+
+void for_each_row(int height_px, const std::function<void(int y)>& work) {
+  parallel_for(static_cast<std::size_t>(height_px), kDetailRowsAChunk,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t y = begin; y < end; ++y) work(static_cast<int>(y));
+               });
+}
+
+VELDT_CLONES void add_detail(const float* detail, std::size_t size, float levels_per_count,
+                             float noise_counts, std::uint8_t* levels) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const float amount = detail[i] < 0 ? -detail[i] : detail[i];
+    const float beyond = amount > noise_counts ? amount - noise_counts : 0;
+    const float change = levels_per_count * (detail[i] < 0 ? -beyond : beyond);
+    const float level = static_cast<float>(static_cast<std::int32_t>(levels[i])) + change + 0.5F;
+    const float positive = level > 0 ? level : 0;
+    levels[i] = static_cast<std::uint8_t>(static_cast<std::int32_t>(positive < 255 ? positive : 255));
+  }
+}
+
+}  // namespace
+
+void find_detail(const Plane<std::uint16_t>& ir16, int radius_px, double edge_counts,
+                 Plane<float>& detail_counts) {
+  const Window window = {.width_px = ir16.width_px(), .height_px = ir16.height_px(), .radius_px = radius_px};
+  Plane<float> gain(window.width_px, window.height_px);
+  Plane<float> offset(window.width_px, window.height_px);
+  for_each_row(window.height_px, [&](int y) {
+    fit_row(ir16, window, y, edge_counts * edge_counts, gain.row(y).data(), offset.row(y).data());
+  });
+  if (detail_counts.size() != ir16.size()) detail_counts = Plane<float>(window.width_px, window.height_px);
+  const auto per_pixel = static_cast<float>(1 / window.pixels());
+  for_each_row(window.height_px, [&](int y) {
+    std::vector<float> gains(static_cast<std::size_t>(window.width_px));
+    std::vector<float> offsets(gains.size());
+    sum_row(gain, window, y, gains);
+    sum_row(offset, window, y, offsets);
+    subtract_base(ir16.row(y).data(), gains.data(), offsets.data(), gains.size(), per_pixel,
+                  detail_counts.row(y).data());
+  });
+}
+
+DetailEnhancer::DetailEnhancer(const DetailParameters& parameters, double counts_per_netd, Polarity polarity)
+    : parameters_(parameters),
+      counts_per_netd_(counts_per_netd),
+      sign_(polarity == Polarity::black_hot ? -1.0F : 1.0F) {}
+
+void DetailEnhancer::sharpen(const Plane<std::uint16_t>& ir16, Plane<std::uint8_t>& ir8) {
+  if (parameters_.gain_dn_per_netd <= 0) return;
+  find_detail(ir16, parameters_.radius_px, parameters_.edge_netd * counts_per_netd_, detail_counts_);
+  const float levels_per_count = sign_ * static_cast<float>(parameters_.gain_dn_per_netd / counts_per_netd_);
+  const auto noise_counts = static_cast<float>(parameters_.noise_netd * counts_per_netd_);
+  for_each_row(ir16.height_px(), [&](int y) {
+    add_detail(detail_counts_.row(y).data(), ir8.row(y).size(), levels_per_count, noise_counts,
+               ir8.row(y).data());
+  });
+}
+
+}  // namespace thermal
