@@ -67,7 +67,15 @@ def test_every_stage_has_a_row_with_its_cost_and_figures(rows):
         "noise reduction": 1,
         "sharpening": 1,
     }
-    assert names["AGC"] == ["scene_max", "table_max", "linear", "percentile", "plateau", "information", "clahe"]
+    assert names["AGC"] == [
+        "scene_max",
+        "table_max",
+        "linear",
+        "percentile",
+        "plateau",
+        "information",
+        "clahe",
+    ]
 
 
 @pytest.mark.parametrize("name", LARGEST)

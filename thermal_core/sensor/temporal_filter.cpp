@@ -30,7 +30,9 @@ VELDT_CLONES void follow_or_jump(const float* change, const float* columns, std:
                                  float limit, float* mean, float* signal) {
   for (std::size_t i = 0; i < count; ++i) {
     const float around = columns[i] + columns[i + 1] + columns[i + 2];
-    const bool moves = (size_of_change(change[i]) > limit) | (size_of_change(around) > 3 * limit);
+    const float alone = 3 * size_of_change(change[i]);
+    const float together = size_of_change(around);
+    const bool moves = (alone > together ? alone : together) > 3 * limit;
     const float mixed = mean[i] + share * change[i];
     mean[i] = moves ? signal[i] : mixed;
     signal[i] = mean[i];

@@ -38,9 +38,9 @@ struct ClipTask {
   LensDistortion distortion;
   LabelParameters labels;
   std::optional<VideoCodecSettings> codec = {};  ///< that 8-bit frames pass through; empty: none
-  std::optional<PhysicsSettings> physics;  ///< empty: the published model
-  Path folder;                             ///< to make the clip in; emptied first
-  std::string made_from_sha256 = {};       ///< for the clip's record
+  std::optional<PhysicsSettings> physics;        ///< empty: the published model
+  Path folder;                                   ///< to make the clip in; emptied first
+  std::string made_from_sha256 = {};             ///< for the clip's record
 };
 
 }  // namespace thermal
