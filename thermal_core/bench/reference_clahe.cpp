@@ -96,7 +96,7 @@ std::vector<int> ReferenceClahe::next(const std::vector<double>& temperatures_k)
           std::lerp(level(left, top, temperature_k), level(right, top, temperature_k), u - left);
       const double below =
           std::lerp(level(left, bottom, temperature_k), level(right, bottom, temperature_k), u - left);
-      shown.push_back(static_cast<int>(std::lerp(above, below, v - top) + 0.5));
+      shown.push_back(static_cast<int>(std::lround(std::lerp(above, below, v - top))));
     }
   }
   return shown;

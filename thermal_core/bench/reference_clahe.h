@@ -8,8 +8,8 @@
 
 namespace thermal {
 
-/// The AGC mode clahe in double precision, on unrounded temperatures of the bench's scene, without tables: the reference
-/// for LocalTone. Histograms have bins of 0.04 K, like LocalTone's.
+/// The AGC mode clahe in double precision, on unrounded temperatures of the bench's scene, without tables: the
+/// reference for LocalTone. Histograms have bins of 0.04 K, like LocalTone's.
 class ReferenceClahe {
  public:
   ReferenceClahe(const AgcParameters& parameters, const AgcScene& scene);

@@ -9,8 +9,8 @@ namespace thermal {
 
 /// Temporal noise reduction as cameras have it: each pixel is a recursive mean of its frames, with a motion detector. A
 /// pixel that has changed by more than noise can explain, alone or as the mean of its 3 x 3 neighbourhood, follows at
-/// once. (By the pixel alone, moving texture of a few standard deviations would follow in some pixels and trail in others,
-/// which looks like noise.)
+/// once. (By the pixel alone, moving texture of a few standard deviations would follow in some pixels and trail in
+/// others, which looks like noise.)
 ///
 /// White noise of a still scene keeps share / (2 - share) of its variance: 1/3 for a share of 0.5. Between a new value
 /// and the mean, it has a standard deviation of sqrt(2 / (2 - share)) times its own, of which `motion_sigma` are the

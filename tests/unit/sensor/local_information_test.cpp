@@ -56,7 +56,7 @@ TEST_CASE("Noise of one NETD seldom is information at the default threshold") {
   Plane<std::uint8_t> marks;
   mark_information(noise(640, 512, kCountsPerNetd), 3 * static_cast<double>(kCountsPerNetd), marks);
   const auto marked = std::ranges::count(marks.pixels(), 1);
-  // Two directions beyond 3 / sqrt(2 / 3) = 3.67 sigma, 2.4e-4 each: 157 pixels, of which neighbours depend on each other.
+  // Two directions beyond 3 / sqrt(2 / 3) = 3.67 sigma, 2.4e-4 each: 157 pixels; neighbours depend on each other.
   CHECK(marked > 80);
   CHECK(marked < 250);
 }
