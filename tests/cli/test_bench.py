@@ -271,8 +271,20 @@ def _fake(veldt, monkeypatch) -> Path:
     return file
 
 
-def test_rendering_is_reported_by_scene_step_and_processes(veldt, fake):
-    done = veldt("bench", "--suite", "render", "--blender", fake, "--json")
+@pytest.fixture(name="small_home")
+def _small_home(veldt) -> dict[str, str]:
+    """The environment of a Veldt whose demo and savanna are small."""
+    home = veldt.folder / "home"
+    (home / "configs").mkdir(parents=True)
+    for name in ("assets", "blender_scripts", "configs/schema"):
+        (home / name).symlink_to(ROOT / name)
+    for name in ("demo", "savanna"):
+        veldt.write(f"home/configs/{name}.json", configs.tiny())
+    return {"VELDT_HOME": str(home)}
+
+
+def test_rendering_is_reported_by_scene_step_and_processes(veldt, fake, small_home):
+    done = veldt("bench", "--suite", "render", "--blender", fake, "--json", env=small_home)
     assert done.code == 0, done.err
     assert done.err == "".join(
         f"measuring {what}\n"
@@ -317,8 +329,8 @@ def test_rendering_is_reported_by_scene_step_and_processes(veldt, fake):
     assert all(figures["ms"] > 0 for figures in files.values())
 
 
-def test_rendering_is_reported_in_a_table(veldt, fake):
-    done = veldt("bench", "--suite", "render", "--blender", fake, "--quiet")
+def test_rendering_is_reported_in_a_table(veldt, fake, small_home):
+    done = veldt("bench", "--suite", "render", "--blender", fake, "--quiet", env=small_home)
     assert (done.code, done.err) == (0, "")
     head, first = done.out.splitlines()[1:3]
     assert head.split() == "frame, s pixels objects frame pose scene sync_and_trees trace write".split()
@@ -326,18 +338,18 @@ def test_rendering_is_reported_in_a_table(veldt, fake):
     assert len(head) == len(first) == 32 + 8 * 15
 
 
-def test_a_blender_that_fails_gives_its_reason(veldt, fake):
+def test_a_blender_that_fails_gives_its_reason(veldt, fake, small_home):
     veldt.write("fails", "")
-    done = veldt("bench", "--suite", "render", "--blender", fake, "--quiet")
+    done = veldt("bench", "--suite", "render", "--blender", fake, "--quiet", env=small_home)
     assert (done.code, done.out) == (1, "")
     why = "ValueError: out of trees (blender_scripts/a.py:7)"
     assert done.err == f"veldt: Blender failed while measuring frames: {why}\n"
 
 
-def test_a_blender_that_ends_without_a_reason_is_quoted(veldt, fake):
+def test_a_blender_that_ends_without_a_reason_is_quoted(veldt, fake, small_home):
     """Its log is in a folder that is removed with the run."""
     fake.write_text("#!/bin/sh\necho no display; exit 3\n")
-    done = veldt("bench", "--suite", "render", "--blender", fake, "--quiet")
+    done = veldt("bench", "--suite", "render", "--blender", fake, "--quiet", env=small_home)
     assert (done.code, done.out) == (1, "")
     assert done.err == "veldt: Blender ended with exit code 3 while measuring frames: no display\n"
 
@@ -359,18 +371,6 @@ FROM_EMBREE = {
     "memory by threads": ["1 thread, 100000 plants", "2 threads, 100000 plants"],
     "memory by frames of a clip": ["10 frames", "100 frames", "1000 frames"],
 }
-
-
-@pytest.fixture(name="small_home")
-def _small_home(veldt) -> dict[str, str]:
-    """The environment of a Veldt whose demo and savanna are small."""
-    home = veldt.folder / "home"
-    (home / "configs").mkdir(parents=True)
-    for name in ("assets", "blender_scripts", "configs/schema"):
-        (home / name).symlink_to(ROOT / name)
-    for name in ("demo", "savanna"):
-        veldt.write(f"home/configs/{name}.json", configs.tiny())
-    return {"VELDT_HOME": str(home)}
 
 
 def test_engines_are_compared_view_by_view(veldt, fake, small_home):

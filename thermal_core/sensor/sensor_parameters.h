@@ -136,6 +136,7 @@ struct SensorParameters {
   RadianceModel radiance = RadianceModel::exact;
   OpticsParameters optics;
   double time_constant_s = 0;  ///< thermal time constant of a pixel; 0: none
+  double readout_s = 0;        ///< from reading the first row to reading the last; 0: all at once
   double netd_mk = 40;         ///< white temporal noise of a pixel as a temperature difference at 300 K …
   double native_rate_hz = 0;   ///< of the sensor; a video shows every n-th of its frames; 0: every frame
   double netd_f_number = 1;    ///< … behind a lens of this f-number

@@ -22,6 +22,8 @@ constexpr float kFarthestPx = 4096;    // motion counts as this at most
 constexpr int kMarginPx = 44;          // kept beyond the edges: the reach of all but long motion
 constexpr double kSettled = 8;         // time constants after which a pixel has forgotten what was
 constexpr std::size_t kMostRemembered = 4096;
+constexpr int kReadSteps = 64;  // of an interval, to which a row's time of reading is rounded
+constexpr std::int64_t kReadTimes = 2 * kReadSteps;     // in one number with a motion
 constexpr std::int64_t kAxis = std::int64_t{1} << 32U;  // between the axes of a motion in one number
 
 /// Adds four weighted samples to each sum, and finds the least of all. A function of its own: within the loop over the
@@ -80,10 +82,23 @@ float limited(float px) { return std::isfinite(px) ? std::clamp(px, -kFarthestPx
 struct Steps {
   std::int64_t x = 0;
   std::int64_t y = 0;
+  std::int64_t read = 0;  ///< later than the frame's time
+
+  [[nodiscard]] std::int64_t packed() const noexcept {
+    return (x * kAxis + y) * kReadTimes + read + kReadTimes / 2;
+  }
+  [[nodiscard]] static Steps unpacked(std::int64_t number) noexcept {
+    const auto floor_of = [](std::int64_t value, std::int64_t size) {
+      return value / size - (value % size < 0 ? 1 : 0);
+    };
+    const std::int64_t motion = floor_of(number, kReadTimes);
+    const std::int64_t x = floor_of(motion + kAxis / 2, kAxis);
+    return {.x = x, .y = motion - x * kAxis, .read = number - motion * kReadTimes - kReadTimes / 2};
+  }
 };
 
 Steps steps_of(float x_px, float y_px) {
-  return {std::lround(limited(x_px) * kStepsPerPx), std::lround(limited(y_px) * kStepsPerPx)};
+  return {.x = std::lround(limited(x_px) * kStepsPerPx), .y = std::lround(limited(y_px) * kStepsPerPx)};
 }
 
 /// NaN is still.
@@ -122,7 +137,9 @@ class Range {
 /// Cuts a row of tiles into pieces.
 class Smear::Cutter {
  public:
-  Cutter(const ImageMotion& motion, std::vector<Piece>& out) : motion_(motion), out_(out) {}
+  /// @param readout  in intervals
+  Cutter(const ImageMotion& motion, double readout, std::vector<Piece>& out)
+      : motion_(motion), readout_(readout), out_(out) {}
 
   void cut(int x, int y, int width, int height) {
     Range across;
@@ -163,18 +180,33 @@ class Smear::Cutter {
     }
   }
 
-  void add(Piece piece, const Steps& steps) {
+  /// Cut where the time of reading changes.
+  void add(Piece piece, Steps steps) {
     if (steps.x == 0 && steps.y == 0) return;
-    piece.motion = steps.x * kAxis + steps.y;
-    out_.push_back(piece);
+    const int end = piece.y + piece.height;
+    while (piece.y < end) {
+      steps.read = read_at(piece.y);
+      piece.height = 1;
+      while (piece.y + piece.height < end && read_at(piece.y + piece.height) == steps.read) ++piece.height;
+      piece.motion = steps.packed();
+      out_.push_back(piece);
+      piece.y += piece.height;
+    }
+  }
+
+  [[nodiscard]] std::int64_t read_at(int y) const noexcept {
+    const double share = (y + 0.5) / motion_.x_px.height_px() - 0.5;
+    return std::lround(share * readout_ * kReadSteps);
   }
 
   const ImageMotion& motion_;
+  double readout_;
   std::vector<Piece>& out_;
 };
 
-Smear::Smear(double interval_s, double time_constant_s) : ages_(interval_s / time_constant_s) {
-  assert(interval_s > 0 && time_constant_s > 0);
+Smear::Smear(double interval_s, double time_constant_s, double readout_s)
+    : ages_(interval_s / time_constant_s), readout_(readout_s / interval_s) {
+  assert(interval_s > 0 && time_constant_s > 0 && readout_s >= 0 && readout_s <= interval_s);
 }
 
 void Smear::apply(const ImageMotion& motion, Plane<float>& picture) { apply(motion, picture, ages_, 1); }
@@ -193,7 +225,7 @@ void Smear::apply(const ImageMotion& motion, Plane<float>& picture, double ages,
   parallel_for(rows, 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       pieces_[row].clear();
-      Cutter cutter(motion, pieces_[row]);
+      Cutter cutter(motion, readout_, pieces_[row]);
       const int y = static_cast<int>(row) * kTileHeight;
       const int height = std::min(kTileHeight, picture.height_px() - y);
       for (int x = 0; x < picture.width_px(); x += kTileWidth)
@@ -222,11 +254,12 @@ void Smear::find_samples(double ages, double intervals) {
 }
 
 Smear::Samples Smear::samples_of(std::int64_t motion, double ages, double intervals) const {
-  const std::int64_t x = (motion + (motion < 0 ? -kAxis / 2 : kAxis / 2)) / kAxis;
+  const Steps steps = Steps::unpacked(motion);
   const double interval_px = intervals / kStepsPerPx;
+  const double begins = -static_cast<double>(steps.read) / (kReadSteps * intervals);
   Samples samples;
-  samples.taps = smear_taps(static_cast<double>(x) * interval_px,
-                            static_cast<double>(motion - x * kAxis) * interval_px, ages);
+  samples.taps = smear_taps(static_cast<double>(steps.x) * interval_px,
+                            static_cast<double>(steps.y) * interval_px, ages, begins);
   while (samples.taps.size() % 4 != 0) {
     samples.taps.push_back(samples.taps.front());
     samples.taps.back().weight = 0;

@@ -26,8 +26,9 @@ struct SmearTap {
 };
 
 /// The samples of a pixel whose part of the picture moved by x_px, y_px during `ages` time constants; sum of weights 1.
-/// Finite motion, ages > 0.
-[[nodiscard]] std::vector<SmearTap> smear_taps(double x_px, double y_px, double ages);
+/// Finite motion, ages > 0. `begins` shifts them all by this share of the motion: 0 if the pixel is read at the picture's
+/// time, below 0 if later.
+[[nodiscard]] std::vector<SmearTap> smear_taps(double x_px, double y_px, double ages, double begins = 0);
 
 /// Smear of a moving picture within a frame interval. A pixel's membrane weights what it received at an age t by
 /// exp(-t / tau) / tau, and what it sees now at x + v t it received at x at that age, v being its part's motion. This
@@ -40,13 +41,16 @@ struct SmearTap {
 /// Each pixel gathers along its own motion, from this picture alone: what something hid within the interval is unknown.
 /// Between pixels the picture is interpolated by 6 x 6 samples, best at low frequencies: samples of one picture do not
 /// tell how what is near Nyquist moves. smear_test.cpp has the errors. Beyond the edges the picture goes on as it ends.
+/// Rows that are read one after the other see the picture of their own time, half of the readout before the frame's to
+/// half after it; in steps of 1/64 of an interval.
 /// No result is below the coldest pixel that it was mixed from. Motions are exact within 1/16 px an interval; those
 /// below 1/64 px leave a pixel as it is. Motion of more than 40 px an interval takes up to a hundred times longer.
 class Smear {
  public:
   /// @param interval_s  a frame interval, > 0
   /// @param time_constant_s  > 0
-  Smear(double interval_s, double time_constant_s);
+  /// @param readout_s  from the first row to the last, from 0 to an interval
+  Smear(double interval_s, double time_constant_s, double readout_s = 0);
 
   /// Of a frame with frames before it.
   void apply(const ImageMotion& motion, Plane<float>& picture);
@@ -71,7 +75,7 @@ class Smear {
     int y = 0;
     int width = 0;
     int height = 0;
-    std::int64_t motion = 0;  ///< in steps, both axes in one number
+    std::int64_t motion = 0;  ///< in steps, both axes and the time of reading in one number
     const Samples* samples = nullptr;
   };
   class Cutter;
@@ -83,6 +87,7 @@ class Smear {
   void mix_far(const Piece& piece, Plane<float>& picture) const;
 
   double ages_;                             ///< a frame interval, in time constants
+  double readout_;                          ///< in intervals
   Plane<float> sharp_;                      ///< with a margin
   std::vector<std::vector<Piece>> pieces_;  ///< by row of tiles
   std::unordered_map<std::int64_t, Samples>

@@ -112,15 +112,28 @@ class Interpolation {
   std::array<Weights, kSteps + 1> all_{};
 };
 
+/// Where the samples of a pixel lie, from the youngest (place 0) to the oldest (1).
+struct Way {
+  double from_x_px = 0;
+  double from_y_px = 0;
+  double x_px = 0;
+  double y_px = 0;
+
+  [[nodiscard]] double x_at(double place) const noexcept { return from_x_px + place * x_px; }
+  [[nodiscard]] double y_at(double place) const noexcept { return from_y_px + place * y_px; }
+  [[nodiscard]] double length_px() const noexcept { return std::hypot(x_px, y_px); }
+};
+
 /// Sums of weights over a rectangle of samples.
 class TapGrid {
  public:
-  TapGrid(double x_px, double y_px)
-      : left_(static_cast<int>(std::floor(std::min(x_px, 0.0))) - kReachPx),
-        top_(static_cast<int>(std::floor(std::min(y_px, 0.0))) - kReachPx),
-        width_(static_cast<int>(std::ceil(std::abs(x_px))) + 2 * kReachPx + 2),
-        weights_(static_cast<std::size_t>(width_) *
-                 static_cast<std::size_t>(static_cast<int>(std::ceil(std::abs(y_px))) + 2 * kReachPx + 2)) {}
+  explicit TapGrid(const Way& way)
+      : left_(static_cast<int>(std::floor(std::min(way.from_x_px, way.from_x_px + way.x_px))) - kReachPx),
+        top_(static_cast<int>(std::floor(std::min(way.from_y_px, way.from_y_px + way.y_px))) - kReachPx),
+        width_(static_cast<int>(std::ceil(std::abs(way.x_px))) + 2 * kReachPx + 3),
+        weights_(
+            static_cast<std::size_t>(width_) *
+            static_cast<std::size_t>(static_cast<int>(std::ceil(std::abs(way.y_px))) + 2 * kReachPx + 3)) {}
 
   void add(double x_px, double y_px, double weight) {
     static const Interpolation kInterpolation;
@@ -158,12 +171,11 @@ class TapGrid {
   std::vector<double> weights_;
 };
 
-std::vector<SmearTap> short_taps(double x_px, double y_px, double ages) {
-  const double length_px = std::hypot(x_px, y_px);
-  TapGrid grid(x_px, y_px);
-  for (const Node& node : nodes_of(6 + static_cast<int>(std::ceil(1.5 * length_px)))) {
+std::vector<SmearTap> short_taps(const Way& way, double ages) {
+  TapGrid grid(way);
+  for (const Node& node : nodes_of(6 + static_cast<int>(std::ceil(1.5 * way.length_px())))) {
     const double density = ages * std::exp(-ages * node.place) / -std::expm1(-ages);
-    grid.add(node.place * x_px, node.place * y_px, node.weight * density);
+    grid.add(way.x_at(node.place), way.y_at(node.place), node.weight * density);
   }
   return grid.taps();
 }
@@ -176,18 +188,17 @@ double age_integral(double share, double ages) {
 }
 
 /// Steps of equal weight, each at its mean age, between four pixels.
-std::vector<SmearTap> long_taps(double x_px, double y_px, double ages) {
-  const double length_px = std::hypot(x_px, y_px);
-  const double dense_px = length_px * std::min(1.0, 1 / ages);
+std::vector<SmearTap> long_taps(const Way& way, double ages) {
+  const double dense_px = way.length_px() * std::min(1.0, 1 / ages);
   const int steps = std::clamp(static_cast<int>(std::ceil(8 * dense_px)), 64, kMostSteps);
   std::vector<SmearTap> taps;
   for (int i = 0; i < steps; ++i) {
     const double place =
         steps * (age_integral((i + 1.0) / steps, ages) - age_integral(static_cast<double>(i) / steps, ages));
-    const double x = std::floor(place * x_px);
-    const double y = std::floor(place * y_px);
-    const double right = place * x_px - x;
-    const double down = place * y_px - y;
+    const double x = std::floor(way.x_at(place));
+    const double y = std::floor(way.y_at(place));
+    const double right = way.x_at(place) - x;
+    const double down = way.y_at(place) - y;
     for (int corner = 0; corner < 4; ++corner) {
       const double share = (corner % 2 == 1 ? right : 1 - right) * (corner / 2 == 1 ? down : 1 - down);
       taps.push_back({.x_px = static_cast<int>(x) + corner % 2,
@@ -200,12 +211,11 @@ std::vector<SmearTap> long_taps(double x_px, double y_px, double ages) {
 
 }  // namespace
 
-std::vector<SmearTap> smear_taps(double x_px, double y_px, double ages) {
+std::vector<SmearTap> smear_taps(double x_px, double y_px, double ages, double begins) {
   const double shown = std::min(1.0, kOldest / ages);
-  const double right_px = x_px * shown;
-  const double down_px = y_px * shown;
-  if (std::hypot(right_px, down_px) < kLongPx) return short_taps(right_px, down_px, ages * shown);
-  return long_taps(right_px, down_px, ages * shown);
+  const Way way = {
+      .from_x_px = begins * x_px, .from_y_px = begins * y_px, .x_px = x_px * shown, .y_px = y_px * shown};
+  return way.length_px() < kLongPx ? short_taps(way, ages * shown) : long_taps(way, ages * shown);
 }
 
 }  // namespace thermal

@@ -196,7 +196,9 @@ ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, floa
       noise_w_m2_sr_(static_cast<double>(white_w_m2_sr_) *
                      std::sqrt(noise_variance(parameters, native_.rate_hz))) {
   assert(brightest_w_m2_sr > 0);
-  if (parameters.time_constant_s > 0) smear_.emplace(1 / clip_.frame_rate_hz, parameters.time_constant_s);
+  const double interval_s = 1 / clip_.frame_rate_hz;
+  if (parameters.time_constant_s > 0)
+    smear_.emplace(interval_s, parameters.time_constant_s, std::min(parameters.readout_s, interval_s));
   if (parameters.denoise.share_of_new < 1) denoise_.emplace(parameters.denoise, white_w_m2_sr_);
   if (flicker_w_m2_sr_ > 0) {
     const double knee_hz = parameters.noise.flicker_knee_hz;

@@ -180,6 +180,53 @@ TEST_CASE("What does not move stays as it is, to the bit") {
   CHECK(changed == 1);
 }
 
+TEST_CASE("Rows that are read later see what moves farther along") {
+  constexpr int kWidth = 200;
+  constexpr int kHeight = 48;
+  constexpr double kCycles = 0.06;
+  const double motion_px = GENERATE(3.0, -7.0);
+  const double readout = GENERATE(0.25, 1.0);  // of an interval
+  CAPTURE(motion_px, readout);
+  Plane<float> picture(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x)
+      picture.at(x, y) = static_cast<float>(40 + 10 * std::cos(2 * pi * kCycles * x));
+  }
+  const auto phase_turns = [&](const Plane<float>& plane, int y) {
+    std::complex<double> sum;
+    for (int x = 50; x < 150; ++x)  // six periods
+      sum += (static_cast<double>(plane.at(x, y)) - 40) * std::polar(1.0, -2 * pi * kCycles * x);
+    return std::arg(sum) / (2 * pi);
+  };
+  const ImageMotion motion = motion_of(kWidth, kHeight, static_cast<float>(motion_px), 0);
+  Plane<float> at_once = picture;
+  Smear(1 / 30.0, kTau).apply(motion, at_once);
+  Smear(1 / 30.0, kTau, readout / 30).apply(motion, picture);
+  for (int y = 0; y < kHeight; ++y) {
+    CAPTURE(y);
+    const double later = ((y + 0.5) / kHeight - 0.5) * readout;
+    const double moved_px = (phase_turns(at_once, y) - phase_turns(picture, y)) / kCycles;
+    // Rows are rounded to 1/64 of an interval.
+    REQUIRE_THAT(moved_px, WithinAbs(motion_px * later, std::abs(motion_px) / 128 + 0.02));
+  }
+}
+
+TEST_CASE("Without a readout time, rows are the same to the bit, and the first frame is shifted too") {
+  const Plane<float> picture = noise_picture(90, 33);
+  const ImageMotion motion = motion_of(90, 33, 2.5F, -1.25F);
+  Plane<float> usual = picture;
+  Smear(1 / 30.0, kTau).apply(motion, usual);
+  Plane<float> zero = picture;
+  Smear(1 / 30.0, kTau, 0).apply(motion, zero);
+  CHECK(zero == usual);
+  Plane<float> first = picture;
+  Smear(1 / 30.0, kTau).apply_to_first(motion, first);
+  Plane<float> slanted = picture;
+  Smear(1 / 30.0, kTau, 0.0164).apply_to_first(motion, slanted);
+  CHECK(std::ranges::equal(slanted.row(16), first.row(16)));  // the middle row
+  CHECK_FALSE(std::ranges::equal(slanted.row(0), first.row(0)));
+}
+
 TEST_CASE("A camera without a time constant has no smear") {
   const Plane<float> picture = noise_picture(64, 48);
   const auto frames = [&](double time_constant_s, const ImageMotion& motion) {

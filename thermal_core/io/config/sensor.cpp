@@ -145,6 +145,7 @@ SensorParameters read_sensor(const Json& document, const std::string& name, cons
           .radiance = json["radiance"] == "script" ? RadianceModel::script : RadianceModel::exact,
           .optics = read_optics(json["optics"], document["camera"]),
           .time_constant_s = json["time_constant_s"],
+          .readout_s = json["readout_s"],
           .netd_mk = json["netd_mk"],
           .native_rate_hz = json["native_rate_hz"],
           .netd_f_number = json["netd_f_number"],

@@ -48,11 +48,10 @@ void add_leaves(const Json& object, const std::string& prefix, std::set<std::str
 /// All but the response, whose samples are in a file.
 bool same_figures(const SensorParameters& a, const SensorParameters& b) {
   return a.radiance == b.radiance && a.optics == b.optics && a.time_constant_s == b.time_constant_s &&
-         a.netd_mk == b.netd_mk && a.netd_f_number == b.netd_f_number &&
+         a.readout_s == b.readout_s && a.netd_mk == b.netd_mk && a.netd_f_number == b.netd_f_number &&
          a.native_rate_hz == b.native_rate_hz && a.noise == b.noise && a.shutter == b.shutter &&
          a.housing == b.housing && a.bad_pixels == b.bad_pixels && a.accuracy_k == b.accuracy_k &&
-         a.denoise == b.denoise &&
-         a.kelvin_per_count == b.kelvin_per_count && a.agc == b.agc;
+         a.denoise == b.denoise && a.kelvin_per_count == b.kelvin_per_count && a.agc == b.agc;
 }
 
 double field_of_view_deg(double size_px, const Json& camera) {
@@ -85,7 +84,7 @@ TEST_CASE("Every value of a config's sensor reaches the library") {
     return !same_figures(read_sensor(document, "", kAssets), before);
   };
   for (const char* key : {"radiance", "netd_mk", "netd_f_number", "native_rate_hz", "time_constant_s",
-                          "accuracy_k", "kelvin_per_count"}) {
+                          "readout_s", "accuracy_k", "kelvin_per_count"}) {
     CAPTURE(key);
     CHECK(changes_something(Json::json_pointer() / key, rules[key]));
   }
