@@ -26,7 +26,8 @@ def _made(tmp_path_factory) -> Veldt:
     veldt = Veldt(tmp_path_factory.mktemp("made"))
     names = ("place", "facing", "variation", "parts", "sky", "angular", "mirror", "path", "falloff")
     terms = dict.fromkeys(names, "on")
-    veldt.write("config.json", tiny(behind_a_lens) | {"sensor": {"model": "physical"}, "terms": terms})
+    settings = {"sensor": {"model": "physical"}, "terms": terms, "render": {"supersample": 1}}
+    veldt.write("config.json", tiny(behind_a_lens) | settings)
     _check(_embree(veldt, "--keep-passes"))
     return veldt
 

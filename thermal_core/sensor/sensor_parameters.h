@@ -144,7 +144,7 @@ struct SensorParameters {
   ShutterParameters shutter;
   HousingParameters housing;
   BadPixelParameters bad_pixels;
-  double accuracy_k = 0;           ///< error of all apparent temperatures, see RadiometricError; 0: none
+  double accuracy_k = 0;  ///< error of all apparent temperatures, see RadiometricError; 0: none
   DenoiseParameters denoise;
   double kelvin_per_count = 0.01;  ///< step of the 16-bit frames
   AgcParameters agc;

@@ -38,7 +38,8 @@ namespace thermal {
 
 /// The output of the camera for one frame.
 struct SensorFrame {
-  Plane<std::uint8_t> ir8;  ///< `curve` applied to ir16; in mode table_max, to radiance; in clahe, a curve by place
+  Plane<std::uint8_t>
+      ir8;  ///< `curve` applied to ir16; in mode table_max, to radiance; in clahe, a curve by place
   /// Apparent temperature, with the camera's radiometric error, / kelvin_per_count, rounded; clipped to 0..65535. 65535
   /// is the camera's saturation: 655.35 K and more at the default of 0.01 K.
   Plane<std::uint16_t> ir16;
@@ -128,12 +129,12 @@ class ThermalCamera {
   double brightest_w_m2_sr_;
   std::shared_ptr<const TemperatureTable> temperatures_;
   NativeRate native_;
-  float white_w_m2_sr_;    ///< standard deviation of white temporal noise …
-  float fast_w_m2_sr_;     ///< … with what 1/f noise adds to it
-  float flicker_w_m2_sr_;  ///< of 1/f noise in units of FlickerDesign's
+  float white_w_m2_sr_;            ///< standard deviation of white temporal noise …
+  float fast_w_m2_sr_;             ///< … with what 1/f noise adds to it
+  float flicker_w_m2_sr_;          ///< of 1/f noise in units of FlickerDesign's
   float brightest_taken_w_m2_sr_;  ///< what is brighter counts as this
   float saturation_w_m2_sr_;       ///< of the 16-bit picture
-  float follow_;  ///< fraction of a new radiance that a pixel reaches within one frame
+  float follow_;                   ///< fraction of a new radiance that a pixel reaches within one frame
   Optics optics_;
   std::optional<Smear> smear_;  ///< none without a time constant
   Shutter shutter_;
