@@ -19,6 +19,11 @@ class Plane {
     assert(width_px >= 0 && height_px >= 0);
   }
 
+  /// Makes it this large. One that is so already keeps its pixels; the others are new.
+  void resize(int width_px, int height_px) {
+    if (width_px != width_px_ || height_px != height_px_) *this = Plane(width_px, height_px);
+  }
+
   [[nodiscard]] int width_px() const noexcept { return width_px_; }
   [[nodiscard]] int height_px() const noexcept { return height_px_; }
   [[nodiscard]] std::size_t size() const noexcept { return pixels_.size(); }

@@ -232,10 +232,8 @@ void MotionFinder::find(const Passes& passes, int frame, ImageMotion& out) const
     find(read_at_samples(passes), frame, out);
     return;
   }
-  if (out.x_px.width_px() != camera_.width_px || out.x_px.height_px() != camera_.height_px) {
-    out.x_px = Plane<float>(camera_.width_px, camera_.height_px);
-    out.y_px = Plane<float>(camera_.width_px, camera_.height_px);
-  }
+  out.x_px.resize(camera_.width_px, camera_.height_px);
+  out.y_px.resize(camera_.width_px, camera_.height_px);
   parallel_for(static_cast<std::size_t>(camera_.height_px), kMotionRowsAChunk,
                [&](std::size_t begin, std::size_t end) {
                  for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y)

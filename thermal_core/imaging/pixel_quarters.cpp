@@ -17,26 +17,6 @@ bool is_resampled(const Manifest& manifest, const LensDistortion& lens) {
   return manifest.overscan_px > 0 || (!lens.is_none() && lens != manifest.lens);
 }
 
-void clear(int width_px, int height_px, Plane<float>& plane) {
-  if (plane.width_px() == width_px && plane.height_px() == height_px) {
-    std::ranges::fill(plane.pixels(), 0.0F);
-  } else {
-    plane = Plane<float>(width_px, height_px);
-  }
-}
-
-/// Adds lines of samples into sums of `side` of them.
-void add_lines(const Plane<float>& fine, int first_line, int side, std::vector<float>& sums) {
-  std::ranges::fill(sums, 0.0F);
-  for (int line = first_line; line < first_line + side; ++line) {
-    const float* in = fine.row(line).data();
-    for (float& sum : sums) {
-      for (int k = 0; k < side; ++k) sum += in[k];
-      in += side;
-    }
-  }
-}
-
 }  // namespace
 
 PixelSampling pixel_sampling(const Manifest& manifest, const LensDistortion& lens) {
@@ -46,8 +26,10 @@ PixelSampling pixel_sampling(const Manifest& manifest, const LensDistortion& len
 }
 
 void clear_detail(int width_px, int height_px, SubpixelDetail& detail) {
-  for (Plane<float>* plane : {&detail.across, &detail.down, &detail.crossed})
-    clear(width_px, height_px, *plane);
+  for (Plane<float>* plane : {&detail.across, &detail.down, &detail.crossed}) {
+    plane->resize(width_px, height_px);
+    std::ranges::fill(plane->pixels(), 0.0F);
+  }
 }
 
 void set_detail(const std::array<float, 4>& quarters, int x, int y, SubpixelDetail& detail) noexcept {
@@ -61,16 +43,19 @@ void set_detail(const std::array<float, 4>& quarters, int x, int y, SubpixelDeta
   detail.crossed.at(x, y) = crossed;
 }
 
-QuarterSums::QuarterSums(const FineSamples& fine)
-    : parts_(fine.factor % 2 == 0 ? 2 : 1), side_(static_cast<std::size_t>(fine.factor) / parts_) {}
+QuarterSums::QuarterSums(int factor)
+    : parts_(factor % 2 == 0 ? 2 : 1), side_(static_cast<std::size_t>(factor) / parts_) {}
 
 void QuarterSums::begin(std::size_t pixels) {
   for (std::vector<float>& sums : sums_) sums.assign(parts_ * pixels, 0.0F);
 }
 
 void QuarterSums::add(int line, std::span<const float> samples) {
-  std::vector<float>& sums = sums_.at(static_cast<std::size_t>(line) / side_);
-  for (std::size_t i = 0; i < samples.size(); ++i) sums[i / side_] += samples[i];
+  const float* in = samples.data();
+  for (float& sum : sums_.at(static_cast<std::size_t>(line) / side_)) {
+    for (std::size_t k = 0; k < side_; ++k) sum += in[k];
+    in += side_;
+  }
 }
 
 float QuarterSums::mean(std::size_t pixel) const noexcept {
@@ -88,24 +73,17 @@ std::array<float, 4> QuarterSums::quarters(std::size_t pixel) const noexcept {
 
 void mean_quarters(const Plane<float>& fine, int factor, Plane<float>& means, SubpixelDetail& detail) {
   assert(factor % 2 == 0 && fine.width_px() % factor == 0 && fine.height_px() % factor == 0);
-  const int width = fine.width_px() / factor;
-  const int height = fine.height_px() / factor;
-  const int side = factor / 2;
-  const float share = 1.0F / static_cast<float>(side * side);
-  if (means.width_px() != width || means.height_px() != height) means = Plane<float>(width, height);
-  clear_detail(width, height, detail);
-  parallel_for(static_cast<std::size_t>(height), kQuarterRowsAChunk, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> top(2 * static_cast<std::size_t>(width));
-    std::vector<float> bottom(top.size());
+  means.resize(fine.width_px() / factor, fine.height_px() / factor);
+  clear_detail(means.width_px(), means.height_px(), detail);
+  const auto rows = static_cast<std::size_t>(means.height_px());
+  parallel_for(rows, kQuarterRowsAChunk, [&](std::size_t begin, std::size_t end) {
+    QuarterSums sums(factor);
     for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      add_lines(fine, y * factor, side, top);
-      add_lines(fine, y * factor + side, side, bottom);
-      for (int x = 0; x < width; ++x) {
-        const std::size_t at = 2 * static_cast<std::size_t>(x);
-        const std::array quarters = {share * top[at], share * top[at + 1], share * bottom[at],
-                                     share * bottom[at + 1]};
-        means.at(x, y) = 0.25F * ((quarters[0] + quarters[1]) + (quarters[2] + quarters[3]));
-        set_detail(quarters, x, y, detail);
+      sums.begin(means.row(y).size());
+      for (int line = 0; line < factor; ++line) sums.add(line, fine.row(y * factor + line));
+      for (int x = 0; x < means.width_px(); ++x) {
+        means.at(x, y) = sums.mean(static_cast<std::size_t>(x));
+        set_detail(sums.quarters(static_cast<std::size_t>(x)), x, y, detail);
       }
     }
   });

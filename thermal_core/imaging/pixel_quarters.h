@@ -6,7 +6,6 @@
 
 #include "scene/lens_distortion.h"
 #include "scene/manifest.h"
-#include "scene/passes.h"
 #include "sensor/round_kernel.h"
 #include "sensor/subpixel_detail.h"
 
@@ -26,7 +25,8 @@ void set_detail(const std::array<float, 4>& quarters, int x, int y, SubpixelDeta
 /// Sums of the samples of a row's pixels, line by line: by quarter, if a pixel has an even number of lines.
 class QuarterSums {
  public:
-  explicit QuarterSums(const FineSamples& fine);
+  /// @param factor  samples along each side of a pixel
+  explicit QuarterSums(int factor);
 
   /// A new row, of so many pixels.
   void begin(std::size_t pixels);

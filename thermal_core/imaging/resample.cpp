@@ -93,7 +93,7 @@ void ResampleMap::crop(const Plane<T>& in, Plane<T>& out) const {
 
 void ResampleMap::resample_linear(const Plane<float>& in, Plane<float>& out) const {
   assert(in.width_px() == width_px_ + 2 * overscan_px_ && in.height_px() == height_px_ + 2 * overscan_px_);
-  if (out.width_px() != width_px_ || out.height_px() != height_px_) out = Plane<float>(width_px_, height_px_);
+  out.resize(width_px_, height_px_);
   if (corner_.empty()) return crop(in, out);
   const Steps steps = steps_of(in);
   for_rows(width_px_, height_px_, [&](std::size_t begin, std::size_t end) {

@@ -258,9 +258,7 @@ PassChecks SceneRadiance::radiance(const Passes& passes, const ManifestFrame& fr
   assert(!has_materials || passes.material_index.size() == objects.size());
   const CameraRays* rays = passes.fine.factor > 1 ? held_->pixel_rays.get() : held_->rays.get();
   const CameraPose pose = pose_in(frame);
-  if (out.width_px() != objects.width_px() || out.height_px() != objects.height_px()) {
-    out = Plane<float>(objects.width_px(), objects.height_px());
-  }
+  out.resize(objects.width_px(), objects.height_px());
   return sum_over_rows(objects.height_px(), [&](int begin, int end) {
     std::vector<std::uint16_t> numbers(static_cast<std::size_t>(objects.width_px()));
     std::vector<std::uint16_t> mirrored(mirrors(passes.mirrored.empty()) ? numbers.size() : 0);
@@ -347,7 +345,7 @@ PassChecks SceneRadiance::refine(const FineSamples& fine, const ManifestFrame& f
     FineLine line;
     line.row.pose = &pose;
     line.row.later_h = later_h(frame);
-    QuarterSums sums(fine);
+    QuarterSums sums(fine.factor);
     for (int y = begin; y < end; ++y) {
       sums.begin(fine.pixels_in(y));
       for (int k = 0; k < fine.factor && fine.pixels_in(y) > 0; ++k) {

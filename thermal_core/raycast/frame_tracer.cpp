@@ -32,9 +32,7 @@ struct Sink {
 
 template <typename T>
 T* pixels_of(Plane<T>& plane, bool wanted, const PixelRays& rays) {
-  const int width_px = wanted ? rays.width_px() : 0;
-  const int height_px = wanted ? rays.height_px() : 0;
-  if (plane.width_px() != width_px || plane.height_px() != height_px) plane = Plane<T>(width_px, height_px);
+  plane.resize(wanted ? rays.width_px() : 0, wanted ? rays.height_px() : 0);
   return wanted ? plane.pixels().data() : nullptr;
 }
 

@@ -49,6 +49,21 @@ void separate(const Plane<T>& full, const FineSamples& fine, Plane<T>& pixels, s
   }
 }
 
+/// Calls work(plane with one sample a pixel, list of samples, plane with all samples) for every plane of passes.
+template <typename One, typename Samples, typename All, typename Work>
+void for_each_plane(One& one, Samples& samples, All& all, const Work& work) {
+  const auto of_surface = [&work](auto& pixels, auto& lists, auto& planes) {
+    work(pixels.object_index, lists.object_index, planes.object_index);
+    work(pixels.material_index, lists.material_index, planes.material_index);
+    work(pixels.depth_m, lists.depth_m, planes.depth_m);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      work(pixels.normal[axis], lists.normal[axis], planes.normal[axis]);
+  };
+  of_surface(one, samples, all);
+  work(one.actor_index, samples.actor_index, all.actor_index);
+  of_surface(one.mirrored, samples.mirrored, all.mirrored);
+}
+
 }  // namespace
 
 Plane<std::uint16_t> filled_in(const Plane<std::uint16_t>& pixels, const std::vector<std::uint16_t>& samples,
@@ -62,20 +77,10 @@ Plane<float> filled_in(const Plane<float>& pixels, const std::vector<float>& sam
 }
 
 Passes filled_in(const Passes& passes) {
-  const FineSamples& fine = passes.fine;
   Passes full;
-  full.object_index = filled(passes.object_index, fine.object_index, fine);
-  full.material_index = filled(passes.material_index, fine.material_index, fine);
-  full.actor_index = filled(passes.actor_index, fine.actor_index, fine);
-  full.depth_m = filled(passes.depth_m, fine.depth_m, fine);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    full.normal[axis] = filled(passes.normal[axis], fine.normal[axis], fine);
-  const auto& mirrored = fine.mirrored;
-  full.mirrored.object_index = filled(passes.mirrored.object_index, mirrored.object_index, fine);
-  full.mirrored.material_index = filled(passes.mirrored.material_index, mirrored.material_index, fine);
-  full.mirrored.depth_m = filled(passes.mirrored.depth_m, mirrored.depth_m, fine);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    full.mirrored.normal[axis] = filled(passes.mirrored.normal[axis], mirrored.normal[axis], fine);
+  for_each_plane(passes, passes.fine, full, [&](const auto& pixels, const auto& samples, auto& out) {
+    out = filled(pixels, samples, passes.fine);
+  });
   return full;
 }
 
@@ -96,18 +101,9 @@ Passes separated(const Passes& full, const Plane<std::uint16_t>& sampled, int fa
       if (sampled.at(x, y) != 0) fine.x_px.push_back(static_cast<std::uint16_t>(x / factor));
     fine.row_begin.push_back(fine.x_px.size());
   }
-  separate(full.object_index, fine, out.object_index, fine.object_index);
-  separate(full.material_index, fine, out.material_index, fine.material_index);
-  separate(full.actor_index, fine, out.actor_index, fine.actor_index);
-  separate(full.depth_m, fine, out.depth_m, fine.depth_m);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    separate(full.normal[axis], fine, out.normal[axis], fine.normal[axis]);
-  auto& mirrored = fine.mirrored;
-  separate(full.mirrored.object_index, fine, out.mirrored.object_index, mirrored.object_index);
-  separate(full.mirrored.material_index, fine, out.mirrored.material_index, mirrored.material_index);
-  separate(full.mirrored.depth_m, fine, out.mirrored.depth_m, mirrored.depth_m);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    separate(full.mirrored.normal[axis], fine, out.mirrored.normal[axis], mirrored.normal[axis]);
+  for_each_plane(out, fine, full, [&](auto& pixels, auto& samples, const auto& plane) {
+    separate(plane, fine, pixels, samples);
+  });
   return out;
 }
 

@@ -81,9 +81,7 @@ HalfKernel gaussian_kernel(double sigma_px) {
 void Convolution::apply(Plane<float>& picture) {
   if (kernel_.size() == 1 || picture.empty()) return;
   const auto rows = static_cast<std::size_t>(picture.height_px());
-  if (across_.width_px() != picture.width_px() || across_.height_px() != picture.height_px()) {
-    across_ = Plane<float>(picture.width_px(), picture.height_px());
-  }
+  across_.resize(picture.width_px(), picture.height_px());
   parallel_for(rows, kRowsAChunk, [&](std::size_t begin, std::size_t end) {
     std::vector<float> padded;
     for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {

@@ -133,7 +133,7 @@ void find_detail(const Plane<std::uint16_t>& ir16, int radius_px, double edge_co
   for_each_row(window.height_px, [&](int y) {
     fit_row(ir16, window, y, edge_counts * edge_counts, gain.row(y).data(), offset.row(y).data());
   });
-  if (detail_counts.size() != ir16.size()) detail_counts = Plane<float>(window.width_px, window.height_px);
+  detail_counts.resize(window.width_px, window.height_px);
   const auto per_pixel = static_cast<float>(1 / window.pixels());
   for_each_row(window.height_px, [&](int y) {
     std::vector<float> gains(static_cast<std::size_t>(window.width_px));

@@ -45,8 +45,7 @@ void mark_row(const Plane<std::uint16_t>& ir16, int y, std::int32_t threshold, s
 }  // namespace
 
 void mark_information(const Plane<std::uint16_t>& ir16, double threshold_counts, Plane<std::uint8_t>& marks) {
-  if (marks.width_px() != ir16.width_px() || marks.height_px() != ir16.height_px())
-    marks = Plane<std::uint8_t>(ir16.width_px(), ir16.height_px());
+  marks.resize(ir16.width_px(), ir16.height_px());
   constexpr double kLargestSum = 3 * 65535;
   const auto threshold = static_cast<std::int32_t>(std::min(kLargestSum, std::floor(3 * threshold_counts)));
   parallel_for(static_cast<std::size_t>(ir16.height_px()), kMarkedRowsAChunk,

@@ -118,10 +118,8 @@ void RoundConvolution::make_halo(const Plane<float>& picture) {
   const auto blocks_in = [](int px) { return (px + kHaloBlockPx - 1) / kHaloBlockPx; };
   const int columns = blocks_in(picture.width_px());
   const int rows = blocks_in(picture.height_px());
-  if (blocks_.width_px() != columns || blocks_.height_px() != rows) {
-    blocks_ = Plane<float>(columns, rows);
-    halo_ = Plane<float>(columns, rows);
-  }
+  blocks_.resize(columns, rows);
+  halo_.resize(columns, rows);
   parallel_for(static_cast<std::size_t>(rows), kRoundRowsAChunk, [&](std::size_t begin, std::size_t end) {
     std::vector<float> sums(static_cast<std::size_t>(columns * kHaloBlockPx));
     for (auto row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
@@ -197,8 +195,7 @@ void RoundConvolution::add_halo(int y, std::vector<float>& blocks, std::span<flo
 void RoundConvolution::apply(const SubpixelDetail& detail, Plane<float>& picture) {
   if (picture.empty()) return;
   assert(detail.empty() || detail.across.size() == picture.size());
-  if (out_.width_px() != picture.width_px() || out_.height_px() != picture.height_px())
-    out_ = Plane<float>(picture.width_px(), picture.height_px());
+  out_.resize(picture.width_px(), picture.height_px());
   extents_.clear();
   if (!detail.empty() && kernel_.across.radius > 0) find_extents(detail);
   make_halo(picture);

@@ -66,7 +66,7 @@ void mix_line(const float* from, const std::ptrdiff_t* offsets, const float* wei
 void copy_with_margin(const Plane<float>& picture, Plane<float>& out) {
   const int width = picture.width_px() + 2 * kMarginPx;
   const int height = picture.height_px() + 2 * kMarginPx;
-  if (out.width_px() != width || out.height_px() != height) out = Plane<float>(width, height);
+  out.resize(width, height);
   for (int y = 0; y < height; ++y) {
     const std::span<const float> from = picture.row(std::clamp(y - kMarginPx, 0, picture.height_px() - 1));
     const std::span<float> to = out.row(y);

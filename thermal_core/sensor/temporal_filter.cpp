@@ -58,8 +58,7 @@ void TemporalFilter::apply(Plane<float>& signal_w_m2_sr) {
 }
 
 void TemporalFilter::take_changes(const Plane<float>& signal_w_m2_sr) {
-  if (change_.size() != signal_w_m2_sr.size())
-    change_ = Plane<float>(signal_w_m2_sr.width_px(), signal_w_m2_sr.height_px());
+  change_.resize(signal_w_m2_sr.width_px(), signal_w_m2_sr.height_px());
   const auto signal = signal_w_m2_sr.pixels();
   const auto change = change_.pixels();
   parallel_for(signal.size(), kFilteredPixelsAChunk, [&](std::size_t begin, std::size_t end) {

@@ -78,8 +78,7 @@ bool convert(const Plane<std::uint32_t>& plane, int largest, std::uint16_t* out)
 template <typename Number>
 void to_indices(const Plane<Number>& plane, const std::string& channel, int largest,
                 Plane<std::uint16_t>& out) {
-  if (out.width_px() != plane.width_px() || out.height_px() != plane.height_px())
-    out = Plane<std::uint16_t>(plane.width_px(), plane.height_px());
+  out.resize(plane.width_px(), plane.height_px());
   if (!convert(plane, largest, out.pixels().data())) refuse(plane, channel, largest);
 }
 
