@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace thermal {
 
@@ -25,6 +26,18 @@ std::vector<double> solve_positive_definite(std::vector<double> a, std::vector<d
     b[i] /= a[i * n + i];
   }
   return b;
+}
+
+std::vector<double> solve_with_sum(const std::vector<double>& a, const std::vector<double>& b,
+                                   const std::vector<double>& of_sum) {
+  std::vector<double> x = solve_positive_definite(a, b);
+  const std::vector<double> per_excess = solve_positive_definite(a, of_sum);
+  const auto sum_of = [&of_sum](const std::vector<double>& values) {
+    return std::inner_product(of_sum.begin(), of_sum.end(), values.begin(), 0.0);
+  };
+  const double excess = (sum_of(x) - 1) / sum_of(per_excess);
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] -= excess * per_excess[k];
+  return x;
 }
 
 }  // namespace thermal

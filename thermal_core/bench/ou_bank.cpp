@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/cholesky.h"
 #include "base/clones.h"
 
 namespace thermal {
@@ -21,23 +22,6 @@ constexpr std::size_t kBlock = 256;
 double unit_density(double decay, double frequency_hz, double rate_hz) {
   const std::complex<double> delay = std::polar(1.0, -2 * pi * frequency_hz / rate_hz);
   return 2 / rate_hz * (1 - decay * decay) / std::norm(1.0 - decay * delay);
-}
-
-/// Solves a symmetric positive definite system, given row by row, by elimination.
-std::vector<double> solved(std::vector<std::vector<double>> matrix, std::vector<double> right) {
-  const std::size_t n = right.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    for (std::size_t i = k + 1; i < n; ++i) {
-      const double factor = matrix[i][k] / matrix[k][k];
-      for (std::size_t j = k; j < n; ++j) matrix[i][j] -= factor * matrix[k][j];
-      right[i] -= factor * right[k];
-    }
-  }
-  for (std::size_t k = n; k-- > 0;) {
-    for (std::size_t j = k + 1; j < n; ++j) right[k] -= matrix[k][j] * right[j];
-    right[k] /= matrix[k][k];
-  }
-  return right;
 }
 
 VELDT_CLONES void step_process(const float* normals, std::size_t count, float keep, float renew, float stddev,
@@ -59,7 +43,7 @@ OuBank OuBank::design(double rate_hz, int processes) {
     const double corner_hz = kLowestHz * std::pow(ratio, static_cast<double>(k) / (processes - 1));
     bank.decays.push_back(std::exp(-2 * pi * corner_hz / rate_hz));
   }
-  std::vector<std::vector<double>> normal_matrix(n, std::vector<double>(n));
+  std::vector<double> normal_matrix(n * n);
   std::vector<double> right(n);
   std::vector<double> shares(n);
   for (int point = 0; point < kPoints; ++point) {
@@ -70,10 +54,10 @@ OuBank OuBank::design(double rate_hz, int processes) {
       shares[k] = unit_density(bank.decays[k], frequency_hz, rate_hz) / wanted;
     for (std::size_t i = 0; i < n; ++i) {
       right[i] += shares[i];
-      for (std::size_t j = 0; j < n; ++j) normal_matrix[i][j] += shares[i] * shares[j];
+      for (std::size_t j = 0; j < n; ++j) normal_matrix[i * n + j] += shares[i] * shares[j];
     }
   }
-  bank.variances = solved(std::move(normal_matrix), std::move(right));
+  bank.variances = solve_positive_definite(std::move(normal_matrix), std::move(right));
   return bank;
 }
 

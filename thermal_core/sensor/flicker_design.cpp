@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "base/cholesky.h"
+
 namespace thermal {
 namespace {
 
@@ -67,24 +69,17 @@ struct Equations {
   }
 };
 
-/// Solves the equations of the terms in `used` by elimination; other terms are 0.
+/// Solves the equations of the terms in `used`; other terms are 0.
 std::vector<double> solve(const Equations& equations, const std::vector<std::size_t>& used) {
-  std::vector<std::vector<double>> rows;
+  std::vector<double> matrix;
+  std::vector<double> right;
   for (const std::size_t i : used) {
-    std::vector<double> row;
-    for (const std::size_t j : used) row.push_back(equations.matrix[i][j]);
-    row.push_back(equations.right[i]);
-    rows.push_back(std::move(row));
+    for (const std::size_t j : used) matrix.push_back(equations.matrix[i][j]);
+    right.push_back(equations.right[i]);
   }
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (i == k) continue;
-      const double factor = rows[i][k] / rows[k][k];
-      for (std::size_t j = k; j < rows[i].size(); ++j) rows[i][j] -= factor * rows[k][j];
-    }
-  }
+  const std::vector<double> found = solve_positive_definite(std::move(matrix), std::move(right));
   std::vector<double> solution(equations.right.size());
-  for (std::size_t k = 0; k < used.size(); ++k) solution[used[k]] = rows[k].back() / rows[k][k];
+  for (std::size_t k = 0; k < used.size(); ++k) solution[used[k]] = found[k];
   return solution;
 }
 

@@ -126,9 +126,8 @@ struct NormalEquations {
 /// A frequency's row of the least squares: the transfer of each orbit's places.
 class Rows {
  public:
-  Rows(const OpticsParameters& optics, const SpectralResponse& response, const PixelSampling& sampling,
-       const Places& places)
-      : frequencies_(sampling.quarters ? 1 : 0.5), places_(places), lens_(optics, response) {
+  Rows(const OpticsTransfer& lens, const PixelSampling& sampling, const Places& places)
+      : frequencies_(sampling.quarters ? 1 : 0.5), places_(places), lens_(lens) {
     for (const double f : frequencies_.at) {
       samples_.push_back(sample_transfer(sampling, f));
       blocks_.push_back(block_transfer(f) * pixel_transfer(sampling, f));
@@ -173,7 +172,7 @@ class Rows {
 
   Frequencies frequencies_;
   const Places& places_;
-  OpticsTransfer lens_;
+  const OpticsTransfer& lens_;
   std::vector<double> samples_;
   std::vector<double> blocks_;
   std::vector<std::vector<double>> core_;  ///< [steps][frequencies]
@@ -212,17 +211,9 @@ std::vector<double> solve_chosen(const NormalEquations& sums, const std::vector<
     right.push_back(sums.right[chosen[k]]);
     of_sum.push_back(counts[chosen[k]]);
   }
-  std::vector<double> weights = solve_positive_definite(matrix, right);
-  const std::vector<double> per_excess = solve_positive_definite(std::move(matrix), of_sum);
-  double sum = 0;
-  double slope = 0;
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    sum += of_sum[k] * weights[k];
-    slope += of_sum[k] * per_excess[k];
-  }
+  const std::vector<double> weights = solve_with_sum(matrix, right, of_sum);
   std::vector<double> all(counts.size());
-  for (std::size_t k = 0; k < chosen.size(); ++k)
-    all[chosen[k]] = weights[k] - (sum - 1) / slope * per_excess[k];
+  for (std::size_t k = 0; k < chosen.size(); ++k) all[chosen[k]] = weights[k];
   return all;
 }
 
@@ -266,10 +257,9 @@ double worst_misfit(const Rows& rows, const std::vector<double>& weights) {
   return worst;
 }
 
-Fit fit_of(const OpticsParameters& optics, const SpectralResponse& response, const PixelSampling& sampling,
-           int reach_px) {
+Fit fit_of(const OpticsTransfer& lens, const PixelSampling& sampling, int reach_px) {
   Fit fit = {.places = Places(reach_px, sampling.quarters), .weights = {}};
-  const Rows rows(optics, response, sampling, fit.places);
+  const Rows rows(lens, sampling, fit.places);
   std::vector<double> counts;
   for (const Orbit& orbit : fit.places.orbits()) counts.push_back(fit.places.count(orbit));
   fit.weights = solve_positive(normal_equations(rows, counts.size()), counts);
@@ -352,10 +342,11 @@ RoundKernel round_kernel(const OpticsParameters& optics, const SpectralResponse&
                          const PixelSampling& sampling) {
   assert(sampling.across >= 1 && !(sampling.quarters && sampling.across % 2 == 1));
   constexpr double kWorthwhile = 0.9;  // a larger reach must reduce the misfit to this share
+  const OpticsTransfer lens(optics, response);
   int reach_px = kReachesPx.front();
-  Fit best = fit_of(optics, response, sampling, reach_px);
+  Fit best = fit_of(lens, sampling, reach_px);
   for (std::size_t i = 1; i < kReachesPx.size() && best.misfit > kGoodMisfit; ++i) {
-    Fit wider = fit_of(optics, response, sampling, kReachesPx.at(i));
+    Fit wider = fit_of(lens, sampling, kReachesPx.at(i));
     if (wider.misfit > kWorthwhile * best.misfit) break;
     best = std::move(wider);
     reach_px = kReachesPx.at(i);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/cholesky.h"
 #include "sensor/smear.h"
 
 namespace thermal {
@@ -64,28 +65,16 @@ double correlation(double px) {
 }
 
 /// Weights whose sum is 1 and whose transfer is nearest, by least squares over these frequencies, to that of a shift by
-/// a fraction of a pixel. Normal equations with one multiplier, by Gauss and Jordan; they are well conditioned.
+/// a fraction of a pixel.
 Weights shift_weights(double fraction) {
-  constexpr std::size_t kRows = kSamples + 1;
-  std::array<std::array<double, kRows + 1>, kRows> rows{};
-  for (std::size_t i = 0; i < kSamples; ++i) {
-    const double place = static_cast<double>(i) - (kReachPx - 1);
-    for (std::size_t k = 0; k < kSamples; ++k)
-      rows.at(i).at(k) = correlation(static_cast<double>(i) - static_cast<double>(k));
-    rows.at(i).at(kSamples) = rows.at(kSamples).at(i) = 1;
-    rows.at(i).at(kRows) = correlation(place - fraction);
-  }
-  rows.at(kSamples).at(kRows) = 1;
-  for (std::size_t pivot = 0; pivot < kRows; ++pivot) {
-    const double diagonal = rows.at(pivot).at(pivot);
-    for (double& value : rows.at(pivot)) value /= diagonal;
-    for (std::size_t i = 0; i < kRows; ++i) {
-      const double share = i == pivot ? 0 : rows.at(i).at(pivot);
-      for (std::size_t k = 0; k <= kRows; ++k) rows.at(i).at(k) -= share * rows.at(pivot).at(k);
-    }
+  std::vector<double> matrix;
+  std::vector<double> right;
+  for (int i = 0; i < static_cast<int>(kSamples); ++i) {
+    for (int k = 0; k < static_cast<int>(kSamples); ++k) matrix.push_back(correlation(i - k));
+    right.push_back(correlation(i - (kReachPx - 1) - fraction));
   }
   Weights weights{};
-  for (std::size_t i = 0; i < kSamples; ++i) weights.at(i) = rows.at(i).at(kRows);
+  std::ranges::copy(solve_with_sum(matrix, right, std::vector<double>(kSamples, 1)), weights.begin());
   return weights;
 }
 
