@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "base/parallel.h"
@@ -23,24 +24,6 @@ std::uint16_t threshold(double count) {
 
 /// 255 - level is level ^ 255.
 std::uint8_t flip_of(Polarity polarity) { return polarity == Polarity::black_hot ? 255 : 0; }
-
-template <typename T>
-void fit_size(const Plane<T>& like, Plane<std::uint8_t>& picture) {
-  if (picture.width_px() == like.width_px() && picture.height_px() == like.height_px()) return;
-  picture = Plane<std::uint8_t>(like.width_px(), like.height_px());
-}
-
-/// Smallest and largest count outside the tails; low > high if nothing was measured.
-std::pair<std::size_t, std::size_t> without_tails(const std::vector<std::uint32_t>& histogram,
-                                                  double tail_pixels) {
-  std::size_t low = 1;
-  std::size_t high = kClipped - 1;
-  double below = 0;
-  double above = 0;
-  while (low < kClipped && (below += histogram[low]) <= tail_pixels) ++low;
-  while (high > 0 && (above += histogram[high]) <= tail_pixels) --high;
-  return {low, high};
-}
 
 LevelBins bins_of(const AgcParameters& parameters, const AgcScene& scene) {
   const auto counts = static_cast<std::size_t>(std::max(1L, std::lround(kBinK / scene.kelvin_per_count)));
@@ -101,8 +84,10 @@ const ToneCurve& Agc::next(const Plane<std::uint16_t>& ir16) {
   for (const std::uint16_t count : ir16.pixels()) ++histogram_[count];
   const std::size_t measured = ir16.size() - histogram_[0] - histogram_[kClipped];
   if (measured == 0) return curve_;
-  const auto [low, high] =
-      without_tails(histogram_, parameters_.tail_percent / 100 * static_cast<double>(measured));
+  const auto [first, last] = between_tails(std::span(histogram_).subspan(1, kClipped - 1),
+                                           parameters_.tail_percent / 100 * static_cast<double>(measured));
+  const std::size_t low = first + 1;
+  const std::size_t high = last + 1;
   if (parameters_.mode == AgcMode::percentile) {
     adapt_percentiles(low, high);
   } else {
@@ -118,7 +103,7 @@ void Agc::show(const Plane<std::uint16_t>& ir16, Plane<std::uint8_t>& ir8) const
     apply_tone_curve(curve_, parameters_.polarity, ir16, ir8);
     return;
   }
-  fit_size(ir16, ir8);
+  ir8.resize(ir16.width_px(), ir16.height_px());
   local_->show(ir16, ir8);
   const std::uint8_t flip = flip_of(parameters_.polarity);
   for (std::uint8_t& level : ir8.pixels()) level = static_cast<std::uint8_t>(level ^ flip);
@@ -202,7 +187,7 @@ void Agc::make_thresholds_of_levels() {
 
 void truncate_to_levels(const Plane<float>& radiance_w_m2_sr, double brightest_w_m2_sr, Polarity polarity,
                         Plane<std::uint8_t>& ir8) {
-  fit_size(radiance_w_m2_sr, ir8);
+  ir8.resize(radiance_w_m2_sr.width_px(), radiance_w_m2_sr.height_px());
   const double w_m2_sr_per_level = brightest_w_m2_sr / kLargestLevel;
   const std::uint8_t flip = flip_of(polarity);
   const auto in = radiance_w_m2_sr.pixels();
@@ -224,7 +209,7 @@ void apply_tone_curve(const ToneCurve& curve, Polarity polarity, const Plane<std
     while (level < curve.thresholds.size() && curve.thresholds[level] <= count) ++level;
     table[count] = static_cast<std::uint8_t>(level) ^ flip;  // 255 - level, if flipped
   }
-  fit_size(ir16, ir8);
+  ir8.resize(ir16.width_px(), ir16.height_px());
   // Plain pointers: through spans, the compiler must assume that a written byte aliases the span itself.
   const std::uint8_t* const levels = table.data();
   const std::uint16_t* const in = ir16.pixels().data();

@@ -4,6 +4,17 @@
 
 namespace thermal {
 
+std::pair<std::size_t, std::size_t> between_tails(std::span<const std::uint32_t> histogram,
+                                                  double tail_pixels) {
+  std::size_t low = 0;
+  std::size_t high = histogram.size() - 1;
+  double below = histogram[low];
+  double above = histogram[high];
+  while (below <= tail_pixels) below += histogram[++low];
+  while (above <= tail_pixels) above += histogram[--high];
+  return {low, high};
+}
+
 std::vector<double> equalised_levels(const LevelBins& bins, std::size_t first,
                                      const std::vector<double>& shares) {
   constexpr double kTopLevel = 255;

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace thermal {
@@ -13,6 +16,11 @@ struct LevelBins {
   /// Bins that hold all counts from 0 to 65535.
   [[nodiscard]] std::size_t size() const noexcept { return (65536 + counts - 1) / counts; }
 };
+
+/// First and last bin outside the tails of a histogram: a tail is as many bins as hold no more than `tail_pixels`, less
+/// than half of all pixels. The histogram is not empty.
+[[nodiscard]] std::pair<std::size_t, std::size_t> between_tails(std::span<const std::uint32_t> histogram,
+                                                                double tail_pixels);
 
 /// Levels 0 to 255 at the lower edge of every bin, and at the end of the last: they rise in proportion to `shares` over
 /// the bins from `first` on, but nowhere more steeply than `bins` allows. Levels left over are split between both ends,

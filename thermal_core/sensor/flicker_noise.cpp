@@ -20,17 +20,6 @@ VELDT_CLONES void renew(const float* normals, float keep, float scale, float* st
   for (std::size_t i = 0; i < kBlockPixels; ++i) state[i] = keep * state[i] + scale * normals[i];
 }
 
-VELDT_CLONES void sum_two(const float* one, const float* other, float* out) {
-  for (std::size_t i = 0; i < kBlockPixels; ++i) out[i] = one[i] + other[i];
-}
-
-VELDT_CLONES void sum_states(const float* states, std::size_t processes, float* out) {
-  for (std::size_t i = 0; i < kBlockPixels; ++i) out[i] = 0;
-  for (std::size_t k = 0; k < processes; ++k) {
-    for (std::size_t i = 0; i < kBlockPixels; ++i) out[i] += states[k * kBlockPixels + i];
-  }
-}
-
 }  // namespace
 
 FlickerNoise::FlickerNoise(std::uint32_t seed, std::string_view clip, const FlickerDesign& design,
@@ -62,6 +51,13 @@ float* FlickerNoise::state(std::size_t block, std::size_t process) noexcept {
   return states_.data() + (block * design_.processes.size() + process) * kBlockPixels;
 }
 
+void FlickerNoise::sum_slow(std::size_t block) {
+  const std::span<float> sum = std::span(slow_).subspan(block * kBlockPixels, kBlockPixels);
+  std::ranges::fill(sum, 0.0F);
+  for (std::size_t k = 1; k < design_.processes.size(); ++k)
+    add_scaled(std::span(state(block, k), kBlockPixels), 1, sum);
+}
+
 void FlickerNoise::start(std::size_t block) {
   std::array<float, kBlockPixels> normals{};
   RandomField field = field_;
@@ -71,7 +67,7 @@ void FlickerNoise::start(std::size_t block) {
     fill_normal(field, block * kBlockPixels, normals);
     renew(normals.data(), 0, static_cast<float>(std::sqrt(design_.processes[k].variance)), state(block, k));
   }
-  sum_states(state(block, 1), design_.processes.size() - 1, &slow_[block * kBlockPixels]);
+  sum_slow(block);
 }
 
 void FlickerNoise::tick(std::size_t block, std::uint64_t tick) {
@@ -88,7 +84,7 @@ void FlickerNoise::tick(std::size_t block, std::uint64_t tick) {
     const double renewed = std::sqrt((1 - process.keep * process.keep) * process.variance);
     renew(normals.data(), static_cast<float>(process.keep), static_cast<float>(renewed), state(block, k));
   }
-  if (k > 1) sum_states(state(block, 1), design_.processes.size() - 1, &slow_[block * kBlockPixels]);
+  if (k > 1) sum_slow(block);
 }
 
 void FlickerNoise::advance(std::size_t block, std::uint32_t frame) {
@@ -99,7 +95,10 @@ void FlickerNoise::advance(std::size_t block, std::uint32_t frame) {
     ticks_[block] = (std::uint64_t{phases_[block]} + begins_) / period_;
   }
   while (ticks_[block] < now) tick(block, ++ticks_[block]);
-  sum_two(state(block, 0), &slow_[block * kBlockPixels], &sums_[block * kBlockPixels]);
+  const auto of_block = [block](std::span<float> plane) {
+    return plane.subspan(block * kBlockPixels, kBlockPixels);
+  };
+  set_sum(std::span(state(block, 0), kBlockPixels), 1, of_block(slow_), 1, of_block(sums_));
 }
 
 void FlickerNoise::add(std::uint32_t frame, std::size_t first, float stddev, std::span<float> out) {

@@ -32,6 +32,7 @@ class FlickerNoise {
  private:
   [[nodiscard]] float* state(std::size_t block, std::size_t process) noexcept;
   void start(std::size_t block);
+  void sum_slow(std::size_t block);
   void tick(std::size_t block, std::uint64_t tick);
   void advance(std::size_t block, std::uint32_t frame);
 

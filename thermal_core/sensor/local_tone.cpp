@@ -23,18 +23,6 @@ std::uint64_t pixels_in(const std::vector<std::uint32_t>& histogram) {
   return sum;
 }
 
-/// First and last bin outside the tails of a histogram that is not empty.
-std::pair<std::size_t, std::size_t> bins_between_tails(const std::vector<std::uint32_t>& histogram,
-                                                       double tail_pixels) {
-  std::size_t low = 0;
-  std::size_t high = histogram.size() - 1;
-  double below = histogram[low];
-  double above = histogram[high];
-  while (below <= tail_pixels) below += histogram[++low];
-  while (above <= tail_pixels) above += histogram[--high];
-  return {low, std::max(low, high)};
-}
-
 float mixed(float one, float other, float share) { return one + share * (other - one); }
 
 /// Within a bin, whose edges have these levels.
@@ -57,7 +45,7 @@ void LocalTone::adapt(const Plane<std::uint16_t>& ir16) {
   const std::uint64_t measured = pixels_in(all);
   if (measured == 0) return;
   const double tail_pixels = parameters_.tail_percent / 100 * static_cast<double>(measured);
-  const auto [low, high] = bins_between_tails(all, tail_pixels);
+  const auto [low, high] = between_tails(all, tail_pixels);
   range_ = {.low = low * bins_.counts, .high = (high + 1) * bins_.counts};
   const std::vector<double> of_frame = levels_of(all);
   parallel_for(histograms_.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -91,7 +79,7 @@ void LocalTone::count(const Plane<std::uint16_t>& ir16) {
 /// Pixels of a bin above the clip limit are spread evenly over the tile's range, as in Zuiderveld's algorithm.
 std::vector<double> LocalTone::levels_of(const Histogram& histogram) const {
   const auto measured = static_cast<double>(pixels_in(histogram));
-  const auto [low, high] = bins_between_tails(histogram, parameters_.tail_percent / 100 * measured);
+  const auto [low, high] = between_tails(histogram, parameters_.tail_percent / 100 * measured);
   std::vector<double> shares(high - low + 1);
   const auto bins = static_cast<double>(shares.size());
   double kept = 0;

@@ -190,8 +190,8 @@ ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, floa
       bad_pixels_(parameters.bad_pixels, clip_.seed, clip_.id, native_.rate_hz, clip_.width_px,
                   clip_.height_px),
       agc_(parameters.agc, agc_scene(parameters, clip_.frame_rate_hz, brightest_w_m2_sr)),
-      detail_(parameters.agc.detail, parameters.netd_k() / parameters.kelvin_per_count,
-              parameters.agc.polarity),
+      sharpener_(parameters.agc.detail, parameters.netd_k() / parameters.kelvin_per_count,
+                 parameters.agc.polarity),
       signal_(clip_.width_px, clip_.height_px),
       noise_w_m2_sr_(static_cast<double>(white_w_m2_sr_) *
                      std::sqrt(noise_variance(parameters, native_.rate_hz))) {
@@ -291,7 +291,7 @@ void ThermalCamera::show(SensorFrame& frame) {
   } else {
     agc_.show(frame.ir16, frame.ir8);
   }
-  detail_.sharpen(frame.ir16, frame.ir8);
+  sharpener_.sharpen(frame.ir16, frame.ir8);
 }
 
 /// Radiance at the detector.
@@ -352,9 +352,7 @@ void ThermalCamera::add_noise(std::uint32_t native, std::size_t first, std::span
 }
 
 void ThermalCamera::count(double error_k, Plane<std::uint16_t>& ir16) const {
-  if (ir16.width_px() != clip_.width_px || ir16.height_px() != clip_.height_px) {
-    ir16 = Plane<std::uint16_t>(clip_.width_px, clip_.height_px);
-  }
+  ir16.resize(clip_.width_px, clip_.height_px);
   const auto counts_per_kelvin = static_cast<float>(1 / parameters_.kelvin_per_count);
   const auto signal = signal_.pixels();
   const auto out = ir16.pixels();

@@ -146,7 +146,7 @@ class ThermalCamera {
   BadPixels bad_pixels_;
   std::optional<TemporalFilter> denoise_;  ///< none without noise reduction
   Agc agc_;
-  DetailEnhancer detail_;
+  DetailEnhancer sharpener_;
   Plane<float> signal_;                ///< radiance as measured by the detector
   std::vector<float> membrane_;        ///< lagging radiance; empty: no lag
   std::vector<float> first_frame_;     ///< the paper's fixed pattern; empty: none
