@@ -153,7 +153,7 @@ def test_no_worker_outlives_a_killed_planner(tmp_path):
 def _is_running(process: int) -> bool:
     try:
         state = Path(f"/proc/{process}/stat").read_text(encoding="utf-8")
-    except FileNotFoundError:
+    except (FileNotFoundError, ProcessLookupError):  # the latter if it ends between opening and reading
         return False
     return state.rpartition(")")[2].split()[0] != "Z"
 
