@@ -18,8 +18,15 @@ const Coat kBareHand = {.tissue = {.warm_m2_k_w = 0.02, .cold_m2_k_w = 0.13}, .s
 const Coat kHide = {.coat_m2_k_w = 0.1, .wet_when_bathed = 1};
 
 std::vector<BodyHeat> all_kinds() {
-  return {BodyHeat{},    Clothing{}, kBareHand, kHide,
-          ColdBlooded{}, Unheated{}, Sheet{},   EngineWarmed{.warmth = {.driving_k = 20, .parked_k = 30}}};
+  return {BodyHeat{},
+          Clothing{},
+          kBareHand,
+          kHide,
+          ColdBlooded{},
+          Unheated{},
+          Sheet{},
+          EngineWarmed{.warmth = {.driving_k = 20, .parked_k = 30}},
+          Powered{.excess_k = 40}};
 }
 
 }  // namespace
@@ -43,6 +50,14 @@ TEST_CASE("Every kind of part has a temperature in all weather, on every slope")
 
 TEST_CASE("A part of no kind has the temperature of the air") {
   CHECK(part_temperature_k(BodyHeat{}, {.around = cold_night()}, 0.5) == 273);
+}
+
+TEST_CASE("What is powered is warmer than the same sheet without power, in all weather alike") {
+  for (const double air_k : {253.0, 273.0, 293.0}) {
+    const BodyMoment moment = {.around = night(air_k, 1.0, air_k - 6)};
+    const double cold_k = part_temperature_k(Sheet{}, moment, 0.5);
+    CHECK_THAT(part_temperature_k(Powered{.excess_k = 32}, moment, 0.5), WithinAbs(cold_k + 32, 1e-9));
+  }
 }
 
 TEST_CASE("At night a direction is no more than its slope") {
@@ -89,6 +104,8 @@ TEST_CASE("Parts outside of their domain are refused by what they are") {
         "rifle.albedo = 2; expected 0 to 1");
   CHECK(message_of<ConfigError>([] { validate(EngineWarmed{.warmth = {.driving_k = -1}}, "hood"); }) ==
         "hood.driving_k = -1 K; expected 0 to 900 K");
+  CHECK(message_of<ConfigError>([] { validate(Powered{.excess_k = 901}, "lamp"); }) ==
+        "lamp.excess_k = 901 K; expected 0 to 900 K");
   for (const BodyHeat& heat : all_kinds()) CHECK_NOTHROW(validate(heat, "part"));
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/polynomial.h"
+#include "base/ranges.h"
 
 namespace thermal {
 namespace {
@@ -37,6 +38,7 @@ struct PartTemperature {
   double operator()(const EngineWarmed& part) const {
     return (*this)(part.sheet) + warmth_k(part.warmth, moment.vehicle);
   }
+  double operator()(const Powered& part) const { return (*this)(part.sheet) + part.excess_k; }
   double operator()(const FirePart& part) const {
     const CampFire& fire = moment.fire.fire;
     if (!moment.fire.burning)
@@ -86,6 +88,11 @@ void add_sun(const BodyHeat& heat, const BodyMoment& moment, BodyFit& fit) {
 }
 
 }  // namespace
+
+void Powered::validate(const std::string& where) const {
+  sheet.validate(where);
+  require_range(where + ".excess_k", excess_k, "K", 0, 900);
+}
 
 void validate(const BodyHeat& heat, const std::string& where) { std::visit(Validate{where}, heat); }
 

@@ -27,6 +27,17 @@ struct EngineWarmed {
   [[nodiscard]] bool operator==(const EngineWarmed&) const = default;
 };
 
+/// A thing that is warmed at a constant rate, by electricity, decay or a small fire: a lamp, a generator, a dung heap.
+struct Powered {
+  Sheet sheet = {};
+  double excess_k = 0;  ///< above what the weather alone gives it, 0 to 900
+
+  /// ConfigError with `where` if a value is outside its domain.
+  void validate(const std::string& where) const;
+
+  [[nodiscard]] bool operator==(const Powered&) const = default;
+};
+
 /// A part of a camp fire.
 struct FirePart {
   enum class Of { embers, ash, flames };
@@ -45,9 +56,9 @@ struct FireState {
   [[nodiscard]] bool operator==(const FireState&) const = default;
 };
 
-/// What heats or cools a part of an actor; std::monostate: it has the temperature of the air.
-using BodyHeat =
-    std::variant<std::monostate, Clothing, Coat, ColdBlooded, Unheated, Sheet, EngineWarmed, FirePart>;
+/// What heats or cools a part of an actor, or of what stands in a place; std::monostate: it has the temperature of the air.
+using BodyHeat = std::variant<std::monostate, Clothing, Coat, ColdBlooded, Unheated, Sheet, EngineWarmed,
+                              Powered, FirePart>;
 
 /// ConfigError with `where` if a value is outside its domain.
 void validate(const BodyHeat& heat, const std::string& where);

@@ -131,6 +131,13 @@ BodyHeat engine(HeatKeys& keys) {
   return part;
 }
 
+BodyHeat powered(HeatKeys& keys) {
+  Powered part;
+  take_sheet(keys, part.sheet);
+  keys.take("excess_k", part.excess_k);
+  return part;
+}
+
 BodyHeat fire_part(HeatKeys& keys) {
   std::string of = "ash";
   keys.take("of", of);
@@ -146,6 +153,7 @@ BodyHeat read_kind(HeatKeys& keys, const std::string& kind) {
   if (kind == "unheated") return unheated(keys);
   if (kind == "sheet") return sheet(keys);
   if (kind == "engine") return engine(keys);
+  if (kind == "powered") return powered(keys);
   if (kind == "fire") return fire_part(keys);
   return {};  // "air", the only other kind of the schema
 }
