@@ -7,11 +7,12 @@ from collections.abc import Callable, Collection, Iterator
 from .faults import ConfigError, check_known, did_you_mean, listing
 
 # By kind: the keys that every file has, and what they are. `veldt` checks materials against their schema.
-_TEXT, _NUMBER, _PAIR, _TABLE, _COUNT = (
+_TEXT, _NUMBER, _PAIR, _TABLE, _LIST, _COUNT = (
     "text",
     "a number",
     "[least, most]",
     "an object",
+    "a list",
     "a whole number from 1",
 )
 _KEYS = {
@@ -23,7 +24,6 @@ _KEYS = {
         "variants": _TABLE,
     },
     "plants": {
-        "material": _TEXT,
         "source": _TABLE,
         "scale_range": _PAIR,
         "cover_m2": _NUMBER,
@@ -33,6 +33,8 @@ _KEYS = {
         "patch_m": _NUMBER,
         "slope_deg": _PAIR,
     },
+    "structures": {"source": _TABLE, "cover_m2": _NUMBER, "foot_m": _NUMBER, "clearance_m": _NUMBER},
+    "sites": {"source": _TABLE, "radius_m": _NUMBER, "objects": _LIST},
     "materials": {"emissivity": _NUMBER, "winter_k": _NUMBER, "summer_k": _NUMBER, "source": _TEXT},
 }
 _PLAIN_PARTS = ("head", "torso")  # need no entry in the material: they use its own temperature
@@ -60,6 +62,7 @@ _IS: dict[str, Callable] = {
     _NUMBER: lambda value: _is_number(value) and value >= 0,
     _PAIR: lambda value: isinstance(value, list) and len(value) == 2 and all(map(_is_number, value)),
     _TABLE: lambda value: isinstance(value, dict) and len(value) > 0,
+    _LIST: lambda value: isinstance(value, list) and len(value) > 0,
     _COUNT: lambda value: isinstance(value, int) and value >= 1,
 }
 
@@ -69,8 +72,12 @@ def check(where: str, kind: str, data: dict) -> None:
     _check_keys(f"{where}: ", data, _KEYS.get(kind, {}))
     if kind == "species":
         _check_species(where, data)
-    elif kind == "plants" and "model" not in data:
-        _check_form(where, data)
+    elif kind == "structures" or "shapes" in data:
+        _check_shapes(where, data)
+    elif kind == "plants":
+        _check_keys(f"{where}: ", data, {"material": _TEXT})
+        if "model" not in data:
+            _check_form(where, data)
 
 
 def check_parts(where: str, data: dict, parts: Collection[str]) -> None:
@@ -132,6 +139,20 @@ def _check_object(where: str, data, keys: dict[str, str]) -> None:
     if not isinstance(data, dict):
         raise ConfigError(f"{where} = {data}; expected an object with {listing(keys)}")
     _check_keys(f"{where}.", data, keys)
+
+
+def _check_shapes(where: str, data: dict) -> None:
+    _check_keys(f"{where}: ", data, {"materials": _TABLE, "shapes": _LIST})
+    for part, slot in data["materials"].items():
+        if not (
+            _IS[_TEXT](slot) or (isinstance(slot, list) and len(slot) == 2 and all(map(_IS[_TEXT], slot)))
+        ):
+            raise ConfigError(
+                f"{where}: materials.{part} = {slot}; expected a material, or [material, part of it]"
+            )
+    for k, shape in enumerate(data["shapes"]):
+        _check_object(f"{where}: shapes[{k}]", shape, {"part": _TEXT})
+        check_known(shape["part"], data["materials"], f"{where}: shapes[{k}].part", "a key of materials")
 
 
 def _check_form(where: str, data: dict) -> None:

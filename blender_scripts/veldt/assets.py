@@ -1,4 +1,4 @@
-"""Read species and plants from `assets/`."""
+"""Read species, plants, structures and sites from `assets/`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .faults import ConfigError, check_known
 
 @lru_cache(maxsize=None)
 def names(kind: str) -> tuple[str, ...]:
-    """Names of all files of a kind, `species` or `plants`, sorted."""
+    """Names of all files of a kind, such as `species` or `plants`, sorted."""
     return tuple(sorted(path.stem for path in _folder(kind).glob("*.json")))
 
 
@@ -26,8 +26,10 @@ def load(kind: str, name: str) -> dict:
     where = f"assets/{kind}/{name}.json"
     data = _read(where, _folder(kind) / f"{name}.json")
     asset_checks.check(where, kind, data)
-    if kind in ("species", "plants"):
+    if "material" in data:
         check_known(data["material"], names("materials"), f"{where}: material", "a material")
+    for part, slot in data.get("materials", {}).items():
+        _check_slot(f"{where}: materials.{part}", slot)
     if kind == "species" or "model" in data:
         parts = load("materials", data["material"]).get("parts", {})
         asset_checks.check_parts(where, data, parts)
@@ -36,6 +38,24 @@ def load(kind: str, name: str) -> dict:
         if kind == "plants":
             data["variants"] = 1
     return data
+
+
+def standing(name: str) -> dict:
+    """The file of what stands in a place and never moves: a plant, or a structure."""
+    return load(kind_of(name), name)
+
+
+def kind_of(name: str) -> str:
+    """The folder of what stands in a place: `plants` or `structures`."""
+    return "plants" if name in names("plants") else "structures"
+
+
+def _check_slot(where: str, slot) -> None:
+    """Raise ConfigError unless a slot names a material, or a material and one of its parts."""
+    material, part = (slot, "") if isinstance(slot, str) else slot
+    check_known(material, names("materials"), where, "a material")
+    if part:
+        check_known(part, load("materials", material).get("parts", {}), where, f"a part of {material}")
 
 
 def _read(where: str, path: Path) -> dict:

@@ -6,6 +6,7 @@ import numpy as np
 
 from . import assets
 from .land.covers import SOIL
+from .plants.plant_shapes import slots_of
 from .world import WATER, World
 
 _MOST = 0.9  # share of the ground that plants of one species hide; beyond it, their crowns overlap
@@ -57,7 +58,7 @@ def _crowns(world: World, dry: float) -> list[tuple[str, float, float]]:
     dry_m2 = dry * world.terrain.size_m**2
     crowns = []
     for name, planting in world.plantings.items():
-        data = assets.load("plants", name)
+        data = assets.standing(name)
         hidden_m2 = data["cover_m2"] * float((planting.scale**2).sum())
-        crowns.append((data["material"], data["cover_m2"], min(_MOST, hidden_m2 / max(dry_m2, 1.0))))
+        crowns.append((slots_of(data)[0][0], data["cover_m2"], min(_MOST, hidden_m2 / max(dry_m2, 1.0))))
     return crowns

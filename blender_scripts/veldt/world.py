@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from . import assets, checks, fires, ids
@@ -19,8 +20,11 @@ from .land.ground_maps import Ground, lay_ground
 from .land.road_plan import plan_road
 from .land.terrain import Terrain, build_terrain
 from .plants.density import plan_density
-from .plants.placement import Planting, Site, place_plants
-from .plants.plant_shapes import plant_parts
+from .plants.placement import Corridor, Planting, Site, place_plants, with_more
+from .plants.plant_shapes import slots_of
+from .sites.grounds import plan_grounds
+from .sites.layout import lay_out, plantings_of
+from .sites.settlement import plan_settlements
 from .workers import Cores
 
 WATER = "water"
@@ -28,7 +32,7 @@ WATER = "water"
 
 @dataclass(frozen=True)
 class World:
-    """The scene of a config; plantings by species name, material indices by (material, part).
+    """The scene of a config; plantings of plants and structures by name, material indices by (material, part).
 
     ground is None if it was not asked for.
     """
@@ -67,7 +71,8 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
     terrain = build_terrain(scene["terrain"], seed)
     checks.check_road(scene["terrain"], lambda x_m, y_m: terrain.shore_m(x_m, y_m) < 0)
     terrain = terrain.with_road(plan_road(scene["terrain"]["road"], terrain, seed))
-    covers = plan_covers(terrain, scene["terrain"], seed)
+    settlements = plan_settlements(scene.get("sites", []), terrain, seed)
+    covers = plan_covers(terrain, scene["terrain"], seed, plan_grounds(settlements))
     ground = cores.start(lambda: lay_ground(terrain, covers)) if with_ground else lambda: None
     loops = plan_loops(scene["paths"], terrain, seed)
     check_groups(scene["groups"], loops)
@@ -76,36 +81,45 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
     areas = plan_density(terrain, scene["terrain"], seed)
     burning = fires.plan_fires(scene.get("fires", []), terrain)
     clear = [*cast.corridors, *(fire.clearing for fire in burning)]
+    built = [thing for site in settlements for thing in lay_out(site, terrain, clear)]
+    clear += [Corridor(thing.point_m[None], thing.foot_m) for thing in built]
     site = Site(terrain, areas.shares, terrain.road_m, clear)
     plantings = cores.start(lambda: place_plants(scene["plants"], site, seed))
     measure(cast.actors, cores)
     intrinsics = intrinsics_of(config["camera"])
+    standing = with_more(plantings(), plantings_of(built, terrain, seed))
     return World(
         config=config,
         intrinsics=intrinsics,
         view_margin_px=config["render"]["view_margin_px"],
         terrain=terrain,
         covers=covers,
-        plantings=plantings(),
-        plant_indices=ids.plan_plant_indices(sorted(scene["plants"])),
+        plantings=standing,
+        plant_indices=ids.plan_plant_indices(list(standing)),
         fires=burning,
-        fire_indices=ids.plan_fire_indices(len(scene["plants"]), len(burning)),
+        fire_indices=ids.plan_fire_indices(len(standing), len(burning)),
         actors=cast.actors,
-        material_indices=ids.plan_material_indices(_materials(terrain, covers, scene, cast.actors)),
+        material_indices=ids.plan_material_indices(
+            _materials(terrain, covers, standing, burning, cast.actors)
+        ),
         pilot=Pilot(config, terrain, cast.actors, intrinsics),
         ground=ground(),
     )
 
 
 def _materials(
-    terrain: Terrain, covers: list[Layer], scene: dict, actors: list[Actor]
+    terrain: Terrain,
+    covers: list[Layer],
+    standing: Iterable[str],
+    burning: list[fires.Fire],
+    actors: list[Actor],
 ) -> list[tuple[str, str]]:
     """Every (material, part) of the scene, those of the place first."""
     names = [SOIL, *(layer.material for layer in covers), *([WATER] if terrain.waters else [])]
     pairs = [(name, "") for name in names]
-    for plant in (assets.load("plants", name) for name in sorted(scene["plants"])):
-        pairs += [(plant["material"], part) for part in plant_parts(plant)]
-    if scene.get("fires"):
+    for name in standing:
+        pairs += slots_of(assets.standing(name))
+    if burning:
         pairs += [(fires.MATERIAL, part) for part in fires.PARTS]
     for species in dict.fromkeys(actor.species for actor in actors):
         data = assets.load("species", species)

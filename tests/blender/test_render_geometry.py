@@ -1,5 +1,7 @@
 """Blender's pictures match the plan to the pixel."""
 
+from collections.abc import Collection
+
 import numpy as np
 import pytest
 
@@ -130,19 +132,25 @@ def test_bodies_fill_exactly_the_pixels_they_should(tmp_path, camera):
             _assert_pictures_agree(world, flight, frame, run.planes(clip["id"], frame)[PLANES[0]], bodies)
 
 
-def _grove(config: dict) -> None:
-    """A level place with a few plants of every kind and no actors in sight, seen from above and at 45 deg."""
+def _grove(config: dict, kinds: Collection[str], per_ha: float, size_m: float) -> None:
+    """A level place with plants of some kinds and no actors in sight, seen from above and at 45 deg."""
     flat(config)
-    config["scene"]["terrain"]["size_m"] = 160
-    config["scene"]["plants"] = {name: {"per_ha": 12} for name in assets.names("plants")}
+    config["scene"]["terrain"]["size_m"] = size_m
+    config["scene"]["plants"] = {name: {"per_ha": per_ha} for name in kinds}
     config["scene"]["groups"] = []
     down = config["clips"][0] | {"frames": 1}
+    down["flight"] |= {"altitude_m": 0.25 * size_m, "area_m": [0.1875 * k * size_m for k in (-1, -1, 1, 1)]}
     side = down | {"id": "side", "flight": down["flight"] | {"look_angle_deg": 45}}
     config["clips"] = [down, side]
 
 
-def test_plants_fill_exactly_the_pixels_they_should(tmp_path):
-    config = tiny(_grove)
+SMALL = [name for name in assets.names("plants") if assets.load("plants", name)["cover_m2"] < 0.5]
+LARGE = [name for name in assets.names("plants") if name not in SMALL]
+
+
+@pytest.mark.parametrize("kinds, per_ha, size_m", [(LARGE, 12, 160), (SMALL, 200, 64)])
+def test_plants_fill_exactly_the_pixels_they_should(tmp_path, kinds, per_ha, size_m):
+    config = tiny(lambda c: _grove(c, kinds, per_ha, size_m))
     world, run = plan_world(config), render(tmp_path, config)
     assert run.code == 0, run.log
     plants = {index: plant_triangles(world, name) for name, index in world.plant_indices.items()}

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import models
-from ..geometry.panel_shapes import panel, wheel
-from ..geometry.shapes import Mesh, ellipsoid, joined, sheet, tube
+from ..geometry.shapes import Mesh, joined
+from ..geometry.solids import solid_of
 
 SIDES = {"left": 1.0, "right": -1.0}
 
@@ -93,21 +93,5 @@ def _on_side(mesh: Mesh, joint_m, side: str) -> tuple[Mesh, np.ndarray]:
 
 def _solids(shape: dict, parts: tuple[str, ...]) -> list[Mesh]:
     """A shape's mesh in its part's slot, and its mirror image if it has one."""
-    mesh = _solid(shape).with_slot(parts.index(shape["part"]))
+    mesh = solid_of(shape).with_slot(parts.index(shape["part"]))
     return [mesh, mesh.mirrored()] if shape.get("mirror", False) else [mesh]
-
-
-def _solid(shape: dict) -> Mesh:
-    if "tube_m" in shape:
-        fineness = {key: shape[key] for key in ("sides", "roundness", "steps", "caps") if key in shape}
-        return tube(np.array(shape["tube_m"]), **fineness)
-    if "panel_m" in shape:
-        return panel(
-            np.array(shape["panel_m"]), shape["bevel_m"], shape.get("corner_m", 0.0), shape.get("y_m", 0.0)
-        )
-    if "wheel_m" in shape:
-        return wheel(shape["centre_m"], *shape["wheel_m"], shape["bevel_m"])
-    turn = shape.get("yaw_deg", 0.0), shape.get("tilt_deg", 0.0)
-    if "outline_m" in shape:
-        return sheet(np.array(shape["outline_m"]), shape["thickness_m"], shape["centre_m"], *turn)
-    return ellipsoid(shape["centre_m"], shape["radii_m"], *turn)

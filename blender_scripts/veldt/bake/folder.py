@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from .. import assets
@@ -63,7 +63,7 @@ def _described(world: World, clips: list[dict], outline: dict) -> dict:
         "format": PLAN,
         "version": VERSION,
         "config": world.config,
-        "files": _files(world.config),
+        "files": _files(world.config, world.plantings),
         "clips": clips,
         "actors": len(world.actors),
         "plants": sum(len(planting.scale) for planting in world.plantings.values()),
@@ -71,10 +71,12 @@ def _described(world: World, clips: list[dict], outline: dict) -> dict:
     }
 
 
-def _files(config: dict) -> dict[str, str]:
+def _files(config: dict, standing: Iterable[str]) -> dict[str, str]:
     """SHA-256 of every file that determines the plan besides the config: absolute, or relative to the installation."""
-    species = dict.fromkeys(group["species"] for group in config["scene"]["groups"])
-    named = [("species", name) for name in species] + [("plants", name) for name in config["scene"]["plants"]]
+    scene = config["scene"]
+    named = dict.fromkeys(("species", group["species"]) for group in scene["groups"])
+    named |= dict.fromkeys(("sites", site["kind"]) for site in scene.get("sites", []))
+    named |= dict.fromkeys((assets.kind_of(name), name) for name in standing)
     models = [assets.load(kind, name).get("model", {}).get("path") for kind, name in named]
     ours = [ROOT / "assets" / kind / f"{name}.json" for kind, name in named]
     ours += sorted((ROOT / "blender_scripts" / "veldt").rglob("*.py"))

@@ -21,7 +21,7 @@ from ..land.ground_maps import Ground
 from ..land.waters import Water
 from ..plants.canopy import canopy
 from ..plants.placement import Planting
-from ..plants.plant_shapes import build_variants, plant_parts
+from ..plants.plant_shapes import build_variants, slots_of
 from ..world import WATER, World
 from .arrays import write
 from .forms import SCENE, VERSION
@@ -140,13 +140,12 @@ def _all_plants(
 
 def _variants(name: str, seed: int, model_mesh: ModelMesh, meshes: _Meshes) -> int:
     """Add the meshes of a species' variants at its drawn size, standing at the origin; returns the first's number."""
-    data = assets.load("plants", name)
+    data = assets.standing(name)
     if "model" in data:
         variants = [model_mesh(f"assets/plants/{name}.json", data)]
     else:
         variants = build_variants(name, data, seed)
-    slots = [(data["material"], part) for part in plant_parts(data)]
-    return [meshes.add(name, mesh, slots, smooth=False) for mesh in variants][0]
+    return [meshes.add(name, mesh, slots_of(data), smooth=False) for mesh in variants][0]
 
 
 def _transforms(planting: Planting) -> np.ndarray:
@@ -211,7 +210,7 @@ def _place(world: World) -> list[dict]:
         place.append({"index": ids.WATER, "name": "water", "class": "water", "material": WATER})
     for name, index in world.plant_indices.items():
         if len(world.plantings[name].scale) > 0:
-            material = assets.load("plants", name)["material"]
+            material = slots_of(assets.standing(name))[0][0]
             place.append({"index": index, "name": name, "class": "plant", "material": material})
     for fire, index in zip(world.fires, world.fire_indices):
         thing = {"index": index, "name": fire.name, "class": "plant", "material": fires.MATERIAL}

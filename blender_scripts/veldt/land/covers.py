@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,7 +19,7 @@ _WET_RAGGED_M = 1.5
 _OUTCROP_M = 14.0  # size of outcrops
 _OUTCROPS = 0.85  # higher values leave less rock on the crag
 
-_FAR_M = -100.0  # instead of infinity off the road, so that borders can be interpolated between two points
+FAR_M = -100.0  # instead of infinity off the road, so that borders can be interpolated between two points
 _NEAR_M = 10.0  # from a shore: beyond its wet margin
 
 Value = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -33,15 +33,16 @@ class Layer:
     value: Value
 
 
-def plan_covers(terrain: Terrain, settings: dict, seed: int) -> list[Layer]:
-    """The layers on the dry soil of a terrain; where they overlap, the first one wins."""
+def plan_covers(terrain: Terrain, settings: dict, seed: int, grounds: Sequence[Layer] = ()) -> list[Layer]:
+    """The layers on the dry soil of a terrain; where they overlap, the first one wins. No grass grows on `grounds`."""
     layers = []
     if terrain.road is not None:
-        layers.append(Layer("road", lambda x_m, y_m: np.maximum(-terrain.road_m(x_m, y_m), _FAR_M)))
+        layers.append(Layer("road", lambda x_m, y_m: np.maximum(-terrain.road_m(x_m, y_m), FAR_M)))
     if terrain.waters:
         layers.append(Layer("wet_soil", lambda x_m, y_m: _wetness(terrain, seed, x_m, y_m)))
     if terrain.crag is not None:
         layers.append(Layer("rock", lambda x_m, y_m: _rockiness(terrain, seed, x_m, y_m)))
+    layers += grounds
     grass = _plan_grass(terrain, settings, seed)
     return layers if grass is None else [*layers, Layer("grass", grass)]
 
@@ -49,7 +50,7 @@ def plan_covers(terrain: Terrain, settings: dict, seed: int) -> list[Layer]:
 def _wetness(terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:
     shore_m = terrain.shore_m(x_m, y_m, _NEAR_M + 2.0 * terrain.cell_m)  # to the far corners of triangles
     ragged_m = _WET_RAGGED_M * fractal_noise(seed, "wet", x_m, y_m, 4.0 * _WET_RAGGED_M, octaves=2)
-    return np.maximum(_WET_MARGIN_M + ragged_m - shore_m, _FAR_M)
+    return np.maximum(_WET_MARGIN_M + ragged_m - shore_m, FAR_M)
 
 
 def _rockiness(terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:

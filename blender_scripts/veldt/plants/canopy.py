@@ -21,7 +21,7 @@ def canopy(terrain: Terrain, plantings: Mapping[str, Planting]) -> np.ndarray:
     dot_m = terrain.cell_m / per_cell
     shaded = np.zeros((cells * per_cell, cells * per_cell), bool)
     for name, planting in plantings.items():
-        radius_m = planting.scale * np.sqrt(assets.load("plants", name)["cover_m2"] / np.pi)
+        radius_m = planting.scale * np.sqrt(assets.standing(name)["cover_m2"] / np.pi)
         _mark_discs(shaded, planting.points_m[:, :2] / dot_m + 0.5 * len(shaded), radius_m / dot_m)
     return as_bytes(np.reshape(shaded, (cells, per_cell, cells, per_cell)).mean(axis=(1, 3)))
 

@@ -99,6 +99,16 @@ def place_plants(plants: Mapping[str, dict], site: Site, seed: int) -> dict[str,
     return {name: plantings[name] for name in sorted(plants)}
 
 
+def with_more(plantings: Mapping[str, Planting], more: Mapping[str, Planting]) -> dict[str, Planting]:
+    """Plants and other things of both, by name in alphabetical order."""
+
+    def both(name: str) -> Planting:
+        found = [some[name] for some in (plantings, more) if name in some]
+        return Planting(*(np.concatenate(values) for values in zip(*(vars(each).values() for each in found))))
+
+    return {name: both(name) for name in sorted({**plantings, **more})}
+
+
 def _spaced(kind: _Species, standing: Sequence[tuple[_Species, np.ndarray]], site: Site, seed: int):
     """Lattice cells (n, 2) and points (n, 2) of plants that keep off each other and off plants already placed."""
 

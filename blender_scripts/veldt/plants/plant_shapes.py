@@ -7,7 +7,8 @@ import numpy as np
 from .. import models
 
 from ..faults import ConfigError, did_you_mean, listing
-from ..geometry.shapes import Mesh
+from ..geometry.shapes import Mesh, joined
+from ..geometry.solids import solid_of
 from ..noise import stream
 from . import still_shapes, tree_shapes
 
@@ -27,15 +28,21 @@ WOOD_PART = "wood"
 WOODY = ("umbrella", "many_stemmed")  # forms with stems that have a slot of their own beside the leaves
 
 
-def plant_parts(data: dict) -> tuple[str, ...]:
-    """Parts of a plant's meshes by slot: those of a model, or the whole ("") and, of trees in leaf, their wood."""
+def slots_of(data: dict) -> list[tuple[str, str]]:
+    """(material, part) of a plant's or structure's meshes by slot: those of its shapes or its model, or its material
+    as a whole and, of trees in leaf, their wood."""
+    if "shapes" in data:
+        return [(slot, "") if isinstance(slot, str) else tuple(slot) for slot in data["materials"].values()]
     if "model" in data:
-        return models.part_names(data)
-    return ("", WOOD_PART) if data["form"] in WOODY else ("",)
+        return [(data["material"], part) for part in models.part_names(data)]
+    return [(data["material"], part) for part in (("", WOOD_PART) if data["form"] in WOODY else ("",))]
 
 
 def build_variants(name: str, data: dict, seed: int) -> list[Mesh]:
-    """Meshes of a plant's variants at its drawn size, standing at the origin, z up."""
+    """Meshes of a plant's or structure's variants at its drawn size, standing at the origin, z up."""
+    if "shapes" in data:
+        part = {name: slot for slot, name in enumerate(data["materials"])}
+        return [joined([solid_of(shape).with_slot(part[shape["part"]]) for shape in data["shapes"]])]
     if data["form"] not in FORMS:
         raise ConfigError(
             f'assets/plants/{name}.json: form = "{data["form"]}"; expected one of {listing(FORMS)}'

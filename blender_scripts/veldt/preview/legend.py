@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import assets
 from ..geometry.shapes import Mesh, joined
+from ..plants.plant_shapes import slots_of
 from ..world import World
 from .colours import INK, mixed, surface_colour
 from .flat_shapes import box, polygon
@@ -100,7 +101,7 @@ def _areas() -> list[tuple[str, str]]:
 
 
 def _plant_colour(name: str) -> str:
-    return surface_colour(assets.load("plants", name)["material"])
+    return surface_colour(slots_of(assets.standing(name))[0][0])
 
 
 def _words(name: str) -> str:

@@ -110,7 +110,7 @@ def _plants_near(world: World, line_m: np.ndarray) -> int:
     """Number of plants that intersect a line of sight (n, 3)."""
     count = 0
     for name, planting in world.plantings.items():
-        reach_m = 0.5 * assets.load("plants", name).get("crown_diameter_m", 1.0) * planting.scale
+        reach_m = 0.5 * assets.standing(name).get("crown_diameter_m", 1.0) * planting.scale
         count += int((_apart_m(planting.points_m[:, :2], line_m) < reach_m + 0.3).sum())
     return count
 

@@ -1,0 +1,78 @@
+"""A settlement of the config: where it is, and the random streams that lay it out. Lengths in m."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import assets
+from ..faults import ConfigError, check_known
+from ..land.terrain import Terrain
+from ..noise import stream
+
+
+@dataclass(frozen=True)
+class Settlement:
+    """A site of the config: the rules of its kind, its middle (2,), its size, and which way it is built."""
+
+    name: str
+    rules: dict
+    middle_m: np.ndarray
+    radius_m: float
+    heading_rad: float
+    density: float
+    seed: int
+
+    def stream(self, *entity) -> np.random.Generator:
+        """The random generator of one thing of this site."""
+        what, *numbers = entity
+        return stream(self.seed, f"site/{self.name}/{what}", *numbers)
+
+    def count(self, rng: np.random.Generator, rule: dict) -> int:
+        """How many of a rule's things there are: between both of its numbers, times the density."""
+        least, most = rule.get("count", [1, 1])
+        return round(self.density * rng.integers(least, most + 1))
+
+    def draw_place(self, rng: np.random.Generator, ring: Sequence[float]) -> np.ndarray:
+        """A place (2,) between two distances from the middle, in radii; all of that area is equally likely."""
+        inner, outer = ring
+        away_m = self.radius_m * np.sqrt(inner**2 + (outer**2 - inner**2) * rng.uniform())
+        angle = 2.0 * np.pi * rng.uniform()
+        return self.middle_m + away_m * np.array([np.cos(angle), np.sin(angle)])
+
+
+def plan_settlements(entries: Sequence[dict], terrain: Terrain, seed: int) -> list[Settlement]:
+    """The sites of a config; ConfigError if one is of no known kind, or not on dry ground of the place."""
+    names = [entry.get("name", f"{entry['kind']}_{k + 1}") for k, entry in enumerate(entries)]
+    for k, name in enumerate(names):
+        if name in names[:k]:
+            raise ConfigError(f'scene.sites[{k}].name = "{name}"; expected a name no other site has')
+    return [
+        _settlement(f"scene.sites[{k}]", names[k], entry, terrain, seed) for k, entry in enumerate(entries)
+    ]
+
+
+def _settlement(where: str, name: str, entry: dict, terrain: Terrain, seed: int) -> Settlement:
+    check_known(entry["kind"], assets.names("sites"), f"{where}.kind", "a kind of site")
+    rules = assets.load("sites", entry["kind"])
+    radius_m = float(entry.get("radius_m", rules["radius_m"]))
+    middle_m = np.array(entry["place"], float)
+    _check_place(where, middle_m, radius_m, terrain)
+    heading_rad = stream(seed, f"site/{name}/heading").uniform() * 2.0 * np.pi
+    if "heading_deg" in entry:  # clockwise from north, as all headings of a config
+        heading_rad = np.radians(90.0 - entry["heading_deg"])
+    return Settlement(name, rules, middle_m, radius_m, heading_rad, entry.get("density", 1.0), seed)
+
+
+def _check_place(where: str, middle_m: np.ndarray, radius_m: float, terrain: Terrain) -> None:
+    x_m, y_m = middle_m
+    within_m = 0.5 * terrain.size_m - radius_m
+    if np.abs(middle_m).max() > within_m:
+        raise ConfigError(
+            f"{where}.place = [{x_m:g}, {y_m:g}] m; expected within {within_m:g} m of the middle in x and y"
+            f" for radius_m = {radius_m:g} m"
+        )
+    if terrain.waters and float(terrain.shore_m(middle_m[:1], middle_m[1:])[0]) < 0:
+        raise ConfigError(f"{where}.place = [{x_m:g}, {y_m:g}] m; expected dry ground, not water")

@@ -1,0 +1,91 @@
+"""Structures and small objects made of listed solids: sizes, materials, and number of triangles."""
+
+import numpy as np
+import pytest
+
+from veldt import assets
+from veldt.asset_checks import check
+from veldt.faults import ConfigError
+from veldt.plants.plant_shapes import build_variants, slots_of
+
+SOLID = [name for name in assets.names("plants") if "shapes" in assets.load("plants", name)]
+NAMES = (*assets.names("structures"), *SOLID)
+HEIGHTS_M = {
+    "hut_round": 3.9,
+    "house_metal": 3.44,
+    "tent_dome": 1.25,
+    "container": 2.59,
+    "lamp_mast": 9.1,
+    "hare": 0.225,
+}
+
+
+def _mesh(name):
+    (mesh,) = build_variants(name, assets.standing(name), 1)
+    return mesh
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_stands_on_the_ground_within_its_foot(name):
+    mesh, data = _mesh(name), assets.standing(name)
+    low_m, high_m = mesh.points_m[:, 2].min(), mesh.points_m[:, 2].max()
+    assert -1.3 <= low_m <= 0.061 and high_m > 0.1
+    # Segments of fences meet their neighbours, and eaves and arms reach over what stands below.
+    reach_m = np.linalg.norm(mesh.points_m[:, :2], axis=1).max()
+    assert (
+        "fence" in name
+        or "bank" in name
+        or "pole" in name
+        or "lamp" in name
+        or reach_m < 1.4 * data["foot_m"]
+    )
+    assert len(mesh.triangles) < 2000
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_part_is_drawn_and_has_a_material(name):
+    data = assets.standing(name)
+    assert set(_mesh(name).slot) == set(range(len(slots_of(data))))
+    for material, part in slots_of(data):
+        assert not part or part in assets.load("materials", material)["parts"]
+
+
+@pytest.mark.parametrize("name, height_m", HEIGHTS_M.items())
+def test_heights_are_those_of_their_sources(name, height_m):
+    assert _mesh(name).points_m[:, 2].max() == pytest.approx(height_m, abs=0.03)
+
+
+@pytest.mark.parametrize("name", assets.names("structures"))
+def test_covers_are_those_of_their_shapes(name):
+    """The area hidden from above, by the triangles that face up: an upper bound, as they may hide each other."""
+    mesh, data = _mesh(name), assets.standing(name)
+    a, b, c = (mesh.points_m[corner] for corner in mesh.triangles.T)
+    up_m2 = 0.5 * np.cross(b - a, c - a)[:, 2].clip(min=0).sum()
+    assert data["cover_m2"] < 1.25 * up_m2 + 0.15
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        ({"materials": {"wall": 3}}, "materials.wall = 3; expected a material, or [material, part of it]"),
+        ({"shapes": []}, "shapes = []; expected a list"),
+        (
+            {"shapes": [{"part": "roof"}]},
+            'shapes[0].part = "roof"; expected a key of materials: wall',
+        ),
+        ({"foot_m": "wide"}, "foot_m = wide; expected a number"),
+    ],
+)
+def test_faults_of_a_structure_name_the_key(change, message):
+    data = {
+        "source": {"sizes": "estimate"},
+        "materials": {"wall": "mud_wall"},
+        "cover_m2": 1,
+        "foot_m": 1,
+        "clearance_m": 0.2,
+        "shapes": [{"part": "wall", "centre_m": [0, 0, 0], "radii_m": [1, 1, 1]}],
+    }
+    check("hut.json", "structures", data)
+    with pytest.raises(ConfigError) as error:
+        check("hut.json", "structures", data | change)
+    assert str(error.value).startswith(f"hut.json: {message}")
