@@ -7,9 +7,10 @@ namespace thermal {
 namespace {
 
 /// Never reorder: the position is the id.
-constexpr std::array<std::string_view, 10> kKnown = {"human",  "elephant", "rhinoceros", "hippopotamus",
-                                                     "zebra",  "lion",     "crocodile",  "giraffe",
-                                                     "impala", "vehicle"};
+constexpr std::array<std::string_view, 18> kKnown = {
+    "human",     "elephant", "rhinoceros", "hippopotamus", "zebra",   "lion",
+    "crocodile", "giraffe",  "impala",     "vehicle",      "cattle",  "goat",
+    "dog",       "baboon",   "warthog",    "ostrich",      "buffalo", "wildebeest"};
 
 }  // namespace
 

@@ -137,7 +137,7 @@ TEST_CASE("Ids of images and annotations run from 1; a frame without actors is a
 }
 
 TEST_CASE("Categories are those of the clip's actors, by id") {
-  CHECK(document_of({{}})["categories"].dump() == R"([{"id":1,"name":"human"},{"id":11,"name":"antelope"}])");
+  CHECK(document_of({{}})["categories"].dump() == R"([{"id":1,"name":"human"},{"id":19,"name":"antelope"}])");
 }
 
 // Bondi et al., COMPASS 2018: small below 200 px, large above 2000 px, by the mean over the video.
