@@ -24,6 +24,8 @@ SHOULDERS_M = {
     "zebra": 1.3,
     "lion": 1.1,
     "impala": 0.9,
+    "cattle/bull": 1.3,
+    "cattle/cow": 1.2,
 }
 LENGTHS_M = {"rhinoceros": 3.8, "hippopotamus": 3.5, "zebra": 2.4, "lion": 1.8}  # nose to rump
 TALLEST_M = {"giraffe": 5.0, "human": 1.75}
@@ -32,6 +34,7 @@ PARTS = {
     "elephant": {"ears", "trunk", "tusks", "torso", "legs"},
     "pickup": {"hood", "cabin", "bed", "tyres"},
     "lorry": {"hood", "cabin", "bed", "tyres"},
+    "cattle": {"head", "torso", "legs", "tail", "hump", "horns", "udder"},
 }
 
 
@@ -49,10 +52,11 @@ def _scales(species: str, variant: str) -> np.ndarray:
 
 
 def _standing(species: str, variant: str, parts=None) -> np.ndarray:
-    """Vertices (n, 3) of parts, by default all, of a body of medium size that stands on level ground facing +x."""
+    """Vertices (n, 3) of parts, by default all, of a body of medium size on level ground, facing +x, with
+    its feet as in a short stride."""
     body, scale = build_body(species, variant), _scales(species, variant).mean()
     far_m = 1e7
-    walker = Walker(body, scale, 1.0, 0.0, circle(far_m), FLAT)
+    walker = Walker(body, scale, scale * body.leg_m, 0.0, circle(far_m), FLAT)
     mesh = pose(walker, Motion(*np.zeros((4, 1)))).mesh(body, 0)
     slots = [body.parts.index(part) for part in parts or body.parts if part in body.parts]
     x, y, z = mesh.points_m[np.unique(mesh.triangles[np.isin(mesh.slot, slots)])].T
@@ -129,7 +133,9 @@ def test_figures_have_sources_or_are_called_estimates(species):
 
 
 @pytest.mark.parametrize(
-    "species, posture", [("lion", "lie"), ("hippopotamus", "float"), ("crocodile", "float")]
+    "species, posture",
+    [("lion", "lie"), ("hippopotamus", "float"), ("crocodile", "float")]
+    + [(kind, "lie") for kind in ("cattle",)],
 )
 def test_those_that_lie_or_float_know_how(species, posture):
     for variant in variant_names(species):
