@@ -26,6 +26,8 @@ SHOULDERS_M = {
     "impala": 0.9,
     "cattle/bull": 1.3,
     "cattle/cow": 1.2,
+    "goat/buck": 0.7,
+    "goat/doe": 0.63,
 }
 LENGTHS_M = {"rhinoceros": 3.8, "hippopotamus": 3.5, "zebra": 2.4, "lion": 1.8}  # nose to rump
 TALLEST_M = {"giraffe": 5.0, "human": 1.75}
@@ -135,7 +137,7 @@ def test_figures_have_sources_or_are_called_estimates(species):
 @pytest.mark.parametrize(
     "species, posture",
     [("lion", "lie"), ("hippopotamus", "float"), ("crocodile", "float")]
-    + [(kind, "lie") for kind in ("cattle",)],
+    + [(kind, "lie") for kind in ("cattle", "goat")],
 )
 def test_those_that_lie_or_float_know_how(species, posture):
     for variant in variant_names(species):
