@@ -28,6 +28,8 @@ SHOULDERS_M = {
     "cattle/cow": 1.2,
     "goat/buck": 0.7,
     "goat/doe": 0.63,
+    "dog/male": 0.54,
+    "dog/female": 0.48,
 }
 LENGTHS_M = {"rhinoceros": 3.8, "hippopotamus": 3.5, "zebra": 2.4, "lion": 1.8}  # nose to rump
 TALLEST_M = {"giraffe": 5.0, "human": 1.75}
@@ -137,7 +139,7 @@ def test_figures_have_sources_or_are_called_estimates(species):
 @pytest.mark.parametrize(
     "species, posture",
     [("lion", "lie"), ("hippopotamus", "float"), ("crocodile", "float")]
-    + [(kind, "lie") for kind in ("cattle", "goat")],
+    + [(kind, "lie") for kind in ("cattle", "goat", "dog")],
 )
 def test_those_that_lie_or_float_know_how(species, posture):
     for variant in variant_names(species):
