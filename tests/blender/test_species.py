@@ -31,7 +31,14 @@ SHOULDERS_M = {
     "dog/male": 0.54,
     "dog/female": 0.48,
 }
-LENGTHS_M = {"rhinoceros": 3.8, "hippopotamus": 3.5, "zebra": 2.4, "lion": 1.8}  # nose to rump
+LENGTHS_M = {  # nose to rump
+    "rhinoceros": 3.8,
+    "hippopotamus": 3.5,
+    "zebra": 2.4,
+    "lion": 1.8,
+    "baboon/male": 1.0,
+    "baboon/female": 0.8,
+}
 TALLEST_M = {"giraffe": 5.0, "human": 1.75}
 PARTS = {
     "human": {"face", "hands", "torso", "legs", "pack"},
@@ -39,6 +46,7 @@ PARTS = {
     "pickup": {"hood", "cabin", "bed", "tyres"},
     "lorry": {"hood", "cabin", "bed", "tyres"},
     "cattle": {"head", "torso", "legs", "tail", "hump", "horns", "udder"},
+    "baboon": {"head", "face", "torso", "legs", "hands", "tail"},
 }
 
 
@@ -88,7 +96,7 @@ def test_calves_are_of_all_heights_between_those_of_the_young():
 
 @pytest.mark.parametrize("species, variant, length_m", _of(LENGTHS_M))
 def test_heads_and_bodies_are_as_long_as_known(species, variant, length_m):
-    whole = _standing(species, variant, ["torso", "head", "mane"])
+    whole = _standing(species, variant, ["torso", "head", "face", "mane"])
     assert np.ptp(whole[:, 0]) == pytest.approx(length_m, rel=0.1)
 
 
@@ -139,7 +147,7 @@ def test_figures_have_sources_or_are_called_estimates(species):
 @pytest.mark.parametrize(
     "species, posture",
     [("lion", "lie"), ("hippopotamus", "float"), ("crocodile", "float")]
-    + [(kind, "lie") for kind in ("cattle", "goat", "dog")],
+    + [(kind, "lie") for kind in ("cattle", "goat", "dog", "baboon")],
 )
 def test_those_that_lie_or_float_know_how(species, posture):
     for variant in variant_names(species):
