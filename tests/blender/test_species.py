@@ -30,6 +30,8 @@ SHOULDERS_M = {
     "goat/doe": 0.63,
     "dog/male": 0.54,
     "dog/female": 0.48,
+    "warthog/boar": 0.68,
+    "warthog/sow": 0.6,
 }
 LENGTHS_M = {  # nose to rump
     "rhinoceros": 3.8,
@@ -38,6 +40,7 @@ LENGTHS_M = {  # nose to rump
     "lion": 1.8,
     "baboon/male": 1.0,
     "baboon/female": 0.8,
+    "warthog/boar": 1.35,
 }
 TALLEST_M = {"giraffe": 5.0, "human": 1.75}
 PARTS = {
@@ -147,7 +150,7 @@ def test_figures_have_sources_or_are_called_estimates(species):
 @pytest.mark.parametrize(
     "species, posture",
     [("lion", "lie"), ("hippopotamus", "float"), ("crocodile", "float")]
-    + [(kind, "lie") for kind in ("cattle", "goat", "dog", "baboon")],
+    + [(kind, "lie") for kind in ("cattle", "goat", "dog", "baboon", "warthog")],
 )
 def test_those_that_lie_or_float_know_how(species, posture):
     for variant in variant_names(species):
