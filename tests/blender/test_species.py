@@ -42,7 +42,7 @@ LENGTHS_M = {  # nose to rump
     "baboon/female": 0.8,
     "warthog/boar": 1.35,
 }
-TALLEST_M = {"giraffe": 5.0, "human": 1.75}
+TALLEST_M = {"giraffe": 5.0, "human": 1.75, "ostrich/cock": 2.3, "ostrich/hen": 1.85}
 PARTS = {
     "human": {"face", "hands", "torso", "legs", "pack"},
     "elephant": {"ears", "trunk", "tusks", "torso", "legs"},
@@ -50,6 +50,7 @@ PARTS = {
     "lorry": {"hood", "cabin", "bed", "tyres"},
     "cattle": {"head", "torso", "legs", "tail", "hump", "horns", "udder"},
     "baboon": {"head", "face", "torso", "legs", "hands", "tail"},
+    "ostrich": {"head", "neck", "torso", "wings", "thighs", "legs", "tail"},
 }
 
 
@@ -150,7 +151,7 @@ def test_figures_have_sources_or_are_called_estimates(species):
 @pytest.mark.parametrize(
     "species, posture",
     [("lion", "lie"), ("hippopotamus", "float"), ("crocodile", "float")]
-    + [(kind, "lie") for kind in ("cattle", "goat", "dog", "baboon", "warthog")],
+    + [(kind, "lie") for kind in ("cattle", "goat", "dog", "baboon", "warthog", "ostrich")],
 )
 def test_those_that_lie_or_float_know_how(species, posture):
     for variant in variant_names(species):
