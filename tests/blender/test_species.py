@@ -32,6 +32,8 @@ SHOULDERS_M = {
     "dog/female": 0.48,
     "warthog/boar": 0.68,
     "warthog/sow": 0.6,
+    "buffalo/bull": 1.5,
+    "buffalo/cow": 1.4,
 }
 LENGTHS_M = {  # nose to rump
     "rhinoceros": 3.8,
@@ -41,6 +43,7 @@ LENGTHS_M = {  # nose to rump
     "baboon/male": 1.0,
     "baboon/female": 0.8,
     "warthog/boar": 1.35,
+    "buffalo/bull": 2.7,
 }
 TALLEST_M = {"giraffe": 5.0, "human": 1.75, "ostrich/cock": 2.3, "ostrich/hen": 1.85}
 PARTS = {
@@ -151,7 +154,7 @@ def test_figures_have_sources_or_are_called_estimates(species):
 @pytest.mark.parametrize(
     "species, posture",
     [("lion", "lie"), ("hippopotamus", "float"), ("crocodile", "float")]
-    + [(kind, "lie") for kind in ("cattle", "goat", "dog", "baboon", "warthog", "ostrich")],
+    + [(kind, "lie") for kind in ("cattle", "goat", "dog", "baboon", "warthog", "ostrich", "buffalo")],
 )
 def test_those_that_lie_or_float_know_how(species, posture):
     for variant in variant_names(species):
