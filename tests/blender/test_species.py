@@ -34,6 +34,8 @@ SHOULDERS_M = {
     "warthog/sow": 0.6,
     "buffalo/bull": 1.5,
     "buffalo/cow": 1.4,
+    "wildebeest/bull": 1.38,
+    "wildebeest/cow": 1.25,
 }
 LENGTHS_M = {  # nose to rump
     "rhinoceros": 3.8,
@@ -44,6 +46,7 @@ LENGTHS_M = {  # nose to rump
     "baboon/female": 0.8,
     "warthog/boar": 1.35,
     "buffalo/bull": 2.7,
+    "wildebeest/bull": 2.0,
 }
 TALLEST_M = {"giraffe": 5.0, "human": 1.75, "ostrich/cock": 2.3, "ostrich/hen": 1.85}
 PARTS = {
@@ -154,7 +157,10 @@ def test_figures_have_sources_or_are_called_estimates(species):
 @pytest.mark.parametrize(
     "species, posture",
     [("lion", "lie"), ("hippopotamus", "float"), ("crocodile", "float")]
-    + [(kind, "lie") for kind in ("cattle", "goat", "dog", "baboon", "warthog", "ostrich", "buffalo")],
+    + [
+        (kind, "lie")
+        for kind in ("cattle", "goat", "dog", "baboon", "warthog", "ostrich", "buffalo", "wildebeest")
+    ],
 )
 def test_those_that_lie_or_float_know_how(species, posture):
     for variant in variant_names(species):
