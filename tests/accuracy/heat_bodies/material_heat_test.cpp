@@ -113,12 +113,25 @@ TEST_CASE("People, animals and vehicles have plausible temperatures in the night
     CHECK(side_k("human", "hands", moment) > side_k("human", "torso", moment));
     CHECK(side_k("human", "pack", moment) < moment.around.forcing.air_k);
     CHECK(side_k("elephant", "torso", moment) > side_k("elephant", "ears", moment) + 5);
-    for (const char* animal : {"zebra", "giraffe", "impala", "lion"}) {
+    for (const char* animal : {"zebra", "giraffe", "impala", "lion", "cattle", "goat", "dog", "warthog",
+                               "buffalo", "wildebeest"}) {
       CAPTURE(animal);
       CHECK(side_k(animal, "head", moment) > side_k(animal, "", moment));
       CHECK(side_k(animal, "", moment) > side_k(animal, "legs", moment));
       CHECK(side_k(animal, "legs", moment) > side_k(animal, "tail", moment));
     }
+    CHECK(side_k("cattle", "udder", moment) > side_k("cattle", "head", moment));
+    CHECK(side_k("cattle", "", moment) > side_k("cattle", "hump", moment));
+    CHECK(side_k("cattle", "legs", moment) > side_k("cattle", "dewlap", moment));
+    CHECK(side_k("baboon", "face", moment) > side_k("baboon", "head", moment));
+    CHECK(side_k("baboon", "rump", moment) > side_k("baboon", "", moment));
+    CHECK(side_k("baboon", "", moment) > side_k("baboon", "mane", moment));
+    CHECK(side_k("warthog", "", moment) > side_k("zebra", "", moment));  // nearly bare
+    // Plumage follows the air, bare skin does not.
+    CHECK_THAT(side_k("ostrich", "", moment), WithinAbs(moment.around.forcing.air_k, 2));
+    CHECK(side_k("ostrich", "thighs", moment) > side_k("ostrich", "neck", moment));
+    CHECK(side_k("ostrich", "neck", moment) > side_k("ostrich", "legs", moment) + 2);
+    CHECK(side_k("ostrich", "legs", moment) > side_k("ostrich", "wings", moment) + 2);
   }
   CHECK_THAT(side_k("elephant", "ears", cold), WithinAbs(273, 2));
   // Skin of elephants is 27 to 37 deg C at 22:00 in the warm season.
