@@ -8,9 +8,9 @@ from veldt.anatomy.gait import Footing
 
 
 def apart(feet: Footing) -> list[Footing]:
-    """The foot of each leg alone: toe_m (n, 3), rotation (n, 3, 3), bearing (n,)."""
+    """The foot of each leg alone: toe_m (n, 3), rotation (n, 3, 3), bearing (n,), strike_rad (n,)."""
     toes_m, rotations = np.moveaxis(feet.toe_m, 0, -1), np.moveaxis(feet.rotation, (0, 1), (-2, -1))
-    return [Footing(*foot) for foot in zip(toes_m, rotations, feet.bearing)]
+    return [Footing(*foot) for foot in zip(toes_m, rotations, feet.bearing, feet.strike_rad)]
 
 
 def _legs(joints_m: list, phases: list, heel_deg: float, name: str) -> tuple[dict, dict]:

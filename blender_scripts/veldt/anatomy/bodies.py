@@ -5,6 +5,7 @@ Actor axes: x forward, y left, z up, origin on the ground below the body's middl
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
@@ -43,11 +44,18 @@ class Wheel:
 
 @dataclass(frozen=True)
 class Posture:
-    """Joint angles (bones, 3), how far the body sinks, and the waterline of a floating body."""
+    """Joint angles (bones, 3), how far the body sinks, and the waterline of a floating body.
+
+    On its feet: shift_m (3,) moves the hips, feet_m (legs, 2) the feet ahead and to the left. rests_m: half length and
+    width of what it rests on, whose slope it follows; without, it stands on its contacts.
+    """
 
     turn_rad: np.ndarray
     sink_m: float
     waterline_m: float | None
+    shift_m: np.ndarray
+    feet_m: np.ndarray
+    rests_m: tuple[float, float] | None
 
     @property
     def on_feet(self) -> bool:
@@ -74,9 +82,11 @@ class Body:
     pitch: float
     roll: float
 
-    @property
-    def contacts_m(self) -> np.ndarray:
+    def contacts_m(self, posture: str) -> np.ndarray:
         """Points (n, 2) in actor axes where the ground supports the body."""
+        rests_m = self.postures[posture].rests_m
+        if rests_m is not None:
+            return np.array(rests_m) * [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]]
         wheels = [self.bones[wheel.bone].joint_m for wheel in self.wheels]
         places = [leg.toe_m for leg in self.legs] + wheels
         if not places:  # a model from a file has neither: roughly where its feet are
@@ -123,27 +133,30 @@ def draw_variant(species: str, seed: int, name: str, k: int) -> str:
 
 
 @lru_cache(maxsize=None)
-def build_body(species: str, variant: str) -> Body:
-    """The body of a variant of `assets/species/<species>.json`."""
-    return body_of(assets.load("species", species), variant)
+def build_body(species: str, variant: str, posture: str = "walk") -> Body:
+    """The body of a variant of `assets/species/<species>.json`, with what only a posture has, such as a stool."""
+    return body_of(assets.load("species", species), variant, posture)
 
 
-def body_of(data: dict, variant: str) -> Body:
-    """The body of a variant from the content of a species file."""
-    bones = _on_its_feet(build_bones(data, variant), data)
+def body_of(data: dict, variant: str, posture: str = "walk") -> Body:
+    """The body of a variant from the content of a species file, with what it has in a posture."""
+    bones = _on_its_feet(build_bones(data, variant, posture), data)
     place = {bone.name: k for k, bone in enumerate(bones)}
     gait = data.get("gait", {})
     return Body(
         parts=part_names(data),
         bones=bones,
-        legs=tuple(leg for entry in data.get("legs", []) for leg in _leg_pair(entry, bones, place)),
+        legs=tuple(leg for entry in _legs(data, place) for leg in _leg_pair(entry, bones, place)),
         wheels=tuple(
-            Wheel(place[f'{entry["bone"]}.{side}'], entry["radius_m"])
+            Wheel(bone, entry["radius_m"])
             for entry in data.get("wheels", [])
-            for side in SIDES
+            for bone, _ in _bones_named(entry["bone"], place)
         ),
         moves=tuple(
-            move for entry in data.get("moves", []) if is_in(entry, variant) for move in _moves(entry, place)
+            move
+            for entry in data.get("moves", [])
+            if is_in(entry, variant, posture) and entry["bone"] not in _held_deg(data, variant)
+            for move in _moves(entry, place)
         ),
         postures=_postures(data, variant, place),
         stance=gait.get("stance", 0.6),
@@ -156,8 +169,18 @@ def body_of(data: dict, variant: str) -> Body:
 def _on_its_feet(bones: tuple[Bone, ...], data: dict) -> tuple[Bone, ...]:
     """The bones, raised or lowered so that the lowest toe is on the ground, however a variant is stretched."""
     place = {bone.name: bone for bone in bones}
-    toes_m = [place[f'{entry["bones"][-1]}.left'].placed(entry["toe_m"])[2] for entry in data.get("legs", [])]
+    toes_m = [place[f'{entry["bones"][-1]}.left'].placed(entry["toe_m"])[2] for entry in _legs(data, place)]
     return tuple(replace(bone, joint_m=bone.joint_m - [0.0, 0.0, min(toes_m, default=0.0)]) for bone in bones)
+
+
+def _legs(data: dict, place: Collection[str]) -> list[dict]:
+    """The pairs of legs whose bones a variant has."""
+    return [entry for entry in data.get("legs", []) if f'{entry["bones"][0]}.left' in place]
+
+
+def _held_deg(data: dict, variant: str) -> dict:
+    """The angles that a variant keeps in every posture, as of an arm that carries something."""
+    return data["variants"][variant].get("holds_deg", {})
 
 
 def _leg_pair(entry: dict, bones: tuple[Bone, ...], place: dict[str, int]) -> list[Leg]:
@@ -172,6 +195,8 @@ def _leg_pair(entry: dict, bones: tuple[Bone, ...], place: dict[str, int]) -> li
             glide=entry.get("glide", 0.0),
             lift_m=entry["lift_m"],
             heel_rad=np.radians(entry["heel_deg"]),
+            strike_rad=np.radians(entry.get("strike_deg", 0.0)),
+            foot_m=entry.get("foot_m", 0.0),
         )
         for (side, sign), phase in zip(SIDES.items(), entry["phases"])
     ]
@@ -199,12 +224,16 @@ def _moves(entry: dict, place: dict[str, int]) -> list[Move]:
 def _postures(data: dict, variant: str, place: dict[str, int]) -> dict[str, Posture]:
     """All postures of the file; `walk` is the drawn pose with the variant's own angles applied."""
     entries = {"walk": {}, "graze": {}} | data.get("postures", {})
-    always = data["variants"][variant].get("turn_deg", {})
+    always, held = data["variants"][variant].get("turn_deg", {}), _held_deg(data, variant)
+    pairs = len(_legs(data, place))
     return {
         name: Posture(
-            _angles_rad((always if name != "graze" else {}) | entry.get("turn_deg", {}), place),
+            _angles_rad((always | entry.get("turn_deg", {}) | held) if name != "graze" else entry.get("turn_deg", {}), place),
             entry.get("sink_m", 0.0),
             entry.get("waterline_m"),
+            np.array(entry.get("shift_m", [0.0, 0.0, 0.0])),
+            np.tile(entry.get("feet_m", [[0.0, 0.0], [0.0, 0.0]]), (pairs, 1)),
+            entry.get("rests_m"),
         )
         for name, entry in entries.items()
     }

@@ -16,6 +16,7 @@ from ..land.terrain import Terrain
 
 _GRAVITY_M_S2 = 9.81
 _WALKING_FROUDE = (0.02, 0.3)  # of speeds that walking strides are given for; faster walkers step more often
+_STRIKE = 0.12  # of a stance, until the foot is flat: at 7 % of a stride (Perry 1992)
 _SOLE_M = 0.12  # before and behind a foot, where the ground's slope below it is measured
 
 # Distances (..., n) to points (..., n, 2) and headings (..., n, 2).
@@ -27,7 +28,8 @@ class Leg:
     """A leg's bones from the hip down, the point about which its foot rolls over the toe, and its timing.
 
     phase: fraction of a stride at which it touches down; glide: fraction of the foot's offset from its place below the
-    body that the hip follows, as shoulder blades and hips do; heel_rad: angle of the heel when the foot lifts off.
+    body that the hip follows, as shoulder blades and hips do; heel_rad: angle of the heel when the foot lifts off;
+    strike_rad: angle of the toe at touch-down, from which the foot rolls over its heel, foot_m behind the toe.
     """
 
     bones: tuple[int, int, int]
@@ -36,18 +38,22 @@ class Leg:
     glide: float
     lift_m: float
     heel_rad: float
+    strike_rad: float = 0.0
+    foot_m: float = 0.0
 
 
 @dataclass(frozen=True)
 class Footing:
     """The feet of legs at n moments.
 
-    toe_m (3, legs, n), rotation (3, 3, legs, n), bearing (legs, n): true while on the ground.
+    toe_m (3, legs, n), rotation (3, 3, legs, n), bearing (legs, n): true while on the ground; strike_rad (legs, n):
+    angle of toes that are up, in which the heel is what bears.
     """
 
     toe_m: np.ndarray
     rotation: np.ndarray
     bearing: np.ndarray
+    strike_rad: np.ndarray
 
 
 def stride_m(speed_m_s: float, leg_m: float) -> float:
@@ -68,8 +74,9 @@ def footing(
     Footprint n is where the leg's place below the body is in the middle of the n-th stance. pace (n,), from 0 standing
     to 1 walking, scales how high feet are lifted: a walker that stops in mid-stride puts its feet down.
     """
-    phase, lift_m, heel_rad = (
-        np.array([getattr(leg, name) for leg in legs])[:, None] for name in ("phase", "lift_m", "heel_rad")
+    phase, lift_m, heel_rad, strike_rad, foot_m = (
+        np.array([getattr(leg, name) for leg in legs])[:, None]
+        for name in ("phase", "lift_m", "heel_rad", "strike_rad", "foot_m")
     )
     steps = walked_m / stride - phase
     number = np.floor(steps)
@@ -82,8 +89,10 @@ def footing(
     height_m, flat = _soles(ground, x_m, y_m, unit(_between(heading, share)))
     lift_m = lift_m * scale * pace * 16.0 * (in_air * (1.0 - in_air)) ** 2
     heel = heel_rad * pace * (smooth((on_ground - 0.55) / 0.45) - smooth(in_air / 0.8))
+    strike = strike_rad * pace * (smooth(2.0 * in_air - 1.0) + 1.0 - smooth(on_ground / _STRIKE))
     toe_m = np.stack([x_m, y_m, height_m + lift_m])
-    return Footing(toe_m, product(flat, about("y", heel)), in_air == 0.0)
+    toe_m += foot_m * scale * (np.sin(strike) * flat[:, 2] - (1.0 - np.cos(strike)) * flat[:, 0])
+    return Footing(toe_m, product(flat, about("y", heel - strike)), in_air == 0.0, strike)
 
 
 def _prints(legs: Sequence[Leg], scale, path: Path, middle_m) -> tuple[np.ndarray, np.ndarray]:

@@ -6,7 +6,7 @@ Legs are solved from both ends: hips move with the body, feet stand on the groun
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -101,10 +101,11 @@ def pose(walker: Walker, motion: Motion) -> Poses:
     posture = body.postures[motion.posture]
     origin, carriage, residues = _carriage(walker, motion)
     origin[2] -= scale * posture.sink_m
+    origin += scale * applied(carriage, posture.shift_m[:, None])
     on_feet = posture.on_feet and len(body.legs) > 0
     bones = body.unsupported if on_feet else range(len(body.bones))
     position, rotation = _hung(walker, motion, origin, carriage, bones)
-    for wheel, residue in zip(body.wheels, residues):
+    for wheel, residue in zip(body.wheels, residues[len(body.legs) :]):
         position[2, wheel.bone] += residue
     if on_feet:
         _set_legs(walker, motion, position, rotation)
@@ -115,8 +116,9 @@ def pose(walker: Walker, motion: Motion) -> Poses:
 def feet(walker: Walker, motion: Motion) -> Footing:
     """The feet of all legs at each moment."""
     body = walker.body
+    placed = np.column_stack([body.postures[motion.posture].feet_m, np.zeros(len(body.legs))])
     return footing(
-        body.legs,
+        [replace(leg, toe_m=leg.toe_m + by_m) for leg, by_m in zip(body.legs, placed)],
         body.stance,
         walker.stride_m,
         walker.scale,
@@ -133,7 +135,7 @@ def _carriage(walker: Walker, motion: Motion):
     body, scale = walker.body, walker.scale
     point, heading = (np.moveaxis(part, -1, 0) for part in walker.path(motion.walked_m))
     level = facing(heading)
-    contacts = scale * body.contacts_m[..., None]  # (contacts, 2, 1), or with n moments if scales differ
+    contacts = scale * body.contacts_m(motion.posture)[..., None]  # (contacts, 2, 1), or with n moments if scales differ
     middle = contacts.mean(axis=0)
     at = point + (contacts[:, :1] * heading + contacts[:, 1:] * np.stack([-heading[1], heading[0]]))
     height = _bearing_m(walker, motion.posture, at[:, 0], at[:, 1])
@@ -141,7 +143,8 @@ def _carriage(walker: Walker, motion: Motion):
     pitch, roll = _slope(height, x), _slope(height, y)
     mean = np.ascontiguousarray(height.T).mean(axis=1)  # one memory layout, so that sums have one order
     residues = height - (mean + pitch * x + roll * y)
-    own = product(about("y", -np.arctan(body.pitch * pitch)), about("x", np.arctan(body.roll * roll)))
+    share = (1.0, 1.0) if body.postures[motion.posture].rests_m else (body.pitch, body.roll)
+    own = product(about("y", -np.arctan(share[0] * pitch)), about("x", np.arctan(share[1] * roll)))
     # The body turns about the middle of its hips, which keeps them above the feet on a slope.
     hip_m = np.mean([body.bones[leg.bones[0]].joint_m[2] for leg in body.legs] or 0.0)
     pivot = np.stack(np.broadcast_arrays(*middle, scale * hip_m))

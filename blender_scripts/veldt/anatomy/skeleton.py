@@ -22,14 +22,15 @@ SIDES = {"left": 1.0, "right": -1.0}
 class Bone:
     """A segment: joint_m (3,) in body axes, its mesh relative to the joint, the index of its parent or -1.
 
-    stretch: scale of this bone in its variant, relative to the drawing, about the joint, which was drawn at drawn_m.
+    stretch: scale of this bone in its variant, relative to the drawing, about the joint, which was drawn at drawn_m; one
+    number, or (3,) along x, y and z.
     """
 
     name: str
     parent: int
     joint_m: np.ndarray
     mesh: Mesh
-    stretch: float
+    stretch: np.ndarray
     drawn_m: np.ndarray
 
     def placed(self, drawn_m) -> np.ndarray:
@@ -41,31 +42,32 @@ def part_names(data: dict) -> tuple[str, ...]:
     """Names of a species' parts, of all variants, in the order in which its file first mentions them."""
     if "model" in data:
         return models.part_names(data)
-    return tuple(dict.fromkeys(shape["part"] for bone in data["bones"].values() for shape in bone["shapes"]))
+    shapes = [shape for bone in data["bones"].values() for shape in bone["shapes"]]
+    return tuple(dict.fromkeys(entry["part"] for shape in shapes for entry in [shape, *shape.get("patches", [])]))
 
 
-def is_in(entry: Mapping, variant: str) -> bool:
-    """Whether a variant has this bone, shape or move."""
-    return variant in entry.get("only", [variant])
+def is_in(entry: Mapping, variant: str, posture: str) -> bool:
+    """Whether a variant, or whoever has this posture, has this bone, shape or move."""
+    return "only" not in entry or variant in entry["only"] or posture in entry["only"]
 
 
-def build_bones(data: dict, variant: str) -> tuple[Bone, ...]:
+def build_bones(data: dict, variant: str, posture: str) -> tuple[Bone, ...]:
     """A variant's bones, every parent before its children; a bone drawn once for both sides appears twice.
 
     A model from a file is a single bone, whose mesh here is its bounding box.
     """
     if "model" in data:
-        return (Bone("model", -1, np.zeros(3), models.box_mesh(data["model"]["size_m"]), 1.0, np.zeros(3)),)
+        return (Bone("model", -1, np.zeros(3), models.box_mesh(data["model"]["size_m"]), np.ones(()), np.zeros(3)),)
     parts, stretch = part_names(data), data["variants"][variant].get("stretch", {})
     bones: list[Bone] = []
     place: dict[str, int] = {}
     for name, entry in data["bones"].items():
-        if not is_in(entry, variant):
+        if not is_in(entry, variant, posture):
             continue
-        drawn = joined([m for s in entry["shapes"] if is_in(s, variant) for m in _solids(s, parts)])
+        drawn = joined([m for s in entry["shapes"] if is_in(s, variant, posture) for m in _solids(s, parts)])
         for side in SIDES if entry.get("mirror", False) else ("",):
             mesh, joint = _on_side(drawn, entry["joint_m"], side)
-            parent, grown, at = _parent(entry, side, place), stretch.get(name, 1.0), joint
+            parent, grown, at = _parent(entry, side, place), np.array(stretch.get(name, 1.0)), joint
             if parent >= 0:
                 grown, at = grown * bones[parent].stretch, bones[parent].placed(joint)
             place[_sided(name, side)] = len(bones)
@@ -94,4 +96,6 @@ def _on_side(mesh: Mesh, joint_m, side: str) -> tuple[Mesh, np.ndarray]:
 def _solids(shape: dict, parts: tuple[str, ...]) -> list[Mesh]:
     """A shape's mesh in its part's slot, and its mirror image if it has one."""
     mesh = solid_of(shape).with_slot(parts.index(shape["part"]))
+    for patch in shape.get("patches", []):
+        mesh = mesh.painted(patch["from_m"], patch["to_m"], parts.index(patch["part"]))
     return [mesh, mesh.mirrored()] if shape.get("mirror", False) else [mesh]

@@ -27,13 +27,19 @@ class Mesh:
         """The mirror image in the plane y = 0, with triangles that still face outward."""
         return Mesh(self.points_m * [1.0, -1.0, 1.0], self.triangles[:, ::-1], self.slot)
 
-    def scaled(self, by: float) -> Mesh:
-        """The mesh, scaled about the origin."""
+    def scaled(self, by) -> Mesh:
+        """The mesh, scaled about the origin by one number, or by (3,) along x, y and z."""
         return Mesh(self.points_m * by, self.triangles, self.slot)
 
     def with_slot(self, slot: int) -> Mesh:
         """The mesh with all triangles in one material slot."""
         return Mesh(self.points_m, self.triangles, np.full(len(self.triangles), slot))
+
+    def painted(self, from_m, to_m, slot: int) -> Mesh:
+        """The mesh with the triangles whose middle is in a box, with corners (3,), in a material slot."""
+        middle_m = self.points_m[self.triangles].mean(axis=1)
+        inside = ((middle_m >= from_m) & (middle_m <= to_m)).all(axis=1)
+        return Mesh(self.points_m, self.triangles, np.where(inside, slot, self.slot))
 
 
 NOTHING = Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.int64), np.zeros(0, np.int64))
