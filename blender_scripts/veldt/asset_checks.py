@@ -7,13 +7,14 @@ from collections.abc import Callable, Collection, Iterator
 from .faults import ConfigError, check_known, did_you_mean, listing
 
 # By kind: the keys that every file has, and what they are. `veldt` checks materials against their schema.
-_TEXT, _NUMBER, _PAIR, _TABLE, _LIST, _COUNT = (
+_TEXT, _NUMBER, _PAIR, _TABLE, _LIST, _COUNT, _POINT = (
     "text",
     "a number",
     "[least, most]",
     "an object",
     "a list",
     "a whole number from 1",
+    "[x, y, z]",
 )
 _KEYS = {
     "species": {
@@ -39,6 +40,7 @@ _KEYS = {
 }
 _PLAIN_PARTS = ("head", "torso")  # need no entry in the material: they use its own temperature
 _DRAWN = {"gait": _TABLE, "bones": _TABLE}
+_PATCH = {"part": _TEXT, "from_m": _POINT, "to_m": _POINT}
 _STANDING = {"form": _TEXT, "variants": _COUNT, "height_m": _NUMBER, "crown_diameter_m": _NUMBER}
 _FOLIAGE = ("crown_thickness_m", "trunk_radius_m", "clumps", "leaves", "leaf_m")
 _FORM_KEYS = {
@@ -64,6 +66,7 @@ _IS: dict[str, Callable] = {
     _TABLE: lambda value: isinstance(value, dict) and len(value) > 0,
     _LIST: lambda value: isinstance(value, list) and len(value) > 0,
     _COUNT: lambda value: isinstance(value, int) and value >= 1,
+    _POINT: lambda value: isinstance(value, list) and len(value) == 3 and all(map(_is_number, value)),
 }
 
 
@@ -84,9 +87,10 @@ def check_parts(where: str, data: dict, parts: Collection[str]) -> None:
     """Raise ConfigError if a drawn species has a part for which its material, with `parts`, has no temperature."""
     for name, bone in data.get("bones", {}).items():
         for k, shape in enumerate(bone["shapes"]):
-            check_known(
-                shape["part"], {*parts, *_PLAIN_PARTS}, f"{where}: bones.{name}.shapes[{k}].part", "a part"
-            )
+            place = f"{where}: bones.{name}.shapes[{k}]"
+            check_known(shape["part"], {*parts, *_PLAIN_PARTS}, f"{place}.part", "a part")
+            for j, patch in enumerate(shape.get("patches", [])):
+                check_known(patch["part"], {*parts, *_PLAIN_PARTS}, f"{place}.patches[{j}].part", "a part")
 
 
 def _check_keys(where: str, data: dict, keys: dict[str, str]) -> None:
@@ -115,6 +119,8 @@ def _check_species(where: str, data: dict) -> None:
             raise ConfigError(f"{where}: bones.{name}; expected joint_m and a list of shapes")
         for k, shape in enumerate(bone["shapes"]):
             _check_object(f"{where}: bones.{name}.shapes[{k}]", shape, {"part": _TEXT})
+            for j, patch in enumerate(shape.get("patches", [])):
+                _check_object(f"{where}: bones.{name}.shapes[{k}].patches[{j}]", patch, _PATCH)
     for place, name in _bones_named(data):
         check_known(
             name.removesuffix(".left").removesuffix(".right"), data["bones"], f"{where}: {place}", "a bone"
@@ -131,7 +137,7 @@ def _bones_named(data: dict) -> Iterator[tuple[str, str]]:
         yield from ((f"{kind}[{k}].bone", entry["bone"]) for k, entry in enumerate(data.get(kind, [])))
     for kind in ("variants", "postures"):
         for name, entry in data.get(kind, {}).items():
-            for key in ("turn_deg", "stretch"):
+            for key in ("turn_deg", "holds_deg", "stretch"):
                 yield from ((f"{kind}.{name}.{key}", bone) for bone in entry.get(key, {}))
 
 

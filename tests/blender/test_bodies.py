@@ -107,10 +107,10 @@ def test_every_body_can_walk_and_graze():
 
 def test_variants_come_as_often_as_their_shares_say():
     species = "elephant"
-    drawn = [draw_variant(species, 7, "herd", k) for k in range(2000)]
+    drawn = [draw_variant(species, 7, "herd", k, "walk") for k in range(2000)]
     shares = {name: entry["share"] for name, entry in assets.load("species", species)["variants"].items()}
     for name, share in shares.items():
         expected = share / sum(shares.values())
         # Five standard deviations of a binomial share: one false alarm in a million.
         assert drawn.count(name) / 2000 == pytest.approx(expected, abs=5 * np.sqrt(0.25 / 2000))
-    assert drawn[:9] == [draw_variant(species, 7, "herd", k) for k in range(9)]
+    assert drawn[:9] == [draw_variant(species, 7, "herd", k, "walk") for k in range(9)]

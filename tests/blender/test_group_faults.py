@@ -20,6 +20,11 @@ def _group(k: int, **entries):
     return change
 
 
+def _place(**entries):
+    """A change of the third group, to villagers at a place."""
+    return _group(2, **{"path": None, "start_m": None, "place": [40, 40], "species": "villager"} | entries)
+
+
 def _path(**entries):
     """Another path beside the place's loop."""
     return lambda config: config["scene"]["paths"].update(entries)
@@ -89,6 +94,39 @@ FAULTS = {
     "too many for a path": (
         _group(1, count=60),
         'scene.groups[1].count = 60; expected at most 21: no more fit on path "loop", which is 166 m long',
+    ),
+    "a behaviour and shares of behaviours": (
+        _place(behaviour="sit", behaviours={"sit": 1}),
+        "scene.groups[2]: behaviour and behaviours are both given; expected one of them",
+    ),
+    "shares of behaviours on a path": (
+        _group(0, behaviours={"stand": 1}),
+        "scene.groups[0].behaviours is given; expected a place: members on a path all do the same",
+    ),
+    "a share of what a species cannot do": (
+        _place(species="human", behaviours={"stand": 1, "sit": 1}),
+        'scene.groups[2].behaviours = "sit"; expected what a human can do: drink, graze, stand, walk',
+    ),
+    "no share above 0": (
+        _place(behaviours={"stand": 0, "sit": 0}),
+        "scene.groups[2].behaviours are all 0; expected one share above 0",
+    ),
+    "a circle on a path": (
+        _group(0, formation="circle"),
+        'scene.groups[0].formation = "circle"; expected on a path: pairs, queue, row',
+    ),
+    "a formation at the shore": (
+        _place(place="shore", formation="circle"),
+        'scene.groups[2].place = "shore"; expected [x, y] for a formation',
+    ),
+    "a formation of people in each other": (
+        _place(formation="row", spacing_m=0.2),
+        "scene.groups[2].spacing_m = 0.2 m; expected at least 0.35 m in a formation",
+    ),
+    "a formation without space": (
+        _place(place=[300, 300], formation="row", count=4),
+        'scene.groups[2].formation = "row"; expected space for 4 members within 10 m of place = [300, 300], off paths'
+        " and other groups",
     ),
     "a path that is not given": (
         _path(other={}),

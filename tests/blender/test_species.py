@@ -52,6 +52,7 @@ TALLEST_M = {"giraffe": 5.0, "human": 1.75, "ostrich/cock": 2.3, "ostrich/hen": 
 PARTS = {
     "human": {"face", "hands", "torso", "legs", "pack"},
     "elephant": {"ears", "trunk", "tusks", "torso", "legs"},
+    "villager": {"face", "hands", "torso", "legs", "skirt", "blanket", "load", "stool"},
     "pickup": {"hood", "cabin", "bed", "tyres"},
     "lorry": {"hood", "cabin", "bed", "tyres"},
     "cattle": {"head", "torso", "legs", "tail", "hump", "horns", "udder"},
@@ -131,7 +132,9 @@ def test_bodies_stand_on_the_ground(species, variant):
 
 @pytest.mark.parametrize("species, variant", KINDS)
 def test_bodies_are_light(species, variant):
-    assert 500 < sum(len(bone.mesh.triangles) for bone in build_body(species, variant).bones) <= 4000
+    for posture in build_body(species, variant).postures:
+        body = build_body(species, variant, posture)
+        assert 500 < sum(len(bone.mesh.triangles) for bone in body.bones) <= 4000
 
 
 @pytest.mark.parametrize("species", assets.names("species"))
@@ -139,8 +142,9 @@ def test_all_parts_are_there_and_have_temperatures(species):
     needed = PARTS.get(species, {"head", "torso", "legs", "tail"})
     worn = set()
     for variant in variant_names(species):
-        body = build_body(species, variant)
-        worn |= {body.parts[slot] for bone in body.bones for slot in np.unique(bone.mesh.slot)}
+        for posture in build_body(species, variant).postures:
+            body = build_body(species, variant, posture)
+            worn |= {body.parts[slot] for bone in body.bones for slot in np.unique(bone.mesh.slot)}
     assert needed <= worn
     assert worn == set(build_body(species, variant).parts)
     assets.load("materials", assets.load("species", species)["material"])
@@ -152,6 +156,47 @@ def test_figures_have_sources_or_are_called_estimates(species):
     assert "speed_m_s" in source
     for text in source.values():
         assert re.search(r"estimate|\b(1[89]|20)\d\d\b", text)  # a year stands for a book or paper
+
+
+@pytest.mark.parametrize("variant", variant_names("villager"))
+@pytest.mark.parametrize("tilt", [(0.0, 0.0), (0.1, 0.05)])
+def test_villagers_rest_on_the_ground_in_every_posture(variant, tilt):
+    """Feet, seat or head are on it, and only those who stand are as tall as that."""
+    ground, far_m = Hills(0.0, tilt=tilt), 1e7
+    able = assets.load("species", "villager")["variants"][variant].get("behaviours")
+    for posture in assets.load("species", "villager")["postures"]:
+        if able and posture.split("_")[0] not in able:
+            continue
+        body = build_body("villager", variant, posture)
+        walker = Walker(body, 1.0, 1.0, 0.0, circle(far_m), ground)
+        poses = pose(walker, Motion(*np.zeros((4, 1)), posture=posture))
+        above_m = {}
+        for k, bone in enumerate(body.bones):
+            points_m = poses.position_m[0, k] + bone.mesh.points_m @ poses.rotation[0, k].T
+            above_m[bone.name] = points_m[:, 2] - ground.height_m(*points_m[:, :2].T)
+        feet_m = min(above_m["foot.left"].min(), above_m["foot.right"].min())
+        stands = posture.startswith(("stand", "graze"))
+        assert (above_m["head"].max() > 1.6) == stands, posture
+        if posture.startswith(("sit", "lie")) and posture != "sit_on_stool":
+            assert (
+                0.0 < poses.position_m[0, 0, 2] - ground.height_m(*poses.position_m[0, 0, :2]) < 0.3
+            ), posture
+        if body.postures[posture].on_feet:
+            assert abs(feet_m) < 0.02, posture
+        else:
+            assert -0.08 < min(feet_m, above_m["head"].min()) < 0.12, posture
+
+
+def test_one_who_sits_on_a_stool_has_it_on_the_ground():
+    body = build_body("villager", "man", "sit_on_stool")
+    walker = Walker(body, 1.0, 1.0, 0.0, circle(1e7), FLAT)
+    poses = pose(walker, Motion(*np.zeros((4, 1)), posture="sit_on_stool"))
+    (stool,) = (k for k, bone in enumerate(body.bones) if bone.name == "stool")
+    height_m = (poses.position_m[0, stool] + body.bones[stool].mesh.points_m @ poses.rotation[0, stool].T)[
+        :, 2
+    ]
+    assert height_m.min() == pytest.approx(0.0, abs=0.03)
+    assert "stool" not in {bone.name for bone in build_body("villager", "man").bones}
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ Actor axes: x forward, y left, z up, origin on the ground below the body's middl
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
@@ -123,13 +123,21 @@ def variant_names(species: str) -> tuple[str, ...]:
     return tuple(assets.load("species", species)["variants"])
 
 
-def draw_variant(species: str, seed: int, name: str, k: int) -> str:
-    """The variant of a group's k-th member, drawn with the probabilities given by the variants' shares."""
+def draw_variant(species: str, seed: int, name: str, k: int, behaviour: str) -> str:
+    """The variant of a group's k-th member, drawn with the probabilities given by the shares of those that do this."""
     variants = assets.load("species", species)["variants"]
-    shares = np.cumsum([entry["share"] for entry in variants.values()])
-    return list(variants)[
-        int(np.searchsorted(shares / shares[-1], stream(seed, f"variant/{name}", k).random()))
-    ]
+    shares = {
+        variant: entry["share"]
+        for variant, entry in variants.items()
+        if behaviour in entry.get("behaviours", [behaviour])
+    }
+    return drawn(shares, stream(seed, f"variant/{name}", k))
+
+
+def drawn(shares: Mapping[str, float], rng: np.random.Generator) -> str:
+    """One of the keys, drawn with the probabilities given by their shares."""
+    bounds = np.cumsum(list(shares.values()))
+    return list(shares)[int(np.searchsorted(bounds / bounds[-1], rng.random()))]
 
 
 @lru_cache(maxsize=None)
@@ -228,7 +236,10 @@ def _postures(data: dict, variant: str, place: dict[str, int]) -> dict[str, Post
     pairs = len(_legs(data, place))
     return {
         name: Posture(
-            _angles_rad((always | entry.get("turn_deg", {}) | held) if name != "graze" else entry.get("turn_deg", {}), place),
+            _angles_rad(
+                (always | entry.get("turn_deg", {}) | held) if name != "graze" else entry.get("turn_deg", {}),
+                place,
+            ),
             entry.get("sink_m", 0.0),
             entry.get("waterline_m"),
             np.array(entry.get("shift_m", [0.0, 0.0, 0.0])),

@@ -135,7 +135,9 @@ def _carriage(walker: Walker, motion: Motion):
     body, scale = walker.body, walker.scale
     point, heading = (np.moveaxis(part, -1, 0) for part in walker.path(motion.walked_m))
     level = facing(heading)
-    contacts = scale * body.contacts_m(motion.posture)[..., None]  # (contacts, 2, 1), or with n moments if scales differ
+    contacts = (
+        scale * body.contacts_m(motion.posture)[..., None]
+    )  # (contacts, 2, 1), or with n moments if scales differ
     middle = contacts.mean(axis=0)
     at = point + (contacts[:, :1] * heading + contacts[:, 1:] * np.stack([-heading[1], heading[0]]))
     height = _bearing_m(walker, motion.posture, at[:, 0], at[:, 1])

@@ -43,12 +43,20 @@ def part_names(data: dict) -> tuple[str, ...]:
     if "model" in data:
         return models.part_names(data)
     shapes = [shape for bone in data["bones"].values() for shape in bone["shapes"]]
-    return tuple(dict.fromkeys(entry["part"] for shape in shapes for entry in [shape, *shape.get("patches", [])]))
+    return tuple(
+        dict.fromkeys(entry["part"] for shape in shapes for entry in [shape, *shape.get("patches", [])])
+    )
 
 
 def is_in(entry: Mapping, variant: str, posture: str) -> bool:
     """Whether a variant, or whoever has this posture, has this bone, shape or move."""
     return "only" not in entry or variant in entry["only"] or posture in entry["only"]
+
+
+def has_own_shapes(data: dict, posture: str) -> bool:
+    """Whether a species is drawn differently in a posture, as with a stool to sit on."""
+    bones = data.get("bones", {}).values()
+    return any(posture in entry.get("only", []) for bone in bones for entry in [bone, *bone["shapes"]])
 
 
 def build_bones(data: dict, variant: str, posture: str) -> tuple[Bone, ...]:
@@ -57,7 +65,11 @@ def build_bones(data: dict, variant: str, posture: str) -> tuple[Bone, ...]:
     A model from a file is a single bone, whose mesh here is its bounding box.
     """
     if "model" in data:
-        return (Bone("model", -1, np.zeros(3), models.box_mesh(data["model"]["size_m"]), np.ones(()), np.zeros(3)),)
+        return (
+            Bone(
+                "model", -1, np.zeros(3), models.box_mesh(data["model"]["size_m"]), np.ones(()), np.zeros(3)
+            ),
+        )
     parts, stretch = part_names(data), data["variants"][variant].get("stretch", {})
     bones: list[Bone] = []
     place: dict[str, int] = {}

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import assets, fires, ids
-from ..anatomy.skeleton import part_names
+from ..anatomy.skeleton import has_own_shapes, part_names
 from ..camera import DEPTH_RANGE_M
 from ..geometry.shapes import Mesh, facets
 from ..groups.actors import Actor
@@ -61,7 +61,7 @@ def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
         *(_water(water, meshes) for water in world.terrain.waters),
     ]
     plants, placed = _all_plants(world, model_mesh, meshes)
-    bodies: dict[tuple[str, str], list[dict]] = {}
+    bodies: dict[tuple[str, str, str], list[dict]] = {}
     actors = [_actor(actor, bodies, model_mesh, meshes) for actor in world.actors]
     maps = _maps(world, world.ground)
     beds = plan_beds(world.config["scene"]["groups"], world.actors, world.terrain, world.config["seed"])
@@ -166,10 +166,11 @@ def _transforms(planting: Planting) -> np.ndarray:
 
 
 def _actor(
-    actor: Actor, bodies: dict[tuple[str, str], list[dict]], model_mesh: ModelMesh, meshes: _Meshes
+    actor: Actor, bodies: dict[tuple[str, str, str], list[dict]], model_mesh: ModelMesh, meshes: _Meshes
 ) -> dict:
-    """An actor and its bones that have a mesh; actors of one variant share their meshes."""
-    kind = actor.species, actor.variant
+    """An actor and its bones that have a mesh; actors that are drawn alike share their meshes."""
+    own = has_own_shapes(assets.load("species", actor.species), actor.posture)
+    kind = actor.species, actor.variant, actor.posture if own else ""
     if kind not in bodies:
         bodies[kind] = _body(actor, model_mesh, meshes)
     return {

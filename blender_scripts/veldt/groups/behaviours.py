@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from .. import assets
-from ..anatomy.bodies import Body, build_body, draw_variant
+from ..anatomy.bodies import Body, build_body, draw_variant, drawn
 from ..noise import stream
+from .formations import SPACING_M
 from .herds import Room
 from .schedules import Drinking, Schedule, Steady, StopAndGo
 
@@ -18,8 +21,17 @@ POSTURES = {
     "drink": "graze",
     "lie": "lie",
     "float": "float",
+    "sit": "sit",
+    "crouch": "crouch",
+    "bend": "bend",
 }
 WALKING = ("walk", "graze")
+_SPACING_M = 4.0  # along a path, by default
+_OF_WALKERS = (
+    "walk",
+    "graze",
+    "drink",
+)  # behaviours of a body that stands as it walks; a grazer lowers its head
 
 
 @dataclass(frozen=True)
@@ -38,18 +50,49 @@ class Draft:
     @property
     def body(self) -> Body:
         """The member's body at its drawn size."""
-        return build_body(self.species, self.variant)
+        return build_body(self.species, self.variant, self.posture)
 
     @property
     def room(self) -> Room:
-        """The footprint of the standing body."""
-        half_m = self.scale * self.body.reach_m
+        """The footprint of the standing body, or of one that rests on the ground."""
+        rests_m = self.body.postures[self.posture].rests_m
+        half_m = self.scale * (self.body.reach_m if rests_m is None else np.array(rests_m))
         return Room(float(half_m[0]), float(half_m[1]), self.schedule.reach_m)
 
 
-def behaviour_of(group: dict) -> str:
-    """The behaviour of a group of the config; by default, groups on paths walk and others stand."""
-    return group.get("behaviour", "walk" if "path" in group else "stand")
+def behaviours_of(group: dict) -> dict[str, float]:
+    """The behaviours of a group of the config, with shares of its members; by default, groups on paths walk and others
+    stand."""
+    return group.get("behaviours") or {group.get("behaviour", "walk" if "path" in group else "stand"): 1.0}
+
+
+def behaves(group: dict, *behaviours: str) -> bool:
+    """Whether a group's members have one of these behaviours; shares are of still ones, which differ in posture alone."""
+    return any(behaviour in behaviours for behaviour in behaviours_of(group))
+
+
+def _behaviour(group: dict, k: int, seed: int) -> str:
+    """The behaviour of a group's k-th member."""
+    shares = behaviours_of(group)
+    return (
+        drawn(shares, stream(seed, f'behaviour/{group["name"]}', k))
+        if len(shares) > 1
+        else next(iter(shares))
+    )
+
+
+def _posture(species: str, behaviour: str, seed: int, name: str, k: int) -> str:
+    """One of the species' postures for a behaviour, which are called like it or begin with its name and `_`."""
+    if behaviour in _OF_WALKERS:
+        return "walk"
+    known = assets.load("species", species).get("postures", {})
+    able = [posture for posture in known if f"{posture}_".startswith(f"{behaviour}_")]
+    return drawn(dict.fromkeys(able, 1.0), stream(seed, f"posture/{name}", k)) if able else "walk"
+
+
+def spacing_of(group: dict) -> float:
+    """The distance between members of a group of the config."""
+    return group.get("spacing_m", SPACING_M if "formation" in group else _SPACING_M)
 
 
 def member_names(group: dict) -> list[str]:
@@ -64,12 +107,13 @@ def draft_members(group: dict, seed: int) -> list[Draft]:
 
 def _draft(group: dict, k: int, name: str, seed: int) -> Draft:
     data = assets.load("species", group["species"])
-    given = group.get("variants")
-    variant = given[k % len(given)] if given else draw_variant(group["species"], seed, group["name"], k)
+    given, behaviour = group.get("variants"), _behaviour(group, k, seed)
+    variant = (
+        given[k % len(given)] if given else draw_variant(group["species"], seed, group["name"], k, behaviour)
+    )
     rng = stream(seed, f'actor/{group["name"]}', k)
     scale, phase = rng.uniform(*data["variants"][variant]["size_range"]), rng.uniform()
     speed_m_s = group.get("speed_m_s", data["speed_m_s"])
-    posture = POSTURES[behaviour_of(group)]
     return Draft(
         name=name,
         species=group["species"],
@@ -77,13 +121,12 @@ def _draft(group: dict, k: int, name: str, seed: int) -> Draft:
         scale=scale,
         phase=phase,
         walking_m_s=speed_m_s,
-        schedule=_schedule(group, k, speed_m_s, phase, seed),
-        posture=posture if posture in ("lie", "float") else "walk",
+        schedule=_schedule(group, k, behaviour, speed_m_s, phase, seed),
+        posture=_posture(group["species"], behaviour, seed, group["name"], k),
     )
 
 
-def _schedule(group: dict, k: int, speed_m_s: float, phase: float, seed: int) -> Schedule:
-    behaviour = behaviour_of(group)
+def _schedule(group: dict, k: int, behaviour: str, speed_m_s: float, phase: float, seed: int) -> Schedule:
     if behaviour == "graze":
         return StopAndGo(seed, group["name"], k, speed_m_s)
     if behaviour == "drink":

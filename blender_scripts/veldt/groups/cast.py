@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from .. import ids
 from ..faults import ConfigError
-from ..geometry.splines import Loop
+from ..geometry.splines import Loop, Spot
 from ..plants.placement import Corridor
 from .actors import Actor
-from .behaviours import Draft, draft_members, member_names
+from .behaviours import Draft, draft_members, member_names, spacing_of
 from .collision_discs import TIMES_S, Crowd, cover, gather
+from .formations import form, half_breadth_m, march, settle
 from .herds import plan_places
 from .meetings import choose_start
-from .placement import find_spots
+from .placement import find_spots, fitting
 from .site_rules import Land, venue
 
 _CORRIDOR_STEP_M = 0.8
+_NEAR_M = 10.0  # from its place: where a formation may move to if there is no space
 _TIGHTEST = (
     0.3  # least fraction of a distance along the path that remains on the inside of a curve; loops are wider
 )
@@ -93,9 +95,12 @@ def _on_path(
     entry, loop = group.entry, land.loops[group.entry["path"]]
     rooms = [draft.room for draft in group.drafts]
     spread_m = entry.get("spread_m", 0.0)
-    places = plan_places(
-        rooms, entry["spacing_m"], spread_m, loop.length_m, seed, group.name, _shrink(loop, spread_m)
-    )
+    spacing_m = spacing_of(entry)
+    if "formation" in entry:
+        places = march(entry["formation"], len(rooms), spacing_m, loop.length_m, seed, group.name)
+    else:
+        shrink = _shrink(loop, spread_m)
+        places = plan_places(rooms, spacing_m, spread_m, loop.length_m, seed, group.name, shrink)
     if len(places) < len(rooms):
         raise ConfigError(
             f"{group.where}.count = {len(rooms)}; expected at most {len(places)}: no more fit on path"
@@ -139,13 +144,30 @@ def _at_place(
     """The members at spots of the group's place."""
     rooms = [draft.room for draft in group.drafts]
     draw, allowed = venue(group.where, group.entry, group.drafts, land, corridors, seed)
-    found = find_spots(rooms, draw, allowed, list(crowds.values()), seed, group.name)
+    standing = list(crowds.values())
+    if "formation" in group.entry:
+        found = _in_formation(group, fitting(rooms, allowed, standing), seed)
+    else:
+        found = find_spots(rooms, draw, allowed, standing, seed, group.name)
     if len(found) < len(rooms):
         raise ConfigError(
             f"{group.where}.count = {len(rooms)}; expected at most {len(found)}: there is no space for more"
             f' at place = {group.entry["place"]}, off paths and other groups'
         )
     return [_actor(group, draft, land, index, spot, 0.0, 0.0) for draft, spot in zip(group.drafts, found)]
+
+
+def _in_formation(group: _Group, fits: Callable[[Spot], bool], seed: int) -> list[Spot]:
+    """The spots of a group that stays together; ConfigError if there is no space for it near its place."""
+    entry, rooms = group.entry, [draft.room for draft in group.drafts]
+    stands = form(entry["formation"], rooms, spacing_of(entry), entry.get("spread_m"), seed, group.name)
+    found = settle(stands, entry["place"], fits, _NEAR_M, seed, group.name)
+    if not found:
+        raise ConfigError(
+            f'{group.where}.formation = "{entry["formation"]}"; expected space for {len(rooms)} members within'
+            f' {_NEAR_M:g} m of place = {entry["place"]}, off paths and other groups'
+        )
+    return found
 
 
 def _actor(
@@ -177,7 +199,14 @@ def _crowd(actors: Sequence[Actor]) -> Crowd:
 def _path_corridor(group: _Group, land: Land) -> Corridor:
     loop = land.loops[group.entry["path"]]
     widest_m = max(draft.room.half_width_m for draft in group.drafts)
-    return Corridor(loop.points_m(_CORRIDOR_STEP_M), group.entry.get("spread_m", 0.0) + widest_m)
+    return Corridor(loop.points_m(_CORRIDOR_STEP_M), _half_breadth_m(group.entry) + widest_m)
+
+
+def _half_breadth_m(entry: dict) -> float:
+    """The largest distance of a group's members from their path."""
+    if "formation" in entry:
+        return half_breadth_m(entry["formation"], entry["count"], spacing_of(entry))
+    return entry.get("spread_m", 0.0)
 
 
 def _spot_corridor(actor: Actor) -> Corridor:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from .. import assets
 from ..faults import ConfigError
 from ..noise import stream
-from .behaviours import WALKING, behaviour_of
+from .behaviours import WALKING, behaves
 
 _RUNNING_S = 3600.0  # for which an engine has run if the config does not say it: it is warm
 _HEAT = "body_heat"  # of materials and their parts
@@ -42,7 +42,7 @@ def _wet_by_nature_s(group: dict, member: int, seed: int) -> float | None:
     data = assets.load("species", group["species"])
     if "wet_s" not in data:
         return None
-    if behaviour_of(group) == "float":
+    if behaves(group, "float"):
         return 0.0
     least_s, most_s = data["wet_s"]
     return round(float(stream(seed, f'bath/{group["name"]}', member).uniform(least_s, most_s)), 3)
@@ -52,7 +52,7 @@ def _check_engine(where: str, group: dict) -> None:
     state, species = group["engine"]["state"], group["species"]
     if not any(heat["kind"] == "engine" for heat in _heats(species)):
         raise ConfigError(f"{where}.engine is given; expected none, since a {species} has no engine")
-    moves = behaviour_of(group) in WALKING
+    moves = behaves(group, *WALKING)
     if (state == "driving") != moves:
         rule = '"driving", since the group moves' if moves else '"idling" or "parked", since the group stands'
         raise ConfigError(f'{where}.engine.state = "{state}"; expected {rule}')

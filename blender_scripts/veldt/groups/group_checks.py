@@ -8,8 +8,9 @@ from .. import assets
 from ..anatomy.bodies import variant_names
 from ..faults import ConfigError, check_known, listing
 from .beds import check_beds
-from .behaviours import POSTURES, WALKING, behaviour_of
+from .behaviours import POSTURES, WALKING, behaviours_of, spacing_of
 from .conditions import check_condition
+from .formations import LEAST_M, ON_PATHS
 
 
 def check_groups(groups: list[dict], paths: Collection[str]) -> None:
@@ -23,6 +24,8 @@ def check_groups(groups: list[dict], paths: Collection[str]) -> None:
             check_known(variant, variant_names(species), f"{where}.variants[{j}]", f"a variant of {species}")
         _check_where(where, group, paths)
         _check_behaviour(where, group)
+        if "formation" in group:
+            _check_formation(where, group)
         check_condition(where, group)
         check_beds(where, group)
         if "meets" in group:
@@ -38,8 +41,11 @@ def _check_where(where: str, group: dict, paths: Collection[str]) -> None:
 
 
 def _check_behaviour(where: str, group: dict) -> None:
-    behaviour, species = behaviour_of(group), group["species"]
+    species = group["species"]
     able = [name for name, posture in POSTURES.items() if posture == "walk" or posture in _postures(species)]
+    if "behaviours" in group:
+        return _check_shares(where, group, able)
+    (behaviour,) = behaviours_of(group)
     if behaviour not in able:
         raise ConfigError(
             f'{where}.behaviour = "{behaviour}"; expected what a {species} can do: {listing(able)}'
@@ -49,6 +55,30 @@ def _check_behaviour(where: str, group: dict) -> None:
         raise ConfigError(f'{where}.behaviour = "{behaviour}"; expected at a place: {listing(staying)}')
     if "path" in group and behaviour == "float":
         raise ConfigError(f'{where}.behaviour = "float"; expected place = "water" or "pan", not a path')
+
+
+def _check_shares(where: str, group: dict, able: Collection[str]) -> None:
+    """The shares of behaviours: of a group that stays, of what its species can do, and not all 0."""
+    if "behaviour" in group:
+        raise ConfigError(f"{where}: behaviour and behaviours are both given; expected one of them")
+    if "path" in group:
+        raise ConfigError(f"{where}.behaviours is given; expected a place: members on a path all do the same")
+    for behaviour in group["behaviours"]:
+        check_known(behaviour, able, f"{where}.behaviours", f"what a {group['species']} can do")
+    if not any(group["behaviours"].values()):
+        raise ConfigError(f"{where}.behaviours are all 0; expected one share above 0")
+
+
+def _check_formation(where: str, group: dict) -> None:
+    formation = group["formation"]
+    if "path" in group and formation not in ON_PATHS:
+        raise ConfigError(f'{where}.formation = "{formation}"; expected on a path: {listing(ON_PATHS)}')
+    if isinstance(group.get("place"), str):
+        raise ConfigError(f'{where}.place = "{group["place"]}"; expected [x, y] for a formation')
+    if spacing_of(group) < LEAST_M:
+        raise ConfigError(
+            f"{where}.spacing_m = {spacing_of(group):g} m; expected at least {LEAST_M:g} m in a formation"
+        )
 
 
 def _postures(species: str) -> Collection[str]:

@@ -36,8 +36,7 @@ def find_spots(
     Returns fewer spots if there is no space for all.
     """
     spots: list[Spot] = []
-    taken_m = np.concatenate([np.zeros((0, 2)), *(crowd.centre_m[0] for crowd in standing)])
-    radii_m = np.concatenate([np.zeros(0), *(crowd.radius_m for crowd in standing)])
+    taken_m, radii_m = _taken(standing)
     for k, room in enumerate(rooms):
         rng = stream(seed, f"spot/{name}", k)
         discs = cover(room.half_length_m, room.half_width_m)
@@ -53,6 +52,27 @@ def find_spots(
         taken_m = np.concatenate([taken_m, at_m])
         radii_m = np.concatenate([radii_m, np.full(len(at_m), discs.radius_m)])
     return spots
+
+
+def fitting(rooms: Sequence[Room], allowed: Allowed, standing: Sequence[Crowd]) -> Callable[[Spot], bool]:
+    """Whether the largest of some bodies fits at a spot that is allowed, clear of those of `standing`."""
+    discs = cover(max(room.half_length_m for room in rooms), max(room.half_width_m for room in rooms))
+    taken_m, radii_m = _taken(standing)
+
+    def fits(spot: Spot) -> bool:
+        at_m = centres(discs, spot.point_m[None], spot.heading[None])[0]
+        gaps = np.linalg.norm(at_m[:, None] - taken_m, axis=-1) - discs.radius_m - radii_m
+        return bool((gaps >= _GAP_M).all()) and allowed(at_m)
+
+    return fits
+
+
+def _taken(standing: Sequence[Crowd]) -> tuple[np.ndarray, np.ndarray]:
+    """Centres (n, 2) and radii (n,) of the discs of crowds."""
+    return (
+        np.concatenate([np.zeros((0, 2)), *(crowd.centre_m[0] for crowd in standing)]),
+        np.concatenate([np.zeros(0), *(crowd.radius_m for crowd in standing)]),
+    )
 
 
 def about(centre_m, rooms: Sequence[Room], spread_m: float | None) -> Draw:

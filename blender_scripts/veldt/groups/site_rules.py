@@ -11,7 +11,7 @@ from ..land.terrain import Terrain
 from ..land.waters import Water
 from ..plants.placement import Corridor
 from . import placement
-from .behaviours import Draft, behaviour_of
+from .behaviours import Draft, behaves
 
 _WATERS = {"water": 0, "shore": 0, "pan": 1, "pan_shore": 1}
 _SIDE_GAP_M = 1.0
@@ -31,7 +31,7 @@ def venue(
 ) -> tuple[placement.Draw, placement.Allowed]:
     """Functions that draw spots at a group's place and test them; `where` is the group's place in the config."""
     place, rooms = group["place"], [draft.room for draft in drafts]
-    floats = behaviour_of(group) == "float"
+    floats = behaves(group, "float")
     if not isinstance(place, str):
         return placement.about(place, rooms, group.get("spread_m")), placement.on_land(
             land.terrain, corridors
