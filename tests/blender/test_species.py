@@ -53,6 +53,8 @@ PARTS = {
     "human": {"face", "hands", "torso", "legs", "pack"},
     "elephant": {"ears", "trunk", "tusks", "torso", "legs"},
     "villager": {"face", "hands", "torso", "legs", "skirt", "blanket", "load", "stool"},
+    "bicycle": {"frame", "tyres", "face", "torso", "legs"},
+    "motorbike": {"engine", "exhaust", "tyres", "face", "torso", "legs"},
     "pickup": {"hood", "cabin", "bed", "tyres"},
     "lorry": {"hood", "cabin", "bed", "tyres"},
     "cattle": {"head", "torso", "legs", "tail", "hump", "horns", "udder"},

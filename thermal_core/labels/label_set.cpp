@@ -53,7 +53,8 @@ std::string flat_name(const LabelSet& set, const LabelImage& image) {
 
 Kind kind_of(const std::string& category) noexcept {
   if (category == "human" || category == "person" || category == "poacher") return Kind::human;
-  return category == "vehicle" ? Kind::vehicle : Kind::animal;
+  const bool drives = category == "vehicle" || category == "bicycle" || category == "motorbike";
+  return drives ? Kind::vehicle : Kind::animal;
 }
 
 }  // namespace thermal

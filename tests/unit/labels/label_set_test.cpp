@@ -52,6 +52,8 @@ TEST_CASE("People are humans, vehicles vehicles, everything else animals") {
   CHECK(kind_of("human") == Kind::human);
   CHECK(kind_of("person") == Kind::human);
   CHECK(kind_of("vehicle") == Kind::vehicle);
+  CHECK(kind_of("bicycle") == Kind::vehicle);
+  CHECK(kind_of("motorbike") == Kind::vehicle);
   CHECK(kind_of("elephant") == Kind::animal);
 }
 
