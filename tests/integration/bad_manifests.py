@@ -211,7 +211,7 @@ MANIFESTS = [
     _manifest(
         "an unknown material",
         lambda m: m["objects"][2].update(material="lava"),
-        'one/manifest.json: objects[2].material = "lava"; expected one of acacia, baboon, baobab, buffalo, cattle, crocodile, dog, elephant, elephant_grass, fire, giraffe, goat, grass, hippopotamus, hookthorn, human, impala, lion, log, ostrich, rhinoceros, road, rock, shrub, sky, soil, termite_mound, truck, warthog, water, wet_soil, wildebeest, zebra',
+        'one/manifest.json: objects[2].material = "lava"; expected one of acacia, baobab, bicycle, crocodile, elephant, elephant_grass, fire, giraffe, grass, hippopotamus, hookthorn, human, impala, lion, log, motorbike, rhinoceros, road, rock, shrub, sky, soil, termite_mound, truck, villager, water, wet_soil, zebra',
     ),
     _manifest(
         "an actor without category",
