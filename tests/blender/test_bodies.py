@@ -6,6 +6,7 @@ import pytest
 from creatures import CART, PONY
 from veldt import assets
 from veldt.anatomy.bodies import body_of, build_body, draw_variant, variant_names
+from veldt.anatomy.skeleton import has_own_shapes
 from veldt.geometry.shapes import NOTHING, ellipsoid, joined, sheet, tube
 
 KINDS = [(species, variant) for species in assets.names("species") for variant in variant_names(species)]
@@ -84,6 +85,55 @@ def test_a_stretched_bone_grows_about_its_joint_and_takes_its_children_along():
     assert np.array_equal(neck.joint_m, _bone(MARE, "neck").joint_m)
     assert head.joint_m - neck.joint_m == pytest.approx([1.5 * 0.35, 0, 1.5 * 0.35])
     assert head.mesh.points_m == pytest.approx(1.5 * _bone(MARE, "head").mesh.points_m)
+
+
+def test_a_bone_may_be_stretched_along_each_axis():
+    wide = PONY | {
+        "variants": {"wide": {"share": 1, "size_range": [1, 1], "stretch": {"neck": [1.0, 1.5, 2.0]}}}
+    }
+    neck, head = (_bone(body_of(wide, "wide"), name) for name in ("neck", "head"))
+    assert neck.mesh.points_m == pytest.approx(_bone(MARE, "neck").mesh.points_m * [1.0, 1.5, 2.0])
+    assert head.joint_m - neck.joint_m == pytest.approx([0.35, 0, 2.0 * 0.35])
+
+
+def _changed(bone: str, **shape) -> dict:
+    """The pony with keys of the first shape of a bone."""
+    first, *others = PONY["bones"][bone]["shapes"]
+    return PONY | {
+        "bones": PONY["bones"] | {bone: PONY["bones"][bone] | {"shapes": [first | shape, *others]}}
+    }
+
+
+def test_patches_are_triangles_of_another_part_in_a_box():
+    patch = {"part": "mane", "from_m": [-9, 0.0, 1.3], "to_m": [9, 9, 9]}
+    body = body_of(_changed("neck", patches=[patch]), "mare")
+    mesh = _bone(body, "neck").mesh
+    middle_m = (mesh.points_m[mesh.triangles] + _bone(body, "neck").joint_m).mean(axis=1)
+    inside = (middle_m[:, 1] >= 0.0) & (middle_m[:, 2] >= 1.3)
+    assert 0 < inside.sum() < len(inside)
+    assert [body.parts[slot] for slot in mesh.slot] == ["mane" if each else "torso" for each in inside]
+    assert np.array_equal(mesh.points_m, _bone(MARE, "neck").mesh.points_m)
+
+
+def test_shapes_of_a_posture_are_drawn_in_it_alone():
+    data = _changed("head", only=["lie"])
+    heads = [_bone(body_of(data, "mare", posture), "head").mesh for posture in ("walk", "lie")]
+    assert [len(mesh.triangles) > 0 for mesh in heads] == [False, True]
+    assert (
+        has_own_shapes(data, "lie") and not has_own_shapes(data, "float") and not has_own_shapes(PONY, "lie")
+    )
+
+
+def test_a_variant_holds_angles_in_every_posture_and_move():
+    mare = PONY["variants"]["mare"]
+    held = PONY | {"variants": {"mare": mare | {"holds_deg": {"neck": [0, 5, 0], "hind_upper": [0, 9, 0]}}}}
+    body = body_of(held, "mare")
+    place = {bone.name: k for k, bone in enumerate(body.bones)}
+    for posture in ("walk", "lie"):
+        turn_rad = body.postures[posture].turn_rad
+        assert turn_rad[place["neck"]] == pytest.approx(np.radians([0, 5, 0]))
+        assert turn_rad[place["hind_upper.right"]] == pytest.approx(np.radians([0, 9, 0]))
+    assert [body.bones[move.bone].name for move in body.moves] == ["tail"]
 
 
 @pytest.mark.parametrize("bone", ["trunk", "fore_upper", "hind_lower"])

@@ -95,3 +95,21 @@ def test_feet_depend_on_distance_and_not_on_time():
 
 def test_smooth_runs_from_0_to_1():
     assert smooth(np.array([-1, 0, 0.5, 1, 2])) == pytest.approx([0, 0, 0.5, 1, 1])
+
+
+def test_a_foot_that_strikes_rolls_over_its_heel():
+    """Its toe is up by 20 degrees when it touches down, its heel on the ground until it is flat; then it is as others."""
+    foot_m, strike_rad = 0.2, np.radians(20.0)
+    leg = replace(BODY.legs[0], strike_rad=strike_rad, foot_m=foot_m)
+    walked_m = (np.linspace(0.0, BODY.stance, 101) + leg.phase + 2.0) * STRIDE_M
+    given = BODY.stance, STRIDE_M, 1.0, circle(1e9), Hills(0.0), walked_m, np.ones(101)
+    (strikes,), (flat,) = (apart(footing([each], *given)) for each in (leg, BODY.legs[0]))
+    heel_m = strikes.toe_m - foot_m * strikes.rotation[:, :, 0]
+    up = strikes.strike_rad > 0
+    assert (
+        strikes.strike_rad[0] == pytest.approx(strike_rad) and 8 < up.sum() < 16
+    )  # until 12 % of the stance
+    assert strikes.toe_m[0, 2] == pytest.approx(foot_m * np.sin(strike_rad))
+    assert heel_m[up] == pytest.approx(np.tile(heel_m[0], (up.sum(), 1)), abs=1e-6)
+    assert heel_m[up, 2] == pytest.approx(np.zeros(up.sum()), abs=1e-9)
+    assert np.array_equal(strikes.toe_m[~up], flat.toe_m[~up])

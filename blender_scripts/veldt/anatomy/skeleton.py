@@ -22,8 +22,8 @@ SIDES = {"left": 1.0, "right": -1.0}
 class Bone:
     """A segment: joint_m (3,) in body axes, its mesh relative to the joint, the index of its parent or -1.
 
-    stretch: scale of this bone in its variant, relative to the drawing, about the joint, which was drawn at drawn_m; one
-    number, or (3,) along x, y and z.
+    stretch: scale of this bone in its variant, relative to the drawing, about the joint, which was drawn at drawn_m;
+    one number, or (3,) along x, y and z.
     """
 
     name: str

@@ -67,7 +67,7 @@ def behaviours_of(group: dict) -> dict[str, float]:
 
 
 def behaves(group: dict, *behaviours: str) -> bool:
-    """Whether a group's members have one of these behaviours; shares are of still ones, which differ in posture alone."""
+    """Whether members of a group have one of these behaviours."""
     return any(behaviour in behaviours for behaviour in behaviours_of(group))
 
 

@@ -44,7 +44,8 @@ def _check_behaviour(where: str, group: dict) -> None:
     species = group["species"]
     able = [name for name, posture in POSTURES.items() if posture == "walk" or posture in _postures(species)]
     if "behaviours" in group:
-        return _check_shares(where, group, able)
+        _check_shares(where, group, able)
+        return
     (behaviour,) = behaviours_of(group)
     if behaviour not in able:
         raise ConfigError(
