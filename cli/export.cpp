@@ -22,6 +22,7 @@ struct ExportArguments {
   std::string out;
   std::string link;
   std::string images = "ir8";
+  std::string boxes = "visible";
   std::string split;
   std::string selection;
   std::string scratch;
@@ -46,6 +47,7 @@ thermal::ExportOptions request_of(const ExportArguments& options) {
   request.out = options.out;
   if (!options.link.empty()) request.linking = linking_named(options.link);
   request.ir16 = options.images == "ir16";
+  if (options.boxes == "drawn") request.boxes = thermal::BoxStyle::drawn;
   if (!options.split.empty()) request.splits = thermal::parse_splits(options.split);
   request.selection = options.selection;
   request.scratch = options.scratch;
@@ -137,6 +139,11 @@ void add_export(CLI::App& app, Session& session) {
       ->add_option("--images", options->images,
                    "8-bit pictures after gain control, or 16-bit pictures in kelvin")
       ->check(CLI::IsMember({"ir8", "ir16"}))
+      ->capture_default_str();
+  command
+      ->add_option("--box-style", options->boxes,
+                   "Boxes around visible pixels, or with the margin of 1 to 2 px that people leave")
+      ->check(CLI::IsMember({"visible", "drawn"}))
       ->capture_default_str();
   CLI::Option* split =
       command

@@ -51,6 +51,35 @@ def _boxes(document: dict) -> list:
     )
 
 
+@pytest.mark.parametrize("options", [["--format", "coco"], ["--format", "coco", "--split", "a:0.5,b:0.5"]])
+def test_drawn_boxes_are_wider_and_everything_else_is_as_it_was(place, tmp_path, options):
+    made = _made(place, tmp_path / "x", *options, "--box-style", "drawn")
+    files = [made / "annotations.json"] if len(options) == 2 else sorted((made / "annotations").iterdir())
+    drawn = {a["id"]: a for file in files for a in json.loads(file.read_text())["annotations"]}
+    visible = json.loads((place.folder / "data" / "annotations.json").read_text())["annotations"]
+    assert len(drawn) == len(visible) > 0
+    for annotation in visible:
+        x, y, wide, high = annotation["bbox"]
+        margin = min(2.1, 0.7 + 0.1 * (wide * high) ** 0.5)
+        left, top = max(x - margin, 0), max(y - margin, 0)
+        right, low = min(x + wide + margin, passes.WIDTH), min(y + high + margin, passes.HEIGHT)
+        assert drawn[annotation["id"]]["bbox"] == pytest.approx([left, top, right - left, low - top])
+        assert drawn[annotation["id"]] | {"bbox": annotation["bbox"]} == annotation
+    record = json.loads((made / "export.json").read_text())
+    assert record["request"]["box_style"] == "drawn"
+
+
+def test_drawn_boxes_are_in_every_format(place, tmp_path):
+    labels = {}
+    for style in ("visible", "drawn"):
+        made = _made(place, tmp_path / style, "--format", "yolo", "--box-style", style)
+        lines = [
+            line.split() for file in sorted(made.rglob("*.txt")) for line in file.read_text().splitlines()
+        ]
+        labels[style] = np.array([[float(word) for word in words[1:]] for words in lines if len(words) == 5])
+    assert (labels["drawn"][:, 2:] > labels["visible"][:, 2:]).all()
+
+
 # --- formats ----------------------------------------------------------------------------------------------------------
 
 

@@ -11,12 +11,16 @@
 namespace thermal {
 namespace {
 
+Json corners_of(const LabelBox& box) { return {box.x_px, box.y_px, box.width_px, box.height_px}; }
+
 /// Writes the files of the splits, list by list, while one large file is read.
 class Splitter {
  public:
   explicit Splitter(const ExportInput& input)
       : input_(input), lists_(input.splits.size()), videos_(input.splits.size()) {
     for (std::size_t i = 0; i < input.set.images.size(); ++i) images_.emplace(input.set.images[i].id, i);
+    if (!input.boxes_changed) return;
+    for (const Label& label : input.set.labels) boxes_.emplace(label.id, label.box);
   }
 
   std::vector<std::string> split(const std::string& text, const std::string& name) {
@@ -36,13 +40,20 @@ class Splitter {
     if (list == "images") {
       take_image(element);
     } else if (list == "annotations") {
-      const auto image = images_.find(element.at("image_id"));
-      if (image != images_.end()) add(split_of(image->second), list, element);
+      take_annotation(element);
     } else if (list == "videos") {
       all_videos_.push_back(element);
     } else {
       for (std::size_t split = 0; split < lists_.size(); ++split) add(split, list, element);
     }
+  }
+
+  void take_annotation(const Json& element) {
+    const auto image = images_.find(element.at("image_id"));
+    if (image == images_.end()) return;
+    Json annotation = element;
+    if (input_.boxes_changed) annotation["bbox"] = corners_of(boxes_.at(element.at("id")));
+    add(split_of(image->second), "annotations", annotation);
   }
 
   void take_image(const Json& element) {
@@ -83,17 +94,17 @@ class Splitter {
 
   const ExportInput& input_;
   std::unordered_map<std::int64_t, std::size_t> images_;   ///< index in the set, by id
+  std::unordered_map<std::int64_t, LabelBox> boxes_;       ///< those that changed, by the label's id
   std::vector<std::map<std::string, std::string>> lists_;  ///< by split and key
   std::vector<std::set<std::string>> videos_;              ///< ids with images, by split
   std::vector<Json> all_videos_;
 };
 
 Json annotation_of(const LabelSet& set, const Label& label) {
-  const LabelBox& box = label.box;
   Json json = {{"id", label.id},
                {"image_id", set.images[label.image].id},
                {"category_id", set.categories[label.category].id},
-               {"bbox", {box.x_px, box.y_px, box.width_px, box.height_px}},
+               {"bbox", corners_of(label.box)},
                {"area", label.area_px},
                {"iscrowd", label.crowd ? 1 : 0}};
   if (label.track_id) json["track_id"] = *label.track_id;

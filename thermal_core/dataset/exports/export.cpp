@@ -89,6 +89,7 @@ Json request_of(const ExportOptions& options, const ExportSource& source) {
                   {"labels_sha256", source.labels_sha256},
                   {"format", format_name(options.format)},
                   {"images", options.ir16 ? "ir16" : "ir8"}};
+  if (options.boxes == BoxStyle::drawn) request["box_style"] = "drawn";
   if (options.format == ExportFormat::webdataset)
     request["samples_per_shard"] = samples_per_shard(options);
   else

@@ -6,6 +6,7 @@
 
 #include "dataset/exports/split_shares.h"
 #include "io/system/files.h"
+#include "labels/box_style.h"
 
 namespace thermal {
 
@@ -17,6 +18,7 @@ struct ExportOptions {
   Path out;  ///< empty or not existing yet
   /// Of pictures; empty: hard. Not of webdataset, which copies them into tar files.
   std::optional<Linking> linking = {};
+  BoxStyle boxes = BoxStyle::visible;
   bool ir16 = false;                  ///< 16-bit pictures, which only Veldt datasets have
   std::vector<SplitShare> splits;     ///< empty: no split
   std::optional<std::uint32_t> seed;  ///< seed of the splits; empty: the dataset's own, or 1

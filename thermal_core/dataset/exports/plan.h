@@ -15,6 +15,7 @@ struct ExportInput {
   std::vector<std::string> splits;    ///< names; a single one without splits
   std::vector<std::size_t> of_video;  ///< for each video with pictures, its index into `splits`
   bool split_asked = false;
+  bool boxes_changed = false;  ///< those of the set are not those of the file it was read from
 };
 
 struct PlannedPicture {

@@ -83,7 +83,9 @@ bool has_folders_of_splits(ExportFormat format) {
   return format != ExportFormat::coco && format != ExportFormat::birdsai;
 }
 
-bool needs_sizes(ExportFormat format) { return has_folders_of_splits(format); }
+bool needs_sizes(const ExportOptions& options) {
+  return has_folders_of_splits(options.format) || options.boxes == BoxStyle::drawn;
+}
 
 void find_sizes(LabelSet& set) {
   for (LabelImage& image : set.images) {
@@ -118,13 +120,16 @@ ExportSource read_export_source(const ExportOptions& options) {
   set = read_set(options);
   if (options.ir16) use_ir16(set, options.source);
   check_pictures(set);
-  if (needs_sizes(options.format)) find_sizes(set);
+  if (needs_sizes(options)) find_sizes(set);
   const Path file = coco_file_of(options.source);
   if (options.format == ExportFormat::coco || file.empty())
     source.coco = file.empty() ? coco_text(set) : read_file(file);
   source.coco_name = file.empty() ? set.name : file.string();
   source.labels_sha256 = source.coco.empty() ? sha256_of_file(file) : sha256_of(source.coco);
-  source.all = options.selection.empty() && options.splits.empty() && !options.ir16;
+  source.all = options.selection.empty() && options.splits.empty() && !options.ir16 &&
+               options.boxes == BoxStyle::visible;
+  source.input.boxes_changed = options.boxes == BoxStyle::drawn;
+  if (source.input.boxes_changed) widen_as_drawn(set);
   source.seed = options.seed ? *options.seed : own_seed(options.source);
   share_out(source.input, options, source.seed);
   return source;

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""How well does a detector trained on a config's frames find people in real ones?
+
+    tests/transfer/ladder.py CONFIG --real ANNOTATIONS.json FOLDER --out OUT
+
+Generates the dataset, exports its labels as people draw them, trains a small detector on it from several seeds, with no
+real frames, a few, and many, and beside it on those real frames alone. Real frames are split by the order of their
+names: every other one is for training, the rest judges. Everything that exists in OUT already is kept. Needs
+python3-torch and python3-opencv; each training takes minutes on two cores. Results and how to read them:
+thermal_core/TRANSFER.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from detector import Detector, detect, train
+from frames import Frame, read_frames
+
+_VELDT = Path(__file__).resolve().parents[2] / "build" / "release" / "bin" / "veldt"
+_RATE, _FINE_RATE = 3e-3, 1e-3
+_FINE_STEPS = 0.4  # of the steps, on real frames after frames of the dataset
+_OVERLAPS = (0.5, 0.3)
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """What is trained and judged, and where it is kept."""
+
+    program: Path
+    out: Path
+    steps: int
+    made: list[Frame]
+    real: list[Frame]
+    judged: list[Frame]
+
+    def scores(self, count: int, seed: int, with_made: bool) -> dict[str, float]:
+        """Average precision at each overlap of a detector trained with `count` real frames."""
+        name = f"{'veldt_' if with_made else ''}real_{count}_seed_{seed}"
+        file = self.out / "scores" / f"{name}.json"
+        if not file.exists():
+            detections = self._detections(self._trained(name, count, seed, with_made))
+            results = _written(self.out / "detections" / f"{name}.json", detections)
+            scores = {f"ap{round(100 * iou)}": self._precision(results, iou) for iou in _OVERLAPS}
+            _written(file, scores)
+        return json.loads(file.read_text(encoding="utf-8"))
+
+    def _trained(self, name: str, count: int, seed: int, with_made: bool) -> Detector:
+        some = np.random.default_rng(0).permutation(len(self.real))[:count]
+        real = [self.real[k] for k in sorted(some)]
+        weights = self.out / "weights" / f"{name}.pt"
+        if not weights.exists():
+            weights.parent.mkdir(parents=True, exist_ok=True)
+            if with_made and count > 0:
+                self._trained(f"veldt_real_0_seed_{seed}", 0, seed, True)
+                start = self.out / "weights" / f"veldt_real_0_seed_{seed}.pt"
+                detector = train(real, round(_FINE_STEPS * self.steps), seed, _FINE_RATE, start)
+            else:
+                detector = train(self.made if with_made else real, self.steps, seed, _RATE)
+            torch.save(detector.state_dict(), weights)
+        detector = Detector()
+        detector.load_state_dict(torch.load(weights))
+        return detector.eval()
+
+    def _detections(self, detector: Detector) -> list[dict]:
+        return [
+            {
+                "image_id": number,
+                "category_id": 1,
+                "bbox": [float(v) for v in found[:4]],
+                "score": float(found[4]),
+            }
+            for number, frame in enumerate(self.judged, start=1)
+            for found in detect(detector, frame.file)
+        ]
+
+    def _precision(self, results: Path, iou: float) -> float:
+        truth = _written(self.out / "judged.json", _coco_of(self.judged))
+        command = [self.program, "evaluate", "--truth", truth, "--detections", results]
+        done = subprocess.run(
+            [*command, "--iou", str(iou), "--score", "0", "--json"],
+            check=True,
+            capture_output=True,
+            text=True,
+        )
+        return json.loads(done.stdout)["all"]["average_precision"]
+
+
+def _coco_of(frames: list[Frame]) -> dict:
+    """The labels of some frames, with one category."""
+    boxes = [(number, box) for number, frame in enumerate(frames, start=1) for box in frame.boxes_px.tolist()]
+    return {
+        "categories": [{"id": 1, "name": "human"}],
+        "images": [
+            {"id": number, "file_name": str(frame.file), "width": 640, "height": 512}
+            for number, frame in enumerate(frames, start=1)
+        ],
+        "annotations": [
+            {"id": k, "image_id": image, "category_id": 1, "bbox": box, "area": box[2] * box[3], "iscrowd": 0}
+            for k, (image, box) in enumerate(boxes, start=1)
+        ],
+    }
+
+
+def _written(file: Path, content) -> Path:
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(json.dumps(content, indent=1), encoding="utf-8")
+    return file
+
+
+def _made_frames(options: argparse.Namespace) -> list[Frame]:
+    """The frames of the config, generated and exported where that was not done before."""
+    data, export = options.out / "dataset", options.out / "export"
+    subprocess.run([options.veldt, "generate", options.config, "--out", data], check=True)
+    style = ["--format", "coco", "--box-style", options.box_style]
+    subprocess.run([options.veldt, "export", data, *style, "--out", export, "--quiet"], check=True)
+    return read_frames(export / "annotations.json", export)
+
+
+def _print_table(ladder: Ladder, counts: list[int], seeds: list[int]) -> None:
+    print(
+        f"{len(ladder.made)} frames made, {len(ladder.real)} real ones to train with, {len(ladder.judged)} judge"
+    )
+    print("| real frames | made | AP50 | AP30 | seeds |\n|---|---|---|---|---|")
+    for count in counts:
+        for with_made in (True, False) if count > 0 else (True,):
+            scores = [ladder.scores(count, seed, with_made) for seed in seeds]
+            cells = []
+            for key in ("ap50", "ap30"):
+                values = np.array([each[key] for each in scores])
+                cells.append(f"{values.mean():.3f} ± {values.std(ddof=1) if len(values) > 1 else 0:.3f}")
+            print(
+                f"| {count} | {'yes' if with_made else 'no'} | {' | '.join(cells)} | {len(seeds)} |",
+                flush=True,
+            )
+
+
+def main() -> None:
+    """Generate, train and judge."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("config", type=Path)
+    parser.add_argument("--real", nargs=2, type=Path, required=True, metavar=("LABELS", "FOLDER"))
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--steps", type=int, default=2500)
+    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
+    parser.add_argument("--ladder", type=int, nargs="+", default=[0, 14, 80], help="numbers of real frames")
+    parser.add_argument("--box-style", choices=("drawn", "visible"), default="drawn")
+    parser.add_argument("--veldt", type=Path, default=_VELDT)
+    options = parser.parse_args()
+    frames = read_frames(*options.real)
+    ladder = Ladder(
+        options.veldt, options.out, options.steps, _made_frames(options), frames[0::2], frames[1::2]
+    )
+    _print_table(ladder, options.ladder, options.seeds)
+
+
+if __name__ == "__main__":
+    main()
