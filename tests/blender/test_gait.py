@@ -98,7 +98,7 @@ def test_smooth_runs_from_0_to_1():
 
 
 def test_a_foot_that_strikes_rolls_over_its_heel():
-    """Its toe is up by 20 degrees when it touches down, its heel on the ground until it is flat; then it is as others."""
+    """Its toe is up by 20 degrees at touch-down, its heel on the ground until it is flat; then it is as others."""
     foot_m, strike_rad = 0.2, np.radians(20.0)
     leg = replace(BODY.legs[0], strike_rad=strike_rad, foot_m=foot_m)
     walked_m = (np.linspace(0.0, BODY.stance, 101) + leg.phase + 2.0) * STRIDE_M
