@@ -23,18 +23,18 @@ import torch
 
 from detector import Detector, detect, train
 from frames import Frame, read_frames
+from scores import scores_of
 
 _VELDT = Path(__file__).resolve().parents[2] / "build" / "release" / "bin" / "veldt"
 _RATE, _FINE_RATE = 3e-3, 1e-3
 _FINE_STEPS = 0.4  # of the steps, on real frames after frames of the dataset
-_OVERLAPS = (0.5, 0.3)
+_KEYS = ("ap50", "ap30", "recall50")
 
 
 @dataclass(frozen=True)
 class Ladder:
     """What is trained and judged, and where it is kept."""
 
-    program: Path
     out: Path
     steps: int
     made: list[Frame]
@@ -42,14 +42,17 @@ class Ladder:
     judged: list[Frame]
 
     def scores(self, count: int, seed: int, with_made: bool) -> dict[str, float]:
-        """Average precision at each overlap of a detector trained with `count` real frames."""
+        """The figures of a detector trained with `count` real frames."""
         name = f"{'veldt_' if with_made else ''}real_{count}_seed_{seed}"
         file = self.out / "scores" / f"{name}.json"
         if not file.exists():
-            detections = self._detections(self._trained(name, count, seed, with_made))
-            results = _written(self.out / "detections" / f"{name}.json", detections)
-            scores = {f"ap{round(100 * iou)}": self._precision(results, iou) for iou in _OVERLAPS}
-            _written(file, scores)
+            detector = self._trained(name, count, seed, with_made)
+            found = [detect(detector, frame.file) for frame in self.judged]
+            truth_px = [frame.boxes_px for frame in self.judged]
+            ap50, recall = scores_of(found, truth_px, 0.5)
+            ap30, _ = scores_of(found, truth_px, 0.3)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(json.dumps({"ap50": ap50, "ap30": ap30, "recall50": recall}), encoding="utf-8")
         return json.loads(file.read_text(encoding="utf-8"))
 
     def _trained(self, name: str, count: int, seed: int, with_made: bool) -> Detector:
@@ -69,51 +72,6 @@ class Ladder:
         detector.load_state_dict(torch.load(weights))
         return detector.eval()
 
-    def _detections(self, detector: Detector) -> list[dict]:
-        return [
-            {
-                "image_id": number,
-                "category_id": 1,
-                "bbox": [float(v) for v in found[:4]],
-                "score": float(found[4]),
-            }
-            for number, frame in enumerate(self.judged, start=1)
-            for found in detect(detector, frame.file)
-        ]
-
-    def _precision(self, results: Path, iou: float) -> float:
-        truth = _written(self.out / "judged.json", _coco_of(self.judged))
-        command = [self.program, "evaluate", "--truth", truth, "--detections", results]
-        done = subprocess.run(
-            [*command, "--iou", str(iou), "--score", "0", "--json"],
-            check=True,
-            capture_output=True,
-            text=True,
-        )
-        return json.loads(done.stdout)["all"]["average_precision"]
-
-
-def _coco_of(frames: list[Frame]) -> dict:
-    """The labels of some frames, with one category."""
-    boxes = [(number, box) for number, frame in enumerate(frames, start=1) for box in frame.boxes_px.tolist()]
-    return {
-        "categories": [{"id": 1, "name": "human"}],
-        "images": [
-            {"id": number, "file_name": str(frame.file), "width": 640, "height": 512}
-            for number, frame in enumerate(frames, start=1)
-        ],
-        "annotations": [
-            {"id": k, "image_id": image, "category_id": 1, "bbox": box, "area": box[2] * box[3], "iscrowd": 0}
-            for k, (image, box) in enumerate(boxes, start=1)
-        ],
-    }
-
-
-def _written(file: Path, content) -> Path:
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(json.dumps(content, indent=1), encoding="utf-8")
-    return file
-
 
 def _made_frames(options: argparse.Namespace) -> list[Frame]:
     """The frames of the config, generated and exported where that was not done before."""
@@ -128,12 +86,14 @@ def _print_table(ladder: Ladder, counts: list[int], seeds: list[int]) -> None:
     print(
         f"{len(ladder.made)} frames made, {len(ladder.real)} real ones to train with, {len(ladder.judged)} judge"
     )
-    print("| real frames | made | AP50 | AP30 | seeds |\n|---|---|---|---|---|")
+    print(
+        "| real frames | made | AP50 | AP30 | found at one false alarm a frame | seeds |\n|---|---|---|---|---|---|"
+    )
     for count in counts:
         for with_made in (True, False) if count > 0 else (True,):
             scores = [ladder.scores(count, seed, with_made) for seed in seeds]
             cells = []
-            for key in ("ap50", "ap30"):
+            for key in _KEYS:
                 values = np.array([each[key] for each in scores])
                 cells.append(f"{values.mean():.3f} ± {values.std(ddof=1) if len(values) > 1 else 0:.3f}")
             print(
