@@ -164,3 +164,9 @@ def test_variants_come_as_often_as_their_shares_say():
         # Five standard deviations of a binomial share: one false alarm in a million.
         assert drawn.count(name) / 2000 == pytest.approx(expected, abs=5 * np.sqrt(0.25 / 2000))
     assert drawn[:9] == [draw_variant(species, 7, "herd", k, "walk") for k in range(9)]
+
+
+@pytest.mark.parametrize("species, variant", KINDS)
+def test_legs_bear_all_of_a_body_that_does_not_roll(species, variant):
+    body = build_body(species, variant)
+    assert body.wheels or body.borne == list(range(len(body.bones)))

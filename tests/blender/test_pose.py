@@ -196,6 +196,15 @@ def test_wheels_roll_as_far_as_they_go_and_stay_on_the_ground():
         assert hub[2] == wheel.radius_m
 
 
+def test_a_bicycle_that_is_pushed_rolls_on_the_ground_however_its_owner_walks():
+    body = build_body("bicycle", "pushed")
+    walker = _walker(body, GROUNDS["level"], radius_m=1e6)
+    poses = pose(walker, _walk(walker))
+    for wheel in body.wheels:
+        assert poses.position_m[:, wheel.bone, 2] == pytest.approx(wheel.radius_m, abs=1e-6)
+    assert np.ptp(poses.position_m[:, 0, 2]) > 0.01  # hips rise and fall
+
+
 def test_vertices_follow_their_bones():
     walker = _walker(MARE, GROUNDS["hills"], scale=0.9)
     poses = pose(walker, _motion([1.0, 2.0]))

@@ -113,6 +113,15 @@ class Body:
                 found.add(self.bones[bone].parent)
         return sorted(found - {-1})
 
+    @cached_property
+    def borne(self) -> list[int]:
+        """Bones that legs bear: not those that hang from the same root as a wheel, of a bicycle that is pushed."""
+        roots: list[int] = []
+        for k, bone in enumerate(self.bones):
+            roots.append(k if bone.parent < 0 else roots[bone.parent])
+        rolling = {roots[wheel.bone] for wheel in self.wheels}
+        return [k for k, root in enumerate(roots) if root not in rolling]
+
     def rest(self) -> Mesh:
         """The mesh of the whole drawn body in actor axes."""
         return joined([bone.mesh.moved(bone.joint_m) for bone in self.bones])

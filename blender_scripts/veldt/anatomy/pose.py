@@ -218,7 +218,7 @@ def _set_legs(walker: Walker, motion: Motion, position: np.ndarray, rotation: np
     hip_m[:2] += limbs.glide * (foot.toe_m - below_m)[:2]
     needs_m = np.maximum(limbs.needs_m(ankle_m - hip_m, scale), 0.0)
     lowered_m = sum(needs_m**_NORM) ** (1.0 / _NORM)
-    position[2] -= lowered_m
+    position[2, walker.body.borne] -= lowered_m
     hip_m[2] -= lowered_m
     knee_m, upper, lower = limbs.bent(hip_m, ankle_m, turn, scale)
     position[:, limbs.uppers], position[:, limbs.lowers], position[:, limbs.feet] = hip_m, knee_m, ankle_m
