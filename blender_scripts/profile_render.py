@@ -64,10 +64,11 @@ def _profile(options: argparse.Namespace, events: Events) -> None:
     events.report("scene_built", seconds=round(time.monotonic() - started_s, 3))
     with tempfile.TemporaryDirectory() as passing:
         for supersample in options.supersample:
-            set_up_renderer(stage.scene.passes_intrinsics, supersample)
             for clip in clips:
                 folder = (options.out or Path(passing)) / clip["id"] / f"{supersample}x{supersample}"
-                stage.animate(read_track(options.plan / "tracks" / clip["id"], stage.scene))
+                track = read_track(options.plan / "tracks" / clip["id"], stage.scene)
+                set_up_renderer(stage.scene.passes_of(track), supersample)
+                stage.animate(track)
                 frames = range(min(options.frames, clip["frames"]))
                 timings = profile_frames(folder, frames, stage.pose, time.monotonic)
                 events.report("profile", clip=clip["id"], supersample=supersample, **_size(), **timings)

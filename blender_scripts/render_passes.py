@@ -65,7 +65,6 @@ def _render(options: argparse.Namespace, events: Events) -> None:
     if options.preview:
         _render_preview(stage, options.plan / "preview", options.out, events)
         return
-    set_up_renderer(stage.scene.passes_intrinsics, options.supersample)
     for clip in clips:
         _render_clip(stage, clip, options, events)
 
@@ -94,6 +93,7 @@ def _render_clip(stage: Stage, clip: dict, options: argparse.Namespace, events: 
     _write_manifest(folder / "manifest.json", to_json(manifest), has_frames=first > 0)
     events.report("clip", clip=name, first_frame=first, frames=frames)
     if first < frames:
+        set_up_renderer(stage.scene.passes_of(track), options.supersample)
         stage.animate(track)
         left = range(first, frames)
 

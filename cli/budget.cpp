@@ -1,5 +1,6 @@
 #include "imaging/budget.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/command.h"
@@ -12,8 +13,11 @@
 namespace veldt {
 namespace {
 
+constexpr std::size_t kMostNights = 4;  ///< whose materials are listed
+
 void print_materials(const thermal::SceneOutline& outline) {
-  for (const thermal::SceneOutline::Night& night : outline.nights) {
+  for (std::size_t k = 0; k < std::min(outline.nights.size(), kMostNights); ++k) {
+    const thermal::SceneOutline::Night& night = outline.nights[k];
     if (night.looks.empty()) continue;
     const auto nearest = std::min_element(night.looks.begin(), night.looks.end(),
                                           [](const auto& a, const auto& b) { return a.range_m < b.range_m; });
@@ -22,13 +26,15 @@ void print_materials(const thermal::SceneOutline& outline) {
           night.weather.air.temperature_k, night.weather.air.relative_humidity, nearest->range_m, "", "sky",
           "path", inverted ? ", of it inversion" : "");
     for (const thermal::SceneOutline::Cover& cover : outline.covers) {
-      const thermal::MaterialShift shift =
-          thermal::shift_of(*cover.material, night, nearest->range_m, outline.response);
+      const thermal::MaterialShift shift = thermal::shift_of(*cover.material, night, nearest->range_m,
+                                                             night.response.value_or(outline.response));
       print("{:<16}{:>+10.0f}{:>+10.0f}", cover.material->name, 1e3 * shift.sky_k, 1e3 * shift.path_k);
       if (inverted) print("{:>+17.0f}", 1e3 * shift.inversion_k);
       print("\n");
     }
   }
+  if (outline.nights.size() > kMostNights)
+    print("\nand {} more, of other clips\n", outline.nights.size() - kMostNights);
 }
 
 void print_budget(const thermal::Budget& budget, const thermal::SceneOutline& outline) {
@@ -58,7 +64,8 @@ int run_budget(const BudgetArguments& options, const CommonOptions& common) {
   const thermal::DatasetPlan plan = plan_with_progress(common, assets, given, options.config);
   const thermal::Config config = thermal::with_flights_cut(given, plan, options.config);
   const thermal::SceneOutline outline = thermal::outline_of(config, plan, materials);
-  const thermal::Budget budget = thermal::weigh_terms(outline, config.terms);
+  const thermal::KeptTerms kept(config, outline);
+  const thermal::Budget& budget = kept.budget();
   if (options.json) {
     print_json(thermal::to_json(budget));
   } else {

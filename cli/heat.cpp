@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -15,6 +16,7 @@
 namespace veldt {
 namespace {
 
+constexpr std::size_t kMostDays = 4;  ///< of clips with weather of their own
 constexpr int kHours[] = {0, 3, 6, 9, 12, 15, 18, 21};
 
 struct HeatArguments {
@@ -60,8 +62,9 @@ std::string title_of(const SeasonHeat& heat) {
 
 std::vector<SeasonHeat> heat_of(const thermal::Config& config, const thermal::MaterialLibrary& materials) {
   std::vector<SeasonHeat> seasons;
-  for (auto& [season, flown_h] : thermal::flown_hours(config)) {
-    const thermal::Weather& weather = config.weather.at(static_cast<std::size_t>(season));
+  std::vector<thermal::FlownWeather> flown = thermal::flown_weather(config);
+  flown.resize(std::min(flown.size(), kMostDays));
+  for (auto& [season, weather, flown_h] : flown) {
     seasons.push_back({.season = season,
                        .weather = weather,
                        .flown_h = std::move(flown_h),
@@ -155,6 +158,8 @@ int run_heat(const HeatArguments& options, const CommonOptions& common) {
     print_inputs(heat);
     print_crossovers(heat);
   }
+  const std::size_t days = thermal::flown_weather(config).size();
+  if (days > seasons.size()) print("\nand {} more days, of other clips\n", days - seasons.size());
   return kDone;
 }
 

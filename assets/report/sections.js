@@ -168,11 +168,13 @@ function provenanceSection({ record }) {
   const { config } = record;
   const flown = config.clips?.some((clip) => clip.flight) || (config.flights ?? []).length > 0;
   const command = flown ? "veldt generate config.json --out dataset" : "veldt convert PASSES\u2026 --config config.json --out dataset";
+  const drawn = [...new Set((config.clips ?? []).flatMap((clip) => clip.drawn ?? []))].sort();
   return section("provenance", "Provenance",
     pairs([
       ["Made by", `Veldt ${record.veldt_version ?? "of an unknown version"}`],
       ["Status", record.status],
       ["Seed", String(config.seed)],
+      ["Drawn for each clip", drawn.length > 0 ? listed(drawn) : undefined],
       ["Pixels, SHA-256", element("code", {}, record.pixels_sha256 ?? "unknown")],
       ["Labels, SHA-256", element("code", {}, record.annotations_sha256 ?? "unknown")],
       ["To reproduce it", element("span", {}, "save the config below as config.json, then run ", element("code", {}, command))],

@@ -37,6 +37,11 @@ def intrinsics_of(camera: dict) -> Intrinsics:
     )
 
 
+def camera_of(entry: dict, usual: Intrinsics) -> Intrinsics:
+    """Intrinsics of a clip or flight: its own, or the usual ones."""
+    return intrinsics_of(entry["camera"]) if "camera" in entry else usual
+
+
 def widened(intrinsics: Intrinsics, margin_px: int) -> Intrinsics:
     """The same camera with additional pixels on every side."""
     cx_px, cy_px = intrinsics.centre_px

@@ -33,7 +33,7 @@ def cut(flight: dict, seen: np.ndarray, seed: int) -> list[Stretch]:
 
 def clips_of(flight: dict, stretches: list[Stretch]) -> list[dict]:
     """The clips of a config for these stretches of a flight."""
-    shared = {key: flight[key] for key in ("frame_rate_hz", "flight")}
+    shared = {key: flight[key] for key in ("frame_rate_hz", "flight", "camera") if key in flight}
     return [
         {
             "id": f"{flight['id']}_{k:04d}",

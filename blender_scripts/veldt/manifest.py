@@ -37,7 +37,7 @@ def build_manifest(
         **({"actor_layer": ACTOR_LAYER} if actor_layer else {}),
         "supersample": supersample,
         "overscan_px": header["view_margin_px"],
-        "camera": header["camera"],
+        "camera": track.camera or header["camera"],
         "objects": header["objects"],
         "materials": header["materials"],
         **({"beds": header["beds"]} if "beds" in header else {}),

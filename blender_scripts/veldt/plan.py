@@ -54,7 +54,7 @@ def plan_clips(
 def _outlooks_of(world: World, entry: dict) -> list[Outlook]:
     """Of a clip, or of the clips cut from a flight."""
     flight = world.flight(entry)
-    seen = sightings(world.intrinsics, flight, world.actors)
+    seen = sightings(world.camera(entry), flight, world.actors)
     if "keep" not in entry:  # a clip
         return [Outlook(entry, flight, seen)]
     stretches = cut(entry, seen, world.config["seed"])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from . import assets, checks, fires, ids
 from .anatomy.skeleton import part_names
-from .camera import Intrinsics, intrinsics_of, widened
+from .camera import Intrinsics, camera_of, intrinsics_of, widened
 from .flight.pilots import Pilot
 from .flight.poses import Flight
 from .groups.actors import Actor, measure
@@ -55,6 +55,10 @@ class World:
     def view_intrinsics(self) -> Intrinsics:
         """Intrinsics of a pinhole camera that sees all that the passes and the lens show."""
         return widened(self.intrinsics, self.view_margin_px)
+
+    def camera(self, entry: dict) -> Intrinsics:
+        """Intrinsics of one of the config's clips or flights, or of a clip cut from one."""
+        return camera_of(entry, self.intrinsics)
 
     def flight(self, entry: dict) -> Flight:
         """The frames of one of the config's clips or flights; ConfigError if it cannot be flown."""

@@ -19,8 +19,6 @@ def add_camera(intrinsics: Intrinsics, depth_range_m: Sequence[float] = DEPTH_RA
     lens = bpy.data.cameras.new("camera")
     lens.sensor_fit = "HORIZONTAL"
     lens.sensor_width = _SENSOR_MM
-    lens.lens = _SENSOR_MM * intrinsics.focal_px[0] / intrinsics.width_px
-    lens.shift_x, lens.shift_y = lens_shift(intrinsics)
     lens.clip_start, lens.clip_end = depth_range_m
     camera = bpy.data.objects.new("camera", lens)
     camera.parent = bpy.data.objects.new("camera mount", None)
@@ -28,7 +26,15 @@ def add_camera(intrinsics: Intrinsics, depth_range_m: Sequence[float] = DEPTH_RA
     scene.collection.objects.link(camera)
     scene.collection.objects.link(camera.parent)
     scene.camera = camera
+    set_lens(camera, intrinsics)
     return camera
+
+
+def set_lens(camera: bpy.types.Object, intrinsics: Intrinsics) -> None:
+    """Give a camera other intrinsics."""
+    lens = camera.data
+    lens.lens = _SENSOR_MM * intrinsics.focal_px[0] / intrinsics.width_px
+    lens.shift_x, lens.shift_y = lens_shift(intrinsics)
 
 
 def place(camera: bpy.types.Object, camera_to_world: np.ndarray) -> None:

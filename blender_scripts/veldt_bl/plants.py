@@ -9,6 +9,7 @@ import mathutils
 import numpy as np
 
 from veldt.bake.baked import BakedScene
+from veldt.camera import Intrinsics
 from veldt.plants.views import circles_seen, held_circles
 
 from . import compat
@@ -43,15 +44,15 @@ def add_flora(scene: BakedScene, meshes: list[bpy.types.Mesh]) -> Flora:
 
 
 def circles_needed(
-    flora: Flora, scene: BakedScene, camera_to_world: np.ndarray
+    flora: Flora, scene: BakedScene, intrinsics: Intrinsics, camera_to_world: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Centres (n, 2) and radii (n,) of circles that contain all plants that poses (n, 4, 4) may see.
+    """Centres (n, 2) and radii (n,) of circles that contain all plants that a camera may see in poses (n, 4, 4).
 
     Cycles synchronises all meshes again, including the ground, whenever the number of instances changes; therefore one
     circle is kept for many frames.
     """
     low_m, high_m = scene.heights_m
-    centres_m, radii_m = circles_seen(scene.passes_intrinsics, camera_to_world, low_m, high_m + flora.reach_m)
+    centres_m, radii_m = circles_seen(intrinsics, camera_to_world, low_m, high_m + flora.reach_m)
     return held_circles(centres_m, np.minimum(radii_m + flora.reach_m, EVERYWHERE_M))
 
 

@@ -31,7 +31,9 @@ class Stage:
     def animate(self, track: BakedTrack) -> None:
         """Select the track whose frames `pose` shows."""
         self._track = track
-        self._circles = plants.circles_needed(self.flora, self.scene, track.camera_to_world)
+        intrinsics = self.scene.passes_of(track)
+        camera.set_lens(self.camera, intrinsics)
+        self._circles = plants.circles_needed(self.flora, self.scene, intrinsics, track.camera_to_world)
 
     def pose(self, frame: int) -> None:
         """Move the camera, and everything it may see, to their positions in a frame of the clip.

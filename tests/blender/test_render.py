@@ -28,6 +28,17 @@ def test_files_are_whole_and_nothing_else_is_left(full):
         assert all(plane.shape == (80, 96) for plane in planes.values())
 
 
+def test_a_clip_with_its_own_camera_is_rendered_as_by_that_camera(full, tmp_path):
+    focal = {"camera": {"focal_length_m": 0.02}}
+    (tmp_path / "own").mkdir()
+    own = render(tmp_path / "own", tiny(lambda config: config["clips"][1].update(focal)))
+    (tmp_path / "all").mkdir()
+    usual = render(tmp_path / "all", tiny(lambda config: config["camera"].update(focal["camera"])))
+    _assert_same_pixels(own, usual, "side")
+    _assert_same_pixels(own, full, "down")
+    assert own.manifest("side")["camera"]["fx_px"] == usual.manifest("side")["camera"]["fx_px"]
+
+
 def test_events_are_complete_and_in_order(full):
     expected = ["scene_built"]
     for clip in CLIPS:

@@ -61,6 +61,18 @@ def test_actors_are_posed_in_every_frame_that_shows_them_and_not_in_all(busy, tm
     assert posed.any() and not posed.all()
 
 
+def test_a_clip_may_have_a_camera_of_its_own(busy, tmp_path):
+    clip = busy.config["clips"][0]
+    narrow = busy.config["camera"] | {"fx_px": 400.0, "fy_px": 400.0}
+    tracks.bake_track(busy, clip["id"], busy.flight(clip), tmp_path / "narrow", camera=narrow)
+    _baked(busy, tmp_path / "usual")
+    header, arrays = read(tmp_path / "narrow", TRACK, VERSION)
+    usual_header, usual = read(tmp_path / "usual", TRACK, VERSION)
+    assert header["camera"] == narrow and "camera" not in usual_header
+    assert 0 < arrays["posed"].sum() < usual["posed"].sum()
+    assert busy.camera(clip | {"camera": narrow}).focal_px == (400.0, 400.0)
+
+
 def test_a_place_without_actors_has_tracks(tmp_path):
     def empty(config: dict) -> None:
         config["scene"]["groups"] = []

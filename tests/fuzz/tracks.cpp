@@ -65,7 +65,8 @@ void use(const BakedTrack& track, const BakedScene& scene, const thermal::RayCas
   thermal::Passes passes;
   for (std::size_t frame = 0; frame < std::min(track.frames, kMostFrames); ++frame)
     tracer.trace(frame, {.depth = true, .normals = true, .actors = true, .mirrored = true}, passes);
-  thermal::manifest_of(scene, track, thermal::ClipPlan(), thermal::Config()).validate();
+  const thermal::Config config;
+  thermal::manifest_of(scene, track, thermal::ClipPlan(), config, config).validate();
 }
 
 }  // namespace

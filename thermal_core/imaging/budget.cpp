@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "radiometry/band_radiance.h"
 #include "radiometry/spectral_air.h"
 
@@ -109,7 +110,10 @@ double shore_share(double cosine) {
 class NightShifts {
  public:
   NightShifts(const SceneOutline& outline, const SceneOutline::Night& night)
-      : outline_(outline), night_(night), air_(night.weather.air, outline.response) {
+      : outline_(outline),
+        night_(night),
+        response_(night.response ? *night.response : outline.response),
+        air_(night.weather.air, response_) {
     for (const SceneOutline::Cover& cover : outline.covers) {
       add_cover(cover);
       if (cover.material->angular == AngularLaw::water) add_mirror(cover);
@@ -153,7 +157,7 @@ class NightShifts {
   }
 
   [[nodiscard]] MaterialModel model_of(const SceneOutline::Cover& cover) const {
-    return {*cover.material, night_, outline_.response, air_};
+    return {*cover.material, night_, response_, air_};
   }
 
   void add_cover(const SceneOutline::Cover& cover) {
@@ -246,6 +250,7 @@ class NightShifts {
 
   const SceneOutline& outline_;
   const SceneOutline::Night& night_;
+  const SpectralResponse& response_;
   BandAir air_;
   std::array<std::vector<Weighted>, std::size(kTerms)> shifts_;
   std::array<std::vector<Weighted>, std::size(kTerms)>
@@ -265,19 +270,33 @@ bool is_kept(const TermEffect& effect, double netd_k) {
   return effect.impossible.empty() && effect.spread_k > netd_k / 3;
 }
 
-}  // namespace
-
-Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices) {
-  Budget budget;
-  std::vector<NightShifts> nights;
-  for (const SceneOutline::Night& night : outline.nights) nights.emplace_back(outline, night);
+/// Of all terms in the worst night, in the order of kTerms. Nights are independent.
+std::vector<TermEffect> effects_of(const SceneOutline& outline) {
+  std::vector<std::vector<TermEffect>> of_nights(outline.nights.size());
+  parallel_for(of_nights.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const NightShifts night(outline, outline.nights[k]);
+      for (const TermInfo& term : kTerms) of_nights[k].push_back(night.effect(term));
+    }
+  });
+  std::vector<TermEffect> worst;
   for (const TermInfo& term : kTerms) {
     TermEffect effect{.name = std::string(term.name)};
-    for (const NightShifts& night : nights) {
-      const TermEffect one = night.effect(term);
+    for (const std::vector<TermEffect>& night : of_nights) {
+      const TermEffect& one = night.at(worst.size());
       effect.spread_k = std::max(effect.spread_k, one.spread_k);
       effect.actor_shift_k = std::max(effect.actor_shift_k, one.actor_shift_k);
     }
+    worst.push_back(std::move(effect));
+  }
+  return worst;
+}
+
+Budget decide(const SceneOutline& outline, const std::vector<TermEffect>& effects,
+              const TermChoices& choices) {
+  Budget budget;
+  for (const TermInfo& term : kTerms) {
+    TermEffect effect = effects.at(budget.effects.size());
     effect.choice = choices.*term.choice;
     const bool matters = effect.choice == TermChoice::on || effect.spread_k > 0;
     if (term.needed != nullptr && !(budget.kept.*term.needed) && matters)
@@ -287,9 +306,22 @@ Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices) {
     effect.kept = is_kept(effect, outline.netd_k);
     budget.kept.*term.kept = effect.kept;
     if (!effect.kept) budget.dropped_k += effect.spread_k;
-    budget.effects.push_back(effect);
+    budget.effects.push_back(std::move(effect));
   }
   return budget;
+}
+
+}  // namespace
+
+std::vector<Budget> weigh_terms(const SceneOutline& outline, const std::vector<TermChoices>& choices) {
+  const std::vector<TermEffect> effects = effects_of(outline);
+  std::vector<Budget> budgets;
+  for (const TermChoices& one : choices) budgets.push_back(decide(outline, effects, one));
+  return budgets;
+}
+
+Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices) {
+  return weigh_terms(outline, std::vector<TermChoices>{choices}).front();
 }
 
 double SceneOutline::Night::temperature_k(const Material& material, const std::string& part) const {

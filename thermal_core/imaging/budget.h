@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,10 @@ struct SceneOutline {
     double shift_k = 0;
     double share = 0;
   };
-  /// One season's flights.
+  /// The flights under one weather, through one spectral response.
   struct Night {
     Weather weather;
+    std::optional<SpectralResponse> response = {};  ///< empty: the outline's
     std::vector<Look>
         looks;  ///< empty: viewing directions are unknown; terms that depend on them then have no effect
     /// Temperatures by the heat balance, by material and part ("" is the whole); those of Table 1's line where there is
@@ -76,6 +78,10 @@ struct Budget {
 /// to either side, by the contrast to the mean ground times the motion in px within a time constant, at most 1. An
 /// automatic term that is impossible is dropped; ConfigError if the config requires one.
 [[nodiscard]] Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices);
+
+/// The same for several choices, in their order; the effects are computed once.
+[[nodiscard]] std::vector<Budget> weigh_terms(const SceneOutline& outline,
+                                              const std::vector<TermChoices>& choices);
 
 /// Shift of a material's apparent temperature by sky reflection, and by the path on top of it [K], of which the
 /// inversion makes a part; level surface under an open sky, seen from straight above.

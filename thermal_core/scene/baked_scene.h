@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -82,6 +83,7 @@ struct BakedScene {
 /// A clip's camera and actors, frame by frame (configs/schema/track.schema.json).
 struct BakedTrack {
   std::string clip;
+  std::optional<CameraIntrinsics> camera = {};  ///< empty: the scene's
   std::size_t frames = 0;
   std::span<const double> time_s;
   std::span<const std::array<double, 16>> camera_to_world;  ///< row-major 4 x 4, OpenCV camera axes

@@ -10,6 +10,8 @@ struct CameraIntrinsics {
   double fy_px = 0;
   double cx_px = 0;
   double cy_px = 0;
+
+  [[nodiscard]] bool operator==(const CameraIntrinsics&) const = default;
 };
 
 }  // namespace thermal

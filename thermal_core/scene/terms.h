@@ -39,6 +39,8 @@ struct TermChoices {
   TermChoice path = TermChoice::off;
   TermChoice smear = TermChoice::off;
   TermChoice falloff = TermChoice::off;
+
+  [[nodiscard]] bool operator==(const TermChoices&) const = default;
 };
 
 /// One row per term, in order: name, choice, outcome, and the term before it without which it has no effect.

@@ -31,6 +31,10 @@ class BakedScene:
         """Intrinsics of the passes' pinhole camera, at the camera's resolution."""
         return widened(self.intrinsics, self.header["view_margin_px"])
 
+    def passes_of(self, track: BakedTrack) -> Intrinsics:
+        """The same in a clip, which may have a camera of its own."""
+        return widened(intrinsics_of(track.camera or self.header["camera"]), self.header["view_margin_px"])
+
     @cached_property
     def heights_m(self) -> tuple[float, float]:
         """The least and the greatest height of the ground's grid."""
@@ -44,7 +48,7 @@ class BakedTrack:
 
     time_s (n,); camera_to_world (n, 4, 4); agl_m (n,) over ground or water; look_angle_deg (n,); actor_position_m
     (actors, n, 3) on the ground; actor_heading_rad (actors, n); posed (actors, n): whether an actor may be in the
-    picture. bones_of: the number of bones of each actor.
+    picture. bones_of: the number of bones of each actor. camera: of the clip, if it is not the scene's.
     """
 
     clip: str
@@ -57,6 +61,7 @@ class BakedTrack:
     posed: np.ndarray
     bones_of: tuple[int, ...]
     all_bones: np.ndarray
+    camera: dict | None = None
 
     def bones(self, actor: int, frame: int) -> np.ndarray:
         """Transforms (bones, 3, 4) of a posed actor, by its place in the scene's list, in a frame."""
@@ -143,6 +148,7 @@ def read_track(path: Path, scene: BakedScene) -> BakedTrack:
         posed=posed,
         bones_of=tuple(bones_of.tolist()),
         all_bones=arrays.pop("bones"),
+        camera=header.get("camera"),
         **arrays,
     )
 

@@ -47,8 +47,8 @@ def bake_plan(
     (folder / "tracks").mkdir()
 
     def bake(outlook: Outlook) -> None:
-        name = outlook.clip["id"]
-        bake_track(world, name, outlook.flight, folder / "tracks" / name)
+        name, camera = outlook.clip["id"], outlook.clip.get("camera")
+        bake_track(world, name, outlook.flight, folder / "tracks" / name, camera=camera)
 
     found = _described(world, plan_clips(world, cores, bake, planned), outline())
     if preview:

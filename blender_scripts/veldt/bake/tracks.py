@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..camera import intrinsics_of, widened
 from ..flight.poses import Flight
 from ..frusta import frusta_of
 from ..groups.actors import Actor, Company
@@ -21,14 +22,16 @@ _POSES_AT_ONCE = 2048  # moments of actors of one body that are posed together
 _SLACK = 1.2  # of the size of bodies: allowance beyond their boxes, which are sampled in time
 
 
-def bake_track(world: World, clip: str, flight: Flight, path: Path, everyone: bool = False) -> None:
-    """Write `path`.json and `path`.bin.
+def bake_track(
+    world: World, clip: str, flight: Flight, path: Path, everyone: bool = False, camera: dict | None = None
+) -> None:
+    """Write `path`.json and `path`.bin. camera: the clip's own, if it has one.
 
     posed (actors, frames): whether an actor may be in the picture, or `everyone`. bones (k, 3, 4): scaled rotations and
     positions of its bones with a mesh in these frames, actor by actor, frame by frame, bone by bone.
     """
     company = Company(world.actors)
-    positions, headings, posed = _places(world, company, flight)
+    positions, headings, posed = _places(world, company, flight, camera)
     posed |= everyone
     arrays = {
         "time_s": flight.time_s,
@@ -41,16 +44,21 @@ def bake_track(world: World, clip: str, flight: Flight, path: Path, everyone: bo
         "bones": _bones(company, flight.time_s, posed),
     }
     header = {"format": TRACK, "version": VERSION, "clip": clip, "frames": len(flight.time_s)}
+    if camera:
+        header["camera"] = camera
     write(path, header, arrays)
 
 
-def _places(world: World, company: Company, flight: Flight) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _places(
+    world: World, company: Company, flight: Flight, camera: dict | None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Positions (actors, n, 3) and headings (actors, n), and the mask (actors, n) of the frames of a flight in which
     each actor may be in the picture."""
     actors, time_s = world.actors, flight.time_s
     positions = np.zeros((len(actors), len(time_s), 3))
     headings, posed = np.zeros(positions.shape[:2]), np.zeros(positions.shape[:2], bool)
-    frusta = frusta_of(world.view_intrinsics, flight.camera_to_world)
+    view = widened(intrinsics_of(camera), world.view_margin_px) if camera else world.view_intrinsics
+    frusta = frusta_of(view, flight.camera_to_world)
     for part in _parts(len(time_s) if actors else 0, _PLACES_AT_ONCE // max(1, len(actors))):
         at_s = time_s[part]
         walk = company.track(np.repeat(np.arange(len(actors)), len(at_s)), np.tile(at_s, len(actors)))

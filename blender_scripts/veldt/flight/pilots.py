@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..camera import Intrinsics
+from ..camera import Intrinsics, camera_of
 from ..groups.actors import Actor
 from ..land.terrain import Terrain
 from .autopilot import Surroundings, plan_trajectory
@@ -32,13 +32,13 @@ class Pilot:
         self._intrinsics, self._seed = intrinsics, config["seed"]
         self._until_s: dict[str, float] = {}
         self._where: dict[str, str] = {}
-        self._plans: dict[str, dict] = {}
+        self._entries: dict[str, dict] = {}
         self._trajectory = lru_cache(_KEPT)(self._planned)
         for kind in ("clips", "flights"):
             for k, entry in enumerate(config[kind]):
                 name = _name(entry)
                 self._where.setdefault(name, f"{kind}[{k}]")
-                self._plans.setdefault(name, entry["flight"])
+                self._entries.setdefault(name, entry)
                 self._until_s[name] = max(self._until_s.get(name, 0.0), _times(entry)[-1])
 
     def flight(self, entry: dict) -> Flight:
@@ -49,10 +49,11 @@ class Pilot:
         return flight
 
     def _planned(self, name: str) -> Trajectory:
-        plan = self._plans[name]
+        entry = self._entries[name]
+        plan = entry["flight"]
         target = plan.get("target")
         actors = [actor for actor in self._actors if target in (actor.name, actor.group)]
-        around = Surroundings(self._terrain, actors, self._intrinsics, self._seed)
+        around = Surroundings(self._terrain, actors, camera_of(entry, self._intrinsics), self._seed)
         return plan_trajectory(self._where[name], plan, name, self._until_s[name], around)
 
 

@@ -25,6 +25,9 @@ std::string fault_of(const std::string& setting) {
   return message_of<ConfigError>([&] { (void)config_with({setting}); });
 }
 
+/// The weather of a clip of a season at scene time 0.
+Weather at_start(const Config& config, Season season) { return weather_at_start(config, {.season = season}); }
+
 std::vector<TermChoice> choices(const Config& config) {
   std::vector<TermChoice> result;
   for (const TermInfo& term : kTerms) result.push_back(config.terms.*term.choice);
@@ -61,28 +64,28 @@ TEST_CASE("A term has one of three choices and a known name") {
 
 TEST_CASE("Without weather in the config, a clip's air is its season's") {
   const Config config = config_with({});
-  const Weather winter = weather_of(config, Season::winter);
+  const Weather winter = at_start(config, Season::winter);
   // By the day's curve at 3:00, whose minimum and maximum are rounded to 0.01 K and vapour to 0.01 hPa of 6.
   CHECK_THAT(winter.air.temperature_k, WithinAbs(273, 0.01));
   CHECK_THAT(winter.air.relative_humidity, WithinAbs(0.6, 0.002));
   CHECK(winter.air.cloud_fraction == 0);
   CHECK_FALSE(winter.vehicle_stopped_s.has_value());
-  const Weather summer = weather_of(config, Season::summer);
+  const Weather summer = at_start(config, Season::summer);
   CHECK_THAT(summer.air.temperature_k, WithinAbs(293, 0.01));
   CHECK_THAT(summer.air.relative_humidity, WithinAbs(0.7, 0.002));
   const Config published = config_with({"scene.temperatures=table_1"});
-  CHECK(weather_of(published, Season::winter) == weather_of(Season::winter));
+  CHECK(at_start(published, Season::winter) == weather_of(Season::winter));
 }
 
 TEST_CASE("Weather in the config overrides the season's, value by value") {
   const Config config = config_with({"weather.air_temperature_k=281.5", "weather.cloud_fraction=0.5"});
   for (const Season season : {Season::winter, Season::summer}) {
-    const Weather weather = weather_of(config, season);
+    const Weather weather = at_start(config, season);
     CHECK_THAT(weather.air.temperature_k, WithinAbs(281.5, 1e-9));
     CHECK(weather.air.cloud_fraction == 0.5);
     CHECK_THAT(weather.air.relative_humidity, WithinAbs(weather_of(season).air.relative_humidity, 1e-9));
   }
-  CHECK(weather_of(config_with({"weather.vehicle_stopped_s=60"}), Season::winter).vehicle_stopped_s == 60);
+  CHECK(at_start(config_with({"weather.vehicle_stopped_s=60"}), Season::winter).vehicle_stopped_s == 60);
 }
 
 TEST_CASE("Impossible weather is an error") {

@@ -11,6 +11,8 @@ Path folder_of_clips(const Path& clip_passes) {
   return std::filesystem::absolute(clip_passes).lexically_normal().parent_path();
 }
 
+constexpr std::size_t kMostDays = 16;  // kept: clips with the same weather are often made one after the other
+
 }  // namespace
 
 bool has_ground_beside(const Path& clip_passes) { return has_ground_maps(folder_of_clips(clip_passes)); }
@@ -20,6 +22,7 @@ std::shared_ptr<const HeatOfDay> HeatDays::of(const DayWeather& weather) {
   for (const auto& day : days_) {
     if (day->weather() == weather) return day;
   }
+  if (days_.size() == kMostDays) days_.erase(days_.begin());
   // A thread that waits for the columns must not take on work that asks for a day itself.
   run_isolated(
       [&] { days_.push_back(std::make_shared<const HeatOfDay>(weather, heat_of_materials(materials_))); });

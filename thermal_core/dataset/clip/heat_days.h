@@ -17,7 +17,8 @@ namespace thermal {
 /// Whether there are maps of the ground beside the folder of a clip's passes.
 [[nodiscard]] bool has_ground_beside(const Path& clip_passes);
 
-/// The heat of a library's materials on the days of a dataset, each computed when it is first asked for, and the maps
+/// The heat of a library's materials on the days of a dataset, each computed when it is first asked for, the latest few
+/// kept, and the maps
 /// of the ground beside passes, each read once. Safe to use from several threads.
 class HeatDays {
  public:

@@ -98,12 +98,12 @@ std::vector<SceneOutline::Look> looks_in(const Plane<float>& depth_m, const Mani
 }
 
 /// A clip keeps its height and angle, so one frame is representative.
-void add_told_height(const Manifest& manifest, Season season, Nights& nights) {
+void add_told_height(const Manifest& manifest, const ClipConfig& clip, Nights& nights) {
   const auto frame =
       std::ranges::find_if(manifest.frames, [](const ManifestFrame& one) { return one.agl_m.has_value(); });
   if (frame == manifest.frames.end()) return;
   constexpr double kStraightDown = 90;
-  nights.add(season, *frame->agl_m, frame->look_angle_deg.value_or(kStraightDown), manifest.camera);
+  nights.add(clip, *frame->agl_m, frame->look_angle_deg.value_or(kStraightDown), manifest.camera);
 }
 
 /// Viewing directions of a clip's camera, by the depths of a frame; empty without depths.
@@ -190,13 +190,14 @@ SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
     const Manifest& manifest = sources[i].manifest;
     for (const ManifestObject& object : manifest.objects)
       (object.object_class == ObjectClass::actor ? actors : ground).insert(object.material);
-    const Season season = config.clip(manifest.clip, "manifest: clip").season;
-    add_told_height(manifest, season, nights);
+    const ClipConfig& clip = config.clip(manifest.clip, "manifest: clip");
+    const SensorParameters& sensor = settings_of(config, clip).sensor;
+    add_told_height(manifest, clip, nights);
     if (!config.physical) continue;
     if (views[i].planes) add_impossible(sources[i], views[i], config, outline);
-    nights.add(season, views[i].looks);
+    nights.add(clip, views[i].looks);
     outline.smear_px =
-        std::max(outline.smear_px, motion_px_per_s(manifest, views[i].looks) * config.sensor.time_constant_s);
+        std::max(outline.smear_px, motion_px_per_s(manifest, views[i].looks) * sensor.time_constant_s);
   }
   add_ground(ground, materials, outline);
   add_actors(actors, materials, outline);

@@ -1,9 +1,11 @@
 #include "dataset/passes/outline.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "base/parallel.h"
 #include "imaging/typical_heat.h"
 
 namespace thermal {
@@ -31,11 +33,17 @@ std::vector<SceneOutline::Look> looks_from(double height_m, double look_angle_ra
   return looks;
 }
 
+double least_netd_k(const Config& config) {
+  double netd_k = config.clips.empty() ? config.netd_k : HUGE_VAL;
+  for (const ClipConfig& clip : config.clips) netd_k = std::min(netd_k, settings_of(config, clip).netd_k);
+  return netd_k;
+}
+
 }  // namespace
 
 SceneOutline empty_outline(const Config& config) {
   SceneOutline outline = {
-      .covers = {}, .nights = {}, .response = config.sensor.response, .netd_k = config.netd_k};
+      .covers = {}, .nights = {}, .response = config.sensor.response, .netd_k = least_netd_k(config)};
   if (config.heat_balance) return outline;
   const std::pair<std::string, TermChoice> of_heat[] = {{"place", config.terms.place},
                                                         {"facing", config.terms.facing}};
@@ -53,25 +61,60 @@ void add_actors(const std::set<std::string>& names, const MaterialLibrary& mater
   }
 }
 
-void Nights::add(Season season, double height_m, double look_angle_deg, const CameraIntrinsics& camera) {
-  if (!seen_.insert({season, height_m, look_angle_deg}).second) return;  // many clips fly alike
-  const double angle = look_angle_deg * std::numbers::pi / 180;
-  add(season, looks_from(height_m, angle, camera));
+Nights::Night& Nights::night_of(const ClipConfig& clip) {
+  const ClipSettings& settings = settings_of(config_, clip);
+  const auto [place, is_new] = places_.try_emplace({clip.season, &settings}, nights_.size());
+  if (!is_new) return nights_[place->second];
+  Night night = {.season = clip.season,
+                 .weather = weather_at_start(config_, clip),
+                 .response = settings.sensor.response};
+  const auto found = std::ranges::find_if(nights_, [&night](const Night& one) {
+    return one.weather == night.weather && one.response == night.response;
+  });
+  place->second = static_cast<std::size_t>(found - nights_.begin());
+  if (found == nights_.end()) nights_.push_back(std::move(night));
+  return nights_[place->second];
 }
 
-void Nights::add(Season season, const std::vector<SceneOutline::Look>& looks) {
-  auto& all = looks_[season];
+void Nights::add(const ClipConfig& clip, double height_m, double look_angle_deg,
+                 const CameraIntrinsics& camera) {
+  Night& night = night_of(clip);
+  const bool is_new = night.seen.insert({height_m, look_angle_deg, camera.fx_px, camera.fy_px}).second;
+  if (!is_new) return;  // many clips fly alike
+  const double angle = look_angle_deg * std::numbers::pi / 180;
+  add(clip, looks_from(height_m, angle, camera));
+}
+
+void Nights::add(const ClipConfig& clip, const std::vector<SceneOutline::Look>& looks) {
+  auto& all = night_of(clip).looks;
   all.insert(all.end(), looks.begin(), looks.end());
 }
 
 std::vector<SceneOutline::Night> Nights::list(const SceneOutline& outline,
                                               const MaterialLibrary& library) const {
   std::vector<SceneOutline::Night> nights;
-  for (const auto& [season, looks] : looks_) {
-    nights.push_back({.weather = weather_of(config_, season), .looks = looks});
-    if (config_.heat_balance) heat_night(outline.covers, library, nights.back());
-  }
+  for (const Season season : {Season::winter, Season::summer})
+    for (const Night& one : nights_)
+      if (one.season == season)
+        nights.push_back({.weather = one.weather, .response = one.response, .looks = one.looks});
+  if (!config_.heat_balance) return nights;
+  parallel_for(nights.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) heat_night(outline.covers, library, nights[k]);
+  });
   return nights;
+}
+
+KeptTerms::KeptTerms(const Config& config, const SceneOutline& outline) : choices_{config.terms} {
+  for (const ClipConfig& clip : config.clips) {
+    const TermChoices& own = settings_of(config, clip).terms;
+    if (std::ranges::find(choices_, own) == choices_.end()) choices_.push_back(own);
+  }
+  budgets_ = weigh_terms(outline, choices_);
+}
+
+const Terms& KeptTerms::of(const ClipSettings& settings) const {
+  const auto found = std::ranges::find(choices_, settings.terms);
+  return budgets_.at(static_cast<std::size_t>(found - choices_.begin())).kept;
 }
 
 namespace {
@@ -82,7 +125,7 @@ std::optional<PhysicsSettings> physics_of(const Config& config, const ClipConfig
   if (!config.physical) return std::nullopt;
   PhysicsSettings physics = {.terms = terms,
                              .weather = weather_of(config, clip),
-                             .response = config.sensor.response,
+                             .response = settings_of(config, clip).sensor.response,
                              .seed = config.seed};
   if (config.heat_balance)
     physics.heat = HeatSettings{.day = heat.of(physics.weather.day), .ground = std::move(ground)};
@@ -93,13 +136,14 @@ std::optional<PhysicsSettings> physics_of(const Config& config, const ClipConfig
 
 ClipTask task_of(const Config& config, const ClipConfig& clip, const Terms& terms, HeatDays& heat,
                  std::shared_ptr<const GroundMaps> ground) {
+  const ClipSettings& settings = settings_of(config, clip);
   return {.variant = "",
           .clip = clip,
           .seed = config.seed,
-          .sensor = config.sensor,
-          .distortion = config.distortion,
-          .labels = config.labels,
-          .codec = config.codec,
+          .sensor = settings.sensor,
+          .distortion = settings.distortion,
+          .labels = settings.labels,
+          .codec = settings.codec,
           .physics = physics_of(config, clip, terms, heat, std::move(ground)),
           .folder = {}};
 }

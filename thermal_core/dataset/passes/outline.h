@@ -21,31 +21,40 @@ namespace thermal {
 inline constexpr double kActorShare =
     0.03;  ///< of what the budget weighs: a choice, not a figure of the scene
 
-/// An empty outline, seen by the config's camera.
+/// An empty outline, seen by the config's cameras; the least NETD of its clips decides.
 [[nodiscard]] SceneOutline empty_outline(const Config& config);
 
 /// Adds the materials of actors, which share kActorShare evenly.
 void add_actors(const std::set<std::string>& names, const MaterialLibrary& materials, SceneOutline& outline);
 
-/// Collects the viewing directions of cameras, by season.
+/// Collects the viewing directions of cameras, by the weather and the response of clips.
 class Nights {
  public:
   explicit Nights(const Config& config) : config_(config) {}
 
-  /// A camera above level ground, `look_angle_deg` below the horizon.
-  void add(Season season, double height_m, double look_angle_deg, const CameraIntrinsics& camera);
+  /// A clip's camera above level ground, `look_angle_deg` below the horizon.
+  void add(const ClipConfig& clip, double height_m, double look_angle_deg, const CameraIntrinsics& camera);
 
   /// Other known viewing directions.
-  void add(Season season, const std::vector<SceneOutline::Look>& looks);
+  void add(const ClipConfig& clip, const std::vector<SceneOutline::Look>& looks);
 
-  /// The nights, with the temperatures of an outline's covers.
+  /// The nights, winter first, with the temperatures of an outline's covers; computed on all threads.
   [[nodiscard]] std::vector<SceneOutline::Night> list(const SceneOutline& outline,
                                                       const MaterialLibrary& library) const;
 
  private:
+  struct Night {
+    Season season;
+    Weather weather;
+    SpectralResponse response;
+    std::vector<SceneOutline::Look> looks = {};
+    std::set<std::tuple<double, double, double, double>> seen = {};  ///< height, angle, focal length
+  };
+  Night& night_of(const ClipConfig& clip);
+
   const Config& config_;
-  std::map<Season, std::vector<SceneOutline::Look>> looks_;
-  std::set<std::tuple<Season, double, double>> seen_;
+  std::map<std::pair<Season, const ClipSettings*>, std::size_t> places_;
+  std::vector<Night> nights_;
 };
 
 /// What the pictures of a planned dataset will show: its ground, plants and species, and the viewing directions of its
@@ -71,7 +80,21 @@ struct PassesView {
                                       const std::vector<ClipPasses>& sources,
                                       const std::vector<PassesView>& views);
 
-/// What a dataset that keeps these terms makes of a clip, but for the folder to make it in. `ground`: see HeatSettings.
+/// The terms that each clip of a dataset keeps.
+class KeptTerms {
+ public:
+  KeptTerms(const Config& config, const SceneOutline& outline);
+
+  /// Of the clips that have no choices of their own.
+  [[nodiscard]] const Budget& budget() const { return budgets_.front(); }
+  [[nodiscard]] const Terms& of(const ClipSettings& settings) const;
+
+ private:
+  std::vector<TermChoices> choices_;  ///< the dataset's, then those of clips that differ
+  std::vector<Budget> budgets_;       ///< of these
+};
+
+/// What a dataset makes of a clip that keeps these terms, but for the folder to make it in. `ground`: see HeatSettings.
 [[nodiscard]] ClipTask task_of(const Config& config, const ClipConfig& clip, const Terms& terms,
                                HeatDays& heat, std::shared_ptr<const GroundMaps> ground);
 

@@ -10,15 +10,6 @@
 namespace thermal {
 namespace {
 
-bool has_season(const Config& config, Season season) {
-  const auto is_in = [&config, season](const char* flown) {
-    return std::ranges::any_of(config.resolved.at(flown), [season](const Json& one) {
-      return season_of(one.at("season").get<std::string>()) == season;
-    });
-  };
-  return is_in("clips") || is_in("flights");
-}
-
 void add_once(const SunPath& path, std::vector<SunPath>& paths) {
   if (std::ranges::count(paths, path) == 0) paths.push_back(path);
 }
@@ -38,9 +29,7 @@ bool needs_ground_maps(const Config& config) { return config.physical && config.
 
 std::vector<SunPath> sun_paths(const Config& config) {
   std::vector<SunPath> paths;
-  for (const Season season : {Season::winter, Season::summer})
-    if (has_season(config, season))
-      add_once(config.weather.at(static_cast<std::size_t>(season)).day.sun, paths);
+  for (const FlownWeather& flown : flown_weather(config)) add_once(flown.weather.day.sun, paths);
   return paths;
 }
 

@@ -9,19 +9,27 @@ namespace {
 
 constexpr double kWalkingMPerS = 1.5;  // of actors
 
-/// Of a clip's flight. Configs state it, or leave it at 12 m/s.
-double speed_m_s(const Json& config, const ClipPlan& clip) {
-  constexpr double kUsual = 12;
-  const std::string list = clip.of_flight.empty() ? "clips" : "flights";
-  const std::string& id = clip.of_flight.empty() ? clip.id : clip.of_flight;
-  if (!config.contains(list)) return kUsual;
-  for (const Json& entry : config[list]) {
-    if (entry.value("id", "") != id) continue;
-    const Json& flight = entry.contains("flight") ? entry["flight"] : entry;
-    return flight.value("speed_m_s", kUsual);
+/// Speeds of the clips and flights of a plan's config, which states them, or leaves them at 12 m/s.
+class SpeedsOfFlights {
+ public:
+  explicit SpeedsOfFlights(const Json& config) {
+    for (const char* list : {"clips", "flights"})
+      for (const Json& entry : config.value(list, Json::array()))
+        speeds_m_s_[list][entry.value("id", "")] =
+            entry.value(Json::json_pointer("/flight/speed_m_s"), kUsualMPerS);
   }
-  return kUsual;
-}
+
+  [[nodiscard]] double of(const ClipPlan& clip) const {
+    const bool is_own = clip.of_flight.empty();
+    const auto& speeds_m_s = speeds_m_s_.at(is_own ? "clips" : "flights");
+    const auto found = speeds_m_s.find(is_own ? clip.id : clip.of_flight);
+    return found == speeds_m_s.end() ? kUsualMPerS : found->second;
+  }
+
+ private:
+  static constexpr double kUsualMPerS = 12;
+  std::map<std::string, std::map<std::string, double>> speeds_m_s_ = {{"clips", {}}, {"flights", {}}};
+};
 
 }  // namespace
 
@@ -33,14 +41,17 @@ SceneOutline outline_of(const Config& config, const DatasetPlan& plan, const Mat
     outline.impossible.emplace("mirror", "the engine blender does not trace what water mirrors");
   add_actors({plan.actor_materials.begin(), plan.actor_materials.end()}, materials, outline);
   Nights nights(config);
-  std::map<std::string, Season> seasons;
-  for (const ClipConfig& clip : config.clips) seasons[clip.id] = clip.season;
+  std::map<std::string, const ClipConfig*> configs;
+  for (const ClipConfig& clip : config.clips) configs[clip.id] = &clip;
+  const SpeedsOfFlights speeds(plan.config);
   for (const ClipPlan& clip : plan.clips) {
-    nights.add(seasons.at(clip.id), std::max(1.0, std::round(clip.mean_agl_m)),
-               std::round(clip.mean_look_angle_deg), config.camera);
+    const ClipConfig& own = *configs.at(clip.id);
+    const ClipSettings& settings = settings_of(config, own);
+    const double agl_m = std::max(1.0, std::round(clip.mean_agl_m));
+    nights.add(own, agl_m, std::round(clip.mean_look_angle_deg), settings.camera);
     const double px_per_s =
-        config.camera.fx_px * (speed_m_s(plan.config, clip) + kWalkingMPerS) / std::max(1.0, clip.mean_agl_m);
-    outline.smear_px = std::max(outline.smear_px, px_per_s * config.sensor.time_constant_s);
+        settings.camera.fx_px * (speeds.of(clip) + kWalkingMPerS) / std::max(1.0, clip.mean_agl_m);
+    outline.smear_px = std::max(outline.smear_px, px_per_s * settings.sensor.time_constant_s);
   }
   outline.nights = nights.list(outline, materials);
   return outline;

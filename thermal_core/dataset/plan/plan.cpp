@@ -15,9 +15,17 @@
 namespace thermal {
 namespace {
 
-Json without_season(const Json& flown) {
+/// Clips or flights of a config as the planner sees them, with the cameras that differ from the dataset's.
+Json planned_entries(const Json& flown, const std::map<std::string, SharedSettings>& own,
+                     const CameraIntrinsics& usual) {
   Json entries = flown;
-  for (Json& entry : entries) entry.erase("season");
+  for (Json& entry : entries) {
+    (void)take_sections(entry);
+    for (const char* key : {"season", "drawn"}) entry.erase(key);
+    const auto found = own.find(entry.at("id").get<std::string>());
+    if (found != own.end() && found->second->camera != usual)
+      entry["camera"] = to_json(found->second->camera);
+  }
   return entries;
 }
 
@@ -36,13 +44,10 @@ ClipPlan clip_of(const Json& json) {
 
 /// A clip cut from a flight, in the form of a config.
 Json to_document(const ClipPlan& clip, const Json& flight) {
-  return {{"id", clip.id},
-          {"of_flight", clip.of_flight},
-          {"season", flight.at("season")},
-          {"start_s", clip.start_s},
-          {"frames", clip.frames},
-          {"frame_rate_hz", clip.frame_rate_hz},
-          {"flight", flight.at("flight")}};
+  return cut_from(flight, {{"id", clip.id},
+                           {"start_s", clip.start_s},
+                           {"frames", clip.frames},
+                           {"frame_rate_hz", clip.frame_rate_hz}});
 }
 
 /// Whether a plan's clips are those of a config.
@@ -102,8 +107,8 @@ Json planned_part(const Config& config) {
           {"scene", std::move(scene)},
           {"camera", to_json(config.camera)},
           {"render", {{"view_margin_px", config.view_margin_px}}},
-          {"clips", without_season(all.at("clips"))},
-          {"flights", without_season(all.at("flights"))}};
+          {"clips", planned_entries(all.at("clips"), config.own_of_clips, config.camera)},
+          {"flights", planned_entries(all.at("flights"), config.own_of_flights, config.camera)}};
 }
 
 DatasetPlan plan_of(const Json& document, const std::string& name, const Assets& assets) {

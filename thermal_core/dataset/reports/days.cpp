@@ -1,5 +1,6 @@
 #include "dataset/reports/days.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -13,6 +14,7 @@ namespace thermal {
 namespace {
 
 constexpr double kStepH = 0.5;
+constexpr std::size_t kMostDays = 4;  // of clips with weather of their own
 
 std::optional<Config> readable(const Json& config, const Assets& assets) {
   try {
@@ -38,8 +40,10 @@ Json day_figures(const Json& config, const Assets& assets) {
   const std::optional<Config> read = readable(config, assets);
   if (!read || !read->physical || !read->heat_balance) return days;
   const auto materials = heat_of_materials(read_materials(assets));
-  for (const auto& [season, flown_h] : flown_hours(*read)) {
-    const DayWeather& day = read->weather.at(static_cast<std::size_t>(season)).day;
+  std::vector<FlownWeather> flown = flown_weather(*read);
+  flown.resize(std::min(flown.size(), kMostDays));
+  for (const auto& [season, weather, flown_h] : flown) {
+    const DayWeather& day = weather.day;
     Json by_material = Json::object();
     for (const HeatCurve& curve : open_curves(day, materials))
       by_material[curve.material] = over_the_day([&](double hour) { return curve.day.at_k(hour); });

@@ -71,10 +71,18 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t most) {
   return places;
 }
 
+/// The `camera` of a config, with what a clip has of its own.
+Json camera_of_clip(const Json& config, const std::string& id) {
+  Json camera = config.at("camera");
+  for (const Json& clip : config.value("clips", Json::array()))
+    if (clip.value("id", "") == id && clip.contains("camera")) camera.merge_patch(clip["camera"]);
+  return camera;
+}
+
 std::vector<std::array<double, 2>> seen_halfway(const FlightTrack& track, const Json& config) {
   if (track.agl_m.empty()) return {};
   const std::size_t middle = track.agl_m.size() / 2;
-  return seen_ground(track.camera_to_world[middle], track.agl_m[middle], config.at("camera"));
+  return seen_ground(track.camera_to_world[middle], track.agl_m[middle], camera_of_clip(config, track.clip));
 }
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -29,17 +30,16 @@ Layout own_layout(const ConvertRequest& request) {
 }
 
 /// Decides which terms each dataset keeps. Passes are inspected once for all.
-std::vector<Budget> budgets_of(const std::vector<ConvertRequest>& requests, const MaterialLibrary& materials,
-                               const std::vector<ClipPasses>& sources) {
+std::vector<KeptTerms> terms_of(const std::vector<ConvertRequest>& requests, const MaterialLibrary& materials,
+                                const std::vector<ClipPasses>& sources) {
   const bool looks =
       std::ranges::any_of(requests, [](const auto& request) { return request.config.physical; });
   const std::vector<PassesView> views =
       looks ? view_passes(sources) : std::vector<PassesView>(sources.size());
-  std::vector<Budget> budgets;
+  std::vector<KeptTerms> kept;
   for (const ConvertRequest& request : requests)
-    budgets.push_back(
-        weigh_terms(outline_of(request.config, materials, sources, views), request.config.terms));
-  return budgets;
+    kept.emplace_back(request.config, outline_of(request.config, materials, sources, views));
+  return kept;
 }
 
 /// Messages about automatic terms for which the passes lack something.
@@ -53,10 +53,11 @@ std::vector<std::string> terms_left_out(const Budget& budget) {
 }
 
 /// How a dataset makes a clip, but for the folder to make it in.
-ClipTask task_for(const ConvertRequest& request, const Terms& kept, const ClipPasses& source,
+ClipTask task_for(const ConvertRequest& request, const KeptTerms& kept, const ClipPasses& source,
                   HeatDays& heat) {
   const ClipConfig& clip = request.config.clip(source.manifest.clip, source.folder.string());
-  ClipTask task = task_of(request.config, clip, kept, heat, heat.ground_beside(source.folder));
+  ClipTask task = task_of(request.config, clip, kept.of(settings_of(request.config, clip)), heat,
+                          heat.ground_beside(source.folder));
   task.variant = request.where;
   task.made_from_sha256 = source.identity_sha256;
   return task;
@@ -69,7 +70,7 @@ bool has_new_passes(const DatasetIndex& index, const Layout& layout, const ClipP
 }
 
 /// Whether an existing clip can be remade with more of its frames. In strict mode, making it reports what is bad.
-bool is_to_mend(const ConvertRequest& request, const DatasetIndex& index, const Terms& kept,
+bool is_to_mend(const ConvertRequest& request, const DatasetIndex& index, const KeptTerms& kept,
                 const ClipPasses& source, HeatDays& heat) {
   const auto found = index.skipped.find(source.manifest.clip);
   if (found == index.skipped.end() || found->second.empty()) return false;
@@ -89,7 +90,7 @@ struct Backlog {
   [[nodiscard]] bool empty() const { return missing.empty() && changed.empty() && mended.empty(); }
 };
 
-Backlog backlog_of(const ConvertRequest& request, const DatasetIndex& index, const Terms& kept,
+Backlog backlog_of(const ConvertRequest& request, const DatasetIndex& index, const KeptTerms& kept,
                    const std::vector<ClipPasses>& sources, HeatDays& heat) {
   Backlog backlog;
   for (const ClipPasses& source : sources) {
@@ -105,12 +106,12 @@ Backlog backlog_of(const ConvertRequest& request, const DatasetIndex& index, con
   return backlog;
 }
 
-ConvertForecast forecast_of(const ConvertRequest& request, const Budget& budget,
+ConvertForecast forecast_of(const ConvertRequest& request, const KeptTerms& kept,
                             const std::vector<ClipPasses>& sources, HeatDays& heat) {
   const DatasetIndex index = open_dataset(own_layout(request), request.config);
-  const Backlog backlog = backlog_of(request, index, budget.kept, sources, heat);
+  const Backlog backlog = backlog_of(request, index, kept, sources, heat);
   ConvertForecast forecast{
-      .variant = request.variant, .out = request.out, .steps = {}, .left_out = terms_left_out(budget)};
+      .variant = request.variant, .out = request.out, .steps = {}, .left_out = terms_left_out(kept.budget())};
   for (const ClipPasses& source : sources) {
     const std::string& clip = source.manifest.clip;
     const auto make =
@@ -126,13 +127,13 @@ ConvertForecast forecast_of(const ConvertRequest& request, const Budget& budget,
 class Dataset {
  public:
   /// `heat` must outlive this object.
-  Dataset(ConvertRequest request, const Budget& budget, HeatDays& heat,
+  Dataset(ConvertRequest request, const KeptTerms& kept, HeatDays& heat,
           const std::vector<ClipPasses>& sources)
       : request_(std::move(request)),
         heat_(heat),
-        kept_(budget.kept),
-        left_out_(terms_left_out(budget)),
-        transaction_(own_layout(request_), request_.config, to_json(budget)),
+        kept_(kept),
+        left_out_(terms_left_out(kept.budget())),
+        transaction_(own_layout(request_), request_.config, to_json(kept.budget())),
         backlog_(backlog_of(request_, transaction_.index(), kept_, sources, heat)) {
     for (const ClipPasses& source : sources) {
       if (!lacks(source)) outcome_.already_there.push_back(source.manifest.clip);
@@ -194,7 +195,7 @@ class Dataset {
 
   ConvertRequest request_;
   HeatDays& heat_;
-  Terms kept_;
+  KeptTerms kept_;
   std::vector<std::string> left_out_;
   DatasetTransaction transaction_;
   Backlog backlog_;
@@ -202,10 +203,11 @@ class Dataset {
 };
 
 void check_codec(const ConvertRequest& request, const Manifest& manifest) {
-  if (!request.config.codec) return;
+  const ClipConfig& clip = request.config.clip(manifest.clip, "manifest: clip");
+  const std::optional<VideoCodecSettings>& codec = settings_of(request.config, clip).codec;
+  if (!codec) return;
   try {
-    check_video_codec(*request.config.codec, manifest.frame_rate_hz, manifest.camera.width_px,
-                      manifest.camera.height_px);
+    check_video_codec(*codec, manifest.frame_rate_hz, manifest.camera.width_px, manifest.camera.height_px);
   } catch (const ConfigError& error) {
     throw ConfigError(request.where.empty() ? error.what() : request.where + ": " + error.what());
   }
@@ -214,11 +216,12 @@ void check_codec(const ConvertRequest& request, const Manifest& manifest) {
 std::vector<std::unique_ptr<Dataset>> open_datasets(const std::vector<ConvertRequest>& requests,
                                                     const std::vector<ClipPasses>& sources, HeatDays& heat) {
   // First, because a required term that is impossible, or a missing codec, is a fault: then no folder is touched.
-  const std::vector<Budget> budgets = budgets_of(requests, heat.materials(), sources);
-  for (const ConvertRequest& request : requests) check_codec(request, sources.front().manifest);
+  const std::vector<KeptTerms> kept = terms_of(requests, heat.materials(), sources);
+  for (const ConvertRequest& request : requests)
+    for (const ClipPasses& source : sources) check_codec(request, source.manifest);
   std::vector<std::unique_ptr<Dataset>> datasets;
   for (std::size_t i = 0; i < requests.size(); ++i)
-    datasets.push_back(std::make_unique<Dataset>(requests[i], budgets[i], heat, sources));
+    datasets.push_back(std::make_unique<Dataset>(requests[i], kept[i], heat, sources));
   return datasets;
 }
 
@@ -326,11 +329,11 @@ std::vector<ConvertForecast> forecast_convert(const ConvertOptions& options) {
     const MaterialLibrary materials = read_materials(options.assets);
     const std::vector<ClipPasses> sources = read_sources(options, materials);
     const std::vector<ConvertRequest> requests = convert_requests(options, sources);
-    const std::vector<Budget> budgets = budgets_of(requests, materials, sources);
+    const std::vector<KeptTerms> kept = terms_of(requests, materials, sources);
     HeatDays heat(materials, options.assets);
     std::vector<ConvertForecast> forecasts;
     for (std::size_t i = 0; i < requests.size(); ++i)
-      forecasts.push_back(forecast_of(requests[i], budgets[i], sources, heat));
+      forecasts.push_back(forecast_of(requests[i], kept[i], sources, heat));
     return forecasts;
   });
 }

@@ -38,13 +38,10 @@ Json default_document(const std::vector<ClipPasses>& sources) {
 std::optional<Json> clip_of_flight(const Config& config, const Manifest& manifest) {
   for (const Json& flight : config.resolved["flights"]) {
     if (flight["id"] != manifest.of_flight) continue;
-    return Json{{"id", manifest.clip},
-                {"of_flight", manifest.of_flight},
-                {"season", flight["season"]},
-                {"start_s", manifest.frames.front().time_s},
-                {"frames", manifest.frames.size()},
-                {"frame_rate_hz", manifest.frame_rate_hz},
-                {"flight", flight["flight"]}};
+    return cut_from(flight, {{"id", manifest.clip},
+                             {"start_s", manifest.frames.front().time_s},
+                             {"frames", manifest.frames.size()},
+                             {"frame_rate_hz", manifest.frame_rate_hz}});
   }
   return std::nullopt;
 }
@@ -74,8 +71,10 @@ Path folder_of(const std::string& file) { return std::filesystem::absolute(file)
 /// The passes were rendered with the manifest's camera. A config that gives intrinsics, directly or by a calibration, must
 /// give the same ones: ConfigError if not.
 void check_cameras(const Config& config, const std::vector<ClipPasses>& sources, const std::string& name) {
-  const CameraIntrinsics& given = config.camera;
   for (const ClipPasses& source : sources) {
+    const ClipSettings& settings = settings_of(config, config.clip(source.manifest.clip, "manifest: clip"));
+    if (!settings.gives_intrinsics) continue;
+    const CameraIntrinsics& given = settings.camera;
     const CameraIntrinsics& there = source.manifest.camera;
     const auto check = [&](const char* key, double given_px, double there_px) {
       constexpr double kSamePx = 0.01;
@@ -125,11 +124,8 @@ std::vector<ConvertRequest> convert_requests(const ConvertOptions& options,
   root_calibration(document, folder_of(options.config ? options.config_name : "."));
   // Resolved even if only variants are made, so that shared faults are not attributed to the first variant.
   Config shared = only_clips_of(resolve_config(document, name, options.assets), sources);
-  if (shared.gives_intrinsics) {
-    check_cameras(shared, sources, name);
-  } else {
-    check_settings(options, sources);
-  }
+  check_cameras(shared, sources, name);
+  if (!shared.gives_intrinsics) check_settings(options, sources);
   std::vector<ConvertRequest> requests;
   if (!options.variants) {
     requests.push_back({.variant = "", .where = "", .config = std::move(shared), .out = options.out});

@@ -1,6 +1,9 @@
 #include "dataset/run/generate.h"
 
 #include <memory>
+#include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -33,6 +36,16 @@ std::shared_ptr<const GroundMaps> read_ground(const Config& config, const Genera
   return std::make_shared<const GroundMaps>(read_ground_maps(options.plan, scene.ground, options.assets));
 }
 
+/// That this machine's FFmpeg has the codecs, each tried once.
+void check_codecs(const Config& config) {
+  std::set<std::string> tried;
+  for (const ClipConfig& clip : config.clips) {
+    const std::optional<VideoCodecSettings>& codec = settings_of(config, clip).codec;
+    if (codec && tried.insert(codec->name).second)
+      check_video_codec(*codec, clip.frame_rate_hz, config.width_px, config.height_px);
+  }
+}
+
 /// Makes clips from the output of render jobs.
 class Generator {
  public:
@@ -47,8 +60,8 @@ class Generator {
         materials_(read_materials(options.assets)),
         heat_(materials_),
         ground_(read_ground(config, options)),
-        budget_(weigh_terms(outline_of(config, plan, materials_), config.terms)),
-        transaction_(layout_, config, to_json(budget_), chosen_) {
+        kept_(config, outline_of(config, plan, materials_)),
+        transaction_(layout_, config, to_json(kept_.budget()), chosen_) {
     for (const ClipConfig& clip : chosen_)
       index().finished.contains(clip.id) ? already_there_.push_back(clip.id) : pending_.push_back(clip);
   }
@@ -154,7 +167,7 @@ class Generator {
   }
 
   [[nodiscard]] ClipTask task_for(const ClipConfig& clip) {
-    ClipTask task = task_of(config_, clip, budget_.kept, heat_, ground_);
+    ClipTask task = task_of(config_, clip, kept_.of(settings_of(config_, clip)), heat_, ground_);
     task.folder = transaction_.unfinished(clip.id);
     return task;
   }
@@ -195,7 +208,7 @@ class Generator {
   MaterialLibrary materials_;
   HeatDays heat_;
   std::shared_ptr<const GroundMaps> ground_;  ///< null: not needed, or an old plan's
-  Budget budget_;
+  KeptTerms kept_;
   DatasetTransaction transaction_;  ///< of the chosen clips
   std::vector<ClipConfig> pending_;
   std::vector<std::string> already_there_;
@@ -205,8 +218,7 @@ class Generator {
 
 RunOutcome generate(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
                     const RunHooks& hooks) {
-  if (config.codec && !config.clips.empty())
-    check_video_codec(*config.codec, config.clips.front().frame_rate_hz, config.width_px, config.height_px);
+  check_codecs(config);
   return with_threads(options.threads, [&] { return Generator(config, plan, options, hooks).run(); });
 }
 

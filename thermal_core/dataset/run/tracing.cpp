@@ -94,20 +94,19 @@ void check_frames(const BakedTrack& track, const ClipPlan& clip, const Path& fol
                                     fmt::format("{}, as plan.json has them", clip.frames))));
 }
 
-/// The room and the memory of a run are reckoned for the config's pictures.
-void check_camera(const BakedScene& scene, const Config& config, const Path& folder) {
-  if (scene.camera.width_px == config.camera.width_px && scene.camera.height_px == config.camera.height_px)
-    return;
+/// The disk space and the memory of a run are reckoned for the config's pictures.
+void check_camera(const CameraIntrinsics& camera, const Config& config, const Path& file) {
+  if (camera.width_px == config.camera.width_px && camera.height_px == config.camera.height_px) return;
   throw DataError(fmt::format(
-      "{}: {}", (folder / "scene.json").string(),
-      fault("camera", fmt::format("{} x {}", scene.camera.width_px, scene.camera.height_px), "px",
+      "{}: {}", file.string(),
+      fault("camera", fmt::format("{} x {}", camera.width_px, camera.height_px), "px",
             fmt::format("{} x {}, as in the config", config.camera.width_px, config.camera.height_px))));
 }
 
 }  // namespace
 
 Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const ClipPlan& clip,
-                     const Config& config) {
+                     const Config& config, const ClipSettings& settings) {
   Manifest manifest;
   manifest.clip = clip.id;
   manifest.of_flight = clip.of_flight;
@@ -117,9 +116,9 @@ Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const Cli
   manifest.layer = "Scene";
   if (config.actor_layer) manifest.actor_layer = "Actors";
   if (has_water(scene)) manifest.mirror_layer = kMirrorLayer;
-  manifest.camera = scene.camera;
+  manifest.camera = track.camera.value_or(scene.camera);
   manifest.supersample = config.supersample;
-  manifest.lens = config.distortion;
+  manifest.lens = settings.distortion;
   manifest.objects = scene.objects;
   manifest.materials = scene.materials;
   manifest.beds = scene.beds;
@@ -135,7 +134,7 @@ PlanTracer::PlanTracer(const Path& folder, const Config& config, const DatasetPl
       assets_(assets),
       scene_(read_baked_scene(folder, assets)),
       caster_(scene_) {
-  check_camera(scene_, config, folder);
+  check_camera(scene_.camera, config, folder / "scene.json");
 }
 
 ClipPasses PlanTracer::trace(const std::string& clip, const Path& folder, bool keep) const {
@@ -143,17 +142,20 @@ ClipPasses PlanTracer::trace(const std::string& clip, const Path& folder, bool k
   const auto planned =
       std::ranges::find_if(plan_.clips, [&clip](const ClipPlan& one) { return one.id == clip; });
   check_frames(track, *planned, folder_);
-  ClipPasses passes{.manifest = manifest_of(scene_, track, *planned, config_), .folder = folder};
+  if (track.camera) check_camera(*track.camera, config_, folder_ / "tracks" / (clip + ".json"));
+  const ClipSettings& settings = settings_of(config_, config_.clip(clip, "plan: clips"));
+  ClipPasses passes{.manifest = manifest_of(scene_, track, *planned, config_, settings), .folder = folder};
   std::optional<Kept> kept;
   if (keep) {
     make_folder(folder);
     write_manifest(folder / "manifest.json", passes.manifest);
     kept = {.folder = folder, .layer = passes.manifest.layer, .actor_layer = passes.manifest.actor_layer};
   }
-  const Sampling sampling = {
-      .supersample = config_.supersample, .adaptive = config_.adaptive_sampling, .lens = config_.distortion};
-  passes.source =
-      std::make_shared<TracedPasses>(caster_, std::move(track), scene_.camera, sampling, std::move(kept));
+  const Sampling sampling = {.supersample = config_.supersample,
+                             .adaptive = config_.adaptive_sampling,
+                             .lens = passes.manifest.lens};
+  passes.source = std::make_shared<TracedPasses>(caster_, std::move(track), passes.manifest.camera, sampling,
+                                                 std::move(kept));
   return passes;
 }
 

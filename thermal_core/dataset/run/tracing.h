@@ -11,8 +11,9 @@
 namespace thermal {
 
 /// The manifest of a clip of a plan, as blender_scripts/veldt/manifest.py has it, with the same roundings.
+/// `settings`: the clip's.
 [[nodiscard]] Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const ClipPlan& clip,
-                                   const Config& config);
+                                   const Config& config, const ClipSettings& settings);
 
 /// The engine `embree` on one plan: renders passes of its clips in memory.
 class PlanTracer {

@@ -119,7 +119,8 @@ std::vector<std::string> CellPainter::facts_of(const FilmFrame& frame) const {
   std::vector<std::string> facts = {fmt::format("{:.1f} s", frame.time_s)};
   if (frame.agl_m) facts.push_back(fmt::format("{:.0f} m AGL", *frame.agl_m));
   facts.push_back(style_.range ? "fixed range" : "AGC " + printable(film_.agc_mode));
-  if (!dataset_.camera.empty()) facts.push_back(printable(dataset_.camera));
+  const std::string& camera = dataset_.camera_of(film_.id);
+  if (!camera.empty()) facts.push_back(printable(camera));
   return facts;
 }
 

@@ -131,7 +131,8 @@ void check_size(const Plane<T>& picture, const ClipFilm& film, const Path& file)
 }  // namespace
 
 FilmedDataset read_filmed_dataset(const Path& root) {
-  FilmedDataset dataset{.layout = {root}, .name = {}, .camera = {}, .clips = {}, .made = {}};
+  FilmedDataset dataset{
+      .layout = {root}, .name = {}, .camera = {}, .own_cameras = {}, .clips = {}, .made = {}};
   const Path file = dataset.layout.dataset_json();
   if (!dataset.layout.is_begun())
     throw IoError(fmt::format(
@@ -143,6 +144,9 @@ FilmedDataset read_filmed_dataset(const Path& root) {
   try {
     dataset.name = record.at("config").at("name");
     dataset.camera = camera_name(record.at("config"));
+    for (const Json& clip : record.at("config").value("clips", Json::array()))
+      if (clip.contains("sensor") && clip["sensor"].contains("preset"))
+        dataset.own_cameras[clip.at("id")] = clip["sensor"]["preset"];
     dataset.kelvin_per_count = record.at("kelvin_per_count");
     for (const Json& clip : record.at("clips")) {
       dataset.clips.push_back(clip.at("id"));
@@ -155,6 +159,11 @@ FilmedDataset read_filmed_dataset(const Path& root) {
     throw DataError(fault(file.string() + ": kelvin_per_count", fmt::format("{}", dataset.kelvin_per_count),
                           "K", "more than 0"));
   return dataset;
+}
+
+const std::string& FilmedDataset::camera_of(const std::string& clip) const {
+  const auto own = own_cameras.find(clip);
+  return own == own_cameras.end() ? camera : own->second;
 }
 
 void FilmedDataset::check_clips(const std::vector<std::string>& ids) const {

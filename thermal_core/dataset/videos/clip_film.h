@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,10 +18,13 @@ namespace thermal {
 struct FilmedDataset {
   Layout layout;
   std::string name;
-  std::string camera;  ///< the sensor's preset, or its model where there is none
+  std::string camera;                              ///< the sensor's preset, or its model where there is none
+  std::map<std::string, std::string> own_cameras;  ///< of clips that have another, by id
   double kelvin_per_count = 0;
   std::vector<std::string> clips;  ///< all ids
   std::vector<std::string> made;   ///< those that are finished
+
+  [[nodiscard]] const std::string& camera_of(const std::string& clip) const;
 
   /// Throws unless all these clips are there: ConfigError "--clips = …" for an unknown id, DataError for one not made.
   void check_clips(const std::vector<std::string>& ids) const;

@@ -1,6 +1,7 @@
 #include "io/bake/baked_files.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -195,6 +196,12 @@ std::size_t count_bones(const BakedScene& scene, std::size_t frames, std::span<c
   return count;
 }
 
+/// Of a track whose camera is not the scene's.
+std::optional<CameraIntrinsics> camera_of(const Json& header) {
+  if (!header.contains("camera")) return std::nullopt;
+  return intrinsics_of(header.at("camera"));
+}
+
 }  // namespace
 
 BakedScene read_baked_scene(const Path& folder, const Assets& assets) {
@@ -210,6 +217,7 @@ BakedTrack read_baked_track(const Path& folder, const std::string& clip, const B
   const std::size_t actors = scene.actors.size();
   BakedTrack track{
       .clip = clip,
+      .camera = camera_of(file.header()),
       .frames = frames,
       .time_s = file.array<double>("time_s", "<f8", {frames}),
       .camera_to_world = file.array<std::array<double, 16>>("camera_to_world", "<f8", {frames, 4, 4}),

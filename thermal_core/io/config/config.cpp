@@ -9,48 +9,32 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/assets.h"
+#include "io/config/draws.h"
 #include "io/config/lens.h"
 #include "io/config/sensor.h"
 #include "io/config/weather.h"
-#include "io/json/camera.h"
 #include "io/json/schema.h"
 
 namespace thermal {
 namespace {
 
-/// `otherwise` is the model's choice for terms that the config leaves open.
-TermChoices read_terms(const Json& json, TermChoice otherwise) {
-  TermChoices choices;
-  for (const TermInfo& term : kTerms) {
-    const std::string choice = json.value(std::string(term.name), "");
-    TermChoice& chosen = choices.*term.choice;
-    chosen = otherwise;
-    if (choice == "on") chosen = TermChoice::on;
-    if (choice == "off") chosen = TermChoice::off;
-    if (choice == "auto") chosen = TermChoice::automatic;
-  }
-  return choices;
+Season season_in(const Json& entry) { return season_of(entry["season"].get<std::string>()); }
+
+/// Null: none of its own.
+SharedSettings own_of(const std::map<std::string, SharedSettings>& all, const std::string& id) {
+  const auto found = all.find(id);
+  return found == all.end() ? nullptr : found->second;
 }
 
-LabelParameters read_label_parameters(const Json& json) {
-  return {.occluded_below_visibility = json["occluded_below_visibility"],
-          .ignore_below_visibility = json["ignore_below_visibility"],
-          .ignore_below_area_px = json["ignore_below_area_px"]};
-}
-
-/// Empty: frames are kept without loss.
-std::optional<VideoCodecSettings> read_codec(const Json& output) {
-  if (!output.contains("codec")) return std::nullopt;
-  return VideoCodecSettings{.name = output["codec"]["name"],
-                            .bitrate_kbit_s = output["codec"]["bitrate_kbit_s"]};
-}
-
-ClipConfig read_clip(const Json& json) {
-  return {.id = json["id"],
-          .season = season_of(json["season"].get<std::string>()),
-          .frames = json["frames"],
-          .frame_rate_hz = json["frame_rate_hz"],
-          .start_s = json["start_s"]};
+ClipConfig read_clip(const Json& json, const Config& config) {
+  ClipConfig clip = {.id = json["id"],
+                     .season = season_in(json),
+                     .frames = json["frames"],
+                     .frame_rate_hz = json["frame_rate_hz"],
+                     .start_s = json["start_s"]};
+  clip.own = own_of(config.own_of_clips, clip.id);
+  if (!clip.own && json.contains("of_flight")) clip.own = own_of(config.own_of_flights, json["of_flight"]);
+  return clip;
 }
 
 void check_ids(const char* list, const std::vector<std::string>& ids, std::vector<std::string>& faults) {
@@ -102,6 +86,13 @@ void root_file(Json& document, const char* place, const Path& folder) {
   document[file] = (folder / document[file].get<std::string>()).string();
 }
 
+/// Those of a flight, or of a choice of flights.
+void root_flight_files(Json& flight, const Path& folder) {
+  for (const char* file : {"/waypoints/file", "/views/file"}) root_file(flight, file, folder);
+  if (flight.is_object() && flight.contains("choice"))
+    for (Json& one : flight["choice"]) root_flight_files(one, folder);
+}
+
 /// Anything that is not JSON is a string; the schema reports it if it is wrong.
 Json parse_value(const std::string& text) {
   try {
@@ -109,6 +100,28 @@ Json parse_value(const std::string& text) {
   } catch (const ConfigError&) {
     return Json(text);
   }
+}
+
+/// Puts the sections of a list's entries back, resolved. Returns the settings of those that have their own, by id.
+std::map<std::string, SharedSettings> put_back_sections(const Json& own,
+                                                        const std::vector<std::string>& places,
+                                                        SectionResolver& sections, Json& entries) {
+  std::map<std::string, SharedSettings> settings;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    if (own[k].empty()) continue;
+    const SectionResolver::Own& found = sections.of(own[k], season_in(entries[k]), places[k]);
+    entries[k].update(found.changes);
+    settings[entries[k]["id"]] = found.settings;
+  }
+  return settings;
+}
+
+/// Of the dataset, and of the clips and flights that have settings of their own.
+std::vector<Lens> lenses_of(const Config& config) {
+  std::vector<Lens> lenses = {{config.camera, config.distortion}};
+  for (const auto* own : {&config.own_of_clips, &config.own_of_flights})
+    for (const auto& [id, settings] : *own) lenses.push_back({settings->camera, settings->distortion});
+  return lenses;
 }
 
 /// A real camera's pixels average what they see: 4 x 4 samples, with the engine `embree` only where they differ. The
@@ -130,29 +143,39 @@ const ClipConfig& Config::clip(const std::string& id, const std::string& where) 
                     did_you_mean(id, known));
 }
 
+const ClipSettings& settings_of(const Config& config, const ClipConfig& clip) {
+  return clip.own ? *clip.own : config;
+}
+
 Weather weather_of(const Config& config, const ClipConfig& clip) {
-  const Weather& weather = config.weather.at(static_cast<std::size_t>(clip.season));
+  const Weather& weather = settings_of(config, clip).weather.at(static_cast<std::size_t>(clip.season));
   if (!config.heat_balance) return weather;
   return at_moment(weather, clip.start_s + 0.5 * (clip.frames - 1) / clip.frame_rate_hz);
 }
 
-Weather weather_of(const Config& config, Season season) {
-  const Weather& weather = config.weather.at(static_cast<std::size_t>(season));
+Weather weather_at_start(const Config& config, const ClipConfig& clip) {
+  const Weather& weather = settings_of(config, clip).weather.at(static_cast<std::size_t>(clip.season));
   return config.heat_balance ? at_moment(weather, 0) : weather;
 }
 
-std::map<Season, std::vector<std::pair<double, double>>> flown_hours(const Config& config) {
-  std::map<Season, std::vector<std::pair<double, double>>> flown;
-  const auto add = [&](Season season, double start_s, double duration_s) {
-    const double start_h = config.weather.at(static_cast<std::size_t>(season)).solar_h + start_s / 3600;
-    flown[season].emplace_back(start_h, start_h + duration_s / 3600);
+std::vector<FlownWeather> flown_weather(const Config& config) {
+  std::vector<FlownWeather> flown;
+  const auto add = [&](Season season, const SharedSettings& own, double start_s, double duration_s) {
+    const Weather& weather = (own ? *own : config).weather.at(static_cast<std::size_t>(season));
+    auto found = std::ranges::find_if(
+        flown, [&](const FlownWeather& one) { return one.season == season && one.weather == weather; });
+    if (found == flown.end())
+      found = flown.insert(found, {.season = season, .weather = weather, .hours = {}});
+    const double start_h = weather.solar_h + start_s / 3600;
+    found->hours.emplace_back(start_h, start_h + duration_s / 3600);
   };
   for (const ClipConfig& clip : config.clips)
-    add(clip.season, clip.start_s, clip.frames / clip.frame_rate_hz);
+    add(clip.season, clip.own, clip.start_s, clip.frames / clip.frame_rate_hz);
   for (const Json& flight : config.resolved["flights"]) {
-    add(season_of(flight["season"].get<std::string>()), flight.value("start_s", 0.0),
+    add(season_in(flight), own_of(config.own_of_flights, flight["id"]), flight.value("start_s", 0.0),
         flight.value("duration_s", 0.0));
   }
+  std::ranges::stable_sort(flown, {}, &FlownWeather::season);
   return flown;
 }
 
@@ -188,17 +211,31 @@ void root_files(Json& document, const Path& folder) {
   root_file(document, "/scene/terrain/density_map/file", folder);
   for (const char* flown : {"clips", "flights"}) {
     if (!document.contains(flown)) continue;
-    for (Json& one : document[flown]) root_file(one, "/flight/waypoints/file", folder);
+    for (Json& one : document[flown])
+      if (one.is_object() && one.contains("flight")) root_flight_files(one["flight"], folder);
   }
 }
 
 void root_calibration(Json& document, const Path& folder) {
   root_file(document, "/camera/calibration", folder);
+  for (const char* flown : {"clips", "flights"}) {
+    if (!document.contains(flown)) continue;
+    for (Json& one : document[flown]) root_file(one, "/camera/calibration", folder);
+  }
+}
+
+Json cut_from(const Json& flight, Json clip) {
+  clip["of_flight"] = flight.at("id");
+  for (const char* shared : {"season", "flight", "drawn"})
+    if (flight.contains(shared)) clip[shared] = flight[shared];
+  for (const char* section : kClipSections)
+    if (flight.contains(section)) clip[section] = flight[section];
+  return clip;
 }
 
 Config with_clips(Config config, const Json& clips) {
   for (const Json& clip : clips) {
-    config.clips.push_back(read_clip(clip));
+    config.clips.push_back(read_clip(clip, config));
     config.resolved["clips"].push_back(clip);
   }
   config.flights.clear();
@@ -208,42 +245,40 @@ Config with_clips(Config config, const Json& clips) {
 
 Config resolve_config(Json document, const std::string& name, const Assets& assets) {
   const Json schema = assets.schema("config");
-  apply_preset(document, schema, name, assets);
+  DrawnConfig drawn = draw_config(std::move(document), schema, name);
+  document = std::move(drawn.document);
+  apply_preset(document, schema, name + ": ", assets);
   std::vector<std::string> faults = check_and_fill(document, schema);
   throw_faults(faults, name);
   apply_calibration(document, schema, faults);
   throw_faults(faults, name);
+  check_weather(document["weather"], {Season::winter, Season::summer}, faults);
+  throw_faults(faults, name);
   Config config;
+  static_cast<ClipSettings&>(config) = read_settings(document, name + ": ", assets);
   config.name = document["name"];
   config.seed = document["seed"];
   config.width_px = document["camera"]["width_px"];
   config.height_px = document["camera"]["height_px"];
-  config.distortion = distortion_of(document["camera"]["distortion"]);
-  config.sensor = read_sensor(document, name, assets);
-  config.labels = read_label_parameters(document["labels"]);
-  if (document.contains("output")) config.codec = read_codec(document["output"]);
   config.physical = document["sensor"]["model"] == "physical";
-  config.terms = read_terms(document["terms"], config.physical ? TermChoice::automatic : TermChoice::off);
-  config.netd_k = config.sensor.netd_k();
   if (!document["scene"].contains("temperatures"))
     document["scene"]["temperatures"] = config.physical ? "heat_balance" : "table_1";
   config.heat_balance = document["scene"]["temperatures"] == "heat_balance";
-  check_weather(document["weather"], faults);
-  throw_faults(faults, name);
-  for (const Season season : {Season::winter, Season::summer})
-    config.weather.at(static_cast<std::size_t>(season)) = read_weather(document["weather"], season);
-  for (const Json& clip : document["clips"]) config.clips.push_back(read_clip(clip));
+  SectionResolver sections(drawn.given, document, schema, name, assets);
+  config.own_of_clips =
+      put_back_sections(drawn.own_clips, drawn.places["clips"], sections, document["clips"]);
+  config.own_of_flights =
+      put_back_sections(drawn.own_flights, drawn.places["flights"], sections, document["flights"]);
+  for (const Json& clip : document["clips"]) config.clips.push_back(read_clip(clip, config));
   for (const Json& flight : document["flights"]) config.flights.push_back(flight["id"]);
   check_flown(config.flights, config.clips, faults);
-  config.camera = read_intrinsics(document["camera"]);
-  config.gives_intrinsics = gives_intrinsics(document["camera"]);
   check_intrinsics(config.camera, faults);
   fill_sampling(document["render"], config.physical);
   const Json& render = document["render"];
   if (render["sampling"] == "adaptive" && render["engine"] != "embree")
     faults.emplace_back("render.sampling = \"adaptive\"; expected \"full\", or render.engine = \"embree\"");
   throw_faults(faults, name);
-  const int needed_px = fill_overscan(document, faults);
+  const int needed_px = fill_overscan(document, lenses_of(config), faults);
   throw_faults(faults, name);
   config.overscan_px = document["render"]["overscan_px"];
   config.view_margin_px = std::max(config.overscan_px, needed_px);

@@ -1,23 +1,16 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "io/assets.h"
+#include "io/config/clip_settings.h"
 #include "io/json/file.h"
-#include "io/video/video_codec.h"
-#include "labels/label_parameters.h"
-#include "scene/lens_distortion.h"
-#include "scene/manifest.h"
 #include "scene/season.h"
-#include "scene/terms.h"
 #include "scene/weather.h"
-#include "sensor/sensor_parameters.h"
 
 namespace thermal {
 
@@ -29,49 +22,55 @@ struct ClipConfig {
   Season season = Season::winter;
   int frames = 0;
   double frame_rate_hz = 9;
-  double start_s = 0;  ///< scene time of the first frame
+  double start_s = 0;            ///< scene time of the first frame
+  SharedSettings own = nullptr;  ///< null: those of the dataset; see settings_of()
 };
 
-/// A dataset config: the parts that the thermal side uses, and the whole document with all defaults filled in.
-struct Config {
+/// A dataset config: the parts that the thermal side uses, and the whole document with all defaults filled in. Its
+/// settings are those of clips that have none of their own.
+struct Config : ClipSettings {
   std::string name;
   std::uint32_t seed = 1;
   int width_px = 640;
   int height_px = 512;
-  CameraIntrinsics camera;
-  bool gives_intrinsics = false;  ///< the document gives some of the camera's, directly or by a calibration
-  LensDistortion distortion;
   int overscan_px = 0;     ///< how far the passes extend beyond the picture on every side
   int view_margin_px = 0;  ///< of the view, by lens and overscan, beyond each side of a pinhole's picture
   int supersample = 1;     ///< rays of the passes along each side of a pixel
   bool actor_layer = false;
   Engine engine = Engine::blender;
   bool adaptive_sampling = false;  ///< all rays only for pixels that need them; with `embree`
-  SensorParameters sensor;
-  LabelParameters labels;
-  std::optional<VideoCodecSettings> codec;  ///< that 8-bit frames pass through; empty: none
-  bool physical = false;                    ///< every term the scene needs; otherwise the published model
-  TermChoices terms;
-  double netd_k = 0.04;
+  bool physical = false;           ///< every term the scene needs; otherwise the published model
   bool heat_balance = false;       ///< temperatures follow the weather; otherwise those of Table 1
-  std::array<Weather, 2> weather;  ///< by season; see weather_of()
   std::vector<ClipConfig> clips;
-  std::vector<std::string> flights;  ///< ids of long flights, from which clips are cut
-  Json resolved;                     ///< for the record; computations use the fields above
+  std::vector<std::string> flights;                      ///< ids of long flights, from which clips are cut
+  std::map<std::string, SharedSettings> own_of_clips;    ///< by id: of those that have settings of their own
+  std::map<std::string, SharedSettings> own_of_flights;  ///< the same of long flights
+  Json resolved;  ///< for the record; computations use the fields above
 
   /// ConfigError with the nearest id if the clip is unknown. `where` names the source of the id.
   [[nodiscard]] const ClipConfig& clip(const std::string& id, const std::string& where) const;
 };
 
-/// The weather of a clip in its middle: its season's, overridden by the config's. With the temperatures of Table 1, the
+/// What a clip is made with.
+[[nodiscard]] const ClipSettings& settings_of(const Config& config, const ClipConfig& clip);
+
+/// The weather of a clip in its middle: its season's, overridden by the config's and the clip's. With the temperatures of Table 1, the
 /// air is the same at all times.
 [[nodiscard]] Weather weather_of(const Config& config, const ClipConfig& clip);
 
-/// The same at scene time 0.
-[[nodiscard]] Weather weather_of(const Config& config, Season season);
+/// The same at scene time 0, so that clips under the same weather share it.
+[[nodiscard]] Weather weather_at_start(const Config& config, const ClipConfig& clip);
 
-/// When each season is flown, in hours of local solar time, from and to; beyond 24 for flights over midnight.
-[[nodiscard]] std::map<Season, std::vector<std::pair<double, double>>> flown_hours(const Config& config);
+/// A season under one weather, and when it is flown: hours of local solar time, from and to; beyond 24 for flights over
+/// midnight.
+struct FlownWeather {
+  Season season = Season::winter;
+  Weather weather;
+  std::vector<std::pair<double, double>> hours;
+};
+
+/// All that clips and flights are made in, winter first, then in the order of the config.
+[[nodiscard]] std::vector<FlownWeather> flown_weather(const Config& config);
 
 /// Sets the season of every clip and flight of a document.
 void set_season(Json& document, const Json& season);
@@ -86,7 +85,11 @@ void root_files(Json& document, const Path& folder);
 /// The same for the calibration alone, which is what converting existing passes needs.
 void root_calibration(Json& document, const Path& folder);
 
-/// The same config with these clips, which follow its own, instead of its flights.
+/// The clip of a config that is cut from one of its flights.
+[[nodiscard]] Json cut_from(const Json& flight, Json clip);
+
+/// The same config with these clips, which follow its own, instead of its flights. Each is one of its own, or cut from a
+/// flight, and has their settings.
 [[nodiscard]] Config with_clips(Config config, const Json& clips);
 
 /// Checks a document against configs/schema/config.schema.json and fills in its defaults. The numbers of a camera's

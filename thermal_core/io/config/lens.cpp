@@ -117,11 +117,11 @@ void check_intrinsics(const CameraIntrinsics& camera, std::vector<std::string>& 
         "a tenth to ten times camera.fx_px");
 }
 
-int fill_overscan(Json& document, std::vector<std::string>& faults) {
-  const Json& camera = document["camera"];
+int fill_overscan(Json& document, const std::vector<Lens>& lenses, std::vector<std::string>& faults) {
   int needed_px = 0;
   try {
-    needed_px = overscan_px(read_intrinsics(camera), distortion_of(camera["distortion"]));
+    for (const Lens& lens : lenses)
+      needed_px = std::max(needed_px, overscan_px(lens.camera, lens.distortion));
   } catch (const ConfigError& error) {
     faults.emplace_back(error.what());
     return 0;

@@ -23,9 +23,15 @@ void apply_calibration(Json& document, const Json& schema, std::vector<std::stri
 /// Adds a fault if the principal point is outside the picture, or one focal length more than ten times the other.
 void check_intrinsics(const CameraIntrinsics& camera, std::vector<std::string>& faults);
 
-/// Writes what the lens needs as the config's render.overscan_px, where that says nothing of it: nothing with the engine
-/// embree, whose rays follow the lens. Adds a fault if it says too little, or anything in vain, or if no overscan is
-/// enough. Returns how much a pinhole's picture needs for the lens, 0 after a fault of the lens.
-int fill_overscan(Json& document, std::vector<std::string>& faults);
+/// A camera behind its lens.
+struct Lens {
+  CameraIntrinsics camera;
+  LensDistortion distortion;
+};
+
+/// Writes what the lenses of a dataset need as the config's render.overscan_px, where that says nothing of it: nothing
+/// with the engine embree, whose rays follow the lens. Adds a fault if it says too little, or anything in vain, or if no
+/// overscan is enough. Returns how much pinholes' pictures need for the lenses, 0 after a fault of a lens.
+int fill_overscan(Json& document, const std::vector<Lens>& lenses, std::vector<std::string>& faults);
 
 }  // namespace thermal

@@ -122,7 +122,7 @@ AgcParameters read_agc(const Json& json) {
 
 }  // namespace
 
-void apply_preset(Json& document, const Json& schema, const std::string& name, const Assets& assets) {
+void apply_preset(Json& document, const Json& schema, const std::string& where, const Assets& assets) {
   if (!document.is_object()) return;  // the schema reports it
   for (const char* key : {"sensor", "camera"}) {
     if (!document.contains(key)) document[key] = Json::object();
@@ -131,16 +131,16 @@ void apply_preset(Json& document, const Json& schema, const std::string& name, c
   Json& sensor = document["sensor"];
   if (!sensor.contains("preset")) sensor["preset"] = kDefaultPreset;
   if (!sensor["preset"].is_string()) return;
-  const Path file = find_asset(assets.folder("sensors"), ".json", sensor["preset"], name + ": sensor.preset");
+  const Path file = find_asset(assets.folder("sensors"), ".json", sensor["preset"], where + "sensor.preset");
   const Json preset = read_preset(file, schema);
   fill_missing(sensor, preset.value("sensor", Json::object()));
   fill_missing(document["camera"], preset.value("camera", Json::object()));
 }
 
-SensorParameters read_sensor(const Json& document, const std::string& name, const Assets& assets) {
+SensorParameters read_sensor(const Json& document, const std::string& where, const Assets& assets) {
   const Json& json = document["sensor"];
   const Path response =
-      find_asset(assets.folder("responses"), ".csv", json["response"], name + ": sensor.response");
+      find_asset(assets.folder("responses"), ".csv", json["response"], where + "sensor.response");
   return {.response = read_response(response),
           .radiance = json["radiance"] == "script" ? RadianceModel::script : RadianceModel::exact,
           .optics = read_optics(json["optics"], document["camera"]),

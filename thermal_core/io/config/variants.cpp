@@ -23,14 +23,6 @@ void check_names(const Json& variants, std::vector<std::string>& faults) {
   }
 }
 
-void merge(Json& into, const Json& changes) {
-  if (!into.is_object() || !changes.is_object()) {
-    into = changes;
-    return;
-  }
-  for (const auto& [key, value] : changes.items()) merge(into[key], value);
-}
-
 }  // namespace
 
 std::vector<Variant> read_variants(Json document, const std::string& name, const Assets& assets) {
@@ -57,7 +49,7 @@ Json changed_by(const Variant& variant, Json document) {
     set_season(document, *season);
     changes.erase("season");
   }
-  merge(document, changes);
+  document.merge_patch(changes);
   return document;
 }
 

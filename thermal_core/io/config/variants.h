@@ -20,7 +20,8 @@ struct Variant {
 [[nodiscard]] std::vector<Variant> read_variants(Json document, const std::string& name,
                                                  const Assets& assets);
 
-/// A config's document with the variant's changes: objects are merged key by key, anything else is replaced.
+/// A config's document with the variant's changes: objects are merged key by key, null removes
+/// a key, anything else is replaced.
 [[nodiscard]] Json changed_by(const Variant& variant, Json document);
 
 }  // namespace thermal

@@ -81,7 +81,8 @@ Weather at_moment(Weather weather, double later_s) {
   return weather;
 }
 
-void check_weather(const Json& weather, std::vector<std::string>& faults) {
+void check_weather(const Json& weather, std::initializer_list<Season> seasons,
+                   std::vector<std::string>& faults) {
   const auto add = [&faults](const std::string& key, const std::string& value, const char* unit,
                              const std::string& rule) {
     faults.push_back(fault("weather." + key, value, unit, rule));
@@ -99,7 +100,7 @@ void check_weather(const Json& weather, std::vector<std::string>& faults) {
   if (weather.contains("dew_point_k") && weather.contains("relative_humidity"))
     return add("dew_point_k", fmt::format("{}", weather["dew_point_k"].get<double>()), "K",
                "none beside weather.relative_humidity");
-  for (const Season season : {Season::winter, Season::summer}) {
+  for (const Season season : seasons) {
     const Weather one = read_weather(weather, season);
     try {
       one.day.validate();

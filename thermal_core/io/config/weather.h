@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,9 @@ namespace thermal {
 /// temperature of its day at that time.
 [[nodiscard]] Weather at_moment(Weather weather, double later_s);
 
-/// Adds a line for each thing in `weather` that cannot be: a date that no calendar has, a minimum of the air above its
+/// Adds a line for each thing in `weather` that cannot be in one of the seasons: a date that no calendar has, a minimum of the air above its
 /// maximum, a dew point above the air, air given twice.
-void check_weather(const Json& weather, std::vector<std::string>& faults);
+void check_weather(const Json& weather, std::initializer_list<Season> seasons,
+                   std::vector<std::string>& faults);
 
 }  // namespace thermal

@@ -250,9 +250,9 @@ class Checker {
 
 }  // namespace
 
-std::vector<std::string> check_and_fill(Json& document, const Json& schema) {
+std::vector<std::string> check_and_fill(Json& document, const Json& schema, const std::string& where) {
   Checker checker(schema);
-  checker.check(document, schema, "");
+  checker.check_at(document, schema, where);
   return std::move(checker).faults();
 }
 

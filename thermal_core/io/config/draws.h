@@ -1,0 +1,27 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/json/file.h"
+
+namespace thermal {
+
+/// A config after its draws: clips with a count are listed one by one, and all values are given.
+struct DrawnConfig {
+  Json document;   ///< without the sections of clips and flights
+  Json given;      ///< its sections of the dataset, without those values that each clip draws
+  Json own_clips;  ///< sections of each clip, with what it has drawn of the dataset's
+  Json own_flights;
+  std::map<std::string, std::vector<std::string>>
+      places;  ///< of the entries of "clips" and "flights": "clips[2]"
+};
+
+/// Draws all distributions of a config's document before it is checked: those of `scene`, and of what all clips share,
+/// once, all others for each clip or flight. Every draw is a function of (seed, id of the clip or flight, path of the key)
+/// alone. `drawn` of the document and of its entries lists the paths. ConfigError with one line per fault, each starting
+/// with `name`; what is no distribution is left to the schema.
+[[nodiscard]] DrawnConfig draw_config(Json document, const Json& schema, const std::string& name);
+
+}  // namespace thermal
