@@ -26,7 +26,9 @@ std::string fault_of(const std::string& setting) {
 }
 
 /// The weather of a clip of a season at scene time 0.
-Weather at_start(const Config& config, Season season) { return weather_at_start(config, {.season = season}); }
+Weather at_start(const Config& config, Season season) {
+  return weather_at_start(config, {.id = "", .season = season});
+}
 
 std::vector<TermChoice> choices(const Config& config) {
   std::vector<TermChoice> result;
@@ -132,6 +134,24 @@ TEST_CASE(
   CHECK(physics->seed == 9);
   const Config published = config_with({"sensor.model=published"});
   CHECK_FALSE(task_of(published, published.clips[0], kept, heat, nullptr).physics);
+}
+
+TEST_CASE("The budget knows the finest sensor of all clips, and a clip may choose its own terms") {
+  Json document = config_with({"terms.sky=on"}).resolved;
+  Json fine = document["clips"][0];
+  fine.update({{"id", "fine"}, {"sensor", {{"netd_mk", 10}}}});
+  Json bare = document["clips"][0];
+  bare.update({{"id", "bare"}, {"terms", {{"sky", "off"}}}});
+  document["clips"].push_back(fine);
+  document["clips"].push_back(bare);
+  const Config config = resolve_config(document, "test.json", kAssets);
+  const SceneOutline outline = empty_outline(config);
+  CHECK(outline.netd_k == settings_of(config, config.clips[1]).netd_k);
+  CHECK_THAT(outline.netd_k, WithinRel(0.25 * config.netd_k, 1e-12));
+  const KeptTerms kept(config, outline);
+  CHECK(kept.of(settings_of(config, config.clips[0])).sky);
+  CHECK(kept.of(settings_of(config, config.clips[1])).sky);
+  CHECK_FALSE(kept.of(settings_of(config, config.clips[2])).sky);
 }
 
 TEST_CASE("The flat responses are flat, and the camera's peaks near 10 um") {
