@@ -32,6 +32,9 @@ constexpr std::array kCommands = {
     add_balance,
 #endif
     add_evaluate,
+#if VELDT_COMPARE
+    add_compare,
+#endif
 #if VELDT_REPORT
     add_report,
 #endif

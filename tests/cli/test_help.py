@@ -56,6 +56,15 @@ OPTIONS = {
     "validate": {"--set", "--json"},
     "balance": {"--per-class", "--out", "--seed", "--gap", "--time-limit-s", "--json"},
     "evaluate": {"--truth", "--detections", "--iou", "--score", "--count-ignored", "--json"},
+    "compare": {
+        "--real-labels",
+        "--labels",
+        "--real-names",
+        "--names",
+        "--category",
+        "--frames",
+        "--json",
+    },
     "report": {"--out", "--unfinished"},
     "video": {
         "--out",

@@ -38,3 +38,13 @@ def write_exr(file: Path, planes: dict[str, np.ndarray]) -> None:
     assert out.open(str(file), spec), out.geterror()
     assert out.write_image(np.stack(list(planes.values()), axis=-1).astype(np.float32)), out.geterror()
     out.close()
+
+
+def write_grey(file: Path, levels: np.ndarray, channels: int = 1) -> None:
+    """Write levels (height, width) of 8 or 16 bits in the format of the file's name; with equal channels if several."""
+    height, width = levels.shape
+    spec = OpenImageIO.ImageSpec(width, height, channels, levels.dtype.name)
+    out = OpenImageIO.ImageOutput.create(str(file))
+    assert out.open(str(file), spec), out.geterror()
+    assert out.write_image(np.repeat(levels[..., None], channels, axis=-1)), out.geterror()
+    out.close()

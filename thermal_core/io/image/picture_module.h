@@ -3,6 +3,7 @@
 #include <string>
 
 #include "io/image/encoded_picture.h"
+#include "io/image/grey_picture.h"
 #include "io/image/picture_size.h"
 #include "io/image/text_coverage.h"
 #include "io/system/files.h"
@@ -16,6 +17,8 @@ struct PictureModule {
   PictureSize (*read_picture_size)(const Path& file);
   TextPicture (*draw_text)(const Path& font, const std::string& ascii, int size_px);
   std::string (*encode_picture)(const cv::Mat& bgr, PictureFormat format);
+  /// As read_grey_picture(), with faults of the file without its name.
+  GreyPicture (*read_grey)(const Path& file);
   std::string (*openimageio_version)();
 };
 

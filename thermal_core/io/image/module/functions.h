@@ -10,4 +10,7 @@ namespace thermal::pictures {
 /// As draw_text() in io/image/text_picture.h, of printable ASCII that is not all spaces, with a font that exists.
 [[nodiscard]] TextPicture draw_text(const Path& font, const std::string& ascii, int size_px);
 
+/// As read_grey_picture() in io/image/grey_picture.h, with faults of the file without its name.
+[[nodiscard]] GreyPicture read_grey(const Path& file);
+
 }  // namespace thermal::pictures

@@ -41,5 +41,6 @@ const thermal::PictureModule kVeldtPictureModule = {
     .read_picture_size = thermal::pictures::read_picture_size,
     .draw_text = thermal::pictures::draw_text,
     .encode_picture = thermal::pictures::encode_picture,
+    .read_grey = thermal::pictures::read_grey,
     .openimageio_version = thermal::pictures::openimageio_version,
 };

@@ -1,0 +1,102 @@
+#include <memory>
+
+#include "analysis/compare/comparison.h"
+#include "analysis/compare/comparison_json.h"
+#include "base/error.h"
+#include "cli/command.h"
+#include "cli/comparison_table.h"
+#include "cli/output.h"
+#include "cli/progress_bar.h"
+
+namespace veldt {
+namespace {
+
+struct CompareArguments {
+  std::string real;
+  std::string dataset;
+  std::string real_labels;
+  std::string labels;
+  std::string real_names;
+  std::string names;
+  std::string category;
+  std::string html;
+  int frames = thermal::CompareOptions().most_frames;
+  bool json = false;
+};
+
+thermal::CompareOptions request_of(const CompareArguments& options) {
+  return {.real = {.source = options.real,
+                   .labels = options.real_labels,
+                   .names = options.real_names,
+                   .names_option = "--real-names",
+                   .category = options.category},
+          .other = {.source = options.dataset,
+                    .labels = options.labels,
+                    .names = options.names,
+                    .names_option = "--names",
+                    .category = options.category},
+          .most_frames = options.frames};
+}
+
+thermal::Comparison compared(const CompareArguments& options, const CommonOptions& common) {
+  ProgressBar bar(common, "starting", "frames", kClipPatience);
+  const auto hooks = hooks_for(bar);
+  thermal::CompareOptions request = request_of(options);
+  request.show = [&hooks](std::size_t done, std::size_t total) {
+    hooks.progress({.clip = "frames", .done = static_cast<int>(done), .total = static_cast<int>(total)});
+  };
+  return thermal::compare(request);
+}
+
+bool print_rejected(const thermal::SetFigures& set) {
+  for (const std::string& rejected : set.rejected) print_error("rejected: {}\n", rejected);
+  return !set.rejected.empty();
+}
+
+int run_compare(const CompareArguments& options, const CommonOptions& common) {
+  const thermal::Comparison comparison = compared(options, common);
+  if (options.json) {
+    print_json(to_json(comparison, true));
+  } else if (!common.quiet) {
+    print_tables(comparison);
+  }
+  const bool real_rejected = print_rejected(comparison.real);
+  return print_rejected(comparison.other) || real_rejected ? kSomeRejected : kDone;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Session& session) {
+  CLI::App* command =
+      add_command(app, session, "compare",
+                  "How far frames are from real ones: spectra, grey levels, edges, noise, targets");
+  command->footer(
+      "Each source is a Veldt dataset (its ir8), or a folder of grey pictures of 8 or 16 bits (.png, .jpg,\n"
+      ".jpeg, .tif, .tiff) with labels of COCO. Differences are put beside those between random halves of\n"
+      "the real frames; a measure within twice those is marked. A classifier's AUC says how well frames,\n"
+      "or crops of targets, can be told apart: .5 not at all, 1 always.\n"
+      "Frames may have different sizes: each is measured as it is, and power is scaled to 640 x 512 px.");
+  auto options = std::make_shared<CompareArguments>();
+  command->add_option("real", options->real, "Real frames")->required();
+  command->add_option("dataset", options->dataset, "Frames to compare with them")->required();
+  command
+      ->add_option("--real-labels", options->real_labels,
+                   "Labels of a folder of real frames; by default annotations.json in it or in its parent")
+      ->type_name("FILE");
+  command->add_option("--labels", options->labels, "The same of the other frames")->type_name("FILE");
+  command
+      ->add_option("--real-names", options->real_names,
+                   "What names of real frames say, such as \"{_}_{altitude_m}_{look_angle_deg}_{_}\"")
+      ->type_name("PATTERN");
+  command->add_option("--names", options->names, "The same of the other frames")->type_name("PATTERN");
+  command->add_option("--category", options->category, "Category of the targets (default: people)")
+      ->type_name("NAME");
+  command->add_option("--frames", options->frames, "Most frames of each source, evenly spaced")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "Print JSON, with the figures of each frame and target");
+  command->callback([options, &session] {
+    session.run = [options, &session] { return run_compare(*options, session.common); };
+  });
+}
+
+}  // namespace veldt

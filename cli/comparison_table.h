@@ -1,0 +1,10 @@
+#pragma once
+
+#include "analysis/compare/comparison.h"
+
+namespace veldt {
+
+/// Prints what was read, one row per measure, what a classifier tells apart, and tables of targets.
+void print_tables(const thermal::Comparison& comparison);
+
+}  // namespace veldt

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/compare/discrimination.h"
+#include "analysis/compare/measures.h"
+#include "analysis/compare/set_figures.h"
+
+namespace thermal {
+
+struct CompareOptions {
+  FrameRequest real;
+  FrameRequest other;
+  int most_frames = 400;   ///< of each set
+  std::uint32_t seed = 1;  ///< of the halvings and of the classifiers
+  std::function<void(std::size_t done, std::size_t total)> show = {};  ///< called as frames are measured
+
+  /// ConfigError unless `most_frames` is at least 4.
+  void validate() const;
+};
+
+/// A difference is a good one up to this many times that of one half of the real frames from the other.
+inline constexpr double kGoodRatio = 2;
+
+/// One measure of both sets.
+struct ComparedMeasure {
+  std::optional<double> real;
+  std::optional<double> other;
+  std::optional<double> difference;  ///< other minus real
+  std::optional<double>
+      real_difference;          ///< between halves of the real frames: mean magnitude over all halvings
+  std::optional<double> ratio;  ///< of the magnitudes; empty also if halves never differ
+
+  [[nodiscard]] bool is_good() const;  ///< within kGoodRatio, or no difference at all
+};
+
+/// What a classifier tells apart.
+struct Told {
+  Discrimination sets;  ///< real against other
+  std::optional<Discrimination>
+      real_halves;  ///< real against real, averaged over halvings; empty: too few units
+};
+
+struct Comparison {
+  SetFigures real;
+  SetFigures other;
+  std::vector<ComparedMeasure> measures;  ///< in the order of measures()
+  std::optional<Told> frames;
+  std::optional<Told> crops;  ///< empty: fewer than two units with crops in a set
+};
+
+/// Reads, measures and compares two sets of frames. The result depends on the frames, labels and options alone.
+/// Faults are those of read_frame_source() and measure_set().
+[[nodiscard]] Comparison compare(const CompareOptions& options);
+
+/// One half and the other of frames, by units in a random order; the first half has the unit more.
+struct Halves {
+  MeasuredFrames first;
+  MeasuredFrames second;
+};
+[[nodiscard]] Halves halves_of(const std::vector<FrameFigures>& frames, std::uint32_t seed,
+                               std::uint32_t draw);
+
+}  // namespace thermal

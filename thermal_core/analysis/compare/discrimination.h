@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace thermal {
+
+/// Features of frames or crops of one set. Rows of one unit belong together: a classifier learns from all or none.
+struct FeatureTable {
+  std::vector<std::vector<std::optional<double>>> rows;
+  std::vector<std::size_t> units;  ///< of the rows; numbers from 0
+};
+
+/// What a feature contributes.
+struct Importance {
+  std::size_t feature = 0;
+  double fall =
+      0;  ///< of the area under the curve when its values are shuffled among the rows that are tested
+  double alone =
+      0.5;  ///< area under the curve of its values alone, whichever way they differ; rows with known ones
+};
+
+/// How well a classifier tells two sets apart.
+struct Discrimination {
+  double auc =
+      0.5;  ///< area under the receiver operating characteristic: .5 if it cannot, 1 if it always can
+  double error = 0;  ///< standard error (Hanley and McNeil 1982), with a unit for a case
+  std::vector<Importance> importances = {};  ///< by fall, then by what they tell alone
+};
+
+/// A random forest (OpenCV's) of 100 trees, cross-validated in five parts of whole units, or fewer if a set has fewer
+/// units. Pairs within a part are compared; so a part's own level does not matter. Unknown values count as the median.
+/// Features that say the same stand in for each other: none falls by much then, and what each tells alone says more. The result depends on `seed` and the tables alone. At most
+/// 400 rows of each table are used, evenly spaced.
+/// Both tables need two units or more.
+[[nodiscard]] Discrimination discriminate(const FeatureTable& first, const FeatureTable& second,
+                                          std::size_t features, std::uint32_t seed);
+
+/// Share of pairs in which the positive has the higher score; equal scores count half. `pairs` says of how many.
+struct WonPairs {
+  double won = 0;
+  double pairs = 0;
+};
+[[nodiscard]] WonPairs won_pairs(const std::vector<double>& negative, const std::vector<double>& positive);
+
+/// Units in a random order, which depends on `seed` and `draw` alone.
+[[nodiscard]] std::vector<std::size_t> shuffled(std::size_t count, std::uint32_t seed, std::uint32_t draw);
+
+}  // namespace thermal

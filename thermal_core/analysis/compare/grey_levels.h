@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "base/image.h"
+
+namespace thermal {
+
+inline constexpr std::size_t kGreyLevels = 256;
+
+/// How a frame uses the grey levels 0 to 255.
+struct GreyLevels {
+  double mean = 0;
+  double deviation = 0;
+  double low = 0;          ///< 1st percentile
+  double high = 0;         ///< 99th
+  double empty_share = 0;  ///< of the levels from `low` to `high`, those without a pixel: a comb
+  double roughness =
+      0;  ///< mean step between neighbouring levels' counts there over the mean count; 2 of a full comb
+  std::array<double, kGreyLevels> shares{};  ///< of the pixels, by level
+
+  [[nodiscard]] double range() const noexcept { return high - low; }
+};
+
+/// @param frame  levels 0 to 255; fractions are rounded
+[[nodiscard]] GreyLevels grey_levels(const Plane<float>& frame);
+
+}  // namespace thermal

@@ -1,0 +1,184 @@
+#include "analysis/compare/measures.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "analysis/compare/order_statistics.h"
+
+namespace thermal {
+namespace {
+
+std::string band_name(std::size_t band) {
+  return fmt::format("power at {:.3g} to {:.3g} /px", kBandEdges[band], kBandEdges[band + 1]);
+}
+
+std::optional<double> logarithm(double power) {
+  return power > 0 ? std::optional(std::log10(power)) : std::nullopt;
+}
+
+/// A frame's or a crop's figure, and what it is called.
+template <typename Of>
+struct Figure {
+  const char* name;
+  const char* unit;
+  std::optional<double> (*value)(const Of&);
+};
+
+constexpr std::array<Figure<FrameFigures>, 7> kGrey = {{
+    {"mean", "levels", [](const FrameFigures& f) { return std::optional(f.grey.mean); }},
+    {"deviation", "levels", [](const FrameFigures& f) { return std::optional(f.grey.deviation); }},
+    {"1st percentile", "levels", [](const FrameFigures& f) { return std::optional(f.grey.low); }},
+    {"99th percentile", "levels", [](const FrameFigures& f) { return std::optional(f.grey.high); }},
+    {"dynamic range", "levels", [](const FrameFigures& f) { return std::optional(f.grey.range()); }},
+    {"empty levels between", "", [](const FrameFigures& f) { return std::optional(f.grey.empty_share); }},
+    {"roughness of histogram", "", [](const FrameFigures& f) { return std::optional(f.grey.roughness); }},
+}};
+
+std::optional<double> width_ratio(const TargetCrop& crop) {
+  return crop.margins ? std::optional(crop.margins->blob_width_px / crop.box.width_px) : std::nullopt;
+}
+
+std::optional<double> height_ratio(const TargetCrop& crop) {
+  return crop.margins ? std::optional(crop.margins->blob_height_px / crop.box.height_px) : std::nullopt;
+}
+
+constexpr std::array<Figure<TargetCrop>, 8> kCrop = {{
+    {"box width", "px", [](const TargetCrop& c) { return std::optional(c.box.width_px); }},
+    {"box height", "px", [](const TargetCrop& c) { return std::optional(c.box.height_px); }},
+    {"contrast", "levels", [](const TargetCrop& c) { return std::optional(c.contrast); }},
+    {"ring deviation", "levels", [](const TargetCrop& c) { return std::optional(c.ring_deviation); }},
+    {"gradient variance", "", [](const TargetCrop& c) { return std::optional(c.gradient_variance); }},
+    {"entropy", "bits", [](const TargetCrop& c) { return std::optional(c.entropy_bits); }},
+    {"blob width / box width", "", width_ratio},
+    {"blob height / box height", "", height_ratio},
+}};
+
+constexpr std::array<double, 3> kQuartiles = {0.25, 0.5, 0.75};
+
+std::vector<Measure> all_measures() {
+  std::vector<Measure> all;
+  for (std::size_t band = 0; band < kBands; ++band) all.push_back({"spectrum", band_name(band), "log10"});
+  for (const auto& figure : kGrey) all.push_back({"grey levels", figure.name, figure.unit});
+  for (const char* name :
+       {"width 10-90 %, lower quartile", "width 10-90 %, median", "width 10-90 %, upper quartile"})
+    all.push_back({"edges", name, "px"});
+  all.push_back({"noise", "in flat blocks", "levels"});
+  for (const auto& figure : kCrop) all.push_back({"targets", figure.name, figure.unit});
+  return all;
+}
+
+std::optional<double> band_of(const MeasuredFrames& frames, std::size_t band) {
+  std::vector<double> powers;
+  for (const FrameFigures* frame : frames) {
+    if (frame->power.bands[band] > 0) powers.push_back(frame->power.bands[band]);
+  }
+  return logarithm(mean_of(powers));
+}
+
+std::optional<double> quantile_if_any(const std::vector<double>& values, double share) {
+  return values.empty() ? std::nullopt : std::optional(quantile_of(values, share));
+}
+
+template <typename Value>
+std::optional<double> median_over(const MeasuredFrames& frames, const Value& value) {
+  std::vector<double> values;
+  for (const FrameFigures* frame : frames) {
+    if (const auto known = value(*frame)) values.push_back(*known);
+  }
+  return quantile_if_any(values, 0.5);
+}
+
+std::optional<double> crop_median(const MeasuredFrames& frames, const Figure<TargetCrop>& figure) {
+  std::vector<double> values;
+  for (const FrameFigures* frame : frames) {
+    for (const TargetCrop& crop : frame->crops) {
+      if (const auto known = figure.value(crop)) values.push_back(*known);
+    }
+  }
+  return quantile_if_any(values, 0.5);
+}
+
+/// The units of a table numbered from 0, without gaps.
+void renumber(FeatureTable& table) {
+  std::map<std::size_t, std::size_t> numbers;
+  for (std::size_t& unit : table.units) unit = numbers.emplace(unit, numbers.size()).first->second;
+}
+
+KnownValues features_of(const FrameFigures& frame) {
+  KnownValues row;
+  for (const double power : frame.power.bands) row.push_back(logarithm(power));
+  for (const auto& figure : kGrey) row.push_back(figure.value(frame));
+  row.push_back(quantile_if_any(frame.edges_px, 0.5));
+  row.push_back(frame.noise);
+  return row;
+}
+
+}  // namespace
+
+const std::vector<Measure>& measures() {
+  static const std::vector<Measure> all = all_measures();
+  return all;
+}
+
+KnownValues values_of(const MeasuredFrames& frames) {
+  KnownValues values;
+  for (std::size_t band = 0; band < kBands; ++band) values.push_back(band_of(frames, band));
+  for (const auto& figure : kGrey) values.push_back(median_over(frames, figure.value));
+  std::vector<double> edges;
+  for (const FrameFigures* frame : frames)
+    edges.insert(edges.end(), frame->edges_px.begin(), frame->edges_px.end());
+  for (const double share : kQuartiles) values.push_back(quantile_if_any(edges, share));
+  values.push_back(median_over(frames, [](const FrameFigures& frame) { return frame.noise; }));
+  for (const auto& figure : kCrop) values.push_back(crop_median(frames, figure));
+  return values;
+}
+
+const std::vector<std::string>& frame_features() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> made;
+    for (std::size_t band = 0; band < kBands; ++band) made.push_back(band_name(band));
+    for (const auto& figure : kGrey) made.emplace_back(figure.name);
+    made.emplace_back("edge width");
+    made.emplace_back("noise in flat blocks");
+    return made;
+  }();
+  return names;
+}
+
+const std::vector<std::string>& crop_features() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> made;
+    for (const auto& figure : kCrop) made.emplace_back(figure.name);
+    return made;
+  }();
+  return names;
+}
+
+FeatureTable frame_table(const MeasuredFrames& frames) {
+  FeatureTable table;
+  for (const FrameFigures* frame : frames) {
+    table.rows.push_back(features_of(*frame));
+    table.units.push_back(frame->unit);
+  }
+  renumber(table);
+  return table;
+}
+
+FeatureTable crop_table(const MeasuredFrames& frames) {
+  FeatureTable table;
+  for (const FrameFigures* frame : frames) {
+    for (const TargetCrop& crop : frame->crops) {
+      KnownValues row;
+      for (const auto& figure : kCrop) row.push_back(figure.value(crop));
+      table.rows.push_back(std::move(row));
+      table.units.push_back(frame->unit);
+    }
+  }
+  renumber(table);
+  return table;
+}
+
+}  // namespace thermal

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/compare/discrimination.h"
+#include "analysis/compare/set_figures.h"
+
+namespace thermal {
+
+/// Some frames of a set.
+using MeasuredFrames = std::vector<const FrameFigures*>;
+/// Values by measure or feature, as far as they are known.
+using KnownValues = std::vector<std::optional<double>>;
+
+/// A figure of a set of frames.
+struct Measure {
+  std::string group;  ///< spectrum, grey levels, edges, noise, targets
+  std::string name;
+  std::string unit;  ///< empty: none
+};
+
+/// All measures, in the order of values_of().
+[[nodiscard]] const std::vector<Measure>& measures();
+
+/// Values of the measures of some frames: power averaged over frames, then its logarithm; of grey levels and noise, the
+/// median over frames; of edges and targets, quantiles over all of them. Empty where nothing is known.
+[[nodiscard]] KnownValues values_of(const MeasuredFrames& frames);
+
+/// Names of the features by which a classifier tells frames, or crops of targets, apart.
+[[nodiscard]] const std::vector<std::string>& frame_features();
+[[nodiscard]] const std::vector<std::string>& crop_features();
+
+/// Features of frames; units numbered anew.
+[[nodiscard]] FeatureTable frame_table(const MeasuredFrames& frames);
+/// The same of all their crops; units without any are left out.
+[[nodiscard]] FeatureTable crop_table(const MeasuredFrames& frames);
+
+}  // namespace thermal

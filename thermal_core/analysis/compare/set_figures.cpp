@@ -1,0 +1,167 @@
+#include "analysis/compare/set_figures.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "analysis/compare/edge_widths.h"
+#include "analysis/compare/order_statistics.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "io/image/grey_picture.h"
+
+namespace thermal {
+namespace {
+
+constexpr std::size_t kLeastFrames = 4;
+
+FrameFigures measured(const FrameSource& source, std::size_t frame) {
+  const Plane<float> levels = read_levels(source.frames[frame].file);
+  FrameFigures figures = {.frame = frame,
+                          .width_px = levels.width_px(),
+                          .height_px = levels.height_px(),
+                          .power = radial_power(levels),
+                          .grey = grey_levels(levels),
+                          .edges_px = edge_widths_px(levels),
+                          .noise = flat_noise(levels),
+                          .crops = {}};
+  for (const LabelBox& box : source.frames[frame].boxes) {
+    if (auto crop = target_crop(levels, box)) figures.crops.push_back(*std::move(crop));
+  }
+  return figures;
+}
+
+/// Of one frame: what was measured, or why it was rejected.
+struct Attempt {
+  std::optional<FrameFigures> figures;
+  std::string fault;
+};
+
+Attempt attempted(const FrameSource& source, std::size_t frame) {
+  try {
+    return {measured(source, frame), ""};
+  } catch (const DataError& error) {
+    return {std::nullopt, error.what()};
+  }
+}
+
+std::vector<Attempt> attempts_of(const FrameSource& source, const std::vector<std::size_t>& frames,
+                                 const std::function<void(std::size_t, std::size_t)>& show) {
+  constexpr std::size_t kBatch = 16;
+  std::vector<Attempt> attempts(frames.size());
+  for (std::size_t first = 0; first < frames.size(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, frames.size() - first);
+    parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = first + begin; k < first + end; ++k) attempts[k] = attempted(source, frames[k]);
+    });
+    if (show) show(first + count, frames.size());
+  }
+  return attempts;
+}
+
+// --- footage of a still scene
+
+/// Indices of the first frames of runs that may show a still scene: at the start of some clips, or spread over a folder.
+std::vector<std::size_t> starts_of(const FrameSource& source) {
+  constexpr std::size_t kMostRuns = 4;
+  std::vector<std::size_t> starts;
+  for (std::size_t k = 0; k + kStillFrames <= source.frames.size(); ++k) {
+    const bool one_clip = source.frames[k].video == source.frames[k + kStillFrames - 1].video;
+    const bool starts_clip = k == 0 || source.frames[k].video != source.frames[k - 1].video;
+    if (one_clip && (!source.is_dataset || starts_clip)) starts.push_back(k);
+  }
+  std::vector<std::size_t> chosen;
+  for (const std::size_t k : evenly(starts.size(), kMostRuns)) chosen.push_back(starts[k]);
+  return chosen;
+}
+
+/// Noise of a run, if its scene stands still and all its frames can be read.
+std::optional<VideoNoise> noise_of_run(const FrameSource& source, std::size_t start) {
+  std::vector<Plane<float>> frames;
+  try {
+    for (std::size_t k = start; k < start + kStillFrames; ++k)
+      frames.push_back(read_levels(source.frames[k].file));
+  } catch (const DataError&) {
+    return {};
+  }
+  return is_still(frames) ? std::optional(video_noise(frames)) : std::nullopt;
+}
+
+std::optional<StillFootage> still_footage(const FrameSource& source) {
+  std::vector<double> random;
+  std::vector<double> rows;
+  std::vector<double> columns;
+  std::vector<double> whole;
+  for (const std::size_t start : starts_of(source)) {
+    const auto noise = noise_of_run(source, start);
+    if (!noise) continue;
+    random.push_back(noise->random);
+    rows.push_back(noise->rows);
+    columns.push_back(noise->columns);
+    whole.push_back(noise->frames);
+  }
+  if (random.empty()) return {};
+  const std::size_t runs = random.size();
+  return StillFootage{{median_of(random), median_of(rows), median_of(columns), median_of(whole)}, runs};
+}
+
+}  // namespace
+
+Plane<float> read_levels(const Path& file) {
+  constexpr int kLeastPx = 16;
+  const GreyPicture picture = read_grey_picture(file);
+  const int width_px = picture.levels.width_px();
+  const int height_px = picture.levels.height_px();
+  if (width_px < kLeastPx || height_px < kLeastPx)
+    throw DataError(fault(file.string() + ": size", fmt::format("{} x {}", width_px, height_px), "px",
+                          fmt::format("at least {} x {} px", kLeastPx, kLeastPx)));
+  Plane<float> levels(width_px, height_px);
+  const float scale = picture.bits == 8 ? 1.0F : 1.0F / 257.0F;
+  std::transform(picture.levels.pixels().begin(), picture.levels.pixels().end(), levels.pixels().begin(),
+                 [scale](std::uint16_t level) { return static_cast<float>(level) * scale; });
+  return levels;
+}
+
+std::vector<std::size_t> units_of(const FrameSource& source, const std::vector<std::size_t>& frames) {
+  constexpr std::size_t kLeastUnits = 10;
+  std::map<std::size_t, std::size_t> frames_in;  // by clip, of those that are given
+  for (const std::size_t frame : frames) ++frames_in[source.frames[frame].video];
+  const std::size_t runs =
+      source.is_dataset ? (kLeastUnits + frames_in.size() - 1) / frames_in.size() : frames.size();
+  std::map<std::size_t, std::size_t> seen;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> numbers;
+  std::vector<std::size_t> units;
+  for (const std::size_t frame : frames) {
+    const std::size_t clip = source.frames[frame].video;
+    const std::size_t run = seen[clip]++ * runs / frames_in[clip];
+    units.push_back(numbers.emplace(std::pair(clip, run), numbers.size()).first->second);
+  }
+  return units;
+}
+
+SetFigures measure_set(FrameSource source, std::size_t most_frames,
+                       const std::function<void(std::size_t, std::size_t)>& show) {
+  SetFigures set = {.source = std::move(source), .frames = {}, .rejected = {}, .still = {}};
+  std::vector<std::size_t> read;
+  for (Attempt& attempt : attempts_of(set.source, evenly(set.source.frames.size(), most_frames), show)) {
+    if (!attempt.figures) {
+      set.rejected.push_back(std::move(attempt.fault));
+      continue;
+    }
+    read.push_back(attempt.figures->frame);
+    set.frames.push_back(*std::move(attempt.figures));
+  }
+  if (read.size() < kLeastFrames) {
+    std::string message = fault(set.source.name, std::to_string(read.size()), "frames that can be read",
+                                fmt::format("at least {}", kLeastFrames));
+    for (const std::string& rejected : set.rejected) message += "\n" + rejected;
+    throw DataError(message);
+  }
+  const std::vector<std::size_t> units = units_of(set.source, read);
+  for (std::size_t k = 0; k < units.size(); ++k) set.frames[k].unit = units[k];
+  set.still = still_footage(set.source);
+  return set;
+}
+
+}  // namespace thermal

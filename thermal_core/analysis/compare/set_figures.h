@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/compare/grey_levels.h"
+#include "analysis/compare/noise.h"
+#include "analysis/compare/radial_power.h"
+#include "analysis/compare/target_crop.h"
+#include "base/image.h"
+#include "dataset/frame_source.h"
+
+namespace thermal {
+
+/// What is measured in one frame.
+struct FrameFigures {
+  std::size_t frame = 0;  ///< index into FrameSource::frames
+  std::size_t unit = 0;   ///< frames that are drawn together: see units_of()
+  int width_px = 0;
+  int height_px = 0;
+  RadialPower power;
+  GreyLevels grey;
+  std::vector<double> edges_px;
+  std::optional<double> noise;
+  std::vector<TargetCrop> crops;
+};
+
+/// Noise of footage of a still scene.
+struct StillFootage {
+  VideoNoise noise;  ///< medians over the runs of frames
+  std::size_t runs = 0;
+};
+
+struct SetFigures {
+  FrameSource source;
+  std::vector<FrameFigures> frames;
+  std::vector<std::string> rejected;  ///< messages: pictures that could not be read
+  std::optional<StillFootage> still;  ///< empty: no run of frames shows a still scene
+};
+
+/// Frames of a run that is checked for a still scene.
+inline constexpr std::size_t kStillFrames = 8;
+
+/// Grey levels on the scale of 8 bits; those of 16 bits are divided by 257. DataError with the file for frames below
+/// 16 x 16 px, and those of read_grey_picture().
+[[nodiscard]] Plane<float> read_levels(const Path& file);
+
+/// Reads and measures at most `most_frames` of a source, evenly spaced. Frames of different sizes are measured each as
+/// it is. `show` is called as frames are done. DataError if fewer than 4 can be read.
+[[nodiscard]] SetFigures measure_set(FrameSource source, std::size_t most_frames,
+                                     const std::function<void(std::size_t done, std::size_t total)>& show);
+
+/// Units of frames: each by itself if the frames are pictures of a folder. Those of a dataset are its clips if it has at
+/// least 10; otherwise clips are cut into equal runs of frames, so that there are about 10.
+[[nodiscard]] std::vector<std::size_t> units_of(const FrameSource& source,
+                                                const std::vector<std::size_t>& frames);
+
+}  // namespace thermal

@@ -1,0 +1,178 @@
+#include "dataset/frame_source.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <sstream>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "dataset/frame_names.h"
+#include "dataset/label_pictures.h"
+#include "dataset/label_source.h"
+#include "dataset/layout.h"
+#include "io/image/grey_picture.h"
+#include "io/json/file.h"
+#include "io/label_files/coco.h"
+#include "io/system/sequence.h"
+
+namespace thermal {
+namespace {
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+bool is_wanted(const std::string& category, const std::string& wanted) {
+  const std::string name = lower_case(category);
+  return wanted.empty() ? kind_of(name) == Kind::human : name == lower_case(wanted);
+}
+
+/// Boxes by image, of one category, without crowds and ignored ones.
+std::vector<std::vector<LabelBox>> boxes_of(const LabelSet& set, const std::string& category) {
+  std::vector<std::vector<LabelBox>> boxes(set.images.size());
+  for (const Label& label : set.labels) {
+    if (label.crowd || label.ignore || !is_wanted(set.categories[label.category].name, category)) continue;
+    boxes[label.image].push_back(label.box);
+  }
+  return boxes;
+}
+
+void say_if_none(const LabelSet& set, const std::string& category, FrameSource& source) {
+  for (const SourceFrame& frame : source.frames) {
+    if (!frame.boxes.empty()) return;
+  }
+  std::vector<std::string> names;
+  for (const LabelCategory& known : set.categories) names.push_back(known.name);
+  source.no_boxes = fmt::format("no boxes of {} in {}; its categories: {}",
+                                category.empty() ? "people" : category, source.name, list_names(names));
+}
+
+// --- a Veldt dataset
+
+/// Heights above ground by frame, as far as a clip's frames.jsonl states them.
+std::map<int, double> altitudes_in(const Path& file) {
+  std::map<int, double> altitudes;
+  check_is_no_link(file);
+  std::istringstream lines(read_file(file));
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    try {
+      const Json frame = Json::parse(line);
+      if (frame.contains("agl_m"))
+        altitudes[frame.at("frame_index").get<int>()] = frame["agl_m"].get<double>();
+    } catch (const Json::exception& error) {
+      throw DataError(fmt::format("{}:{}: not a frame of a clip: {}", file.string(), number, error.what()));
+    }
+  }
+  return altitudes;
+}
+
+FrameSource read_dataset_frames(const FrameRequest& request) {
+  if (!request.labels.empty() || !request.names.empty())
+    throw ConfigError(
+        fmt::format("{} is a Veldt dataset, which has labels and heights; expected a folder of "
+                    "pictures with labels or a pattern of names of your own",
+                    request.source.string()));
+  const LabelSet set = read_labels(request.source);
+  const auto boxes = boxes_of(set, request.category);
+  FrameSource source = {.name = request.source.string(), .is_dataset = true, .frames = {}, .no_boxes = {}};
+  std::map<Path, std::map<int, double>> clips;
+  for (std::size_t k = 0; k < set.images.size(); ++k) {
+    const LabelImage& image = set.images[k];
+    SourceFrame frame = {.file = picture_of(set, image),
+                         .name = image.file,
+                         .video = image.video,
+                         .altitude_m = {},
+                         .boxes = boxes[k]};
+    const Path clip = frame.file.parent_path().parent_path();
+    const auto [known, fresh] = clips.try_emplace(clip);
+    if (fresh) known->second = altitudes_in(clip / "frames.jsonl");
+    const auto altitude = known->second.find(image.frame_index);
+    if (altitude != known->second.end()) frame.altitude_m = altitude->second;
+    source.frames.push_back(std::move(frame));
+  }
+  say_if_none(set, request.category, source);
+  return source;
+}
+
+// --- a folder of pictures
+
+Path labels_of(const FrameRequest& request) {
+  if (!request.labels.empty()) return request.labels;
+  const Path folder = std::filesystem::absolute(request.source / "").lexically_normal().parent_path();
+  for (const Path& place : {folder, folder.parent_path()}) {
+    if (std::filesystem::is_regular_file(place / "annotations.json")) return place / "annotations.json";
+  }
+  return {};
+}
+
+void add_altitudes(const FrameRequest& request, FrameSource& source) {
+  if (request.names.empty()) return;
+  const FrameNames names(request.names, request.names_option);
+  for (SourceFrame& frame : source.frames) {
+    const std::string name = Path(frame.name).stem().string();
+    const auto pose = names.read(name);
+    if (!pose)
+      throw DataError(
+          fault(frame.file.string() + ": name", name, "", request.names_option + " " + request.names));
+    frame.altitude_m = pose->altitude_m;
+  }
+}
+
+void add_boxes(const FrameRequest& request, FrameSource& source) {
+  const Path file = labels_of(request);
+  if (file.empty()) {
+    source.no_boxes = fmt::format("no labels for {}", source.name);
+    return;
+  }
+  const LabelSet set = read_coco(file);
+  const auto boxes = boxes_of(set, request.category);
+  std::unordered_map<std::string, std::size_t> images;
+  for (std::size_t k = 0; k < set.images.size(); ++k)
+    images[Path(set.images[k].file).filename().string()] = k;
+  std::size_t named = 0;
+  for (SourceFrame& frame : source.frames) {
+    const auto image = images.find(frame.name);
+    if (image == images.end()) continue;
+    frame.boxes = boxes[image->second];
+    ++named;
+  }
+  if (named == 0)
+    throw DataError(
+        fmt::format("{}: names none of the {} pictures in {}; expected their names in images[].file_name",
+                    file.string(), source.frames.size(), source.name));
+  say_if_none(set, request.category, source);
+}
+
+FrameSource read_folder_frames(const FrameRequest& request) {
+  FrameSource source = {.name = request.source.string(), .is_dataset = false, .frames = {}, .no_boxes = {}};
+  for (const std::string& name : files_in(request.source)) {
+    if (!is_grey_picture(name)) continue;
+    source.frames.push_back(
+        {.file = request.source / name, .name = name, .video = 0, .altitude_m = {}, .boxes = {}});
+  }
+  if (source.frames.empty())
+    throw DataError(fault(source.name, "0 pictures", "",
+                          "a Veldt dataset, or a folder of .png, .jpg, .jpeg, .tif or .tiff"));
+  add_altitudes(request, source);
+  add_boxes(request, source);
+  return source;
+}
+
+}  // namespace
+
+FrameSource read_frame_source(const FrameRequest& request) {
+  if (Layout{request.source}.is_begun()) return read_dataset_frames(request);
+  if (!std::filesystem::exists(request.source))
+    throw IoError(fmt::format("{} does not exist", request.source.string()));
+  return read_folder_frames(request);
+}
+
+}  // namespace thermal

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "io/image/module/functions.h"
+#include "io/system/read_limits.h"
+
+namespace thermal::pictures {
+namespace {
+
+/// fault() of base, which this module is not linked with.
+[[noreturn]] void refuse(const std::string& what, const std::string& rule) {
+  throw DataError(fmt::format("{}; expected {}", what, rule));
+}
+
+void check(const OIIO::ImageSpec& spec) {
+  const auto pixels = static_cast<std::int64_t>(spec.image_pixels());
+  if (pixels < 1 || pixels > ReadLimits().pixels || spec.depth > 1)
+    refuse(fmt::format("size = {} x {} x {} px", spec.width, spec.height, spec.depth),
+           fmt::format("1 to {} pixels", ReadLimits().pixels));
+  if (spec.format != OIIO::TypeDesc::UINT8 && spec.format != OIIO::TypeDesc::UINT16)
+    refuse(fmt::format("pixels = {}", spec.format.c_str()), "grey of 8 or 16 bits");
+}
+
+/// The first of the channels that are no alpha; DataError if they are not alike.
+std::uint16_t grey_of(const std::uint16_t* pixel, int channels, int tint) {
+  const auto [least, most] = std::minmax_element(pixel, pixel + (channels < 3 ? 1 : 3));
+  if (*most - *least > tint) refuse("pixels = colours", "grey levels");
+  return pixel[0];
+}
+
+std::vector<std::uint16_t> stored(OIIO::ImageInput& in, int channels) {
+  std::vector<std::uint16_t> samples(static_cast<std::size_t>(in.spec().image_pixels()) *
+                                     static_cast<std::size_t>(channels));
+  if (!in.read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT16, samples.data()))
+    throw DataError(fmt::format("damaged: {}", in.geterror()));
+  return samples;
+}
+
+}  // namespace
+
+GreyPicture read_grey(const Path& file) {
+  const auto in = OIIO::ImageInput::open(file.string());
+  if (!in) throw DataError(fmt::format("damaged: {}", OIIO::geterror()));
+  const OIIO::ImageSpec spec = in->spec();
+  check(spec);
+  const int channels = spec.nchannels < 3 ? 1 : 3;
+  const std::vector<std::uint16_t> samples = stored(*in, channels);
+  const int bits = spec.format == OIIO::TypeDesc::UINT8 ? 8 : 16;
+  const int scale = bits == 8 ? 257 : 1;  // OpenImageIO takes 255 of 8 bits for 65535 of 16
+  GreyPicture picture = {.levels = Plane<std::uint16_t>(spec.width, spec.height), .bits = bits};
+  const auto out = picture.levels.pixels();
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const std::uint16_t* pixel = &samples[k * static_cast<std::size_t>(channels)];
+    out[k] = static_cast<std::uint16_t>(grey_of(pixel, channels, kMostGreyTint * 257) / scale);
+  }
+  return picture;
+}
+
+}  // namespace thermal::pictures
