@@ -2,11 +2,13 @@
 
 #include "analysis/compare/comparison.h"
 #include "analysis/compare/comparison_json.h"
+#include "analysis/compare/comparison_page.h"
 #include "base/error.h"
 #include "cli/command.h"
 #include "cli/comparison_table.h"
 #include "cli/output.h"
 #include "cli/progress_bar.h"
+#include "io/assets.h"
 
 namespace veldt {
 namespace {
@@ -60,6 +62,9 @@ int run_compare(const CompareArguments& options, const CommonOptions& common) {
   } else if (!common.quiet) {
     print_tables(comparison);
   }
+  if (!options.html.empty())
+    thermal::write_file_atomically(options.html,
+                                   thermal::comparison_page(comparison, thermal::Assets::find()));
   const bool real_rejected = print_rejected(comparison.real);
   return print_rejected(comparison.other) || real_rejected ? kSomeRejected : kDone;
 }
@@ -93,6 +98,10 @@ void add_compare(CLI::App& app, Session& session) {
       ->type_name("NAME");
   command->add_option("--frames", options->frames, "Most frames of each source, evenly spaced")
       ->capture_default_str();
+  command
+      ->add_option("--html", options->html,
+                   "Write a page with charts, frames and crops of targets; needs no network")
+      ->type_name("FILE");
   command->add_flag("--json", options->json, "Print JSON, with the figures of each frame and target");
   command->callback([options, &session] {
     session.run = [options, &session] { return run_compare(*options, session.common); };

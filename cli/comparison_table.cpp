@@ -108,12 +108,18 @@ void print_margins(const char* what, const SetFigures& set) {
 
 void print_targets(const Comparison& comparison) {
   if (target_counts(comparison.real).targets + target_counts(comparison.other).targets == 0) return;
-  print("\n  {:<8} {:<14} {:>8} {:>8} {:>8} {:>9} {:>9}\n", "targets", "altitude", "count", "width", "height",
-        "contrast", "ring");
+  if (targets_by_altitude(comparison.real).size() + targets_by_altitude(comparison.other).size() > 0) {
+    print("\ntargets by height above ground: medians\n  {:<8} {:<14} {:>8} {:>8} {:>8} {:>9} {:>9}\n", "",
+          "height", "count", "width", "height", "contrast", "ring");
+  }
   print_altitudes("real", comparison.real);
   print_altitudes("dataset", comparison.other);
-  print("\n  {:<8} {:<11} {:>8} {:>14} {:>14} {:>14} {:>14}\n", "margins", "blob", "count", "left", "right",
-        "top", "bottom");
+  print(
+      "\nmargins: from the box to the warm blob in it [px], by the blob's longer side; known of {} and {} "
+      "targets\n",
+      target_counts(comparison.real).with_margins, target_counts(comparison.other).with_margins);
+  print("  {:<8} {:<11} {:>8} {:>14} {:>14} {:>14} {:>14}\n", "", "blob", "count", "left", "right", "top",
+        "bottom");
   print_margins("real", comparison.real);
   print_margins("dataset", comparison.other);
 }

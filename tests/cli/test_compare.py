@@ -6,7 +6,7 @@ import pytest
 
 from pictures import write_grey
 from program import check_fault
-from reports import make_dataset
+from reports import Page, make_dataset
 
 HEIGHT, WIDTH = 96, 128
 BOX = [40, 30, 12, 18]
@@ -68,9 +68,13 @@ def _pair(veldt):
 
 
 def _compare(veldt, *arguments, code=0):
-    done = veldt("compare", *arguments)
+    done = veldt("compare", *arguments, "--progress", "none")
     assert (done.code, done.err) == (code, ""), done
     return done
+
+
+def _check_fault(veldt, arguments, code, message):
+    check_fault(veldt("compare", *arguments, "--progress", "none"), code, message)
 
 
 def _row(document: dict, name: str) -> dict:
@@ -167,8 +171,9 @@ def test_a_dataset_of_veldt_brings_its_labels(veldt):
     assert found["dataset"]["veldt_dataset"]
     assert found["dataset"]["frames"] == 6
     assert found["dataset"]["boxes"] > 0
-    check_fault(
-        veldt("compare", "real", "out", "--labels", "real/annotations.json"),
+    _check_fault(
+        veldt,
+        ["real", "out", "--labels", "real/annotations.json"],
         2,
         "out is a Veldt dataset, which has labels and heights; expected a folder of pictures with labels or a pattern "
         "of names of your own",
@@ -181,7 +186,7 @@ def test_fewer_frames_evenly_spaced(pair):
         f"f_{60 + 10 * k}_{k}.png" for k in (4, 6, 0, 2)  # by name
     ]
     assert found["real"]["frames_listed"] == 8
-    check_fault(pair("compare", "real", "made", "--frames", "3"), 2, "--frames = 3; expected at least 4")
+    _check_fault(pair, ["real", "made", "--frames", "3"], 2, "--frames = 3; expected at least 4")
 
 
 # --- labels -----------------------------------------------------------------------------------------------------------
@@ -215,8 +220,9 @@ def test_the_category(veldt):
 
 def test_labels_of_other_frames(pair):
     pair.write("others.json", _labels(["a.png", "b.png"]))
-    check_fault(
-        pair("compare", "real", "made", "--real-labels", "others.json"),
+    _check_fault(
+        pair,
+        ["real", "made", "--real-labels", "others.json"],
         1,
         "others.json: names none of the 8 pictures in real; expected their names in images[].file_name",
     )
@@ -258,29 +264,32 @@ def _write_colours(file, pixels: np.ndarray) -> None:
 def test_too_few_frames(veldt):
     _write(veldt, "real", count=3)
     _write(veldt, "made")
-    check_fault(veldt("compare", "real", "made"), 1, "real = 3 frames that can be read; expected at least 4")
+    _check_fault(veldt, ["real", "made"], 1, "real = 3 frames that can be read; expected at least 4")
 
 
 def test_no_frames(veldt):
     _write(veldt, "made")
     (veldt.folder / "real").mkdir()
-    check_fault(
-        veldt("compare", "real", "made"),
+    _check_fault(
+        veldt,
+        ["real", "made"],
         1,
         "real = 0 pictures; expected a Veldt dataset, or a folder of .png, .jpg, .jpeg, .tif or .tiff",
     )
-    check_fault(veldt("compare", "made", "nowhere"), 1, "nowhere does not exist")
+    _check_fault(veldt, ["made", "nowhere"], 1, "nowhere does not exist")
 
 
 def test_names_of_frames(pair):
-    check_fault(
-        pair("compare", "real", "made", "--real-names", "{height}"),
+    _check_fault(
+        pair,
+        ["real", "made", "--real-names", "{height}"],
         2,
         "--real-names = {height}; expected text and the fields {altitude_m}, {look_angle_deg} and {_}, one of the first "
         "two among them, with text between fields",
     )
-    check_fault(
-        pair("compare", "real", "made", "--names", "g_{altitude_m}"),
+    _check_fault(
+        pair,
+        ["real", "made", "--names", "g_{altitude_m}"],
         1,
         "made/f_100_4.png: name = f_100_4; expected --names g_{altitude_m}",
     )

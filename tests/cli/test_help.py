@@ -63,6 +63,7 @@ OPTIONS = {
         "--names",
         "--category",
         "--frames",
+        "--html",
         "--json",
     },
     "report": {"--out", "--unfinished"},

@@ -121,7 +121,7 @@ Json row_json(const KnownValues& values) {
   return row;
 }
 
-Json crops_json(const FrameFigures& frame) {
+Json frame_crops_json(const FrameFigures& frame) {
   const FeatureTable features = crop_table({&frame});
   Json crops = Json::array();
   for (std::size_t k = 0; k < frame.crops.size(); ++k) {
@@ -146,7 +146,7 @@ Json each_json(const SetFigures& set) {
                       {"altitude_m", value_or_null(source.altitude_m)},
                       {"features", row_json(frame_table({&frame}).rows[0])},
                       {"edge_widths_px", frame.edges_px},
-                      {"targets", crops_json(frame)}});
+                      {"targets", frame_crops_json(frame)}});
   }
   return frames;
 }

@@ -10,7 +10,7 @@
 #include "dataset/reports/flights.h"
 #include "dataset/reports/frames.h"
 #include "dataset/reports/labels.h"
-#include "dataset/reports/page.h"
+#include "io/html_page.h"
 
 namespace thermal {
 namespace {
@@ -58,7 +58,12 @@ ReportOutcome write_report(const ReportRequest& request) {
                   {"labels", label_figures(set)},
                   {"samples", sample_figures(set, ours)}};
   if (ours) add_dataset(request, figures);
-  const std::string page = report_page(figures, set.name, request.assets);
+  const std::string page =
+      html_page(figures,
+                {.title = set.name,
+                 .kind = "Veldt report",
+                 .scripts = {"elements.js", "charts.js", "pictures.js", "sections.js", "page.js"}},
+                request.assets);
   const Path out = request.out.empty() ? default_out(request.source) : request.out;
   write_file_atomically(out, page);
   return {.out = out,

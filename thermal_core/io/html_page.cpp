@@ -1,10 +1,8 @@
-#include "dataset/reports/page.h"
+#include "io/html_page.h"
 
 #include <cassert>
 #include <map>
 
-#include "base/error.h"
-#include "io/assets.h"
 #include "io/system/base64.h"
 #include "io/system/sha256.h"
 
@@ -74,15 +72,15 @@ std::string filled(const std::string& page, const Pieces& pieces) {
 
 }  // namespace
 
-std::string report_page(const Json& figures, const std::string& title, const Assets& assets) {
+std::string html_page(const Json& figures, const HtmlPage& page, const Assets& assets) {
   const Path folder = assets.folder("report");
-  Pieces pieces = {{"title", as_html(title)},
+  Pieces pieces = {{"title", as_html(page.title)},
+                   {"kind", as_html(page.kind)},
                    {"style", read_file(folder / "style.css")},
                    {"library", read_file(folder / "chart.umd.min.js")},
                    {"licence", as_html(read_file(folder / "LICENSE"))},
                    {"figures", as_script_data(figures)}};
-  for (const char* script : {"elements.js", "charts.js", "pictures.js", "sections.js", "page.js"})
-    pieces["script"] += read_file(folder / script);
+  for (const std::string& script : page.scripts) pieces["script"] += read_file(folder / script);
   pieces["policy"] = "default-src 'none'; img-src data:; style-src " + source_of(pieces["style"]) +
                      "; script-src " + source_of(pieces["library"]) + " " + source_of(pieces["script"]) +
                      "; base-uri 'none'; form-action 'none'";
