@@ -50,12 +50,19 @@ thermal::Comparison compared(const CompareArguments& options, const CommonOption
   return thermal::compare(request);
 }
 
+/// Called before any frame is read, because reading them may take a while.
+void check_page(const thermal::Path& file) {
+  if (file.has_parent_path() && !std::filesystem::is_directory(file.parent_path()))
+    throw thermal::ConfigError(thermal::fault("--html", file.string(), "", "a file in an existing folder"));
+}
+
 bool print_rejected(const thermal::SetFigures& set) {
   for (const std::string& rejected : set.rejected) print_error("rejected: {}\n", rejected);
   return !set.rejected.empty();
 }
 
 int run_compare(const CompareArguments& options, const CommonOptions& common) {
+  check_page(options.html);
   const thermal::Comparison comparison = compared(options, common);
   if (options.json) {
     print_json(to_json(comparison, true));

@@ -134,10 +134,24 @@ def test_the_table(pair):
 
 
 def test_the_result_does_not_depend_on_threads(pair):
-    arguments = ("real", "made", "--json")
-    assert (
-        _compare(pair, *arguments, "--threads", "1").out == _compare(pair, *arguments, "--threads", "3").out
-    )
+    arguments = ("real", "made", "--json", "--html")
+    one = _compare(pair, *arguments, "one.html", "--threads", "1")
+    assert one.out == _compare(pair, *arguments, "three.html", "--threads", "3").out
+    assert (pair.folder / "one.html").read_bytes() == (pair.folder / "three.html").read_bytes()
+
+
+def test_the_page_holds_all_it_shows(pair):
+    found = _compare(pair, "real", "made", "--html", "page.html", "--json").json()
+    page = Page(pair.folder / "page.html")
+    assert [text for _, text in page.all("title")] == ["made \u00b7 Veldt comparison"]
+    assert not page.all("link") and all("src" not in attributes for attributes, _ in page.all("script"))
+    figures = page.figures
+    assert figures["measures"] == found["measures"]
+    for key in ("real", "dataset"):
+        assert len(figures[key]["shown_frames"]) == 6
+        assert len(figures[key]["shown_crops"]) == 8
+        assert figures[key]["shown_crops"][0]["box"] == [6, 6, *BOX[2:]]
+        assert "each_frame" not in figures[key]
 
 
 def test_16_bits_are_256_levels_as_well(veldt):
@@ -279,13 +293,22 @@ def test_no_frames(veldt):
     _check_fault(veldt, ["made", "nowhere"], 1, "nowhere does not exist")
 
 
+def test_a_page_in_no_folder(pair):
+    _check_fault(
+        pair,
+        ["real", "made", "--html", "nowhere/page.html"],
+        2,
+        "--html = nowhere/page.html; expected a file in an existing folder",
+    )
+
+
 def test_names_of_frames(pair):
     _check_fault(
         pair,
         ["real", "made", "--real-names", "{height}"],
         2,
-        "--real-names = {height}; expected text and the fields {altitude_m}, {look_angle_deg} and {_}, one of the first "
-        "two among them, with text between fields",
+        "--real-names = {height}; expected text and the fields {altitude_m}, {look_angle_deg} and {_}, one of the "
+        "first two among them, with text between fields",
     )
     _check_fault(
         pair,

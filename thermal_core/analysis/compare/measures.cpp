@@ -119,8 +119,8 @@ KnownValues features_of(const FrameFigures& frame) {
 }  // namespace
 
 const std::vector<Measure>& measures() {
-  static const std::vector<Measure> all = all_measures();
-  return all;
+  static const std::vector<Measure> kAll = all_measures();
+  return kAll;
 }
 
 KnownValues values_of(const MeasuredFrames& frames) {
@@ -137,7 +137,7 @@ KnownValues values_of(const MeasuredFrames& frames) {
 }
 
 const std::vector<std::string>& frame_features() {
-  static const std::vector<std::string> names = [] {
+  static const std::vector<std::string> kNames = [] {
     std::vector<std::string> made;
     for (std::size_t band = 0; band < kBands; ++band) made.push_back(band_name(band));
     for (const auto& figure : kGrey) made.emplace_back(figure.name);
@@ -145,16 +145,16 @@ const std::vector<std::string>& frame_features() {
     made.emplace_back("noise in flat blocks");
     return made;
   }();
-  return names;
+  return kNames;
 }
 
 const std::vector<std::string>& crop_features() {
-  static const std::vector<std::string> names = [] {
+  static const std::vector<std::string> kNames = [] {
     std::vector<std::string> made;
     for (const auto& figure : kCrop) made.emplace_back(figure.name);
     return made;
   }();
-  return names;
+  return kNames;
 }
 
 FeatureTable frame_table(const MeasuredFrames& frames) {

@@ -68,13 +68,13 @@ double frequency_of(int place, int count) {
 }  // namespace
 
 const std::vector<double>& curve_edges() {
-  static const std::vector<double> edges = [] {
+  static const std::vector<double> kEdges = [] {
     constexpr int kSteps = 28;  // four an octave
     std::vector<double> made;
     for (int k = 0; k <= kSteps; ++k) made.push_back(0.5 * std::pow(2.0, 0.25 * (k - kSteps)));
     return made;
   }();
-  return edges;
+  return kEdges;
 }
 
 RadialPower radial_power(const Plane<float>& frame) {

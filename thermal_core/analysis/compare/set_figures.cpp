@@ -27,7 +27,7 @@ FrameFigures measured(const FrameSource& source, std::size_t frame) {
                           .noise = flat_noise(levels),
                           .crops = {}};
   for (const LabelBox& box : source.frames[frame].boxes) {
-    if (auto crop = target_crop(levels, box)) figures.crops.push_back(*std::move(crop));
+    if (const auto crop = target_crop(levels, box)) figures.crops.push_back(*crop);
   }
   return figures;
 }

@@ -1,20 +1,9 @@
 #pragma once
 
-#include <cstdint>
-
-#include "base/image.h"
+#include "io/image/grey_plane.h"
 #include "io/system/files.h"
 
 namespace thermal {
-
-/// A picture of one channel as stored.
-struct GreyPicture {
-  Plane<std::uint16_t> levels;
-  int bits = 8;  ///< of a level: 8 or 16
-};
-
-/// Levels of 8 bits by which the channels of a grey picture may differ: those of a conversion to luminance and back.
-inline constexpr int kMostGreyTint = 2;
 
 /// Whether a file is read as a picture of grey levels: .png, .jpg, .jpeg, .tif or .tiff, in any case.
 [[nodiscard]] bool is_grey_picture(const Path& file);

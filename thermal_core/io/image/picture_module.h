@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/image/encoded_picture.h"
-#include "io/image/grey_picture.h"
+#include "io/image/grey_plane.h"
 #include "io/image/picture_size.h"
 #include "io/image/text_coverage.h"
 #include "io/system/files.h"

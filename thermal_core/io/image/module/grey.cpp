@@ -23,7 +23,8 @@ void check(const OIIO::ImageSpec& spec) {
   if (pixels < 1 || pixels > ReadLimits().pixels || spec.depth > 1)
     refuse(fmt::format("size = {} x {} x {} px", spec.width, spec.height, spec.depth),
            fmt::format("1 to {} pixels", ReadLimits().pixels));
-  if (spec.format != OIIO::TypeDesc::UINT8 && spec.format != OIIO::TypeDesc::UINT16)
+  const auto type = static_cast<OIIO::TypeDesc::BASETYPE>(spec.format.basetype);
+  if (type != OIIO::TypeDesc::UINT8 && type != OIIO::TypeDesc::UINT16)
     refuse(fmt::format("pixels = {}", spec.format.c_str()), "grey of 8 or 16 bits");
 }
 
