@@ -122,6 +122,25 @@ def test_passes_of_a_drawn_dataset_convert_to_the_same_frames(place):
     assert made == {clip.name: place.pixels("whole")[clip.name] for clip in clips}
 
 
+def test_views_are_found_beside_their_config_by_all_commands(veldt):
+    config = _drawn()
+    flight = {
+        key: value for key, value in config["clips"][1]["flight"].items() if key[:4] not in ("alti", "look")
+    }
+    config["clips"] = [config["clips"][1] | {"flight": flight | {"views": {"file": "views.csv"}}}]
+    (veldt.folder / "sub").mkdir()
+    veldt.write("sub/config.json", config)
+    veldt.write("sub/views.csv", "altitude_m,look_angle_deg\n35,80\n45,60\n")
+    _run(veldt, "generate", "sub/config.json", "--out", "out", "--keep-passes")
+    flown = veldt.read("out/dataset.json")["config"]["clips"][0]["flight"]
+    assert (flown["altitude_m"], flown["look_angle_deg"]) in ((35, 80), (45, 60))
+    _run(veldt, "convert", "out/passes/own", "--config", "sub/config.json", "--out", "converted")
+    assert veldt.read("converted/dataset.json")["config"]["clips"][0]["flight"] == flown
+    (veldt.folder / "sub" / "views.csv").unlink()
+    fault = f"clips[0].flight.views: cannot read {veldt.folder / 'sub' / 'views.csv'}: no such file"
+    check_fault(veldt("validate", "sub/config.json"), 2, f"sub/config.json: {fault}")
+
+
 def test_flights_draw_once_for_all_their_clips(veldt):
     config = _drawn()
     flight = config["clips"][1] | {"id": "long", "duration_s": 4, "frame_rate_hz": 1, "clip_length_s": 2}

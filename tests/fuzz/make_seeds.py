@@ -74,6 +74,26 @@ COCO = {
         }
     ],
 }
+DRAWS = {
+    "name": "d",
+    "seed": 1,
+    "sensor": {
+        "noise": {"amount": {"uniform": [0, 1]}},
+        "agc": {"choice": [{"mode": "linear"}, {"mode": "clahe"}]},
+    },
+    "weather": {"time": {"uniform": ["22:00", "04:00"]}, "wind_m_s": {"normal": [2, 1]}},
+    "output": {"codec": {"choice": [None, {"name": "h264", "bitrate_kbit_s": 90}], "weights": [1, 2]}},
+    "clips": [
+        {
+            "id": "a",
+            "count": 2,
+            "season": {"choice": ["winter", "summer"]},
+            "frames": {"uniform": [1, 3]},
+            "weather": {"air_temperature_k": {"choice": [280, {"uniform": [270, 290]}]}},
+            "flight": {"pattern": "zigzag", "altitude_m": {"uniform": [30, 50]}},
+        }
+    ],
+}
 RESULTS = [{"image_id": 1, "category_id": 7, "bbox": [1, 2, 30.5, 40], "score": 0.5}]
 TEXTS = {
     "birdsai/rows.csv": "4,2,10,20,5,6,1,-1,0,0\r\n4,1,-3,0,8,9,0,1,1,0\n\n0, 1,1,2,3,4,0,-1,0,1\n",
@@ -83,6 +103,7 @@ TEXTS = {
     "config/tiny.json": '{"name": "t", "seed": 1, "clips": [{"id": "a", "season": "winter", "frames": 2,'
     ' "flight": {"pattern": "zigzag", "altitude_m": 61, "look_angle_deg": 90, "speed_m_s": 6,'
     ' "area_m": [0, 0, 9, 9], "heading_deg": 0}}]}',
+    "config/draws.json": json.dumps(DRAWS),
     "detections/coco.json": json.dumps(RESULTS),
     "detections/yolo.txt": "0 0.5 0.5 0.1 0.2 0.9\r\n1 0 1 1 1 1e-3\n",
     "manifest/small.json": json.dumps(MANIFEST),

@@ -121,7 +121,7 @@ std::vector<ConvertRequest> convert_requests(const ConvertOptions& options,
   Json document = options.config.value_or(default_document(sources));
   for (const std::string& setting : options.settings) apply_setting(document, setting);
   const std::string name = options.config ? options.config_name : "--set";
-  root_calibration(document, folder_of(options.config ? options.config_name : "."));
+  root_resolved_files(document, folder_of(options.config ? options.config_name : "."));
   // Resolved even if only variants are made, so that shared faults are not attributed to the first variant.
   Config shared = only_clips_of(resolve_config(document, name, options.assets), sources);
   check_cameras(shared, sources, name);

@@ -86,11 +86,13 @@ void root_file(Json& document, const char* place, const Path& folder) {
   document[file] = (folder / document[file].get<std::string>()).string();
 }
 
-/// Those of a flight, or of a choice of flights.
-void root_flight_files(Json& flight, const Path& folder) {
-  for (const char* file : {"/waypoints/file", "/views/file"}) root_file(flight, file, folder);
-  if (flight.is_object() && flight.contains("choice"))
-    for (Json& one : flight["choice"]) root_flight_files(one, folder);
+/// The same in the flight of a clip or a long flight, or in each of a choice of flights.
+void root_in_flight(Json& entry, const char* place, const Path& folder) {
+  if (!entry.is_object() || !entry.contains("flight")) return;
+  Json& flight = entry["flight"];
+  root_file(flight, place, folder);
+  if (!flight.is_object() || !flight.contains("choice") || !flight["choice"].is_array()) return;
+  for (Json& one : flight["choice"]) root_file(one, place, folder);
 }
 
 /// Anything that is not JSON is a string; the schema reports it if it is wrong.
@@ -206,21 +208,23 @@ void apply_setting(Json& document, const std::string& assignment) {
 }
 
 void root_files(Json& document, const Path& folder) {
-  root_calibration(document, folder);
+  root_resolved_files(document, folder);
   root_file(document, "/scene/terrain/heightmap/file", folder);
   root_file(document, "/scene/terrain/density_map/file", folder);
   for (const char* flown : {"clips", "flights"}) {
     if (!document.contains(flown)) continue;
-    for (Json& one : document[flown])
-      if (one.is_object() && one.contains("flight")) root_flight_files(one["flight"], folder);
+    for (Json& one : document[flown]) root_in_flight(one, "/waypoints/file", folder);
   }
 }
 
-void root_calibration(Json& document, const Path& folder) {
+void root_resolved_files(Json& document, const Path& folder) {
   root_file(document, "/camera/calibration", folder);
   for (const char* flown : {"clips", "flights"}) {
     if (!document.contains(flown)) continue;
-    for (Json& one : document[flown]) root_file(one, "/camera/calibration", folder);
+    for (Json& one : document[flown]) {
+      root_file(one, "/camera/calibration", folder);
+      root_in_flight(one, "/views/file", folder);
+    }
   }
 }
 

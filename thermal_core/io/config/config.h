@@ -79,11 +79,11 @@ void set_season(Json& document, const Json& season);
 /// JSON or a plain string; "season=…" sets the season of every clip and flight. ConfigError if the form is invalid.
 void apply_setting(Json& document, const std::string& assignment);
 
-/// Makes paths that a document gives relative to `folder` absolute: a calibration, maps of the terrain.
+/// Makes paths that a document gives relative to `folder` absolute: calibrations, maps of the terrain, flights, views.
 void root_files(Json& document, const Path& folder);
 
-/// The same for the calibration alone, which is what converting existing passes needs.
-void root_calibration(Json& document, const Path& folder);
+/// The same for what resolve_config() reads alone, calibrations and views, which is what converting existing passes needs.
+void root_resolved_files(Json& document, const Path& folder);
 
 /// The clip of a config that is cut from one of its flights.
 [[nodiscard]] Json cut_from(const Json& flight, Json clip);

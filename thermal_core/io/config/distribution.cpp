@@ -299,7 +299,7 @@ double normal_draw(const DrawKey& key, std::size_t k) {
 }
 
 bool is_distribution(const Json& value, const Json& rules) {
-  if (!value.is_object() || value.empty() || has_named_members(rules)) return false;
+  if (!value.is_object() || value.empty() || rules.empty() || has_named_members(rules)) return false;
   if (!may_be(rules, "object")) return true;
   const Json& properties = rules.contains("properties") ? rules["properties"] : Json::object();
   for (const auto& [key, content] : value.items())

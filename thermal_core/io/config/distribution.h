@@ -22,7 +22,8 @@ struct DrawKey {
 [[nodiscard]] double normal_draw(const DrawKey& key, std::size_t k);
 
 /// Whether a value stands for a distribution where the schema's `rules` of its key expect something else: an object
-/// with uniform, normal or choice, or any object in place of a number, a text or a list.
+/// with uniform, normal or choice, or any object in place of a number, a text or a list. Unknown keys, which have no
+/// rules, are left to the schema.
 [[nodiscard]] bool is_distribution(const Json& value, const Json& rules);
 
 /// A value of a distribution: {"uniform": [lo, hi]} of numbers, times (also past midnight) or dates; {"normal": [mean,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/config/clip_settings.h"
 #include "io/config/random_values.h"
 #include "io/config/views_file.h"
@@ -27,9 +28,10 @@ std::uint32_t seed_of(const Json& document) {
   return fits ? static_cast<std::uint32_t>(seed) : 1;  // the schema reports others
 }
 
-Json::json_pointer pointer_to(std::string path) {
-  std::ranges::replace(path, '.', '/');
-  return Json::json_pointer("/" + path);
+Json::json_pointer pointer_to(const std::string& path) {
+  Json::json_pointer pointer;
+  for (const std::string_view key : split(path, '.')) pointer.push_back(std::string(key));
+  return pointer;
 }
 
 /// Draws the values of one clip or flight, or of the dataset.
@@ -43,6 +45,15 @@ class Drawer {
     const std::string where = place_ + (place_.empty() || path.empty() ? "" : ".") + path;
     for (std::string& one : draw_within(value, rules, key_of(path), where, faults_))
       drawn_.insert(std::move(one));
+  }
+
+  /// Removes the keys for which nothing, null, was drawn. Sections keep them, to remove what the dataset has.
+  void remove_nothing(Json& container) const {
+    for (const std::string& path : drawn_) {
+      const Json::json_pointer key = pointer_to(path);
+      if (container.contains(key) && container[key].is_null())
+        container[key.parent_pointer()].erase(key.back());
+    }
   }
 
   [[nodiscard]] DrawKey key_of(const std::string& path) const { return {seed_, owner_, path}; }
@@ -103,6 +114,7 @@ class Draws {
     Json& document = found_.document;
     Drawer drawer(seed_, "", "");
     if (document.contains("scene")) drawer.draw(document["scene"], rules_of("scene"), "scene");
+    drawer.remove_nothing(document);
     draw_shared(drawer);
     throw_faults(drawer.faults());
     random_ = Json::object();
@@ -188,6 +200,7 @@ class Draws {
     Drawer drawer(seed_, entry["id"], place);
     if (!entry.contains("of_flight")) draw_sections(own, drawer);
     drawer.draw(entry, rules, "");
+    drawer.remove_nothing(entry);
     draw_view(entry, rules, drawer);
     throw_faults(drawer.faults());
     drawer.record(entry);
@@ -213,7 +226,11 @@ class Draws {
     const Json& keys = rules["properties"]["flight"]["properties"];
     const Path file = entry[place].get<std::string>();
     const auto [known, is_new] = views_.try_emplace(file);
-    if (is_new) known->second = read_views(file, keys);
+    try {
+      if (is_new) known->second = read_views(file, keys);
+    } catch (const Error& error) {
+      throw ConfigError(fmt::format("{}: {}.flight.views: {}", name_, drawer.place(), error.what()));
+    }
     Json& flight = entry["flight"];
     const View& view = view_at(known->second, uniform_draw(drawer.key_of("flight.views")));
     for (const auto& [key, value] : view.values) {

@@ -120,6 +120,15 @@ TEST_CASE("A draw depends on seed, clip and key alone") {
   CHECK(settings(resolved(more), "b").weather[1].air.temperature_k != alone_k);
 }
 
+TEST_CASE("Nothing can be drawn, and unknown keys are left to the schema") {
+  Json document = night();
+  document["clips"][0]["flight"]["turbulence"] = parse_json(R"({"choice": [null]})", "");
+  const Config config = resolved(document);
+  CHECK(config.resolved["clips"][0]["flight"]["turbulence"] == "none");
+  document["weather"]["a~b"] = parse_json(R"({"choice": [1]})", "");
+  CHECK_THAT(fault_in(document), StartsWith("night.json: weather.a~b is not a known key; expected one of "));
+}
+
 TEST_CASE("What a clip gives itself is not drawn for it") {
   Json document = night(R"({"weather": {"air_temperature_k": {"uniform": [270, 290]}}})");
   document["clips"][0]["weather"] = {{"air_temperature_k", 280}};
@@ -217,7 +226,10 @@ TEST_CASE("Faults of a file of views name its lines") {
     const Path file = folder.file("views.csv", text);
     Json document = night();
     document["clips"][0]["flight"]["views"] = {{"file", file.string()}};
-    return fault_in(document).substr(file.string().size());
+    const std::string start = "night.json: clips[0].flight.views: " + file.string();
+    const std::string message = fault_in(document);
+    REQUIRE_THAT(message, StartsWith(start));
+    return message.substr(start.size());
   };
   CHECK(fault_of("altitude_m\n") == ":1: the column look_angle_deg is missing; expected it in the first row");
   CHECK(fault_of("altitude_m,look_angel_deg\n") ==
