@@ -72,7 +72,7 @@ SceneOutline savanna_from(double range_m) {
   SceneOutline outline;
   outline.covers = {
       {&material("soil"), 0.5, false}, {&material("grass"), 0.4, false}, {&material("human"), 0.1, true}};
-  outline.nights = {{kWinter, {{range_m, 1, 1}}}};
+  outline.nights = {{.weather = kWinter, .looks = {{range_m, 1, 1}}}};
   return outline;
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("Other surfaces reflect sky, blackbodies do not") {
   const Material other = made_of("lamp black", 1);
   const Material grey = made_of("rock", 0.9);
   SceneOutline outline;
-  outline.nights = {{kWinter, {{61, 1, 1}}}};
+  outline.nights = {{.weather = kWinter, .looks = {{61, 1, 1}}}};
   outline.covers = {{&black, 0.5, false}, {&other, 0.5, false}};
   const Budget of_black = weigh_terms(outline, kAllAuto);
   CHECK_FALSE(of_black.kept.sky);
@@ -214,7 +214,7 @@ TEST_CASE("The worst of several nights decides for all frames") {
   SceneOutline outline = savanna_from(5);
   outline.covers.pop_back();
   const double near_k = effect(weigh_terms(outline, kAllAuto), "path").spread_k;
-  outline.nights.push_back({kSummer, {{122, 1, 1}}});
+  outline.nights.push_back({.weather = kSummer, .looks = {{122, 1, 1}}});
   const Budget both = weigh_terms(outline, kAllAuto);
   // Soil against grass in summer, by the table: 425 - 68 mK.
   CHECK_THAT(1e3 * effect(both, "path").spread_k, WithinAbs(425 - 68, 1));
@@ -224,7 +224,7 @@ TEST_CASE("The worst of several nights decides for all frames") {
 
 TEST_CASE("Angles matter for water seen at several angles, not for plants") {
   SceneOutline outline;
-  outline.nights = {{kWinter, {{61, 1, 1}, {80, 0.7, 1}, {120, 0.4, 1}}}};
+  outline.nights = {{.weather = kWinter, .looks = {{61, 1, 1}, {80, 0.7, 1}, {120, 0.4, 1}}}};
   outline.covers = {{&material("water"), 1, false}};
   CHECK(weigh_terms(outline, kAllAuto).kept.angular);
   outline.covers = {{&material("grass"), 1, false}};
@@ -277,7 +277,7 @@ TEST_CASE("Fall-off is measured by its effect on noise: cos^-4 of the NETD towar
 
 TEST_CASE("Variation spreads by 3.3 standard deviations, as a normal distribution does from 5 % to 95 %") {
   SceneOutline outline;
-  outline.nights = {{kWinter, {{61, 1, 1}}}};
+  outline.nights = {{.weather = kWinter, .looks = {{61, 1, 1}}}};
   outline.covers = {{&material("soil"), 1, false}};
   // Of ten equal weights the lowest and the highest hold 5 % at their middles: 2 * 1.645 standard deviations.
   const double stddev_k = material("soil").variation.stddev_k;
