@@ -64,8 +64,8 @@ def _replace(moment: str, folder: Path) -> None:
         path.with_suffix(".bin").write_bytes(b"half a scene")
         hold()
 
-    def bake_one(*track) -> None:
-        bake_track(*track)
+    def bake_one(*track, **more) -> None:
+        bake_track(*track, **more)
         hold()
 
     if moment == MOMENTS[0]:
