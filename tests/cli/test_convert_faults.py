@@ -10,7 +10,8 @@ from datasets import content_of
 from pictures import write_exr
 from program import ROOT, files_below
 
-MATERIALS = ", ".join(sorted(file.stem for file in (ROOT / "assets" / "materials").glob("*.json")))
+NAMES = sorted(file.stem for file in (ROOT / "assets" / "materials").glob("*.json"))
+MATERIALS = ", ".join(NAMES[:40]) + f", … ({len(NAMES)} in all)"  # as messages list many names
 INDEX = "expected a whole number from 0 to 32767"
 FRAME = "one/000001.exr"
 

@@ -35,6 +35,7 @@ OPTIONS = {
     "cluster": {"--nodes", "--shards", "--cores", "--memory-gb", "--data", "--image", "--claim", "--out"},
     "export": {
         "--format",
+        "--box-style",
         "--out",
         "--link",
         "--images",

@@ -11,7 +11,8 @@ from program import ROOT
 FOCAL_PX = 4.167  # of 3 px: 50 mm before 36 mm
 CAMERA = {"width_px": 3, "height_px": 2, "fx_px": FOCAL_PX, "fy_px": FOCAL_PX, "cx_px": 1.5, "cy_px": 1.0}
 INDEX = np.array([[0, 1, 1], [1, 1, 7]])
-MATERIALS = ", ".join(sorted(file.stem for file in (ROOT / "assets" / "materials").glob("*.json")))
+NAMES = sorted(file.stem for file in (ROOT / "assets" / "materials").glob("*.json"))
+MATERIALS = ", ".join(NAMES[:40]) + f", … ({len(NAMES)} in all)"  # as messages list many names
 GUESSED = [
     "guessed; check these",
     "  camera.fx_px = camera.fy_px = 4.167 (50 mm before 36 mm, Blender's usual lens)",

@@ -33,6 +33,13 @@ void for_each_json(const Path& folder, const Take& take) {
     if (entry.path().extension() == ".json") take(entry.path().stem().string(), read_json(entry.path()));
 }
 
+/// Of a plant or structure: the one it is made of, or that of what is seen from above, the first.
+std::string main_material(const Json& standing) {
+  if (standing.contains("material")) return standing["material"];
+  const Json& slot = *standing.at("materials").begin();
+  return slot.is_array() ? slot.at(0) : slot;
+}
+
 }  // namespace
 
 std::vector<std::string> words_of(std::string_view name) {
@@ -56,10 +63,14 @@ NameGuesser::NameGuesser(const Assets& assets) {
                      .category = species.at("category"),
                      .species = name};
   });
-  for_each_json(assets.folder("plants"), [this](const std::string& name, const Json& plant) {
-    things_[name] = {
-        .object_class = ObjectClass::plant, .material = plant.at("material"), .category = "", .species = ""};
-  });
+  for (const char* kind : {"structures", "plants"}) {
+    for_each_json(assets.folder(kind), [this](const std::string& name, const Json& standing) {
+      things_[name] = {.object_class = ObjectClass::plant,
+                       .material = main_material(standing),
+                       .category = "",
+                       .species = ""};
+    });
+  }
   for (const char* ground : kGrounds)
     things_[ground] = {
         .object_class = ObjectClass::ground, .material = ground, .category = "", .species = ""};
