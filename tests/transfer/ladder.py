@@ -117,9 +117,7 @@ def main() -> None:
     parser.add_argument("--veldt", type=Path, default=_VELDT)
     options = parser.parse_args()
     frames = read_frames(*options.real)
-    ladder = Ladder(
-        options.veldt, options.out, options.steps, _made_frames(options), frames[0::2], frames[1::2]
-    )
+    ladder = Ladder(options.out, options.steps, _made_frames(options), frames[0::2], frames[1::2])
     _print_table(ladder, options.ladder, options.seeds)
 
 

@@ -147,7 +147,7 @@ def _row(layout: Layout, rule: dict, number: int) -> None:
 
 
 def _loop(layout: Layout, rule: dict, number: int) -> None:
-    """Segments of a fence around round or rectangular grounds, with a gate; those in the way of walkers are left out."""
+    """Segments of a fence around round or rectangular grounds, with a gate; those in walkers' way are left out."""
     site, loop = layout.site, rule["loop"]
     for k in range(site.count(site.stream("count", number), rule)):
         rng = site.stream("thing", number, k)

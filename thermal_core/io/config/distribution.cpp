@@ -15,7 +15,6 @@
 #include "base/error.h"
 #include "base/rng.h"
 #include "base/text.h"
-#include "io/config/random_values.h"
 #include "io/json/schema.h"
 
 namespace thermal {
@@ -28,6 +27,8 @@ constexpr std::size_t kMostTries = 65536;  // all of them fail with a probabilit
 constexpr std::string_view kTimePattern = "^([01][0-9]|2[0-3]):[0-5][0-9]$";
 constexpr std::string_view kDatePattern = "^[0-9]{4}-[0-9]{2}-[0-9]{2}$";
 constexpr int kMinutesADay = 24 * 60;
+
+const Json kAnyValue = Json::object();
 
 RandomField field_of(const DrawKey& key) {
   const std::string name = key.owner + '\n' + key.path;
@@ -44,6 +45,10 @@ bool may_be(const Json& rules, std::string_view type) {
 bool has_named_members(const Json& rules) {
   const auto others = rules.find("additionalProperties");
   return others != rules.end() && others->is_object();
+}
+
+std::string member_of(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
 }
 
 bool is_kind(const std::string& key) { return std::ranges::find(kKinds, key) != kKinds.end(); }
@@ -310,6 +315,42 @@ bool is_distribution(const Json& value, const Json& rules) {
 Json drawn_value(const Json& distribution, const Json& rules, const DrawKey& key, const std::string& where,
                  std::vector<std::string>& faults) {
   return Draw(distribution, rules, key, where, faults).value();
+}
+
+std::vector<std::string> draw_within(Json& value, const Json& rules, const DrawKey& key,
+                                     const std::string& where, std::vector<std::string>& faults) {
+  if (is_distribution(value, rules)) {
+    value = drawn_value(value, rules, key, where, faults);
+    return {key.path};
+  }
+  std::vector<std::string> drawn;
+  const auto add = [&](Json& member, const Json& its_rules, const std::string& path,
+                       const std::string& place) {
+    const DrawKey its_key = {.seed = key.seed, .owner = key.owner, .path = path};
+    const std::vector<std::string> inner = draw_within(member, its_rules, its_key, place, faults);
+    drawn.insert(drawn.end(), inner.begin(), inner.end());
+  };
+  if (value.is_object()) {
+    for (const auto& [name, member] : value.items())
+      add(member, rules_for(rules, name), member_of(key.path, name), member_of(where, name));
+  } else if (value.is_array()) {
+    for (std::size_t k = 0; k < value.size(); ++k)
+      add(value[k], rules_for_items(rules), fmt::format("{}[{}]", key.path, k),
+          fmt::format("{}[{}]", where, k));
+  }
+  return drawn;
+}
+
+const Json& rules_for(const Json& rules, const std::string& key) {
+  if (const auto properties = rules.find("properties"); properties != rules.end())
+    if (const auto found = properties->find(key); found != properties->end()) return *found;
+  const auto others = rules.find("additionalProperties");
+  return others != rules.end() && others->is_object() ? *others : kAnyValue;
+}
+
+const Json& rules_for_items(const Json& rules) {
+  const auto items = rules.find("items");
+  return items == rules.end() ? kAnyValue : *items;
 }
 
 }  // namespace thermal

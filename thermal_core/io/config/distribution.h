@@ -33,4 +33,13 @@ struct DrawKey {
 [[nodiscard]] Json drawn_value(const Json& distribution, const Json& rules, const DrawKey& key,
                                const std::string& where, std::vector<std::string>& faults);
 
+/// Draws the distributions in a value, at every depth; `rules` are those of the schema for it. Returns the paths of what
+/// was drawn, below `key.path`. `where` starts the messages of faults, and stands for `key.path`.
+std::vector<std::string> draw_within(Json& value, const Json& rules, const DrawKey& key,
+                                     const std::string& where, std::vector<std::string>& faults);
+
+/// The schema's rules for a member of an object, and for the entries of a list; an empty object where it has none.
+[[nodiscard]] const Json& rules_for(const Json& rules, const std::string& key);
+[[nodiscard]] const Json& rules_for_items(const Json& rules);
+
 }  // namespace thermal

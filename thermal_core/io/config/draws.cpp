@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/config/clip_settings.h"
+#include "io/config/distribution.h"
 #include "io/config/random_values.h"
 #include "io/config/views_file.h"
 #include "io/json/schema.h"
