@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .faults import ConfigError
 from .geometry.shapes import Mesh, facets, joined
+from .land.dry_places import check_dry_place
 from .land.terrain import Terrain
 from .noise import stream
 from .plants.branch_shapes import directions, limb, loft_triangles
@@ -64,16 +64,9 @@ def fire_mesh(fire: Fire, seed: int) -> Mesh:
 
 
 def _fire(where: str, name: str, entry: dict, terrain: Terrain) -> Fire:
-    x_m, y_m = (float(value) for value in entry["place"])
-    half_m = 0.5 * terrain.size_m - entry["diameter_m"]
-    if max(abs(x_m), abs(y_m)) > half_m:
-        raise ConfigError(
-            f"{where}.place = [{x_m:g}, {y_m:g}] m; expected within {half_m:g} m of the middle in x and y"
-        )
-    place = np.array([[x_m], [y_m]])
-    if terrain.waters and float(terrain.shore_m(*place)[0]) < entry["diameter_m"]:
-        raise ConfigError(f"{where}.place = [{x_m:g}, {y_m:g}] m; expected dry ground, not water")
-    return Fire(name, entry, np.array([x_m, y_m, float(terrain.height_m(*place)[0])]))
+    place_m = np.array(entry["place"], float)
+    check_dry_place(where, place_m, terrain, reach_m=entry["diameter_m"], shore_m=entry["diameter_m"])
+    return Fire(name, entry, np.append(place_m, terrain.height_m(*place_m[:, None])))
 
 
 def _bed(radius_m: float, rng: np.random.Generator) -> Mesh:

@@ -54,6 +54,12 @@ std::string list_names(std::span<const std::string> names, std::size_t most) {
   return fmt::format("{}, … ({} in all)", fmt::join(names.first(most), ", "), names.size());
 }
 
+std::string lower_case(std::string text) {
+  for (char& letter : text)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return text;
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0; begin <= text.size();) {

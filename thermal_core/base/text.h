@@ -20,6 +20,9 @@ namespace thermal {
 /// "a, b, c"; past `most` names, "a, b, … (12 in all)".
 [[nodiscard]] std::string list_names(std::span<const std::string> names, std::size_t most = 20);
 
+/// With ASCII letters in lower case.
+[[nodiscard]] std::string lower_case(std::string text);
+
 /// The parts between separators, one more than there are of those; views into `text`.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 

@@ -1,7 +1,6 @@
 #include "dataset/frame_source.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <sstream>
 #include <unordered_map>
@@ -21,12 +20,6 @@
 
 namespace thermal {
 namespace {
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
 
 bool is_wanted(const std::string& category, const std::string& wanted) {
   const std::string name = lower_case(category);

@@ -10,6 +10,11 @@ def heading_of(angle_rad: np.ndarray) -> np.ndarray:
     return np.stack([np.cos(angle_rad), np.sin(angle_rad)], axis=-1)
 
 
+def any_heading(rng: np.random.Generator) -> np.ndarray:
+    """A horizontal unit vector (2,) in any direction."""
+    return heading_of(2.0 * np.pi * rng.uniform())
+
+
 def left_of(heading: np.ndarray) -> np.ndarray:
     """Horizontal vectors (..., 2) perpendicular to headings (..., 2), to their left and of the same length."""
     return np.stack([-heading[..., 1], heading[..., 0]], axis=-1)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ..geometry.rotations import left_of
+from ..geometry.rotations import heading_of, left_of
 from ..geometry.splines import Spot
 from ..noise import stream
 from .herds import Place, Room
@@ -50,7 +50,7 @@ def settle(
     its members fit; none if they fit nowhere."""
     rng = stream(seed, f"settle/{name}")
     for k in range(_TRIES):
-        middle_m = np.asarray(centre_m, float) + reach_m * k / _TRIES * _direction(
+        middle_m = np.asarray(centre_m, float) + reach_m * k / _TRIES * heading_of(
             rng.uniform(0.0, 2.0 * np.pi)
         )
         spots = [Spot(middle_m + offset_m, facing) for offset_m, facing in stands]
@@ -91,17 +91,17 @@ def _circle(rooms: Sequence[Room], spacing_m: float, spread_m: float | None, rng
     tightest_m = 0.5 * spacing_m / np.sin(np.pi / count) if count > 1 else 0.0
     radius_m = max(tightest_m, spread_m or 0.0)
     turns = (np.arange(count) + _UNEVEN * rng.uniform(-1.0, 1.0, count)) * 2.0 * np.pi / count
-    return [(radius_m * _direction(turn), -_direction(turn)) for turn in turns]
+    return [(radius_m * heading_of(turn), -heading_of(turn)) for turn in turns]
 
 
 def _row(rooms: Sequence[Room], spacing_m: float, _spread_m, _rng):
     """Shoulder to shoulder, facing the same way."""
-    return [(np.array([0.0, across_m]), _direction(0.0)) for across_m in _evenly(len(rooms), spacing_m)]
+    return [(np.array([0.0, across_m]), heading_of(0.0)) for across_m in _evenly(len(rooms), spacing_m)]
 
 
 def _queue(rooms: Sequence[Room], spacing_m: float, _spread_m, _rng):
     """One behind the other."""
-    return [(np.array([along_m, 0.0]), _direction(0.0)) for along_m in _evenly(len(rooms), spacing_m)]
+    return [(np.array([along_m, 0.0]), heading_of(0.0)) for along_m in _evenly(len(rooms), spacing_m)]
 
 
 def _pairs(rooms: Sequence[Room], spacing_m: float, spread_m: float | None, rng: np.random.Generator):
@@ -111,7 +111,7 @@ def _pairs(rooms: Sequence[Room], spacing_m: float, spread_m: float | None, rng:
     middles = _spread_out([0.5 * _APART * spacing_m] * count, area_m, rng)
     stands = []
     for middle_m in middles:
-        across, face_to_face = _direction(rng.uniform(0.0, 2.0 * np.pi)), rng.uniform() < 0.5
+        across, face_to_face = heading_of(rng.uniform(0.0, 2.0 * np.pi)), rng.uniform() < 0.5
         for side in (-1.0, 1.0):
             facing = -side * across if face_to_face else left_of(across)
             stands.append((middle_m + 0.5 * side * spacing_m * across, facing))
@@ -122,7 +122,7 @@ def _scatter(rooms: Sequence[Room], spacing_m: float, spread_m: float | None, rn
     """Anywhere in an area, in any direction; those who lie have as much space as they are long."""
     sizes_m = [0.5 * spacing_m + max(0.0, room.half_length_m - _BODY_M) for room in rooms]
     area_m = spread_m or _ROOMY["scatter"] * float(np.sqrt(np.square(sizes_m).sum())) * 2.0
-    return [(at_m, _direction(rng.uniform(0.0, 2.0 * np.pi))) for at_m in _spread_out(sizes_m, area_m, rng)]
+    return [(at_m, heading_of(rng.uniform(0.0, 2.0 * np.pi))) for at_m in _spread_out(sizes_m, area_m, rng)]
 
 
 _ARRANGEMENTS = {"circle": _circle, "row": _row, "queue": _queue, "pairs": _pairs, "scatter": _scatter}
@@ -132,7 +132,7 @@ def _spread_out(sizes_m: Sequence[float], area_m: float, rng: np.random.Generato
     """Points in a disc whose distances are at least the sums of their sizes; the disc grows until they fit."""
     points: list[np.ndarray] = []
     while len(points) < len(sizes_m):
-        at_m = area_m * np.sqrt(rng.uniform()) * _direction(rng.uniform(0.0, 2.0 * np.pi))
+        at_m = area_m * np.sqrt(rng.uniform()) * heading_of(rng.uniform(0.0, 2.0 * np.pi))
         size_m = sizes_m[len(points)]
         if all(np.hypot(*(at_m - other_m)) >= size_m + other for other_m, other in zip(points, sizes_m)):
             points.append(at_m)
@@ -146,7 +146,7 @@ def _evenly(count: int, spacing_m: float) -> np.ndarray:
 
 def _unsettled(stand: Stand, spacing_m: float, rng: np.random.Generator) -> Stand:
     """A little off its place and its direction."""
-    off_m = 0.5 * _UNEVEN * spacing_m * rng.uniform() * _direction(rng.uniform(0.0, 2.0 * np.pi))
+    off_m = 0.5 * _UNEVEN * spacing_m * rng.uniform() * heading_of(rng.uniform(0.0, 2.0 * np.pi))
     return stand[0] + off_m, _rotated(stand[1], _TURN_RAD * rng.uniform(-1.0, 1.0))
 
 
@@ -156,7 +156,3 @@ def _turned(stand: Stand, turn_rad: float) -> Stand:
 
 def _rotated(vector: np.ndarray, turn_rad: float) -> np.ndarray:
     return np.cos(turn_rad) * vector + np.sin(turn_rad) * left_of(vector)
-
-
-def _direction(angle_rad: float) -> np.ndarray:
-    return np.array([np.cos(angle_rad), np.sin(angle_rad)])

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ..geometry.rotations import left_of
+from ..geometry.rotations import any_heading, left_of
 from ..geometry.splines import Line, Spot
 from ..land.terrain import Terrain
 from ..land.waters import Water
@@ -43,8 +43,7 @@ def find_spots(
         for _ in range(_TRIES):
             spot = draw(rng, room)
             at_m = centres(discs, spot.point_m[None], spot.heading[None])[0]
-            gaps = np.linalg.norm(at_m[:, None] - taken_m, axis=-1) - discs.radius_m - radii_m
-            if (gaps >= _GAP_M).all() and allowed(at_m):
+            if _is_clear(at_m, discs.radius_m, taken_m, radii_m) and allowed(at_m):
                 break
         else:
             return spots
@@ -61,10 +60,15 @@ def fitting(rooms: Sequence[Room], allowed: Allowed, standing: Sequence[Crowd]) 
 
     def fits(spot: Spot) -> bool:
         at_m = centres(discs, spot.point_m[None], spot.heading[None])[0]
-        gaps = np.linalg.norm(at_m[:, None] - taken_m, axis=-1) - discs.radius_m - radii_m
-        return bool((gaps >= _GAP_M).all()) and allowed(at_m)
+        return _is_clear(at_m, discs.radius_m, taken_m, radii_m) and allowed(at_m)
 
     return fits
+
+
+def _is_clear(at_m: np.ndarray, radius_m: float, taken_m: np.ndarray, radii_m: np.ndarray) -> bool:
+    """Whether discs of one radius keep their gap from those of others, with radii of their own."""
+    gaps_m = np.linalg.norm(at_m[:, None] - taken_m, axis=-1) - radius_m - radii_m
+    return bool((gaps_m >= _GAP_M).all())
 
 
 def _taken(standing: Sequence[Crowd]) -> tuple[np.ndarray, np.ndarray]:
@@ -81,8 +85,8 @@ def about(centre_m, rooms: Sequence[Room], spread_m: float | None) -> Draw:
         spread_m = _ROOM_FACTOR * float(np.sqrt(sum(room.half_length_m**2 for room in rooms)))
 
     def draw(rng: np.random.Generator, _: Room) -> Spot:
-        off = spread_m * np.sqrt(rng.uniform()) * _direction(rng)
-        return Spot(np.asarray(centre_m, float) + off, _direction(rng))
+        off = spread_m * np.sqrt(rng.uniform()) * any_heading(rng)
+        return Spot(np.asarray(centre_m, float) + off, any_heading(rng))
 
     return draw
 
@@ -136,11 +140,6 @@ def afloat(terrain: Terrain, depth_m: float) -> Allowed:
         return bool((terrain.surface_m(*at_m.T) - terrain.height_m(*at_m.T) >= depth_m).all())
 
     return allowed
-
-
-def _direction(rng: np.random.Generator) -> np.ndarray:
-    angle = 2.0 * np.pi * rng.uniform()
-    return np.array([np.cos(angle), np.sin(angle)])
 
 
 def _shoreline_m(water: Water, outward: np.ndarray) -> float:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from ..geometry.rotations import heading_of
 from ..land.covers import FAR_M, Layer, Value
 from ..noise import fractal_noise
 from .settlement import Settlement
@@ -78,9 +79,7 @@ def _track(site: Settlement, rng: np.random.Generator, tracks: dict) -> Value:
     half_m = 0.5 * rng.uniform(*tracks["width_m"])
     steps = round(rng.uniform(*tracks["length_m"]) / _TRACK_STEP_M)
     turns = rng.uniform(0.0, 2.0 * np.pi) + np.cumsum(rng.uniform(-_WANDER_RAD, _WANDER_RAD, steps))
-    points_m = site.middle_m + _TRACK_STEP_M * np.cumsum(
-        np.stack([np.cos(turns), np.sin(turns)], axis=1), axis=0
-    )
+    points_m = site.middle_m + _TRACK_STEP_M * np.cumsum(heading_of(turns), axis=0)
     return _strip(np.concatenate([site.middle_m[None], points_m]), half_m)
 
 

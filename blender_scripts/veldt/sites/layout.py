@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .. import assets
+from ..geometry.rotations import any_heading, heading_of
 from ..land.terrain import Terrain
 from ..noise import stream
 from ..plants.placement import Corridor, Planting
@@ -41,8 +42,13 @@ class Layout:
     corridors: Sequence[Corridor]
     things: list[Standing] = field(default_factory=list)
 
-    def is_free(self, thing: Standing, beside: Sequence[Standing] = ()) -> bool:
-        """Whether a thing can stand where it is; `beside` may overlap it."""
+    def is_free(self, thing: Standing) -> bool:
+        """Whether a thing can stand where it is."""
+        apart = all(_apart_m(thing, other) >= thing.foot_m + other.foot_m for other in self.things)
+        return apart and self.is_open(thing)
+
+    def is_open(self, thing: Standing) -> bool:
+        """Whether the ground of a thing is within the place, dry, off the road and clear of walkers."""
         data, at_m = assets.standing(thing.name), thing.point_m[None]
         x_m, y_m = at_m.T
         if np.abs(at_m).max() > 0.5 * self.terrain.size_m - data["foot_m"]:
@@ -51,12 +57,8 @@ class Layout:
             return False
         if float(self.terrain.road_m(x_m, y_m)[0]) < data["foot_m"]:
             return False
-        if not all(
-            corridor.is_clear(at_m, data["clearance_m"] + data["foot_m"]) for corridor in self.corridors
-        ):
-            return False
-        others = [other for other in self.things if other not in beside]
-        return all(_apart_m(thing, other) >= thing.foot_m + other.foot_m for other in others)
+        clear_m = data["clearance_m"] + data["foot_m"]
+        return all(corridor.is_clear(at_m, clear_m) for corridor in self.corridors)
 
     def add_first_free(self, tries: Iterator[Standing]) -> None:
         """Add the first of some things that can stand where it is, if any."""
@@ -118,7 +120,7 @@ def _beside(layout: Layout, rule: dict, number: int) -> None:
 
         def near(rng=rng, host=host, name=name, foot_m=foot_m) -> Standing:
             away_m = host.foot_m + foot_m + rng.uniform(least_m, most_m)
-            return _facing(layout.site, rng, rule, name, host.point_m + away_m * _direction(rng))
+            return _facing(layout.site, rng, rule, name, host.point_m + away_m * any_heading(rng))
 
         layout.add_first_free(near() for _ in range(_TRIES))
 
@@ -131,7 +133,7 @@ def _row(layout: Layout, rule: dict, number: int) -> None:
     for _ in range(_TRIES):
         middle_m = site.draw_place(rng, rule.get("ring", _EVERYWHERE))
         yaw_rad = _grid_yaw(site, rng)
-        along = np.array([np.cos(yaw_rad), np.sin(yaw_rad)])
+        along = heading_of(yaw_rad)
         turned_rad = yaw_rad + np.radians(rule["row"].get("turn_deg", 0.0))
         line = [
             Standing(
@@ -164,7 +166,7 @@ def _loop(layout: Layout, rule: dict, number: int) -> None:
         gate = int(rng.integers(len(segments)))
         open_count = round(loop.get("gate_m", 0.0) / loop["step_m"])
         kept = [s for j, s in enumerate(segments) if (j - gate) % len(segments) >= open_count]
-        layout.things += [s for s in kept if layout.is_free(s, beside=[*kept, *layout.things])]
+        layout.things += [s for s in kept if layout.is_open(s)]
 
 
 def _outline(site: Settlement, rng: np.random.Generator, loop: dict) -> np.ndarray:
@@ -175,7 +177,7 @@ def _outline(site: Settlement, rng: np.random.Generator, loop: dict) -> np.ndarr
         return corners @ _turn(site.heading_rad).T
     angle = 2.0 * np.pi * np.arange(14) / 14
     reach = 1.0 + 0.08 * rng.uniform(-1.0, 1.0, len(angle))
-    return reach[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return reach[:, None] * heading_of(angle)
 
 
 def _segments(corners_m: np.ndarray, name: str, step_m: float) -> Iterator[Standing]:
@@ -212,11 +214,6 @@ def _pick(rng: np.random.Generator, name: str | Sequence[str]) -> str:
 
 def _apart_m(one: Standing, other: Standing) -> float:
     return float(np.linalg.norm(one.point_m - other.point_m))
-
-
-def _direction(rng: np.random.Generator) -> np.ndarray:
-    angle = 2.0 * np.pi * rng.uniform()
-    return np.array([np.cos(angle), np.sin(angle)])
 
 
 def _turn(angle_rad: float) -> np.ndarray:

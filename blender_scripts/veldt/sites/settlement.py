@@ -9,6 +9,8 @@ import numpy as np
 
 from .. import assets
 from ..faults import ConfigError, check_known
+from ..geometry.rotations import any_heading
+from ..land.dry_places import check_dry_place
 from ..land.terrain import Terrain
 from ..noise import stream
 
@@ -39,8 +41,7 @@ class Settlement:
         """A place (2,) between two distances from the middle, in radii; all of that area is equally likely."""
         inner, outer = ring
         away_m = self.radius_m * np.sqrt(inner**2 + (outer**2 - inner**2) * rng.uniform())
-        angle = 2.0 * np.pi * rng.uniform()
-        return self.middle_m + away_m * np.array([np.cos(angle), np.sin(angle)])
+        return self.middle_m + away_m * any_heading(rng)
 
 
 def plan_settlements(entries: Sequence[dict], terrain: Terrain, seed: int) -> list[Settlement]:
@@ -59,20 +60,9 @@ def _settlement(where: str, name: str, entry: dict, terrain: Terrain, seed: int)
     rules = assets.load("sites", entry["kind"])
     radius_m = float(entry.get("radius_m", rules["radius_m"]))
     middle_m = np.array(entry["place"], float)
-    _check_place(where, middle_m, radius_m, terrain)
+    note = f" for radius_m = {radius_m:g} m"
+    check_dry_place(where, middle_m, terrain, reach_m=radius_m, shore_m=0.0, note=note)
     heading_rad = stream(seed, f"site/{name}/heading").uniform() * 2.0 * np.pi
     if "heading_deg" in entry:  # clockwise from north, as all headings of a config
         heading_rad = np.radians(90.0 - entry["heading_deg"])
     return Settlement(name, rules, middle_m, radius_m, heading_rad, entry.get("density", 1.0), seed)
-
-
-def _check_place(where: str, middle_m: np.ndarray, radius_m: float, terrain: Terrain) -> None:
-    x_m, y_m = middle_m
-    within_m = 0.5 * terrain.size_m - radius_m
-    if np.abs(middle_m).max() > within_m:
-        raise ConfigError(
-            f"{where}.place = [{x_m:g}, {y_m:g}] m; expected within {within_m:g} m of the middle in x and y"
-            f" for radius_m = {radius_m:g} m"
-        )
-    if terrain.waters and float(terrain.shore_m(middle_m[:1], middle_m[1:])[0]) < 0:
-        raise ConfigError(f"{where}.place = [{x_m:g}, {y_m:g}] m; expected dry ground, not water")

@@ -11,8 +11,6 @@
 namespace thermal {
 namespace {
 
-Json corners_of(const LabelBox& box) { return {box.x_px, box.y_px, box.width_px, box.height_px}; }
-
 /// Writes the files of the splits, list by list, while one large file is read.
 class Splitter {
  public:
@@ -51,9 +49,11 @@ class Splitter {
   void take_annotation(const Json& element) {
     const auto image = images_.find(element.at("image_id"));
     if (image == images_.end()) return;
+    const std::size_t split = split_of(image->second);
+    if (!input_.boxes_changed) return add(split, "annotations", element);
     Json annotation = element;
-    if (input_.boxes_changed) annotation["bbox"] = corners_of(boxes_.at(element.at("id")));
-    add(split_of(image->second), "annotations", annotation);
+    annotation["bbox"] = bbox_of(boxes_.at(element.at("id")));
+    add(split, "annotations", annotation);
   }
 
   void take_image(const Json& element) {
@@ -104,7 +104,7 @@ Json annotation_of(const LabelSet& set, const Label& label) {
   Json json = {{"id", label.id},
                {"image_id", set.images[label.image].id},
                {"category_id", set.categories[label.category].id},
-               {"bbox", corners_of(label.box)},
+               {"bbox", bbox_of(label.box)},
                {"area", label.area_px},
                {"iscrowd", label.crowd ? 1 : 0}};
   if (label.track_id) json["track_id"] = *label.track_id;
@@ -125,6 +125,8 @@ Json image_of(const LabelImage& image) {
 }
 
 }  // namespace
+
+Json bbox_of(const LabelBox& box) { return {box.x_px, box.y_px, box.width_px, box.height_px}; }
 
 std::string coco_text(const LabelSet& set) {
   Json document = {{"info", {{"description", set.name}, {"version", "1"}}}};

@@ -3,8 +3,12 @@
 #include <string>
 
 #include "dataset/exports/plan.h"
+#include "io/json/file.h"
 
 namespace thermal {
+
+/// The `bbox` of an annotation: x, y, width and height.
+[[nodiscard]] Json bbox_of(const LabelBox& box);
 
 /// A COCO file of labels from another kind of source: boxes without masks.
 [[nodiscard]] std::string coco_text(const LabelSet& set);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/relative_name.h"
+#include "dataset/exports/coco.h"
 #include "dataset/label_pictures.h"
 #include "io/json/file.h"
 #include "io/system/tar_file.h"
@@ -47,12 +48,11 @@ void check_keys(const LabelSet& set) {
 }
 
 Json annotation_of_sample(const LabelSet& set, const Label& label) {
-  const LabelBox& box = label.box;
   const LabelCategory& category = set.categories[label.category];
   Json json = {{"id", label.id},
                {"category", category.name},
                {"category_id", category.id},
-               {"bbox", {box.x_px, box.y_px, box.width_px, box.height_px}},
+               {"bbox", bbox_of(label.box)},
                {"area", label.area_px},
                {"iscrowd", label.crowd ? 1 : 0},
                {"ignore", label.ignore},

@@ -23,8 +23,7 @@ namespace {
 enum class OutKind { video, png, jpeg };
 
 OutKind kind_of(const Path& out) {
-  std::string ending = out.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lower_case(out.extension().string());
   if (ending == ".mp4") return OutKind::video;
   if (ending == ".png") return OutKind::png;
   if (ending == ".jpg" || ending == ".jpeg") return OutKind::jpeg;

@@ -229,7 +229,7 @@ class Draw {
              Json();
     const std::optional<std::vector<double>> weights = weights_for(entries.size());
     if (!weights) return {};
-    const std::size_t place = place_of(*weights);
+    const std::size_t place = weighted_place(*weights, uniform_draw(key_));
     Json found;
     for (std::size_t k = 0; k < entries.size(); ++k) {
       Json entry = drawn_entry(entries[k], fmt::format(".choice[{}]", k));
@@ -266,20 +266,6 @@ class Draw {
     return std::nullopt;
   }
 
-  [[nodiscard]] std::size_t place_of(const std::vector<double>& weights) const {
-    double sum = 0;
-    for (const double weight : weights) sum += weight;
-    double left = uniform_draw(key_) * sum;
-    std::size_t last = 0;
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-      if (!(weights[k] > 0)) continue;
-      last = k;
-      if (left < weights[k]) return k;
-      left -= weights[k];
-    }
-    return last;  // rounding
-  }
-
   const Json& distribution_;
   const Json& rules_;
   const DrawKey& key_;
@@ -301,6 +287,20 @@ double normal_draw(const DrawKey& key, std::size_t k) {
   std::array<float, kRandomBatch> batch{};
   fill_normal(field_of(key), k / kRandomBatch * kRandomBatch, batch);
   return static_cast<double>(batch[k % kRandomBatch]);
+}
+
+std::size_t weighted_place(std::span<const double> weights, double share) {
+  double sum = 0;
+  for (const double weight : weights) sum += weight;
+  double left = share * sum;
+  std::size_t last = 0;
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    if (!(weights[k] > 0)) continue;
+    last = k;
+    if (left < weights[k]) return k;
+    left -= weights[k];
+  }
+  return last;  // rounding
 }
 
 bool is_distribution(const Json& value, const Json& rules) {

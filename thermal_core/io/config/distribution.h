@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct DrawKey {
 
 /// Number `k` of the standard normal distribution, |value| <= 6.7; see fill_normal().
 [[nodiscard]] double normal_draw(const DrawKey& key, std::size_t k);
+
+/// The place at a share of the sum of all weights, in [0, 1); none whose weight is 0. One at least is above 0.
+[[nodiscard]] std::size_t weighted_place(std::span<const double> weights, double share);
 
 /// Whether a value stands for a distribution where the schema's `rules` of its key expect something else: an object
 /// with uniform, normal or choice, or any object in place of a number, a text or a list. Unknown keys, which have no

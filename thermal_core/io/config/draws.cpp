@@ -233,8 +233,10 @@ class Draws {
       throw ConfigError(fmt::format("{}: {}.flight.views: {}", name_, drawer.place(), error.what()));
     }
     Json& flight = entry["flight"];
-    const View& view = view_at(known->second, uniform_draw(drawer.key_of("flight.views")));
-    for (const auto& [key, value] : view.values) {
+    std::vector<double> weights;
+    for (const View& view : known->second) weights.push_back(view.weight);
+    const std::size_t row = weighted_place(weights, uniform_draw(drawer.key_of("flight.views")));
+    for (const auto& [key, value] : known->second[row].values) {
       if (flight.contains(key))
         drawer.faults().push_back(fault(fmt::format("{}.flight.{}", drawer.place(), key), flight[key].dump(),
                                         unit_of_key(key), "none beside flight.views"));

@@ -1,7 +1,6 @@
 #include "io/config/spectra.h"
 
 #include <charconv>
-#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -29,22 +28,16 @@ Pair parse_pair(const std::string& line, const std::string& where, std::string_v
 }
 
 std::vector<Pair> read_pairs(const Path& file, std::string_view header) {
-  std::istringstream lines(read_text_file(file));
   std::vector<Pair> pairs;
   bool past_header = false;
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    if (line.ends_with('\r')) line.pop_back();
-    if (line.empty() || line.starts_with('#')) continue;
-    const std::string where = fmt::format("{}:{}", file.string(), number);
+  for_table_lines(file, [&](const std::string& line, const std::string& where) {
     if (past_header) {
       pairs.push_back(parse_pair(line, where, header));
     } else if (line != header) {
       throw ConfigError(fault(where, fmt::format("\"{}\"", line), "", fmt::format("the header {}", header)));
     }
     past_header = true;
-  }
+  });
   return pairs;
 }
 

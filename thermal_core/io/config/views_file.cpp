@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -84,41 +83,22 @@ View read_view(const std::vector<std::string>& columns, const std::string& line,
 }  // namespace
 
 std::vector<View> read_views(const Path& file, const Json& keys) {
-  std::istringstream lines(read_text_file(file, kMostViewBytes));
   std::vector<std::string> columns;
   std::vector<View> views;
   double sum = 0;
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    if (line.ends_with('\r')) line.pop_back();
-    if (line.empty() || line.starts_with('#')) continue;
-    const std::string where = fmt::format("{}:{}", file.string(), number);
+  const auto take = [&](const std::string& line, const std::string& where) {
     if (columns.empty()) {
       columns = cells_of(line);
       check_columns(columns, where);
-      continue;
+      return;
     }
     views.push_back(read_view(columns, line, where, keys));
     sum += views.back().weight;
-  }
+  };
+  for_table_lines(file, take, kMostViewBytes);
   if (!(sum > 0))
     throw ConfigError(fmt::format("{}: no view with a weight above 0; expected at least one", file.string()));
   return views;
-}
-
-const View& view_at(const std::vector<View>& views, double share) {
-  double sum = 0;
-  for (const View& view : views) sum += view.weight;
-  double left = share * sum;
-  const View* last = nullptr;
-  for (const View& view : views) {
-    if (!(view.weight > 0)) continue;
-    last = &view;
-    if (left < view.weight) break;
-    left -= view.weight;
-  }
-  return *last;
 }
 
 }  // namespace thermal

@@ -20,7 +20,4 @@ struct View {
 /// ConfigError with file and line; IoError.
 [[nodiscard]] std::vector<View> read_views(const Path& file, const Json& keys);
 
-/// The view at a share of all weights, in [0, 1).
-[[nodiscard]] const View& view_at(const std::vector<View>& views, double share);
-
 }  // namespace thermal

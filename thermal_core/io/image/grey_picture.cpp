@@ -2,25 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/image/index_picture.h"
 #include "io/image/picture_module.h"
 
 namespace thermal {
 namespace {
 
-std::string extension_of(const Path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension;
-}
+std::string extension_of(const Path& file) { return lower_case(file.extension().string()); }
 
 std::uint16_t grey_of(const PicturePixel& pixel) {
   const auto [least, most] = std::minmax_element(pixel.colour.begin(), pixel.colour.end());

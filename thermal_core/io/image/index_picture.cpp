@@ -1,7 +1,6 @@
 #include "io/image/index_picture.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -13,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "scene/camera_geometry.h"
 
 namespace thermal {
@@ -221,12 +221,7 @@ std::vector<PictureUse> sorted_uses(const std::unordered_map<std::uint32_t, std:
 
 }  // namespace
 
-bool is_index_picture(const Path& file) {
-  std::string end = file.extension().string();
-  std::transform(end.begin(), end.end(), end.begin(),
-                 [](unsigned char letter) { return std::tolower(letter); });
-  return end == ".png";
-}
+bool is_index_picture(const Path& file) { return lower_case(file.extension().string()) == ".png"; }
 
 IndexPictures::IndexPictures(const Manifest& manifest, const ReadLimits& limits)
     : width_px_(passes_camera(manifest).width_px),

@@ -1,5 +1,7 @@
 #include "io/system/text_file.h"
 
+#include <sstream>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -29,6 +31,19 @@ std::string read_text_file(const Path& file, std::size_t most_bytes) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (content.starts_with(kByteOrderMark)) content.erase(0, kByteOrderMark.size());
   return content;
+}
+
+void for_table_lines(const Path& file,
+                     const std::function<void(const std::string&, const std::string&)>& take,
+                     std::size_t most_bytes) {
+  std::istringstream lines(read_text_file(file, most_bytes));
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.ends_with('\r')) line.pop_back();
+    if (line.empty() || line.starts_with('#')) continue;
+    take(line, fmt::format("{}:{}", file.string(), number));
+  }
 }
 
 }  // namespace thermal
