@@ -91,7 +91,7 @@ def _circle(rooms: Sequence[Room], spacing_m: float, spread_m: float | None, rng
     tightest_m = 0.5 * spacing_m / np.sin(np.pi / count) if count > 1 else 0.0
     radius_m = max(tightest_m, spread_m or 0.0)
     turns = (np.arange(count) + _UNEVEN * rng.uniform(-1.0, 1.0, count)) * 2.0 * np.pi / count
-    return [(radius_m * heading_of(turn), -heading_of(turn)) for turn in turns]
+    return [(radius_m * heading_of(turn), np.negative(heading_of(turn))) for turn in turns]
 
 
 def _row(rooms: Sequence[Room], spacing_m: float, _spread_m, _rng):
