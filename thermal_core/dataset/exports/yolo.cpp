@@ -35,8 +35,9 @@ bool has_split(const ExportInput& input, const std::string& name) {
 
 std::string data_yaml(const ExportInput& input, const std::string& folder) {
   const std::string train = has_split(input, "train") ? "train" : input.splits.front();
-  std::string text = fmt::format("# {}\npath: {}  # if you move the folder, change this\ntrain: images/{}\n",
-                                 quoted(input.set.name), quoted(folder), train);
+  std::string text =
+      fmt::format("# {}\npath: {}  # if you move the folder, change or delete this\ntrain: images/{}\n",
+                  quoted(input.set.name), quoted(folder), train);
   text +=
       has_split(input, "val")
           ? "val: images/val\n"

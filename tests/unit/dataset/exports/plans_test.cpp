@@ -28,7 +28,7 @@ TEST_CASE("YOLO: one line per label, centre and size as fractions, classes from 
 TEST_CASE("YOLO: data.yaml has the folders of pictures and the names of classes") {
   CHECK(text_of(plan_yolo(two_splits(), "/data/\"out\""), "data.yaml") ==
         "# \"night\"\n"
-        "path: \"/data/\\\"out\\\"\"  # if you move the folder, change this\n"
+        "path: \"/data/\\\"out\\\"\"  # if you move the folder, change or delete this\n"
         "train: images/train\nval: images/val\n"
         "names:\n  0: \"human\"\n  1: \"giraffe\"\n  2: \"vehicle\"\n");
   ExportInput input = two_splits();
