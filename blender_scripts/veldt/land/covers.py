@@ -10,7 +10,7 @@ import numpy as np
 from ..noise import fractal_noise
 from .terrain import Terrain
 
-SOIL = "soil"
+SOIL, GRASS = "soil", "grass"
 
 _GRASS_OCTAVES = 5
 _BARE_MARGIN_M = 5.0  # bare margin around the water
@@ -44,7 +44,7 @@ def plan_covers(terrain: Terrain, settings: dict, seed: int, grounds: Sequence[L
         layers.append(Layer("rock", lambda x_m, y_m: _rockiness(terrain, seed, x_m, y_m)))
     layers += grounds
     grass = _plan_grass(terrain, settings, seed)
-    return layers if grass is None else [*layers, Layer("grass", grass)]
+    return layers if grass is None else [*layers, Layer(GRASS, grass)]
 
 
 def _wetness(terrain: Terrain, seed: int, x_m, y_m) -> np.ndarray:

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .covers import SOIL, Layer
+from .fine_covers import FineCovers
 from .ground import GroundMesh, build_ground
+from .shares import as_bytes
 from .terrain import Terrain
-
-_WHOLE = 255  # of a share stored in a byte
 
 
 @dataclass(frozen=True)
@@ -20,12 +20,14 @@ class Ground:
 
     height_m, shore_m (n + 1, n + 1): at the grid's lines; shore_m is the approximate distance to the nearest shoreline,
     negative in the water, or None without water. cover (materials, n, n): shares of each cell, of which 255 is all.
+    fine: maps of a finer grid, once they are laid.
     """
 
     mesh: GroundMesh
     height_m: np.ndarray
     cover: np.ndarray
     shore_m: np.ndarray | None
+    fine: FineCovers | None = None
 
 
 def lay_ground(terrain: Terrain, layers: Sequence[Layer]) -> Ground:
@@ -38,11 +40,6 @@ def lay_ground(terrain: Terrain, layers: Sequence[Layer]) -> Ground:
         cover=_cover(terrain, mesh),
         shore_m=terrain.shore_m(x_m, y_m).astype("<f4") if terrain.waters else None,
     )
-
-
-def as_bytes(share: np.ndarray) -> np.ndarray:
-    """Shares as bytes, of which 255 is all."""
-    return np.rint(_WHOLE * np.clip(share, 0.0, 1.0)).astype("|u1")
 
 
 def _cover(terrain: Terrain, mesh: GroundMesh) -> np.ndarray:

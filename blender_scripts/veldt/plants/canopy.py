@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from .. import assets
-from ..land.ground_maps import as_bytes
+from ..land.shares import as_bytes
 from ..land.terrain import Terrain
 from .placement import Planting
 
