@@ -9,6 +9,7 @@ import numpy as np
 
 from .geometry.shapes import Mesh, facets, joined
 from .land.dry_places import check_dry_place
+from .land.strands import Halo
 from .land.terrain import Terrain
 from .noise import stream
 from .plants.branch_shapes import directions, limb, loft_triangles
@@ -16,6 +17,7 @@ from .plants.placement import Corridor
 
 MATERIAL, PARTS = "fire", ("embers", "ash", "flames")  # in the order of a mesh's slots
 _EMBERS, _ASH, _FLAMES = range(3)
+_ASHES_M = 0.5  # around a bed; estimate
 _CLEARING_M = 1.0  # around a bed, without plants
 _GLOWING = 0.35  # share of a bed, as in thermal_core/heat/body/fire.h
 _RINGS, _SIDES, _TONGUES = 4, 14, 7
@@ -33,6 +35,12 @@ class Fire:
     def clearing(self) -> Corridor:
         """Where no plants grow."""
         return Corridor(self.position_m[None, :2], 0.5 * self.entry["diameter_m"] + _CLEARING_M)
+
+    @property
+    def hearth(self) -> Halo:
+        """The ash on its bed and around it."""
+        radius_m = 0.5 * self.entry["diameter_m"]
+        return Halo(self.position_m[:2], radius_m, radius_m + _ASHES_M, 1.0)
 
     def state(self) -> dict:
         """Key `fire` of its object in the manifest."""

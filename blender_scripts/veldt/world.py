@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 from . import assets, checks, fires, ids
 from .anatomy.skeleton import part_names
@@ -15,11 +16,14 @@ from .groups.cast import plan_cast
 from .groups.group_checks import check_groups
 from .groups.routes import plan_loops
 from .groups.site_rules import Land
+from .groups.treads import plan_treads
 from .land.covers import SOIL, Layer, plan_covers
 from .land.ground_maps import Ground, lay_ground
 from .land.road_plan import plan_road
 from .land.terrain import Terrain, build_terrain
+from .land.trodden import lay_fine_covers
 from .plants.density import plan_density
+from .plants.halos import with_halos
 from .plants.placement import Corridor, Planting, Site, place_plants, with_more
 from .plants.plant_shapes import slots_of
 from .sites.grounds import plan_grounds
@@ -84,6 +88,11 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
     cast = plan_cast(scene["groups"], Land(terrain, loops), seed)
     areas = plan_density(terrain, scene["terrain"], seed)
     burning = fires.plan_fires(scene.get("fires", []), terrain)
+    treads = plan_treads(scene["groups"], loops, cast.actors)
+    hearths = [fire.hearth for fire in burning]
+    burnt = scene["terrain"]["burnt_fraction"]
+    lay_fine = partial(lay_fine_covers, terrain, covers, treads, burnt, hearths, seed)
+    fine = cores.start(lay_fine) if with_ground else lambda: None
     clear = [*cast.corridors, *(fire.clearing for fire in burning)]
     built = [thing for site in settlements for thing in lay_out(site, terrain, clear)]
     clear += [Corridor(thing.point_m[None], thing.foot_m) for thing in built]
@@ -107,7 +116,7 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
             _materials(terrain, covers, standing, burning, cast.actors)
         ),
         pilot=Pilot(config, terrain, cast.actors, intrinsics),
-        ground=ground(),
+        ground=replace(ground(), fine=with_halos(fine(), standing, terrain, seed)) if with_ground else None,
     )
 
 

@@ -54,7 +54,7 @@ class _Meshes:
 
 def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
     """Write `path`.json and `path`.bin; the world must have its ground."""
-    assert world.ground is not None
+    assert world.ground is not None and world.ground.fine is not None
     meshes = _Meshes(world.material_indices)
     surfaces = [
         _ground(world.ground.mesh, meshes),
@@ -84,6 +84,7 @@ def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
             "size_m": world.terrain.size_m,
             "cells": len(world.ground.height_m) - 1,
             "covers": list(world.ground.mesh.materials),
+            "fine_cells": len(world.ground.fine.kind),
             **{name: f"ground/{name}" for name in maps},
         },
     }
@@ -97,6 +98,7 @@ def _maps(world: World, ground: Ground) -> dict[str, np.ndarray]:
         "cover": ground.cover,
         "canopy": canopy(world.terrain, world.plantings),
         **shore,
+        **vars(ground.fine),
     }
 
 
