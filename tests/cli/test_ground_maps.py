@@ -75,7 +75,19 @@ def test_they_show_the_crowns_and_the_water_of_the_scene(place):
     assert moisture[60, 60] == 255  # in the middle of the water
     assert set(np.unique(_array(place, "sunlit")[0] >> 18)) == {0}  # no sun after 18:00 in winter
     assert _array(place, "sunlit")[1].max() >> 18 == 1
-    assert _array(place, "grass").max() == 255
+
+
+def test_they_say_what_each_half_metre_is_made_of(place):
+    header = place.read("plan/ground.json")
+    assert header["fine_cells"] == 2 * _CELLS
+    assert header["kinds"][0] == "soil"
+    for name in ("kind", "grass", "trodden", "ash"):
+        assert _array(place, name).shape == (2 * _CELLS, 2 * _CELLS)
+    grass, kind = _array(place, "grass"), _array(place, "kind")
+    assert grass.max() > 200
+    assert grass[kind != 0].max(initial=0) == 0
+    assert kind.max() < len(header["kinds"])
+    assert _array(place, "trodden").max() > 100
 
 
 @pytest.mark.parametrize("threads", [1, 2, 3])

@@ -51,6 +51,10 @@ void demand_ground(const thermal::BakedGround& ground) {
   demand(ground.shore_m.empty() || ground.shore_m.size() == corners, "so are distances to the shore");
   demand(ground.canopy.size() == ground.cells * ground.cells, "a cell has a canopy");
   demand(ground.cover.size() == ground.covers.size() * ground.canopy.size(), "a cell has shares of covers");
+  const std::size_t fine = ground.fine_cells * ground.fine_cells;
+  for (const auto& shares : {ground.kind, ground.grass, ground.trodden, ground.ash})
+    demand(shares.size() == fine, "a fine cell has all shares");
+  demand(std::ranges::all_of(ground.kind, [&](auto one) { return one < ground.covers.size(); }), "kinds");
   demand(std::ranges::all_of(ground.height_m, [](float one) { return std::isfinite(one); }), "heights");
 }
 

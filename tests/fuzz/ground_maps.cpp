@@ -21,8 +21,14 @@ void demand_sound(const thermal::GroundMaps& maps) {
   const std::size_t cells = maps.cells * maps.cells;
   demand(maps.size_m == 40 && maps.cells > 0, "the place is the scene's");
   demand(maps.sky_view.size() == cells && maps.height_m.size() == cells && maps.crown_top_m.size() == cells &&
-             maps.moisture.size() == cells && maps.grass.size() == cells,
+             maps.moisture.size() == cells,
          "a cell has all values");
+  const thermal::GroundCovers& covers = maps.covers;
+  const std::size_t fine = covers.cells * covers.cells;
+  demand(covers.kind.size() == fine && covers.grass.size() == fine && covers.trodden.size() == fine &&
+             covers.ash.size() == fine,
+         "a fine cell has all shares");
+  demand(std::ranges::all_of(covers.kind, [&](auto one) { return one < covers.kinds.size(); }), "kinds");
   demand(is_finite(maps.height_m, std::numeric_limits<float>::lowest()) && is_finite(maps.crown_top_m, 0),
          "heights");
   for (const thermal::SunlitHours& sunlit : maps.sunlit) {

@@ -17,6 +17,7 @@ CONFIG = {
     "clips": [{"id": "one", "season": "winter", "frames": 2, "flight": FLIGHT}],
     "flights": [{"id": "long", "season": "summer", "duration_s": 4, "clip_length_s": 2, "flight": FLIGHT}],
 }
+_FINE_CELLS = 5
 
 
 def planned_clip(name: str, flight: str, start_s: float, frames: int) -> dict:
@@ -90,6 +91,12 @@ def _objects() -> list[dict]:
     return objects + [walker | {"species": "human", "track_id": 7, "bounds_m": bounds}]
 
 
+def _fine_arrays() -> dict[str, tuple]:
+    """What the ground is made of: bare soil, and its shares."""
+    shares = {"kind": 0, "grass": 255, "trodden": 9, "ash": 1}
+    return {name: ("|u1", np.full((_FINE_CELLS, _FINE_CELLS), share)) for name, share in shares.items()}
+
+
 def scene(water: bool) -> bytes:
     """A place of two cells a side, with a shrub and a walker of one bone."""
     header = {
@@ -106,8 +113,8 @@ def scene(water: bool) -> bytes:
         "surfaces": [{"object": 1, "mesh": 0}] + [{"object": 2, "mesh": 0}] * water,
         "plants": [{"name": "shrub", "object": 3, "transform": "shrub/transform", "mesh": "shrub/mesh"}],
         "actors": [{"object": 10, "name": "walker", "group": "g", "bones": [{"name": "b", "mesh": 1}]}],
-        "ground": {"size_m": 40.0, "cells": 2, "covers": ["soil"]}
-        | {part: part for part in ("height_m", "cover", "canopy")}
+        "ground": {"size_m": 40.0, "cells": 2, "covers": ["soil"], "fine_cells": _FINE_CELLS}
+        | {part: part for part in ("height_m", "cover", "canopy", *_fine_arrays())}
         | ({"shore_m": "shore_m"} if water else {}),
     }
     corner = [[-20, -20, 0], [20, -20, 0], [20, 20, 1], [-20, 20, 0]]
@@ -120,6 +127,7 @@ def scene(water: bool) -> bytes:
         "height_m": ("<f4", np.zeros((3, 3))),
         "cover": ("|u1", np.full((1, 2, 2), 255)),
         "canopy": ("|u1", np.zeros((2, 2))),
+        **_fine_arrays(),
     }
     return packed(header, arrays | ({"shore_m": ("<f4", np.full((3, 3), -1))} if water else {}))
 
@@ -147,9 +155,11 @@ def ground_maps(days: list[int]) -> bytes:
     """Maps of the place of `scene`, of three cells a side, with the sun of these days of the year."""
     header = {
         "format": "veldt-ground-maps",
-        "version": 1,
+        "version": 2,
         "size_m": 40.0,
         "cells": 3,
+        "fine_cells": _FINE_CELLS,
+        "kinds": ["soil", "grass"],
         "sun_paths": [{"latitude_deg": -19.0, "day_of_year": day} for day in days],
     }
     arrays = {
@@ -157,7 +167,7 @@ def ground_maps(days: list[int]) -> bytes:
         "height_m": ("<f4", np.full((3, 3), -1.5)),
         "crown_top_m": ("<f4", np.eye(3)),
         "moisture": ("|u1", np.zeros((3, 3))),
-        "grass": ("|u1", np.full((3, 3), 255)),
+        **_fine_arrays(),
         "sunlit": ("<u4", np.full((len(days), 3, 3), 0x3FFC0)),
     }
     return packed(header, arrays)

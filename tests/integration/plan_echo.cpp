@@ -88,12 +88,18 @@ Json mesh_json(const thermal::BakedMesh& mesh, std::size_t number, Writer& out) 
 
 Json ground_json(const thermal::BakedGround& ground, Writer& out) {
   const std::size_t cells = ground.cells;
+  const std::size_t fine = ground.fine_cells;
   Json json = {{"size_m", ground.size_m},
                {"cells", cells},
                {"covers", ground.covers},
                {"height_m", out.add("ground/height_m", "<f4", {cells + 1, cells + 1}, ground.height_m)},
                {"cover", out.add("ground/cover", "|u1", {ground.covers.size(), cells, cells}, ground.cover)},
-               {"canopy", out.add("ground/canopy", "|u1", {cells, cells}, ground.canopy)}};
+               {"canopy", out.add("ground/canopy", "|u1", {cells, cells}, ground.canopy)},
+               {"fine_cells", fine},
+               {"kind", out.add("ground/kind", "|u1", {fine, fine}, ground.kind)},
+               {"grass", out.add("ground/grass", "|u1", {fine, fine}, ground.grass)},
+               {"trodden", out.add("ground/trodden", "|u1", {fine, fine}, ground.trodden)},
+               {"ash", out.add("ground/ash", "|u1", {fine, fine}, ground.ash)}};
   if (!ground.shore_m.empty())
     json["shore_m"] = out.add("ground/shore_m", "<f4", {cells + 1, cells + 1}, ground.shore_m);
   return json;

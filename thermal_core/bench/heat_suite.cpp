@@ -199,10 +199,17 @@ std::shared_ptr<const GroundMaps> maps_of_crowns() {
     maps->height_m.push_back(static_cast<float>(3 * std::sin(0.02 * x) + 2 * std::cos(0.03 * y)));
     maps->crown_top_m.push_back(below ? 5.0F : 0.0F);
     maps->moisture.push_back(static_cast<std::uint8_t>(std::lround(100 * (1 + std::sin(0.01 * x)) / 2)));
-    maps->grass.push_back(128);
     hours.push_back(below ? 0x018000U : 0x03FFC0U);
   }
   maps->sunlit.push_back({weather_of(Season::winter).day.sun, std::move(hours)});
+  constexpr std::size_t kFineCells = 2 * kCells;
+  const std::vector<std::uint8_t> none(kFineCells * kFineCells);
+  maps->covers = {.cells = kFineCells,
+                  .kinds = {"soil"},
+                  .kind = none,
+                  .grass = std::vector<std::uint8_t>(none.size(), 128),
+                  .trodden = none,
+                  .ash = none};
   return maps;
 }
 

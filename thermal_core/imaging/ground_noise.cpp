@@ -10,9 +10,6 @@
 namespace thermal {
 namespace {
 
-constexpr double kRoughness = 0.6;
-constexpr double kFinestCells = 2;
-
 /// A standard normal number of a lattice point; cosine by a polynomial would change nothing that is seen.
 float lattice_value(std::uint32_t seed, std::uint32_t stream, std::uint32_t octave, std::int64_t x,
                     std::int64_t y) {
@@ -80,16 +77,18 @@ void add_octave(const GroundWindow& window, double spacing, float amplitude, std
 
 }  // namespace
 
-std::vector<float> ground_noise(const GroundWindow& window, double length_cells, std::uint32_t seed,
+std::vector<float> ground_noise(const GroundWindow& window, const NoiseOctaves& octaves, std::uint32_t seed,
                                 std::uint32_t stream) {
   std::vector<float> noise(window.width * window.height);
   double variance = 0;
   double amplitude = 1;
-  for (double spacing = length_cells; spacing >= kFinestCells; spacing /= 2, amplitude *= kRoughness)
+  for (double spacing = octaves.length_cells; spacing >= kFinestNoiseCells;
+       spacing /= 2, amplitude *= octaves.roughness)
     variance += amplitude * amplitude * kSmoothVariance;
   std::uint32_t octave = 0;
   amplitude = variance > 0 ? 1 / std::sqrt(variance) : 0;
-  for (double spacing = length_cells; spacing >= kFinestCells; spacing /= 2, amplitude *= kRoughness)
+  for (double spacing = octaves.length_cells; spacing >= kFinestNoiseCells;
+       spacing /= 2, amplitude *= octaves.roughness)
     add_octave(window, spacing, static_cast<float>(amplitude), seed, stream, octave++, noise);
   return noise;
 }

@@ -1,6 +1,7 @@
 #include "imaging/ground_temperatures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -10,7 +11,9 @@
 namespace thermal {
 namespace {
 
-constexpr std::uint32_t kNoiseStream = 65;
+constexpr std::uint32_t kDampStream = 65;
+constexpr double kDampLengthM = 15;
+constexpr float kDampSpread = 0.02F;
 constexpr std::size_t kGroundRowsAChunk = 16;
 
 /// Normals of level grids of heights, by the slopes between the neighbours of a cell.
@@ -40,13 +43,18 @@ class Slopes {
   double per_m_;
 };
 
-double share_of(std::uint8_t byte) { return byte / 255.0; }
+double part_of(std::uint8_t byte) { return byte / 255.0; }
 
 /// The places of a window's cells.
 class Cells {
  public:
-  Cells(const GroundMaps& maps, const GroundWindow& window, double open_moisture, bool by_slope)
-      : maps_(maps), window_(window), open_moisture_(open_moisture), by_slope_(by_slope), slopes_(maps) {}
+  Cells(const GroundMaps& maps, const GroundOfWindow& ground, double open_moisture, bool by_slope)
+      : maps_(maps),
+        window_(ground.maps),
+        damp_(ground.damp),
+        open_moisture_(open_moisture),
+        by_slope_(by_slope),
+        slopes_(maps) {}
 
   [[nodiscard]] std::size_t count() const noexcept { return window_.width * window_.height; }
   /// Number among the cells of the maps.
@@ -55,9 +63,11 @@ class Cells {
   }
   [[nodiscard]] SurfacePlace place(std::size_t number) const {
     const std::size_t cell = of_maps(number);
+    const double damp = damp_.empty() ? 0 : static_cast<double>(damp_[number]);
+    const double wetter = std::min(1.0, part_of(maps_.moisture[cell]) + damp);
     return {.normal = by_slope_ ? slopes_.normal(column(number), row(number)) : EastNorthUp{0, 0, 1},
-            .sky_view = share_of(maps_.sky_view[cell]),
-            .moisture = open_moisture_ + (1 - open_moisture_) * share_of(maps_.moisture[cell])};
+            .sky_view = part_of(maps_.sky_view[cell]),
+            .moisture = open_moisture_ + (1 - open_moisture_) * wetter};
   }
 
  private:
@@ -69,68 +79,228 @@ class Cells {
   }
 
   const GroundMaps& maps_;
-  GroundWindow window_;
+  const GroundWindow& window_;
+  const std::vector<float>& damp_;
   double open_moisture_;
   bool by_slope_;
   Slopes slopes_;
 };
 
-float temperature_k(const GroundMoment& moment, std::size_t cover, SurfacePlace place, std::size_t cell) {
+/// Temperature and warming of one part, by the cells of the maps.
+struct PartPlanes {
+  std::vector<float> temperature_k;
+  std::vector<float> per_h_k;
+};
+
+double temperature_k(const GroundPart& part, const GroundMoment& moment, SurfacePlace place,
+                     std::size_t cell) {
   if (!moment.sunlit.empty()) place.sunlit = static_cast<double>(moment.sunlit[cell]);
-  return static_cast<float>(moment.covers[cover]->temperature_k(place));
+  return part.heat->temperature_k(place) + part.shift.without_sky_k +
+         part.shift.by_sky_view_k * place.sky_view;
+}
+
+PartPlanes planes_of(std::size_t part, const Cells& cells, const GroundWarmth& heat) {
+  PartPlanes planes;
+  planes.temperature_k.resize(cells.count());
+  planes.per_h_k.resize(cells.count());
+  constexpr std::size_t kCellsAChunk = 4096;
+  parallel_for(cells.count(), kCellsAChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const SurfacePlace place = cells.place(i);
+      const std::size_t cell = cells.of_maps(i);
+      const double first_k = temperature_k(heat.first.parts[part], heat.first, place, cell);
+      const double more_k =
+          heat.hours > 0 ? temperature_k(heat.last.parts[part], heat.last, place, cell) - first_k : 0;
+      planes.temperature_k[i] = static_cast<float>(first_k + more_k / 2);
+      planes.per_h_k[i] = static_cast<float>(heat.hours > 0 ? more_k / heat.hours : 0);
+    }
+  });
+  return planes;
+}
+
+/// Which parts some cell has.
+std::vector<bool> present_parts(const std::vector<GroundMix>& mixes, std::size_t kinds) {
+  std::vector<bool> present(kinds + kLoosePartNames.size());
+  for (const GroundMix& mix : mixes) {
+    present[mix.kind] = true;
+    for (std::size_t k = 0; k < mix.share.size(); ++k)
+      if (mix.share[k] > 0) present[kinds + k] = true;
+  }
+  return present;
+}
+
+/// Where a row or column of the covers lies between the middles of cells of the maps, within a window of them.
+struct Between {
+  std::size_t low = 0;
+  std::size_t high = 0;
+  float share_of_high = 0;
+};
+
+std::vector<Between> between_cells(std::size_t first_fine, std::size_t count, double coarse_a_fine,
+                                   std::size_t first_coarse, std::size_t coarse_count) {
+  std::vector<Between> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at =
+        (static_cast<double>(first_fine + i) + 0.5) * coarse_a_fine - 0.5 - static_cast<double>(first_coarse);
+    const double inside = std::clamp(at, 0.0, static_cast<double>(coarse_count - 1));
+    const auto low = static_cast<std::size_t>(inside);
+    all.push_back({.low = low,
+                   .high = std::min(low + 1, coarse_count - 1),
+                   .share_of_high = static_cast<float>(inside - static_cast<double>(low))});
+  }
+  return all;
+}
+
+/// The four cells of the maps around a cell of the covers, and their weights.
+struct NearCells {
+  std::array<std::size_t, 4> cell;
+  std::array<float, 4> weight;
+
+  NearCells(const Between& row, const Between& column, std::size_t width)
+      : cell{row.low * width + column.low, row.low * width + column.high, row.high * width + column.low,
+             row.high * width + column.high},
+        weight{(1 - row.share_of_high) * (1 - column.share_of_high),
+               (1 - row.share_of_high) * column.share_of_high, row.share_of_high * (1 - column.share_of_high),
+               row.share_of_high * column.share_of_high} {}
+
+  [[nodiscard]] float of(const std::vector<float>& plane) const noexcept {
+    float sum = 0;
+    for (std::size_t k = 0; k < cell.size(); ++k) sum += weight[k] * plane[cell[k]];
+    return sum;
+  }
+};
+
+/// The mixed temperature, warming and sky view of cells of the covers.
+class Mixing {
+ public:
+  Mixing(const std::vector<PartPlanes>& parts, const std::vector<float>& sky_view, std::size_t kinds)
+      : parts_(parts), sky_view_(sky_view), kinds_(kinds) {}
+
+  void mix(const GroundMix& mix, const NearCells& near, std::size_t i, GroundValues& values) const {
+    constexpr float kAll = 255;
+    float temperature_k = 0;
+    float per_h_k = 0;
+    const auto add = [&](std::size_t part, int bytes) {
+      const float share = static_cast<float>(bytes) / kAll;
+      temperature_k += share * near.of(parts_[part].temperature_k);
+      per_h_k += share * near.of(parts_[part].per_h_k);
+    };
+    int left = static_cast<int>(kAll);
+    for (std::size_t k = 0; k < mix.share.size(); ++k) {
+      if (mix.share[k] == 0) continue;
+      add(kinds_ + k, mix.share[k]);
+      left -= mix.share[k];
+    }
+    if (left > 0) add(mix.kind, left);
+    values.temperature_k[i] = temperature_k;
+    values.per_h_k[i] = per_h_k;
+    values.sky_view[i] = near.of(sky_view_);
+  }
+
+ private:
+  const std::vector<PartPlanes>& parts_;
+  const std::vector<float>& sky_view_;
+  std::size_t kinds_;
+};
+
+/// Means of three neighbours along one axis, weighed 1, 2, 1; those beyond the border are as at the border.
+std::vector<float> smoothed_along(const std::vector<float>& plane, std::size_t width, std::size_t step,
+                                  std::size_t count) {
+  std::vector<float> smooth(plane.size());
+  for (std::size_t i = 0; i < plane.size(); ++i) {
+    const std::size_t at = step == 1 ? i % width : i / width;
+    const float before = plane[at > 0 ? i - step : i];
+    const float after = plane[at + 1 < count ? i + step : i];
+    smooth[i] = 0.25F * (before + 2 * plane[i] + after);
+  }
+  return smooth;
+}
+
+/// Without it, straight borders between kinds would follow the steps of their cells.
+std::vector<float> smoothed(const std::vector<float>& plane, const GroundWindow& window) {
+  return smoothed_along(smoothed_along(plane, window.width, 1, window.width), window.width, window.width,
+                        window.height);
+}
+
+std::vector<float> sky_views(const Cells& cells) {
+  std::vector<float> views(cells.count());
+  for (std::size_t i = 0; i < views.size(); ++i) views[i] = static_cast<float>(cells.place(i).sky_view);
+  return views;
+}
+
+double cells_a_m(const GroundMaps& maps) { return static_cast<double>(maps.cells) / maps.size_m; }
+
+/// Of the south-west corner of a grid that starts at a cell.
+double origin_m(const GroundMaps& maps, std::size_t first, double per_m) {
+  return static_cast<double>(first) / per_m - maps.size_m / 2;
 }
 
 }  // namespace
 
-GroundTemperatures::GroundTemperatures(const GroundMaps& maps, const GroundWindow& window,
-                                       std::span<const CoverVariation> variations, const GroundWarmth& heat,
-                                       std::uint32_t seed)
-    : width_(window.width),
-      height_(window.height),
-      per_m_(static_cast<double>(maps.cells) / maps.size_m),
-      origin_x_m_(static_cast<double>(window.first_x) / per_m_ - maps.size_m / 2),
-      origin_y_m_(static_cast<double>(window.first_y) / per_m_ - maps.size_m / 2),
-      crown_top_m_(window.width * window.height) {
-  const Cells cells(maps, window, heat.open_moisture, heat.by_slope);
-  std::vector<CoverGrid> covers;
-  for (const CoverVariation& variation : variations) {
-    covers.push_back(
-        {.temperature_k = ground_noise(window, variation.correlation_length_m * per_m_, seed, kNoiseStream),
-         .per_h_k = std::vector<float>(cells.count())});
-    for (float& noise : covers.back().temperature_k) noise *= static_cast<float>(variation.stddev_k);
-  }
-  std::vector<float> sky_view(cells.count());
-  parallel_for(height_, kGroundRowsAChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin * width_; i < end * width_; ++i) {
-      const std::size_t cell = cells.of_maps(i);
-      const SurfacePlace place = cells.place(i);
-      crown_top_m_[i] = maps.height_m[cell] + maps.crown_top_m[cell];
-      sky_view[i] = static_cast<float>(place.sky_view);
-      for (std::size_t c = 0; c < covers.size(); ++c) {
-        const float first_k = temperature_k(heat.first, c, place, cell);
-        covers[c].temperature_k[i] += first_k;
-        if (!(heat.hours > 0)) continue;
-        const float more_k = temperature_k(heat.last, c, place, cell) - first_k;
-        covers[c].temperature_k[i] += more_k / 2;
-        covers[c].per_h_k[i] = more_k / static_cast<float>(heat.hours);
-      }
-    }
-  });
-  texture_ = GroundTexture({.width = width_,
-                            .height = height_,
-                            .cells_per_m = per_m_,
-                            .origin_x_m = origin_x_m_,
-                            .origin_y_m = origin_y_m_},
-                           std::move(covers), std::move(sky_view));
+GroundOfWindow ground_of_window(const GroundMaps& maps, const GroundWindow& window, bool rough,
+                                std::uint32_t seed) {
+  GroundOfWindow ground = {.maps = window, .covers = cover_window(maps, window), .mixes = {}, .damp = {}};
+  ground.mixes = ground_mixture(maps, ground.covers, rough, seed);
+  if (!rough) return ground;
+  ground.damp = ground_noise(window, {.length_cells = kDampLengthM * cells_a_m(maps)}, seed, kDampStream);
+  for (float& damp : ground.damp) damp = std::max(0.0F, kDampSpread * (1 + damp));
+  return ground;
 }
 
-float GroundTemperatures::crown_top_m(float x_m, float y_m) const noexcept {
+GroundTexture ground_temperatures(const GroundMaps& maps, const GroundOfWindow& ground,
+                                  const GroundWarmth& heat) {
+  const Cells cells(maps, ground, heat.open_moisture, heat.by_slope);
+  const std::size_t kinds = maps.covers.kinds.size();
+  const std::vector<bool> present = present_parts(ground.mixes, kinds);
+  std::vector<PartPlanes> parts(present.size());
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (present[k]) parts[k] = planes_of(k, cells, heat);
+  const std::vector<float> sky_view = sky_views(cells);
+  const GroundWindow& fine = ground.covers;
+  const double fine_a_m = static_cast<double>(maps.covers.cells) / maps.size_m;
+  const double coarse_a_fine = cells_a_m(maps) / fine_a_m;
+  const auto columns =
+      between_cells(fine.first_x, fine.width, coarse_a_fine, ground.maps.first_x, ground.maps.width);
+  const auto rows =
+      between_cells(fine.first_y, fine.height, coarse_a_fine, ground.maps.first_y, ground.maps.height);
+  GroundValues values;
+  for (auto* plane : {&values.temperature_k, &values.per_h_k, &values.sky_view})
+    plane->resize(fine.width * fine.height);
+  const Mixing mixing(parts, sky_view, kinds);
+  parallel_for(fine.height, kGroundRowsAChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin * fine.width; i < end * fine.width; ++i) {
+      const NearCells near(rows[i / fine.width], columns[i % fine.width], ground.maps.width);
+      mixing.mix(ground.mixes[i], near, i, values);
+    }
+  });
+  values.temperature_k = smoothed(values.temperature_k, fine);
+  return {{.width = fine.width,
+           .height = fine.height,
+           .cells_per_m = fine_a_m,
+           .origin_x_m = origin_m(maps, fine.first_x, fine_a_m),
+           .origin_y_m = origin_m(maps, fine.first_y, fine_a_m)},
+          std::move(values)};
+}
+
+CrownTops::CrownTops(const GroundMaps& maps, const GroundWindow& window)
+    : width_(window.width),
+      height_(window.height),
+      per_m_(cells_a_m(maps)),
+      origin_x_m_(origin_m(maps, window.first_x, per_m_)),
+      origin_y_m_(origin_m(maps, window.first_y, per_m_)) {
+  for (std::size_t i = 0; i < width_ * height_; ++i) {
+    const std::size_t cell = (window.first_y + i / width_) * maps.cells + window.first_x + i % width_;
+    top_m_.push_back(maps.height_m[cell] + maps.crown_top_m[cell]);
+  }
+}
+
+float CrownTops::at(float x_m, float y_m) const noexcept {
   const auto cell_of = [this](float place_m, double origin_m, std::size_t count) {
     const double cell = (static_cast<double>(place_m) - origin_m) * per_m_;
     return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(count - 1)));
   };
-  if (std::isnan(x_m) || std::isnan(y_m)) return crown_top_m_.front();
-  return crown_top_m_[cell_of(y_m, origin_y_m_, height_) * width_ + cell_of(x_m, origin_x_m_, width_)];
+  if (std::isnan(x_m) || std::isnan(y_m)) return top_m_.front();
+  return top_m_[cell_of(y_m, origin_y_m_, height_) * width_ + cell_of(x_m, origin_x_m_, width_)];
 }
 
 }  // namespace thermal

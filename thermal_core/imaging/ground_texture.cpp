@@ -66,11 +66,11 @@ struct LevelTables {
 };
 
 /// Whether a pixel has a place on the ground. False for NaN.
-VELDT_INLINE bool has_place(std::int32_t cover, float x, float y, float footprint) noexcept {
+VELDT_INLINE bool has_place(std::int32_t is_ground, float x, float y, float footprint) noexcept {
   constexpr float kFarthest = 1e6F;
   const float far_x = std::abs(x);
   const float far_y = std::abs(y);
-  return (cover >= 0) & (far_x < kFarthest) & (far_y < kFarthest) & (footprint >= 0) &
+  return (is_ground != 0) & (far_x < kFarthest) & (far_y < kFarthest) & (footprint >= 0) &
          (footprint < kFarthest);
 }
 
@@ -90,7 +90,7 @@ struct Blended {
 };
 
 VELDT_INLINE Blended blend(const Window& window, std::int32_t first, std::int32_t width, std::int32_t height,
-                           float per_m, float x, float y, std::int32_t cover) noexcept {
+                           float per_m, float x, float y) noexcept {
   const float columns = static_cast<float>(width - 1);
   const float rows = static_cast<float>(height - 1);
   const float u = (x - window.origin_x) * per_m - 0.5F;
@@ -102,7 +102,7 @@ VELDT_INLINE Blended blend(const Window& window, std::int32_t first, std::int32_
   const auto column = static_cast<std::int32_t>(inside_u);
   const auto row = static_cast<std::int32_t>(inside_v);
   const std::int32_t right = column + 1 < width ? 1 : 0;
-  const std::int32_t below = first + (cover * height + row) * width + column;
+  const std::int32_t below = first + row * width + column;
   const std::int32_t above = below + (row + 1 < height ? width : 0);
   const std::int32_t low_left = window.texels[below];
   const std::int32_t low_right = window.texels[below + right];
@@ -128,7 +128,7 @@ VELDT_INLINE float chosen(bool first, float a, float b) noexcept {
 /// Branch-free, so that it vectorises.
 VELDT_CLONES void sample_levels(const Window& all, const LevelTables& tables,
                                 const std::uint16_t* __restrict surface,
-                                const std::int32_t* __restrict cover_of, const float* __restrict x,
+                                const std::int32_t* __restrict is_ground, const float* __restrict x,
                                 const float* __restrict y, const float* __restrict footprint,
                                 float* __restrict temperature_k, float* __restrict sky_view,
                                 std::size_t count) noexcept {
@@ -136,11 +136,10 @@ VELDT_CLONES void sample_levels(const Window& all, const LevelTables& tables,
   const LevelTables t = tables;
   const float per_cell = t.per_m[0];
   for (std::size_t i = 0; i < count; ++i) {
-    const std::int32_t cover = cover_of[surface[i]];
-    const bool usable = has_place(cover, x[i], y[i], footprint[i]);
+    const bool usable = has_place(is_ground[surface[i]], x[i], y[i], footprint[i]);
     const int level = level_of(usable ? footprint[i] * per_cell : 0.0F, t.last);
     const Blended value = blend(window, t.first[level], t.width[level], t.height[level], t.per_m[level],
-                                usable ? x[i] : 0.0F, usable ? y[i] : 0.0F, usable ? cover : 0);
+                                usable ? x[i] : 0.0F, usable ? y[i] : 0.0F);
     temperature_k[i] = chosen(usable, value.temperature_k, temperature_k[i]);
     sky_view[i] = chosen(usable, value.sky_view, -1.0F);
   }
@@ -149,7 +148,7 @@ VELDT_CLONES void sample_levels(const Window& all, const LevelTables& tables,
 /// The same for pixels that all need one level.
 VELDT_CLONES void sample_level(const Window& all, const LevelTables& tables, int level,
                                const std::uint16_t* __restrict surface,
-                               const std::int32_t* __restrict cover_of, const float* __restrict x,
+                               const std::int32_t* __restrict is_ground, const float* __restrict x,
                                const float* __restrict y, const float* __restrict footprint,
                                float* __restrict temperature_k, float* __restrict sky_view,
                                std::size_t count) noexcept {
@@ -159,10 +158,9 @@ VELDT_CLONES void sample_level(const Window& all, const LevelTables& tables, int
   const std::int32_t height = tables.height[level];
   const float per_m = tables.per_m[level];
   for (std::size_t i = 0; i < count; ++i) {
-    const std::int32_t cover = cover_of[surface[i]];
-    const bool usable = has_place(cover, x[i], y[i], footprint[i]);
-    const Blended value = blend(window, first, width, height, per_m, usable ? x[i] : 0.0F,
-                                usable ? y[i] : 0.0F, usable ? cover : 0);
+    const bool usable = has_place(is_ground[surface[i]], x[i], y[i], footprint[i]);
+    const Blended value =
+        blend(window, first, width, height, per_m, usable ? x[i] : 0.0F, usable ? y[i] : 0.0F);
     temperature_k[i] = chosen(usable, value.temperature_k, temperature_k[i]);
     sky_view[i] = chosen(usable, value.sky_view, -1.0F);
   }
@@ -170,42 +168,35 @@ VELDT_CLONES void sample_level(const Window& all, const LevelTables& tables, int
 
 }  // namespace
 
-GroundTexture::GroundTexture(const GroundGrid& grid, std::vector<CoverGrid> covers,
-                             std::vector<float> sky_view)
-    : origin_x_m_(static_cast<float>(grid.origin_x_m)), origin_y_m_(static_cast<float>(grid.origin_y_m)) {
-  if (!covers.empty()) base_k_ = std::round(covers.front().temperature_k.front());
+GroundTexture::GroundTexture(const GroundGrid& grid, GroundValues values)
+    : origin_x_m_(static_cast<float>(grid.origin_x_m)),
+      origin_y_m_(static_cast<float>(grid.origin_y_m)),
+      base_k_(std::round(values.temperature_k.front())) {
   float fastest_k_h = 0;
-  for (const CoverGrid& cover : covers) {
-    for (const float per_h_k : cover.per_h_k) fastest_k_h = std::max(fastest_k_h, std::abs(per_h_k));
-  }
+  for (const float per_h_k : values.per_h_k) fastest_k_h = std::max(fastest_k_h, std::abs(per_h_k));
   warming_step_k_h_ = fastest_k_h / kWarmingSteps;
   std::size_t width = grid.width;
   std::size_t height = grid.height;
   for (double per_m = grid.cells_per_m;; per_m /= 2) {
-    add_level(covers, sky_view, width, height, per_m);
+    add_level(values, width, height, per_m);
     if (width <= 2 || height <= 2) break;
-    for (CoverGrid& cover : covers) {
-      cover.temperature_k = halved(cover.temperature_k, width, height);
-      cover.per_h_k = halved(cover.per_h_k, width, height);
-    }
-    sky_view = halved(sky_view, width, height);
+    for (auto* plane : {&values.temperature_k, &values.per_h_k, &values.sky_view})
+      *plane = halved(*plane, width, height);
     width = (width + 1) / 2;
     height = (height + 1) / 2;
   }
 }
 
-void GroundTexture::add_level(const std::vector<CoverGrid>& covers, const std::vector<float>& sky_view,
-                              std::size_t width, std::size_t height, double per_m) {
+void GroundTexture::add_level(const GroundValues& values, std::size_t width, std::size_t height,
+                              double per_m) {
   levels_.push_back({.first = static_cast<std::int32_t>(texels_.size()),
                      .width = static_cast<std::int32_t>(width),
                      .height = static_cast<std::int32_t>(height),
                      .per_m = static_cast<float>(per_m)});
   const float per_step = warming_step_k_h_ > 0 ? 1 / warming_step_k_h_ : 0.0F;
-  for (const CoverGrid& cover : covers) {
-    for (std::size_t i = 0; i < sky_view.size(); ++i) {
-      texels_.push_back(
-          texel_of((cover.temperature_k[i] - base_k_) / kStepK, cover.per_h_k[i] * per_step, sky_view[i]));
-    }
+  for (std::size_t i = 0; i < values.sky_view.size(); ++i) {
+    texels_.push_back(texel_of((values.temperature_k[i] - base_k_) / kStepK, values.per_h_k[i] * per_step,
+                               values.sky_view[i]));
   }
 }
 
@@ -215,10 +206,6 @@ void GroundTexture::sample(const Places& places, float later_h, std::span<float>
   const std::size_t count = temperature_k.size();
   assert(places.surface.size() == count && places.x_m.size() == count && sky_view.size() == count &&
          levels_.size() <= kMostLevels);
-  if (texels_.empty()) {
-    std::ranges::fill(sky_view, -1.0F);
-    return;
-  }
   std::array<std::int32_t, kMostLevels> first{};
   std::array<std::int32_t, kMostLevels> width{};
   std::array<std::int32_t, kMostLevels> height{};
@@ -234,16 +221,16 @@ void GroundTexture::sample(const Places& places, float later_h, std::span<float>
   const LevelTables tables = {first.data(), width.data(), height.data(), per_m.data(),
                               static_cast<int>(levels_.size()) - 1};
   const std::uint16_t* surface = places.surface.data();
-  const std::int32_t* cover = places.cover_of_surface.data();
+  const std::int32_t* is_ground = places.is_ground.data();
   const float* x = places.x_m.data();
   const float* y = places.y_m.data();
   const float* footprint = places.footprint_m.data();
   const int low = level_of(std::bit_cast<float>(places.footprints.smallest) * per_m[0], tables.last);
   if (low == level_of(std::bit_cast<float>(places.footprints.largest) * per_m[0], tables.last)) {
-    sample_level(window, tables, low, surface, cover, x, y, footprint, temperature_k.data(), sky_view.data(),
-                 count);
+    sample_level(window, tables, low, surface, is_ground, x, y, footprint, temperature_k.data(),
+                 sky_view.data(), count);
   } else {
-    sample_levels(window, tables, surface, cover, x, y, footprint, temperature_k.data(), sky_view.data(),
+    sample_levels(window, tables, surface, is_ground, x, y, footprint, temperature_k.data(), sky_view.data(),
                   count);
   }
 }

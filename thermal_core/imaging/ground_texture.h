@@ -18,32 +18,31 @@ struct GroundGrid {
   double origin_y_m = 0;
 };
 
-/// Temperature and warming of one cover, a value a cell.
-struct CoverGrid {
+/// What the texture holds of each cell.
+struct GroundValues {
   std::vector<float> temperature_k;
-  std::vector<float> per_h_k;  ///< what an hour adds
+  std::vector<float> per_h_k;   ///< what an hour adds
+  std::vector<float> sky_view;  ///< share of the sky that level ground sees, 0 to 1
 };
 
-/// Temperatures of the covers of the ground and how much sky level ground sees, as a texture: four bytes a cell and
-/// cover, in levels of which each is half as fine as the one before.
+/// Temperatures of the ground and how much sky it sees, as a texture: four bytes a cell, in levels of which each is half
+/// as fine as the one before.
 class GroundTexture {
  public:
-  GroundTexture() = default;  ///< of no cover
-  GroundTexture(const GroundGrid& grid, std::vector<CoverGrid> covers, std::vector<float> sky_view);
+  GroundTexture(const GroundGrid& grid, GroundValues values);
 
-  /// Where to read: a row of places [m], the size of a pixel there [m], and the cover of each pixel by its surface; no
-  /// cover is -1.
+  /// Where to read: a row of places [m], the size of a pixel there [m], and which surfaces are ground: 1, others 0.
   struct Places {
     std::span<const std::uint16_t> surface;
-    std::span<const std::int32_t> cover_of_surface;
+    std::span<const std::int32_t> is_ground;
     std::span<const float> x_m;
     std::span<const float> y_m;
     std::span<const float> footprint_m;
     kernels::FootprintRange footprints;  ///< that holds all of footprint_m that are finite and not negative
   };
 
-  /// Temperatures [K] of the pixels with a cover, `later_h` after the moment of the grids, and the share of the sky
-  /// that level ground sees there: in straight lines between the middles of cells, detail smaller than a pixel averaged
+  /// Temperatures [K] of the pixels of ground, `later_h` after the moment of the grids, and the share of the sky that
+  /// level ground sees there: in straight lines between the middles of cells, detail smaller than a pixel averaged
   /// out. Other pixels keep their temperature and get -1 as their sky view, as do those with a place or footprint that
   /// is not finite or a negative footprint. Places beyond the grid have what is at its border. Steps of 1/512 K, of
   /// 1/255, and of 1/127 of the fastest warming.
@@ -58,15 +57,14 @@ class GroundTexture {
     float per_m = 0;  ///< cells of this level in a metre
   };
 
-  void add_level(const std::vector<CoverGrid>& covers, const std::vector<float>& sky_view, std::size_t width,
-                 std::size_t height, double per_m);
+  void add_level(const GroundValues& values, std::size_t width, std::size_t height, double per_m);
 
   float origin_x_m_ = 0;
   float origin_y_m_ = 0;
   float base_k_ = 0;
   float warming_step_k_h_ = 0;
   std::vector<Level> levels_;
-  std::vector<std::int32_t> texels_;  ///< level by level, cover by cover
+  std::vector<std::int32_t> texels_;  ///< level by level
 };
 
 }  // namespace thermal

@@ -19,26 +19,27 @@ float along(const kernels::CameraAxis& axis, const Row& row, std::size_t i) {
   return axis.right * row.ray_x[i] + axis.down * row.ray_y[i] + axis.forward;
 }
 
-/// The cover of each surface; -1: none.
-std::vector<std::int32_t> covers_of(const std::vector<HeatedSurface>& surfaces) {
-  std::vector<std::int32_t> covers;
+/// Which surfaces are ground with maps: 1, others 0.
+std::vector<std::int32_t> ground_among(const std::vector<HeatedSurface>& surfaces) {
+  std::vector<std::int32_t> is_ground;
   for (const HeatedSurface& surface : surfaces)
-    covers.push_back(surface.kind == HeatedSurface::Kind::cover ? surface.cover : -1);
-  return covers;
+    is_ground.push_back(surface.kind == HeatedSurface::Kind::ground ? 1 : 0);
+  return is_ground;
 }
 
 /// The emission of one scene's surfaces during a span.
 class HeatedEmission {
  public:
-  HeatedEmission(const HeatSpan& span, const std::vector<std::unique_ptr<RadianceTable>>& tables,
-                 const WarmSpots& spots, const VariationField& field)
+  HeatedEmission(const HeatSpan& span, const SceneHeat& heat,
+                 const std::vector<std::unique_ptr<RadianceTable>>& tables, const VariationField& field)
       : middle_h_(static_cast<float>(span.middle_h)),
         surfaces_(span.surfaces),
-        ground_(span.ground.get()),
-        spots_(spots),
+        ground_(span.ground ? &*span.ground : nullptr),
+        detail_(heat.ground ? &*heat.ground : nullptr),
+        spots_(heat.spots),
         field_(field),
-        cover_(covers_of(surfaces_)),
-        hot_(!spots.empty()) {
+        is_ground_(ground_among(surfaces_)),
+        hot_(!spots_.empty()) {
     std::vector<std::int32_t> first_node;
     for (const auto& table : tables) {
       first_node.push_back(static_cast<std::int32_t>(nodes_.size()));
@@ -68,14 +69,15 @@ class HeatedEmission {
     kernels::FootprintRange footprints;
     if (ground_ != nullptr || varies_) footprints = find_places(row);
     if (ground_ != nullptr) {
-      ground_->texture().sample({.surface = row.surface,
-                                 .cover_of_surface = cover_,
-                                 .x_m = row.metres[0],
-                                 .y_m = row.metres[1],
-                                 .footprint_m = row.metres[2],
-                                 .footprints = footprints},
-                                later_h(row), row.temperature_k, row.ground_sky_view);
-      spots_.add(row.surface, cover_, row.metres[0], row.metres[1], row.temperature_k);
+      detail_->warp.move(row.metres[0], row.metres[1], row.metres[2], row.place_x, row.place_y);
+      ground_->sample({.surface = row.surface,
+                       .is_ground = is_ground_,
+                       .x_m = row.place_x,
+                       .y_m = row.place_y,
+                       .footprint_m = row.metres[2],
+                       .footprints = footprints},
+                      later_h(row), row.temperature_k, row.ground_sky_view);
+      spots_.add(row.surface, is_ground_, row.metres[0], row.metres[1], row.temperature_k);
     }
     add_bodies_and_crowns(row);
     if (varies_) {
@@ -181,7 +183,7 @@ class HeatedEmission {
   }
 
   [[nodiscard]] float crown_top_m(const Row& row, std::size_t i) const {
-    return ground_->crown_top_m(row.metres[0][i], row.metres[1][i]);
+    return detail_->crown_tops.at(row.metres[0][i], row.metres[1][i]);
   }
 
   static float by_depth_k(const HeatedSurface& surface, float depth_m, float later_h) {
@@ -197,12 +199,13 @@ class HeatedEmission {
 
   float middle_h_;
   const std::vector<HeatedSurface>& surfaces_;
-  const GroundTemperatures* ground_;
+  const GroundTexture* ground_;
+  const GroundDetail* detail_;
   const WarmSpots& spots_;
   const VariationField& field_;
   std::vector<float> nodes_;
   // By surface, as the kernels read them:
-  std::vector<std::int32_t> cover_;
+  std::vector<std::int32_t> is_ground_;
   std::vector<HeatedSurface::Kind> kind_;
   std::vector<float> even_k_;
   std::vector<float> even_k_h_;
@@ -216,13 +219,19 @@ class HeatedEmission {
 
 }  // namespace
 
-RowTerm heated_emission(const std::vector<HeatSpan>& spans,
-                        const std::vector<std::unique_ptr<RadianceTable>>& tables, const WarmSpots& spots,
+float SceneHeat::middle_k(std::size_t surface) const {
+  const auto holds_middle = [](const HeatSpan& span) { return span.middle_h + span.hours / 2 >= 0; };
+  const HeatSpan& span = *std::ranges::find_if(spans, holds_middle);
+  const HeatedSurface& heated = span.surfaces.at(surface);
+  return heated.middle.temperature_k - static_cast<float>(span.middle_h) * heated.per_h.temperature_k;
+}
+
+RowTerm heated_emission(const SceneHeat& heat, const std::vector<std::unique_ptr<RadianceTable>>& tables,
                         const VariationField& field) {
   std::vector<HeatedEmission> emissions;
   std::vector<float> ends_h;
-  for (const HeatSpan& span : spans) {
-    emissions.emplace_back(span, tables, spots, field);
+  for (const HeatSpan& span : heat.spans) {
+    emissions.emplace_back(span, heat, tables, field);
     ends_h.push_back(static_cast<float>(span.middle_h + span.hours / 2));
   }
   ends_h.pop_back();

@@ -3,9 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "imaging/ground_temperatures.h"
+#include "imaging/ground_warp.h"
 #include "imaging/row_terms.h"
 #include "imaging/warm_spots.h"
 #include "radiometry/radiance_table.h"
@@ -32,13 +34,12 @@ struct SurfaceWarmth {
 struct HeatedSurface {
   enum class Kind : std::uint8_t {
     even,      ///< temperature_k
-    cover,     ///< of the ground: by its place on the maps
+    ground,    ///< by its place on the maps
     oriented,  ///< by its normal
     crown      ///< leaves: by their depth below the top of the plants there
   };
 
   Kind kind = Kind::even;
-  std::int32_t cover = -1;  ///< number among the covers of the ground
   float steepest = 1;  ///< largest horizontal part of a normal that counts; steeper ones count as that steep
   SurfaceWarmth middle;  ///< half-way through the time that it is for
   SurfaceWarmth per_h;   ///< what an hour adds
@@ -49,19 +50,35 @@ struct HeatedSurface {
 
 /// Some time of a clip, in which temperatures follow straight lines.
 struct HeatSpan {
-  double middle_h = 0;                         ///< than the middle of the clip
-  double hours = 0;                            ///< that it lasts
-  std::vector<HeatedSurface> surfaces;         ///< the sky's is unused
-  std::unique_ptr<GroundTemperatures> ground;  ///< null without maps
+  double middle_h = 0;                  ///< than the middle of the clip
+  double hours = 0;                     ///< that it lasts
+  std::vector<HeatedSurface> surfaces;  ///< the sky's is unused
+  std::optional<GroundTexture> ground;  ///< empty without maps
 };
 
-/// Emission of surfaces whose temperature follows the weather, with the fractal field on those that have one. `spans`
-/// follow each other, and the first and the last hold beyond the clip; all outlive the term. Depths that are not
-/// positive and finite give a surface's own temperature. `spots` warm the ground's covers, with maps. What is hotter
+/// What the ground has throughout a clip, where maps of it are known.
+struct GroundDetail {
+  CrownTops crown_tops;
+  GroundWarp warp;
+};
+
+/// The temperatures of a clip's surfaces by the heat balance.
+struct SceneHeat {
+  /// At least one; they follow each other, and the first and the last hold beyond the clip.
+  std::vector<HeatSpan> spans;
+  WarmSpots spots{{}};                 ///< of the ground, with maps
+  std::optional<GroundDetail> ground;  ///< empty without maps
+
+  /// Temperature in the middle of the clip of a surface that is everywhere as warm.
+  [[nodiscard]] float middle_k(std::size_t surface) const;
+};
+
+/// Emission of surfaces whose temperature follows the weather, with the fractal field on those that have one. All that
+/// is passed outlives the term. Depths that are not positive and finite give a surface's own temperature. What is hotter
 /// than the tables, such as fires, costs a hundred times as much.
-[[nodiscard]] RowTerm heated_emission(const std::vector<HeatSpan>& spans,
+[[nodiscard]] RowTerm heated_emission(const SceneHeat& heat,
                                       const std::vector<std::unique_ptr<RadianceTable>>& tables,
-                                      const WarmSpots& spots, const VariationField& field);
+                                      const VariationField& field);
 
 /// Replaces the sky view of ground, by its normal, by that of the maps, of what level ground sees past crowns and
 /// relief. Must follow heated_emission(), with maps, and orientation().

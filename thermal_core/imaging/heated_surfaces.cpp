@@ -63,7 +63,7 @@ HeatedSurface HeatedSurfaces::heat_of(const Surface& surface) {
                        {.sky_view = kBelowCrown, .sunlit = kBelowCrown, .moisture = moment_.ground_moisture}),
                    heated);
     } else {
-      std::visit([&](const auto& kind) { set(kind, surface, by_place, heated); }, *heat);
+      std::visit([&](const auto& kind) { set(kind, by_place, heated); }, *heat);
     }
   } else {
     heated.middle.temperature_k = static_cast<float>(material.part_temperature_k(part, weather_));
@@ -73,15 +73,13 @@ HeatedSurface HeatedSurfaces::heat_of(const Surface& surface) {
 
 SurfacePlace HeatedSurfaces::open_place() const { return {.moisture = moment_.ground_moisture}; }
 
-void HeatedSurfaces::set(const GroundHeat& heat, const Surface& surface, const MaterialMoment& by_place,
-                         HeatedSurface& heated) {
-  if (!heat.is_body) return set_cover(surface, by_place, heated);
+void HeatedSurfaces::set(const GroundHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated) {
+  if (!heat.is_body) return set_cover(by_place, heated);
   set_oriented(by_place.orientation(open_place()), heated);
 }
 
-void HeatedSurfaces::set(const LeavesHeat& heat, const Surface& surface, const MaterialMoment& by_place,
-                         HeatedSurface& heated) {
-  if (heat.is_cover) return set_cover(surface, by_place, heated);
+void HeatedSurfaces::set(const LeavesHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated) {
+  if (heat.is_cover) return set_cover(by_place, heated);
   SurfacePlace place = open_place();
   place.sky_view = kMiddleOfCrown;
   heated.middle.temperature_k = static_cast<float>(by_place.temperature_k(place));
@@ -94,8 +92,7 @@ void HeatedSurfaces::set(const LeavesHeat& heat, const Surface& surface, const M
   }
 }
 
-void HeatedSurfaces::set(const SlabHeat& heat, const Surface&, const MaterialMoment& by_place,
-                         HeatedSurface& heated) {
+void HeatedSurfaces::set(const SlabHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated) {
   if (heat.is_body) return set_oriented(by_place.orientation(open_place()), heated);
   heated.middle.temperature_k = static_cast<float>(by_place.temperature_k(open_place()));
 }
@@ -131,13 +128,12 @@ void HeatedSurfaces::set_oriented(const Orientation& orientation, HeatedSurface&
   std::ranges::transform(orientation.sun, warmth.sun.begin(), rounded);
 }
 
-void HeatedSurfaces::set_cover(const Surface& surface, const MaterialMoment& by_place,
-                               HeatedSurface& heated) {
+void HeatedSurfaces::set_cover(const MaterialMoment& by_place, HeatedSurface& heated) {
   set_oriented(by_place.orientation(open_place()), heated);
   heated.steepest = kSteepestGround;
-  heated.cover = static_cast<std::int32_t>(covers_.size());
-  covers_.push_back({.material = surface.material, .heat = surface.material->heat_name(surface.part)});
-  if (terms_.place) heated.kind = HeatedSurface::Kind::cover;
+  if (!terms_.place) return;
+  heated.kind = HeatedSurface::Kind::ground;
+  heated.variation_stddev_k = 0;  // its mixture varies
 }
 
 }  // namespace thermal

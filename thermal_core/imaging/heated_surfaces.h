@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "imaging/actor_states.h"
@@ -23,12 +22,6 @@ struct SceneHeatTerms {
 /// Whether a material is leaves of shrubs or trees, not a cover of the ground.
 [[nodiscard]] bool is_crown(const Material& material);
 
-/// A cover of the ground, in the order of its numbers.
-struct Cover {
-  const Material* material = nullptr;
-  std::string heat;  ///< its material's name among the heat of a day
-};
-
 /// The surfaces of a scene and their temperatures at one moment: `middle` of each.
 class HeatedSurfaces {
  public:
@@ -40,21 +33,17 @@ class HeatedSurfaces {
 
   [[nodiscard]] const HeatOfMoment& moment() const noexcept { return moment_; }
   [[nodiscard]] const std::vector<HeatedSurface>& surfaces() const noexcept { return surfaces_; }
-  [[nodiscard]] const std::vector<Cover>& covers() const noexcept { return covers_; }
 
  private:
   [[nodiscard]] HeatedSurface heat_of(const Surface& surface);
   [[nodiscard]] SurfacePlace open_place() const;
   [[nodiscard]] BodyMoment moment_of(const ActorState& actor) const;
-  void set(const GroundHeat& heat, const Surface& surface, const MaterialMoment& by_place,
-           HeatedSurface& heated);
-  void set(const LeavesHeat& heat, const Surface& surface, const MaterialMoment& by_place,
-           HeatedSurface& heated);
-  void set(const SlabHeat& heat, const Surface& surface, const MaterialMoment& by_place,
-           HeatedSurface& heated);
+  void set(const GroundHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated);
+  void set(const LeavesHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated);
+  void set(const SlabHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated);
   void set_body(const BodyHeat& body, const BodyMoment& moment, HeatedSurface& heated) const;
   void set_oriented(const Orientation& orientation, HeatedSurface& heated) const;
-  void set_cover(const Surface& surface, const MaterialMoment& by_place, HeatedSurface& heated);
+  void set_cover(const MaterialMoment& by_place, HeatedSurface& heated);
 
   const std::vector<ActorState>& states_;
   const HeatSettings& settings_;
@@ -63,7 +52,6 @@ class HeatedSurfaces {
   SceneHeatTerms terms_;
   HeatOfMoment moment_;
   std::vector<HeatedSurface> surfaces_;
-  std::vector<Cover> covers_;
 };
 
 }  // namespace thermal

@@ -4,41 +4,18 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "heat/body/fire.h"
 #include "heat/body/warm_ground.h"
 #include "heat/weather/sun_memory.h"
 
 namespace thermal {
 namespace {
-
-/// The variation field has five octaves, each 0.6 times as strong as the one before. Those down to two cells of the
-/// maps are part of the maps; the field adds the finer ones.
-struct SplitVariation {
-  double map_stddev_k = 0;
-  double fine_stddev_k = 0;
-  double fine_length_m = 1;
-};
-
-SplitVariation split(const TemperatureVariation& variation, double cell_m) {
-  constexpr double kRoughness2 = 0.36;
-  constexpr int kOctaves = 5;
-  double all = 0;
-  double fine = 0;
-  double strength = 1;
-  double length_m = variation.correlation_length_m;
-  SplitVariation result;
-  for (int octave = 0; octave < kOctaves; ++octave, strength *= kRoughness2, length_m /= 2) {
-    all += strength;
-    if (length_m >= 2 * cell_m) continue;
-    if (fine == 0) result.fine_length_m = length_m;
-    fine += strength;
-  }
-  result.map_stddev_k = variation.stddev_k * std::sqrt(1 - fine / all);
-  result.fine_stddev_k = variation.stddev_k * std::sqrt(fine / all);
-  return result;
-}
 
 std::vector<float> sunlit_cells(const GroundMaps& maps, const DayWeather& day, double solar_h) {
   const auto found = std::ranges::find(maps.sunlit, day.sun, &SunlitHours::path);
@@ -192,65 +169,60 @@ std::vector<HeatedSurface> surfaces_between(const Ends& ends) {
   return surfaces;
 }
 
+const MaterialMoment& heat_of(const HeatOfMoment& moment, const std::string& material) {
+  const auto found = moment.materials.find(material);
+  if (found != moment.materials.end()) return found->second;
+  throw ConfigError(
+      fmt::format("material {}: no heat; expected of everything that ground is made of", material));
+}
+
 /// Ground of a clip by its maps.
 class GroundOfClip {
  public:
   GroundOfClip(const HeatSettings& settings, const Weather& weather, const Manifest& manifest,
-               const SceneHeatTerms& terms, std::uint32_t seed)
-      : settings_(settings), weather_(weather), manifest_(manifest), terms_(terms), seed_(seed) {}
+               const SceneHeatTerms& terms, const GroundShiftOf& shift_of, std::uint32_t seed)
+      : maps_(*settings.ground),
+        day_(*settings.day),
+        solar_h_(weather.solar_h),
+        by_slope_(terms.facing),
+        shift_of_(shift_of),
+        ground_(ground_of_window(maps_, window_of(maps_, manifest), terms.variation, seed)) {}
 
-  void add_to(const Ends& ends, HeatSpan& span) const {
-    const std::vector<Cover>& covers = ends.first.surfaces->covers();
-    for (HeatedSurface& surface : span.surfaces) {
-      if (surface.cover >= 0) refine(*covers[static_cast<std::size_t>(surface.cover)].material, surface);
-    }
+  [[nodiscard]] GroundTexture between(const Ends& ends) const {
     const std::vector<float> sunlit_first = sunlit_at(ends.first);
     const std::vector<float> sunlit_last = sunlit_at(ends.last);
-    const GroundWarmth warmth = {.first = moment_of(ends.first, sunlit_first),
-                                 .last = moment_of(ends.last, sunlit_last),
-                                 .hours = ends.hours(),
-                                 .open_moisture = ends.first.surfaces->moment().ground_moisture,
-                                 .by_slope = terms_.facing};
-    std::vector<CoverVariation> variations;
-    for (const Cover& cover : covers) variations.push_back(map_variation(*cover.material));
-    span.ground = std::make_unique<GroundTemperatures>(
-        *settings_.ground, window_of(*settings_.ground, manifest_), variations, warmth, seed_);
+    return ground_temperatures(maps_, ground_,
+                               {.first = moment_of(ends.first, sunlit_first),
+                                .last = moment_of(ends.last, sunlit_last),
+                                .hours = ends.hours(),
+                                .open_moisture = ends.first.surfaces->moment().ground_moisture,
+                                .by_slope = by_slope_});
   }
+
+  [[nodiscard]] CrownTops crown_tops() const { return {maps_, ground_.maps}; }
 
  private:
-  /// Leaves to the field what the maps are too coarse for.
-  void refine(const Material& material, HeatedSurface& surface) const {
-    const SplitVariation variation = split_of(material);
-    surface.variation_stddev_k = static_cast<float>(variation.fine_stddev_k);
-    surface.per_correlation_length = static_cast<float>(1 / variation.fine_length_m);
-  }
-
   [[nodiscard]] std::vector<float> sunlit_at(const Moment& moment) const {
-    return sunlit_cells(*settings_.ground, settings_.day->weather(), weather_.solar_h + moment.later_h);
+    return sunlit_cells(maps_, day_.weather(), solar_h_ + moment.later_h);
   }
 
-  static GroundMoment moment_of(const Moment& moment, const std::vector<float>& sunlit) {
-    GroundMoment ground = {.covers = {}, .sunlit = sunlit};
-    for (const Cover& cover : moment.surfaces->covers())
-      ground.covers.push_back(&moment.surfaces->moment().materials.at(cover.heat));
+  [[nodiscard]] GroundMoment moment_of(const Moment& moment, const std::vector<float>& sunlit) const {
+    const HeatOfMoment& heat = moment.surfaces->moment();
+    GroundMoment ground = {.parts = {}, .sunlit = sunlit};
+    for (const std::string& name : ground_part_names(maps_.covers)) {
+      const MaterialMoment& by_place = heat_of(heat, name);
+      const GroundShift shift = shift_of_(name, by_place.temperature_k({.moisture = heat.ground_moisture}));
+      ground.parts.push_back({.heat = &by_place, .shift = shift});
+    }
     return ground;
   }
 
-  [[nodiscard]] SplitVariation split_of(const Material& material) const {
-    return split(terms_.variation ? material.variation : TemperatureVariation{},
-                 settings_.ground->size_m / static_cast<double>(settings_.ground->cells));
-  }
-
-  [[nodiscard]] CoverVariation map_variation(const Material& material) const {
-    return {.stddev_k = split_of(material).map_stddev_k,
-            .correlation_length_m = material.variation.correlation_length_m};
-  }
-
-  const HeatSettings& settings_;
-  const Weather& weather_;
-  const Manifest& manifest_;
-  const SceneHeatTerms& terms_;
-  std::uint32_t seed_;
+  const GroundMaps& maps_;
+  const HeatOfDay& day_;
+  double solar_h_;
+  bool by_slope_;
+  const GroundShiftOf& shift_of_;
+  GroundOfWindow ground_;
 };
 
 double hours_of(const Manifest& manifest) {
@@ -260,28 +232,26 @@ double hours_of(const Manifest& manifest) {
 
 }  // namespace
 
-float SceneHeat::middle_k(std::size_t surface) const {
-  const auto holds_middle = [](const HeatSpan& span) { return span.middle_h + span.hours / 2 >= 0; };
-  const HeatSpan& span = *std::ranges::find_if(spans, holds_middle);
-  const HeatedSurface& heated = span.surfaces.at(surface);
-  return heated.middle.temperature_k - static_cast<float>(span.middle_h) * heated.per_h.temperature_k;
-}
-
 SceneHeat heat_of_scene(const std::vector<Surface>& surfaces, const std::vector<ActorState>& states,
                         const HeatSettings& settings, const Weather& weather, const Manifest& manifest,
-                        const SceneHeatTerms& terms, std::uint32_t seed) {
+                        const SceneHeatTerms& terms, const GroundShiftOf& shift_of, std::uint32_t seed) {
   const auto moment_at = [&](double later_h) {
     return Moment{later_h, std::make_shared<const HeatedSurfaces>(surfaces, states, settings, weather,
                                                                   3600 * later_h, terms)};
   };
-  SceneHeat heat = {.spans = {}, .spots = warm_spots(manifest, settings.day->at(weather.solar_h))};
-  const GroundOfClip ground(settings, weather, manifest, terms, seed);
+  SceneHeat heat = {
+      .spans = {}, .spots = warm_spots(manifest, settings.day->at(weather.solar_h)), .ground = {}};
+  std::optional<GroundOfClip> ground;
+  if (terms.place) {
+    ground.emplace(settings, weather, manifest, terms, shift_of, seed);
+    heat.ground.emplace(GroundDetail{ground->crown_tops(), GroundWarp(seed)});
+  }
   for (const Ends& ends : Spans(moment_at).of_clip(hours_of(manifest))) {
     heat.spans.push_back({.middle_h = ends.middle_h(),
                           .hours = ends.hours(),
                           .surfaces = surfaces_between(ends),
-                          .ground = nullptr});
-    if (terms.place) ground.add_to(ends, heat.spans.back());
+                          .ground = {}});
+    if (ground) heat.spans.back().ground = ground->between(ends);
   }
   return heat;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -57,9 +58,7 @@ CameraPose pose_in(const ManifestFrame& frame) {
   return frame.camera_to_world ? pose_of(*frame.camera_to_world) : CameraPose{};
 }
 
-bool knows_ground(const SceneHeat& heat) {
-  return !heat.spans.empty() && heat.spans.front().ground != nullptr;
-}
+bool knows_ground(const SceneHeat& heat) { return heat.ground.has_value(); }
 
 /// Adds what work(begin, end) returns for chunks of the rows; sums of any order are equal.
 template <typename Work>
@@ -98,11 +97,11 @@ SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& ma
   held_->rays = std::make_unique<CameraRays>(passes_camera(manifest), manifest.lens);
   if (manifest.supersample > 1)
     held_->pixel_rays = std::make_unique<CameraRays>(pixels_camera(manifest), manifest.lens);
-  if (settings.heat) add_heat(manifest, settings, actors.states);
+  if (settings.heat) add_heat(manifest, materials, settings, actors.states);
   for (std::size_t i = 0; i < map_.surfaces().size(); ++i) {
     const Surface& surface = map_.surfaces()[i];
     const bool parts = settings.terms.parts;
-    add_optics(surface,
+    add_optics(drawn_as(i, materials, settings),
                settings.heat ? held_->heat.middle_k(i)
                              : static_cast<float>(surface.material->part_temperature_k(
                                    parts ? surface.part : "", settings.weather)),
@@ -116,19 +115,40 @@ SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& ma
   find_brightest();
 }
 
-void SceneRadiance::add_heat(const Manifest& manifest, const PhysicsSettings& settings,
-                             const std::vector<ActorState>& states) {
+/// All ground with maps is drawn as bare soil, whose temperatures tell its kinds apart.
+const Material& SceneRadiance::drawn_as(std::size_t surface, const MaterialLibrary& materials,
+                                        const PhysicsSettings& settings) const {
+  const bool is_ground =
+      settings.heat && held_->heat.spans.front().surfaces[surface].kind == HeatedSurface::Kind::ground;
+  return is_ground ? materials.find(settings.heat->ground->covers.kinds.front(), "maps of the ground: kinds")
+                   : *map_.surfaces()[surface].material;
+}
+
+void SceneRadiance::add_heat(const Manifest& manifest, const MaterialLibrary& materials,
+                             const PhysicsSettings& settings, const std::vector<ActorState>& states) {
   const Terms& terms = settings.terms;
-  held_->heat = heat_of_scene(map_.surfaces(), states, *settings.heat, settings.weather, manifest,
-                              {.parts = terms.parts,
-                               .variation = terms.variation,
-                               .place = terms.place && settings.heat->ground != nullptr,
-                               .facing = terms.facing},
-                              settings.seed);
+  const auto band_of = [&](const std::string& name) {
+    return BandRadiance(settings.response,
+                        spectrum_of(materials.find(name, "maps of the ground: kinds"), true));
+  };
+  std::optional<SoilLook> look;
+  const bool by_place = terms.place && settings.heat->ground != nullptr;
+  if (by_place) {
+    const Air& air = settings.weather.air;
+    look.emplace(band_of(settings.heat->ground->covers.kinds.front()), BandAir(air, settings.response),
+                 air.temperature_k, terms.sky);
+  }
+  const auto shift_of = [&](const std::string& name, double temperature_k) {
+    return look->shift(band_of(name), temperature_k);
+  };
+  held_->heat = heat_of_scene(
+      map_.surfaces(), states, *settings.heat, settings.weather, manifest,
+      {.parts = terms.parts, .variation = terms.variation, .place = by_place, .facing = terms.facing},
+      shift_of, settings.seed);
   middle_s_ = middle_s(manifest);
   std::map<const Material*, std::size_t> table_of;
   for (std::size_t i = 0; i < map_.surfaces().size(); ++i) {
-    const Material* material = map_.surfaces()[i].material;
+    const Material* material = &drawn_as(i, materials, settings);
     const auto [found, is_new] = table_of.emplace(material, held_->tables.size());
     if (is_new) {
       held_->tables.push_back(
@@ -138,8 +158,7 @@ void SceneRadiance::add_heat(const Manifest& manifest, const PhysicsSettings& se
   }
 }
 
-void SceneRadiance::add_optics(const Surface& surface, float surface_k, const PhysicsSettings& settings) {
-  const Material& material = *surface.material;
+void SceneRadiance::add_optics(const Material& material, float surface_k, const PhysicsSettings& settings) {
   const BandRadiance blackbody(settings.response);
   const BandRadiance band(settings.response, spectrum_of(material, settings.heat.has_value()));
   const Weather& weather = settings.weather;
@@ -169,7 +188,7 @@ void SceneRadiance::compose(const PhysicsSettings& settings, bool has_poses) {
   const SurfaceOpticsList& optics = held_->optics;
   if (settings.heat) {
     held_->field = std::make_unique<VariationField>(settings.seed);
-    chain_.push_back(heated_emission(held_->heat.spans, held_->tables, held_->heat.spots, *held_->field));
+    chain_.push_back(heated_emission(held_->heat, held_->tables, *held_->field));
   } else if (terms.variation) {
     held_->field = std::make_unique<VariationField>(settings.seed);
     chain_.push_back(varied_emission(optics, *held_->field));

@@ -68,11 +68,13 @@ class SceneRadiance {
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
 
  private:
-  void add_optics(const Surface& surface, float surface_k, const PhysicsSettings& settings);
+  void add_optics(const Material& material, float surface_k, const PhysicsSettings& settings);
   SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials, const PhysicsSettings& settings,
                 const ActorStates& actors);
-  void add_heat(const Manifest& manifest, const PhysicsSettings& settings,
+  void add_heat(const Manifest& manifest, const MaterialLibrary& materials, const PhysicsSettings& settings,
                 const std::vector<ActorState>& states);
+  [[nodiscard]] const Material& drawn_as(std::size_t surface, const MaterialLibrary& materials,
+                                         const PhysicsSettings& settings) const;
   void compose(const PhysicsSettings& settings, bool has_poses);
   void find_brightest();
   [[nodiscard]] float later_h(const ManifestFrame& frame) const noexcept;

@@ -31,12 +31,12 @@ float WarmSpots::excess_k(float x_m, float y_m) const noexcept {
   return warmest_k;
 }
 
-void WarmSpots::add(std::span<const std::uint16_t> surface, std::span<const std::int32_t> cover_of_surface,
+void WarmSpots::add(std::span<const std::uint16_t> surface, std::span<const std::int32_t> is_ground,
                     std::span<const float> x_m, std::span<const float> y_m,
                     std::span<float> temperature_k) const noexcept {
   if (spots_.empty()) return;
   for (std::size_t i = 0; i < temperature_k.size(); ++i) {
-    if (cover_of_surface[surface[i]] >= 0) temperature_k[i] += excess_k(x_m[i], y_m[i]);
+    if (is_ground[surface[i]] != 0) temperature_k[i] += excess_k(x_m[i], y_m[i]);
   }
 }
 

@@ -31,9 +31,9 @@ class WarmSpots {
   /// Excess at a place [K], 0 outside of all spots: the largest where several overlap.
   [[nodiscard]] float excess_k(float x_m, float y_m) const noexcept;
 
-  /// Adds the excess to the temperatures of a row's pixels that show ground: those with a cover by their surface.
+  /// Adds the excess to the temperatures of a row's pixels that show ground: those whose surface is ground: 1, others 0.
   /// Places that are not finite get none. Costs nothing without spots.
-  void add(std::span<const std::uint16_t> surface, std::span<const std::int32_t> cover_of_surface,
+  void add(std::span<const std::uint16_t> surface, std::span<const std::int32_t> is_ground,
            std::span<const float> x_m, std::span<const float> y_m,
            std::span<float> temperature_k) const noexcept;
 

@@ -135,6 +135,19 @@ void fill_heights(const TopHeights& tops, GroundMaps& maps) {
   }
 }
 
+std::vector<std::uint8_t> copy_of(std::span<const std::uint8_t> values) {
+  return {values.begin(), values.end()};
+}
+
+GroundCovers covers_of(const BakedGround& ground) {
+  return {.cells = ground.fine_cells,
+          .kinds = ground.covers,
+          .kind = copy_of(ground.kind),
+          .grass = copy_of(ground.grass),
+          .trodden = copy_of(ground.trodden),
+          .ash = copy_of(ground.ash)};
+}
+
 }  // namespace
 
 void trace_ground_light(const RayCaster& caster, std::span<const SunDay> days, GroundMaps& maps,
@@ -164,7 +177,7 @@ GroundMaps make_ground_maps(const BakedScene& scene, std::span<const SunDay> day
   maps.size_m = scene.ground.size_m;
   maps.cells = ground_map_cells(maps.size_m);
   maps.moisture = ground_moisture(scene.ground, maps.cells);
-  maps.grass = cover_share(scene.ground, "grass", maps.cells);
+  maps.covers = covers_of(scene.ground);
   fill_heights(top_heights(scene, maps.size_m, maps.cells), maps);
   trace_ground_light(RayCaster(scene), days, maps, kSkyRays, show);
   return maps;

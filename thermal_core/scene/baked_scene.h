@@ -60,6 +60,12 @@ struct BakedGround {
       shore_m;  ///< (cells + 1)^2, to the nearest shoreline, negative in water; empty: no water
   std::span<const std::uint8_t> cover;   ///< covers x cells^2: share of each cell, of which 255 is all
   std::span<const std::uint8_t> canopy;  ///< cells^2: share of each cell below crowns
+  // On fine_cells^2 squares, as in GroundCovers:
+  std::size_t fine_cells = 0;
+  std::span<const std::uint8_t> kind = {};
+  std::span<const std::uint8_t> grass = {};
+  std::span<const std::uint8_t> trodden = {};
+  std::span<const std::uint8_t> ash = {};
 };
 
 /// A place with everything on it, as every engine draws it (configs/schema/scene.schema.json).

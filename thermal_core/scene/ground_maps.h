@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "heat/weather/sun.h"
@@ -17,6 +18,19 @@ struct SunlitHours {
   [[nodiscard]] bool operator==(const SunlitHours&) const = default;
 };
 
+/// What the ground is made of, on cells x cells squares of about half a metre, [row of y, column of x], from south and
+/// west. Shares are bytes, of which 255 is all.
+struct GroundCovers {
+  std::size_t cells = 0;
+  std::vector<std::string> kinds;     ///< materials; the first is bare soil
+  std::vector<std::uint8_t> kind;     ///< number among `kinds`; bare soil where grass grows
+  std::vector<std::uint8_t> grass;    ///< of bare soil alone; so are the others
+  std::vector<std::uint8_t> trodden;  ///< packed by feet or wheels
+  std::vector<std::uint8_t> ash;
+
+  [[nodiscard]] bool operator==(const GroundCovers&) const = default;
+};
+
 /// What each square of the ground receives, [row of y, column of x], from south and west, of cells x cells squares. The
 /// place is that of BakedGround: a square of size_m around the origin. Values are those of the middle of a cell, on the
 /// drawn ground or water. Actors are not part of it.
@@ -29,8 +43,8 @@ struct GroundMaps {
   std::vector<float> height_m;         ///< of the ground, or of the water above it
   std::vector<float> crown_top_m;      ///< the highest plant above that; 0: none
   std::vector<std::uint8_t> moisture;  ///< 255: saturated; see ground_moisture()
-  std::vector<std::uint8_t> grass;     ///< share below grass, of which 255 is all
-  std::vector<SunlitHours> sunlit;     ///< one for each sun path
+  GroundCovers covers = {};
+  std::vector<SunlitHours> sunlit;  ///< one for each sun path
 
   [[nodiscard]] bool operator==(const GroundMaps&) const = default;
 };

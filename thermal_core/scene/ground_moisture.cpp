@@ -48,10 +48,9 @@ Between between(double place, std::size_t nodes) noexcept {
   return {.low = number, .high = std::min(number + 1, nodes - 1), .share_of_high = inside - low};
 }
 
-/// Values on nodes x nodes places.
-template <typename Value>
+/// Heights or distances on nodes x nodes places.
 struct Grid {
-  std::span<const Value> values;
+  std::span<const float> values;
   std::size_t nodes = 0;
 
   [[nodiscard]] double at(const Between& row, const Between& column) const noexcept {
@@ -67,7 +66,7 @@ struct Grid {
 
 /// How far the land on both of two opposite sides is above a place: of four pairs of sides, the most. Places are in
 /// steps of the grid, of which `side` are kSideM.
-double depth_m(const Grid<float>& height_m, double row, double column, double side) noexcept {
+double depth_m(const Grid& height_m, double row, double column, double side) noexcept {
   constexpr double kDiagonal = 0.70710678;
   constexpr std::array<std::array<double, 2>, 4> kWays = {
       {{0, 1}, {1, 0}, {kDiagonal, kDiagonal}, {kDiagonal, -kDiagonal}}};
@@ -86,8 +85,8 @@ std::vector<std::uint8_t> ground_moisture(const BakedGround& ground, std::size_t
   const std::size_t nodes = ground.cells + 1;
   const double steps_a_cell = static_cast<double>(ground.cells) / static_cast<double>(cells);
   const double side = kSideM * static_cast<double>(ground.cells) / ground.size_m;
-  const Grid<float> height_m = {.values = ground.height_m, .nodes = nodes};
-  const Grid<float> shore_m = {.values = ground.shore_m, .nodes = nodes};
+  const Grid height_m = {.values = ground.height_m, .nodes = nodes};
+  const Grid shore_m = {.values = ground.shore_m, .nodes = nodes};
   return map_of(cells, [&](std::size_t row_number, std::size_t column_number) {
     const double row = (static_cast<double>(row_number) + 0.5) * steps_a_cell;
     const double column = (static_cast<double>(column_number) + 0.5) * steps_a_cell;
@@ -96,21 +95,6 @@ std::vector<std::uint8_t> ground_moisture(const BakedGround& ground, std::size_t
     if (ground.shore_m.empty()) return in_hollow;
     const double from_shore_m = shore_m.at(between(row, nodes), between(column, nodes));
     return std::max(in_hollow, std::exp(-std::max(0.0, from_shore_m) / kShoreM));
-  });
-}
-
-std::vector<std::uint8_t> cover_share(const BakedGround& ground, std::string_view cover, std::size_t cells) {
-  const auto found = std::ranges::find(ground.covers, cover);
-  if (found == ground.covers.end()) return std::vector<std::uint8_t>(cells * cells);
-  const std::size_t nodes = ground.cells;
-  const auto number = static_cast<std::size_t>(found - ground.covers.begin());
-  const Grid<std::uint8_t> share = {.values = ground.cover.subspan(number * nodes * nodes, nodes * nodes),
-                                    .nodes = nodes};
-  const double nodes_a_cell = static_cast<double>(nodes) / static_cast<double>(cells);
-  return map_of(cells, [&](std::size_t row, std::size_t column) {
-    return share.at(between((static_cast<double>(row) + 0.5) * nodes_a_cell - 0.5, nodes),
-                    between((static_cast<double>(column) + 0.5) * nodes_a_cell - 0.5, nodes)) /
-           255;
   });
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "scene/baked_scene.h"
@@ -14,10 +13,5 @@ namespace thermal {
 /// 4 m outwards; and up to 0.5 in hollows, in proportion to how far the land rises on two opposite sides, 30 m away, up
 /// to 2 m. The foot of a slope is no hollow. `ground` has at least one cell.
 [[nodiscard]] std::vector<std::uint8_t> ground_moisture(const BakedGround& ground, std::size_t cells);
-
-/// The share of one of `covers` there, of which 255 is all: interpolated between the middles of the ground's own cells.
-/// 0 if the ground does not have it.
-[[nodiscard]] std::vector<std::uint8_t> cover_share(const BakedGround& ground, std::string_view cover,
-                                                    std::size_t cells);
 
 }  // namespace thermal

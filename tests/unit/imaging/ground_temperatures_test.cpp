@@ -1,8 +1,12 @@
 #include "imaging/ground_temperatures.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "imaging/ground_noise.h"
@@ -17,6 +21,18 @@ using namespace thermal;
 namespace {
 
 constexpr std::size_t kCells = 64;
+constexpr std::size_t kFineCells = 2 * kCells;
+
+/// Bare soil and nothing else.
+GroundCovers bare(std::vector<std::string> kinds = {"soil"}) {
+  const std::vector<std::uint8_t> none(kFineCells * kFineCells);
+  return {.cells = kFineCells,
+          .kinds = std::move(kinds),
+          .kind = none,
+          .grass = none,
+          .trodden = none,
+          .ash = none};
+}
 
 /// Level ground of 64 m with open sky, whose moisture rises from west to east.
 GroundMaps maps() {
@@ -26,8 +42,7 @@ GroundMaps maps() {
   maps.sky_view.assign(kCells * kCells, 255);
   maps.height_m.assign(kCells * kCells, 10);
   maps.crown_top_m.assign(kCells * kCells, 0);
-  maps.crown_top_m[5 * kCells + 7] = 4;
-  maps.grass.assign(kCells * kCells, 0);
+  maps.covers = bare();
   for (std::size_t i = 0; i < kCells * kCells; ++i)
     maps.moisture.push_back(static_cast<std::uint8_t>(4 * (i % kCells)));
   return maps;
@@ -41,16 +56,19 @@ MaterialMoment between_moistures(double dry_k, double wet_k) {
 /// 270 K where it is dry, 280 K where it is wet.
 MaterialMoment by_moisture() { return between_moistures(270, 280); }
 
+MaterialMoment always(double temperature_k) { return between_moistures(temperature_k, temperature_k); }
+
 GroundWindow all() { return {.width = kCells, .height = kCells}; }
 
-/// Of one cover that keeps its temperatures.
+/// All parts of one heat, which keep their temperatures.
 GroundWarmth steady(const MaterialMoment& heat) {
-  return {.first = {.covers = {&heat}, .sunlit = {}}, .last = {}};
+  return {.first = {.parts = std::vector(1 + kLoosePartNames.size(), GroundPart{&heat}), .sunlit = {}},
+          .last = {}};
 }
 
-GroundTemperatures ground_of(const GroundMaps& maps, const GroundWindow& window, const GroundWarmth& warmth,
-                             const CoverVariation& variation = {}) {
-  return {maps, window, {&variation, 1}, warmth, 3};
+GroundTexture ground_of(const GroundMaps& maps, const GroundWindow& window, const GroundWarmth& warmth,
+                        bool rough = false) {
+  return ground_temperatures(maps, ground_of_window(maps, window, rough, 3), warmth);
 }
 
 struct Sampled {
@@ -58,49 +76,137 @@ struct Sampled {
   float sky_view = 2;
 };
 
-Sampled sampled(const GroundTemperatures& ground, float x_m, float y_m, float footprint_m, float later_h = 0,
-                std::int32_t cover = 0) {
+Sampled sampled(const GroundTexture& ground, float x_m, float y_m, float footprint_m, float later_h = 0,
+                std::int32_t is_ground = 1) {
   const std::uint16_t surface = 0;
   Sampled result;
   const auto bits = std::bit_cast<std::int32_t>(footprint_m);
-  ground.texture().sample({.surface = {&surface, 1},
-                           .cover_of_surface = {&cover, 1},
-                           .x_m = {&x_m, 1},
-                           .y_m = {&y_m, 1},
-                           .footprint_m = {&footprint_m, 1},
-                           .footprints = {static_cast<std::uint32_t>(bits), bits}},
-                          later_h, {&result.temperature_k, 1}, {&result.sky_view, 1});
+  ground.sample({.surface = {&surface, 1},
+                 .is_ground = {&is_ground, 1},
+                 .x_m = {&x_m, 1},
+                 .y_m = {&y_m, 1},
+                 .footprint_m = {&footprint_m, 1},
+                 .footprints = {static_cast<std::uint32_t>(bits), bits}},
+                later_h, {&result.temperature_k, 1}, {&result.sky_view, 1});
   return result;
 }
 
-float at(const GroundTemperatures& ground, float x_m, float y_m, float footprint_m) {
+float at(const GroundTexture& ground, float x_m, float y_m, float footprint_m) {
   return sampled(ground, x_m, y_m, footprint_m).temperature_k;
+}
+
+/// The largest and the smallest of many places.
+std::array<float, 2> range_of(const GroundTexture& ground) {
+  std::array<float, 2> range = {1e9F, -1e9F};
+  for (float y = -31; y < 31; y += 0.43F) {
+    for (float x = -31; x < 31; x += 0.37F) {
+      const float value_k = at(ground, x, y, 0.05F);
+      range = {std::min(range[0], value_k), std::max(range[1], value_k)};
+    }
+  }
+  return range;
 }
 
 }  // namespace
 
-TEST_CASE("Temperatures are those of the cells, in straight lines between their middles") {
+TEST_CASE("Temperatures are those of the maps, in straight lines between the middles of their cells") {
   const MaterialMoment heat = by_moisture();
-  const GroundTemperatures ground = ground_of(maps(), all(), steady(heat));
-  // The middle of column 10 is at -32 + 10.5 m; its moisture is 40 of 255. Steps of 1/512 K, and rounding.
-  const double k10 = 270 + 10 * 40 / 255.0;
-  const double k11 = 270 + 10 * 44 / 255.0;
-  CHECK_THAT(at(ground, -21.5F, 3, 0.05F), WithinAbs(k10, 0.0011));
-  CHECK_THAT(at(ground, -21.0F, 3, 0.05F), WithinAbs(0.5 * (k10 + k11), 0.0021));
-  // Far away the mean of the place, at its border the border's.
-  CHECK_THAT(at(ground, 500, 3, 0.05F), WithinAbs(270 + 10 * 252 / 255.0, 0.0011));
-  CHECK_THAT(at(ground, 0, 0, 64), WithinAbs(270 + 10 * 126 / 255.0, 0.1));
+  const GroundTexture ground = ground_of(maps(), all(), steady(heat));
+  // The middle of column 10 is at -32 + 10.5 m; its moisture is 40 of 255, of column 11 it is 44. Steps of 1/512 K, and
+  // rounding.
+  const auto k_at = [](double column) { return 270 + 10 * 4 * column / 255; };
+  CHECK_THAT(at(ground, -21.25F, 3, 0.05F), WithinAbs(k_at(10.25), 0.0011));
+  CHECK_THAT(at(ground, -21.0F, 3, 0.05F), WithinAbs(k_at(10.5), 0.0021));
+  // Beyond the border what is there: the last column's, a quarter of which is that of a cell of the covers further in.
+  CHECK_THAT(at(ground, 500, 3, 0.05F), WithinAbs(k_at(63 - 0.25 * 0.25), 0.0011));
+  CHECK_THAT(at(ground, 0, 0, 64), WithinAbs(k_at(31.5), 0.1));
 }
 
-TEST_CASE("Pixels without a cover or a place keep the temperature they had") {
+TEST_CASE("Parts are mixed by their shares, and what they leave is the kind of the cell") {
+  GroundMaps mixed = maps();
+  mixed.covers = bare({"soil", "road"});
+  for (std::size_t i = 0; i < kFineCells * kFineCells; ++i) {
+    const bool is_road = i % kFineCells >= kFineCells / 2;
+    mixed.covers.kind[i] = is_road ? 1 : 0;
+    if (!is_road) mixed.covers.grass[i] = 102;  // 0.4
+    mixed.covers.trodden[i] = 51;               // 0.2
+  }
+  const MaterialMoment soil = always(270);
+  const MaterialMoment road = always(280);
+  const MaterialMoment grass = always(260);
+  const MaterialMoment trodden = always(275);
+  const MaterialMoment none = always(250);
+  GroundWarmth warmth = steady(none);
+  // The order of ground_part_names(): kinds, grass, litter, trodden, ash, rock.
+  warmth.first.parts = {{&soil}, {&road}, {&grass}, {&none}, {&trodden}, {&none}, {&soil}};
+  const GroundTexture ground = ground_of(mixed, all(), warmth);
+  // Of a hundredth that is rock, here as warm as soil; then a fifth of the rest is trodden. Shares are bytes.
+  const double left = 0.99 * 0.8;
+  CHECK_THAT(at(ground, -16, 0, 0.05F),
+             WithinAbs(0.01 * 270 + 0.99 * 0.2 * 275 + left * (0.4 * 260 + 0.6 * 270), 0.08));
+  CHECK_THAT(at(ground, 16, 0, 0.05F), WithinAbs(0.01 * 270 + 0.99 * 0.2 * 275 + left * 280, 0.08));
+  // A part that looks warmer, by the sky it sees.
+  warmth.first.parts[2].shift = {.without_sky_k = 1, .by_sky_view_k = 2};
+  CHECK_THAT(at(ground_of(mixed, all(), warmth), -16, 0, 0.05F) - at(ground, -16, 0, 0.05F),
+             WithinAbs(left * 0.4 * 3, 0.02));
+}
+
+TEST_CASE("Grass is uneven from tussock to tussock, keeps its mean, and never leaves what parts have") {
+  GroundMaps meadow = maps();
+  meadow.moisture.assign(kCells * kCells, 0);
+  meadow.covers.grass.assign(kFineCells * kFineCells, 128);
+  const MaterialMoment soil = always(270);
+  const MaterialMoment grass = always(274);
+  GroundWarmth warmth = steady(soil);
+  warmth.first.parts[1] = {&grass};
+  const auto [even_low, even_high] = range_of(ground_of(meadow, all(), warmth));
+  CHECK(even_high - even_low < 0.01F);
+  const GroundTexture rough = ground_of(meadow, all(), warmth, true);
+  const auto [low, high] = range_of(rough);
+  CHECK(low >= 270 - 0.01F);
+  CHECK(high <= 274 + 0.01F);
+  CHECK(high - low > 2);
+  // Of (64 m / 6 m)^2 = 114 independent patches whose deviation is at most 1.6 K, five standard deviations.
+  CHECK_THAT(at(rough, 0, 0, 64), WithinAbs(even_low, 5 * 1.6 / std::sqrt(114.0)));
+}
+
+TEST_CASE("Litter lies below crowns, and no grass grows where the ground burnt") {
+  GroundMaps wood = maps();
+  wood.covers.grass.assign(kFineCells * kFineCells, 200);
+  wood.crown_top_m[20 * kCells + 10] = 4;
+  wood.covers.ash[0] = 255;
+  const auto mixes = ground_mixture(wood, cover_window(wood, all()), true, 3);
+  const auto litter_at = [&](std::size_t x, std::size_t y) { return mixes[y * kFineCells + x].share[1]; };
+  CHECK(litter_at(20, 40) + litter_at(21, 40) + litter_at(20, 41) + litter_at(21, 41) > 100);
+  CHECK(litter_at(22, 40) == 0);
+  CHECK(mixes[0].share[0] == 0);
+  std::size_t grassy = 0;
+  for (const GroundMix& mix : mixes) {
+    int sum = 0;
+    for (const std::uint8_t share : mix.share) sum += share;
+    CHECK(sum <= 255);
+    grassy += mix.share[0] > 0 ? 1U : 0U;
+  }
+  CHECK(grassy > mixes.size() / 2);
+}
+
+TEST_CASE("Pixels that are not ground or have no place keep the temperature they had") {
   const MaterialMoment heat = by_moisture();
-  const GroundTemperatures ground = ground_of(maps(), all(), steady(heat));
+  const GroundTexture ground = ground_of(maps(), all(), steady(heat));
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   CHECK(at(ground, kNaN, 0, 0.1F) == -1);
   CHECK(at(ground, 0, 0, kNaN) == -1);
   CHECK(at(ground, 0, 0, -1) == -1);
-  CHECK(ground.crown_top_m(-32 + 7.5F, -32 + 5.5F) == 14);
-  CHECK(ground.crown_top_m(0, 0) == 10);
+  CHECK(sampled(ground, 0, 0, 0.1F, 0, 0).temperature_k == -1);
+}
+
+TEST_CASE("The top of crowns is that of the cell") {
+  GroundMaps wood = maps();
+  wood.crown_top_m[5 * kCells + 7] = 4;
+  const CrownTops tops(wood, all());
+  CHECK(tops.at(-32 + 7.5F, -32 + 5.5F) == 14);
+  CHECK(tops.at(0, 0) == 10);
+  CHECK(tops.at(std::numeric_limits<float>::quiet_NaN(), 0) == 10);
 }
 
 TEST_CASE("The sky view of ground is that of its cells, and of other surfaces what it was") {
@@ -108,11 +214,11 @@ TEST_CASE("The sky view of ground is that of its cells, and of other surfaces wh
   for (std::size_t i = 0; i < kCells * kCells; ++i)
     shaded.sky_view[i] = static_cast<std::uint8_t>(3 * (i % kCells));
   const MaterialMoment heat = by_moisture();
-  const GroundTemperatures ground = ground_of(shaded, all(), steady(heat));
-  // In the middle of column 10, and halfway to column 11.
-  CHECK_THAT(sampled(ground, -21.5F, 3, 0.02F).sky_view, WithinAbs(30 / 255.0, 0.0001));
+  const GroundTexture ground = ground_of(shaded, all(), steady(heat));
+  // A quarter of the way from the middle of column 10 to that of column 11, and halfway; steps of 1/255.
+  CHECK_THAT(sampled(ground, -21.25F, 3, 0.02F).sky_view, WithinAbs(31 / 255.0, 0.0001));
   CHECK_THAT(sampled(ground, -21.0F, 3, 0.02F).sky_view, WithinAbs(31.5 / 255.0, 0.0001));
-  CHECK(sampled(ground, -21.5F, 3, 0.02F, 0, -1).sky_view == -1);
+  CHECK(sampled(ground, -21.5F, 3, 0.02F, 0, 0).sky_view == -1);
   CHECK(sampled(ground, -21.5F, 3, -1).sky_view == -1);
   Row row;
   row.ground_sky_view = {0.25F, -1};
@@ -128,11 +234,11 @@ TEST_CASE("Ground warms in a straight line through the clip, each place at its o
   const MaterialMoment first = between_moistures(269.5, 278.5);
   const MaterialMoment last = between_moistures(270.5, 281.5);
   GroundWarmth warmth = steady(first);
-  warmth.last.covers = {&last};
+  warmth.last.parts.assign(warmth.first.parts.size(), {&last});
   warmth.hours = 0.5;
-  const GroundTemperatures ground = ground_of(maps(), all(), warmth);
-  const float x_m = GENERATE(-31.5F, -21.5F, 20.5F);
-  const double moisture = std::floor(static_cast<double>(x_m) + 32) * 4 / 255;
+  const GroundTexture ground = ground_of(maps(), all(), warmth);
+  const float x_m = GENERATE(-31.75F, -21.25F, 20.25F);
+  const double moisture = std::max(0.0, static_cast<double>(x_m) + 31.5) * 4 / 255;
   const double now_k = static_cast<double>(at(ground, x_m, 3, 0.05F));
   for (const float later_h : {-0.25F, 0.1F, 0.25F}) {
     // 1/127 of the fastest warming, 6 K/h, and rounding.
@@ -142,25 +248,18 @@ TEST_CASE("Ground warms in a straight line through the clip, each place at its o
   }
 }
 
-TEST_CASE("Ground without a cover has neither temperature nor sky view") {
-  const GroundTemperatures ground(maps(), all(), {}, {}, 1);
-  CHECK(sampled(ground, 0, 0, 0.1F).temperature_k == -1);
-  CHECK(sampled(ground, 0, 0, 0.1F).sky_view == -1);
-}
-
 TEST_CASE("A window shows what the whole place shows there, noise included") {
   const MaterialMoment heat = by_moisture();
-  const CoverVariation variation = {.stddev_k = 1, .correlation_length_m = 8};
-  const GroundTemperatures whole = ground_of(maps(), all(), steady(heat), variation);
-  const GroundTemperatures part =
-      ground_of(maps(), {.first_x = 20, .first_y = 30, .width = 12, .height = 9}, steady(heat), variation);
-  for (float x = -11; x < -1; x += 0.7F)
+  const GroundTexture whole = ground_of(maps(), all(), steady(heat), true);
+  const GroundTexture part =
+      ground_of(maps(), {.first_x = 20, .first_y = 30, .width = 12, .height = 9}, steady(heat), true);
+  for (float x = -10; x < -2; x += 0.7F)  // two cells of the covers from its border
     CHECK_THAT(at(part, x, 2.4F, 0.1F), WithinAbs(at(whole, x, 2.4F, 0.1F), 0.003));
 }
 
 TEST_CASE("Noise of the ground has mean 0 and variance 1, and does not repeat itself") {
   const GroundWindow window = {.width = 1024, .height = 1024};
-  const std::vector<float> noise = ground_noise(window, 8, 7, 1);
+  const std::vector<float> noise = ground_noise(window, {.length_cells = 8}, 7, 1);
   double sum = 0;
   double squares = 0;
   double shifted = 0;
@@ -175,7 +274,7 @@ TEST_CASE("Noise of the ground has mean 0 and variance 1, and does not repeat it
   CHECK_THAT(sum / count, WithinAbs(0, 5.0 / 128 * 1.5));
   CHECK_THAT(squares / count, WithinAbs(1, 5.0 / 128 * std::sqrt(2) * 1.5));
   CHECK_THAT(shifted / count, WithinAbs(0, 5.0 / 128 * 1.5));
-  CHECK(ground_noise({.width = 4, .height = 4}, 1, 7, 1) == std::vector<float>(16, 0.0F));
+  CHECK(ground_noise({.width = 4, .height = 4}, {.length_cells = 1}, 7, 1) == std::vector<float>(16, 0.0F));
 }
 
 TEST_CASE("A window holds what a camera sees, and everything where it sees the horizon") {

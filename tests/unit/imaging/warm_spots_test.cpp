@@ -41,11 +41,11 @@ TEST_CASE("Where spots overlap the warmer one counts, and only ground is warmed"
   const WarmSpots spots({spot(0, 0), spot(1, 0)});
   CHECK(spots.excess_k(1, 0) == 10);
   const std::uint16_t surface[] = {0, 1, 0};
-  const std::int32_t cover[] = {2, -1};
+  const std::int32_t is_ground[] = {1, 0};
   const float x[] = {0, 0, 50};
   const float y[] = {0, 0, 0};
   float temperature_k[] = {280, 280, 280};
-  spots.add(surface, cover, x, y, temperature_k);
+  spots.add(surface, is_ground, x, y, temperature_k);
   CHECK(temperature_k[0] == 290);
   CHECK(temperature_k[1] == 280);
   CHECK(temperature_k[2] == 280);

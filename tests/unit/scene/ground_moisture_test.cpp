@@ -28,7 +28,6 @@ struct Land {
 
   std::vector<float> height_m = on_lines([](double, double) { return 5; });
   std::vector<float> shore_m = {};
-  std::vector<std::uint8_t> cover = {};
 
   [[nodiscard]] thermal::BakedGround ground() const {
     return {.size_m = kSizeM,
@@ -36,7 +35,7 @@ struct Land {
             .covers = {},
             .height_m = height_m,
             .shore_m = shore_m,
-            .cover = cover,
+            .cover = {},
             .canopy = {}};
   }
 };
@@ -93,21 +92,6 @@ TEST_CASE("A single cell of ground is dry, and moist by its shore") {
   CHECK(thermal::ground_moisture(ground, 1)[0] == 0);
   ground.shore_m = shore_m;
   CHECK(thermal::ground_moisture(ground, 1)[0] == 255);
-}
-
-TEST_CASE("Shares of a cover are interpolated between the middles of cells") {
-  const std::vector<std::uint8_t> cover = {255, 255, 255, 255, 0, 200, 0, 200};
-  const thermal::BakedGround ground{.size_m = 4,
-                                    .cells = 2,
-                                    .covers = {"soil", "grass"},
-                                    .height_m = {},
-                                    .shore_m = {},
-                                    .cover = cover,
-                                    .canopy = {}};
-  const std::vector<std::uint8_t> row = {0, 50, 150, 200};
-  const auto grass = thermal::cover_share(ground, "grass", 4);
-  for (std::size_t k = 0; k < 16; ++k) CHECK(grass[k] == row[k % 4]);
-  CHECK(thermal::cover_share(ground, "rock", 3) == std::vector<std::uint8_t>(9, 0));
 }
 
 }  // namespace ground_moisture_test

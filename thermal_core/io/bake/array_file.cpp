@@ -114,4 +114,12 @@ void ArrayFile::check_finite(const std::string& name, std::span<const double> va
   check_all_finite(*this, name, values);
 }
 
+void ArrayFile::check_below(const std::string& name, std::span<const std::uint8_t> numbers,
+                            std::size_t count) const {
+  const auto wrong = std::ranges::find_if(numbers, [count](std::uint8_t number) { return number >= count; });
+  if (wrong == numbers.end()) return;
+  throw fault_at(fmt::format("{}[{}]", name, wrong - numbers.begin()), fmt::format("{}", *wrong),
+                 fmt::format("less than {}", count));
+}
+
 }  // namespace thermal

@@ -39,6 +39,8 @@ class ArrayFile {
   /// DataError if a value of an array is NaN or infinite.
   void check_finite(const std::string& name, std::span<const float> values) const;
   void check_finite(const std::string& name, std::span<const double> values) const;
+  /// DataError if a number of an array is `count` or more.
+  void check_below(const std::string& name, std::span<const std::uint8_t> numbers, std::size_t count) const;
 
   /// A fault of the file, to be thrown: "FILE: <fault>".
   [[nodiscard]] DataError fault_at(const std::string& where, const std::string& value,

@@ -171,6 +171,15 @@ class SceneReader {
     ground.cover = file_.array<std::uint8_t>(json.at("cover"), "|u1", {ground.covers.size(), cells, cells});
     ground.canopy = file_.array<std::uint8_t>(json.at("canopy"), "|u1", {cells, cells});
     file_.check_finite(height, ground.height_m);
+    ground.fine_cells = json.at("fine_cells");
+    const auto fine = [&](const char* name) {
+      return file_.array<std::uint8_t>(json.at(name), "|u1", {ground.fine_cells, ground.fine_cells});
+    };
+    ground.kind = fine("kind");
+    ground.grass = fine("grass");
+    ground.trodden = fine("trodden");
+    ground.ash = fine("ash");
+    file_.check_below(json.at("kind"), ground.kind, ground.covers.size());
     if (!json.contains("shore_m")) return ground;
     const std::string shore = json.at("shore_m");
     ground.shore_m = file_.array<float>(shore, "<f4", {cells + 1, cells + 1});

@@ -42,7 +42,7 @@ class MapsReader {
     maps.height_m = heights("height_m");
     maps.crown_top_m = heights("crown_top_m");
     maps.moisture = map<std::uint8_t>("moisture", "|u1");
-    maps.grass = map<std::uint8_t>("grass", "|u1");
+    maps.covers = covers();
     const auto below = std::ranges::find_if(maps.crown_top_m, [](float one) { return one < 0; });
     if (below != maps.crown_top_m.end())
       throw file_.fault_at(fmt::format("crown_top_m[{}]", below - maps.crown_top_m.begin()),
@@ -54,8 +54,26 @@ class MapsReader {
  private:
   template <typename Value>
   [[nodiscard]] std::vector<Value> map(const char* name, const char* type) const {
-    const std::span<const Value> values = file_.array<Value>(name, type, {cells_, cells_});
+    return square<Value>(name, type, cells_);
+  }
+
+  template <typename Value>
+  [[nodiscard]] std::vector<Value> square(const char* name, const char* type, std::size_t cells) const {
+    const std::span<const Value> values = file_.array<Value>(name, type, {cells, cells});
     return {values.begin(), values.end()};
+  }
+
+  [[nodiscard]] GroundCovers covers() const {
+    GroundCovers covers;
+    covers.cells = file_.header().at("fine_cells");
+    covers.kinds = file_.header().at("kinds").get<std::vector<std::string>>();
+    const auto share = [&](const char* name) { return square<std::uint8_t>(name, "|u1", covers.cells); };
+    covers.kind = share("kind");
+    covers.grass = share("grass");
+    covers.trodden = share("trodden");
+    covers.ash = share("ash");
+    file_.check_below("kind", covers.kind, covers.kinds.size());
+    return covers;
   }
 
   [[nodiscard]] std::vector<float> heights(const char* name) const {
@@ -87,10 +105,9 @@ Json header_of(const GroundMaps& maps) {
   Json paths = Json::array();
   for (const SunlitHours& sunlit : maps.sunlit)
     paths.push_back({{"latitude_deg", sunlit.path.latitude_deg}, {"day_of_year", sunlit.path.day_of_year}});
-  return {{"format", "veldt-ground-maps"},
-          {"version", 1},
-          {"size_m", maps.size_m},
-          {"cells", maps.cells},
+  return {{"format", "veldt-ground-maps"},   {"version", 2},
+          {"size_m", maps.size_m},           {"cells", maps.cells},
+          {"fine_cells", maps.covers.cells}, {"kinds", maps.covers.kinds},
           {"sun_paths", std::move(paths)}};
 }
 
@@ -128,7 +145,11 @@ void write_ground_maps(const GroundMaps& maps, const Path& folder, const Path& s
   file.add<float>("height_m", "<f4", shape, maps.height_m);
   file.add<float>("crown_top_m", "<f4", shape, maps.crown_top_m);
   file.add<std::uint8_t>("moisture", "|u1", shape, maps.moisture);
-  file.add<std::uint8_t>("grass", "|u1", shape, maps.grass);
+  const std::vector<std::size_t> fine = {maps.covers.cells, maps.covers.cells};
+  file.add<std::uint8_t>("kind", "|u1", fine, maps.covers.kind);
+  file.add<std::uint8_t>("grass", "|u1", fine, maps.covers.grass);
+  file.add<std::uint8_t>("trodden", "|u1", fine, maps.covers.trodden);
+  file.add<std::uint8_t>("ash", "|u1", fine, maps.covers.ash);
   std::vector<std::uint32_t> hours;
   for (const SunlitHours& sunlit : maps.sunlit)
     hours.insert(hours.end(), sunlit.hours.begin(), sunlit.hours.end());

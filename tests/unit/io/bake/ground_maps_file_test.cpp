@@ -26,7 +26,12 @@ GroundMaps maps() {
           .height_m = {-1.5F, 0, 1e-3F, 20},
           .crown_top_m = {0, 0, 3.25F, 0},
           .moisture = {255, 4, 0, 9},
-          .grass = {7, 0, 255, 1},
+          .covers = {.cells = 3,
+                     .kinds = {"soil", "road"},
+                     .kind = {0, 1, 0, 0, 0, 0, 1, 0, 0},
+                     .grass = {7, 0, 255, 1, 2, 3, 0, 4, 5},
+                     .trodden = {0, 0, 0, 9, 0, 0, 0, 0, 255},
+                     .ash = {0, 0, 1, 0, 0, 0, 0, 8, 0}},
           .sunlit = {{.path = {.latitude_deg = -19, .day_of_year = 190}, .hours = {0, 1, 0xFFFFFF, 4}},
                      {.path = {.latitude_deg = 12.25, .day_of_year = 1}, .hours = {9, 8, 7, 6}}}};
 }
@@ -91,6 +96,10 @@ TEST_CASE("Values that no maps have are refused") {
         "ground.json: crown_top_m[1] = nan; expected a finite number");
   CHECK(fault_of([](GroundMaps& maps) { maps.crown_top_m[3] = -0.5F; }) ==
         "ground.json: crown_top_m[3] = -0.5; expected 0 or more");
+  CHECK(fault_of([](GroundMaps& maps) { maps.covers.kind[5] = 2; }) ==
+        "ground.json: kind[5] = 2; expected less than 2");
+  CHECK(fault_of([](GroundMaps& maps) { maps.covers.kinds.clear(); }) ==
+        "ground.json: kinds = a list of 0; expected at least 1 entries");
   CHECK(fault_of([](GroundMaps& maps) { maps.sunlit[1].hours[2] = 1U << 24U; }) ==
         "ground.json: sunlit[6] = 16777216; expected bits of 24 hours");
   CHECK(fault_of([](GroundMaps& maps) { maps.sunlit[0].path.day_of_year = 367; }) ==
@@ -98,8 +107,8 @@ TEST_CASE("Values that no maps have are refused") {
 }
 
 TEST_CASE("Headers that do not fit are refused") {
-  CHECK(fault_of_header([](Json& header) { header["version"] = 2; }) ==
-        "ground.json: version = 2; expected at least 1 and at most 1");
+  CHECK(fault_of_header([](Json& header) { header["version"] = 1; }) ==
+        "ground.json: version = 1; expected at least 2 and at most 2");
   CHECK(fault_of_header([](Json& header) { header["cells"] = 3; }) ==
         "ground.json: arrays.sky_view.shape = [2,2]; expected [3, 3]");
   CHECK(fault_of_header([](Json& header) { header["cells"] = 4097; }) ==
@@ -108,8 +117,8 @@ TEST_CASE("Headers that do not fit are refused") {
         "ground.json: arrays.sunlit.shape = [2,2,2]; expected [1, 2, 2]");
   CHECK(fault_of_header([](Json& header) { header["arrays"].erase("grass"); }) ==
         "ground.json: arrays.grass = nothing; expected an array");
-  CHECK(fault_of_header([](Json& header) { header["arrays"]["sunlit"]["offset"] = 384; }) ==
-        "ground.json: arrays.sunlit.offset = 384; expected a multiple of 64 within the 384 bytes of "
+  CHECK(fault_of_header([](Json& header) { header["arrays"]["sunlit"]["offset"] = 576; }) ==
+        "ground.json: arrays.sunlit.offset = 576; expected a multiple of 64 within the 576 bytes of "
         "ground.bin, "
         "with all of the array");
 }
@@ -117,9 +126,9 @@ TEST_CASE("Headers that do not fit are refused") {
 TEST_CASE("A binary file that is cut is refused") {
   const TemporaryFolder folder;
   thermal::write_ground_maps(maps(), folder.path(), folder.path());
-  std::filesystem::resize_file(folder / "ground.bin", 383);
+  std::filesystem::resize_file(folder / "ground.bin", 575);
   CHECK(message_of<DataError>([&] { (void)read(folder); }) ==
-        (folder / "ground.bin").string() + ": 383 bytes; expected 384");
+        (folder / "ground.bin").string() + ": 575 bytes; expected 576");
 }
 
 }  // namespace ground_maps_file_test
