@@ -97,13 +97,19 @@ std::vector<SceneOutline::Look> looks_in(const Plane<float>& depth_m, const Mani
   return looks;
 }
 
-/// A clip keeps its height and angle, so one frame is representative.
+/// Means over the frames that tell their height, as of a plan's clips.
 void add_told_height(const Manifest& manifest, const ClipConfig& clip, Nights& nights) {
-  const auto frame =
-      std::ranges::find_if(manifest.frames, [](const ManifestFrame& one) { return one.agl_m.has_value(); });
-  if (frame == manifest.frames.end()) return;
   constexpr double kStraightDown = 90;
-  nights.add(clip, *frame->agl_m, frame->look_angle_deg.value_or(kStraightDown), manifest.camera);
+  double sum_agl_m = 0;
+  double sum_look_deg = 0;
+  double count = 0;
+  for (const ManifestFrame& frame : manifest.frames) {
+    if (!frame.agl_m) continue;
+    sum_agl_m += *frame.agl_m;
+    sum_look_deg += frame.look_angle_deg.value_or(kStraightDown);
+    ++count;
+  }
+  if (count > 0) nights.add(clip, sum_agl_m / count, sum_look_deg / count, manifest.camera);
 }
 
 /// Viewing directions of a clip's camera, by the depths of a frame; empty without depths.

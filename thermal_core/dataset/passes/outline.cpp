@@ -76,8 +76,10 @@ Nights::Night& Nights::night_of(const ClipConfig& clip) {
   return nights_[place->second];
 }
 
-void Nights::add(const ClipConfig& clip, double height_m, double look_angle_deg,
+void Nights::add(const ClipConfig& clip, double mean_height_m, double mean_look_angle_deg,
                  const CameraIntrinsics& camera) {
+  const double height_m = std::max(1.0, std::round(mean_height_m));
+  const double look_angle_deg = std::round(mean_look_angle_deg);
   Night& night = night_of(clip);
   const bool is_new = night.seen.insert({height_m, look_angle_deg, camera.fx_px, camera.fy_px}).second;
   if (!is_new) return;  // many clips fly alike

@@ -32,8 +32,10 @@ class Nights {
  public:
   explicit Nights(const Config& config) : config_(config) {}
 
-  /// A clip's camera above level ground, `look_angle_deg` below the horizon.
-  void add(const ClipConfig& clip, double height_m, double look_angle_deg, const CameraIntrinsics& camera);
+  /// A clip's camera above level ground, `look_angle_deg` below the horizon: means over the clip, of which whole metres,
+  /// at least one, and degrees count.
+  void add(const ClipConfig& clip, double mean_height_m, double mean_look_angle_deg,
+           const CameraIntrinsics& camera);
 
   /// Other known viewing directions.
   void add(const ClipConfig& clip, const std::vector<SceneOutline::Look>& looks);

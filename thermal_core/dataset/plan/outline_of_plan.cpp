@@ -47,8 +47,7 @@ SceneOutline outline_of(const Config& config, const DatasetPlan& plan, const Mat
   for (const ClipPlan& clip : plan.clips) {
     const ClipConfig& own = *configs.at(clip.id);
     const ClipSettings& settings = settings_of(config, own);
-    const double agl_m = std::max(1.0, std::round(clip.mean_agl_m));
-    nights.add(own, agl_m, std::round(clip.mean_look_angle_deg), settings.camera);
+    nights.add(own, clip.mean_agl_m, clip.mean_look_angle_deg, settings.camera);
     const double px_per_s =
         settings.camera.fx_px * (speeds.of(clip) + kWalkingMPerS) / std::max(1.0, clip.mean_agl_m);
     outline.smear_px = std::max(outline.smear_px, px_per_s * settings.sensor.time_constant_s);
