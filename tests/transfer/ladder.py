@@ -74,12 +74,18 @@ class Ladder:
 
 
 def _made_frames(options: argparse.Namespace) -> list[Frame]:
-    """The frames of the config, generated and exported where that was not done before."""
-    data, export = options.out / "dataset", options.out / "export"
-    subprocess.run([options.veldt, "generate", options.config, "--out", data], check=True)
-    style = ["--format", "coco", "--box-style", options.box_style]
-    subprocess.run([options.veldt, "export", data, *style, "--out", export, "--quiet"], check=True)
-    return read_frames(export / "annotations.json", export)
+    """The frames of the config at all places, generated and exported where that was not done before."""
+    seed = json.loads(options.config.read_text(encoding="utf-8")).get("seed", 1)
+    frames = []
+    for place in range(options.places):
+        name = "" if place == 0 else f"_{place + 1}"
+        data, export = options.out / f"dataset{name}", options.out / f"export{name}"
+        of_place = ["--set", f"seed={seed + place}"] if place > 0 else []
+        subprocess.run([options.veldt, "generate", options.config, "--out", data, *of_place], check=True)
+        style = ["--format", "coco", "--box-style", options.box_style]
+        subprocess.run([options.veldt, "export", data, *style, "--out", export, "--quiet"], check=True)
+        frames += read_frames(export / "annotations.json", export)
+    return frames
 
 
 def _print_table(ladder: Ladder, counts: list[int], seeds: list[int]) -> None:
@@ -113,6 +119,7 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=2500)
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--ladder", type=int, nargs="+", default=[0, 14, 80], help="numbers of real frames")
+    parser.add_argument("--places", type=int, default=1, help="of the config, each with another seed")
     parser.add_argument("--box-style", choices=("drawn", "visible"), default="drawn")
     parser.add_argument("--veldt", type=Path, default=_VELDT)
     options = parser.parse_args()
