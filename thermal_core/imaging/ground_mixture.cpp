@@ -48,19 +48,21 @@ class Left {
   int left_ = 255;
 };
 
-/// How a cell differs from the mean: standard normal numbers.
-struct Chance {
+/// What a cell has that the maps do not: tussocks as a standard normal number, and the share of stones.
+struct Roughness {
   float tussocks = 0;
-  float stones = 0;
+  float stones = kMeanStones;
 };
 
-GroundMix mix_of(const GroundCovers& covers, std::size_t cell, bool below_crown, const Chance* chance) {
+float stones_of(float noise) noexcept {
+  return std::min(kMostStones, kStones * std::max(0.0F, noise - kStonyFrom));
+}
+
+GroundMix mix_of(const GroundCovers& covers, std::size_t cell, bool below_crown, const Roughness& roughness) {
   GroundMix mix = {.kind = covers.kind[cell]};
   Left left(mix);
-  left.take(kRock, chance == nullptr
-                       ? kMeanStones
-                       : std::min(kMostStones, kStones * std::max(0.0F, chance->stones - kStonyFrom)));
-  const float tussocks = chance == nullptr ? 0 : chance->tussocks;
+  const auto [tussocks, stones] = roughness;
+  left.take(kRock, stones);
   left.take(kTrodden, share_of(covers.trodden[cell]));
   const float ash = share_of(covers.ash[cell]);
   left.take(kAsh, ash * (1 + kAshSpread * tussocks));
@@ -117,8 +119,8 @@ std::vector<GroundMix> ground_mixture(const GroundMaps& maps, const GroundWindow
       const std::size_t x = window.first_x + i % window.width;
       const std::size_t y = window.first_y + i / window.width;
       const bool below_crown = maps.crown_top_m[coarse(y) * maps.cells + coarse(x)] > kLeastCrownM;
-      const Chance chance = rough ? Chance{tussocks[i], stones[i]} : Chance{};
-      cells[i] = mix_of(covers, y * covers.cells + x, below_crown, rough ? &chance : nullptr);
+      const Roughness roughness = rough ? Roughness{tussocks[i], stones_of(stones[i])} : Roughness{};
+      cells[i] = mix_of(covers, y * covers.cells + x, below_crown, roughness);
     }
   });
   return cells;

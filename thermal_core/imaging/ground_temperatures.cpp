@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/between_nodes.h"
 #include "base/parallel.h"
 #include "imaging/ground_noise.h"
 
@@ -129,24 +130,14 @@ std::vector<bool> present_parts(const std::vector<GroundMix>& mixes, std::size_t
   return present;
 }
 
-/// Where a row or column of the covers lies between the middles of cells of the maps, within a window of them.
-struct Between {
-  std::size_t low = 0;
-  std::size_t high = 0;
-  float share_of_high = 0;
-};
-
-std::vector<Between> between_cells(std::size_t first_fine, std::size_t count, double coarse_a_fine,
-                                   std::size_t first_coarse, std::size_t coarse_count) {
-  std::vector<Between> all;
+/// Where rows or columns of the covers lie between the middles of cells of the maps, within a window of them.
+std::vector<BetweenNodes> between_cells(std::size_t first_fine, std::size_t count, double coarse_a_fine,
+                                        std::size_t first_coarse, std::size_t coarse_count) {
+  std::vector<BetweenNodes> all;
   for (std::size_t i = 0; i < count; ++i) {
     const double at =
         (static_cast<double>(first_fine + i) + 0.5) * coarse_a_fine - 0.5 - static_cast<double>(first_coarse);
-    const double inside = std::clamp(at, 0.0, static_cast<double>(coarse_count - 1));
-    const auto low = static_cast<std::size_t>(inside);
-    all.push_back({.low = low,
-                   .high = std::min(low + 1, coarse_count - 1),
-                   .share_of_high = static_cast<float>(inside - static_cast<double>(low))});
+    all.push_back(between_nodes(at, coarse_count));
   }
   return all;
 }
@@ -154,14 +145,15 @@ std::vector<Between> between_cells(std::size_t first_fine, std::size_t count, do
 /// The four cells of the maps around a cell of the covers, and their weights.
 struct NearCells {
   std::array<std::size_t, 4> cell;
-  std::array<float, 4> weight;
+  std::array<float, 4> weight{};
 
-  NearCells(const Between& row, const Between& column, std::size_t width)
+  NearCells(const BetweenNodes& row, const BetweenNodes& column, std::size_t width)
       : cell{row.low * width + column.low, row.low * width + column.high, row.high * width + column.low,
-             row.high * width + column.high},
-        weight{(1 - row.share_of_high) * (1 - column.share_of_high),
-               (1 - row.share_of_high) * column.share_of_high, row.share_of_high * (1 - column.share_of_high),
-               row.share_of_high * column.share_of_high} {}
+             row.high * width + column.high} {
+    const auto up = static_cast<float>(row.share_of_high);
+    const auto right = static_cast<float>(column.share_of_high);
+    weight = {(1 - up) * (1 - right), (1 - up) * right, up * (1 - right), up * right};
+  }
 
   [[nodiscard]] float of(const std::vector<float>& plane) const noexcept {
     float sum = 0;

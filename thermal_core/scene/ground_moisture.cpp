@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "base/between_nodes.h"
 #include "base/parallel.h"
 
 namespace thermal {
@@ -32,28 +33,12 @@ std::vector<std::uint8_t> map_of(std::size_t cells, const At& at) {
   return map;
 }
 
-/// Where a number of nodes along a side is interpolated.
-struct Between {
-  std::size_t low = 0;
-  std::size_t high = 0;
-  double share_of_high = 0;
-};
-
-/// @param place  in steps from the first node; clamped to the nodes
-Between between(double place, std::size_t nodes) noexcept {
-  const auto last = static_cast<double>(nodes - 1);
-  const double inside = std::clamp(place, 0.0, last);
-  const double low = std::min(std::floor(inside), std::max(last - 1, 0.0));
-  const auto number = static_cast<std::size_t>(low);
-  return {.low = number, .high = std::min(number + 1, nodes - 1), .share_of_high = inside - low};
-}
-
 /// Heights or distances on nodes x nodes places.
 struct Grid {
   std::span<const float> values;
   std::size_t nodes = 0;
 
-  [[nodiscard]] double at(const Between& row, const Between& column) const noexcept {
+  [[nodiscard]] double at(const BetweenNodes& row, const BetweenNodes& column) const noexcept {
     const auto along = [&](std::size_t line) {
       const auto low = static_cast<double>(values[line * nodes + column.low]);
       const auto high = static_cast<double>(values[line * nodes + column.high]);
@@ -71,7 +56,8 @@ double depth_m(const Grid& height_m, double row, double column, double side) noe
   constexpr std::array<std::array<double, 2>, 4> kWays = {
       {{0, 1}, {1, 0}, {kDiagonal, kDiagonal}, {kDiagonal, -kDiagonal}}};
   const auto at = [&](double rows, double columns) {
-    return height_m.at(between(row + rows, height_m.nodes), between(column + columns, height_m.nodes));
+    return height_m.at(between_nodes(row + rows, height_m.nodes),
+                       between_nodes(column + columns, height_m.nodes));
   };
   double rim_m = -std::numeric_limits<double>::infinity();
   for (const auto& [rows, columns] : kWays)
@@ -93,7 +79,7 @@ std::vector<std::uint8_t> ground_moisture(const BakedGround& ground, std::size_t
     const double below_m = depth_m(height_m, row, column, side);
     const double in_hollow = kMostInHollows * std::clamp(below_m / kHollowM, 0.0, 1.0);
     if (ground.shore_m.empty()) return in_hollow;
-    const double from_shore_m = shore_m.at(between(row, nodes), between(column, nodes));
+    const double from_shore_m = shore_m.at(between_nodes(row, nodes), between_nodes(column, nodes));
     return std::max(in_hollow, std::exp(-std::max(0.0, from_shore_m) / kShoreM));
   });
 }
