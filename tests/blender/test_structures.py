@@ -16,6 +16,7 @@ HEIGHTS_M = {
     "tent_dome": 1.25,
     "container": 2.59,
     "lamp_mast": 9.1,
+    "lamp_high_mast": 16.2,
     "hare": 0.225,
 }
 
