@@ -21,12 +21,15 @@ struct CompareArguments {
   std::string real_names;
   std::string names;
   std::string category;
+  std::string boxes = "visible";
   std::string html;
   int frames = thermal::CompareOptions().most_frames;
   bool json = false;
 };
 
 thermal::CompareOptions request_of(const CompareArguments& options) {
+  const thermal::BoxStyle boxes =
+      options.boxes == "drawn" ? thermal::BoxStyle::drawn : thermal::BoxStyle::visible;
   return {.real = {.source = options.real,
                    .labels = options.real_labels,
                    .names = options.real_names,
@@ -36,7 +39,8 @@ thermal::CompareOptions request_of(const CompareArguments& options) {
                     .labels = options.labels,
                     .names = options.names,
                     .names_option = "--names",
-                    .category = options.category},
+                    .category = options.category,
+                    .boxes = boxes},
           .most_frames = options.frames};
 }
 
@@ -103,6 +107,11 @@ void add_compare(CLI::App& app, Session& session) {
   command->add_option("--names", options->names, "The same of the other frames")->type_name("PATTERN");
   command->add_option("--category", options->category, "Category of the targets (default: people)")
       ->type_name("NAME");
+  command
+      ->add_option("--box-style", options->boxes,
+                   "Boxes of DATASET around visible pixels, or with the margin that people leave, as in REAL")
+      ->check(CLI::IsMember({"visible", "drawn"}))
+      ->capture_default_str();
   command->add_option("--frames", options->frames, "Most frames of each source, evenly spaced")
       ->capture_default_str();
   command

@@ -194,6 +194,23 @@ def test_a_dataset_of_veldt_brings_its_labels(veldt):
     )
 
 
+def test_boxes_of_a_dataset_as_people_draw_them(veldt):
+    _write(veldt, "real")
+    dataset = make_dataset(veldt)
+    visible, drawn = (
+        _row(_compare(veldt, "real", dataset.name, "--json", "--box-style", style).json(), "box width")
+        for style in ("visible", "drawn")
+    )
+    assert visible["dataset"] is None  # targets of 2 x 2 px are below the 3 x 3 px that are measured
+    assert drawn["dataset"] == pytest.approx(2 + 2 * (0.7 + 0.1 * 2))
+    _check_fault(
+        veldt,
+        ["real", "real", "--box-style", "drawn"],
+        2,
+        "real is a folder, whose labels have the boxes as they are; expected a Veldt dataset to draw boxes for",
+    )
+
+
 def test_fewer_frames_evenly_spaced(pair):
     found = _compare(pair, "real", "made", "--frames", "4", "--json").json()
     assert [frame["file"] for frame in found["real"]["each_frame"]] == [

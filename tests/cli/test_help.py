@@ -63,6 +63,7 @@ OPTIONS = {
         "--real-names",
         "--names",
         "--category",
+        "--box-style",
         "--frames",
         "--html",
         "--json",

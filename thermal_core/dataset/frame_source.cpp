@@ -73,7 +73,8 @@ FrameSource read_dataset_frames(const FrameRequest& request) {
         fmt::format("{} is a Veldt dataset, which has labels and heights; expected a folder of "
                     "pictures with labels or a pattern of names of your own",
                     request.source.string()));
-  const LabelSet set = read_labels(request.source);
+  LabelSet set = read_labels(request.source);
+  if (request.boxes == BoxStyle::drawn) widen_as_drawn(set);
   const auto boxes = boxes_of(set, request.category);
   FrameSource source = {.name = request.source.string(), .is_dataset = true, .frames = {}, .no_boxes = {}};
   std::map<Path, std::map<int, double>> clips;
@@ -145,6 +146,11 @@ void add_boxes(const FrameRequest& request, FrameSource& source) {
 }
 
 FrameSource read_folder_frames(const FrameRequest& request) {
+  if (request.boxes == BoxStyle::drawn)
+    throw ConfigError(
+        fmt::format("{} is a folder, whose labels have the boxes as they are; expected a Veldt "
+                    "dataset to draw boxes for",
+                    request.source.string()));
   FrameSource source = {.name = request.source.string(), .is_dataset = false, .frames = {}, .no_boxes = {}};
   for (const std::string& name : files_in(request.source)) {
     if (!is_grey_picture(name)) continue;

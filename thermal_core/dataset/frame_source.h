@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/system/files.h"
+#include "labels/box_style.h"
 #include "labels/label_set.h"
 
 namespace thermal {
@@ -17,6 +18,7 @@ struct FrameRequest {
   std::string names = {};                ///< of a folder: pattern as of FrameNames; empty: names say nothing
   std::string names_option = "--names";  ///< what messages call it
   std::string category = {};             ///< of the boxes, in any case; empty: people
+  BoxStyle boxes = BoxStyle::visible;    ///< of a dataset
 };
 
 struct SourceFrame {
@@ -36,7 +38,7 @@ struct FrameSource {
 };
 
 /// Lists the frames of a source and reads its labels; opens no picture.
-/// ConfigError for labels and patterns of names for a Veldt dataset; DataError for a folder without pictures, a name
+/// ConfigError for labels and patterns of names for a Veldt dataset, and drawn boxes for a folder; DataError for a folder without pictures, a name
 /// that does not match the pattern, labels that name none of the frames, and those of read_labels() and read_coco();
 /// IoError if the source does not exist.
 [[nodiscard]] FrameSource read_frame_source(const FrameRequest& request);
