@@ -61,6 +61,10 @@ void check_flown(const std::vector<std::string>& flights, const std::vector<Clip
 Json& step_into(Json& at, const std::string& part, const std::string& assignment) {
   const std::size_t bracket = part.find('[');
   const std::string member = part.substr(0, bracket);
+  if (at.is_array()) {
+    throw ConfigError(fault("--set", fmt::format("\"{}\"", assignment), "",
+                            "an entry of a list in brackets, such as clips[0].frames=8"));
+  }
   if (member.empty() || !(at.is_object() || at.is_null())) {
     throw ConfigError(
         fault("--set", fmt::format("\"{}\"", assignment), "", "KEY=VALUE with the key of an object"));

@@ -115,6 +115,8 @@ TEST_CASE("An invalid setting is an error") {
         "--set = \"name.first=7\"; expected KEY=VALUE with the key of an object");
   CHECK(fault_in_setting("sensor..x=7") ==
         "--set = \"sensor..x=7\"; expected KEY=VALUE with the key of an object");
+  CHECK(fault_in_setting("clips.0.id=c") ==
+        "--set = \"clips.0.id=c\"; expected an entry of a list in brackets, such as clips[0].frames=8");
   CHECK(fault_in_setting("clips[2].id=c") ==
         "--set = \"clips[2].id=c\"; expected an entry of clips, [0] to [1]");
   CHECK(fault_in_setting("clips[x].id=c") ==
