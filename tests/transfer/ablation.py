@@ -94,8 +94,9 @@ PARTS: dict[str, Callable[[dict], None]] = {
     "variety": _without_variety,
     "motion_and_psf": _without_blur,
     "codec": _without_codec,
+    "box_style": _all_parts,
 }
-_BOXES = "box_style"
+_STYLES = {"box_style": "visible"}
 
 
 def _with_absolute_files(value, folder: Path):
@@ -123,17 +124,10 @@ def _config_without(part: str, config: Path, out: Path) -> Path:
 
 
 def _scores_without(part: str, options: argparse.Namespace, more: list[str]) -> dict[str, float]:
-    out, style = options.out / part, []
-    if part == _BOXES:
-        style = ["--box-style", "visible"]
-        config = _config_without("nothing", options.config, options.out)
-        out.mkdir(parents=True, exist_ok=True)
-        if not (out / "dataset").exists():
-            (out / "dataset").symlink_to((options.out / "nothing" / "dataset").resolve())
-    else:
-        config = _config_without(part, options.config, options.out)
+    out, config = options.out / part, _config_without(part, options.config, options.out)
     ladder = [sys.executable, Path(__file__).with_name("ladder.py"), config, "--real", *options.real]
     once = ["--out", out, "--ladder", "0", "--seeds", str(options.seed)]
+    style = ["--box-style", _STYLES.get(part, "drawn")]
     subprocess.run([*ladder, *once, *style, *more], check=True)
     file = out / "scores" / f"veldt_real_0_seed_{options.seed}.json"
     return json.loads(file.read_text(encoding="utf-8"))
@@ -144,7 +138,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    names = [*PARTS, _BOXES]
+    names = list(PARTS)
     parser.add_argument("config", type=Path)
     parser.add_argument("--real", nargs=2, type=Path, required=True, metavar=("LABELS", "FOLDER"))
     parser.add_argument("--out", type=Path, required=True)

@@ -38,9 +38,9 @@ struct FrameSource {
 };
 
 /// Lists the frames of a source and reads its labels; opens no picture.
-/// ConfigError for labels and patterns of names for a Veldt dataset, and drawn boxes for a folder; DataError for a folder without pictures, a name
-/// that does not match the pattern, labels that name none of the frames, and those of read_labels() and read_coco();
-/// IoError if the source does not exist.
+/// ConfigError for labels and patterns of names for a Veldt dataset, and for drawn boxes of a folder; DataError for a
+/// folder without pictures, a name that does not match the pattern, labels that name none of the frames, and those of
+/// read_labels() and read_coco(); IoError if the source does not exist.
 [[nodiscard]] FrameSource read_frame_source(const FrameRequest& request);
 
 }  // namespace thermal
