@@ -14,7 +14,10 @@ from __future__ import annotations
 
 import argparse
 import json
+import multiprocessing
+import os
 import subprocess
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -32,6 +35,25 @@ _KEYS = ("ap50", "ap30", "recall50")
 
 
 @dataclass(frozen=True)
+class Training:
+    """A detector that is trained with some real frames, and with the dataset before them or without it."""
+
+    count: int
+    seed: int
+    with_made: bool
+
+    @property
+    def name(self) -> str:
+        """Of its files."""
+        return f"{'veldt_' if self.with_made else ''}real_{self.count}_seed_{self.seed}"
+
+    @property
+    def start(self) -> Training | None:
+        """What it goes on from."""
+        return Training(0, self.seed, True) if self.with_made and self.count > 0 else None
+
+
+@dataclass(frozen=True)
 class Ladder:
     """What is trained and judged, and where it is kept."""
 
@@ -41,13 +63,31 @@ class Ladder:
     real: list[Frame]
     judged: list[Frame]
 
-    def scores(self, count: int, seed: int, with_made: bool) -> dict[str, float]:
-        """The figures of a detector trained with `count` real frames."""
-        name = f"{'veldt_' if with_made else ''}real_{count}_seed_{seed}"
-        file = self.out / "scores" / f"{name}.json"
+    def train(self, training: Training) -> None:
+        """Keep the weights of a training, whose start is kept already."""
+        weights = self._weights(training)
+        if weights.exists():
+            return
+        if training.start is not None:
+            steps = round(_FINE_STEPS * self.steps)
+            detector = train(
+                self._some_real(training), steps, training.seed, _FINE_RATE, self._weights(training.start)
+            )
+        else:
+            frames = self.made if training.with_made else self._some_real(training)
+            detector = train(frames, self.steps, training.seed, _RATE)
+        weights.parent.mkdir(parents=True, exist_ok=True)
+        part = weights.with_suffix(".part")
+        torch.save(detector.state_dict(), part)
+        part.replace(weights)
+
+    def scores(self, training: Training) -> dict[str, float]:
+        """The figures of a training."""
+        file = self.out / "scores" / f"{training.name}.json"
         if not file.exists():
-            detector = self._trained(name, count, seed, with_made)
-            found = [detect(detector, frame.file) for frame in self.judged]
+            detector = Detector()
+            detector.load_state_dict(torch.load(self._weights(training)))
+            found = [detect(detector.eval(), frame.file) for frame in self.judged]
             truth_px = [frame.boxes_px for frame in self.judged]
             ap50, recall = scores_of(found, truth_px, 0.5)
             ap30, _ = scores_of(found, truth_px, 0.3)
@@ -55,22 +95,25 @@ class Ladder:
             file.write_text(json.dumps({"ap50": ap50, "ap30": ap30, "recall50": recall}), encoding="utf-8")
         return json.loads(file.read_text(encoding="utf-8"))
 
-    def _trained(self, name: str, count: int, seed: int, with_made: bool) -> Detector:
-        some = np.random.default_rng(0).permutation(len(self.real))[:count]
-        real = [self.real[k] for k in sorted(some)]
-        weights = self.out / "weights" / f"{name}.pt"
-        if not weights.exists():
-            weights.parent.mkdir(parents=True, exist_ok=True)
-            if with_made and count > 0:
-                self._trained(f"veldt_real_0_seed_{seed}", 0, seed, True)
-                start = self.out / "weights" / f"veldt_real_0_seed_{seed}.pt"
-                detector = train(real, round(_FINE_STEPS * self.steps), seed, _FINE_RATE, start)
-            else:
-                detector = train(self.made if with_made else real, self.steps, seed, _RATE)
-            torch.save(detector.state_dict(), weights)
-        detector = Detector()
-        detector.load_state_dict(torch.load(weights))
-        return detector.eval()
+    def _weights(self, training: Training) -> Path:
+        return self.out / "weights" / f"{training.name}.pt"
+
+    def _some_real(self, training: Training) -> list[Frame]:
+        some = np.random.default_rng(0).permutation(len(self.real))[: training.count]
+        return [self.real[k] for k in sorted(some)]
+
+
+def train_all(ladder: Ladder, trainings: list[Training], at_once: int) -> None:
+    """Keep the weights of trainings and of what they start from. Each has its share of the cores."""
+    starts = {each.start for each in trainings} - {None}
+    first = starts | {each for each in trainings if each.start is None}
+    threads = max(1, len(os.sched_getaffinity(0)) // at_once)
+    spawn = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(at_once, spawn, torch.set_num_threads, (threads,)) as pool:
+        for stage in (first, set(trainings) - first):
+            ordered = sorted(stage, key=lambda each: each.name)
+            for done in [pool.submit(ladder.train, each) for each in ordered]:
+                done.result()
 
 
 def _made_frames(options: argparse.Namespace) -> list[Frame]:
@@ -88,6 +131,11 @@ def _made_frames(options: argparse.Namespace) -> list[Frame]:
     return frames
 
 
+def _rows(counts: list[int]) -> list[tuple[int, bool]]:
+    """Numbers of real frames, each with the dataset before them and without it."""
+    return [(count, with_made) for count in counts for with_made in ((True, False) if count > 0 else (True,))]
+
+
 def _print_table(ladder: Ladder, counts: list[int], seeds: list[int]) -> None:
     print(
         f"{len(ladder.made)} frames made, {len(ladder.real)} real ones to train with, {len(ladder.judged)} judge"
@@ -95,17 +143,15 @@ def _print_table(ladder: Ladder, counts: list[int], seeds: list[int]) -> None:
     print(
         "| real frames | made | AP50 | AP30 | found at one false alarm a frame | seeds |\n|---|---|---|---|---|---|"
     )
-    for count in counts:
-        for with_made in (True, False) if count > 0 else (True,):
-            scores = [ladder.scores(count, seed, with_made) for seed in seeds]
-            cells = []
-            for key in _KEYS:
-                values = np.array([each[key] for each in scores])
-                cells.append(f"{values.mean():.3f} ± {values.std(ddof=1) if len(values) > 1 else 0:.3f}")
-            print(
-                f"| {count} | {'yes' if with_made else 'no'} | {' | '.join(cells)} | {len(seeds)} |",
-                flush=True,
-            )
+    for count, with_made in _rows(counts):
+        scores = [ladder.scores(Training(count, seed, with_made)) for seed in seeds]
+        cells = []
+        for key in _KEYS:
+            values = np.array([each[key] for each in scores])
+            cells.append(f"{values.mean():.3f} ± {values.std(ddof=1) if len(values) > 1 else 0:.3f}")
+        print(
+            f"| {count} | {'yes' if with_made else 'no'} | {' | '.join(cells)} | {len(seeds)} |", flush=True
+        )
 
 
 def main() -> None:
@@ -121,10 +167,17 @@ def main() -> None:
     parser.add_argument("--ladder", type=int, nargs="+", default=[0, 14, 80], help="numbers of real frames")
     parser.add_argument("--places", type=int, default=1, help="of the config, each with another seed")
     parser.add_argument("--box-style", choices=("drawn", "visible"), default="drawn")
+    parser.add_argument(
+        "--at-once", type=int, default=2, help="trainings side by side (default: %(default)s)"
+    )
     parser.add_argument("--veldt", type=Path, default=_VELDT)
     options = parser.parse_args()
     frames = read_frames(*options.real)
     ladder = Ladder(options.out, options.steps, _made_frames(options), frames[0::2], frames[1::2])
+    rows = _rows(options.ladder)
+    train_all(
+        ladder, [Training(n, seed, made) for n, made in rows for seed in options.seeds], options.at_once
+    )
     _print_table(ladder, options.ladder, options.seeds)
 
 

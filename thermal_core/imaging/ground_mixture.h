@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/ground_window.h"
+#include "imaging/cut_covers.h"
 #include "scene/ground_maps.h"
 
 namespace thermal {
@@ -26,15 +26,12 @@ struct GroundMix {
 /// Materials of all parts: the kinds of the covers, then kLoosePartNames.
 [[nodiscard]] std::vector<std::string> ground_part_names(const GroundCovers& covers);
 
-/// The cells of the covers, and not of the maps, in a window of the maps.
-[[nodiscard]] GroundWindow cover_window(const GroundMaps& maps, const GroundWindow& window);
-
-/// The cells of a window of the covers, [row of y, column of x]. Grass has the share of its map, and tussocks and bare
-/// crowns from 6 m down to two cells, the more the nearer the share is to a half; litter lies below crowns of more than
-/// 1.5 m; one cell in forty is stony. What is trodden or burnt has no grass. Ground of other kinds has stones and what
-/// is trodden. How these spread is an estimate; a cell depends on (seed, cell) alone.
+/// The cells of a window of the cut covers, [row of y, column of x]. Grass has the share of its map, and tussocks and
+/// bare crowns from 6 m down to a quarter of a metre, the more the nearer the share is to a half; litter lies below crowns
+/// of more than 1.5 m; one place in forty is stony, as large as two cells. What is trodden or burnt has no grass. Ground
+/// of other kinds has stones and what is trodden. How these spread is an estimate; a cell depends on (seed, cell, cuts) alone.
 /// @param rough  whether they vary from cell to cell; otherwise each share is its mean
-[[nodiscard]] std::vector<GroundMix> ground_mixture(const GroundMaps& maps, const GroundWindow& window,
+[[nodiscard]] std::vector<GroundMix> ground_mixture(const GroundMaps& maps, const CutWindow& window,
                                                     bool rough, std::uint32_t seed);
 
 }  // namespace thermal

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/rng.h"
+#include "base/spline_weights.h"
 
 namespace thermal {
 namespace {
@@ -19,13 +20,6 @@ float lattice_value(std::uint32_t seed, std::uint32_t stream, std::uint32_t octa
   double sum = 0;
   for (const std::uint32_t word : words) sum += word * 0x1p-32 - 0.5;
   return static_cast<float>(sum * std::numbers::sqrt3);
-}
-
-/// Uniform cubic B-spline weights at a fraction between two lattice points.
-std::array<float, 4> spline_weights(double t) {
-  const double u = 1 - t;
-  return {static_cast<float>(u * u * u / 6), static_cast<float>((3 * t * t * t - 6 * t * t + 4) / 6),
-          static_cast<float>((3 * u * u * u - 6 * u * u + 4) / 6), static_cast<float>(t * t * t / 6)};
 }
 
 /// Where a cell lies between lattice points.
@@ -47,22 +41,44 @@ std::vector<Position> positions(std::size_t first, std::size_t count, double spa
 /// Variance of smooth noise on average over a cell of its lattice: (sum of squared weights, averaged)^2.
 constexpr double kSmoothVariance = 0.4794 * 0.4794;
 
+/// The lattice of an octave, of which a block of rows is kept at a time.
+struct Octave {
+  std::uint32_t seed = 0;
+  std::uint32_t stream = 0;
+  std::uint32_t number = 0;
+  std::int64_t low_x = 0;  ///< the first point
+  std::size_t columns = 0;
+
+  [[nodiscard]] std::vector<float> rows(std::int64_t low_y, std::size_t count) const {
+    std::vector<float> values(count * columns);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = lattice_value(seed, stream, number, low_x + static_cast<std::int64_t>(i % columns),
+                                low_y + static_cast<std::int64_t>(i / columns));
+    }
+    return values;
+  }
+};
+
+constexpr std::size_t kNoiseRowsAChunk = 64;
+
 void add_octave(const GroundWindow& window, double spacing, float amplitude, std::uint32_t seed,
-                std::uint32_t stream, std::uint32_t octave, std::vector<float>& noise) {
+                std::uint32_t stream, std::uint32_t number, std::vector<float>& noise) {
   const std::vector<Position> xs = positions(window.first_x, window.width, spacing);
   const std::vector<Position> ys = positions(window.first_y, window.height, spacing);
   const std::int64_t low_x = xs.front().point - 1;
   const auto columns = static_cast<std::size_t>(xs.back().point + 2 - low_x) + 1;
-  parallel_for(window.height, 16, [&](std::size_t begin, std::size_t end) {
+  const Octave octave = {
+      .seed = seed, .stream = stream, .number = number, .low_x = low_x, .columns = columns};
+  parallel_for(window.height, kNoiseRowsAChunk, [&](std::size_t begin, std::size_t end) {
+    const std::int64_t low_y = ys[begin].point - 1;
+    const std::vector<float> lattice =
+        octave.rows(low_y, static_cast<std::size_t>(ys[end - 1].point + 2 - low_y) + 1);
     std::vector<float> line(columns);
     for (std::size_t row = begin; row < end; ++row) {
+      const float* below = &lattice[static_cast<std::size_t>(ys[row].point - 1 - low_y) * columns];
       for (std::size_t c = 0; c < columns; ++c) {
         line[c] = 0;
-        for (std::size_t j = 0; j < 4; ++j) {
-          line[c] +=
-              ys[row].weights[j] * lattice_value(seed, stream, octave, low_x + static_cast<std::int64_t>(c),
-                                                 ys[row].point - 1 + static_cast<std::int64_t>(j));
-        }
+        for (std::size_t j = 0; j < 4; ++j) line[c] += ys[row].weights[j] * below[j * columns + c];
       }
       float* out = &noise[row * window.width];
       for (std::size_t column = 0; column < window.width; ++column) {
@@ -82,7 +98,7 @@ std::vector<float> ground_noise(const GroundWindow& window, const NoiseOctaves& 
   std::vector<float> noise(window.width * window.height);
   double variance = 0;
   double amplitude = 1;
-  for (double spacing = octaves.length_cells; spacing >= kFinestNoiseCells;
+  for (double spacing = octaves.length_cells; spacing >= octaves.finest_cells;
        spacing /= 2, amplitude *= octaves.roughness)
     variance += amplitude * amplitude * kSmoothVariance;
   std::uint32_t octave = 0;

@@ -13,11 +13,13 @@ inline constexpr double kFinestNoiseCells = 2;
 struct NoiseOctaves {
   double length_cells =
       0;  ///< correlation length, > 0; below kFinestNoiseCells nothing is left, and all values are 0
-  double roughness = 0.6;  ///< how strong an octave is against the one before
+  double roughness = 0.6;                   ///< how strong an octave is against the one before
+  double finest_cells = kFinestNoiseCells;  ///< where they end
 };
 
 /// Fractal noise over the cells of a window: mean 0, variance 1, never repeated. It sums octaves of smooth noise from
-/// the correlation length down to two cells; a cell's value depends on (seed, stream, cell) alone, whatever the window.
+/// the correlation length down to the finest. Those below kFinestNoiseCells are left out, and the variance is less by
+/// theirs, so that coarse cells have what is wide in the noise of fine ones. A cell's value depends on (seed, stream, cell) alone, whatever the window.
 /// Values are [row of y, column of x].
 [[nodiscard]] std::vector<float> ground_noise(const GroundWindow& window, const NoiseOctaves& octaves,
                                               std::uint32_t seed, std::uint32_t stream);

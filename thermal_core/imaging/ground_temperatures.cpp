@@ -231,7 +231,7 @@ double origin_m(const GroundMaps& maps, std::size_t first, double per_m) {
 
 GroundOfWindow ground_of_window(const GroundMaps& maps, const GroundWindow& window, bool rough,
                                 std::uint32_t seed) {
-  GroundOfWindow ground = {.maps = window, .covers = cover_window(maps, window), .mixes = {}, .damp = {}};
+  GroundOfWindow ground = {.maps = window, .covers = cut_window(maps, window), .mixes = {}, .damp = {}};
   ground.mixes = ground_mixture(maps, ground.covers, rough, seed);
   if (!rough) return ground;
   ground.damp = ground_noise(window, {.length_cells = kDampLengthM * cells_a_m(maps)}, seed, kDampStream);
@@ -248,8 +248,8 @@ GroundTexture ground_temperatures(const GroundMaps& maps, const GroundOfWindow& 
   for (std::size_t k = 0; k < parts.size(); ++k)
     if (present[k]) parts[k] = planes_of(k, cells, heat);
   const std::vector<float> sky_view = sky_views(cells);
-  const GroundWindow& fine = ground.covers;
-  const double fine_a_m = static_cast<double>(maps.covers.cells) / maps.size_m;
+  const GroundWindow& fine = ground.covers.cells;
+  const double fine_a_m = static_cast<double>(ground.covers.cuts * maps.covers.cells) / maps.size_m;
   const double coarse_a_fine = cells_a_m(maps) / fine_a_m;
   const auto columns =
       between_cells(fine.first_x, fine.width, coarse_a_fine, ground.maps.first_x, ground.maps.width);

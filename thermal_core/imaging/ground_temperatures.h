@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "heat/surface/heat_of_day.h"
+#include "imaging/cut_covers.h"
 #include "imaging/ground_mixture.h"
 #include "imaging/ground_shift.h"
 #include "imaging/ground_texture.h"
@@ -37,8 +38,8 @@ struct GroundWarmth {
 /// What the ground of a clip is made of.
 struct GroundOfWindow {
   GroundWindow maps;             ///< cells of the maps
-  GroundWindow covers;           ///< those of the covers in them
-  std::vector<GroundMix> mixes;  ///< of the cells of the covers
+  CutWindow covers;              ///< the covers in them
+  std::vector<GroundMix> mixes;  ///< of the cells of the cut covers
   std::vector<float> damp;       ///< of the cells of the maps: what is added to their moisture
 };
 
@@ -47,7 +48,7 @@ struct GroundOfWindow {
                                               std::uint32_t seed);
 
 /// Temperatures of the ground over some time: each part by the sky view, the sunlit hours, the moisture and the slope of
-/// its cell of the maps, interpolated, mixed by the shares of its cell of the covers, and smoothed over the neighbours.
+/// its cell of the maps, interpolated, mixed by the shares of its cell of the cut covers, and smoothed over the neighbours.
 /// Temperatures are mixed, not radiances: parts 10 K apart look colder by up to 0.14 K. Computed on all cores.
 /// @return in time, temperatures follow a straight line; its moment is half-way
 [[nodiscard]] GroundTexture ground_temperatures(const GroundMaps& maps, const GroundOfWindow& ground,
