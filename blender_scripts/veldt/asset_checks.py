@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
+from fnmatch import fnmatchcase
 
 from .faults import ConfigError, check_known, did_you_mean, listing
 
@@ -39,6 +40,7 @@ _KEYS = {
     "materials": {"emissivity": _NUMBER, "winter_k": _NUMBER, "summer_k": _NUMBER, "source": _TEXT},
 }
 _PLAIN_PARTS = ("head", "torso")  # need no entry in the material: they use its own temperature
+_WALK = "walk"  # the posture of all that have legs
 _DRAWN = {"gait": _TABLE, "bones": _TABLE}
 _PATCH = {"part": _TEXT, "from_m": _POINT, "to_m": _POINT}
 _STANDING = {"form": _TEXT, "variants": _COUNT, "height_m": _NUMBER, "crown_diameter_m": _NUMBER}
@@ -68,6 +70,11 @@ _IS: dict[str, Callable] = {
     _COUNT: lambda value: isinstance(value, int) and value >= 1,
     _POINT: lambda value: isinstance(value, list) and len(value) == 3 and all(map(_is_number, value)),
 }
+
+
+def is_named(name: str, patterns: Iterable[str]) -> bool:
+    """Whether one of the patterns, which may have a *, such as "stand*", is the name."""
+    return any(fnmatchcase(name, pattern) for pattern in patterns)
 
 
 def check(where: str, kind: str, data: dict) -> None:
@@ -125,6 +132,10 @@ def _check_species(where: str, data: dict) -> None:
         check_known(
             name.removesuffix(".left").removesuffix(".right"), data["bones"], f"{where}: {place}", "a bone"
         )
+    known = [*data["variants"], _WALK, *data.get("postures", {})]
+    for place, pattern in _patterns(data):
+        if not any(is_named(name, [pattern]) for name in known):
+            check_known(pattern, known, f"{where}: {place}", "variants or postures")
 
 
 def _bones_named(data: dict) -> Iterator[tuple[str, str]]:
@@ -139,6 +150,16 @@ def _bones_named(data: dict) -> Iterator[tuple[str, str]]:
         for name, entry in data.get(kind, {}).items():
             for key in ("turn_deg", "holds_deg", "stretch"):
                 yield from ((f"{kind}.{name}.{key}", bone) for bone in entry.get(key, {}))
+
+
+def _patterns(data: dict) -> Iterator[tuple[str, str]]:
+    """Every position in a species file that names variants or postures, with the pattern."""
+    entries = {f"moves[{k}]": move for k, move in enumerate(data.get("moves", []))}
+    for name, bone in data["bones"].items():
+        shapes = {f"bones.{name}.shapes[{k}]": shape for k, shape in enumerate(bone["shapes"])}
+        entries |= {f"bones.{name}": bone, **shapes}
+    for place, entry in entries.items():
+        yield from ((f"{place}.only[{k}]", pattern) for k, pattern in enumerate(entry.get("only", [])))
 
 
 def _check_object(where: str, data, keys: dict[str, str]) -> None:

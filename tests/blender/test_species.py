@@ -10,6 +10,7 @@ from creatures import Hills, circle
 from veldt import asset_checks, assets
 from veldt.anatomy.bodies import build_body, variant_names
 from veldt.anatomy.pose import Motion, Walker, pose
+from veldt.anatomy.skeleton import is_in
 from veldt.config import ROOT
 from veldt.faults import ConfigError
 
@@ -230,6 +231,34 @@ def test_a_bone_that_is_named_but_not_drawn_is_a_fault(place, change):
         asset_checks.check("lion.json", "species", data)
     known = ", ".join(sorted(data["bones"]))
     assert str(raised.value).startswith(f'lion.json: {place} = "nek"; expected a bone: {known}')
+
+
+@pytest.mark.parametrize(
+    "place, change",
+    [
+        ("moves[0].only[1]", lambda data: data["moves"][0].update(only=["ma*", "stnad*"])),
+        ("bones.tail.only[0]", lambda data: data["bones"]["tail"].update(only=["stnad*"])),
+        (
+            "bones.tail.shapes[0].only[0]",
+            lambda data: data["bones"]["tail"]["shapes"][0].update(only=["stnad*"]),
+        ),
+    ],
+)
+def test_a_pattern_that_is_no_variant_and_no_posture_is_a_fault(place, change):
+    data = json.loads((ROOT / "assets" / "species" / "lion.json").read_text(encoding="utf-8"))
+    change(data)
+    with pytest.raises(ConfigError) as raised:
+        asset_checks.check("lion.json", "species", data)
+    known = ", ".join(sorted([*data["variants"], "walk", *data["postures"]]))
+    assert str(raised.value).startswith(
+        f'lion.json: {place} = "stnad*"; expected variants or postures: {known}'
+    )
+
+
+def test_a_pattern_stands_for_all_names_that_fit():
+    assert is_in({"only": ["stand*"]}, "man", "stand_lunge")
+    assert not is_in({"only": ["stand*"]}, "man", "sit")
+    assert is_in({"only": ["ma*"]}, "man", "sit")
 
 
 @pytest.mark.parametrize(

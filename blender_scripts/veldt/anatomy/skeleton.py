@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import models
+from ..asset_checks import is_named
 from ..geometry.shapes import Mesh, joined
 from ..geometry.solids import solid_of
 
@@ -50,13 +51,15 @@ def part_names(data: dict) -> tuple[str, ...]:
 
 def is_in(entry: Mapping, variant: str, posture: str) -> bool:
     """Whether a variant, or whoever has this posture, has this bone, shape or move."""
-    return "only" not in entry or variant in entry["only"] or posture in entry["only"]
+    return "only" not in entry or is_named(variant, entry["only"]) or is_named(posture, entry["only"])
 
 
 def has_own_shapes(data: dict, posture: str) -> bool:
     """Whether a species is drawn differently in a posture, as with a stool to sit on."""
     bones = data.get("bones", {}).values()
-    return any(posture in entry.get("only", []) for bone in bones for entry in [bone, *bone["shapes"]])
+    return any(
+        is_named(posture, entry.get("only", [])) for bone in bones for entry in [bone, *bone["shapes"]]
+    )
 
 
 def build_bones(data: dict, variant: str, posture: str) -> tuple[Bone, ...]:
