@@ -4,6 +4,7 @@
 #include "analysis/compare/comparison_json.h"
 #include "analysis/compare/comparison_page.h"
 #include "base/error.h"
+#include "cli/box_style_option.h"
 #include "cli/command.h"
 #include "cli/comparison_table.h"
 #include "cli/output.h"
@@ -21,15 +22,13 @@ struct CompareArguments {
   std::string real_names;
   std::string names;
   std::string category;
-  std::string boxes = "visible";
+  thermal::BoxStyle boxes = thermal::BoxStyle::visible;
   std::string html;
   int frames = thermal::CompareOptions().most_frames;
   bool json = false;
 };
 
 thermal::CompareOptions request_of(const CompareArguments& options) {
-  const thermal::BoxStyle boxes =
-      options.boxes == "drawn" ? thermal::BoxStyle::drawn : thermal::BoxStyle::visible;
   return {.real = {.source = options.real,
                    .labels = options.real_labels,
                    .names = options.real_names,
@@ -40,7 +39,7 @@ thermal::CompareOptions request_of(const CompareArguments& options) {
                     .names = options.names,
                     .names_option = "--names",
                     .category = options.category,
-                    .boxes = boxes},
+                    .boxes = options.boxes},
           .most_frames = options.frames};
 }
 
@@ -107,11 +106,8 @@ void add_compare(CLI::App& app, Session& session) {
   command->add_option("--names", options->names, "The same of the other frames")->type_name("PATTERN");
   command->add_option("--category", options->category, "Category of the targets (default: people)")
       ->type_name("NAME");
-  command
-      ->add_option("--box-style", options->boxes,
-                   "Boxes of DATASET around visible pixels, or with the margin that people leave, as in REAL")
-      ->check(CLI::IsMember({"visible", "drawn"}))
-      ->capture_default_str();
+  add_box_style(*command, options->boxes,
+                "Boxes of DATASET around visible pixels, or with the margin that people leave, as in REAL");
   command->add_option("--frames", options->frames, "Most frames of each source, evenly spaced")
       ->capture_default_str();
   command

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/box_style_option.h"
 #include "cli/command.h"
 #include "cli/output.h"
 #include "cli/progress_bar.h"
@@ -22,7 +23,6 @@ struct ExportArguments {
   std::string out;
   std::string link;
   std::string images = "ir8";
-  std::string boxes = "visible";
   std::string split;
   std::string selection;
   std::string scratch;
@@ -47,7 +47,6 @@ thermal::ExportOptions request_of(const ExportArguments& options) {
   request.out = options.out;
   if (!options.link.empty()) request.linking = linking_named(options.link);
   request.ir16 = options.images == "ir16";
-  if (options.boxes == "drawn") request.boxes = thermal::BoxStyle::drawn;
   if (!options.split.empty()) request.splits = thermal::parse_splits(options.split);
   request.selection = options.selection;
   request.scratch = options.scratch;
@@ -140,11 +139,8 @@ void add_export(CLI::App& app, Session& session) {
                    "8-bit pictures after gain control, or 16-bit pictures in kelvin")
       ->check(CLI::IsMember({"ir8", "ir16"}))
       ->capture_default_str();
-  command
-      ->add_option("--box-style", options->boxes,
-                   "Boxes around visible pixels, or with the margin of 1 to 2 px that people leave")
-      ->check(CLI::IsMember({"visible", "drawn"}))
-      ->capture_default_str();
+  add_box_style(*command, options->what.boxes,
+                "Boxes around visible pixels, or with the margin of 1 to 2 px that people leave");
   CLI::Option* split =
       command
           ->add_option("--split", options->split,
