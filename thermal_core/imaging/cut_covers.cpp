@@ -81,14 +81,13 @@ std::uint8_t CutCovers::kind_at(const Near& rows, const Near& columns) const noe
     for (const std::size_t column : columns.cell)
       others |= covers_.kind[row * covers_.cells + column] != middle;
   if (!others) return middle;
-  std::array<float, 256> share;  // of the kinds that the cells have; others are not read
+  std::array<float, 256> share{};
   const auto each = [&](auto&& visit) {
     for (std::size_t j = 0; j < 4; ++j)
       for (std::size_t i = 0; i < 4; ++i)
         visit(covers_.kind[rows.cell[j] * covers_.cells + columns.cell[i]],
               rows.weight[j] * columns.weight[i]);
   };
-  each([&](std::uint8_t kind, float) { share[kind] = 0; });
   each([&](std::uint8_t kind, float weight) { share[kind] += weight; });
   std::uint8_t largest = middle;
   each([&](std::uint8_t kind, float) {
