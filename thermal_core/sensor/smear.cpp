@@ -15,12 +15,14 @@ namespace {
 
 constexpr int kTileWidth = 32;
 constexpr int kTileHeight = 16;
-constexpr float kStillPx = 1.0F / 64;  // motion that is not worth mixing
+// Of motion within Smear's reach:
+constexpr float kStillPx = 1.0F / 64;  // that is not worth mixing
 constexpr float kAlikePx = 1.0F / 8;   // difference within a tile that has one motion
-constexpr int kStepsPerPx = 16;        // to which motion is rounded, so that its samples can be used again
-constexpr float kFarthestPx = 4096;    // motion counts as this at most
-constexpr int kMarginPx = 44;          // kept beyond the edges: the reach of all but long motion
-constexpr double kSettled = 8;         // time constants after which a pixel has forgotten what was
+constexpr int kStepsPerPx = 16;        // to which it is rounded, so that its samples can be used again
+
+constexpr float kFarthestPx = 4096;  // motion counts as this at most
+constexpr int kMarginPx = 44;        // kept beyond the edges: the reach of all but long motion
+constexpr double kSettled = 8;       // time constants after which a pixel has forgotten what was
 constexpr std::size_t kMostRemembered = 4096;
 constexpr int kReadSteps = 64;  // of an interval, to which a row's time of reading is rounded
 constexpr std::int64_t kReadTimes = 2 * kReadSteps;     // in one number with a motion
@@ -97,13 +99,9 @@ struct Steps {
   }
 };
 
-Steps steps_of(float x_px, float y_px) {
-  return {.x = std::lround(limited(x_px) * kStepsPerPx), .y = std::lround(limited(y_px) * kStepsPerPx)};
-}
-
-/// NaN is still.
-bool is_still(float x_px, float y_px) {
-  return !(std::abs(x_px) >= kStillPx) && !(std::abs(y_px) >= kStillPx);
+/// @param steps_per_px  of motion within an interval
+Steps steps_of(float x_px, float y_px, float steps_per_px) {
+  return {.x = std::lround(limited(x_px) * steps_per_px), .y = std::lround(limited(y_px) * steps_per_px)};
 }
 
 /// Least and greatest value of a tile, by column and in all. NaN is left out.
@@ -137,9 +135,9 @@ class Range {
 /// Cuts a row of tiles into pieces.
 class Smear::Cutter {
  public:
-  /// @param readout  in intervals
-  Cutter(const ImageMotion& motion, double readout, std::vector<Piece>& out)
-      : motion_(motion), readout_(readout), out_(out) {}
+  /// @param reach, readout  in intervals
+  Cutter(const ImageMotion& motion, double reach, double readout, std::vector<Piece>& out)
+      : motion_(motion), reach_(static_cast<float>(reach)), readout_(readout), out_(out) {}
 
   void cut(int x, int y, int width, int height) {
     Range across;
@@ -156,9 +154,8 @@ class Smear::Cutter {
     const float top = down.low();
     const float bottom = down.high();
     if (is_still(left, top) && is_still(right, bottom)) return;
-    if (right - left <= kAlikePx && bottom - top <= kAlikePx) {
-      add({.x = x, .y = y, .width = width, .height = height},
-          steps_of((left + right) / 2, (top + bottom) / 2));
+    if (reach_ * (right - left) <= kAlikePx && reach_ * (bottom - top) <= kAlikePx) {
+      add({.x = x, .y = y, .width = width, .height = height}, (left + right) / 2, (top + bottom) / 2);
       return;
     }
     for (int row = y; row < y + height; ++row) cut_row(x, row, x + width);
@@ -171,17 +168,22 @@ class Smear::Cutter {
       const float x_px = motion_.x_px.at(begin, y);
       const float y_px = motion_.y_px.at(begin, y);
       int after = begin + 1;
-      while (after < end && std::abs(motion_.x_px.at(after, y) - x_px) <= kAlikePx / 2 &&
-             std::abs(motion_.y_px.at(after, y) - y_px) <= kAlikePx / 2)
+      while (after < end && reach_ * std::abs(motion_.x_px.at(after, y) - x_px) <= kAlikePx / 2 &&
+             reach_ * std::abs(motion_.y_px.at(after, y) - y_px) <= kAlikePx / 2)
         ++after;
-      if (!is_still(x_px, y_px))
-        add({.x = begin, .y = y, .width = after - begin, .height = 1}, steps_of(x_px, y_px));
+      if (!is_still(x_px, y_px)) add({.x = begin, .y = y, .width = after - begin, .height = 1}, x_px, y_px);
       begin = after;
     }
   }
 
+  /// NaN is still.
+  [[nodiscard]] bool is_still(float x_px, float y_px) const noexcept {
+    return !(reach_ * std::abs(x_px) >= kStillPx) && !(reach_ * std::abs(y_px) >= kStillPx);
+  }
+
   /// Cut where the time of reading changes.
-  void add(Piece piece, Steps steps) {
+  void add(Piece piece, float x_px, float y_px) {
+    Steps steps = steps_of(x_px, y_px, kStepsPerPx * reach_);
     if (steps.x == 0 && steps.y == 0) return;
     const int end = piece.y + piece.height;
     while (piece.y < end) {
@@ -200,12 +202,15 @@ class Smear::Cutter {
   }
 
   const ImageMotion& motion_;
+  float reach_;
   double readout_;
   std::vector<Piece>& out_;
 };
 
 Smear::Smear(double interval_s, double time_constant_s, double readout_s)
-    : ages_(interval_s / time_constant_s), readout_(readout_s / interval_s) {
+    : ages_(interval_s / time_constant_s),
+      readout_(readout_s / interval_s),
+      reach_(std::min(1.0, std::max(1 / ages_, readout_ / 2))) {
   assert(interval_s > 0 && time_constant_s > 0 && readout_s >= 0 && readout_s <= interval_s);
 }
 
@@ -225,7 +230,7 @@ void Smear::apply(const ImageMotion& motion, Plane<float>& picture, double ages,
   parallel_for(rows, 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       pieces_[row].clear();
-      Cutter cutter(motion, readout_, pieces_[row]);
+      Cutter cutter(motion, reach_, readout_, pieces_[row]);
       const int y = static_cast<int>(row) * kTileHeight;
       const int height = std::min(kTileHeight, picture.height_px() - y);
       for (int x = 0; x < picture.width_px(); x += kTileWidth)
@@ -255,7 +260,7 @@ void Smear::find_samples(double ages, double intervals) {
 
 Smear::Samples Smear::samples_of(std::int64_t motion, double ages, double intervals) const {
   const Steps steps = Steps::unpacked(motion);
-  const double interval_px = intervals / kStepsPerPx;
+  const double interval_px = intervals / (kStepsPerPx * reach_);
   const double begins = -static_cast<double>(steps.read) / (kReadSteps * intervals);
   Samples samples;
   samples.taps = smear_taps(static_cast<double>(steps.x) * interval_px,

@@ -244,6 +244,37 @@ TEST_CASE("A camera without a time constant has no smear") {
   CHECK_FALSE(frames(kTau, moving) == frames(kTau, {}));
 }
 
+TEST_CASE("Rounded motion shifts what a pixel has seen by less than a tenth of a pixel") {
+  constexpr int kWidth = 400;
+  constexpr int kHeight = 20;
+  constexpr double kCycles = 0.06;
+  const double ages = GENERATE(0.5, 1.7, 11.0, 50.0);
+  const auto value = [](double x, double y) { return 40 + 10 * std::cos(2 * pi * kCycles * (x + y)); };
+  Plane<float> picture(kWidth, kHeight);
+  ImageMotion motion = motion_of(kWidth, kHeight, 0, 0);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      picture.at(x, y) = static_cast<float>(value(x, y));
+      motion.x_px.at(x, y) = 0.05F * static_cast<float>(x);
+      motion.y_px.at(x, y) = 0.3F * static_cast<float>(y);
+    }
+  }
+  Smear(ages * kTau, kTau).apply(motion, picture);
+  double worst_k = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 100; x < 300; ++x) {
+      double exact_k = 0;
+      for (const SmearTap& tap : smear_taps(motion.x_px.at(x, y), motion.y_px.at(x, y), ages))
+        exact_k +=
+            static_cast<double>(tap.weight) * value(x + tap.x_px, std::clamp(y + tap.y_px, 0, kHeight - 1));
+      worst_k = std::max(worst_k, std::abs(static_cast<double>(picture.at(x, y)) - exact_k));
+    }
+  }
+  CAPTURE(ages, worst_k);
+  constexpr double kSteepest = 10 * 2 * pi * kCycles;  // K per pixel
+  CHECK(worst_k < 0.1 * kSteepest);
+}
+
 TEST_CASE("Extreme motion stays within what was seen, and edges go on as they end") {
   for (const float px : {-1000.0F, -4.0F, 45.0F, 1e30F}) {
     Smear smear(1 / 30.0, kTau);
