@@ -4,21 +4,21 @@
     tests/transfer/ablation.py CONFIG --real ANNOTATIONS.json FOLDER --out OUT
 
 Each part has a folder in OUT with its config and all that ladder.py keeps, so a run continues where it was interrupted.
-Other arguments go to ladder.py, such as --steps. Results: thermal_core/TRANSFER.md.
+All datasets are made before the first training. Results: thermal_core/TRANSFER.md.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from frames import read_frames
+from ladder import KEYS, Ladder, Training, made_frames, parser_of, train_all
+
 _CLUTTER = ("stone", "stump", "chimney", "dung_pile", "hare", "francolin", "milestone")
 _TIGHT = ("formation", "behaviours", "behaviour", "spacing_m")
-_KEYS = ("ap50", "ap30", "recall50")
 _MIDNIGHT = "00:00"
 
 
@@ -123,32 +123,31 @@ def _config_without(part: str, config: Path, out: Path) -> Path:
     return file
 
 
-def _scores_without(part: str, options: argparse.Namespace, more: list[str]) -> dict[str, float]:
-    out, config = options.out / part, _config_without(part, options.config, options.out)
-    ladder = [sys.executable, Path(__file__).with_name("ladder.py"), config, "--real", *options.real]
-    once = ["--out", out, "--ladder", "0", "--seeds", str(options.seed)]
-    style = ["--box-style", _STYLES.get(part, "drawn")]
-    subprocess.run([*ladder, *once, *style, *more], check=True)
-    file = out / "scores" / f"veldt_real_0_seed_{options.seed}.json"
-    return json.loads(file.read_text(encoding="utf-8"))
+def _ladder_without(part: str, options: argparse.Namespace) -> Ladder:
+    """The frames of the config without a part, and what they are judged by."""
+    out = options.out / part
+    config = _config_without(part, options.config, options.out)
+    style = _STYLES.get(part, "drawn")
+    made = made_frames(
+        argparse.Namespace(**vars(options) | {"config": config, "out": out, "box_style": style})
+    )
+    return Ladder(out, options.steps, made, [], read_frames(*options.real)[1::2])
 
 
 def main() -> None:
     """Leave out one part after another."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
     names = list(PARTS)
-    parser.add_argument("config", type=Path)
-    parser.add_argument("--real", nargs=2, type=Path, required=True, metavar=("LABELS", "FOLDER"))
-    parser.add_argument("--out", type=Path, required=True)
+    parser = parser_of(__doc__)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--without", nargs="+", choices=names, default=names, help="parts to leave out")
-    options, more = parser.parse_known_args()
-    rows = [(part, _scores_without(part, options, more)) for part in options.without]
+    options = parser.parse_args()
+    training = Training(0, options.seed, True)
+    ladders = {part: _ladder_without(part, options) for part in options.without}
+    train_all([(ladder, training) for ladder in ladders.values()], options.at_once)
     print("| without | AP50 | AP30 | found at one false alarm a frame |\n|---|---|---|---|")
-    for part, scores in rows:
-        print(f"| {part.replace('_', ' ')} | {' | '.join(f'{scores[key]:.3f}' for key in _KEYS)} |")
+    for part, ladder in ladders.items():
+        scores = ladder.scores(training)
+        print(f"| {part.replace('_', ' ')} | {' | '.join(f'{scores[key]:.3f}' for key in KEYS)} |")
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ from scores import scores_of
 _VELDT = Path(__file__).resolve().parents[2] / "build" / "release" / "bin" / "veldt"
 _RATE, _FINE_RATE = 3e-3, 1e-3
 _FINE_STEPS = 0.4  # of the steps, on real frames after frames of the dataset
-_KEYS = ("ap50", "ap30", "recall50")
+KEYS = ("ap50", "ap30", "recall50")
 
 
 @dataclass(frozen=True)
@@ -103,21 +103,30 @@ class Ladder:
         return [self.real[k] for k in sorted(some)]
 
 
-def train_all(ladder: Ladder, trainings: list[Training], at_once: int) -> None:
+Work = tuple[Ladder, Training]
+
+
+def train_all(work: list[Work], at_once: int) -> None:
     """Keep the weights of trainings and of what they start from. Each has its share of the cores."""
-    starts = {each.start for each in trainings} - {None}
-    first = starts | {each for each in trainings if each.start is None}
+    first = _distinct([(ladder, each.start or each) for ladder, each in work])
+    then = [(ladder, each) for ladder, each in work if each.start]
     threads = max(1, len(os.sched_getaffinity(0)) // at_once)
     spawn = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(at_once, spawn, torch.set_num_threads, (threads,)) as pool:
-        for stage in (first, set(trainings) - first):
-            ordered = sorted(stage, key=lambda each: each.name)
-            for done in [pool.submit(ladder.train, each) for each in ordered]:
+        for stage in (first, then):
+            for done in [pool.submit(ladder.train, each) for ladder, each in stage]:
                 done.result()
 
 
-def _made_frames(options: argparse.Namespace) -> list[Frame]:
-    """The frames of the config at all places, generated and exported where that was not done before."""
+def _distinct(work: list[Work]) -> list[Work]:
+    return list({(ladder.out, each): (ladder, each) for ladder, each in work}.values())
+
+
+def made_frames(options: argparse.Namespace) -> list[Frame]:
+    """The frames of a config at all places, generated and exported where that was not done before.
+
+    options: config, out, places, box_style and veldt, as main() reads them.
+    """
     seed = json.loads(options.config.read_text(encoding="utf-8")).get("seed", 1)
     frames = []
     for place in range(options.places):
@@ -146,7 +155,7 @@ def _print_table(ladder: Ladder, counts: list[int], seeds: list[int]) -> None:
     for count, with_made in _rows(counts):
         scores = [ladder.scores(Training(count, seed, with_made)) for seed in seeds]
         cells = []
-        for key in _KEYS:
+        for key in KEYS:
             values = np.array([each[key] for each in scores])
             cells.append(f"{values.mean():.3f} ± {values.std(ddof=1) if len(values) > 1 else 0:.3f}")
         print(
@@ -154,30 +163,35 @@ def _print_table(ladder: Ladder, counts: list[int], seeds: list[int]) -> None:
         )
 
 
-def main() -> None:
-    """Generate, train and judge."""
+def parser_of(description: str) -> argparse.ArgumentParser:
+    """The options that the scripts of this folder have in common."""
     parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("config", type=Path)
     parser.add_argument("--real", nargs=2, type=Path, required=True, metavar=("LABELS", "FOLDER"))
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--steps", type=int, default=2500)
-    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
-    parser.add_argument("--ladder", type=int, nargs="+", default=[0, 14, 80], help="numbers of real frames")
     parser.add_argument("--places", type=int, default=1, help="of the config, each with another seed")
-    parser.add_argument("--box-style", choices=("drawn", "visible"), default="drawn")
     parser.add_argument(
         "--at-once", type=int, default=2, help="trainings side by side (default: %(default)s)"
     )
     parser.add_argument("--veldt", type=Path, default=_VELDT)
+    return parser
+
+
+def main() -> None:
+    """Generate, train and judge."""
+    parser = parser_of(__doc__)
+    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
+    parser.add_argument("--ladder", type=int, nargs="+", default=[0, 14, 80], help="numbers of real frames")
+    parser.add_argument("--box-style", choices=("drawn", "visible"), default="drawn")
     options = parser.parse_args()
     frames = read_frames(*options.real)
-    ladder = Ladder(options.out, options.steps, _made_frames(options), frames[0::2], frames[1::2])
+    ladder = Ladder(options.out, options.steps, made_frames(options), frames[0::2], frames[1::2])
     rows = _rows(options.ladder)
-    train_all(
-        ladder, [Training(n, seed, made) for n, made in rows for seed in options.seeds], options.at_once
-    )
+    work = [(ladder, Training(n, seed, made)) for n, made in rows for seed in options.seeds]
+    train_all(work, options.at_once)
     _print_table(ladder, options.ladder, options.seeds)
 
 
