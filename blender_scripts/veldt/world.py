@@ -26,6 +26,7 @@ from .plants.density import plan_density
 from .plants.halos import with_halos
 from .plants.placement import Corridor, Planting, Site, place_plants, with_more
 from .plants.plant_shapes import slots_of
+from .sites.crossings import plan_crossings
 from .sites.grounds import plan_grounds
 from .sites.layout import lay_out, plantings_of
 from .sites.settlement import plan_settlements
@@ -95,6 +96,7 @@ def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) 
     fine = cores.start(lay_fine) if with_ground else lambda: None
     clear = [*cast.corridors, *(fire.clearing for fire in burning)]
     built = [thing for site in settlements for thing in lay_out(site, terrain, clear)]
+    built += plan_crossings(terrain, clear)
     clear += [Corridor(thing.point_m[None], thing.foot_m) for thing in built]
     site = Site(terrain, areas.shares, terrain.road_m, clear)
     plantings = cores.start(lambda: place_plants(scene["plants"], site, seed))

@@ -114,7 +114,9 @@ def test_plants_keep_off_all_actors(savanna, walks):
 
 
 def test_nothing_is_planted_in_water_or_on_the_road(savanna):
-    for planting in savanna.plantings.values():
+    for name, planting in savanna.plantings.items():
+        if name in ("bridge", "culvert"):  # to both sides of the road
+            continue
         x_m, y_m, _ = planting.points_m.T
         assert savanna.terrain.shore_m(x_m, y_m).min() > 0
         assert savanna.terrain.road_m(x_m, y_m).min() > 0

@@ -38,7 +38,7 @@ class Corridor:
     half_width_m: float
 
     def is_clear(self, points_m: np.ndarray, by_m: float) -> bool:
-        """Mask of points (n, 2) that are at least by_m away from walkers."""
+        """Whether all points (n, 2) are at least by_m away from walkers."""
         return len(pairs_within(points_m, self.points_m, by_m + self.half_width_m)[0]) == 0
 
 

@@ -21,11 +21,13 @@ _SHORE_M = 1.0
 
 @dataclass(frozen=True, eq=False)
 class Standing:
-    """A thing of a settlement: its name among plants and structures, its place (2,), and the angle it is turned by."""
+    """A thing that people built: its name among plants and structures, its place (2,), the angle it is turned by, and
+    its size beside the asset's."""
 
     name: str
     point_m: np.ndarray
     yaw_rad: float
+    scale: float = 1.0
 
     @property
     def foot_m(self) -> float:
@@ -90,7 +92,8 @@ def _planting(name: str, things: Sequence[Standing], terrain: Terrain, seed: int
     return Planting(
         points_m=np.column_stack([points_m, terrain.height_m(*points_m.T)]),
         yaw_rad=np.array([thing.yaw_rad for thing in things]),
-        scale=rng.uniform(*data.get("scale_range", (1.0, 1.0)), len(things)),
+        scale=rng.uniform(*data.get("scale_range", (1.0, 1.0)), len(things))
+        * [thing.scale for thing in things],
         variant=rng.integers(0, data.get("variants", 1), len(things)),
     )
 
