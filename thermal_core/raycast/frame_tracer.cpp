@@ -87,14 +87,15 @@ class RayTracer {
   /// Rays of one packet nearly always hit one water.
   void trace_mirrored(const VectorLanes<double>& direction, const FirstHits& hits, const Packet& rays,
                       TriangleCaches& caches) const {
-    put_sights(direction, FirstHits(), rays, caches.seen, sink_.mirrored);
     std::array<bool, kLanes> wet{};
     Lanes<double> height_m{};
     for (std::size_t k = 0; k < rays.rays; ++k) {
+      const std::size_t place = rays.places[k];
+      put_sky(place, sink_.mirrored);
+      if (!shot_.place.is_water(sink_.seen.object_index[place], sink_.seen.material_index[place])) continue;
       if (hits.piece[k] == kNoPiece || !(direction[2][k] < 0)) continue;
-      const SeenTriangle& triangle = caches.seen.at(hits.piece[k], hits.triangle[k]);
-      wet[k] = shot_.place.is_water(triangle.object, triangle.material);
-      height_m[k] = triangle.height_m;
+      wet[k] = true;
+      height_m[k] = caches.seen.at(hits.piece[k], hits.triangle[k]).height_m;
     }
     for (std::size_t first = 0; first < rays.rays; ++first) {
       if (!wet[first]) continue;
@@ -118,6 +119,13 @@ class RayTracer {
     first.search(shot.actors, 0, rays.mask, packet);
     first.search(shot.place.surroundings(), shot.first_surrounding(), rays.mask, packet);
     put_sights(direction, first.hits(), rays, mirror.triangles(), sink_.mirrored);
+  }
+
+  static void put_sky(std::size_t place, const SightSink& sink) noexcept {
+    sink.object_index[place] = kSky.object;
+    sink.material_index[place] = kSky.material;
+    sink.depth_m[place] = kSkyDepthM;
+    for (float* axis : sink.normal) axis[place] = 0;
   }
 
   static void put_sights(const VectorLanes<double>& direction, const FirstHits& hits, const Packet& rays,

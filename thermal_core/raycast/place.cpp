@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -124,6 +125,11 @@ Place::Place(const BakedScene& scene, RTCFilterFunctionN filter)
   water_objects_ = water_among(scene.objects);
   water_materials_ = water_among(scene.materials);
   has_water_ = std::ranges::count(water_objects_, true) + std::ranges::count(water_materials_, true) > 0;
+  if (!has_water_) return;
+  std::ranges::copy_if(surroundings_.pieces, std::back_inserter(waters_), [this](const Piece& piece) {
+    return std::ranges::any_of(scene_.meshes[piece.mesh].material_index,
+                               [&](std::uint16_t material) { return is_water(piece.object, material); });
+  });
 }
 
 PieceSet Place::set_of(std::vector<Piece> pieces) const {

@@ -44,6 +44,9 @@ class Place {
 
   [[nodiscard]] bool has_water() const noexcept { return has_water_; }
 
+  /// Those of the surroundings that have triangles of the material "water".
+  [[nodiscard]] const std::vector<Piece>& waters() const noexcept { return waters_; }
+
   /// Whether triangles of this object and material are of the material "water".
   [[nodiscard]] bool is_water(std::uint16_t object, std::uint16_t material) const noexcept {
     return has_water_ && (material != 0 ? water_materials_[material] : water_objects_[object]);
@@ -63,6 +66,7 @@ class Place {
   std::vector<MeshBox> boxes_;
   PieceSet surroundings_;
   bool has_water_ = false;
+  std::vector<Piece> waters_;
   std::vector<bool> water_objects_;  ///< by index; by index
   std::vector<bool> water_materials_;
 };
