@@ -1,6 +1,5 @@
 """Culverts and bridges: where the road crosses gullies on a bank."""
 
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -31,7 +30,7 @@ def _bank_m(terrain, thing):
     line = np.concatenate(terrain.road.points_m)
     point = np.linalg.norm(line - thing.point_m, axis=1).argmin()
     bed_m = np.concatenate(terrain.road.bed_m)[point]
-    return bed_m - replace(terrain, road=None).height_m(*line[point][:, None])[0]
+    return bed_m - terrain.with_road(None).height_m(*line[point][:, None])[0]
 
 
 def test_a_high_bank_has_a_bridge_and_a_low_one_a_culvert():

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "base/parallel.h"
@@ -126,10 +126,16 @@ Place::Place(const BakedScene& scene, RTCFilterFunctionN filter)
   water_materials_ = water_among(scene.materials);
   has_water_ = std::ranges::count(water_objects_, true) + std::ranges::count(water_materials_, true) > 0;
   if (!has_water_) return;
-  std::ranges::copy_if(surroundings_.pieces, std::back_inserter(waters_), [this](const Piece& piece) {
-    return std::ranges::any_of(scene_.meshes[piece.mesh].material_index,
-                               [&](std::uint16_t material) { return is_water(piece.object, material); });
-  });
+  std::map<std::pair<std::uint16_t, std::uint32_t>, bool> wet;  // by object and mesh, which plants share
+  for (const Piece& piece : surroundings_.pieces) {
+    const auto [known, is_new] = wet.try_emplace({piece.object, piece.mesh}, false);
+    if (is_new) {
+      known->second =
+          std::ranges::any_of(scene_.meshes[piece.mesh].material_index,
+                              [&](std::uint16_t material) { return is_water(piece.object, material); });
+    }
+    if (known->second) waters_.push_back(piece);
+  }
 }
 
 PieceSet Place::set_of(std::vector<Piece> pieces) const {

@@ -41,11 +41,6 @@ std::vector<Piece> actors_in(const BakedScene& scene, const BakedTrack& track, s
   return pieces;
 }
 
-bool may_see_water(const Place& place, const View& view, const PixelRays& rays) {
-  return std::ranges::any_of(pixels_near(place.waters(), place, view, rays).pixels(),
-                             [](std::uint8_t near) { return near != 0; });
-}
-
 bool mirrors_anything(const Passes& passes) {
   const auto any = [](const auto& indices) {
     return std::ranges::any_of(indices, [](std::uint16_t index) { return index != 0; });
@@ -78,7 +73,7 @@ void ClipTracer::trace(std::size_t frame, const PassNeeds& needs, Passes& out) c
   const PieceSet actors = place_.set_of(actors_in(place_.scene(), track_, frame, first_bone_));
   const Shot shot = {.place = place_, .actors = actors, .view = view_of(track_.camera_to_world[frame])};
   const Plane<std::uint8_t> near_actors = pixels_near(actors.pieces, place_, shot.view, *pixel_rays_);
-  const bool sees_water = may_see_water(place_, shot.view, *pixel_rays_);
+  const bool sees_water = may_see(place_.waters(), place_, shot.view, *pixel_rays_);
   PassNeeds of_samples = needs;
   of_samples.mirrored &= sees_water;
   PassNeeds of_pixels = of_samples;

@@ -20,6 +20,8 @@ struct Range {
   int top = 0;
   int right = 0;
   int bottom = 0;
+
+  [[nodiscard]] bool is_empty() const noexcept { return left >= right || top >= bottom; }
 };
 
 int clamped(double place_px, int most_px) {
@@ -105,6 +107,11 @@ Plane<std::uint8_t> pixels_near(const std::vector<Piece>& pieces, const Place& p
       std::fill(near.row(y).begin() + range.left, near.row(y).begin() + range.right, std::uint8_t{1});
   }
   return near;
+}
+
+bool may_see(const std::vector<Piece>& pieces, const Place& place, const View& view, const PixelRays& rays) {
+  return std::ranges::any_of(
+      pieces, [&](const Piece& piece) { return !pixels_of(piece, place, view, rays).is_empty(); });
 }
 
 void choose_pixels(const Passes& passes, const Plane<std::uint8_t>& near_actors, FineSamples& fine) {

@@ -15,6 +15,10 @@ namespace thermal {
 [[nodiscard]] Plane<std::uint8_t> pixels_near(const std::vector<Piece>& pieces, const Place& place,
                                               const View& view, const PixelRays& rays);
 
+/// Whether there are such pixels.
+[[nodiscard]] bool may_see(const std::vector<Piece>& pieces, const Place& place, const View& view,
+                           const PixelRays& rays);
+
 /// Sets the pixels of `fine` that need more than one sample: those near actors, and those that differ from one of their
 /// eight neighbours in object or material, seen or mirrored, or in depth by more than 2 %. `passes` have indices and depth.
 void choose_pixels(const Passes& passes, const Plane<std::uint8_t>& near_actors, FineSamples& fine);

@@ -43,9 +43,9 @@ struct SmearTap {
 /// tell how what is near Nyquist moves. smear_test.cpp has the errors. Beyond the edges the picture goes on as it ends.
 /// Rows that are read one after the other see the picture of their own time, half of the readout before the frame's to
 /// half after it; in steps of 1/64 of an interval.
-/// No result is below the coldest pixel that it was mixed from. Motions are rounded to 1/16 px within the reach: the
-/// interval, or the time constant or half of the readout, whichever is longer, if that is shorter. Those below 1/64 px
-/// leave a pixel as it is. Motion of more than 40 px an interval takes up to a hundred times longer.
+/// No result is below the coldest pixel that it was mixed from. Motions are rounded to 1/16 px within the reach, which is
+/// the longer of the time constant and half of the readout, but at most an interval. Those below 1/64 px within it leave
+/// a pixel as it is. Motion of more than 40 px an interval takes up to a hundred times longer.
 class Smear {
  public:
   /// @param interval_s  a frame interval, > 0

@@ -49,9 +49,9 @@ def _candidates(terrain: Terrain, road: Road) -> Iterator[tuple[float, Standing]
 
 def _is_clear(thing: Standing, width_m: float, corridors: Sequence[Corridor]) -> bool:
     """Whether no walker gets close to a wall."""
-    data = assets.standing(thing.name)
-    along_m = np.arange(-data["foot_m"], data["foot_m"] + _WALL_STEP_M, _WALL_STEP_M)[:, None]
+    clear_m = assets.standing(thing.name)["clearance_m"]
+    along_m = np.arange(-thing.foot_m, thing.foot_m + _WALL_STEP_M, _WALL_STEP_M)[:, None]
     ahead, left = heading_of(thing.yaw_rad), heading_of(thing.yaw_rad + 0.5 * np.pi)
-    middle_m = thing.point_m + thing.scale * along_m * ahead
+    middle_m = thing.point_m + along_m * ahead
     walls_m = np.concatenate([middle_m + side * 0.5 * width_m * left for side in (-1.0, 1.0)])
-    return all(corridor.is_clear(walls_m, data["clearance_m"]) for corridor in corridors)
+    return all(corridor.is_clear(walls_m, clear_m) for corridor in corridors)

@@ -32,7 +32,7 @@ class Standing:
     @property
     def foot_m(self) -> float:
         """Radius of the ground that it needs."""
-        return assets.standing(self.name)["foot_m"]
+        return self.scale * assets.standing(self.name)["foot_m"]
 
 
 @dataclass
