@@ -1,9 +1,13 @@
 #include "raycast/frame_tracer.h"
 
+#include <algorithm>
 #include <array>
+#include <functional>
+#include <mutex>
 
 #include "base/parallel.h"
 #include "raycast/first_hit.h"
+#include "raycast/mirrored_sky.h"
 #include "raycast/mirrors.h"
 #include "raycast/ray_packets.h"
 #include "raycast/seen_triangles.h"
@@ -12,7 +16,6 @@
 namespace thermal {
 namespace {
 
-constexpr float kSkyDepthM = 1e10F;  // as Blender has it
 const SeenTriangle kSky;
 
 /// Where what is hit goes, by place; null where it is not needed.
@@ -23,10 +26,32 @@ struct SightSink {
   std::array<float*, 3> normal{};
 };
 
+/// Where what is mirrored goes. Few frames show water that mirrors more than sky; room is made when the first one is found.
+class MirrorSink {
+ public:
+  /// `make_room` is called at most once, and fills the room with sky.
+  MirrorSink(bool wanted, std::function<SightSink()> make_room)
+      : wanted_(wanted), make_room_(std::move(make_room)) {}
+
+  [[nodiscard]] bool is_wanted() const noexcept { return wanted_; }
+  [[nodiscard]] const SightSink& room() {
+    std::call_once(made_, [this] { sink_ = make_room_(); });
+    return sink_;
+  }
+  /// Once all is traced.
+  [[nodiscard]] bool has_room() const noexcept { return sink_.object_index != nullptr; }
+
+ private:
+  bool wanted_;
+  std::function<SightSink()> make_room_;
+  std::once_flag made_;
+  SightSink sink_;
+};
+
 /// Where results go.
 struct Sink {
   SightSink seen;
-  SightSink mirrored;
+  MirrorSink& mirrored;
   std::uint16_t* actor_index = nullptr;
 };
 
@@ -73,7 +98,7 @@ class RayTracer {
     if (sink_.actor_index != nullptr) put_actors(first.hits(), rays);
     first.search(shot_.place.surroundings(), shot_.first_surrounding(), rays.mask, packet);
     put_sights(direction, first.hits(), rays, caches.seen, sink_.seen);
-    if (sink_.mirrored.object_index != nullptr) trace_mirrored(direction, first.hits(), rays, caches);
+    if (sink_.mirrored.is_wanted()) trace_mirrored(direction, first.hits(), rays, caches);
   }
 
  private:
@@ -91,7 +116,6 @@ class RayTracer {
     Lanes<double> height_m{};
     for (std::size_t k = 0; k < rays.rays; ++k) {
       const std::size_t place = rays.places[k];
-      put_sky(place, sink_.mirrored);
       if (!shot_.place.is_water(sink_.seen.object_index[place], sink_.seen.material_index[place])) continue;
       if (hits.piece[k] == kNoPiece || !(direction[2][k] < 0)) continue;
       wet[k] = true;
@@ -118,14 +142,9 @@ class RayTracer {
     FirstHitSearch first(direction, mirror.triangles());
     first.search(shot.actors, 0, rays.mask, packet);
     first.search(shot.place.surroundings(), shot.first_surrounding(), rays.mask, packet);
-    put_sights(direction, first.hits(), rays, mirror.triangles(), sink_.mirrored);
-  }
-
-  static void put_sky(std::size_t place, const SightSink& sink) noexcept {
-    sink.object_index[place] = kSky.object;
-    sink.material_index[place] = kSky.material;
-    sink.depth_m[place] = kSkyDepthM;
-    for (float* axis : sink.normal) axis[place] = 0;
+    const auto is_sky = [](unsigned piece) { return piece == kNoPiece; };
+    if (std::ranges::all_of(first.hits().piece, is_sky)) return;
+    put_sights(direction, first.hits(), rays, mirror.triangles(), sink_.mirrored.room());
   }
 
   static void put_sights(const VectorLanes<double>& direction, const FirstHits& hits, const Packet& rays,
@@ -182,8 +201,12 @@ void trace_pixels(const Shot& shot, const PixelRays& rays, const Plane<std::uint
                   const PassNeeds& needs, Passes& out) {
   const bool mirrored = needs.mirrored && shot.place.has_water();
   const auto pixels = [&](auto& plane, bool wanted) { return pixels_of(plane, wanted, rays); };
+  MirrorSink mirrors(mirrored, [&] {
+    set_to_sky(out.mirrored, rays.width_px(), rays.height_px());
+    return sink_for(out.mirrored, true, true, true, pixels);
+  });
   const Sink sink = {.seen = sink_for(out, true, needs.depth, needs.normals, pixels),
-                     .mirrored = sink_for(out.mirrored, mirrored, mirrored, mirrored, pixels),
+                     .mirrored = mirrors,
                      .actor_index = pixels(out.actor_index, needs.actors)};
   out.ranks.clear();
   const RayTracer tracer(shot, sink);
@@ -196,6 +219,7 @@ void trace_pixels(const Shot& shot, const PixelRays& rays, const Plane<std::uint
         tracer.trace(block_at(x_px, y_px, rays, near_actors), caches);
     }
   });
+  if (!mirrors.has_room()) out.mirrored = {};
 }
 
 void trace_samples(const Shot& shot, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
@@ -204,8 +228,12 @@ void trace_samples(const Shot& shot, const PixelRays& rays, const Plane<std::uin
   const std::size_t samples = side * side * fine.x_px.size();
   const bool mirrored = needs.mirrored && shot.place.has_water();
   const auto list = [&](auto& values, bool wanted) { return samples_of(values, wanted, samples); };
+  MirrorSink mirrors(mirrored, [&] {
+    set_to_sky(fine.mirrored, samples);
+    return sink_for(fine.mirrored, true, true, true, list);
+  });
   const Sink sink = {.seen = sink_for(fine, true, needs.depth, needs.normals, list),
-                     .mirrored = sink_for(fine.mirrored, mirrored, mirrored, mirrored, list),
+                     .mirrored = mirrors,
                      .actor_index = list(fine.actor_index, needs.actors)};
   const RayTracer tracer(shot, sink);
   parallel_for(static_cast<std::size_t>(near_actors.height_px()), 8, [&](std::size_t begin, std::size_t end) {
@@ -213,6 +241,7 @@ void trace_samples(const Shot& shot, const PixelRays& rays, const Plane<std::uin
     for (auto row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
       trace_row(tracer, rays, near_actors, row, fine, caches);
   });
+  if (!mirrors.has_room()) fine.mirrored = {};
 }
 
 }  // namespace thermal

@@ -4,6 +4,7 @@
 
 #include "raycast/first_hit.h"
 #include "raycast/frame_tracer.h"
+#include "raycast/mirrored_sky.h"
 #include "raycast/place.h"
 #include "raycast/refinement.h"
 #include "scene/camera_geometry.h"
@@ -41,11 +42,12 @@ std::vector<Piece> actors_in(const BakedScene& scene, const BakedTrack& track, s
   return pieces;
 }
 
-bool mirrors_anything(const Passes& passes) {
-  const auto any = [](const auto& indices) {
-    return std::ranges::any_of(indices, [](std::uint16_t index) { return index != 0; });
-  };
-  return any(passes.mirrored.object_index.pixels()) || any(passes.fine.mirrored.object_index);
+/// Pixels and their samples both have what water mirrors, or neither does.
+void even_out(Passes& passes) {
+  if (passes.mirrored.empty() && !passes.fine.mirrored.empty())
+    set_to_sky(passes.mirrored, passes.object_index.width_px(), passes.object_index.height_px());
+  if (passes.fine.mirrored.empty() && !passes.mirrored.empty())
+    set_to_sky(passes.fine.mirrored, passes.fine.object_index.size());
 }
 
 }  // namespace
@@ -81,14 +83,10 @@ void ClipTracer::trace(std::size_t frame, const PassNeeds& needs, Passes& out) c
   of_pixels.mirrored |= sample_rays_ != nullptr && sees_water;
   trace_pixels(shot, *pixel_rays_, near_actors, of_pixels, out);
   out.fine.factor = sample_rays_ ? supersample_ : 1;
-  out.fine.mirrored = {};
-  if (sample_rays_) {
-    choose_pixels(out, near_actors, out.fine);
-    trace_samples(shot, *sample_rays_, near_actors, of_samples, out.fine);
-  }
-  if (mirrors_anything(out)) return;
-  out.mirrored = {};
-  out.fine.mirrored = {};
+  if (!sample_rays_) return;
+  choose_pixels(out, near_actors, out.fine);
+  trace_samples(shot, *sample_rays_, near_actors, of_samples, out.fine);
+  if (of_samples.mirrored) even_out(out);
 }
 
 }  // namespace thermal

@@ -208,4 +208,17 @@ TEST_CASE("Adaptive sampling has all samples at mirrored silhouettes, whatever i
   CHECK(mirrored > 100);
 }
 
+TEST_CASE("What samples alone see mirrored is also said of pixels, which mirror sky") {
+  // Between the middles of two columns of pixels, over their inner samples.
+  Scenery place;
+  place.surface(kWater, shapes::level(200, 4, 0, 0));
+  place.actor({shapes::box({-0.05F, 19.5F, -1}, {0.05F, 20.5F, 4}, 0)});
+  const Passes passes = seen(place, from(8), kMirrored, {.supersample = 3, .adaptive = true});
+  CHECK(std::ranges::count(passes.fine.mirrored.object_index, kFirstActor) > 20);
+  REQUIRE(passes.mirrored.object_index.size() == passes.object_index.size());
+  CHECK(std::ranges::count(passes.mirrored.object_index.pixels(), 0) ==
+        static_cast<std::ptrdiff_t>(passes.object_index.size()));
+  CHECK(passes.mirrored.depth_m.at(0, 0) >= thermal::kSkyFromM);
+}
+
 }  // namespace mirrors_test
