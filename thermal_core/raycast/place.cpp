@@ -50,14 +50,23 @@ void fill_buffer(RTCDevice device, RTCGeometry geometry, RTCBufferType type, RTC
   for (const auto& value : values) buffer = std::copy(value.begin(), value.end(), buffer);
 }
 
-EmbreeScene scene_of(RTCDevice device, const BakedMesh& mesh, RTCFilterFunctionN filter) {
+/// Builds a tree over the order of the triangles' places, in a third of the time. Those of ground lie evenly, and rays
+/// find them as fast as in a tree by costs.
+void build_fast(RTCGeometry geometry, RTCScene scene) {
+  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_LOW);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
+  rtcSetSceneFlags(scene, rtcGetSceneFlags(scene) | RTC_SCENE_FLAG_DYNAMIC);  // others ignore the quality
+}
+
+EmbreeScene scene_of(RTCDevice device, const BakedMesh& mesh, RTCFilterFunctionN filter, bool is_even) {
   const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
   // Copies, because Embree also reads the four bytes behind the last point.
   fill_buffer(device, geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.points_m);
   fill_buffer(device, geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
   rtcSetGeometryIntersectFilterFunction(geometry.get(), filter);
-  rtcCommitGeometry(geometry.get());
   EmbreeScene scene = new_scene(device);
+  if (is_even) build_fast(geometry.get(), scene.get());
+  rtcCommitGeometry(geometry.get());
   rtcAttachGeometry(scene.get(), geometry.get());
   commit(device, scene.get());
   return scene;
@@ -111,14 +120,20 @@ std::vector<Piece> surroundings_of(const BakedScene& scene) {
 }  // namespace
 
 Place::Place(const BakedScene& scene, RTCFilterFunctionN filter)
-    : scene_(scene), device_(new_device()), normals_(scene.meshes.size()) {
-  for (const BakedMesh& mesh : scene.meshes) {
-    meshes_.push_back(scene_of(device_.get(), mesh, filter));
-    boxes_.push_back(box_of(mesh));
-  }
-  parallel_for(scene.meshes.size(), 1, [this](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      if (scene_.meshes[k].smooth) normals_[k] = vertex_normals(scene_.meshes[k]);
+    : scene_(scene), device_(new_device()), meshes_(scene.meshes.size()), normals_(scene.meshes.size()) {
+  for (const BakedMesh& mesh : scene.meshes) boxes_.push_back(box_of(mesh));
+  std::vector<bool> is_surface(scene.meshes.size());
+  for (const BakedSurface& surface : scene.surfaces) is_surface[surface.mesh] = true;
+  // Normals beside trees, because each of the two has a part that runs on one thread.
+  parallel_for(2 * scene.meshes.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t task = begin; task < end; ++task) {
+      const std::size_t k = task % scene.meshes.size();
+      const BakedMesh& mesh = scene.meshes[k];
+      if (task < scene.meshes.size()) {
+        meshes_[k] = scene_of(device_.get(), mesh, filter, is_surface[k]);
+      } else if (mesh.smooth) {
+        normals_[k] = vertex_normals(mesh);
+      }
     }
   });
   surroundings_ = set_of(surroundings_of(scene));
