@@ -1,9 +1,12 @@
 #include "imaging/heated_surfaces.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include "heat/body/body_heat.h"
 #include "heat/surface/leaf_layer.h"
+#include "imaging/ground_mixture.h"
 
 namespace thermal {
 namespace {
@@ -18,6 +21,17 @@ constexpr float kSteepestGround = 0.77F;
 
 bool is_fire(const Material& material) {
   return material.body_heat && std::holds_alternative<FirePart>(*material.body_heat);
+}
+
+/// Materials whose tables a scene needs; bathing animals come out of water that nothing shows.
+std::set<std::string> heated_materials(const std::vector<Surface>& surfaces, const HeatSettings& settings) {
+  std::set<std::string> names = {"water"};
+  for (const Surface& surface : surfaces)
+    if (surface.material->heat_of(surface.part) != nullptr)
+      names.insert(surface.material->heat_name(surface.part));
+  if (settings.ground)
+    for (const std::string& name : ground_part_names(settings.ground->covers)) names.insert(name);
+  return names;
 }
 
 }  // namespace
@@ -35,7 +49,7 @@ HeatedSurfaces::HeatedSurfaces(const std::vector<Surface>& surfaces, const std::
       weather_(weather),
       later_s_(later_s),
       terms_(terms),
-      moment_(settings.day->at(weather.solar_h + later_s / 3600)) {
+      moment_(settings.day->at(weather.solar_h + later_s / 3600, heated_materials(surfaces, settings))) {
   std::size_t of_first_class = 1;
   for (const Surface& surface : surfaces) {
     // What no actor's state concerns is the same in all classes.

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "accuracy/heat_bodies/nights.h"
@@ -77,10 +79,12 @@ TEST_CASE(
     heat.emplace(name, *one.heat_of(""));
     if (one.parts.contains("wood")) heat.emplace(one.heat_name("wood"), *one.heat_of("wood"));
   }
+  std::set<std::string> names;
+  for (const auto& entry : heat) names.insert(entry.first);
   for (const Season season : {Season::winter, Season::summer}) {
     const HeatOfDay day(weather_of(season).day, heat);
     const auto above_leaves_k = [&](const char* name, double open, double solar_h) {
-      const HeatOfMoment moment = day.at(solar_h);
+      const HeatOfMoment moment = day.at(solar_h, names);
       return side_of(moment, name, open) - moment.materials.at("acacia").temperature_k({.sky_view = 0.6});
     };
     for (const double solar_h : {18.5, 20.0, 22.0}) {

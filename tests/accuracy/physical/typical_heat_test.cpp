@@ -26,7 +26,7 @@ SceneOutline::Night night_of(const std::vector<const char*>& names, double crown
 TEST_CASE("Places of the ground are those that the tables of a day give, and their shares fill the ground") {
   const SceneOutline::Night night = night_of({"soil", "grass"}, 0.2, 0.1);
   const HeatOfDay day(night.weather.day, heat_of_materials(materials()));
-  const HeatOfMoment moment = day.at(night.weather.solar_h);
+  const HeatOfMoment moment = day.at(night.weather.solar_h, {"soil", "grass"});
   for (const char* name : {"soil", "grass"}) {
     CAPTURE(name);
     const auto& places = night.by_place.at(name);

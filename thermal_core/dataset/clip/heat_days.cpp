@@ -1,6 +1,5 @@
 #include "dataset/clip/heat_days.h"
 
-#include "base/parallel.h"
 #include "imaging/typical_heat.h"
 #include "io/bake/ground_maps_file.h"
 
@@ -23,10 +22,7 @@ std::shared_ptr<const HeatOfDay> HeatDays::of(const DayWeather& weather) {
     if (day->weather() == weather) return day;
   }
   if (days_.size() == kMostDays) days_.erase(days_.begin());
-  // A thread that waits for the columns must not take on work that asks for a day itself.
-  run_isolated(
-      [&] { days_.push_back(std::make_shared<const HeatOfDay>(weather, heat_of_materials(materials_))); });
-  return days_.back();
+  return days_.emplace_back(std::make_shared<const HeatOfDay>(weather, heat_of_materials(materials_)));
 }
 
 std::shared_ptr<const GroundMaps> HeatDays::ground_beside(const Path& clip_passes) {

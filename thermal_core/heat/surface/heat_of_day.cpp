@@ -100,6 +100,14 @@ const GroundHeat& ground_of(const std::map<std::string, MaterialHeat>& materials
   throw ConfigError(fault(user, fmt::format("\"{}\"", name), "", "a material with heat.ground"));
 }
 
+/// What leaves grow on, and soil for all else.
+const GroundHeat& ground_below(const std::map<std::string, MaterialHeat>& materials,
+                               const std::string& name) {
+  if (const auto* leaves = std::get_if<LeavesHeat>(&materials.at(name)))
+    return ground_of(materials, leaves->ground, "material " + name + ": heat.leaves.ground");
+  return ground_of(materials, "soil", "materials of heat");
+}
+
 }  // namespace
 
 double moisture_after_rain(double days) noexcept { return 0.7 * std::exp(-days / 6); }
@@ -163,15 +171,18 @@ double MaterialMoment::temperature_k(const SurfacePlace& place) const noexcept {
   return orientation(place).at(place.normal);
 }
 
-HeatOfDay::HeatOfDay(const DayWeather& weather, const std::map<std::string, MaterialHeat>& materials,
+HeatOfDay::HeatOfDay(const DayWeather& weather, std::map<std::string, MaterialHeat> materials,
                      const HeatSteps& steps)
-    : weather_(weather) {
+    : weather_(weather), materials_(std::move(materials)), steps_(steps) {
   weather.validate();
-  const std::vector<Forcing> forcing = forcing_of_day(weather, steps.per_day);
-  const GroundHeat& soil = ground_of(materials, "soil", "materials of heat");
+  forcing_ = forcing_of_day(weather, steps.per_day);
+  for (const auto& [name, heat] : materials_) (void)ground_below(materials_, name);
+  const GroundHeat& soil = ground_of(materials_, "soil", "materials of heat");
   const double moisture = moisture_after_rain(weather.rain_days_ago);
-  ground_ = day_of(soil, soil, {.moisture = moisture}, {.forcing = forcing}, steps);
-  const DayAround around = {.forcing = forcing, .ground_k = ground_.surface_k};
+  ground_ = day_of(soil, soil, {.moisture = moisture}, {.forcing = forcing_}, steps);
+}
+
+void HeatOfDay::compute(const std::set<std::string>& materials) const {
   struct Column {
     const MaterialHeat* heat;
     const GroundHeat* soil;
@@ -179,13 +190,11 @@ HeatOfDay::HeatOfDay(const DayWeather& weather, const std::map<std::string, Mate
     SurfaceDay* day;
   };
   std::vector<Column> all;
-  for (const auto& entry : materials) {
-    const std::string& name = entry.first;
-    const MaterialHeat& heat = entry.second;
-    const auto* leaves = std::get_if<LeavesHeat>(&heat);
-    const GroundHeat& below =
-        leaves == nullptr ? soil
-                          : ground_of(materials, leaves->ground, "material " + name + ": heat.leaves.ground");
+  for (const std::string& name : materials) {
+    const auto found = materials_.find(name);
+    if (found == materials_.end() || columns_.contains(name)) continue;
+    const MaterialHeat& heat = found->second;
+    const GroundHeat& below = ground_below(materials_, name);
     Columns& columns = columns_.emplace(name, Columns{nodes_of(heat), fit_of(heat), {}, {}}).first->second;
     const HeatNodes& nodes = columns.nodes;
     const auto add = [&](const SurfacePlace& place, SurfaceDay& day) {
@@ -200,9 +209,10 @@ HeatOfDay::HeatOfDay(const DayWeather& weather, const std::map<std::string, Mate
           columns.slopes[i]);
     }
   }
+  const DayAround around = {.forcing = forcing_, .ground_k = ground_.surface_k};
   parallel_for(all.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      *all[i].day = day_of(*all[i].heat, *all[i].soil, all[i].place, around, steps);
+      *all[i].day = day_of(*all[i].heat, *all[i].soil, all[i].place, around, steps_);
   });
 }
 
@@ -221,25 +231,24 @@ MaterialMoment HeatOfDay::moment_of(const Columns& columns, double solar_h, cons
   return {columns.nodes, std::move(level_k), std::move(slopes_k)};
 }
 
-HeatOfMoment HeatOfDay::at(double solar_h) const {
+HeatOfMoment HeatOfDay::at(double solar_h, const std::set<std::string>& materials) const {
   HeatOfMoment moment = {.forcing = forcing_at(weather_, solar_h),
                          .ground_k = ground_.at_k(solar_h),
                          .ground_moisture = moisture_after_rain(weather_.rain_days_ago),
                          .sun = sun_of_surfaces(weather_.sun, solar_h),
                          .materials = {}};
-  for (const auto& [name, columns] : columns_)
-    moment.materials.emplace(name, moment_of(columns, solar_h, moment.sun));
+  const std::scoped_lock lock(mutex_);
+  // While it waits for the columns, this thread must not take on work that asks for some itself.
+  run_isolated([&] { compute(materials); });
+  for (const std::string& name : materials) {
+    if (const auto found = columns_.find(name); found != columns_.end())
+      moment.materials.emplace(name, moment_of(found->second, solar_h, moment.sun));
+  }
   return moment;
 }
 
-double HeatOfDay::rate_k_h(const std::string& material, double solar_h) const {
-  constexpr double kAroundH = 0.1;
-  const Columns& columns = columns_.at(material);
-  const SurfaceDay& open = columns.level[open_node(columns.nodes, 0)];
-  return (open.at_k(solar_h + kAroundH) - open.at_k(solar_h - kAroundH)) / (2 * kAroundH);
-}
-
-std::size_t HeatOfDay::columns() const noexcept {
+std::size_t HeatOfDay::columns() const {
+  const std::scoped_lock lock(mutex_);
   std::size_t count = 0;
   for (const auto& [name, columns] : columns_) count += columns.level.size() + columns.slopes.size();
   return count;

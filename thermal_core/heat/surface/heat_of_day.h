@@ -2,6 +2,8 @@
 
 #include <array>
 #include <map>
+#include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -63,23 +65,21 @@ struct HeatOfMoment {
   std::map<std::string, MaterialMoment> materials;
 };
 
-/// The temperatures of materials over a day that repeats itself: all columns of heat that a scene needs, computed once.
+/// The temperatures of materials over a day that repeats itself. The columns of heat of a material are computed when it is
+/// first asked for, on all cores, and kept. Safe to use from several threads.
 class HeatOfDay {
  public:
-  /// ConfigError if the weather is invalid, or a material's leaves grow on one that is not ground. The columns are
-  /// computed on all cores.
-  HeatOfDay(const DayWeather& weather, const std::map<std::string, MaterialHeat>& materials,
-            const HeatSteps& steps = {});
+  /// ConfigError if the weather is invalid, or a material's leaves grow on one that is not ground. Between the nodes of a
+  /// table temperatures are a fifth of a kelvin off, so its days have half of the usual steps.
+  HeatOfDay(const DayWeather& weather, std::map<std::string, MaterialHeat> materials,
+            const HeatSteps& steps = {.per_day = 144});
 
-  /// At a local solar time, any finite number of hours.
-  [[nodiscard]] HeatOfMoment at(double solar_h) const;
-
-  /// How fast a material warms at a moment where it is level and open [K/h].
-  [[nodiscard]] double rate_k_h(const std::string& material, double solar_h) const;
+  /// Of those `materials` that have heat, at a local solar time, any finite number of hours.
+  [[nodiscard]] HeatOfMoment at(double solar_h, const std::set<std::string>& materials = {}) const;
 
   [[nodiscard]] const DayWeather& weather() const noexcept { return weather_; }
-  /// How many columns of heat were computed.
-  [[nodiscard]] std::size_t columns() const noexcept;
+  /// How many columns of heat were computed so far.
+  [[nodiscard]] std::size_t columns() const;
 
  private:
   /// The days of one material.
@@ -90,12 +90,18 @@ class HeatOfDay {
     std::vector<SurfaceDay> slopes;  ///< moisture by moisture, in it direction by direction but for up
   };
 
+  /// Computes what is missing.
+  void compute(const std::set<std::string>& materials) const;
   [[nodiscard]] static MaterialMoment moment_of(const Columns& columns, double solar_h,
                                                 const EastNorthUp& sun);
 
   DayWeather weather_;
+  std::map<std::string, MaterialHeat> materials_;
+  HeatSteps steps_;
+  std::vector<Forcing> forcing_;
   SurfaceDay ground_;
-  std::map<std::string, Columns> columns_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::string, Columns> columns_;
 };
 
 /// The day of one piece of a material. `soil` is the ground below leaves, `open_ground_k` what slopes face.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "heat/surface/leaf_layer.h"
 
@@ -23,9 +24,15 @@ class GroundBody {
       : balance_(properties.surface),
         conduction_(properties, layers, step_s(around), mean_air_k(around)),
         day_sum_k_(conduction_.layers_k().size()),
-        surface_k_(mean_air_k(around)) {}
+        surface_k_(mean_air_k(around)),
+        before_k_(surface_k_) {}
 
-  void prepare() { uptake_ = conduction_.prepare(); }
+  /// Also guesses that the surface warms on as it did in the step before.
+  void prepare() {
+    uptake_ = conduction_.prepare();
+    const double before_k = std::exchange(before_k_, surface_k_);
+    surface_k_ += surface_k_ - before_k;
+  }
 
   /// The surface's temperature if this arrives at it in the step that was prepared.
   double balance(const Forcing& forcing, const Incoming& incoming) {
@@ -60,6 +67,7 @@ class GroundBody {
   std::vector<double> day_sum_k_;
   double surface_sum_k_ = 0;
   double surface_k_;
+  double before_k_;  ///< a step before
 };
 
 /// Surfaces give off at least this much heat per kelvin, nearly all of it radiation.
