@@ -16,6 +16,7 @@ constexpr std::uint32_t kDampStream = 65;
 constexpr double kDampLengthM = 15;
 constexpr float kDampSpread = 0.02F;
 constexpr std::size_t kGroundRowsAChunk = 16;
+constexpr std::size_t kGroundCellsAChunk = 4096;
 
 /// Normals of level grids of heights, by the slopes between the neighbours of a cell.
 class Slopes {
@@ -104,8 +105,7 @@ PartPlanes planes_of(std::size_t part, const Cells& cells, const GroundWarmth& h
   PartPlanes planes;
   planes.temperature_k.resize(cells.count());
   planes.per_h_k.resize(cells.count());
-  constexpr std::size_t kCellsAChunk = 4096;
-  parallel_for(cells.count(), kCellsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(cells.count(), kGroundCellsAChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const SurfacePlace place = cells.place(i);
       const std::size_t cell = cells.of_maps(i);
@@ -199,12 +199,14 @@ class Mixing {
 std::vector<float> smoothed_along(const std::vector<float>& plane, std::size_t width, std::size_t step,
                                   std::size_t count) {
   std::vector<float> smooth(plane.size());
-  for (std::size_t i = 0; i < plane.size(); ++i) {
-    const std::size_t at = step == 1 ? i % width : i / width;
-    const float before = plane[at > 0 ? i - step : i];
-    const float after = plane[at + 1 < count ? i + step : i];
-    smooth[i] = 0.25F * (before + 2 * plane[i] + after);
-  }
+  parallel_for(plane.size(), kGroundCellsAChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t at = step == 1 ? i % width : i / width;
+      const float before = plane[at > 0 ? i - step : i];
+      const float after = plane[at + 1 < count ? i + step : i];
+      smooth[i] = 0.25F * (before + 2 * plane[i] + after);
+    }
+  });
   return smooth;
 }
 

@@ -7,10 +7,12 @@
 #include <cmath>
 
 #include "base/clones.h"
+#include "base/parallel.h"
 
 namespace thermal {
 namespace {
 
+constexpr std::size_t kTexelCellsAChunk = 4096;
 constexpr float kStepK = 1.0F / 512;
 constexpr float kSkyViewSteps = 255;
 constexpr float kWarmingSteps = 127;
@@ -194,10 +196,14 @@ void GroundTexture::add_level(const GroundValues& values, std::size_t width, std
                      .height = static_cast<std::int32_t>(height),
                      .per_m = static_cast<float>(per_m)});
   const float per_step = warming_step_k_h_ > 0 ? 1 / warming_step_k_h_ : 0.0F;
-  for (std::size_t i = 0; i < values.sky_view.size(); ++i) {
-    texels_.push_back(texel_of((values.temperature_k[i] - base_k_) / kStepK, values.per_h_k[i] * per_step,
-                               values.sky_view[i]));
-  }
+  const std::size_t first = texels_.size();
+  texels_.resize(first + values.sky_view.size());
+  parallel_for(values.sky_view.size(), kTexelCellsAChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      texels_[first + i] = texel_of((values.temperature_k[i] - base_k_) / kStepK,
+                                    values.per_h_k[i] * per_step, values.sky_view[i]);
+    }
+  });
 }
 
 void GroundTexture::sample(const Places& places, float later_h, std::span<float> temperature_k,

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "heat/body/fire.h"
 #include "heat/body/warm_ground.h"
 #include "heat/weather/sun_memory.h"
@@ -29,9 +30,13 @@ std::vector<float> sunlit_cells(const GroundMaps& maps, const DayWeather& day, d
     low[bits] = sunlit_share(memory, bits);
     high[bits] = sunlit_share(memory, bits << kHalf);
   }
+  constexpr std::size_t kCellsAChunk = 16384;
   std::vector<float> share(found->hours.size());
-  std::ranges::transform(found->hours, share.begin(), [&](std::uint32_t hours) {
-    return low[hours & 0xFFFU] + high[hours >> kHalf & 0xFFFU];
+  parallel_for(share.size(), kCellsAChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t cell = begin; cell < end; ++cell) {
+      const std::uint32_t hours = found->hours[cell];
+      share[cell] = low[hours & 0xFFFU] + high[hours >> kHalf & 0xFFFU];
+    }
   });
   return share;
 }

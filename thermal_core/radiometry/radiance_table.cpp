@@ -6,37 +6,45 @@
 #include <limits>
 #include <utility>
 
+#include "base/parallel.h"
+
 namespace thermal {
 namespace {
 
 constexpr std::size_t kTemperaturesABlock = 256;
+constexpr std::size_t kNodesAChunk = 64;
 
 }  // namespace
 
 RadianceTable::RadianceTable(BandRadiance band) : band_(std::move(band)) {
+  std::vector<double> at_nodes(kSteps + 1);
+  std::vector<BandValue> at_middles(kSteps);
+  parallel_for(kSteps, kNodesAChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t node = begin; node < end; ++node) {
+      at_nodes[node] = band_.radiance(node_k(static_cast<double>(node)));
+      at_middles[node] = band_.evaluate(node_k(static_cast<double>(node) + 0.5));
+    }
+  });
+  at_nodes[kSteps] = band_.radiance(node_k(kSteps));
   nodes_.reserve(kSteps);
-  double here = band_.radiance(node_k(0));
-  for (int node = 0; node < kSteps; ++node) {
-    const double next = band_.radiance(node_k(node + 1));
-    nodes_.push_back({static_cast<float>(here), static_cast<float>(next - here)});
-    here = next;
-  }
-  measure();
+  for (std::size_t node = 0; node < kSteps; ++node)
+    nodes_.push_back(
+        {static_cast<float>(at_nodes[node]), static_cast<float>(at_nodes[node + 1] - at_nodes[node])});
+  measure(at_nodes, at_middles);
 }
 
-void RadianceTable::measure() {
+void RadianceTable::measure(const std::vector<double>& at_nodes, const std::vector<BandValue>& at_middles) {
   // Radiance is convex, so a line between two nodes is furthest from it at the middle. Node and result are floats,
   // half an eps off each at most, and so are, of itself, the step and what is taken of it.
   constexpr double kRounding = static_cast<double>(std::numeric_limits<float>::epsilon()) / 2;
-  double here = band_.radiance(node_k(0));
-  for (int node = 0; node < kSteps; ++node) {
-    const double next = band_.radiance(node_k(node + 1));
-    const BandValue middle = band_.evaluate(node_k(node + 0.5));
+  for (std::size_t node = 0; node < kSteps; ++node) {
+    const double here = at_nodes[node];
+    const double next = at_nodes[node + 1];
+    const BandValue& middle = at_middles[node];
     const double departure = (here + next) / 2 - middle.radiance_w_m2_sr;
     const double error = departure + 2 * kRounding * (next + (next - here));
     worst_error_k_ = std::max(worst_error_k_, error / middle.derivative_w_m2_sr_k);
     worst_relative_error_ = std::max(worst_relative_error_, error / here);
-    here = next;
   }
 }
 

@@ -67,7 +67,7 @@ class RadianceTable {
     return node.radiance_w_m2_sr + (position - static_cast<float>(index)) * node.step_w_m2_sr;
   }
   [[nodiscard]] float outside(float temperature_k) const noexcept;
-  void measure();
+  void measure(const std::vector<double>& at_nodes, const std::vector<BandValue>& at_middles);
 
   BandRadiance band_;
   std::vector<Node> nodes_;

@@ -10,12 +10,14 @@
 #include <utility>
 
 #include "base/clones.h"
+#include "base/parallel.h"
 
 namespace thermal {
 namespace {
 
 constexpr int kSteps = 8192;
 constexpr std::size_t kRadiancesABlock = 256;
+constexpr std::size_t kRadianceNodesAChunk = 128;
 
 struct Nodes {
   float low_w_m2_sr;
@@ -97,16 +99,20 @@ TemperatureTable::TemperatureTable(Inverse inverse, double low_w_m2_sr, double h
                             nodes_per_w_m2_sr = static_cast<double>(nodes_per_w_m2_sr_)](double position) {
     return low + position / nodes_per_w_m2_sr;
   };
-  nodes_k_.reserve(kSteps + 2);
-  for (int node = 0; node <= kSteps; ++node) {
-    nodes_k_.push_back(static_cast<float>(inverse_(radiance_at(node))));
-  }
-  nodes_k_.push_back(nodes_k_.back());  // position == last_position_ reads one node on
-  for (int step = 0; step < kSteps; ++step) {
+  nodes_k_.resize(kSteps + 2);
+  std::vector<double> middles_k(kSteps);
+  parallel_for(kSteps, kRadianceNodesAChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t node = begin; node < end; ++node) {
+      nodes_k_[node] = static_cast<float>(inverse_(radiance_at(static_cast<double>(node))));
+      middles_k[node] = inverse_(radiance_at(static_cast<double>(node) + 0.5));
+    }
+  });
+  nodes_k_[kSteps] = static_cast<float>(inverse_(radiance_at(kSteps)));
+  nodes_k_[kSteps + 1] = nodes_k_[kSteps];  // position == last_position_ reads one node on
+  for (std::size_t step = 0; step < kSteps; ++step) {
     // Between two nodes the error of a straight line through a smooth curve is largest at the middle.
-    const double exact_k = inverse_(radiance_at(step + 0.5));
     const auto line_k = static_cast<double>(between_nodes(static_cast<float>(step) + 0.5F));
-    worst_error_k_ = std::max(worst_error_k_, std::abs(line_k - exact_k));
+    worst_error_k_ = std::max(worst_error_k_, std::abs(line_k - middles_k[step]));
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/clones.h"
 #include "base/image.h"
+#include "base/parallel.h"
 #include "base/rng.h"
 
 namespace thermal {
@@ -38,20 +39,23 @@ void add_octave(std::uint32_t seed, int octave, double amplitude, std::vector<do
     const int row = (y + points) % points;
     return static_cast<double>(lattice[static_cast<std::size_t>(row * points + column)]);
   };
-  for (int y = 0; y < kTexels; ++y) {
+  const auto value_at = [&](int x, int y) {
+    const auto wx = spline_weights(static_cast<double>(x % spacing) / spacing);
     const auto wy = spline_weights(static_cast<double>(y % spacing) / spacing);
-    for (int x = 0; x < kTexels; ++x) {
-      const auto wx = spline_weights(static_cast<double>(x % spacing) / spacing);
-      double sum = 0;
-      for (int j = 0; j < 4; ++j) {
-        for (int i = 0; i < 4; ++i) {
-          sum += wy.at(static_cast<std::size_t>(j)) * wx.at(static_cast<std::size_t>(i)) *
-                 at(x / spacing + i - 1, y / spacing + j - 1);
-        }
+    double sum = 0;
+    for (int j = 0; j < 4; ++j) {
+      for (int i = 0; i < 4; ++i) {
+        sum += wy.at(static_cast<std::size_t>(j)) * wx.at(static_cast<std::size_t>(i)) *
+               at(x / spacing + i - 1, y / spacing + j - 1);
       }
-      field[static_cast<std::size_t>(y * kTexels + x)] += amplitude * sum;
     }
-  }
+    return sum;
+  };
+  constexpr std::size_t kTexelsAChunk = 16 * kTexels;
+  parallel_for(field.size(), kTexelsAChunk, [&](std::size_t begin, std::size_t end) {
+    for (auto texel = static_cast<int>(begin); texel < static_cast<int>(end); ++texel)
+      field[static_cast<std::size_t>(texel)] += amplitude * value_at(texel % kTexels, texel / kTexels);
+  });
 }
 
 /// Shifts and scales to mean 0 and variance 1.
