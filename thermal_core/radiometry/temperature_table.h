@@ -11,7 +11,7 @@ namespace thermal {
 /// in radiance; for what is hotter, lines between nodes 1024 an octave of radiance; and the exact inverse outside.
 class TemperatureTable {
  public:
-  /// Temperature [K] the exact inverse gives for a radiance [W m^-2 sr^-1].
+  /// Temperature [K] the exact inverse gives for a radiance [W m^-2 sr^-1]. Called from several threads at once.
   using Inverse = std::function<double(double radiance_w_m2_sr)>;
 
   /// Tabulates `inverse` over [low, high], then measures the error between all nodes. The hot part, over

@@ -1,5 +1,6 @@
 #include "radiometry/temperature_table.h"
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <thread>
@@ -16,7 +17,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// A table of the square, whose exact values a test can compute; it counts its calls.
 struct Squares {
-  int calls = 0;
+  std::atomic<int> calls = 0;  // a table is made on all cores
   TemperatureTable table;
   explicit Squares(double hottest = 0)
       : table(
