@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -206,25 +207,28 @@ WarmBed warm_bed_of(const Json& json) {
           .lain_s = json.at("lain_s")};
 }
 
-Manifest read_manifest(const Path& file, const Assets& assets) {
-  const Json schema = assets.schema("manifest");
+Manifest parse_manifest(Json document, const std::string& name, const Assets& assets) {
+  const std::string sum = sha256_of(document.dump());
+  const std::vector<std::string> faults = check_and_fill(document, assets.schema("manifest"));
+  if (!faults.empty()) throw DataError(fmt::format("{}: {}", name, fmt::join(faults, "\n" + name + ": ")));
+  Manifest manifest = read_document(document);
+  manifest.document_sha256 = sum;
   try {
-    Json document = read_json(file);
-    const std::string sum = sha256_of(document.dump());
-    const std::vector<std::string> faults = check_and_fill(document, schema);
-    if (!faults.empty()) {
-      throw DataError(fmt::format("{}: {}", file.string(), fmt::join(faults, "\n" + file.string() + ": ")));
-    }
-    Manifest manifest = read_document(document);
-    manifest.document_sha256 = sum;
     manifest.validate();
-    return manifest;
+  } catch (const DataError& error) {
+    throw DataError(name + ": " + error.what());
+  }
+  return manifest;
+}
+
+Manifest read_manifest(const Path& file, const Assets& assets) {
+  Json document;
+  try {
+    document = read_json(file);
   } catch (const ConfigError& error) {  // not JSON: the file's fault, not the config's
     throw DataError(error.what());
-  } catch (const DataError& error) {
-    const std::string what = error.what();
-    throw DataError(what.starts_with(file.string()) ? what : file.string() + ": " + what);
   }
+  return parse_manifest(std::move(document), file.string(), assets);
 }
 
 }  // namespace thermal

@@ -11,6 +11,9 @@ namespace thermal {
 /// starting with the file's name; IoError if it cannot be read.
 [[nodiscard]] Manifest read_manifest(const Path& file, const Assets& assets);
 
+/// The same of a document; `name` begins faults.
+[[nodiscard]] Manifest parse_manifest(Json document, const std::string& name, const Assets& assets);
+
 /// Writes a manifest of passes with index planes, as blender_scripts/veldt/manifest.py does; what is not such a manifest's
 /// (a cryptomatte, colours, names of channels, a sequence) is left out. IoError as write_file_atomically().
 void write_manifest(const Path& file, const Manifest& manifest);

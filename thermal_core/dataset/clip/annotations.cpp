@@ -75,32 +75,9 @@ void ClipAnnotations::add_frame(int frame, const std::vector<Instance>& instance
 
 Json ClipAnnotations::annotation_of(const Instance& instance, int image_id, bool frozen) const {
   const ManifestObject& actor = *objects_[instance.index];
-  const PixelBox& box = instance.box;
-  Json annotation = {{"id", count_ + 1},
-                     {"image_id", image_id},
-                     {"category_id", category_ids_.at(actor.category)},
-                     {"bbox",
-                      {static_cast<double>(box.x_px), static_cast<double>(box.y_px),
-                       static_cast<double>(box.width_px), static_cast<double>(box.height_px)}},
-                     {"area", instance.area_px},
-                     {"segmentation",
-                      {{"size", {manifest_.camera.height_px, manifest_.camera.width_px}},
-                       {"counts", encode_coco_rle(instance.mask)}}},
-                     {"iscrowd", 0},
-                     {"track_id", actor.track_id}};
-  if (instance.whole_box) annotation["amodal_bbox"] = box_entry(*instance.whole_box);
-  put(annotation, "visibility", instance.visibility);
-  if (instance.visibility)
-    annotation["occluded"] = *instance.visibility < parameters_.occluded_below_visibility;
-  annotation["truncated"] = instance.truncated;
-  put(annotation, "truncated_fraction", instance.truncated_fraction);
-  put(annotation, "covered_px", instance.covered_px);
-  put(annotation, "range_m", instance.range_m);
-  put(annotation, "temperature_k", instance.temperature_k);
-  put(annotation, "contrast_k", instance.contrast_k);
-  put(annotation, "contrast_noise", instance.contrast_noise);
-  annotation["noisy"] = frozen;
-  annotation["ignore"] = is_ignored(instance, parameters_);
+  Json annotation = {
+      {"id", count_ + 1}, {"image_id", image_id}, {"category_id", category_ids_.at(actor.category)}};
+  annotation.update(label_entry(instance, actor, manifest_.camera, parameters_, frozen));
   return annotation;
 }
 
@@ -152,6 +129,32 @@ void ClipAnnotations::write_annotations(JsonStream& document) {
     document.add(text);
     text.clear();
   });
+}
+
+Json label_entry(const Instance& instance, const ManifestObject& actor, const CameraIntrinsics& camera,
+                 const LabelParameters& parameters, bool frozen) {
+  const PixelBox& box = instance.box;
+  Json entry = {{"bbox",
+                 {static_cast<double>(box.x_px), static_cast<double>(box.y_px),
+                  static_cast<double>(box.width_px), static_cast<double>(box.height_px)}},
+                {"area", instance.area_px},
+                {"segmentation",
+                 {{"size", {camera.height_px, camera.width_px}}, {"counts", encode_coco_rle(instance.mask)}}},
+                {"iscrowd", 0},
+                {"track_id", actor.track_id}};
+  if (instance.whole_box) entry["amodal_bbox"] = box_entry(*instance.whole_box);
+  put(entry, "visibility", instance.visibility);
+  if (instance.visibility) entry["occluded"] = *instance.visibility < parameters.occluded_below_visibility;
+  entry["truncated"] = instance.truncated;
+  put(entry, "truncated_fraction", instance.truncated_fraction);
+  put(entry, "covered_px", instance.covered_px);
+  put(entry, "range_m", instance.range_m);
+  put(entry, "temperature_k", instance.temperature_k);
+  put(entry, "contrast_k", instance.contrast_k);
+  put(entry, "contrast_noise", instance.contrast_noise);
+  entry["noisy"] = frozen;
+  entry["ignore"] = is_ignored(instance, parameters);
+  return entry;
 }
 
 Json category_list(const std::set<std::string>& used) {

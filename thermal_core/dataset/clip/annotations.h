@@ -23,8 +23,7 @@ class ClipAnnotations {
   explicit ClipAnnotations(const Manifest& manifest, const LensDistortion& lens = {},
                            const LabelParameters& parameters = {}, const Path& spool = {});
 
-  /// Unknown properties of an instance are left out. Positions are rounded to 0.01 px, everything else to four
-  /// decimals.
+  /// Adds label_entry() of each instance.
   /// `frozen`: the shutter was closed, and the picture is an earlier one; labels show the current positions.
   void add_frame(int frame, const std::vector<Instance>& instances, bool frozen = false);
 
@@ -62,6 +61,12 @@ class ClipAnnotations {
   Spool annotations_;  ///< for each its text, then its track's id on a line of its own
   int count_ = 0;
 };
+
+/// An actor's annotation, without ids of its own, of its image and of its category. Unknown properties are left out.
+/// Positions are rounded to 0.01 px, everything else to four decimals.
+[[nodiscard]] Json label_entry(const Instance& instance, const ManifestObject& actor,
+                               const CameraIntrinsics& camera, const LabelParameters& parameters,
+                               bool frozen);
 
 /// The list of categories in use, by id.
 [[nodiscard]] Json category_list(const std::set<std::string>& used);

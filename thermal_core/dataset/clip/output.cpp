@@ -6,8 +6,6 @@
 
 #include "dataset/clip/tone_record.h"
 #include "dataset/layout.h"
-#include "imaging/pixel_quarters.h"
-#include "imaging/target_contrast.h"
 #include "io/system/files.h"
 
 namespace thermal {
@@ -18,25 +16,6 @@ Path fresh_folder(const Path& folder) {
   make_folder(folder / "ir8");
   make_folder(folder / "ir16");
   return folder;
-}
-
-double air_at_camera_k(const Air& air) { return air.temperature_k + air.inversion_k; }
-
-ThermalCamera::Clip sensor_clip(const ClipTask& task, const Manifest& manifest) {
-  const bool falloff = task.physics && task.physics->terms.falloff;
-  return {.id = task.clip.id,
-          .seed = task.seed,
-          .frame_rate_hz = manifest.frame_rate_hz,
-          .width_px = manifest.camera.width_px,
-          .height_px = manifest.camera.height_px,
-          .noise_gain = falloff ? falloff_noise_gain(manifest.camera) : Plane<float>(),
-          .sampling = pixel_sampling(manifest, task.distortion),
-          .air_k = task.physics ? air_at_camera_k(task.physics->weather.air) : ThermalCamera::Clip().air_k};
-}
-
-std::optional<VideoCodec> codec_of(const ClipTask& task, const Manifest& manifest) {
-  if (!task.codec) return std::nullopt;
-  return VideoCodec(*task.codec, manifest.frame_rate_hz, manifest.camera.width_px, manifest.camera.height_px);
 }
 
 template <typename T>
@@ -55,25 +34,11 @@ ClipOutput::ClipOutput(const ClipTask& task, const Manifest& manifest, float bri
       manifest_(manifest),
       folder_(fresh_folder(task.folder)),
       brightest_w_m2_sr_(brightest_w_m2_sr),
-      camera_(task.sensor, sensor_clip(task, manifest), brightest_w_m2_sr, std::move(temperatures)),
-      codec_(codec_of(task, manifest)),
+      imager_(task, manifest, brightest_w_m2_sr, std::move(temperatures)),
       video_(folder_ / "preview.mp4", manifest.frame_rate_hz, manifest.camera.width_px,
              manifest.camera.height_px),
       annotations_(manifest, task.distortion, task.labels, folder_ / "labels.spool"),
       frames_jsonl_(folder_ / "frames.jsonl") {}
-
-void ClipOutput::expose(const SceneFrame& scene, Frame& frame) {
-  frame.instances = scene.instances;
-  frame.checks = scene.checks;
-  camera_.expose(scene.radiance_w_m2_sr, scene.detail, scene.motion, frame.pictures,
-                 [&](const Plane<float>& radiance_w_m2_sr) {
-                   set_contrast(camera_, radiance_w_m2_sr, frame.instances);
-                 });
-}
-
-void ClipOutput::encode(Frame& frame) {
-  if (codec_) frame.encoded_bytes = codec_->pass(frame.pictures.ir8);
-}
 
 void ClipOutput::write(int number, Frame& frame) const {
   const std::string name = frame_name(number);
@@ -94,7 +59,7 @@ void ClipOutput::collect(int number, const Frame& frame) {
 }
 
 void ClipOutput::skip(int number, const std::string& reason) {
-  camera_.skip();
+  imager_.skip();
   record_.skipped.push_back({.frame_index = number, .file = frame_of(number).file, .reason = reason});
 }
 
@@ -128,7 +93,7 @@ Json ClipOutput::frame_line(int number, const Frame& frame) const {
   if (pose.camera_to_world) line["camera_to_world"] = *pose.camera_to_world;
   line["ffc"] = frame.pictures.shutter_closed;
   line["agc"] = tone_record(frame.pictures.curve, task_.sensor.agc, brightest_w_m2_sr_);
-  if (codec_) line["encoded_bytes"] = frame.encoded_bytes;
+  if (imager_.has_codec()) line["encoded_bytes"] = frame.encoded_bytes;
   line["ir8_sha256"] = frame.ir8.pixels_sha256;
   line["ir16_sha256"] = frame.ir16.pixels_sha256;
   return line;

@@ -2,20 +2,17 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "dataset/clip/annotations.h"
+#include "dataset/clip/imager.h"
 #include "dataset/clip/record.h"
 #include "dataset/clip/task.h"
-#include "imaging/frame_converter.h"
 #include "io/image/png.h"
 #include "io/system/files.h"
 #include "io/system/sha256.h"
 #include "io/video/preview_video.h"
-#include "io/video/video_codec.h"
-#include "sensor/thermal_camera.h"
 
 namespace thermal {
 
@@ -30,11 +27,7 @@ class ClipOutput {
     std::string file_sha256;
   };
   /// A frame in flight. Its memory is reused.
-  struct Frame {
-    std::vector<Instance> instances;
-    PassChecks checks;
-    SensorFrame pictures;
-    std::size_t encoded_bytes = 0;  ///< of ir8, by the task's codec
+  struct Frame : ClipImager::Frame {
     WrittenPicture ir8;
     WrittenPicture ir16;
     std::vector<std::byte> png;
@@ -46,10 +39,9 @@ class ClipOutput {
   ClipOutput(const ClipTask& task, const Manifest& manifest, float brightest_w_m2_sr,
              std::shared_ptr<const TemperatureTable> temperatures);
 
-  /// `scene` may be shared with other outputs: this camera's properties of actors are written into the frame.
-  void expose(const SceneFrame& scene, Frame& frame);
-  /// Passes ir8 through the task's codec, if it has one.
-  void encode(Frame& frame);
+  /// As ClipImager's.
+  void expose(const SceneFrame& scene, Frame& frame) { imager_.expose(scene, frame); }
+  void encode(Frame& frame) { imager_.encode(frame); }
   void write(int number, Frame& frame) const;
   void collect(int number, const Frame& frame);
 
@@ -69,8 +61,7 @@ class ClipOutput {
   const Manifest& manifest_;
   Path folder_;
   float brightest_w_m2_sr_;
-  ThermalCamera camera_;
-  std::optional<VideoCodec> codec_;
+  ClipImager imager_;
   PreviewVideo video_;
   ClipAnnotations annotations_;
   Sha256 pixels_;

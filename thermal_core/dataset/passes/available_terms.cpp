@@ -186,6 +186,17 @@ std::vector<PassesView> view_passes(const std::vector<ClipPasses>& sources) {
   return views;
 }
 
+PassesView view_planes(const Manifest& manifest, const Passes& first) {
+  PassesView view = {.planes = PassNeeds{.depth = !first.depth_m.empty(),
+                                         .normals = !first.normal.front().empty(),
+                                         .actors = !first.actor_index.empty(),
+                                         .mirrored = !first.mirrored.empty()},
+                     .looks = {}};
+  if (view.planes->depth && !tells_height(manifest))
+    view.looks = looks_in(first.depth_m, manifest, manifest.frames.front());
+  return view;
+}
+
 SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
                         const std::vector<ClipPasses>& sources, const std::vector<PassesView>& views) {
   SceneOutline outline = empty_outline(config);

@@ -75,6 +75,9 @@ struct PassesView {
 /// Inspects the first readable frame of each clip.
 [[nodiscard]] std::vector<PassesView> view_passes(const std::vector<ClipPasses>& sources);
 
+/// The same of a clip whose first frame is in memory.
+[[nodiscard]] PassesView view_planes(const Manifest& manifest, const Passes& first);
+
 /// The same for passes, whose scene no config describes: their manifests' materials, heights and angles. The physical
 /// model also considers `views`: terms that need planes or poses missing from some passes are impossible. `materials`
 /// must outlive the result.

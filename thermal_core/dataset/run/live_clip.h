@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "dataset/clip/imager.h"
+#include "dataset/clip/scenes.h"
+#include "dataset/clip/task.h"
+#include "dataset/run/convert_options.h"
+#include "scene/manifest.h"
+#include "scene/material.h"
+#include "scene/passes.h"
+
+namespace thermal {
+
+/// A clip that is made in memory, frame by frame, from planes that the caller has; without files. Its frames are those
+/// of a dataset, bit for bit.
+class LiveClip {
+ public:
+  /// `task`: of the manifest's clip; nothing is made in its folder.
+  LiveClip(Manifest manifest, std::shared_ptr<const MaterialLibrary> materials, ClipTask task);
+  LiveClip(const LiveClip&) = delete;
+  LiveClip& operator=(const LiveClip&) = delete;
+
+  [[nodiscard]] const Manifest& manifest() const noexcept { return manifest_; }
+  [[nodiscard]] const ClipTask& task() const noexcept { return task_; }
+
+  /// Planes that make() needs besides the object index.
+  [[nodiscard]] PassNeeds needs() const { return scenes_.needs(); }
+
+  /// Makes a frame from its passes: a number of the manifest's frames, in order; those left out pass unseen. Valid until
+  /// the next call. DataError as FrameConverter::convert(), or if a plane that is needed is empty or the planes have
+  /// another size than the manifest says; the camera has then not moved on. ConfigError for a number that is not the
+  /// manifest's or has passed.
+  const ClipImager::Frame& make(const Passes& passes, int number);
+
+ private:
+  void check(const Passes& passes, int number) const;
+
+  Manifest manifest_;
+  std::shared_ptr<const MaterialLibrary> materials_;
+  ClipTask task_;
+  ClipScenes scenes_;
+  ClipImager imager_;
+  std::vector<SceneFrame> converted_;
+  ClipImager::Frame frame_;
+  int next_ = 0;
+};
+
+/// A clip as convert() makes it, of passes whose planes the caller has. `first`: those of the first frame, by which
+/// automatic terms are chosen. `options`: config and settings, as of convert(); folders are not looked at. ConfigError
+/// as convert().
+[[nodiscard]] std::unique_ptr<LiveClip> live_clip_of(Manifest manifest, const Passes& first,
+                                                     const ConvertOptions& options);
+
+}  // namespace thermal
