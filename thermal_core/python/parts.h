@@ -1,0 +1,18 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace thermal::python {
+
+/// Each adds its part of the library to the module `veldt._core`. Docstrings for users are in the Python package, which
+/// is all that calls this module.
+void add_errors(pybind11::module_& module);
+void add_band(pybind11::module_& module);
+void add_camera(pybind11::module_& module);
+void add_converter(pybind11::module_& module);
+void add_heat(pybind11::module_& module);
+void add_labels(pybind11::module_& module);
+void add_runs(pybind11::module_& module);
+void add_files(pybind11::module_& module);
+
+}  // namespace thermal::python

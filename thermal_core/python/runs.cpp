@@ -1,0 +1,194 @@
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "dataset/layout.h"
+#include "dataset/plan/plan_checksums.h"
+#include "dataset/plan/plan_folder.h"
+#include "dataset/run/clip_choice.h"
+#include "dataset/run/generate.h"
+#include "dataset/run/planning.h"
+#include "io/system/child_process.h"
+#include "python/parts.h"
+
+namespace thermal::python {
+namespace {
+
+namespace py = pybind11;
+
+/// Called with what is done ("planning", "ground maps" or "frames"), the clip at work, and counts of done and all.
+using Report = std::function<void(const std::string& stage, const std::string& clip, int done, int total)>;
+
+/// Python's side of a run without the interpreter's lock: reports go there, and what they raise, or Ctrl-C, ends the run.
+class Listener {
+ public:
+  explicit Listener(Report report) : report_(std::move(report)) {}
+
+  void report(const char* stage, const Progress& progress) {
+    if (!report_) return;
+    const py::gil_scoped_acquire python;
+    keep_fault([&] { report_(stage, progress.clip, progress.done, progress.total); });
+  }
+
+  /// Whether something was raised. Python looks for signals in its main thread alone.
+  [[nodiscard]] bool is_to_stop() {
+    const py::gil_scoped_acquire python;
+    keep_fault([] {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    });
+    return fault_ != nullptr;
+  }
+
+  /// Raises again what was raised in Python, if anything.
+  void raise() const {
+    if (fault_) std::rethrow_exception(fault_);
+  }
+
+ private:
+  template <typename Call>
+  void keep_fault(const Call& call) {
+    if (fault_) return;
+    try {
+      call();
+    } catch (const py::error_already_set&) {
+      fault_ = std::current_exception();
+    }
+  }
+
+  Report report_;
+  std::exception_ptr fault_;  ///< written and read under the interpreter's lock
+};
+
+struct Sources {
+  std::string config;  ///< JSON
+  std::string name;    ///< of it, in messages
+  std::string folder;  ///< that its paths are relative to
+  std::vector<std::string> settings;
+  std::string home;
+};
+
+Config config_of(const Sources& sources) {
+  Json document = Json::parse(sources.config);
+  for (const std::string& setting : sources.settings) apply_setting(document, setting);
+  root_files(document, sources.folder);
+  return resolve_config(std::move(document), sources.name, Assets(sources.home));
+}
+
+PlanOptions planning_of(const Assets& assets, int threads, Listener& listener) {
+  return {.assets = assets,
+          .threads = threads,
+          .blender = find_program("blender"),
+          .show = [&listener](const Progress& now) { listener.report("planning", now); },
+          .show_maps = [&listener](const Progress& now) { listener.report("ground maps", now); },
+          .left_over = {}};
+}
+
+py::dict dict_of(const RunOutcome& outcome) {
+  using namespace py::literals;
+  return py::dict("made"_a = outcome.made, "already_there"_a = outcome.already_there,
+                  "failed"_a = outcome.failed, "frames_made"_a = outcome.frames_made,
+                  "complete"_a = outcome.complete);
+}
+
+struct RunSettings {
+  std::vector<std::string> clips;
+  std::string blender;
+  int jobs = 1;
+  int threads = 0;
+  bool keep_passes = false;
+};
+
+RunOutcome run(const PlannedDataset& dataset, GenerateOptions options, Listener& listener) {
+  if (dataset.config.engine == Engine::blender && options.blender.empty())
+    throw IoError("no blender on PATH; install it (apt-get install blender) or name one");
+  const RunHooks hooks = {.progress = [&](const Progress& now) { listener.report("frames", now); },
+                          .cancelled = [&] { return listener.is_to_stop(); }};
+  try {
+    return generate(dataset.config, dataset.plan, options, hooks);
+  } catch (const Cancelled&) {
+    listener.raise();
+    throw;
+  }
+}
+
+GenerateOptions options_of(const std::string& home, const std::string& out, const Path& plan,
+                           const RunSettings& settings) {
+  return {.assets = Assets(home),
+          .out = out,
+          .plan = plan,
+          .blender = find_program(settings.blender.empty() ? "blender" : settings.blender),
+          .clips = settings.clips,
+          .shard = {},
+          .jobs = settings.jobs,
+          .threads = settings.threads,
+          .keep_passes = settings.keep_passes};
+}
+
+py::dict generate_config(const Sources& sources, const std::string& out, const RunSettings& settings,
+                         const Report& report) {
+  Listener listener(report);
+  RunOutcome outcome;
+  {
+    const py::gil_scoped_release others_run;
+    GenerateOptions options = options_of(sources.home, out, Layout{out}.plan(), settings);
+    const Config config = config_of(sources);
+    DatasetPlan plan =
+        plan_to_generate(out, config, sources.name, planning_of(options.assets, settings.threads, listener));
+    listener.raise();
+    Config cut = with_flights_cut(config, plan, (options.plan / "plan.json").string());
+    (void)choose_clips(cut, options.clips, options.shard);
+    outcome = run({.config = std::move(cut), .plan = std::move(plan)}, std::move(options), listener);
+  }
+  return dict_of(outcome);
+}
+
+py::dict generate_plan(const std::string& plan, const std::string& home, const std::string& out,
+                       const RunSettings& settings, const Report& report) {
+  Listener listener(report);
+  RunOutcome outcome;
+  {
+    const py::gil_scoped_release others_run;
+    GenerateOptions options = options_of(home, out, plan, settings);
+    const PlannedDataset dataset = open_plan(plan, options.assets);
+    check_files_of_clips(plan, ids_of(choose_clips(dataset.config, options.clips, options.shard)));
+    outcome = run(dataset, std::move(options), listener);
+  }
+  return dict_of(outcome);
+}
+
+std::vector<std::string> plan_config(const Sources& sources, const std::string& folder, int threads,
+                                     const Report& report) {
+  Listener listener(report);
+  const py::gil_scoped_release others_run;
+  const PlannedDataset planned = plan_with_config(folder, config_of(sources), sources.name,
+                                                  planning_of(Assets(sources.home), threads, listener));
+  listener.raise();
+  return ids_of(planned.config.clips);
+}
+
+}  // namespace
+
+void add_runs(py::module_& module) {
+  py::class_<Sources>(module, "Sources")
+      .def(py::init<std::string, std::string, std::string, std::vector<std::string>, std::string>(),
+           py::arg("config"), py::arg("name"), py::arg("folder"), py::arg("settings"), py::arg("home"));
+  py::class_<RunSettings>(module, "RunSettings")
+      .def(py::init<std::vector<std::string>, std::string, int, int, bool>(), py::arg("clips"),
+           py::arg("blender"), py::arg("jobs"), py::arg("threads"), py::arg("keep_passes"));
+  module.def("generate_config", &generate_config, py::arg("sources"), py::arg("out"), py::arg("settings"),
+             py::arg("report"));
+  module.def("generate_plan", &generate_plan, py::arg("plan"), py::arg("home"), py::arg("out"),
+             py::arg("settings"), py::arg("report"));
+  module.def("plan_config", &plan_config, py::arg("sources"), py::arg("folder"), py::arg("threads"),
+             py::arg("report"));
+}
+
+}  // namespace thermal::python

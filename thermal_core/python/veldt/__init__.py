@@ -1,0 +1,43 @@
+"""Veldt in Python: radiance, cameras, temperatures by the weather, labels and datasets, as the command `veldt` computes
+them, bit for bit. NumPy arrays in, NumPy arrays out; no function holds the interpreter's lock while it computes.
+
+Errors are those of the command, with the same words: `ConfigError`, `DataError`, `IoError`, `TryAgainError` and
+`Cancelled`, all of them `Error`.
+"""
+
+from __future__ import annotations
+
+from ._core import Cancelled, ConfigError, DataError, Error, IoError, TryAgainError
+from .band import Band
+from .camera import Camera, Exposure
+from .converter import Converter, MadeFrame
+from .datasets import Clip, Dataset, Frame, Label, open_dataset
+from .heat import HeatOfDay
+from .labels import Instance, instances
+from .runs import Outcome, Progress, generate, plan
+
+__all__ = [
+    "Band",
+    "Camera",
+    "Cancelled",
+    "Clip",
+    "ConfigError",
+    "Converter",
+    "DataError",
+    "Dataset",
+    "Error",
+    "Exposure",
+    "Frame",
+    "HeatOfDay",
+    "Instance",
+    "IoError",
+    "Label",
+    "MadeFrame",
+    "Outcome",
+    "Progress",
+    "TryAgainError",
+    "generate",
+    "instances",
+    "open_dataset",
+    "plan",
+]

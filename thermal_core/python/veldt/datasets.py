@@ -1,0 +1,188 @@
+"""Datasets that `veldt generate` and `veldt convert` wrote, as sequences of clips and frames. Files are read when asked
+for."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import veldt._core as _core
+
+
+@dataclass(frozen=True)
+class Label:
+    """One actor in one frame."""
+
+    category: str
+    track_id: int
+    box_px: tuple[float, float, float, float]
+    """Of its visible pixels: x, y, width and height."""
+    values: dict[str, Any] = field(repr=False)
+    """All keys of its annotation, such as range_m and contrast_k; thermal_core/DATASET.md explains them."""
+
+    @classmethod
+    def of(cls, annotation: dict[str, Any], category: str) -> Label:
+        """That of an annotation."""
+        return cls(category, annotation["track_id"], tuple(annotation["bbox"]), annotation)
+
+    def mask(self) -> NDArray[np.bool_]:
+        """Its visible pixels, (height, width)."""
+        segmentation = self.values["segmentation"]
+        height_px, width_px = segmentation["size"]
+        return _core.mask_of(segmentation["counts"], width_px, height_px)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One frame of a clip."""
+
+    clip: Clip = field(repr=False)
+    index: int
+    values: dict[str, Any] = field(repr=False)
+    """Its line of frames.jsonl: gain curve, checksums and all that follows."""
+
+    @property
+    def time_s(self) -> float:
+        """Time of the scene [s]."""
+        return self.values["time_s"]
+
+    @property
+    def shutter_closed(self) -> bool:
+        """The picture is frozen."""
+        return self.values["ffc"]
+
+    @property
+    def camera_to_world(self) -> NDArray[np.float64] | None:
+        """(4, 4): from OpenCV's camera axes to east, north, up [m]; None if the passes did not state it."""
+        pose = self.values.get("camera_to_world")
+        return None if pose is None else np.array(pose, float).reshape(4, 4)
+
+    def ir8(self) -> NDArray[np.uint8]:
+        """Grey levels, (height, width)."""
+        return _core.read_png8(str(self._file("ir8")))
+
+    def ir16(self) -> NDArray[np.uint16]:
+        """Apparent temperature in counts, (height, width)."""
+        return _core.read_png16(str(self._file("ir16")))
+
+    def ir16_k(self) -> NDArray[np.float32]:
+        """Apparent temperature [K], (height, width): ir16() times kelvin_per_count, rounded to single precision."""
+        return (self.ir16() * self.clip.dataset.kelvin_per_count).astype(np.float32)
+
+    @property
+    def labels(self) -> list[Label]:
+        """Its actors."""
+        return self.clip.labels_of(self.index)
+
+    def _file(self, kind: str) -> Path:
+        return self.clip.folder / kind / f"{self.index:06d}.png"
+
+
+class Clip(Sequence[Frame]):
+    """The frames of a clip, in order. Skipped frames are missing."""
+
+    def __init__(self, dataset: Dataset, name: str) -> None:
+        """Made by Dataset."""
+        self.dataset = dataset
+        self.id = name
+        self.folder = dataset.folder / "clips" / name
+
+    @cached_property
+    def record(self) -> dict[str, Any]:
+        """clip.json: season, seed, checksums."""
+        return _read_json(self.folder / "clip.json")
+
+    @property
+    def frame_rate_hz(self) -> float:
+        """Frames a second."""
+        return self.record["frame_rate_hz"]
+
+    def labels_of(self, frame_index: int) -> list[Label]:
+        """The actors of a frame."""
+        return self._labels.get(frame_index, [])
+
+    def __getitem__(self, at: int) -> Frame:
+        """A frame by its place; a slice gives a list."""
+        return self._frames[at]
+
+    def __len__(self) -> int:
+        return len(self._frames)
+
+    def __repr__(self) -> str:
+        return f"Clip({self.id!r}, {len(self)} frames)"
+
+    @cached_property
+    def _frames(self) -> list[Frame]:
+        lines = [json.loads(line) for line in _core.read_text(str(self.folder / "frames.jsonl")).splitlines()]
+        return [Frame(self, line["frame_index"], line) for line in lines]
+
+    @cached_property
+    def _labels(self) -> dict[int, list[Label]]:
+        document = _read_json(self.folder / "labels.json")
+        names = {category["id"]: category["name"] for category in document["categories"]}
+        frames = {image["id"]: image["frame_index"] for image in document["images"]}
+        found: dict[int, list[Label]] = {}
+        for each in document["annotations"]:
+            label = Label.of(each, names[each["category_id"]])
+            found.setdefault(frames[each["image_id"]], []).append(label)
+        return found
+
+
+class Dataset(Sequence[Clip]):
+    """The complete clips of a dataset, in the order of its config."""
+
+    def __init__(self, folder: Path) -> None:
+        """Made by open_dataset()."""
+        self.folder = folder
+        self.document = json.loads(_core.read_dataset_file(str(folder)))
+        self._clips = [Clip(self, clip["id"]) for clip in self.document["clips"] if clip["status"] == "done"]
+
+    @property
+    def config(self) -> dict[str, Any]:
+        """The resolved config."""
+        return self.document["config"]
+
+    @property
+    def kelvin_per_count(self) -> float:
+        """Step of ir16 [K]."""
+        return self.document["kelvin_per_count"]
+
+    def frames(self) -> Iterator[Frame]:
+        """All frames of all clips."""
+        for clip in self:
+            yield from clip
+
+    def __getitem__(self, at: int | str) -> Clip:
+        """A clip by its place or its id, KeyError for an unknown one; a slice gives a list."""
+        if not isinstance(at, str):
+            return self._clips[at]
+        for clip in self._clips:
+            if clip.id == at:
+                return clip
+        raise KeyError(at)
+
+    def __len__(self) -> int:
+        return len(self._clips)
+
+    def __repr__(self) -> str:
+        return f"Dataset({str(self.folder)!r}, {len(self)} clips)"
+
+
+def open_dataset(folder: str | PathLike[str]) -> Dataset:
+    """A dataset's clips. IoError if a file cannot be read, DataError if it is none of a dataset."""
+    return Dataset(Path(folder))
+
+
+def _read_json(file: Path) -> Any:
+    try:
+        return json.loads(_core.read_text(str(file)))
+    except ValueError as error:
+        raise _core.DataError(f"{file}: not JSON: {error}") from error

@@ -1,0 +1,62 @@
+"""Temperatures of surfaces by the weather."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+import veldt._core as _core
+from .home import home
+
+
+class HeatOfDay:
+    """The temperatures of all materials over a day that repeats itself, by their heat balances. The columns of heat of
+    a material are computed when it is first asked for (about a tenth of a second), and kept.
+
+    >>> HeatOfDay("winter").temperature_k("soil", solar_h=3)
+    """
+
+    def __init__(self, season: str = "winter", weather: dict[str, Any] | None = None) -> None:
+        """`weather`: keys of a config's section of that name that differ from the season's. ConfigError if invalid."""
+        self._day = _core.Day(season, json.dumps({"weather": weather or {}}), home())
+
+    @property
+    def materials(self) -> list[str]:
+        """Names of the materials that have a heat balance, in order."""
+        return self._day.materials
+
+    def air_k(self, solar_h: ArrayLike) -> NDArray[np.float64]:
+        """Air temperature [K] at local solar times [h], any finite numbers."""
+        hours = np.asarray(solar_h, float)
+        return np.array([self._day.air_k(hour) for hour in hours.flat]).reshape(hours.shape)
+
+    def temperature_k(
+        self,
+        material: str,
+        solar_h: ArrayLike,
+        *,
+        sky_view: ArrayLike = 1,
+        sunlit: ArrayLike = 1,
+        moisture: ArrayLike | None = None,
+        normal: ArrayLike = (0, 0, 1),
+    ) -> NDArray[np.float64]:
+        """Temperature [K] of surfaces of one material; all arguments but `material` broadcast as in NumPy.
+
+        solar_h: local solar time [h]. sky_view: share of the sky that is seen, 0 to 1. sunlit: share of the day's
+        sunbeams that arrive, 0 to 1. moisture: 0 dry to 1 saturated; None: of open ground after the last rain. normal:
+        (…, 3) unit vectors east, north, up. Values outside count as the nearest inside. Interpolated between days that
+        are computed: off by up to a fifth of a kelvin. ConfigError for an unknown material.
+        """
+        wet = self._day.open_moisture if moisture is None else moisture
+        normals = np.asarray(normal, float)
+        hours, *places = np.broadcast_arrays(solar_h, sky_view, sunlit, wet, normals[..., 0])
+        result = np.empty(hours.shape)
+        all_normals = np.broadcast_to(normals, (*hours.shape, 3))
+        for hour in np.unique(hours):
+            now = hours == hour
+            of_hour = [place[now] for place in places[:3]]
+            result[now] = self._day.temperatures_k(material, float(hour), *of_hour, all_normals[now])
+        return result
