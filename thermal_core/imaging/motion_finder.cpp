@@ -181,24 +181,27 @@ Passes read_at_samples(const Passes& passes) {
 MotionFinder::MotionFinder(const Manifest& manifest, const LensDistortion& lens)
     : camera_(manifest.camera),
       lens_(lens),
+      frame_rate_hz_(manifest.frame_rate_hz),
       passes_(pixels_camera(manifest)),
       rays_(manifest.camera, lens),
       shown_(shown_pixels(manifest, passes_, rays_, lens)) {
-  for (std::size_t frame = 0; frame < manifest.frames.size(); ++frame)
-    steps_.push_back(step_of(manifest, frame));
+  const std::vector<ManifestFrame>& frames = manifest.frames;
+  if (frames.size() == 1) steps_.emplace_back();
+  if (frames.size() < 2) return;
+  steps_.push_back(step_of(frames[0], frames[1], true));
+  for (std::size_t frame = 1; frame < frames.size(); ++frame)
+    steps_.push_back(step_of(frames[frame], frames[frame - 1], false));
 }
 
-MotionFinder::Step MotionFinder::step_of(const Manifest& manifest, std::size_t frame) {
+MotionFinder::Step MotionFinder::step_of(const ManifestFrame& now, const ManifestFrame& other,
+                                         bool other_is_next) const {
   Step step;
-  if (manifest.frames.size() < 2) return step;
-  const ManifestFrame& now = manifest.frames[frame];
-  const ManifestFrame& other = manifest.frames[frame == 0 ? 1 : frame - 1];
   if (!now.camera_to_world || !other.camera_to_world) return step;
   const Rigid from_camera = rigid_of(*now.camera_to_world);
   const Rigid to_other = inverse(rigid_of(*other.camera_to_world));
   if (!is_finite(from_camera) || !is_finite(to_other)) return step;
-  const double intervals = std::abs(now.time_s - other.time_s) * manifest.frame_rate_hz;
-  step.scale = static_cast<float>((frame == 0 ? -1 : 1) / (intervals > 1 ? intervals : 1));
+  const double intervals = std::abs(now.time_s - other.time_s) * frame_rate_hz_;
+  step.scale = static_cast<float>((other_is_next ? -1 : 1) / (intervals > 1 ? intervals : 1));
   step.camera_moves = *now.camera_to_world != *other.camera_to_world;
   step.camera = rounded(then(from_camera, to_other));
   for (const ActorPose& pose : now.actors) {
@@ -223,13 +226,21 @@ std::size_t MotionFinder::source(const Plane<float>& depth_m, int x, int y) cons
 }
 
 void MotionFinder::find(const Passes& passes, int frame, ImageMotion& out) const {
-  const Step& step = steps_[static_cast<std::size_t>(frame)];
+  find(passes, steps_[static_cast<std::size_t>(frame)], out);
+}
+
+void MotionFinder::find(const Passes& passes, const ManifestFrame& before, const ManifestFrame& now,
+                        ImageMotion& out) const {
+  find(passes, step_of(now, before, false), out);
+}
+
+void MotionFinder::find(const Passes& passes, const Step& step, ImageMotion& out) const {
   if (!step.moves || passes.depth_m.empty()) {
     out = {};
     return;
   }
   if (passes.fine.factor > 1 && !passes.fine.depth_m.empty()) {
-    find(read_at_samples(passes), frame, out);
+    find(read_at_samples(passes), step, out);
     return;
   }
   out.x_px.resize(camera_.width_px, camera_.height_px);

@@ -31,6 +31,10 @@ class MotionFinder {
   /// Motion of the camera's pixels in a frame; empty if nothing moves, or without depth. The memory of `out` is reused.
   void find(const Passes& passes, int frame, ImageMotion& out) const;
 
+  /// The same in a frame after another one, of the manifest's camera and actors but not of its frames.
+  void find(const Passes& passes, const ManifestFrame& before, const ManifestFrame& now,
+            ImageMotion& out) const;
+
   /// From where a camera sees a point to where it was seen: p' = turn p + shift, in camera axes [m].
   struct Transform {
     std::array<float, 9> turn{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row-major
@@ -52,13 +56,15 @@ class MotionFinder {
   };
   struct Sources;
 
-  [[nodiscard]] static Step step_of(const Manifest& manifest, std::size_t frame);
+  [[nodiscard]] Step step_of(const ManifestFrame& now, const ManifestFrame& other, bool other_is_next) const;
+  void find(const Passes& passes, const Step& step, ImageMotion& out) const;
   void find_row(const Plane<float>& depth_m, const Step& step, int y, ImageMotion& out) const;
   void move_actors(const Passes& passes, const Step& step, ImageMotion& out) const;
   [[nodiscard]] std::size_t source(const Plane<float>& depth_m, int x, int y) const;
 
   CameraIntrinsics camera_;
   LensDistortion lens_;
+  double frame_rate_hz_;
   CameraIntrinsics passes_;  ///< one pixel of the camera's size each, with overscan
   CameraRays rays_;          ///< through the camera's pixels
   std::vector<std::int32_t>

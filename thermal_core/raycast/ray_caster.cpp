@@ -12,30 +12,17 @@
 namespace thermal {
 namespace {
 
-/// Transforms lie in a track actor by actor, frame by frame, bone by bone.
-std::vector<std::size_t> first_bones(const BakedScene& scene, const BakedTrack& track) {
-  std::vector<std::size_t> first;
-  first.reserve(track.posed.size());
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < track.posed.size(); ++k) {
-    first.push_back(next);
-    if (track.posed[k] != 0) next += scene.actors[k / track.frames].bones.size();
-  }
-  return first;
-}
-
-std::vector<Piece> actors_in(const BakedScene& scene, const BakedTrack& track, std::size_t frame,
-                             const std::vector<std::size_t>& first_bone) {
+std::vector<Piece> actors_in(const BakedScene& scene, const BakedMoment& now) {
   std::vector<Piece> pieces;
+  std::size_t next = 0;
   for (std::size_t actor = 0; actor < scene.actors.size(); ++actor) {
-    const std::size_t moment = actor * track.frames + frame;
-    if (track.posed[moment] == 0) continue;
+    if (now.posed[actor] == 0) continue;
     const BakedActor& body = scene.actors[actor];
-    for (std::size_t bone = 0; bone < body.bones.size(); ++bone) {
+    for (const BakedBone& bone : body.bones) {
       Piece& piece = pieces.emplace_back();
-      piece.mesh = static_cast<std::uint32_t>(body.bones[bone].mesh);
+      piece.mesh = static_cast<std::uint32_t>(bone.mesh);
       piece.object = body.object;
-      std::ranges::transform(track.bones[first_bone[moment] + bone], piece.to_world.begin(),
+      std::ranges::transform(now.bones[next++], piece.to_world.begin(),
                              [](float entry) { return static_cast<double>(entry); });
     }
   }
@@ -58,22 +45,19 @@ RayCaster::~RayCaster() = default;
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 
-ClipTracer::ClipTracer(const RayCaster& caster, const BakedTrack& track, const CameraIntrinsics& camera,
-                       const Sampling& sampling)
+CameraTracer::CameraTracer(const RayCaster& caster, const CameraIntrinsics& camera, const Sampling& sampling)
     : place_(caster.place()),
-      track_(track),
       pixel_rays_(std::make_unique<const PixelRays>(
           sampling.adaptive ? camera : finer(camera, sampling.supersample), sampling.lens)),
       sample_rays_(sampling.adaptive && sampling.supersample > 1
                        ? std::make_unique<const PixelRays>(finer(camera, sampling.supersample), sampling.lens)
                        : nullptr),
-      supersample_(sampling.supersample),
-      first_bone_(first_bones(place_.scene(), track)) {}
-ClipTracer::~ClipTracer() = default;
+      supersample_(sampling.supersample) {}
+CameraTracer::~CameraTracer() = default;
 
-void ClipTracer::trace(std::size_t frame, const PassNeeds& needs, Passes& out) const {
-  const PieceSet actors = place_.set_of(actors_in(place_.scene(), track_, frame, first_bone_));
-  const Shot shot = {.place = place_, .actors = actors, .view = view_of(track_.camera_to_world[frame])};
+void CameraTracer::trace(const BakedMoment& now, const PassNeeds& needs, Passes& out) const {
+  const PieceSet actors = place_.set_of(actors_in(place_.scene(), now));
+  const Shot shot = {.place = place_, .actors = actors, .view = view_of(now.camera_to_world)};
   const Plane<std::uint8_t> near_actors = pixels_near(actors.pieces, place_, shot.view, *pixel_rays_);
   const bool sees_water = may_see(place_.waters(), place_, shot.view, *pixel_rays_);
   PassNeeds of_samples = needs;
@@ -88,5 +72,9 @@ void ClipTracer::trace(std::size_t frame, const PassNeeds& needs, Passes& out) c
   trace_samples(shot, *sample_rays_, near_actors, of_samples, out.fine);
   if (of_samples.mirrored) even_out(out);
 }
+
+ClipTracer::ClipTracer(const RayCaster& caster, const BakedTrack& track, const CameraIntrinsics& camera,
+                       const Sampling& sampling)
+    : moments_(caster.place().scene(), track), tracer_(caster, camera, sampling) {}
 
 }  // namespace thermal

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 #include <memory>
-#include <vector>
 
+#include "scene/baked_moment.h"
 #include "scene/baked_scene.h"
 #include "scene/lens_distortion.h"
 #include "scene/passes.h"
@@ -37,31 +37,44 @@ struct Sampling {
   LensDistortion lens = {};  ///< bends the rays, so that the picture is exact
 };
 
-/// Renders the passes of a clip's frames.
-class ClipTracer {
+/// Renders the passes of one camera in one place.
+class CameraTracer {
  public:
-  /// Pixels where a lens shows nothing, those for which undistort() has NaN, are sky. Caster and track, which must belong
-  /// to its scene, must outlive this object.
-  ClipTracer(const RayCaster& caster, const BakedTrack& track, const CameraIntrinsics& camera,
-             const Sampling& sampling = {});
-  ~ClipTracer();
+  /// Pixels where a lens shows nothing, those for which undistort() has NaN, are sky. The caster must outlive this object.
+  CameraTracer(const RayCaster& caster, const CameraIntrinsics& camera, const Sampling& sampling = {});
+  ~CameraTracer();
 
-  /// The planes of a frame that are needed, and both indices, as Blender's passes have them: what each ray hits first
+  /// The planes of a moment that are needed, and both indices, as Blender's passes have them: what each ray hits first
   /// at the depths of BakedScene::depth_range_m; the sky has index 0, a depth of 1e10 m and a normal of 0. Depth and normals are
   /// exact to single precision, indices to about 1e-4 px at silhouettes, by Embree's single precision.
   /// Adaptive: a pixel has all rays if an actor may be in it, or if it differs from one of its eight neighbours in
   /// object or material, seen or mirrored, or in depth by more than 2 %. A plant that no neighbour shows is missed between
   /// rays. Water is what has the material "water"; it mirrors as a level surface.
   /// The result depends on nothing else. Memory of `out` is reused. Safe to call from several threads.
-  void trace(std::size_t frame, const PassNeeds& needs, Passes& out) const;
+  void trace(const BakedMoment& now, const PassNeeds& needs, Passes& out) const;
 
  private:
   const Place& place_;
-  const BakedTrack& track_;
   std::unique_ptr<const PixelRays> pixel_rays_;
   std::unique_ptr<const PixelRays> sample_rays_;  ///< adaptive
   int supersample_;
-  std::vector<std::size_t> first_bone_;  ///< [actor, frame]: position of its bones in the track
+};
+
+/// Renders the passes of a clip's frames.
+class ClipTracer {
+ public:
+  /// Caster and track, which must belong to its scene, must outlive this object.
+  ClipTracer(const RayCaster& caster, const BakedTrack& track, const CameraIntrinsics& camera,
+             const Sampling& sampling = {});
+
+  /// CameraTracer::trace() of a frame.
+  void trace(std::size_t frame, const PassNeeds& needs, Passes& out) const {
+    tracer_.trace(moments_.at_frame(frame), needs, out);
+  }
+
+ private:
+  TrackMoments moments_;
+  CameraTracer tracer_;
 };
 
 }  // namespace thermal

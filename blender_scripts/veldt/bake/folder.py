@@ -45,10 +45,11 @@ def bake_plan(
     outline = cores.start(lambda: outline_of(world))
     bake_scene(world, models.mesh, folder / "scene")
     (folder / "tracks").mkdir()
+    everyone = config["render"].get("posed_actors") == "all"
 
     def bake(outlook: Outlook) -> None:
         name, camera = outlook.clip["id"], outlook.clip.get("camera")
-        bake_track(world, name, outlook.flight, folder / "tracks" / name, camera=camera)
+        bake_track(world, name, outlook.flight, folder / "tracks" / name, everyone, camera)
 
     found = _described(world, plan_clips(world, cores, bake, planned), outline())
     if preview:

@@ -48,4 +48,15 @@ void ClipScenes::convert(const Passes& passes, int number, std::vector<SceneFram
   }
 }
 
+void ClipScenes::convert(const Passes& passes, const ManifestFrame& frame, const ManifestFrame* before,
+                         std::vector<SceneFrame>& out) const {
+  out.resize(scenes_.size());
+  for (std::size_t i = 0; i < scenes_.size(); ++i) {
+    scenes_[i].converter.convert(passes, frame, out[i]);
+    out[i].motion = {};
+    if (scenes_[i].motion && before != nullptr)
+      scenes_[i].motion->find(passes, *before, frame, out[i].motion);
+  }
+}
+
 }  // namespace thermal

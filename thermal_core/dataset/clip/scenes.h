@@ -41,6 +41,11 @@ class ClipScenes {
   /// several threads.
   void convert(const Passes& passes, int number, std::vector<SceneFrame>& out) const;
 
+  /// The same for a frame that is not the manifest's, of its camera and actors; `before`: the one that moved to it, null
+  /// for a first one, which does not move.
+  void convert(const Passes& passes, const ManifestFrame& frame, const ManifestFrame* before,
+               std::vector<SceneFrame>& out) const;
+
  private:
   struct Scene {
     SceneSettings settings;

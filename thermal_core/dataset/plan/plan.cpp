@@ -102,11 +102,13 @@ Json planned_part(const Config& config) {
   const Json& all = config.resolved;
   Json scene = all.at("scene");
   scene.erase("temperatures");
+  Json render = {{"view_margin_px", config.view_margin_px}};
+  if (config.poses_all) render["posed_actors"] = "all";  // older plans lack the key
   return {{"name", all.at("name")},
           {"seed", all.at("seed")},
           {"scene", std::move(scene)},
           {"camera", to_json(config.camera)},
-          {"render", {{"view_margin_px", config.view_margin_px}}},
+          {"render", std::move(render)},
           {"clips", planned_entries(all.at("clips"), config.own_of_clips, config.camera)},
           {"flights", planned_entries(all.at("flights"), config.own_of_flights, config.camera)}};
 }

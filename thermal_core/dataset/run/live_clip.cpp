@@ -15,9 +15,10 @@
 namespace thermal {
 namespace {
 
-ClipImager imager_of(const ClipTask& task, const Manifest& manifest, ClipScenes& scenes) {
+std::unique_ptr<ClipImager> imager_of(const ClipTask& task, const Manifest& manifest, ClipScenes& scenes) {
   const std::size_t scene = scenes.add(task);
-  return {task, manifest, scenes.brightest_w_m2_sr(scene), scenes.temperatures(task.sensor.response)};
+  return std::make_unique<ClipImager>(task, manifest, scenes.brightest_w_m2_sr(scene),
+                                      scenes.temperatures(task.sensor.response));
 }
 
 /// Size of the planes that a manifest's renderer writes.
@@ -38,20 +39,40 @@ LiveClip::LiveClip(Manifest manifest, std::shared_ptr<const MaterialLibrary> mat
       imager_(imager_of(task_, manifest_, scenes_)) {}
 
 const ClipImager::Frame& LiveClip::make(const Passes& passes, int number) {
-  check(passes, number);
-  scenes_.convert(passes, number, converted_);
-  for (; next_ < number; ++next_) imager_.skip();
-  ++next_;
-  imager_.expose(converted_.front(), frame_);
-  imager_.encode(frame_);
-  return frame_;
-}
-
-void LiveClip::check(const Passes& passes, int number) const {
   const auto frames = static_cast<int>(manifest_.frames.size());
   if (number < next_ || number >= frames)
     throw ConfigError(
         fault("frame", std::to_string(number), "", fmt::format("a number from {} to {}", next_, frames - 1)));
+  check(passes);
+  scenes_.convert(passes, number, converted_);
+  return expose(number, manifest_.frames[static_cast<std::size_t>(number)]);
+}
+
+const ClipImager::Frame& LiveClip::make(const Passes& passes, const ManifestFrame& frame, int number) {
+  if (number < next_)
+    throw ConfigError(fault("frame", std::to_string(number), "", fmt::format("a number from {} on", next_)));
+  check(passes);
+  scenes_.convert(passes, frame, last_ ? &*last_ : nullptr, converted_);
+  return expose(number, frame);
+}
+
+void LiveClip::restart(std::uint32_t seed) {
+  task_.seed = seed;
+  imager_ = imager_of(task_, manifest_, scenes_);
+  last_.reset();
+  next_ = 0;
+}
+
+const ClipImager::Frame& LiveClip::expose(int number, const ManifestFrame& frame) {
+  for (; next_ < number; ++next_) imager_->skip();
+  ++next_;
+  last_ = frame;
+  imager_->expose(converted_.front(), frame_);
+  imager_->encode(frame_);
+  return frame_;
+}
+
+void LiveClip::check(const Passes& passes) const {
   if (!passes.fine.x_px.empty()) return;
   const auto [width_px, height_px] = size_of_planes(manifest_);
   const auto check_plane = [&, width = width_px, height = height_px](const auto& plane, const char* name,

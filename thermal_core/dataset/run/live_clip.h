@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "dataset/clip/imager.h"
@@ -34,16 +36,27 @@ class LiveClip {
   /// manifest's or has passed.
   const ClipImager::Frame& make(const Passes& passes, int number);
 
+  /// The same for a frame that is not the manifest's, but of its camera and actors. `number` counts frames of the camera's
+  /// clock from the clip's begin; there is no last one. It smears by what moved since the frame before; a first one does
+  /// not.
+  const ClipImager::Frame& make(const Passes& passes, const ManifestFrame& frame, int number);
+
+  /// Begins the clip again, as if nothing had been made of it; with another camera of the same kind if `seed` is another:
+  /// its noise, and its errors from pixel to pixel.
+  void restart(std::uint32_t seed);
+
  private:
-  void check(const Passes& passes, int number) const;
+  void check(const Passes& passes) const;
+  const ClipImager::Frame& expose(int number, const ManifestFrame& frame);
 
   Manifest manifest_;
   std::shared_ptr<const MaterialLibrary> materials_;
   ClipTask task_;
   ClipScenes scenes_;
-  ClipImager imager_;
+  std::unique_ptr<ClipImager> imager_;
   std::vector<SceneFrame> converted_;
   ClipImager::Frame frame_;
+  std::optional<ManifestFrame> last_;
   int next_ = 0;
 };
 

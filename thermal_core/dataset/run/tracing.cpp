@@ -26,27 +26,6 @@ double round_decimal(double value, int digits) {
 /// As NumPy's round() has it, which is faster; without negative zeros.
 double round_scaled(double value, double scale) { return std::nearbyint(value * scale) / scale + 0.0; }
 
-ManifestFrame frame_of(const BakedScene& scene, const BakedTrack& track, std::size_t k) {
-  constexpr double kMicro = 1e6;
-  constexpr double kNano = 1e9;
-  ManifestFrame frame{.file = passes_name(static_cast<int>(k)),
-                      .time_s = round_decimal(track.time_s[k], 9),
-                      .agl_m = round_decimal(track.agl_m[k], 6),
-                      .look_angle_deg = round_decimal(track.look_angle_deg[k], 6),
-                      .camera_to_world = track.camera_to_world[k],
-                      .actors = {}};
-  for (double& entry : *frame.camera_to_world) entry = round_scaled(entry, kNano);
-  for (std::size_t actor = 0; actor < scene.actors.size(); ++actor) {
-    const std::size_t moment = actor * track.frames + k;
-    ActorPose pose{.index = scene.actors[actor].object,
-                   .position_m = track.actor_position_m[moment],
-                   .heading_rad = round_decimal(track.actor_heading_rad[moment], 9)};
-    for (double& coordinate_m : pose.position_m) coordinate_m = round_scaled(coordinate_m, kMicro);
-    frame.actors.push_back(pose);
-  }
-  return frame;
-}
-
 bool has_water(const BakedScene& scene) {
   return std::ranges::any_of(scene.objects,
                              [](const ManifestObject& one) { return one.material == "water"; }) ||
@@ -105,6 +84,23 @@ void check_camera(const CameraIntrinsics& camera, const Config& config, const Pa
 
 }  // namespace
 
+ManifestFrame manifest_frame_of(const BakedScene& scene, const BakedMoment& now, double time_s) {
+  constexpr double kMicro = 1e6;
+  constexpr double kNano = 1e9;
+  ManifestFrame frame;
+  frame.time_s = round_decimal(time_s, 9);
+  frame.camera_to_world = now.camera_to_world;
+  for (double& entry : *frame.camera_to_world) entry = round_scaled(entry, kNano);
+  for (std::size_t actor = 0; actor < scene.actors.size(); ++actor) {
+    ActorPose pose{.index = scene.actors[actor].object,
+                   .position_m = now.actor_position_m[actor],
+                   .heading_rad = round_decimal(now.actor_heading_rad[actor], 9)};
+    for (double& coordinate_m : pose.position_m) coordinate_m = round_scaled(coordinate_m, kMicro);
+    frame.actors.push_back(pose);
+  }
+  return frame;
+}
+
 Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const ClipPlan& clip,
                      const Config& config, const ClipSettings& settings) {
   Manifest manifest;
@@ -122,7 +118,14 @@ Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const Cli
   manifest.objects = scene.objects;
   manifest.materials = scene.materials;
   manifest.beds = scene.beds;
-  for (std::size_t k = 0; k < track.frames; ++k) manifest.frames.push_back(frame_of(scene, track, k));
+  const TrackMoments moments(scene, track);
+  for (std::size_t k = 0; k < track.frames; ++k) {
+    ManifestFrame& frame =
+        manifest.frames.emplace_back(manifest_frame_of(scene, moments.at_frame(k), track.time_s[k]));
+    frame.file = passes_name(static_cast<int>(k));
+    frame.agl_m = round_decimal(track.agl_m[k], 6);
+    frame.look_angle_deg = round_decimal(track.look_angle_deg[k], 6);
+  }
   return manifest;
 }
 

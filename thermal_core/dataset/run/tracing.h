@@ -6,9 +6,14 @@
 #include "dataset/plan/plan.h"
 #include "dataset/run/options.h"
 #include "raycast/ray_caster.h"
+#include "scene/baked_moment.h"
 #include "scene/baked_scene.h"
 
 namespace thermal {
+
+/// A frame of a manifest, as blender_scripts/veldt/manifest.py has it, with the same roundings; without a file, and
+/// without the camera's height and angle.
+[[nodiscard]] ManifestFrame manifest_frame_of(const BakedScene& scene, const BakedMoment& now, double time_s);
 
 /// The manifest of a clip of a plan, as blender_scripts/veldt/manifest.py has it, with the same roundings.
 /// `settings`: the clip's.

@@ -292,6 +292,7 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   config.view_margin_px = std::max(config.overscan_px, needed_px);
   config.supersample = document["render"]["supersample"];
   config.actor_layer = document["render"]["actor_layer"];
+  config.poses_all = document["render"]["posed_actors"] == "all";
   config.engine = document["render"]["engine"] == "embree" ? Engine::embree : Engine::blender;
   config.adaptive_sampling = document["render"]["sampling"] == "adaptive";
   document.erase("$schema");

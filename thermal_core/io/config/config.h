@@ -37,6 +37,7 @@ struct Config : ClipSettings {
   int view_margin_px = 0;  ///< of the view, by lens and overscan, beyond each side of a pinhole's picture
   int supersample = 1;     ///< rays of the passes along each side of a pixel
   bool actor_layer = false;
+  bool poses_all = false;  ///< a plan has the bones of all actors, whether its cameras see them or not
   Engine engine = Engine::blender;
   bool adaptive_sampling = false;  ///< all rays only for pixels that need them; with `embree`
   bool physical = false;           ///< every term the scene needs; otherwise the published model

@@ -7,7 +7,7 @@ Errors are those of the command, with the same words: `ConfigError`, `DataError`
 
 from __future__ import annotations
 
-from ._core import Cancelled, ConfigError, DataError, Error, IoError, TryAgainError
+from veldt._core import Cancelled, ConfigError, DataError, Error, IoError, TryAgainError
 from .band import Band
 from .camera import Camera, Exposure
 from .converter import Converter, MadeFrame
@@ -15,11 +15,14 @@ from .datasets import Clip, Dataset, Frame, Label, open_dataset
 from .heat import HeatOfDay
 from .labels import Instance, instances
 from .runs import Outcome, Progress, generate, plan
+from .world import Actor, Capture, Intrinsics, World
 
 __all__ = [
+    "Actor",
     "Band",
     "Camera",
     "Cancelled",
+    "Capture",
     "Clip",
     "ConfigError",
     "Converter",
@@ -30,12 +33,14 @@ __all__ = [
     "Frame",
     "HeatOfDay",
     "Instance",
+    "Intrinsics",
     "IoError",
     "Label",
     "MadeFrame",
     "Outcome",
     "Progress",
     "TryAgainError",
+    "World",
     "generate",
     "instances",
     "open_dataset",

@@ -18,14 +18,14 @@ class Band:
     """
 
     def __init__(self, begin_um: float = 8, end_um: float = 14, *, response: ArrayLike | None = None) -> None:
-        """A flat band from begin_um to end_um [um], 0 < begin_um < end_um; or `response`: (n, 2) samples of wavelength
-        [um] and relative response, n >= 2, wavelengths rising. ConfigError otherwise."""
+        """A flat band from begin_um to end_um [um], 0 < begin_um < end_um; or `response`: (n, 2) samples of
+        wavelength [um] and relative response, n >= 2, wavelengths rising. ConfigError otherwise."""
         samples = [(begin_um, 1), (end_um, 1)] if response is None else np.asarray(response, float).tolist()
         self._band = _core.Band([tuple(sample) for sample in samples])
 
     @classmethod
     def of_file(cls, file: str | PathLike[str]) -> Band:
-        """A CSV with the columns wavelength_um and response. ConfigError names its line; IoError if it is unreadable."""
+        """A CSV with the columns wavelength_um and response. ConfigError names its line; IoError if unreadable."""
         band = cls()
         band._band = _core.Band.of_file(fspath(file))
         return band

@@ -46,9 +46,9 @@ class HeatOfDay:
         """Temperature [K] of surfaces of one material; all arguments but `material` broadcast as in NumPy.
 
         solar_h: local solar time [h]. sky_view: share of the sky that is seen, 0 to 1. sunlit: share of the day's
-        sunbeams that arrive, 0 to 1. moisture: 0 dry to 1 saturated; None: of open ground after the last rain. normal:
-        (…, 3) unit vectors east, north, up. Values outside count as the nearest inside. Interpolated between days that
-        are computed: off by up to a fifth of a kelvin. ConfigError for an unknown material.
+        sunbeams that arrive, 0 to 1. moisture: 0 dry to 1 saturated; None: of open ground after the last rain.
+        normal: (…, 3) unit vectors east, north, up. Values outside count as the nearest inside. Interpolated between
+        days that are computed: off by up to a fifth of a kelvin. ConfigError for an unknown material.
         """
         wet = self._day.open_moisture if moisture is None else moisture
         normals = np.asarray(normal, float)
