@@ -136,6 +136,8 @@ struct Clip {
 
   std::vector<std::uint8_t> posed_flags = {};
   std::vector<thermal::Transform<float>> bones = {};
+  std::vector<std::array<double, 3>> places_m = {};
+  std::vector<double> headings_rad = {};
 
   /// This object must stay as and where it is.
   [[nodiscard]] thermal::BakedTrack baked() {
@@ -150,9 +152,13 @@ struct Clip {
         }
       }
     }
+    places_m.assign(posed_flags.size(), {});  // nothing here needs them
+    headings_rad.assign(posed_flags.size(), 0);
     thermal::BakedTrack track;
     track.frames = camera_to_world.size();
     track.camera_to_world = camera_to_world;
+    track.actor_position_m = places_m;
+    track.actor_heading_rad = headings_rad;
     track.posed = posed_flags;
     track.bones = bones;
     return track;

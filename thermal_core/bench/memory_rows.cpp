@@ -105,7 +105,7 @@ class Grove {
 /// A flight over a grove, 61 m above the origin, looking down; the actor walks below.
 class Flight {
  public:
-  explicit Flight(std::size_t frames) : posed_(frames, 1) {
+  explicit Flight(std::size_t frames) : posed_(frames, 1), places_m_(frames), headings_rad_(frames) {
     for (std::size_t frame = 0; frame < frames; ++frame) {
       const double x_m = 0.05 * static_cast<double>(frame);
       poses_.push_back({1, 0, 0, x_m, 0, -1, 0, 0, 0, 0, -1, 61, 0, 0, 0, 1});
@@ -123,6 +123,8 @@ class Flight {
     BakedTrack track;
     track.frames = poses_.size();
     track.camera_to_world = poses_;
+    track.actor_position_m = places_m_;
+    track.actor_heading_rad = headings_rad_;
     track.posed = posed_;
     track.bones = bones_;
     return track;
@@ -132,6 +134,8 @@ class Flight {
   std::vector<std::array<double, 16>> poses_;
   std::vector<std::uint8_t> posed_;
   std::vector<Transform<float>> bones_;
+  std::vector<std::array<double, 3>> places_m_;  ///< zeros: nothing here needs them
+  std::vector<double> headings_rad_;
 };
 
 constexpr CameraIntrinsics kCamera = {

@@ -20,9 +20,10 @@ EmbreeScene new_scene(RTCDevice device) {
   return scene;
 }
 
-/// While it waits, Embree would otherwise take on work of this thread's caller.
+/// While it waits, Embree would otherwise take on work of this thread's caller; and the scene would keep a task group that
+/// is tied to the caller's loop, at which oneTBB looks whenever something is cancelled, long after the loop is over.
 void commit(RTCDevice device, RTCScene scene) {
-  run_isolated([scene] { rtcCommitScene(scene); });
+  run_apart([scene] { rtcCommitScene(scene); });
   check_device(device);
 }
 
