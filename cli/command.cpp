@@ -102,6 +102,13 @@ std::vector<std::string> words_of(const CLI::App& app, int argc, const char* con
   return words;
 }
 
+/// What exit codes mean, for help.
+std::string list_exit_codes() {
+  std::vector<std::string> all;
+  for (const auto& [code, meaning] : kExitMeanings) all.push_back(fmt::format("{} {}", code, meaning));
+  return thermal::list_names(all);
+}
+
 /// Prints help, the version or what is wrong with the command line.
 int print_parsed(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out;
@@ -197,16 +204,19 @@ thermal::Path find_blender(const std::string& named) {
       "no blender on PATH; install it (apt-get install blender) or name one with --blender PATH");
 }
 
-int run_command_line(int argc, const char* const* argv) {
-  CLI::App app(
-      "Labelled thermal drone video of the savanna, for training detectors.\n"
-      "Exit codes: 0 done, 1 failed, 2 bad usage or config, 3 some inputs rejected, 75 try again later.",
-      "veldt");
+void add_commands(CLI::App& app, Session& session) {
+  app.name("veldt");
+  app.description(std::string(kPurpose) + ".\nExit codes: " + list_exit_codes() + ".");
   app.set_version_flag("-V,--version", std::string(thermal::kVersion));
   app.require_subcommand(1);
-  app.failure_message(usage_fault);
-  Session session;
   for (const auto& add : kCommands) add(app, session);
+}
+
+int run_command_line(int argc, const char* const* argv) {
+  CLI::App app;
+  Session session;
+  add_commands(app, session);
+  app.failure_message(usage_fault);
   try {
     app.parse(words_of(app, argc, argv));
   } catch (const CLI::ParseError& error) {

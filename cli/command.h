@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +21,17 @@ enum ExitCode : int {
   kSomeRejected = 3,
   kTryAgain = 75,
 };
+
+/// What they mean, for help and manual.
+inline constexpr std::array<std::pair<int, const char*>, 5> kExitMeanings = {
+    {{kDone, "done"},
+     {kFailed, "failed"},
+     {kBadUsage, "bad usage or config"},
+     {kSomeRejected, "some inputs rejected"},
+     {kTryAgain, "try again later"}}};
+
+/// What the program is for, without a full stop.
+inline constexpr const char* kPurpose = "Labelled thermal drone video of the savanna, for training detectors";
 
 /// Options every command has.
 struct CommonOptions {
@@ -53,6 +66,9 @@ void add_heat(CLI::App& app, Session& session);
 void add_radiance(CLI::App& app, Session& session);
 void add_bench(CLI::App& app, Session& session);
 void add_doctor(CLI::App& app, Session& session);
+
+/// Describes the program to a new parser: all of the above and what is said before a command.
+void add_commands(CLI::App& app, Session& session);
 
 /// A subcommand with the common options.
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,

@@ -96,7 +96,7 @@ void add_convert(CLI::App& app, Session& session) {
                    "Passes, one clip per folder: folders with a manifest.json, files, or quoted "
                    "patterns such as \"r/f_####.exr\"")
       ->required();
-  command->add_option("--out", options->out, "Folder of the dataset")->required();
+  command->add_option("--out", options->out, "Folder of the dataset")->required()->type_name("DIR");
   command->add_option("--manifest", options->manifest, "Manifest to use instead of the folder's")
       ->type_name("FILE");
   command->add_option("--config", options->config, "Config to take season, seed and sensor from")

@@ -129,7 +129,9 @@ void add_export(CLI::App& app, Session& session) {
   command->add_option("--format", options->format, "Layout and files to write")
       ->required()
       ->check(CLI::IsMember({"coco", "yolo", "mot", "birdsai", "webdataset"}));
-  command->add_option("--out", options->out, "Folder of the export, empty or new")->required();
+  command->add_option("--out", options->out, "Folder of the export, empty or new")
+      ->required()
+      ->type_name("DIR");
   command
       ->add_option("--link", options->link, "How to place pictures; copies where the file system cannot link")
       ->check(CLI::IsMember({"hard", "symlink", "copy"}))

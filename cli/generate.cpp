@@ -159,7 +159,7 @@ void add(CLI::App& app, Session& session, const std::string& description, const 
           "A plan that veldt plan wrote, instead of a config: nothing is planned, so that any machine "
           "can make its part at once")
       ->type_name("DIR");
-  command->add_option("--out", options->out, "Folder of the dataset")->required();
+  command->add_option("--out", options->out, "Folder of the dataset")->required()->type_name("DIR");
   command->add_option("--clips", options->clips, "Only these clips")
       ->delimiter(',')
       ->allow_extra_args(false)  // otherwise a CONFIG that follows would be read as a clip

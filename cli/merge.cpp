@@ -85,7 +85,7 @@ void add_merge(CLI::App& app, Session& session) {
       ->add_option("dirs", options->sources, "Datasets, each with some of the config's clips; never modified")
       ->required()
       ->type_name("DIR…");
-  command->add_option("--out", options->out, "Folder of the joined dataset")->required();
+  command->add_option("--out", options->out, "Folder of the joined dataset")->required()->type_name("DIR");
   command
       ->add_option(
           "--plan", options->plan,

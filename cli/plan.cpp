@@ -50,7 +50,7 @@ void add_plan(CLI::App& app, Session& session) {
       add_command(app, session, "plan", "Plan a dataset and bake its scene, without a renderer");
   auto options = std::make_shared<PlanArguments>();
   command->add_option("config", options->config, "Config of a dataset, JSON")->required();
-  command->add_option("--out", options->out, "Folder of the plan")->required();
+  command->add_option("--out", options->out, "Folder of the plan")->required()->type_name("DIR");
   add_engine(command, options->engine);
   command->add_option("--blender", options->blender, "Blender that reads 3D models, if not the one on PATH")
       ->type_name("PATH");

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <memory>
 
+#include <fmt/format.h>
+
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/output.h"
@@ -89,10 +91,8 @@ void add_video(CLI::App& app, Session& session) {
   command->add_option("--clips", options->clips, "Clips to show, at most 16; all that are made if not given")
       ->delimiter(',')
       ->type_name("ID,…");
-  command
-      ->add_option("--palette", options->palette,
-                   "Colours from cold to hot: " + thermal::list_names(thermal::palette_names()))
-      ->type_name("NAME")
+  command->add_option("--palette", options->palette, "Colours from cold to hot")
+      ->type_name(fmt::format("NAME:{{{}}}", fmt::join(thermal::palette_names(), ",")))
       ->capture_default_str();
   command->add_flag("--boxes", options->boxes, "Draw labels: boxes, categories and track ids");
   command->add_flag("--tracks", options->tracks, "Draw where targets were in the last 5 seconds");

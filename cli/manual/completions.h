@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "cli/manual/command_texts.h"
+
+/// Scripts that complete a command line of the program: commands, options, the values of options that have a fixed
+/// choice, and files elsewhere. None runs the program.
+namespace veldt {
+
+[[nodiscard]] std::string bash_completion(const ProgramText& text);
+[[nodiscard]] std::string zsh_completion(const ProgramText& text);
+[[nodiscard]] std::string fish_completion(const ProgramText& text);
+
+}  // namespace veldt
