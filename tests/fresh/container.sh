@@ -6,8 +6,8 @@
 # none is in Dockerfile that nobody has tried.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+source tests/fresh/copies.sh
 
-readonly images=/var/lib/images
 readonly path=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
 
 fail() { # LINE
@@ -17,13 +17,6 @@ fail() { # LINE
 
 # --- stages -----------------------------------------------------------------------------------------------------------
 
-# Before anything is installed here.
-copy_base() {
-  mkdir -p "$images/base"
-  tar --create --one-file-system --exclude=".$images" --exclude=".$PWD" --directory / . |
-    tar --extract --directory "$images/base"
-}
-
 start_stage() { # IMAGE [AS NAME]
   local name=${3:-final}
   [[ $1 == "debian:$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)-slim" ]] || fail "this machine is not $1"
@@ -32,16 +25,15 @@ start_stage() { # IMAGE [AS NAME]
   user=0:0
   workdir=/
   cp --archive "$images/base" "$stage"
-  for folder in proc sys dev; do mount --rbind "/$folder" "$stage/$folder"; done
-  mount --bind /var/cache/apt/archives "$stage/var/cache/apt/archives"
+  mount_into "$name"
 }
 
 # The environment of a step has HOME unless the image sets it, and how to reach package servers.
 inside() { # COMMAND…
-  local name outside=(HOME=/)
-  for name in {http,https,no}_proxy; do [[ -z ${!name:-} ]] || outside+=("$name=${!name}"); done
+  local outside
+  mapfile -t outside < <(network_environment)
   # shellcheck disable=SC2016 # the inner shell replaces these
-  chroot --userspec="$user" --groups= "$stage" env -i "${outside[@]}" "${environment[@]}" \
+  chroot --userspec="$user" --groups= "$stage" env -i HOME=/ "${outside[@]}" "${environment[@]}" \
     sh -c 'cd "$0" && exec "$@"' "$workdir" "$@"
 }
 
@@ -139,7 +131,7 @@ make_nights() {
   VELDT_IMAGE_ROOT=$stage VELDT_IMAGE_USER=$user python3 -B -m pytest -q --noconftest tests/cli/test_ci_files.py
 }
 
-copy_base
+copy_machine base
 build_image
 use_image
 make_nights
