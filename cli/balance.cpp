@@ -91,6 +91,8 @@ void add_balance(CLI::App& app, Session& session) {
       add_command(app, session, "balance",
                   "Select frames so that small, medium and large animals and poachers are drawn\n"
                   "evenly from all videos, within bounds for each class");
+  command->footer(
+      "Example: veldt balance my_dataset real --out chosen.json --per-class small_poacher=200:2000");
   auto options = std::make_shared<BalanceArguments>();
   command
       ->add_option("datasets", options->datasets, "Datasets, BIRDSAI folders or COCO files; never modified")

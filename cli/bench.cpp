@@ -206,6 +206,7 @@ int run_bench(const BenchArguments& options, const CommonOptions& common) {
 void add_bench(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "bench", "Speed and error of every kernel, measured on this machine");
+  command->footer("Example: veldt bench --suite engines");
   auto options = std::make_shared<BenchArguments>();
   command->add_option("--suite", options->suite, "What to measure")
       ->check(CLI::IsMember(suite_names()))

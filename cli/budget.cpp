@@ -79,6 +79,7 @@ int run_budget(const BudgetArguments& options, const CommonOptions& common) {
 void add_budget(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "budget", "Each physical term in mK against NETD: kept or dropped, and why");
+  command->footer("Example: veldt budget configs/demo.json --set season=winter");
   auto options = std::make_shared<BudgetArguments>();
   command->add_option("config", options->config, "Config of a dataset, JSON")->required();
   add_settings(command, options->settings);

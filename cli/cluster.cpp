@@ -138,6 +138,7 @@ int run_cluster(const ClusterArguments& options) {
 void add_cluster(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "cluster",
                                   "Write the jobs that make a planned dataset on Slurm or Kubernetes");
+  command->footer("Example: veldt cluster slurm plan --nodes 8 --cores 4 --out job.sh");
   auto options = std::make_shared<ClusterArguments>();
   command->add_option("scheduler", options->scheduler, "What runs the jobs")
       ->required()

@@ -90,6 +90,11 @@ int run_convert(const ConvertArguments& options, const CommonOptions& common) {
 
 void add_convert(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "convert", "Turn rendered passes into frames and labels");
+  command->footer(
+      "The passes may come from any renderer that shows which object each pixel belongs to; veldt inspect\n"
+      "says what their manifest lacks. A frame that cannot be converted is named and left out, and the\n"
+      "exit code is 3.\n"
+      "Example: veldt convert passes --out my_dataset --set sensor.model=physical season=summer");
   auto options = std::make_shared<ConvertArguments>();
   command
       ->add_option("passes", options->passes,

@@ -117,6 +117,7 @@ int run_doctor(bool json) {
 void add_doctor(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "doctor",
                                   "What is installed, which versions, what is missing and how to get it");
+  command->footer("Example: veldt doctor --json");
   auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "Print JSON");
   command->callback([json, &session] { session.run = [json] { return run_doctor(*json); }; });

@@ -111,7 +111,8 @@ void add_evaluate(CLI::App& app, Session& session) {
       "is that of its track's mean box (below 200 px small, above 2000 px large); that of a detection\n"
       "without a target is that of its own box.\n"
       "Average precision agrees with pycocotools. Targets marked as ignored, and crowds, count neither\n"
-      "as found nor as missed; detections that match them are not counted.");
+      "as found nor as missed; detections that match them are not counted.\n"
+      "Example: veldt evaluate --truth my_dataset --detections results.json");
   auto options = std::make_shared<EvaluateArguments>();
   command->add_option("--truth", options->truth, "Labels: a dataset, a BIRDSAI folder or a COCO file")
       ->required();

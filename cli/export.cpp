@@ -121,6 +121,9 @@ void add_export(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "export",
                   "Write a dataset as other programs read it: COCO, YOLO, MOTChallenge, BIRDSAI, WebDataset");
+  command->footer(
+      "Splits are made by clip, never by frame.\n"
+      "Example: veldt export my_dataset --format yolo --out yolo --split train:0.8,val:0.2");
   auto options = std::make_shared<ExportArguments>();
   command
       ->add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file; never modified")

@@ -27,6 +27,7 @@ namespace {
 /// What generate and render do differently.
 struct Work {
   std::string command;
+  std::string footer;
   std::function<thermal::DatasetPlan(const thermal::Path& out, const thermal::Config&,
                                      const std::string& name, const thermal::PlanOptions&)>
       plan;
@@ -151,6 +152,7 @@ int run_generate(const GenerateArguments& options, const CommonOptions& common, 
 
 void add(CLI::App& app, Session& session, const std::string& description, const Work& work) {
   CLI::App* command = add_command(app, session, work.command, description);
+  command->footer(work.footer);
   auto options = std::make_shared<GenerateArguments>();
   command->add_option("config", options->config, "Config of the dataset, JSON");
   command
@@ -205,12 +207,23 @@ void add(CLI::App& app, Session& session, const std::string& description, const 
 
 void add_generate(CLI::App& app, Session& session) {
   add(app, session, "Make a dataset from a config; resumes where an earlier run stopped",
-      {.command = "generate", .plan = thermal::plan_to_generate, .run = thermal::generate});
+      {.command = "generate",
+       .footer =
+           "If a run is interrupted, the same command continues it, and the pixels are the same as without\n"
+           "the interruption. A finished dataset is left unchanged. A clip that cannot be made does not\n"
+           "stop the others: the exit code is 3, dataset.json has the reason, and the next run tries it\n"
+           "again.\n"
+           "Example: veldt generate configs/demo.json --out my_dataset --engine embree",
+       .plan = thermal::plan_to_generate,
+       .run = thermal::generate});
 }
 
 void add_render(CLI::App& app, Session& session) {
   add(app, session, "Render passes and manifests only",
-      {.command = "render", .plan = thermal::plan_to_render, .run = thermal::render});
+      {.command = "render",
+       .footer = "Example: veldt render configs/savanna.json --out look --preview",
+       .plan = thermal::plan_to_render,
+       .run = thermal::render});
 }
 
 }  // namespace veldt

@@ -168,6 +168,7 @@ int run_heat(const HeatArguments& options, const CommonOptions& common) {
 void add_heat(CLI::App& app, Session& session) {
   CLI::App* command = add_command(
       app, session, "heat", "Temperatures of every kind of surface over the day, and what they depend on");
+  command->footer("Example: veldt heat configs/demo.json --plot day.svg");
   auto options = std::make_shared<HeatArguments>();
   command->add_option("config", options->config, "Config of a dataset, JSON")->required();
   add_settings(command, options->settings);

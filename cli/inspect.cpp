@@ -72,6 +72,7 @@ int run_inspect(const InspectArguments& options, const CommonOptions& common) {
 void add_inspect(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "inspect", "What is in these passes, and what convert would do with them");
+  command->footer("Example: veldt inspect passes --starter-manifest passes/manifest.json");
   auto options = std::make_shared<InspectArguments>();
   command
       ->add_option(

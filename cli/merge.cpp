@@ -80,6 +80,10 @@ int run_merge(const MergeArguments& options, const CommonOptions& common) {
 
 void add_merge(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "merge", "Join datasets made as shards of one config");
+  command->footer(
+      "The result is the same, bit for bit, as that of one run. With --plan and --shards, the shards to\n"
+      "run again are listed if clips are missing.\n"
+      "Example: veldt merge --plan plan --shards 8 shards/* --out my_dataset");
   auto options = std::make_shared<MergeArguments>();
   command
       ->add_option("dirs", options->sources, "Datasets, each with some of the config's clips; never modified")

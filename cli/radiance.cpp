@@ -147,6 +147,7 @@ int run_radiance(const RadianceArguments& options) {
 void add_radiance(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "radiance",
                                   "In-band radiance of a temperature, or temperature of a radiance");
+  command->footer("Example: veldt radiance --temperature-k 290,300,310 --band-um 7.5:13.5");
   auto options = std::make_shared<RadianceArguments>();
   auto* temperatures =
       command->add_option("--temperature-k", options->temperatures_k, "Temperatures [K], from 0 to 1e6")

@@ -39,6 +39,7 @@ void add_report(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "report",
                   "One HTML page about a dataset: pictures, plots, counts, provenance; needs no network");
+  command->footer("Example: veldt report my_dataset --out my_dataset.html");
   auto options = std::make_shared<ReportArguments>();
   command->add_option("dataset", options->source, "A dataset, a BIRDSAI folder or a COCO file (.json)")
       ->required();

@@ -76,6 +76,7 @@ void add_validate(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "validate",
                   "Check a config (schema and meaning) or a dataset (complete, every file unchanged)");
+  command->footer("Example: veldt validate configs/demo.json --set season=summer");
   auto options = std::make_shared<ValidateArguments>();
   command->add_option("what", options->what, "A config, or the folder of a dataset")->required();
   add_settings(command, options->settings);

@@ -79,6 +79,8 @@ void add_video(CLI::App& app, Session& session) {
   CLI::App* command = add_command(
       app, session, "video",
       "A video to show: false colours, a scale in kelvin, boxes and tracks; several clips in a grid");
+  command->footer(
+      "Example: veldt video my_dataset --out my_dataset.mp4 --palette ironbow --boxes --tracks --scale");
   auto options = std::make_shared<VideoArguments>();
   command->add_option("dataset", options->source, "A dataset, or one clip's folder in it (DIR/clips/CLIP)")
       ->required()

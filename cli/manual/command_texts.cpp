@@ -15,17 +15,18 @@ std::string one_line(std::string text) {
   return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
 }
 
-/// A line break after a full stop begins a paragraph.
-std::vector<std::string> paragraphs(const std::string& text) {
-  std::vector<std::string> all;
-  std::istringstream lines(text);
+/// Reads what help has after the options. A line break after a full stop begins a paragraph.
+void read_footer(const std::string& footer, CommandText& text) {
+  const std::string example = "Example: ";
+  std::istringstream lines(footer);
   for (std::string line; std::getline(lines, line);) {
-    if (all.empty() || all.back().ends_with('.'))
-      all.push_back(line);
+    if (line.starts_with(example))
+      text.examples.push_back(line.substr(example.size()));
+    else if (text.remarks.empty() || text.remarks.back().ends_with('.'))
+      text.remarks.push_back(line);
     else
-      all.back() += " " + line;
+      text.remarks.back() += " " + line;
   }
-  return all;
 }
 
 std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
@@ -94,9 +95,11 @@ OptionText text_of(const CLI::Option& option) {
 CommandText text_of(const CLI::App& app) {
   CommandText text = {.name = app.get_name(),
                       .purpose = one_line(app.get_description()),
-                      .remarks = paragraphs(app.get_footer()),
+                      .remarks = {},
+                      .examples = {},
                       .arguments = {},
                       .options = {}};
+  read_footer(app.get_footer(), text);
   for (const CLI::Option* option : app.get_options({}))
     (option->get_positional() ? text.arguments : text.options).push_back(text_of(*option));
   return text;

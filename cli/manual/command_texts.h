@@ -22,9 +22,10 @@ struct OptionText {
 
 /// The program, or one of its commands.
 struct CommandText {
-  std::string name;                  ///< "veldt", or "generate"
-  std::string purpose;               ///< one line, without a full stop at its end
-  std::vector<std::string> remarks;  ///< paragraphs
+  std::string name;                   ///< "veldt", or "generate"
+  std::string purpose;                ///< one line, without a full stop at its end
+  std::vector<std::string> remarks;   ///< paragraphs
+  std::vector<std::string> examples;  ///< command lines
   std::vector<OptionText> arguments, options;
 };
 

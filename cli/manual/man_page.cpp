@@ -161,6 +161,12 @@ bool is_named(const CommandText& other, const CommandText& command) {
          std::ranges::any_of(command.remarks, names) || names(command.purpose);
 }
 
+std::string examples(const CommandText& command) {
+  std::string page;
+  for (const std::string& example : command.examples) page += ".PP\n" + bold(example) + "\n";
+  return page.empty() ? "" : ".SH EXAMPLES\n" + page;
+}
+
 std::string see_also(const ProgramText& text, const CommandText& command) {
   const bool is_program = &command == &text.program;
   std::vector<std::string> pages;
@@ -183,7 +189,8 @@ std::string man_page(const ProgramText& text, const CommandText& command, const 
          ".SH NAME\n" + roff(name) + " \\- " + roff(uncapitalised(command.purpose)) + "\n" +
          ".SH SYNOPSIS\n" + synopsis(text, command) + "\n" + description(command) +
          section_of("ARGUMENTS", command.arguments) + (&command == &text.program ? commands(text) : "") +
-         section_of("OPTIONS", command.options) + exit_status() + kSurroundings + see_also(text, command);
+         section_of("OPTIONS", command.options) + exit_status() + kSurroundings + examples(command) +
+         see_also(text, command);
 }
 
 }  // namespace veldt

@@ -80,7 +80,18 @@ def test_every_command_has_a_page(helps):
 def test_pages_have_the_sections_that_readers_look_for(helps):
     for page in ["veldt", *(f"veldt-{command}" for command in helps)]:
         found = re.findall(r"^\.SH (.*)$", _source(page), re.MULTILINE)
-        assert [name for name in found if name not in ("ARGUMENTS", "COMMANDS")] == SECTIONS, page
+        assert [name for name in found if name not in ("ARGUMENTS", "COMMANDS", "EXAMPLES")] == SECTIONS, page
+
+
+def test_every_command_has_an_example_with_its_own_options(helps):
+    for command, text in helps.items():
+        examples = re.findall(r"^Example: (.*)$", text, re.MULTILINE)
+        assert examples
+        for example in examples:
+            assert example.startswith(f"veldt {command} ") and set(
+                re.findall("--[a-z-]+", example)
+            ) <= _options(text)
+            assert f".PP\n\\fB{example}\\fR\n".replace("-", "\\-") in _source(f"veldt-{command}")
 
 
 def test_pages_name_every_option_and_choice(helps):
@@ -101,6 +112,10 @@ def test_a_page_reads_well():
     assert "(embree uses all threads anyway). From 1 to 64. Default: 1." in text
     assert "--clips ID,… Only these clips. Takes several values." in text
     assert "75 try again later" in text
+    assert (
+        "If a run is interrupted, the same command continues it, and the pixels are the same as without the "
+        in text
+    )
     assert "VELDT_HOME Folder with assets" in text
     assert "veldt(1), veldt-plan(1), veldt-convert(1)" in text
 
@@ -214,8 +229,12 @@ def test_tab_completes_in_bash(tmp_path):
 def test_tab_completes_in_zsh(tmp_path):
     _need("zsh")
     (tmp_path / "config.json").touch()
-    prepare = f"fpath=({ZSH.parent} $fpath); autoload -U compinit; compinit -u -D; veldt() {{ printf '<%s>' \"$@\" }}\r"
-    assert WORDS in _typed(["zsh", "-f", "-i"], tmp_path, prepare + TYPED)
+    prepare = (
+        f"fpath=({ZSH.parent} $fpath); autoload -U compinit; compinit -u -D; "
+        "zstyle ':completion:*' insert-tab false; "  # however fast keys come, a Tab completes
+        "veldt() { printf '<%s>' \"$@\" }\r"
+    )
+    assert WORDS.replace("--engine><", "--engine=") in _typed(["zsh", "-f", "-i"], tmp_path, prepare + TYPED)
 
 
 def _fish(line: str, folder) -> list[str]:
