@@ -6,7 +6,7 @@
 #   ./run fresh tests/fresh/drop_packages.sh demo tests/fresh/two_frames.sh
 #   ./run fresh tests/fresh/drop_packages.sh test './run test browser' chromium chromium-driver python3-selenium
 #
-# LIST is one of build, demo, test, lint and fuzz; without PACKAGE, all of it. COMMAND is a line for sh. It must pass with
+# LIST is one of build, package, demo, test, lint and fuzz; without PACKAGE, all of it. COMMAND is a line for sh. It must pass with
 # all packages; then each one is removed with what it alone brought along, COMMAND runs in an empty build/, and a row of
 # a table says how it ended. What other packages of the list bring along stays, and nothing is run.
 # shellcheck disable=SC2016 # backquotes are Markdown's
