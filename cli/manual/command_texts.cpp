@@ -87,8 +87,10 @@ OptionText text_of(const CLI::Option& option) {
                      .excluded = names_of(option.get_excludes()),
                      .needed = names_of(option.get_needs()),
                      .required = option.get_required(),
-                     .repeated = option.get_expected_max() > 1};
-  if (option.get_items_expected_max() > 0) read_type(option.get_type_name(), text);
+                     .repeated = false};
+  if (option.get_items_expected_max() == 0) return text;  // a flag
+  text.repeated = option.get_expected_max() > 1;
+  read_type(option.get_type_name(), text);
   return text;
 }
 

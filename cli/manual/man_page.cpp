@@ -170,7 +170,7 @@ std::string examples(const CommandText& command) {
 std::string see_also(const ProgramText& text, const CommandText& command) {
   const bool is_program = &command == &text.program;
   std::vector<std::string> pages;
-  if (!is_program) pages.push_back("veldt");
+  if (!is_program) pages.emplace_back("veldt");
   for (const CommandText& other : text.commands)
     if (is_program || (&other != &command && is_named(other, command)))
       pages.push_back(page_name(text, other));
