@@ -1,7 +1,6 @@
 #include "dataset/videos/cell_painter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,27 +16,6 @@ namespace {
 constexpr double kTrailSeconds = 5;
 constexpr const char* kShutterText = "shutter closed (FFC)";
 constexpr double kShade = 0.62;  // of what lies behind text on a picture
-
-/// Light, and as far apart in hue as so many can be, so that they differ from each other and from every palette; by a
-/// category's id, so that a species has one colour in all videos.
-constexpr std::array<PaletteColour, 18> kColours = {{{0, 229, 255},      // human
-                                                     {124, 255, 107},    // elephant
-                                                     {255, 214, 10},     // rhinoceros
-                                                     {255, 110, 199},    // hippopotamus
-                                                     {255, 255, 255},    // zebra
-                                                     {255, 138, 76},     // lion
-                                                     {90, 255, 190},     // crocodile
-                                                     {173, 160, 255},    // giraffe
-                                                     {214, 255, 61},     // impala
-                                                     {255, 82, 82},      // vehicle
-                                                     {133, 196, 255},    // cattle
-                                                     {255, 183, 213},    // goat
-                                                     {226, 122, 255},    // dog
-                                                     {255, 190, 130},    // baboon
-                                                     {170, 225, 130},    // warthog
-                                                     {120, 160, 255},    // ostrich
-                                                     {230, 220, 160},    // buffalo
-                                                     {150, 235, 235}}};  // wildebeest
 
 PixelRect padded(const PixelRect& rect, int by_px) {
   return {rect.x_px - by_px, rect.y_px - by_px, rect.width_px + 2 * by_px, rect.height_px + 2 * by_px};
@@ -180,8 +158,7 @@ PixelRect CellPainter::shown(const LabelBox& box) const {
 }
 
 PaletteColour CellPainter::colour_of(std::size_t category) const {
-  const int id = std::max(1, film_.labels.categories[category].id);
-  return kColours[static_cast<std::size_t>(id - 1) % kColours.size()];
+  return category_colour(film_.labels.categories[category].id);
 }
 
 std::string CellPainter::tag_of(const Label& label) const {

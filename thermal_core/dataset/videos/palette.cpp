@@ -77,6 +77,27 @@ PaletteTable rainbow() {
   return table;
 }
 
+/// Light, and as far apart in hue as so many can be, so that they differ from each other and from every palette; by a
+/// category's id, so that a species has one colour in all videos.
+constexpr std::array<PaletteColour, 18> kCategoryColours = {{{0, 229, 255},      // human
+                                                             {124, 255, 107},    // elephant
+                                                             {255, 214, 10},     // rhinoceros
+                                                             {255, 110, 199},    // hippopotamus
+                                                             {255, 255, 255},    // zebra
+                                                             {255, 138, 76},     // lion
+                                                             {90, 255, 190},     // crocodile
+                                                             {173, 160, 255},    // giraffe
+                                                             {214, 255, 61},     // impala
+                                                             {255, 82, 82},      // vehicle
+                                                             {133, 196, 255},    // cattle
+                                                             {255, 183, 213},    // goat
+                                                             {226, 122, 255},    // dog
+                                                             {255, 190, 130},    // baboon
+                                                             {170, 225, 130},    // warthog
+                                                             {120, 160, 255},    // ostrich
+                                                             {230, 220, 160},    // buffalo
+                                                             {150, 235, 235}}};  // wildebeest
+
 }  // namespace
 
 const std::vector<std::string>& palette_names() {
@@ -96,6 +117,11 @@ PaletteTable palette_table(const std::string& name) {
   throw ConfigError(
       fault("--palette", fmt::format("\"{}\"", name), "", "one of " + list_names(palette_names())) +
       did_you_mean(name, palette_names()));
+}
+
+PaletteColour category_colour(int id) noexcept {
+  const int place = std::max(1, id) - 1;
+  return kCategoryColours[static_cast<std::size_t>(place) % kCategoryColours.size()];
 }
 
 }  // namespace thermal
