@@ -13,6 +13,7 @@
 #include "base/printable.h"
 #include "base/text.h"
 #include "dataset/videos/cell_painter.h"
+#include "dataset/videos/clip_source.h"
 #include "io/image/encoded_picture.h"
 #include "io/system/temporary_file.h"
 #include "io/video/h264_file.h"
@@ -39,38 +40,6 @@ void check_request(const VideoRequest& request) {
   if (std::filesystem::is_directory(request.out))
     throw ConfigError(
         fault("--out", fmt::format("\"{}\"", request.out.string()), "", "a file, not a folder"));
-}
-
-/// What a path names: a dataset, and the clip of it where the path is a clip's folder.
-struct ClipSource {
-  FilmedDataset dataset;
-  std::string clip;
-};
-
-ClipSource find_source(const Path& path) {
-  const bool is_clip = !Layout{path}.is_begun() && std::filesystem::exists(path / "clip.json");
-  if (!is_clip) return {.dataset = read_filmed_dataset(path), .clip = {}};
-  const Path folder = std::filesystem::canonical(path);
-  return {.dataset = read_filmed_dataset(folder.parent_path().parent_path()),
-          .clip = folder.filename().string()};
-}
-
-/// Ids that are shown, in the dataset's order or in the one asked for.
-std::vector<std::string> choose(const ClipSource& source, const VideoRequest& request) {
-  const FilmedDataset& dataset = source.dataset;
-  if (!source.clip.empty()) {
-    if (!request.clips.empty())
-      throw ConfigError(fault("--clips", list_names(request.clips), "",
-                              fmt::format("none, because {} is one clip", request.source.string())));
-    dataset.check_clips({source.clip});
-    return {source.clip};
-  }
-  dataset.check_clips(request.clips);
-  const std::vector<std::string>& ids = request.clips.empty() ? dataset.made : request.clips;
-  if (ids.empty())
-    throw DataError(fmt::format("{}: none of {} clips is made; expected at least one",
-                                dataset.layout.root.string(), dataset.clips.size()));
-  return ids;
 }
 
 void check_count(const std::vector<std::string>& ids, const Path& source) {
@@ -130,13 +99,13 @@ void check_curves(const Programme& programme) {
 }
 
 Programme read_programme(const VideoRequest& request) {
-  const ClipSource source = find_source(request.source);
-  std::vector<std::string> ids = choose(source, request);
+  const ClipSource source = find_clip_source(request.source, request.clips);
+  std::vector<std::string> ids = source.clips;
   Programme programme;
   programme.datasets.push_back(source.dataset);
   if (!request.beside.empty()) {
-    programme.datasets.push_back(find_source(request.beside).dataset);
-    ids = common_clips(ids, programme.datasets.back(), !request.clips.empty() || !source.clip.empty());
+    programme.datasets.push_back(find_clip_source(request.beside, {}).dataset);
+    ids = common_clips(ids, programme.datasets.back(), source.chosen);
   }
   check_count(ids, request.source);
   for (const std::string& id : ids) {
@@ -144,10 +113,7 @@ Programme read_programme(const VideoRequest& request) {
       programme.films.push_back(read_clip_film(dataset, id, request.boxes || request.tracks));
   }
   if (request.scale && !request.range) check_curves(programme);
-  if (request.clips.empty() && source.clip.empty())
-    std::ranges::copy_if(source.dataset.clips, std::back_inserter(programme.not_made), [&](const auto& id) {
-      return std::ranges::find(source.dataset.made, id) == source.dataset.made.end();
-    });
+  programme.not_made = source.not_made();
   return programme;
 }
 
