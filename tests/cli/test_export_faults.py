@@ -152,7 +152,7 @@ def test_an_existing_folder_at_the_temporary_place(place, veldt):
     (veldt.folder / "x.part").mkdir()
     (veldt.folder / "x.part" / "thesis.txt").write_text("mine")
     done = _export(veldt, "--format", "yolo", source=place.folder / "data")
-    message = "x.part is in the way; expected to make the export there before it becomes x"
+    message = "x.part is in the way; expected to make the result there before it becomes x"
     assert (done.code, done.out, done.err) == (2, "", f"veldt: {message}\n")
     assert files_below(veldt.folder) == ["x.part/thesis.txt"]
 

@@ -184,13 +184,6 @@ void write_texts(const ExportPlan& plan, ExportFolder& folder, const RunHooks& h
   }
 }
 
-/// Without a trailing slash, so that OUT.part is beside OUT.
-Path named(const Path& folder) {
-  const Path path = folder.lexically_normal();
-  if (path == "." || path.filename() == "..") return std::filesystem::canonical(path);
-  return path.has_filename() ? path : path.parent_path();
-}
-
 void check_shards(const ExportOptions& options) {
   const int samples = samples_per_shard(options);
   if (samples < 1 || samples > kMostSamplesPerShard)
@@ -228,7 +221,7 @@ std::string format_name(ExportFormat format) noexcept {
 
 ExportOutcome export_dataset(const ExportOptions& options, const RunHooks& hooks) {
   check_options(options);
-  const Path out = named(options.out);
+  const Path out = named_folder(options.out);
   const ExportSource source = read_export_source(options);
   const Json request = request_of(options, source);
   ExportOutcome outcome = tally(source.input, options.format);

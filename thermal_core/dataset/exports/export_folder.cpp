@@ -17,12 +17,18 @@ Path part_of(const Path& out, const Path& scratch) {
   part += ".part";
   if (std::filesystem::exists(part) && !std::filesystem::exists(part / kExportLock) &&
       !(std::filesystem::is_directory(part) && std::filesystem::is_empty(part)))
-    throw ConfigError(fmt::format("{} is in the way; expected to make the export there before it becomes {}",
+    throw ConfigError(fmt::format("{} is in the way; expected to make the result there before it becomes {}",
                                   part.string(), out.string()));
   return part;
 }
 
 }  // namespace
+
+Path named_folder(const Path& folder) {
+  const Path path = folder.lexically_normal();
+  if (path == "." || path.filename() == "..") return std::filesystem::canonical(path);
+  return path.has_filename() ? path : path.parent_path();
+}
 
 ExportFolder::ExportFolder(const Path& out, const Path& scratch)
     : out_(out), in_scratch_(!scratch.empty()), part_(part_of(out, scratch)), lock_(part_) {
@@ -54,13 +60,25 @@ void ExportFolder::finish() {
   done_ = true;
 }
 
+void ExportFolder::finish_in_place_of_old() {
+  sync_folder(part_);
+  replace_folder(part_, out_);
+  done_ = true;
+  remove_lock();
+}
+
 void ExportFolder::rename_to_out() const {
   sync_folder(part_);
   std::error_code error;
   std::filesystem::rename(part_, out_, error);
   if (error)
     throw IoError(fmt::format("cannot rename {} to {}: {}", part_.string(), out_.string(), error.message()));
-  std::filesystem::remove(out_ / kExportLock, error);
+  remove_lock();
+}
+
+void ExportFolder::remove_lock() const {
+  std::error_code ignored;
+  std::filesystem::remove(out_ / kExportLock, ignored);
   sync_folder(out_.parent_path());
 }
 

@@ -7,10 +7,13 @@
 
 namespace thermal {
 
-/// The folder in which an export is made; nothing of it stays unless finish() was called. It is OUT.part, which becomes
-/// OUT, or NAME.part in a scratch folder: then each file is copied to OUT when it is complete, and removed, because OUT
-/// need not be a place that can rename or lock. Whoever reads OUT then takes it for complete when it has the file that
-/// was put last.
+/// A folder's path with a name at its end, without a trailing slash, so that OUT.part is beside OUT.
+[[nodiscard]] Path named_folder(const Path& folder);
+
+/// The folder in which an export, or the page of `veldt view`, is made; nothing of it stays unless it was finished. It
+/// is OUT.part, which becomes OUT, or NAME.part in a scratch folder: then each file is copied to OUT when it is complete,
+/// and removed, because OUT need not be a place that can rename or lock. Whoever reads OUT then takes it for complete
+/// when it has the file that was put last.
 class ExportFolder {
  public:
   /// What a killed run has left in the folder is removed. ConfigError if what is there is not of such a run;
@@ -26,12 +29,16 @@ class ExportFolder {
   /// Takes a complete file, relative to path(). The first one that is copied to OUT replaces what is there.
   void put(const std::string& file);
 
-  /// After the last file.
+  /// After the last file. IoError if OUT is a folder with anything in it.
   void finish();
+
+  /// The same, without a scratch folder, in place of what is at OUT, in one step: see replace_folder().
+  void finish_in_place_of_old();
 
  private:
   void clear() const;
   void rename_to_out() const;
+  void remove_lock() const;
 
   Path out_;
   bool in_scratch_;
