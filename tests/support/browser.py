@@ -9,6 +9,9 @@ from pathlib import Path
 import pytest
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.wait import WebDriverWait
 
 DESKTOP = (1280, 800)
 PHONE = (390, 844)
@@ -26,7 +29,9 @@ class Browser:
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self._driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
 
-    def open(self, page: Path, size: tuple[int, int] = DESKTOP, scheme: str = "light") -> None:
+    def open(
+        self, page: Path, size: tuple[int, int] = DESKTOP, scheme: str = "light", fragment: str = ""
+    ) -> None:
         """Load a file in a window of this size; a narrow one is a phone's, with touch."""
         width, height = size
         phone = width < 600
@@ -38,11 +43,43 @@ class Browser:
         feature = {"name": "prefers-color-scheme", "value": scheme}
         self._command("Emulation.setEmulatedMedia", {"features": [feature]})
         self.complaints()  # those of the page before
-        self._driver.get(page.resolve().as_uri())
+        self._driver.get("about:blank")  # another fragment of a page does not load it again
+        self._driver.get(page.resolve().as_uri() + fragment)
 
     def run(self, script: str):
         """What a JavaScript function body returns."""
         return self._driver.execute_script(script)
+
+    def wait_for(self, condition: str, timeout_s: float = 20) -> None:
+        """Wait until a JavaScript expression is true."""
+        WebDriverWait(self._driver, timeout_s, poll_frequency=0.02).until(
+            lambda _: self.run(f"return {condition}"), f"never true: {condition}"
+        )
+
+    def press(self, *keys: str) -> None:
+        """Press keys one after another; "shift+x" with Shift."""
+        for key in keys:
+            *held, last = key.split("+") if len(key) > 1 else [key]
+            chain = ActionChains(self._driver)
+            if held:
+                chain.key_down(Keys.SHIFT)
+            chain.send_keys(getattr(Keys, last.upper(), last) if len(last) > 1 else last)
+            if held:
+                chain.key_up(Keys.SHIFT)
+            chain.perform()
+
+    def point(self, x_px: float, y_px: float) -> None:
+        """Move the mouse to a place of the window."""
+        self._command("Input.dispatchMouseEvent", {"type": "mouseMoved", "x": x_px, "y": y_px})
+
+    def names(self) -> list[tuple[str, str]]:
+        """Role and accessible name of everything that can have the focus."""
+        nodes = self._command("Accessibility.getFullAXTree", {})["nodes"]
+        return [
+            (node["role"]["value"], node.get("name", {}).get("value", ""))
+            for node in nodes
+            if any(p["name"] == "focusable" and p["value"]["value"] for p in node.get("properties", []))
+        ]
 
     def complaints(self) -> list[str]:
         """Messages on the console since the last call: errors, warnings and all others."""
