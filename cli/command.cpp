@@ -39,7 +39,7 @@ constexpr std::array kCommands = {
     add_report,
 #endif
 #if VELDT_VIDEO
-    add_video,
+    add_video,    add_view,
 #endif
     add_budget,   add_heat,   add_radiance,
 #if VELDT_BENCH

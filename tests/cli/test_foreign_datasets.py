@@ -48,6 +48,7 @@ COMMANDS = {
     "merge": ["merge", "foreign/data", "--out", "home/merged"],
     "validate": ["validate", "foreign/data"],
     "video": ["video", "foreign/data", "--out", "home/video.mp4"],
+    "view": ["view", "foreign/data", "--out", "home/view"],
 }
 
 

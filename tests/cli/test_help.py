@@ -81,6 +81,7 @@ OPTIONS = {
         "--frame",
         "--width-px",
     },
+    "view": {"--out", "--clips"},
     "budget": {"--set", "--json"},
     "heat": {"--set", "--plot", "--json"},
     "radiance": {

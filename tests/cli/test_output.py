@@ -109,6 +109,7 @@ def _rude_dataset(rude):
         (["balance", "foreign.json", "--per-class", "0:9", "--out", "s.json"], 0),
         (["report", "foreign.json", "--out", "r.html", *PLAIN], 0),
         (["video", "set", "--out", "v.mp4", "--boxes", *PLAIN], 0),
+        (["view", "set", "--out", "v", *PLAIN], 0),
     ],
     ids=str,
 )

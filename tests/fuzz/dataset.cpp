@@ -17,6 +17,9 @@
 #if VELDT_REPORT
 #include "dataset/reports/report.h"
 #endif
+#if VELDT_VIDEO
+#include "dataset/view/view.h"
+#endif
 
 namespace {
 
@@ -129,6 +132,11 @@ void use(const Place& place) {
     });
 #if VELDT_REPORT
   tolerate([&] { thermal::write_report({.source = set, .out = place.at("page.html"), .assets = kAssets}); });
+#endif
+#if VELDT_VIDEO
+  tolerate([&] {
+    thermal::write_view({.source = set, .out = place.at("view"), .clips = {}, .assets = kAssets}, {});
+  });
 #endif
 }
 

@@ -69,6 +69,7 @@ COMMANDS = {
     "export mot": (["export", "set", "--format", "mot", "--out", "out"], ["set", "out", "out.part"]),
     "report": (["report", "set", "--out", "out.html"], ["set", "out.html", "scratch"]),
     "video": (["video", "set", "--out", "out.mp4"], ["set", "out.mp4"]),
+    "view": (["view", "set", "--out", "out"], ["set", "out", "out.part"]),
 }
 
 
