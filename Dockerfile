@@ -17,7 +17,7 @@ RUN apt-get update \
     && apt-get install --yes --no-install-recommends blender python3-numpy python3-openimageio \
         coinor-libcbc3.1 libarchive13t64 libavcodec61 libavformat61 libavutil59 libdeflate0 libembree4-4 libfmt10 libisal2 \
         libopencv-calib3d410 libopencv-core410 libopencv-imgcodecs410 libopencv-imgproc410 libopencv-ml410 libopenexr-3-1-30 \
-        libopenimageio2.5 libpng16-16t64 libssl3t64 libtbb12 \
+        libopenimageio2.5 libpng16-16t64 libssl3t64 libtbb12 libtiff6 \
     && rm -rf /var/lib/apt/lists/* \
     && useradd --uid 1000 veldt \
     && install --directory --mode 1777 /data

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "cli/box_style_option.h"
 #include "cli/command.h"
 #include "cli/output.h"
@@ -22,7 +23,8 @@ struct ExportArguments {
   std::string format;
   std::string out;
   std::string link;
-  std::string images = "ir8";
+  std::string images;
+  std::string tiff_type;
   std::string split;
   std::string selection;
   std::string scratch;
@@ -30,7 +32,7 @@ struct ExportArguments {
 
 thermal::ExportFormat format_named(const std::string& name) {
   using Format = thermal::ExportFormat;
-  for (const Format format : {Format::coco, Format::yolo, Format::mot, Format::birdsai})
+  for (const Format format : {Format::coco, Format::yolo, Format::mot, Format::birdsai, Format::tiff})
     if (name == thermal::format_name(format)) return format;
   return Format::webdataset;
 }
@@ -47,6 +49,12 @@ thermal::ExportOptions request_of(const ExportArguments& options) {
   request.out = options.out;
   if (!options.link.empty()) request.linking = linking_named(options.link);
   request.ir16 = options.images == "ir16";
+  if (request.format == thermal::ExportFormat::tiff && options.images == "ir8")
+    throw thermal::ConfigError(
+        thermal::fault("--images", "ir8", "", "ir16 with --format tiff, which is in kelvin"));
+  if (!options.tiff_type.empty())
+    request.tiff_type =
+        options.tiff_type == "uint16" ? thermal::TiffType::uint16 : thermal::TiffType::float32;
   if (!options.split.empty()) request.splits = thermal::parse_splits(options.split);
   request.selection = options.selection;
   request.scratch = options.scratch;
@@ -99,6 +107,13 @@ void summarise(const thermal::ExportOutcome& outcome, const ExportArguments& opt
         options.format);
   print_table(outcome);
   for (const auto& [why, count] : outcome.left_out) print("left out: {} {}\n", counted(count, "label"), why);
+  if (outcome.origin)
+    print("origin of the scene: latitude {:g}, longitude {:g} deg, height {:g} m{}\n",
+          outcome.origin->latitude_deg, outcome.origin->longitude_deg, outcome.origin->height_m,
+          outcome.origin_given ? "" : "; --origin puts it elsewhere");
+  if (outcome.without_pose > 0)
+    print("{} without position and attitude: their frames have no pose\n",
+          counted(outcome.without_pose, "picture"));
   if (outcome.copied > 0)
     print("{} copied: the file system cannot link them\n", counted(outcome.copied, "picture"));
 }
@@ -118,9 +133,9 @@ int run_export(const ExportArguments& options, const CommonOptions& common) {
 }  // namespace
 
 void add_export(CLI::App& app, Session& session) {
-  CLI::App* command =
-      add_command(app, session, "export",
-                  "Write a dataset as other programs read it: COCO, YOLO, MOTChallenge, BIRDSAI, WebDataset");
+  CLI::App* command = add_command(
+      app, session, "export",
+      "Write a dataset as other programs read it: COCO, YOLO, MOTChallenge, BIRDSAI, WebDataset, TIFF");
   command->footer(
       "Splits are made by clip, never by frame.\n"
       "Example: veldt export my_dataset --format yolo --out yolo --split train:0.8,val:0.2");
@@ -131,7 +146,7 @@ void add_export(CLI::App& app, Session& session) {
       ->type_name("DATASET");
   command->add_option("--format", options->format, "Layout and files to write")
       ->required()
-      ->check(CLI::IsMember({"coco", "yolo", "mot", "birdsai", "webdataset"}));
+      ->check(CLI::IsMember({"coco", "yolo", "mot", "birdsai", "webdataset", "tiff"}));
   command->add_option("--out", options->out, "Folder of the export, empty or new")
       ->required()
       ->type_name("DIR");
@@ -143,7 +158,18 @@ void add_export(CLI::App& app, Session& session) {
       ->add_option("--images", options->images,
                    "8-bit pictures after gain control, or 16-bit pictures in kelvin")
       ->check(CLI::IsMember({"ir8", "ir16"}))
-      ->capture_default_str();
+      ->default_str("ir8");
+  command
+      ->add_option("--tiff-type", options->tiff_type,
+                   "Pixels of --format tiff: kelvin, or counts with their scale in the tags")
+      ->check(CLI::IsMember({"float32", "uint16"}))
+      ->default_str("float32");
+  command
+      ->add_option(
+          "--origin", options->what.origin,
+          "Where --format tiff puts the scene's (0, 0) on Earth (WGS 84), e.g. -19.3,23.1; by default 23 deg "
+          "east, on the latitude and at the height of the dataset's weather")
+      ->type_name("LAT,LON[,HEIGHT]");
   add_box_style(*command, options->what.boxes,
                 "Boxes around visible pixels, or with the margin of 1 to 2 px that people leave");
   CLI::Option* split =

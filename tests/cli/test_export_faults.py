@@ -37,7 +37,7 @@ USAGE = {
     "no format": ([], "--format is required; see veldt export --help"),
     "a format that there is not": (
         ["--format", "voc"],
-        "--format: voc not in {coco,yolo,mot,birdsai,webdataset}; see veldt export --help",
+        "--format: voc not in {coco,yolo,mot,birdsai,webdataset,tiff}; see veldt export --help",
     ),
     "a way to link that there is not": (
         ["--format", "yolo", "--link", "soft"],

@@ -39,6 +39,8 @@ OPTIONS = {
         "--out",
         "--link",
         "--images",
+        "--tiff-type",
+        "--origin",
         "--split",
         "--seed",
         "--selection",

@@ -19,13 +19,16 @@ _DRAWING_PYTHON = "/usr/bin/python3"
 
 @pytest.fixture(scope="session", name="place")
 def _place(tmp_path_factory) -> Veldt:
-    """A place with the datasets `masks` and `march`, of two clips each, and the passes that they are made from."""
+    """A place with datasets and the passes that they are made from: `masks` and `march`, of two clips each, and `survey`,
+    whose camera has poses."""
     veldt = Veldt(tmp_path_factory.mktemp("peers"))
     draw = [_DRAWING_PYTHON, "-B", ROOT / "tests" / "peers" / "draw_passes.py", veldt.folder / "passes"]
     subprocess.run(draw, env=os.environ | {"PYTHONPATH": str(ROOT / "tests" / "support")}, check=True)
     for name in ("masks", "march"):
         done = veldt("convert", f"passes/{name}_a", f"passes/{name}_b", "--out", name, "--quiet")
         assert (done.code, done.out, done.err) == (0, "", "")
+    done = veldt("convert", "passes/survey", "--out", "survey", "--quiet")
+    assert (done.code, done.out, done.err) == (0, "", "")
     return veldt
 
 

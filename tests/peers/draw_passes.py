@@ -1,11 +1,13 @@
 """Draw passes for the tests beside it; run by the Python that has OpenImageIO, which their environment lacks.
 
 draw_passes.py FOLDER writes FOLDER/{masks_a,masks_b}, clips with irregular masks, and FOLDER/{march_a,march_b}, clips
-of boxes that are easy to calculate with, and beside each its object planes, (frames, height, width), as .npy.
+of boxes that are easy to calculate with, FOLDER/survey, a clip with poses of its camera, and beside
+each its object planes, (frames, height, width), as .npy.
 """
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
 
@@ -19,6 +21,7 @@ CATEGORIES = ("human", "elephant", "zebra")
 ACTORS = 6  # of index FIRST and on, two of each category
 MASKS_HEIGHT, MASKS_WIDTH = 41, 67
 MARCH_HEIGHT, MARCH_WIDTH = 96, 160
+SURVEY_FRAMES = 12
 BOX_WIDTH, BOX_HEIGHT = 20, 9  # of the marching actors
 
 
@@ -63,6 +66,43 @@ def _march(seed: int) -> list[np.ndarray]:
     return planes
 
 
+def _turned(yaw_deg: float, pitch_deg: float, roll_deg: float) -> np.ndarray:
+    """Axes of a camera (x right, y down, z forward) in columns, in east, north, up: a body whose front is the picture's
+    top and whose down is the view, turned by yaw about down, then pitch about right, then roll about front.
+    """
+    yaw, pitch, roll = np.radians([yaw_deg, pitch_deg, roll_deg])
+    about_down = np.array([[np.cos(yaw), -np.sin(yaw), 0], [np.sin(yaw), np.cos(yaw), 0], [0, 0, 1]])
+    about_right = np.array([[np.cos(pitch), 0, np.sin(pitch)], [0, 1, 0], [-np.sin(pitch), 0, np.cos(pitch)]])
+    about_front = np.array([[1, 0, 0], [0, np.cos(roll), -np.sin(roll)], [0, np.sin(roll), np.cos(roll)]])
+    front, right, down = (about_down @ about_right @ about_front).T  # in north, east, down
+    axes = np.column_stack([right, -front, down])
+    return axes[[1, 0, 2]] * [[1], [1], [-1]]
+
+
+def _survey_poses() -> list[dict]:
+    """Poses of a flight, of all headings and up to 1.5 km from the origin, and their angles."""
+    random = np.random.default_rng(3)
+    poses = []
+    for k in range(SURVEY_FRAMES):
+        angles = [360 * k / SURVEY_FRAMES, random.uniform(-20, 80), random.uniform(-30, 30)]
+        pose = np.eye(4)
+        pose[:3, :3] = _turned(*angles)
+        pose[:3, 3] = *random.uniform(-1500, 1500, 2), random.uniform(-5, 400)
+        poses.append({"angles_deg": angles, "camera_to_world": pose.ravel().tolist()})
+    return poses
+
+
+def _write_survey(folder: Path) -> None:
+    poses = _survey_poses()
+    planes = _odd_masks(0)[:1] * len(poses)
+    _write(folder, planes)
+    document = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+    for frame, pose in zip(document["frames"], poses):
+        frame["camera_to_world"] = pose["camera_to_world"]
+    passes.write_manifest(folder, document)
+    folder.with_suffix(".json").write_text(json.dumps(poses), encoding="utf-8")
+
+
 def _manifest(clip: str, planes: list[np.ndarray]) -> dict:
     document = passes.manifest(clip, len(planes))
     height, width = planes[0].shape
@@ -89,6 +129,7 @@ def main(folder: Path) -> None:
     for seed, name in enumerate("ab"):
         _write(folder / f"masks_{name}", _odd_masks(seed))
         _write(folder / f"march_{name}", _march(seed))
+    _write_survey(folder / "survey")
 
 
 if __name__ == "__main__":

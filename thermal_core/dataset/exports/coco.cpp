@@ -140,12 +140,17 @@ std::string coco_text(const LabelSet& set) {
   return document.dump() + "\n";
 }
 
+std::vector<std::string> split_coco(const ExportInput& input, const std::string& text,
+                                    const std::string& name) {
+  return Splitter(input).split(text, name);
+}
+
 ExportPlan plan_coco(const ExportInput& input, const std::string& text, const std::string& name, bool as_is) {
   ExportPlan plan;
   for (std::size_t i = 0; i < input.set.images.size(); ++i)
     plan.pictures.push_back(
         {.image = i, .to = std::filesystem::path(input.set.images[i].file).lexically_normal().string()});
-  std::vector<std::string> files = as_is ? std::vector{text} : Splitter(input).split(text, name);
+  std::vector<std::string> files = as_is ? std::vector{text} : split_coco(input, text, name);
   for (std::size_t split = 0; split < files.size(); ++split)
     plan.texts.push_back(
         {.to = input.split_asked ? "annotations/" + input.splits[split] + ".json" : "annotations.json",

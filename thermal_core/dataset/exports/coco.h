@@ -13,10 +13,14 @@ namespace thermal {
 /// A COCO file of labels from another kind of source: boxes without masks.
 [[nodiscard]] std::string coco_text(const LabelSet& set);
 
-/// Pictures in their folders, and annotations.json, or annotations/SPLIT.json if there are splits. `text` is the
-/// whole COCO file the labels were read from, `name` its name in messages: images that are not in the set are removed
-/// with their annotations, as are videos without images; ids, categories, unknown keys and masks stay unchanged.
-/// Images get the set's file names. `as_is`: keep every byte.
+/// The COCO file of each split. `text` is the whole file the labels were read from, `name` its name in messages: images
+/// that are not in the set are removed with their annotations, as are videos without images; ids, categories, unknown
+/// keys and masks stay unchanged. Images get the set's file names.
+[[nodiscard]] std::vector<std::string> split_coco(const ExportInput& input, const std::string& text,
+                                                  const std::string& name);
+
+/// Pictures in their folders, and annotations.json, or annotations/SPLIT.json if there are splits, as
+/// split_coco() makes them. `as_is`: keep every byte.
 /// Evaluators differ in the flags they support: pycocotools uses iscrowd but not `ignore`, and counts ignored labels.
 [[nodiscard]] ExportPlan plan_coco(const ExportInput& input, const std::string& text, const std::string& name,
                                    bool as_is);

@@ -16,6 +16,7 @@
 #include "dataset/exports/export_folder.h"
 #include "dataset/exports/mot.h"
 #include "dataset/exports/source.h"
+#include "dataset/exports/tiff.h"
 #include "dataset/exports/webdataset.h"
 #include "dataset/exports/yolo.h"
 #include "dataset/label_pictures.h"
@@ -53,6 +54,8 @@ ExportPlan make_plan(const ExportOptions& options, const ExportSource& source) {
       return plan_mot(source.input);
     case ExportFormat::birdsai:
       return plan_birdsai(source.input);
+    case ExportFormat::tiff:
+      return plan_tiff(source.input, source.coco, source.coco_name);
     case ExportFormat::webdataset:
       return plan_webdataset(source.input, static_cast<std::size_t>(samples_per_shard(options)));
   }
@@ -81,6 +84,13 @@ ExportOutcome tally(const ExportInput& input, ExportFormat format) {
   return outcome;
 }
 
+GeoPosition origin_of(const ExportOptions& options) {
+  const GeoPosition usual = default_origin(options.source);
+  return options.origin.empty() ? usual : parse_origin(options.origin, usual.height_m);
+}
+
+std::string tiff_type_name(TiffType type) { return type == TiffType::float32 ? "float32" : "uint16"; }
+
 /// Identifies an export: equal requests make equal folders.
 Json request_of(const ExportOptions& options, const ExportSource& source) {
   Json splits = Json::object();
@@ -88,12 +98,19 @@ Json request_of(const ExportOptions& options, const ExportSource& source) {
   Json request = {{"dataset", source.input.set.name},
                   {"labels_sha256", source.labels_sha256},
                   {"format", format_name(options.format)},
-                  {"images", options.ir16 ? "ir16" : "ir8"}};
+                  {"images", options.ir16 || options.format == ExportFormat::tiff ? "ir16" : "ir8"}};
   if (options.boxes == BoxStyle::drawn) request["box_style"] = "drawn";
-  if (options.format == ExportFormat::webdataset)
+  if (options.format == ExportFormat::webdataset) {
     request["samples_per_shard"] = samples_per_shard(options);
-  else
+  } else if (options.format == ExportFormat::tiff) {
+    const GeoPosition origin = origin_of(options);
+    request["tiff_type"] = tiff_type_name(options.tiff_type.value_or(TiffType::float32));
+    request["origin"] = {{"latitude_deg", origin.latitude_deg},
+                         {"longitude_deg", origin.longitude_deg},
+                         {"height_m", origin.height_m}};
+  } else {
     request["link"] = linking_name(options.linking.value_or(Linking::hard));
+  }
   if (!options.splits.empty()) request["split"] = splits;
   if (!options.splits.empty()) request["seed"] = source.seed;
   if (!options.selection.empty()) request["selection_sha256"] = sha256_of_file(options.selection);
@@ -194,6 +211,21 @@ void check_shards(const ExportOptions& options) {
                             "none with --format webdataset: pictures are copied into tar files"));
 }
 
+/// Options of TIFFs alone, and those that they cannot have.
+void check_tiffs(const ExportOptions& options) {
+  if (options.format == ExportFormat::tiff) {
+    if (options.linking)
+      throw ConfigError(fault("--link", linking_name(*options.linking), "",
+                              "none with --format tiff: pictures are written anew"));
+    return;
+  }
+  const std::string rule =
+      fmt::format("none with --format {}: only tiff has it", format_name(options.format));
+  if (options.tiff_type)
+    throw ConfigError(fault("--tiff-type", tiff_type_name(*options.tiff_type), "", rule));
+  if (!options.origin.empty()) throw ConfigError(fault("--origin", options.origin, "", rule));
+}
+
 void check_no_shards(const ExportOptions& options) {
   const std::string rule =
       fmt::format("none with --format {}: only webdataset has tar files", format_name(options.format));
@@ -206,6 +238,7 @@ void check_options(const ExportOptions& options) {
   if (options.format == ExportFormat::mot && !options.selection.empty())
     throw ConfigError(fault("--selection", options.selection.string(), "",
                             "none with --format mot: trackers are trained and judged on whole clips"));
+  check_tiffs(options);
   if (options.format == ExportFormat::webdataset)
     check_shards(options);
   else
@@ -215,7 +248,7 @@ void check_options(const ExportOptions& options) {
 }  // namespace
 
 std::string format_name(ExportFormat format) noexcept {
-  constexpr std::array kNames = {"coco", "yolo", "mot", "birdsai", "webdataset"};
+  constexpr std::array kNames = {"coco", "yolo", "mot", "birdsai", "webdataset", "tiff"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -225,6 +258,8 @@ ExportOutcome export_dataset(const ExportOptions& options, const RunHooks& hooks
   const ExportSource source = read_export_source(options);
   const Json request = request_of(options, source);
   ExportOutcome outcome = tally(source.input, options.format);
+  if (options.format == ExportFormat::tiff) outcome.origin = origin_of(options);
+  outcome.origin_given = !options.origin.empty();
   outcome.already_there = is_there(options, out, request, source.input);
   if (outcome.already_there) return outcome;
   ExportPlan plan = make_plan(options, source);
@@ -234,8 +269,12 @@ ExportOutcome export_dataset(const ExportOptions& options, const RunHooks& hooks
   // Made by another run in the meantime?
   outcome.already_there = is_there(options, out, request, source.input);
   if (outcome.already_there) return outcome;
-  outcome.copied =
-      link_pictures(plan, source.input.set, folder.path(), options.linking.value_or(Linking::hard), hooks);
+  if (options.format == ExportFormat::tiff)
+    outcome.without_pose =
+        write_tiffs(plan, source.input, options, *outcome.origin, source.coco, folder, hooks);
+  else
+    outcome.copied =
+        link_pictures(plan, source.input.set, folder.path(), options.linking.value_or(Linking::hard), hooks);
   write_shards(plan, source.input.set, folder, hooks);
   write_texts(plan, folder, hooks);  // last of all the record
   folder.finish();

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dataset/exports/export_options.h"
 #include "dataset/run/progress.h"
+#include "io/image/tiff.h"
 
 namespace thermal {
 
@@ -22,6 +24,9 @@ struct ExportOutcome {
   std::vector<ExportedSplit> splits;
   std::map<std::string, int> left_out;  ///< labels left out, by why the format cannot represent them
   int copied = 0;                       ///< pictures that could not be linked
+  std::optional<GeoPosition> origin;    ///< of TIFFs: where the scene was put on Earth
+  bool origin_given = false;            ///< by the request
+  int without_pose = 0;  ///< TIFFs without position and attitude, because their frames have no pose
 };
 
 /// Writes labels and pictures in another program's layout, with an export.json that describes the source. Everything

@@ -55,7 +55,9 @@ LabelSet read_set(const ExportOptions& options) {
   return set;
 }
 
-void use_ir16(LabelSet& set, const Path& source) {
+void use_ir16(LabelSet& set, const Path& source, ExportFormat format) {
+  if (!is_ours(source) && format == ExportFormat::tiff)
+    throw ConfigError(fault("--format", "tiff", "", "another; only Veldt datasets have temperatures"));
   if (!is_ours(source))
     throw ConfigError(fault("--images", "ir16", "", "ir8; only Veldt datasets have 16-bit pictures"));
   for (LabelImage& image : set.images) image.file = ir16_of(image.file);
@@ -80,7 +82,7 @@ void check_pictures(const LabelSet& set) {
 }
 
 bool has_folders_of_splits(ExportFormat format) {
-  return format != ExportFormat::coco && format != ExportFormat::birdsai;
+  return format != ExportFormat::coco && format != ExportFormat::birdsai && format != ExportFormat::tiff;
 }
 
 bool needs_sizes(const ExportOptions& options) {
@@ -118,11 +120,12 @@ ExportSource read_export_source(const ExportOptions& options) {
   ExportSource source;
   LabelSet& set = source.input.set;
   set = read_set(options);
-  if (options.ir16) use_ir16(set, options.source);
+  const bool tiff = options.format == ExportFormat::tiff;
+  if (options.ir16 || tiff) use_ir16(set, options.source, options.format);
   check_pictures(set);
   if (needs_sizes(options)) find_sizes(set);
   const Path file = coco_file_of(options.source);
-  if (options.format == ExportFormat::coco || file.empty())
+  if (options.format == ExportFormat::coco || tiff || file.empty())
     source.coco = file.empty() ? coco_text(set) : read_file(file);
   source.coco_name = file.empty() ? set.name : file.string();
   source.labels_sha256 = source.coco.empty() ? sha256_of_file(file) : sha256_of(source.coco);

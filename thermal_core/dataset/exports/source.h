@@ -10,7 +10,7 @@ namespace thermal {
 /// Everything read for an export, before anything is written.
 struct ExportSource {
   ExportInput input;
-  std::string coco;       ///< the COCO file of the labels, complete, if that is the format
+  std::string coco;       ///< the COCO file of the labels, complete, if the format has one
   std::string coco_name;  ///< for messages
   bool all = true;        ///< nothing is removed, renamed or split
   std::string labels_sha256;

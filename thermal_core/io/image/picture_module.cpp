@@ -35,4 +35,12 @@ std::string encode_picture(const cv::Mat& bgr, PictureFormat format) {
   return picture_module().encode_picture(bgr, format);
 }
 
+std::string encode_tiff(const Plane<float>& picture, const TiffTags& tags) {
+  return picture_module().encode_kelvin_tiff(picture, tags);
+}
+
+std::string encode_tiff(const Plane<std::uint16_t>& picture, const TiffTags& tags) {
+  return picture_module().encode_counts_tiff(picture, tags);
+}
+
 }  // namespace thermal

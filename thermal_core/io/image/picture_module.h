@@ -6,11 +6,12 @@
 #include "io/image/grey_plane.h"
 #include "io/image/picture_size.h"
 #include "io/image/text_coverage.h"
+#include "io/image/tiff.h"
 #include "io/system/files.h"
 
 namespace thermal {
 
-/// What OpenImageIO and OpenCV's imgcodecs do for Veldt. They bring 230 libraries that take .3 s to load, so they are in
+/// What OpenImageIO, libtiff and OpenCV's imgcodecs do for Veldt. They bring 230 libraries that take .3 s to load, so they are in
 /// a module (io/pictures/), and programs load it when they need it. These functions throw as their callers say.
 struct PictureModule {
   std::string (*as_jpeg)(const Path& picture, int most_px);
@@ -19,6 +20,8 @@ struct PictureModule {
   std::string (*encode_picture)(const cv::Mat& bgr, PictureFormat format);
   /// As read_grey_picture(), with faults of the file without its name.
   GreyPicture (*read_grey)(const Path& file);
+  std::string (*encode_kelvin_tiff)(const Plane<float>& picture, const TiffTags& tags);
+  std::string (*encode_counts_tiff)(const Plane<std::uint16_t>& picture, const TiffTags& tags);
   std::string (*openimageio_version)();
 };
 
