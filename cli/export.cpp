@@ -24,6 +24,7 @@ struct ExportArguments {
   std::string out;
   std::string link;
   std::string images;
+  std::string segmentation;
   std::string tiff_type;
   std::string split;
   std::string selection;
@@ -52,6 +53,9 @@ thermal::ExportOptions request_of(const ExportArguments& options) {
   if (request.format == thermal::ExportFormat::tiff && options.images == "ir8")
     throw thermal::ConfigError(
         thermal::fault("--images", "ir8", "", "ir16 with --format tiff, which is in kelvin"));
+  if (!options.segmentation.empty())
+    request.segmentation =
+        options.segmentation == "rle" ? thermal::Segmentation::rle : thermal::Segmentation::polygon;
   if (!options.tiff_type.empty())
     request.tiff_type =
         options.tiff_type == "uint16" ? thermal::TiffType::uint16 : thermal::TiffType::float32;
@@ -92,6 +96,16 @@ std::string counted(int count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+void print_outlines(const thermal::OutlineFigures& outlines) {
+  using thermal::SizeClass;
+  for (const SizeClass size : {SizeClass::small, SizeClass::medium, SizeClass::large}) {
+    const auto& figures = outlines.of(size);
+    if (figures.targets > 0)
+      print("outlines of {} targets: IoU with the masks {:.4f} on average, {:.4f} at least ({})\n",
+            thermal::size_class_name(size), figures.mean(), figures.least, counted(figures.targets, "label"));
+  }
+}
+
 void summarise(const thermal::ExportOutcome& outcome, const ExportArguments& options) {
   if (outcome.already_there) {
     print("{}: nothing to do; this export already exists\n", options.out);
@@ -107,6 +121,7 @@ void summarise(const thermal::ExportOutcome& outcome, const ExportArguments& opt
         options.format);
   print_table(outcome);
   for (const auto& [why, count] : outcome.left_out) print("left out: {} {}\n", counted(count, "label"), why);
+  print_outlines(outcome.outlines);
   if (outcome.origin)
     print("origin of the scene: latitude {:g}, longitude {:g} deg, height {:g} m{}\n",
           outcome.origin->latitude_deg, outcome.origin->longitude_deg, outcome.origin->height_m,
@@ -159,6 +174,12 @@ void add_export(CLI::App& app, Session& session) {
                    "8-bit pictures after gain control, or 16-bit pictures in kelvin")
       ->check(CLI::IsMember({"ir8", "ir16"}))
       ->default_str("ir8");
+  command
+      ->add_option(
+          "--segmentation", options->segmentation,
+          "Masks of --format coco as run lengths (default) or polygons; polygon with --format yolo writes "
+          "outlines instead of boxes")
+      ->check(CLI::IsMember({"rle", "polygon"}));
   command
       ->add_option("--tiff-type", options->tiff_type,
                    "Pixels of --format tiff: kelvin, or counts with their scale in the tags")

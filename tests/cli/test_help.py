@@ -39,6 +39,7 @@ OPTIONS = {
         "--out",
         "--link",
         "--images",
+        "--segmentation",
         "--tiff-type",
         "--origin",
         "--split",

@@ -19,7 +19,7 @@ _DRAWING_PYTHON = "/usr/bin/python3"
 
 @pytest.fixture(scope="session", name="place")
 def _place(tmp_path_factory) -> Veldt:
-    """A place with datasets and the passes that they are made from: `masks` and `march`, of two clips each, and `survey`,
+    """A place with datasets and the passes they are made from: `masks` and `march`, of two clips each, and `survey`,
     whose camera has poses."""
     veldt = Veldt(tmp_path_factory.mktemp("peers"))
     draw = [_DRAWING_PYTHON, "-B", ROOT / "tests" / "peers" / "draw_passes.py", veldt.folder / "passes"]

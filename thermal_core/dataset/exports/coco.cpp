@@ -14,8 +14,8 @@ namespace {
 /// Writes the files of the splits, list by list, while one large file is read.
 class Splitter {
  public:
-  explicit Splitter(const ExportInput& input)
-      : input_(input), lists_(input.splits.size()), videos_(input.splits.size()) {
+  explicit Splitter(const ExportInput& input, SegmentMaker* segments)
+      : input_(input), segments_(segments), lists_(input.splits.size()), videos_(input.splits.size()) {
     for (std::size_t i = 0; i < input.set.images.size(); ++i) images_.emplace(input.set.images[i].id, i);
     if (!input.boxes_changed) return;
     for (const Label& label : input.set.labels) boxes_.emplace(label.id, label.box);
@@ -50,9 +50,10 @@ class Splitter {
     const auto image = images_.find(element.at("image_id"));
     if (image == images_.end()) return;
     const std::size_t split = split_of(image->second);
-    if (!input_.boxes_changed) return add(split, "annotations", element);
+    if (!input_.boxes_changed && segments_ == nullptr) return add(split, "annotations", element);
     Json annotation = element;
-    annotation["bbox"] = bbox_of(boxes_.at(element.at("id")));
+    if (input_.boxes_changed) annotation["bbox"] = bbox_of(boxes_.at(element.at("id")));
+    if (segments_ != nullptr) annotation["segmentation"] = segments_->polygons_of(element);
     add(split, "annotations", annotation);
   }
 
@@ -93,6 +94,7 @@ class Splitter {
   }
 
   const ExportInput& input_;
+  SegmentMaker* segments_;                                 ///< null: masks stay as they are
   std::unordered_map<std::int64_t, std::size_t> images_;   ///< index in the set, by id
   std::unordered_map<std::int64_t, LabelBox> boxes_;       ///< those that changed, by the label's id
   std::vector<std::map<std::string, std::string>> lists_;  ///< by split and key
@@ -141,16 +143,17 @@ std::string coco_text(const LabelSet& set) {
 }
 
 std::vector<std::string> split_coco(const ExportInput& input, const std::string& text,
-                                    const std::string& name) {
-  return Splitter(input).split(text, name);
+                                    const std::string& name, SegmentMaker* segments) {
+  return Splitter(input, segments).split(text, name);
 }
 
-ExportPlan plan_coco(const ExportInput& input, const std::string& text, const std::string& name, bool as_is) {
+ExportPlan plan_coco(const ExportInput& input, const std::string& text, const std::string& name, bool as_is,
+                     SegmentMaker* segments) {
   ExportPlan plan;
   for (std::size_t i = 0; i < input.set.images.size(); ++i)
     plan.pictures.push_back(
         {.image = i, .to = std::filesystem::path(input.set.images[i].file).lexically_normal().string()});
-  std::vector<std::string> files = as_is ? std::vector{text} : split_coco(input, text, name);
+  std::vector<std::string> files = as_is ? std::vector{text} : split_coco(input, text, name, segments);
   for (std::size_t split = 0; split < files.size(); ++split)
     plan.texts.push_back(
         {.to = input.split_asked ? "annotations/" + input.splits[split] + ".json" : "annotations.json",

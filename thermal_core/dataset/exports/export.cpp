@@ -44,12 +44,20 @@ int samples_per_shard(const ExportOptions& options) {
   return options.samples_per_shard.value_or(kSamplesPerShard);
 }
 
-ExportPlan make_plan(const ExportOptions& options, const ExportSource& source) {
+ExportPlan make_yolo_plan(const ExportOptions& options, const ExportSource& source, SegmentMaker* segments) {
+  const std::string folder = std::filesystem::absolute(options.out).lexically_normal().string();
+  if (segments == nullptr) return plan_yolo(source.input, folder);
+  const Outlines outlines = yolo_outlines(source.input, source.coco, source.coco_name, *segments);
+  return plan_yolo(source.input, folder, &outlines);
+}
+
+/// `segments`: null if masks stay as they are.
+ExportPlan make_plan(const ExportOptions& options, const ExportSource& source, SegmentMaker* segments) {
   switch (options.format) {
     case ExportFormat::coco:
-      return plan_coco(source.input, source.coco, source.coco_name, source.all);
+      return plan_coco(source.input, source.coco, source.coco_name, source.all, segments);
     case ExportFormat::yolo:
-      return plan_yolo(source.input, std::filesystem::absolute(options.out).lexically_normal().string());
+      return make_yolo_plan(options, source, segments);
     case ExportFormat::mot:
       return plan_mot(source.input);
     case ExportFormat::birdsai:
@@ -100,6 +108,7 @@ Json request_of(const ExportOptions& options, const ExportSource& source) {
                   {"format", format_name(options.format)},
                   {"images", options.ir16 || options.format == ExportFormat::tiff ? "ir16" : "ir8"}};
   if (options.boxes == BoxStyle::drawn) request["box_style"] = "drawn";
+  if (options.segmentation == Segmentation::polygon) request["segmentation"] = "polygon";
   if (options.format == ExportFormat::webdataset) {
     request["samples_per_shard"] = samples_per_shard(options);
   } else if (options.format == ExportFormat::tiff) {
@@ -124,12 +133,10 @@ std::string record_of(const Json& request, const ExportOutcome& outcome) {
     for (std::size_t i = 0; i < split.labels.size(); ++i) labels[outcome.categories[i]] = split.labels[i];
     splits[split.name] = {{"clips", split.clips}, {"pictures", split.pictures}, {"labels", labels}};
   }
-  return to_text({{"format", "veldt-export"},
-                  {"version", 1},
-                  {"veldt_version", kVersion},
-                  {"request", request},
-                  {"splits", splits},
-                  {"left_out", outcome.left_out}});
+  Json record = {{"format", "veldt-export"}, {"version", 1},     {"veldt_version", kVersion},
+                 {"request", request},       {"splits", splits}, {"left_out", outcome.left_out}};
+  if (const Json figures = outcome.outlines.json(); !figures.empty()) record["outline_iou"] = figures;
+  return to_text(record);
 }
 
 bool is_empty_or_new(const Path& folder) {
@@ -211,6 +218,20 @@ void check_shards(const ExportOptions& options) {
                             "none with --format webdataset: pictures are copied into tar files"));
 }
 
+void check_segmentation(const ExportOptions& options) {
+  if (!options.segmentation) return;
+  const bool polygon = *options.segmentation == Segmentation::polygon;
+  const auto refuse = [polygon](const std::string& rule) {
+    throw ConfigError(fault("--segmentation", polygon ? "polygon" : "rle", "", rule));
+  };
+  if (options.format == ExportFormat::yolo && !polygon)
+    refuse("polygon with --format yolo, or none for boxes");
+  if (options.format == ExportFormat::yolo && options.boxes == BoxStyle::drawn)
+    refuse("none with --box-style drawn: readers take boxes from the outlines");
+  if (options.format != ExportFormat::yolo && options.format != ExportFormat::coco)
+    refuse(fmt::format("none with --format {}: only coco and yolo have masks", format_name(options.format)));
+}
+
 /// Options of TIFFs alone, and those that they cannot have.
 void check_tiffs(const ExportOptions& options) {
   if (options.format == ExportFormat::tiff) {
@@ -238,6 +259,7 @@ void check_options(const ExportOptions& options) {
   if (options.format == ExportFormat::mot && !options.selection.empty())
     throw ConfigError(fault("--selection", options.selection.string(), "",
                             "none with --format mot: trackers are trained and judged on whole clips"));
+  check_segmentation(options);
   check_tiffs(options);
   if (options.format == ExportFormat::webdataset)
     check_shards(options);
@@ -262,7 +284,10 @@ ExportOutcome export_dataset(const ExportOptions& options, const RunHooks& hooks
   outcome.origin_given = !options.origin.empty();
   outcome.already_there = is_there(options, out, request, source.input);
   if (outcome.already_there) return outcome;
-  ExportPlan plan = make_plan(options, source);
+  SegmentMaker segments(source.input.set);
+  ExportPlan plan =
+      make_plan(options, source, options.segmentation == Segmentation::polygon ? &segments : nullptr);
+  outcome.outlines = segments.figures();
   plan.texts.push_back({.to = kRecord, .content = record_of(request, outcome)});
   check_targets(plan, source.input.set);
   ExportFolder folder(out, options.scratch);

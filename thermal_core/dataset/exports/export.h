@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dataset/exports/export_options.h"
+#include "dataset/exports/segments.h"
 #include "dataset/run/progress.h"
 #include "io/image/tiff.h"
 
@@ -24,6 +25,7 @@ struct ExportOutcome {
   std::vector<ExportedSplit> splits;
   std::map<std::string, int> left_out;  ///< labels left out, by why the format cannot represent them
   int copied = 0;                       ///< pictures that could not be linked
+  OutlineFigures outlines;              ///< how well they reproduce masks, where they replace these
   std::optional<GeoPosition> origin;    ///< of TIFFs: where the scene was put on Earth
   bool origin_given = false;            ///< by the request
   int without_pose = 0;  ///< TIFFs without position and attitude, because their frames have no pose

@@ -12,6 +12,9 @@ namespace thermal {
 
 enum class ExportFormat { coco, yolo, mot, birdsai, webdataset, tiff };
 
+/// Masks of labels: run lengths, or outlines.
+enum class Segmentation { rle, polygon };
+
 /// Pixels of TIFFs: kelvin, or counts whose scale the tags say.
 enum class TiffType { float32, uint16 };
 
@@ -28,7 +31,9 @@ struct ExportOptions {
   Path selection;                     ///< frames to export; empty: all
   bool unfinished_too = false;
   std::optional<int> samples_per_shard = {};  ///< of webdataset alone, 1 to 1,000,000; empty: 1000
-  std::optional<TiffType> tiff_type = {};     ///< of tiff alone; empty: float32
+  /// Of coco, by default rle; of yolo polygon alone, by default boxes.
+  std::optional<Segmentation> segmentation = {};
+  std::optional<TiffType> tiff_type = {};  ///< of tiff alone; empty: float32
   std::string origin = {};  ///< of tiff alone, as parse_origin() reads it; empty: default_origin()
   Path scratch = {};  ///< of webdataset alone: tar files are made here, one at a time; empty: in OUT.part
 };

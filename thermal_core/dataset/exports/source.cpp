@@ -125,12 +125,12 @@ ExportSource read_export_source(const ExportOptions& options) {
   check_pictures(set);
   if (needs_sizes(options)) find_sizes(set);
   const Path file = coco_file_of(options.source);
-  if (options.format == ExportFormat::coco || tiff || file.empty())
+  if (options.format == ExportFormat::coco || tiff || options.segmentation || file.empty())
     source.coco = file.empty() ? coco_text(set) : read_file(file);
   source.coco_name = file.empty() ? set.name : file.string();
   source.labels_sha256 = source.coco.empty() ? sha256_of_file(file) : sha256_of(source.coco);
   source.all = options.selection.empty() && options.splits.empty() && !options.ir16 &&
-               options.boxes == BoxStyle::visible;
+               options.boxes == BoxStyle::visible && options.segmentation != Segmentation::polygon;
   source.input.boxes_changed = options.boxes == BoxStyle::drawn;
   if (source.input.boxes_changed) widen_as_drawn(set);
   source.seed = options.seed ? *options.seed : own_seed(options.source);

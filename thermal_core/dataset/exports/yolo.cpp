@@ -1,6 +1,7 @@
 #include "dataset/exports/yolo.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,13 @@ std::string line_of(const Label& label, const LabelImage& image) {
                      (box.x_px + box.width_px / 2) / image.width_px,
                      (box.y_px + box.height_px / 2) / image.height_px, box.width_px / image.width_px,
                      box.height_px / image.height_px);
+}
+
+std::string line_of(const Label& label, const LabelImage& image, const Outline& outline) {
+  std::string line = std::to_string(label.category);
+  for (const OutlinePoint& point : outline)
+    line += fmt::format(" {:.7f} {:.7f}", point.x_px / image.width_px, point.y_px / image.height_px);
+  return line + "\n";
 }
 
 /// JSON strings are also valid YAML.
@@ -58,7 +66,21 @@ std::string why_not_in_yolo(const LabelSet& set, const Label& label) {
   return box.width_px > 0 && box.height_px > 0 ? "" : "outside their picture";
 }
 
-ExportPlan plan_yolo(const ExportInput& input, const std::string& folder) {
+Outlines yolo_outlines(const ExportInput& input, const std::string& text, const std::string& name,
+                       SegmentMaker& segments) {
+  std::unordered_set<std::int64_t> wanted;
+  for (const Label& label : input.set.labels)
+    if (why_not_in_yolo(input.set, label).empty()) wanted.insert(label.id);
+  Outlines outlines;
+  (void)parse_json_elements(text, name, [&](const std::string& list, std::size_t, const Json& element) {
+    if (list != "annotations") return;
+    const auto id = element.at("id").get<std::int64_t>();
+    if (wanted.contains(id)) outlines.emplace(id, segments.outline_of(element));
+  });
+  return outlines;
+}
+
+ExportPlan plan_yolo(const ExportInput& input, const std::string& folder, const Outlines* outlines) {
   const LabelSet& set = input.set;
   const std::vector<std::size_t> first = first_labels(set);
   ExportPlan plan;
@@ -68,7 +90,8 @@ ExportPlan plan_yolo(const ExportInput& input, const std::string& folder) {
     plan.pictures.push_back({.image = i, .to = "images/" + place + ending_of(image.file)});
     std::string lines;
     for (std::size_t k = first[i]; k < first[i + 1]; ++k)
-      if (why_not_in_yolo(set, set.labels[k]).empty()) lines += line_of(set.labels[k], image);
+      if (const Label& label = set.labels[k]; why_not_in_yolo(set, label).empty())
+        lines += outlines == nullptr ? line_of(label, image) : line_of(label, image, outlines->at(label.id));
     plan.texts.push_back({.to = "labels/" + place + ".txt", .content = std::move(lines)});
   }
   plan.texts.push_back({.to = "data.yaml", .content = data_yaml(input, folder)});
