@@ -19,7 +19,8 @@ void run_with_threads(int threads, const std::function<void()>& work) {
 void run_isolated(const std::function<void()>& work) { tbb::this_task_arena::isolate(work); }
 
 void run_apart(const std::function<void()>& work) {
-  tbb::task_arena arena(thread_count(0));  // has a root of its own, to which work is tied no longer than it runs
+  tbb::task_arena arena(
+      thread_count(0));  // has a root of its own, to which work is tied no longer than it runs
   arena.execute(work);
 }
 

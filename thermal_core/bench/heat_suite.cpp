@@ -70,7 +70,7 @@ std::vector<RenderRow> column_rows(const Materials& materials) {
     const char* name = nullptr;
     HeatSteps steps = {};
   };
-  const HeatSteps frames = {.per_day = 144};
+  const HeatSteps& frames = kTableSteps;
   const Case cases[] = {
       {"soil", "soil, 288 steps, layers x 1.35", {.per_day = 288, .layers = {.ratio = 1.35}}},
       {"soil", "soil, 288 steps, layers x 1.2", {.per_day = 288}},
@@ -159,7 +159,7 @@ SurfacePlace place_of(int number, bool is_body) {
 /// What a table gives at places against the balance solved for each of them.
 std::vector<RenderRow> look_up_rows(const Materials& materials) {
   constexpr int kPlaces = 150;
-  const HeatSteps frames = {.per_day = 144};
+  const HeatSteps& frames = kTableSteps;
   std::vector<RenderRow> rows;
   for (const char* name : {"soil", "grass", "rock", "water"}) {
     const Materials both = {{"soil", materials.at("soil")}, {name, materials.at(name)}};

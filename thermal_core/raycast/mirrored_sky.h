@@ -6,8 +6,6 @@
 
 namespace thermal {
 
-inline constexpr float kSkyDepthM = 1e10F;  ///< as Blender has it
-
 /// Makes planes this large that mirror nothing but sky. Memory is reused.
 void set_to_sky(Mirrored<Plane>& mirrored, int width_px, int height_px);
 

@@ -11,6 +11,9 @@ namespace thermal {
 /// Renderers write this depth or more where there is no surface.
 inline constexpr float kSkyFromM = 1e9F;
 
+/// What Blender writes there, and so do we.
+inline constexpr float kSkyDepthM = 1e10F;
+
 /// Planes that a conversion needs besides the object index.
 struct PassNeeds {
   bool depth = false;

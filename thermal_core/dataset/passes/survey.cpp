@@ -90,7 +90,7 @@ void PassSurveyor::add_planes(const Path& file, const ExrHeader& header) {
     needs.depth = !choose_planes(header, layout_).depth.empty();
   } catch (const DataError&) {  // no object index: there may still be a depth
     const ExrChannel* depth = header.find_depth(layout_.layer);
-    if (depth != nullptr) add_depth(read_exr_channel(file, header, *depth, kDepthOutsideM, layout_.limits));
+    if (depth != nullptr) add_depth(read_exr_channel(file, header, *depth, kSkyDepthM, layout_.limits));
     return;
   }
   const Passes passes = read_passes(file, layout_, needs);

@@ -65,14 +65,16 @@ struct HeatOfMoment {
   std::map<std::string, MaterialMoment> materials;
 };
 
+/// Of the days of tables, between whose nodes temperatures are a fifth of a kelvin off: half of the usual steps.
+inline constexpr HeatSteps kTableSteps = {.per_day = 144};
+
 /// The temperatures of materials over a day that repeats itself. The columns of heat of a material are computed when it is
 /// first asked for, on all cores, and kept. Safe to use from several threads.
 class HeatOfDay {
  public:
-  /// ConfigError if the weather is invalid, or a material's leaves grow on one that is not ground. Between the nodes of a
-  /// table temperatures are a fifth of a kelvin off, so its days have half of the usual steps.
+  /// ConfigError if the weather is invalid, or a material's leaves grow on one that is not ground.
   HeatOfDay(const DayWeather& weather, std::map<std::string, MaterialHeat> materials,
-            const HeatSteps& steps = {.per_day = 144});
+            const HeatSteps& steps = kTableSteps);
 
   /// Of those `materials` that have heat, at a local solar time, any finite number of hours.
   [[nodiscard]] HeatOfMoment at(double solar_h, const std::set<std::string>& materials = {}) const;

@@ -7,9 +7,6 @@
 
 namespace thermal {
 
-/// Depth of pixels outside a file's data window: what Blender writes where there is only sky.
-inline constexpr float kDepthOutsideM = 1e10F;
-
 /// Where to find the planes of a clip's EXR files.
 struct ExrLayout {
   std::string layer = {};         ///< empty: the only one

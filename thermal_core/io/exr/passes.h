@@ -9,7 +9,7 @@ namespace thermal {
 
 /// Reads the planes of one frame that are needed, and no others, at the size of the file's display window. Size and
 /// limits are checked before memory is allocated. Pixels outside the data window have index 0, normal 0 and
-/// kDepthOutsideM. The actors' layer is read if actors are needed; a file whose only object index is that of `layer`
+/// kSkyDepthM. The actors' layer is read if actors are needed; a file whose only object index is that of `layer`
 /// is a frame without an actor layer, and the plane stays empty. Planes of a file with kSampledPass are separated().
 /// DataError with file, channel and pixel if there is no object index or a needed plane is missing, or an index is
 /// negative, fractional, NaN or above 32767 (2048 in half floats), or its compression is lossy; IoError if the file

@@ -206,7 +206,7 @@ std::vector<ExrTarget> shape_targets(const ExrPlanes& planes, const PassNeeds& n
                                      std::array<Plane<float>, 3>& normal) {
   std::vector<ExrTarget> targets;
   if (needs.depth) {
-    targets.push_back({.channel = &planes.required_depth(), .plane = &depth_m, .outside = kDepthOutsideM});
+    targets.push_back({.channel = &planes.required_depth(), .plane = &depth_m, .outside = kSkyDepthM});
   } else {
     depth_m = {};
   }
