@@ -18,10 +18,10 @@ _SPEEDS = 3  # of an action: forward, right and up; then turning left, and looki
 class FlightEnv(gymnasium.Env[NDArray[np.uint8], NDArray[np.float32]]):
     """Fly a camera over a planned clip, and keep actors in view.
 
-    Action: five numbers from -1 to 1: speeds forward, to the right and up, as shares of max_speed_m_s, and rates of turning
-    left and of looking further down, as shares of max_turn_rad_s. Observation: the 8-bit frame (height, width). Reward: the
-    share of the followed actors that are labelled in the frame, 0 to 1. An episode begins with the planned flight's first
-    pose, and is truncated when the plan's time is over. It never terminates before.
+    Action: five numbers from -1 to 1: speeds forward, to the right and up, as shares of max_speed_m_s, and rates of
+    turning left and of looking further down, as shares of max_turn_rad_s. Observation: the 8-bit frame (height,
+    width). Reward: the share of the followed actors that are labelled in the frame, 0 to 1. An episode begins with
+    the planned flight's first pose, and is truncated when the plan's time is over. It never terminates before.
 
     `info` has `capture`: the whole Capture, and `camera_to_world`.
     """
@@ -40,8 +40,8 @@ class FlightEnv(gymnasium.Env[NDArray[np.uint8], NDArray[np.float32]]):
         frame_rate_hz: float | None = None,
         render_mode: str | None = None,
     ) -> None:
-        """plan_folder, clip, frame_rate_hz: as World's. follow: the category that is to be kept in view. least_height_m:
-        of the camera above the lowest actor; it flies no lower."""
+        """plan_folder, clip, frame_rate_hz: as World's. follow: the category that is to be kept in view.
+        least_height_m: of the camera above the lowest actor; it flies no lower."""
         self._world = World(plan_folder, clip, frame_rate_hz=frame_rate_hz)
         self._follow = follow
         self._rates = np.array([max_speed_m_s] * _SPEEDS + [max_turn_rad_s] * 2)
@@ -117,7 +117,7 @@ class FlightEnv(gymnasium.Env[NDArray[np.uint8], NDArray[np.float32]]):
 
 
 def pose_of(place_m: NDArray[np.float64], heading_rad: float, down_rad: float) -> NDArray[np.float64]:
-    """A camera's pose (4, 4) without roll: heading counter-clockwise from east, looking `down_rad` below the horizon."""
+    """A camera's pose (4, 4) without roll: heading counter-clockwise from east, `down_rad` below the horizon."""
     cos, sin = np.cos(heading_rad), np.sin(heading_rad)
     forward = np.array([np.cos(down_rad) * cos, np.cos(down_rad) * sin, -np.sin(down_rad)])
     right = np.array([sin, -cos, 0.0])

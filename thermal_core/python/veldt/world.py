@@ -89,8 +89,8 @@ class World:
         self.camera = Intrinsics(*self._world.camera)
 
     def capture(self, camera_to_world: ArrayLike, time_s: float) -> Capture:
-        """The frame that the camera takes from a pose (4, 4) at a time [s], after the capture before: on the clock of its
-        frame rate from flight_s[0] on. Frames in between pass unseen. Actors are interpolated between the frames of
+        """The frame that the camera takes from a pose (4, 4) at a time [s], after the capture before: on the clock of
+        its frame rate from flight_s[0] on. Frames in between pass unseen. Actors are interpolated between the frames of
         the planned flight.
 
         ConfigError for another time and for a pose that is no rotation and place; nothing has then changed.
