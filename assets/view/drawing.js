@@ -95,18 +95,45 @@ function drawTrail(context, to, points, colour) {
   context.globalAlpha = 1;
 }
 
-/** Light text on black. `x`, `y`: the lower left corner; the plate stays on the screen. */
-function drawPlate(context, to, text, x, y, colour) {
+/** Place and size of text on a plate that stays on the screen. `x`, `y`: its lower left corner. */
+function plateOf(context, to, text, x, y) {
   context.font = `${to.text_px}px system-ui, "DejaVu Sans", sans-serif`;
   const pad = Math.round(to.text_px / 4);
   const [width, height] = [context.measureText(text).width + 2 * pad, to.text_px + 2 * pad];
   const left = Math.max(0, Math.min(x, context.canvas.width - width));
   const top = Math.max(0, Math.min(y - height, context.canvas.height - height));
+  return { text, left, top, width, height, pad };
+}
+
+/** Light text on black. */
+function drawPlate(context, plate, colour) {
   context.fillStyle = "#000";
-  context.fillRect(left, top, width, height);
+  context.fillRect(plate.left, plate.top, plate.width, plate.height);
   context.fillStyle = colour;
   context.textBaseline = "middle";
-  context.fillText(text, left + pad, top + height / 2);
+  context.fillText(plate.text, plate.left + plate.pad, plate.top + plate.height / 2);
+}
+
+const overlap = (a, b) =>
+  a.left < b.left + b.width && b.left < a.left + a.width && a.top < b.top + b.height && b.top < a.top + a.height;
+
+/** Names above, below or beside their boxes, where they hide no box and no other name; left out where there is no place. */
+function drawNames(context, to, clip, labels, colourOf) {
+  const boxes = labels.map(({ box: [x, y, width, height] }) => (
+    { left: x * to.scale - to.x_px, top: y * to.scale - to.y_px, width: width * to.scale, height: height * to.scale }));
+  const taken = [...boxes];
+  labels.forEach((label, k) => {
+    const { left, top, width, height } = boxes[k];
+    const gap = 2 * to.line_px;
+    const line = 1.5 * to.text_px;
+    const x = left - gap / 2;
+    const corners = [[x, top - gap], [x, top + height + gap + line], [left + width + gap, top + line]];
+    const places = corners.map((corner) => plateOf(context, to, tagOf(clip, label), ...corner));
+    const plate = places.find((place) => !taken.some((other) => overlap(place, other)));
+    if (plate === undefined) return;
+    taken.push(plate);
+    drawPlate(context, plate, colourOf(label));
+  });
 }
 
 /** Four lines around a pixel of the frame, which stays free. */
@@ -144,10 +171,5 @@ function drawLabels(context, to, clip, frame, shown) {
     if (shown.masks && label.mask) drawMask(context, to, label, clip.height_px, colourOf(label));
     if (shown.boxes) drawBox(context, to, label.box, colourOf(label), label.ignore);
   }
-  if (!shown.names) return;
-  for (const label of frame.labels) {
-    const x = label.box[0] * to.scale - to.x_px - to.line_px;
-    const y = label.box[1] * to.scale - to.y_px - 2 * to.line_px;
-    drawPlate(context, to, tagOf(clip, label), x, y, colourOf(label));
-  }
+  if (shown.names) drawNames(context, to, clip, frame.labels, colourOf);
 }

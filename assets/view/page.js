@@ -48,7 +48,7 @@ async function goTo(at) {
     if (number < drawn || clip !== clipNow()) return;
     drawn = number;
     shown = frame;
-    reportFault("");
+    if (number === asked) reportFault(""); // an earlier frame says nothing about a later one that failed
     draw();
     showTexts(clip, frame);
   } catch (error) {

@@ -35,10 +35,13 @@ function showClips(clips, choose) {
 }
 
 function markClip(place) {
-  [...byId("clips").querySelectorAll("button")].forEach((button, k) => {
+  const list = byId("clips");
+  [...list.querySelectorAll("button")].forEach((button, k) => {
     if (k === place) button.setAttribute("aria-current", "true");
     else button.removeAttribute("aria-current");
   });
+  const { offsetTop, offsetHeight } = list.children[place];
+  list.scrollTop = Math.min(offsetTop, Math.max(list.scrollTop, offsetTop + offsetHeight - list.clientHeight));
 }
 
 /** What marks of the timeline mean; those that the clip has. */
@@ -114,7 +117,7 @@ function lineOf(clip, label) {
 }
 
 /** Digits of a temperature that counts can tell apart. */
-const digitsOf = (kelvin_per_count) => Math.max(0, Math.ceil(-Math.log10(kelvin_per_count)));
+const digitsOf = (kelvin_per_count) => Math.min(9, Math.max(0, Math.ceil(-Math.log10(kelvin_per_count))));
 
 function showProbe(clip, frame, probe, kelvin_per_count) {
   if (probe === null) return;

@@ -58,7 +58,10 @@ function draw() {
   const [line_px, text_px] = [2, 12].map((size) => Math.max(1, Math.round(size * ratio)));
   const to = { x_px: part.x * scale, y_px: part.y * scale, scale, line_px, text_px };
   drawLabels(context, to, clip, shown, Object.fromEntries(OVER_FRAME.map((name) => [name, byId(name).checked])));
-  if (shown.closed) drawPlate(context, to, "shutter closed (FFC)", screen.width / 2 - 70 * ratio, 32 * ratio, "#ffc400");
+  if (shown.closed) {
+    const plate = plateOf(context, to, "shutter closed (FFC)", screen.width / 2 - 70 * ratio, 32 * ratio);
+    drawPlate(context, plate, "#ffc400");
+  }
   if (state.probe !== null) drawCrosshair(context, to, state.probe);
   screen.setAttribute("aria-label", describeFrame(clip, shown));
   showBar(coloursOf(dataset.palettes[byId("palette").selectedIndex]));

@@ -62,6 +62,23 @@ def test_frames_are_shown_through_each_palette(browser, page, dataset):
         assert (middles(screen_of(browser)) == colours[levels]).all(), name
 
 
+def test_palettes_go_from_cold_to_hot_whatever_the_polarity(browser, page, dataset):
+    open_frame(browser, page, "side")
+    switch(browser, **NOTHING_OVER)
+    levels = counts_of(dataset, "ir8", "side", 0)
+    assert (middles(screen_of(browser))[..., 0] == 255 - levels).all()
+
+
+@pytest.mark.parametrize("frame", [0, 1])
+def test_every_count_is_decoded(browser, page, dataset, frame):
+    open_frame(browser, page, frame=frame)
+    for name, kind in (("levels", "ir8"), ("counts", "ir16")):
+        assert (
+            browser.run(f"return [...shown.{name}]")
+            == counts_of(dataset, kind, "down", frame).ravel().tolist()
+        )
+
+
 def test_the_key_of_palettes_goes_through_them(browser, page):
     open_frame(browser, page)
     seen = []
@@ -215,21 +232,24 @@ def test_masks_names_and_tracks_have_their_keys(browser, page):
     for name, key in (("names", "a"), ("tracks", "t"), ("masks", "m")):
         browser.press(key)
         assert browser.run(f"return document.getElementById('{name}').checked")
-        extents[name] = (
-            _extent(_coloured(browser, HUMAN)),
-            _extent((screen_of(browser) != plain).any(axis=2)),
-        )
+        changed = (screen_of(browser) != plain).any(axis=2)
+        extents[name] = _extent(changed)
         browser.press(key)
         assert (screen_of(browser) == plain).all()
     # The walker's mask is at x 10 to 12, y 5 to 7, above a shrub; the elephant's at the left edge, y 10 to 14. A dark
     # line of 2 px lies on the outlines, so its ends are 1 px outside of them, and up to a pixel is mixed.
     expected = [0, 5 * scale - 1, 12 * scale, 14 * scale]
-    assert extents["masks"][1] == pytest.approx(expected, abs=1)
+    assert extents["masks"] == pytest.approx(expected, abs=1)
+    x, y = (np.arange(start, stop) * scale for start, stop in ((10, 13), (5, 8)))
+    assert changed[
+        int((y[0] + y[1]) / 2), int(x[2]) - 1 : int(x[2]) + 1
+    ].any()  # its right side, of the upper pixel
+    assert not changed[int(y[0]) + 3 : int(y[2]) - 3, int(x[0]) + 3 : int(x[2]) - 3].any()  # nothing within
     # His track comes from the left and ends at his box, 2 px wide with a dark line of 4 px below it.
-    left, top, right, bottom = extents["tracks"][1]
+    left, top, right, bottom = extents["tracks"]
     assert 9 * scale - 3 <= left < 9.5 * scale and right <= 10 * scale
     assert 5 * scale < top and bottom < 8 * scale
-    assert extents["names"][1][1] < 5 * scale  # above the box
+    assert extents["names"][1] < 5 * scale  # above the box
 
 
 def test_zoom_shows_a_part_and_keeps_its_pixels(browser, page, dataset):

@@ -18,7 +18,8 @@ const parse = (text) => (text.match(/[\\d.]+/g) ?? []).map(Number);
 const luminance = ([r, g, b]) => [r, g, b].map((v) => v / 255).map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4))
   .reduce((sum, v, k) => sum + v * [0.2126, 0.7152, 0.0722][k], 0);
 const behind = (node) => { for (let at = node; at; at = at.parentElement) { const c = parse(getComputedStyle(at).backgroundColor); if (c.length === 3 || c[3] > 0) return c; } return [255, 255, 255]; };
-return Math.min(...[...document.querySelectorAll("h1, h2, h3, p, th, td, dt, dd, a, figcaption, summary, li, pre, label")].filter((node) => node.checkVisibility()).map((node) => {
+return Math.min(...[...document.querySelectorAll("h1, h2, h3, p, th, td, dt, dd, a, figcaption, summary, li, pre, label, span, button, b, kbd, select, input[type=number]")]
+  .filter((node) => node.checkVisibility() && ([...node.childNodes].some((child) => child.nodeType === 3 && child.data.trim()) || node.matches("select, input"))).map((node) => {
   const [a, b] = [luminance(parse(getComputedStyle(node).color)), luminance(behind(node))].sort((x, y) => y - x);
   return (a + 0.05) / (b + 0.05);
 }));
