@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 
 #include "analysis/compare/comparison.h"
 #include "analysis/compare/comparison_json.h"
@@ -26,6 +27,9 @@ struct CompareArguments {
   std::string html;
   int frames = thermal::CompareOptions().most_frames;
   bool json = false;
+  bool kelvin = false;
+  std::optional<double> real_kelvin_per_count;
+  std::optional<double> kelvin_per_count;
 };
 
 thermal::CompareOptions request_of(const CompareArguments& options) {
@@ -33,13 +37,18 @@ thermal::CompareOptions request_of(const CompareArguments& options) {
                    .labels = options.real_labels,
                    .names = options.real_names,
                    .names_option = "--real-names",
-                   .category = options.category},
+
+                   .category = options.category,
+                   .kelvin = options.kelvin,
+                   .kelvin_per_count = options.real_kelvin_per_count},
           .other = {.source = options.dataset,
                     .labels = options.labels,
                     .names = options.names,
                     .names_option = "--names",
                     .category = options.category,
-                    .boxes = options.boxes},
+                    .boxes = options.boxes,
+                    .kelvin = options.kelvin,
+                    .kelvin_per_count = options.kelvin_per_count},
           .most_frames = options.frames};
 }
 
@@ -109,6 +118,19 @@ void add_compare(CLI::App& app, Session& session) {
       ->type_name("NAME");
   add_box_style(*command, options->boxes,
                 "Boxes of DATASET around visible pixels, or with the margin that people leave, as in REAL");
+  CLI::Option* kelvin = command->add_flag(
+      "--kelvin", options->kelvin,
+      "Frames are temperatures: ir16 of a dataset, TIFFs of kelvin or of counts with a scale, 16-bit PNGs");
+  command
+      ->add_option("--real-kelvin-per-count", options->real_kelvin_per_count,
+                   "Scale of a folder's 16-bit real frames; by default their tags say it")
+      ->needs(kelvin)
+      ->check(CLI::PositiveNumber)
+      ->type_name("KELVIN");
+  command->add_option("--kelvin-per-count", options->kelvin_per_count, "The same of the other frames")
+      ->needs(kelvin)
+      ->check(CLI::PositiveNumber)
+      ->type_name("KELVIN");
   command->add_option("--frames", options->frames, "Most frames of each source, evenly spaced")
       ->capture_default_str();
   command

@@ -129,6 +129,9 @@ void print_targets(const Comparison& comparison) {
 void print_tables(const Comparison& comparison) {
   print_set("real", comparison.real);
   print_set("dataset", comparison.other);
+  if (const auto& levels = comparison.real.source.kelvin)
+    print("levels   of {:.3g} K, from {:.2f} K to {:.2f} K\n", levels->kelvin_per_level, levels->lowest_k,
+          levels->lowest_k + 255 * levels->kelvin_per_level);
   print_measures(comparison);
   print_video_noise(comparison);
   print_told("frames", comparison.frames, thermal::frame_features());

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "dataset/dataset_file.h"
 #include "dataset/frame_names.h"
 #include "dataset/label_pictures.h"
 #include "dataset/label_source.h"
@@ -67,6 +68,15 @@ std::map<int, double> altitudes_in(const Path& file) {
   return altitudes;
 }
 
+double kelvin_per_count_of(const Path& dataset) {
+  const Json value = read_dataset_file(dataset).value("kelvin_per_count", Json());
+  const double kelvin = value.is_number() ? value.get<double>() : 0;
+  if (!(kelvin > 0))
+    throw DataError(fault(Layout{dataset}.dataset_json().string() + ": kelvin_per_count", brief(value), "K",
+                          "more than 0"));
+  return kelvin;
+}
+
 FrameSource read_dataset_frames(const FrameRequest& request) {
   if (!request.labels.empty() || !request.names.empty())
     throw ConfigError(
@@ -74,6 +84,8 @@ FrameSource read_dataset_frames(const FrameRequest& request) {
                     "pictures with labels or a pattern of names of your own",
                     request.source.string()));
   LabelSet set = read_labels(request.source);
+  if (request.kelvin)
+    for (LabelImage& image : set.images) image.file = ir16_file(image.file);
   if (request.boxes == BoxStyle::drawn) widen_as_drawn(set);
   const auto boxes = boxes_of(set, request.category);
   FrameSource source = {.name = request.source.string(), .is_dataset = true, .frames = {}, .no_boxes = {}};
@@ -92,6 +104,7 @@ FrameSource read_dataset_frames(const FrameRequest& request) {
     if (altitude != known->second.end()) frame.altitude_m = altitude->second;
     source.frames.push_back(std::move(frame));
   }
+  if (request.kelvin) source.kelvin = KelvinLevels{.kelvin_per_count = kelvin_per_count_of(request.source)};
   say_if_none(set, request.category, source);
   return source;
 }
@@ -160,6 +173,7 @@ FrameSource read_folder_frames(const FrameRequest& request) {
   if (source.frames.empty())
     throw DataError(fault(source.name, "0 pictures", "",
                           "a Veldt dataset, or a folder of .png, .jpg, .jpeg, .tif or .tiff"));
+  if (request.kelvin) source.kelvin = KelvinLevels{.kelvin_per_count = request.kelvin_per_count};
   add_altitudes(request, source);
   add_boxes(request, source);
   return source;

@@ -12,6 +12,7 @@
 namespace thermal {
 
 /// Where frames come from: a Veldt dataset, whose ir8 they are, or a folder of pictures of grey levels.
+/// In kelvin, the ir16 of a dataset, or a folder of pictures that read_kelvin_picture() reads.
 struct FrameRequest {
   Path source;
   Path labels = {};  ///< COCO file of a folder; empty: annotations.json in it or in its parent, if there
@@ -19,6 +20,8 @@ struct FrameRequest {
   std::string names_option = "--names";  ///< what messages call it
   std::string category = {};             ///< of the boxes, in any case; empty: people
   BoxStyle boxes = BoxStyle::visible;    ///< of a dataset
+  bool kelvin = false;                   ///< frames are temperatures: a dataset's ir16
+  std::optional<double> kelvin_per_count = {};  ///< of a folder's pictures; empty: their tags say it
 };
 
 struct SourceFrame {
@@ -29,12 +32,20 @@ struct SourceFrame {
   std::vector<LabelBox> boxes;       ///< without crowds and ignored ones
 };
 
+/// What levels of temperatures mean: level 0 to 255 from the coldest to the warmest.
+struct KelvinLevels {
+  std::optional<double> kelvin_per_count;  ///< as stored; empty: the files say it
+  double lowest_k = 0;
+  double kelvin_per_level = 1;
+};
+
 /// Frames in order, by clip and frame, or by name.
 struct FrameSource {
   std::string name;
   bool is_dataset = false;
   std::vector<SourceFrame> frames;
-  std::string no_boxes;  ///< why there are none; empty if there are
+  std::optional<KelvinLevels> kelvin = {};  ///< empty: frames are grey levels
+  std::string no_boxes;                     ///< why there are none; empty if there are
 };
 
 /// Lists the frames of a source and reads its labels; opens no picture.

@@ -35,6 +35,9 @@ struct Layout {
 /// "000012.png"
 [[nodiscard]] std::string frame_name(int frame);
 
+/// "clips/a/ir8/000012.png" -> "clips/a/ir16/000012.png"
+[[nodiscard]] std::string ir16_file(const std::string& ir8_file);
+
 /// "000012.exr"
 [[nodiscard]] std::string passes_name(int frame);
 

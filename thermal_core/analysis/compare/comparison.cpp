@@ -114,6 +114,7 @@ Comparison compare(const CompareOptions& options) {
   options.validate();
   FrameSource real_source = read_frame_source(options.real);
   FrameSource other_source = read_frame_source(options.other);
+  if (real_source.kelvin && other_source.kelvin) set_common_levels(real_source, other_source);
   const auto most = static_cast<std::size_t>(options.most_frames);
   const std::size_t reals = std::min(most, real_source.frames.size());
   const std::size_t all = reals + std::min(most, other_source.frames.size());

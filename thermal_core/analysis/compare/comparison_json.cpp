@@ -183,17 +183,20 @@ std::string noise_method(const SetFigures& set) {
 }
 
 Json to_json(const Comparison& comparison, bool each) {
-  return {{"format", "veldt-comparison"},
-          {"version", 1},
-          {"good_ratio", kGoodRatio},
-          {"real", set_json(comparison.real, each)},
-          {"dataset", set_json(comparison.other, each)},
-          {"curve_edges_per_px", curve_edges()},
-          {"measures", measures_json(comparison)},
-          {"frame_features", frame_features()},
-          {"crop_features", crop_features()},
-          {"frames_told_apart", told_json(comparison.frames, frame_features())},
-          {"crops_told_apart", told_json(comparison.crops, crop_features())}};
+  Json json = {{"format", "veldt-comparison"},
+               {"version", 1},
+               {"good_ratio", kGoodRatio},
+               {"real", set_json(comparison.real, each)},
+               {"dataset", set_json(comparison.other, each)},
+               {"curve_edges_per_px", curve_edges()},
+               {"measures", measures_json(comparison)},
+               {"frame_features", frame_features()},
+               {"crop_features", crop_features()},
+               {"frames_told_apart", told_json(comparison.frames, frame_features())},
+               {"crops_told_apart", told_json(comparison.crops, crop_features())}};
+  if (const auto& levels = comparison.real.source.kelvin)
+    json["levels"] = {{"lowest_k", levels->lowest_k}, {"kelvin_per_level", levels->kelvin_per_level}};
+  return json;
 }
 
 }  // namespace thermal

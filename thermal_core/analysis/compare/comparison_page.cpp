@@ -22,9 +22,26 @@ Json boxes_json(const std::vector<LabelBox>& boxes) {
   return json;
 }
 
+std::string png_of(const Plane<std::uint8_t>& picture) {
+  const std::vector<std::byte> bytes = encode_png(picture);
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return "data:image/png;base64," + base64_of(text);
+}
+
+/// A frame as it is, or of temperatures its levels.
+std::string shown(const FrameSource& source, std::size_t frame) {
+  constexpr int kMostPx = 640;
+  if (!source.kelvin)
+    return "data:image/jpeg;base64," + base64_of(as_jpeg(source.frames[frame].file, kMostPx));
+  const Plane<float> levels = read_levels(source, frame);
+  Plane<std::uint8_t> picture(levels.width_px(), levels.height_px());
+  std::ranges::transform(levels.pixels(), picture.pixels().begin(),
+                         [](float level) { return static_cast<std::uint8_t>(std::lround(level)); });
+  return png_of(picture);
+}
+
 Json frames_json(const SetFigures& set) {
   constexpr std::size_t kShown = 6;
-  constexpr int kMostPx = 640;
   Json frames = Json::array();
   for (const std::size_t k : evenly(set.frames.size(), kShown)) {
     const FrameFigures& frame = set.frames[k];
@@ -33,7 +50,7 @@ Json frames_json(const SetFigures& set) {
                       {"width_px", frame.width_px},
                       {"height_px", frame.height_px},
                       {"boxes", boxes_json(source.boxes)},
-                      {"picture", "data:image/jpeg;base64," + base64_of(as_jpeg(source.file, kMostPx))}});
+                      {"picture", shown(set.source, frame.frame)}});
   }
   return frames;
 }
@@ -52,9 +69,7 @@ Json crop_json(const Plane<float>& frame, const LabelBox& box) {
     for (int x = left; x < right; ++x)
       crop.at(x - left, y - top) = static_cast<std::uint8_t>(std::lround(frame.at(x, y)));
   }
-  const std::vector<std::byte> bytes = encode_png(crop);
-  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  return {{"picture", "data:image/png;base64," + base64_of(text)},
+  return {{"picture", png_of(crop)},
           {"width_px", crop.width_px()},
           {"height_px", crop.height_px()},
           {"box", {box.x_px - left, box.y_px - top, box.width_px, box.height_px}}};
@@ -68,7 +83,7 @@ Json crops_json(const SetFigures& set) {
   }
   Json crops = Json::array();
   for (const std::size_t k : evenly(targets.size(), kShown))
-    crops.push_back(crop_json(read_levels(set.source.frames[targets[k].first].file), targets[k].second));
+    crops.push_back(crop_json(read_levels(set.source, targets[k].first), targets[k].second));
   return crops;
 }
 

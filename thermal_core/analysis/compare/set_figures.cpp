@@ -1,6 +1,7 @@
 #include "analysis/compare/set_figures.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "io/image/grey_picture.h"
+#include "io/image/kelvin_picture.h"
 
 namespace thermal {
 namespace {
@@ -17,7 +19,7 @@ namespace {
 constexpr std::size_t kLeastFrames = 4;
 
 FrameFigures measured(const FrameSource& source, std::size_t frame) {
-  const Plane<float> levels = read_levels(source.frames[frame].file);
+  const Plane<float> levels = read_levels(source, frame);
   FrameFigures figures = {.frame = frame,
                           .width_px = levels.width_px(),
                           .height_px = levels.height_px(),
@@ -80,8 +82,7 @@ std::vector<std::size_t> starts_of(const FrameSource& source) {
 std::optional<VideoNoise> noise_of_run(const FrameSource& source, std::size_t start) {
   std::vector<Plane<float>> frames;
   try {
-    for (std::size_t k = start; k < start + kStillFrames; ++k)
-      frames.push_back(read_levels(source.frames[k].file));
+    for (std::size_t k = start; k < start + kStillFrames; ++k) frames.push_back(read_levels(source, k));
   } catch (const DataError&) {
     return {};
   }
@@ -106,21 +107,63 @@ std::optional<StillFootage> still_footage(const FrameSource& source) {
   return StillFootage{{median_of(random), median_of(rows), median_of(columns), median_of(whole)}, runs};
 }
 
-}  // namespace
-
-Plane<float> read_levels(const Path& file) {
-  constexpr int kLeastPx = 16;
+/// On the scale of 8 bits.
+Plane<float> grey_levels_of(const Path& file) {
   const GreyPicture picture = read_grey_picture(file);
-  const int width_px = picture.levels.width_px();
-  const int height_px = picture.levels.height_px();
-  if (width_px < kLeastPx || height_px < kLeastPx)
-    throw DataError(fault(file.string() + ": size", fmt::format("{} x {}", width_px, height_px), "px",
-                          fmt::format("at least {} x {} px", kLeastPx, kLeastPx)));
-  Plane<float> levels(width_px, height_px);
+  Plane<float> levels(picture.levels.width_px(), picture.levels.height_px());
   const float scale = picture.bits == 8 ? 1.0F : 1.0F / 257.0F;
   std::transform(picture.levels.pixels().begin(), picture.levels.pixels().end(), levels.pixels().begin(),
                  [scale](std::uint16_t level) { return static_cast<float>(level) * scale; });
   return levels;
+}
+
+Plane<float> kelvin_levels(const Path& file, const KelvinLevels& scale) {
+  Plane<float> levels = read_kelvin_picture(file, scale.kelvin_per_count);
+  for (float& level : levels.pixels()) {
+    const double above = (static_cast<double>(level) - scale.lowest_k) / scale.kelvin_per_level;
+    level = static_cast<float>(std::clamp(above, 0.0, kGreyLevels - 1.0));
+  }
+  return levels;
+}
+
+void widen_range(const FrameSource& source, double& lowest_k, double& highest_k) {
+  constexpr std::size_t kFrames = 16;
+  constexpr std::size_t kOutside = 1000;  // one pixel of so many at each end
+  for (const std::size_t frame : evenly(source.frames.size(), kFrames)) {
+    try {
+      Plane<float> kelvin = read_kelvin_picture(source.frames[frame].file, source.kelvin->kelvin_per_count);
+      std::ranges::sort(kelvin.pixels());
+      const std::size_t out = kelvin.size() / kOutside;
+      lowest_k = std::min<double>(lowest_k, kelvin.pixels()[out]);
+      highest_k = std::max<double>(highest_k, kelvin.pixels()[kelvin.size() - 1 - out]);
+    } catch (const DataError&) {
+      continue;  // named when it is measured
+    }
+  }
+}
+
+}  // namespace
+
+Plane<float> read_levels(const FrameSource& source, std::size_t frame) {
+  constexpr int kLeastPx = 16;
+  const Path& file = source.frames[frame].file;
+  Plane<float> levels = source.kelvin ? kelvin_levels(file, *source.kelvin) : grey_levels_of(file);
+  if (levels.width_px() < kLeastPx || levels.height_px() < kLeastPx)
+    throw DataError(fault(file.string() + ": size",
+                          fmt::format("{} x {}", levels.width_px(), levels.height_px()), "px",
+                          fmt::format("at least {} x {} px", kLeastPx, kLeastPx)));
+  return levels;
+}
+
+void set_common_levels(FrameSource& one, FrameSource& other) {
+  double lowest_k = std::numeric_limits<double>::max();
+  double highest_k = 0;
+  for (const FrameSource* source : {&one, &other}) widen_range(*source, lowest_k, highest_k);
+  constexpr double kLeastRangeK = 0.1;
+  for (FrameSource* source : {&one, &other}) {
+    source->kelvin->lowest_k = lowest_k;
+    source->kelvin->kelvin_per_level = std::max(highest_k - lowest_k, kLeastRangeK) / (kGreyLevels - 1);
+  }
 }
 
 std::vector<std::size_t> units_of(const FrameSource& source, const std::vector<std::size_t>& frames) {

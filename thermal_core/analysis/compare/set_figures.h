@@ -44,9 +44,13 @@ struct SetFigures {
 /// Frames of a run that is checked for a still scene.
 inline constexpr std::size_t kStillFrames = 8;
 
-/// Grey levels on the scale of 8 bits; those of 16 bits are divided by 257. DataError with the file for frames below
-/// 16 x 16 px, and those of read_grey_picture().
-[[nodiscard]] Plane<float> read_levels(const Path& file);
+/// Of frames in kelvin, levels from 0 at KelvinLevels::lowest_k to 255. Otherwise grey levels on the scale of 8 bits; those of 16 bits are divided by 257. DataError with the file for frames below
+/// 16 x 16 px, and those of read_grey_picture() and read_kelvin_picture().
+[[nodiscard]] Plane<float> read_levels(const FrameSource& source, std::size_t frame);
+
+/// Gives two sources in kelvin common levels, which reach from the 0.1 to the 99.9 % points of the temperatures of up to
+/// 16 frames of each, evenly spaced. Pictures that cannot be read are left out.
+void set_common_levels(FrameSource& one, FrameSource& other);
 
 /// Reads and measures at most `most_frames` of a source, evenly spaced. Frames of different sizes are measured each as
 /// it is. `show` is called as frames are done. DataError if fewer than 4 can be read.

@@ -35,12 +35,6 @@ Path root_of(const LabelSet& set) {
   return beside ? root.parent_path() : root;
 }
 
-/// "clips/a/ir8/000000.png" -> "clips/a/ir16/000000.png"
-std::string ir16_of(const std::string& file) {
-  const Path path(file);
-  return (path.parent_path().parent_path() / "ir16" / path.filename()).string();
-}
-
 /// Labels of the requested pictures: all, or the selected ones.
 LabelSet read_set(const ExportOptions& options) {
   LabelSet set = read_labels(options.source, options.unfinished_too);
@@ -60,7 +54,7 @@ void use_ir16(LabelSet& set, const Path& source, ExportFormat format) {
     throw ConfigError(fault("--format", "tiff", "", "another; only Veldt datasets have temperatures"));
   if (!is_ours(source))
     throw ConfigError(fault("--images", "ir16", "", "ir8; only Veldt datasets have 16-bit pictures"));
-  for (LabelImage& image : set.images) image.file = ir16_of(image.file);
+  for (LabelImage& image : set.images) image.file = ir16_file(image.file);
 }
 
 /// A name or a link that leads out of the folder could add any file of this machine to an export that is given away.

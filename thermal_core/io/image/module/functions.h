@@ -13,6 +13,9 @@ namespace thermal::pictures {
 /// As read_grey_picture() in io/image/grey_picture.h, with faults of the file without its name.
 [[nodiscard]] GreyPicture read_grey(const Path& file);
 
+/// Of read_kelvin_picture() in io/image/kelvin_picture.h, with faults of the file without its name.
+[[nodiscard]] StoredTemperatures read_temperatures(const Path& file);
+
 /// As encode_tiff() in io/image/tiff.h.
 [[nodiscard]] std::string encode_kelvin_tiff(const Plane<float>& picture, const TiffTags& tags);
 [[nodiscard]] std::string encode_counts_tiff(const Plane<std::uint16_t>& picture, const TiffTags& tags);

@@ -109,6 +109,11 @@ class TiffWriter {
   std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff_{nullptr, &TIFFClose};
 };
 
+bool has_exif(const TiffTags& tags) {
+  return !tags.taken_at.empty() || !tags.subsecond.empty() || tags.f_number || tags.focal_length_mm ||
+         tags.pixels_per_cm;
+}
+
 std::uint64_t write_exif(TiffWriter& writer, const TiffTags& tags) {
   writer.check(TIFFCreateEXIFDirectory(writer.tiff()) == 0);
   writer.set_text(EXIFTAG_DATETIMEORIGINAL, tags.taken_at);
@@ -205,11 +210,11 @@ void write_pixels(TiffWriter& writer, const Plane<T>& picture) {
 template <typename T>
 std::string encode(const Plane<T>& picture, const TiffTags& tags) {
   TiffWriter writer;
-  const std::uint64_t exif = write_exif(writer, tags);
+  const std::uint64_t exif = has_exif(tags) ? write_exif(writer, tags) : 0;  // libtiff writes no empty one
   const std::uint64_t gps = tags.position ? write_gps(writer, *tags.position) : 0;
   TIFFCreateDirectory(writer.tiff());
   set_texts(writer, tags);
-  writer.set(TIFFTAG_EXIFIFD, exif);
+  if (has_exif(tags)) writer.set(TIFFTAG_EXIFIFD, exif);
   if (tags.position) writer.set(TIFFTAG_GPSIFD, gps);
   write_pixels(writer, picture);
   return writer.end();

@@ -1,0 +1,81 @@
+#include "io/image/kelvin_picture.h"
+
+#include <limits>
+
+#include "base/error.h"
+#include "io/image/png.h"
+#include "io/image/tiff.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+#include "support/temporary_folder.h"
+
+namespace kelvin_picture_test {
+
+using namespace thermal;
+
+namespace {
+
+constexpr const char* kScaled =
+    "<GDALMetadata><Item name=\"OFFSET\" sample=\"0\" role=\"offset\">0</Item>"
+    "<Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.01</Item></GDALMetadata>";
+
+/// All counts of 16 bits.
+Plane<std::uint16_t> all_counts() {
+  Plane<std::uint16_t> plane(256, 256);
+  for (std::size_t k = 0; k < plane.size(); ++k) plane.pixels()[k] = static_cast<std::uint16_t>(k);
+  return plane;
+}
+
+Plane<float> kelvin_of(const Plane<std::uint16_t>& counts) {
+  Plane<float> kelvin(counts.width_px(), counts.height_px());
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    kelvin.pixels()[k] = static_cast<float>(counts.pixels()[k] * 0.01);
+  return kelvin;
+}
+
+}  // namespace
+
+TEST_CASE("Kelvin come back bit for bit: floats, counts with a scale in the tags, counts with one given") {
+  const TemporaryFolder folder;
+  const Plane<std::uint16_t> counts = all_counts();
+  const Plane<float> kelvin = kelvin_of(counts);
+  write_file_atomically(folder.path() / "a.tif", encode_tiff(kelvin, {}));
+  write_file_atomically(folder.path() / "b.tif", encode_tiff(counts, {.gdal_metadata = kScaled}));
+  write_file(folder.path() / "c.png", encode_png(counts));
+  CHECK(read_kelvin_picture(folder.path() / "a.tif", {}) == kelvin);
+  CHECK(read_kelvin_picture(folder.path() / "b.tif", {}) == kelvin);
+  CHECK(read_kelvin_picture(folder.path() / "c.png", 0.01) == kelvin);
+}
+
+TEST_CASE("A given scale replaces the one of the tags, and floats have none") {
+  const TemporaryFolder folder;
+  const Plane<std::uint16_t> counts(8, 8, 7500);
+  write_file_atomically(folder.path() / "a.tif", encode_tiff(counts, {.gdal_metadata = kScaled}));
+  CHECK(read_kelvin_picture(folder.path() / "a.tif", 0.04).at(3, 3) == 300.0F);
+  write_file_atomically(folder.path() / "b.tif", encode_tiff(Plane<float>(8, 8, 300.0F), {}));
+  CHECK(read_kelvin_picture(folder.path() / "b.tif", 0.04).at(3, 3) == 300.0F);
+}
+
+TEST_CASE("Pictures without temperatures") {
+  const TemporaryFolder folder;
+  const Path file = folder.path() / "a.tif";
+  const auto fault_of = [&](const std::string& bytes) {
+    write_file_atomically(file, bytes);
+    return message_of<DataError>([&] { (void)read_kelvin_picture(file, {}); });
+  };
+  const std::string rule = "; expected kelvin: finite, and 100 to 3000 for half of the pixels";
+  CHECK(fault_of(encode_tiff(Plane<std::uint16_t>(8, 8, 30000), {})) ==
+        file.string() +
+            ": scale of its counts = unknown; expected kelvin per count in its tags or as an option");
+  CHECK(fault_of(encode_tiff(Plane<float>(8, 8, 21.5F), {})) ==
+        file.string() + ": median of the pixels = 21.5" + rule);
+  Plane<float> broken(8, 8, 300.0F);
+  broken.at(2, 2) = std::numeric_limits<float>::quiet_NaN();
+  CHECK(fault_of(encode_tiff(broken, {})) == file.string() + ": pixels = not finite" + rule);
+  CHECK_THAT(fault_of("no TIFF"), StartsWith(file.string() + ": damaged: "));
+  CHECK(fault_of(encode_tiff(Plane<std::uint16_t>(8, 8, 30000),
+                             {.gdal_metadata = "<Item role=\"scale\">x</Item>"}))
+            .find("scale of its counts = unknown") != std::string::npos);
+}
+
+}  // namespace kelvin_picture_test
