@@ -47,6 +47,7 @@ void add_view(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "view",
                                   "A page to look through all frames: clips, palettes, boxes, tracks, kelvin "
                                   "under the cursor; needs no server");
+  command->footer("Example: veldt view my_dataset --out look");
   auto options = std::make_shared<ViewArguments>();
   command->add_option("dataset", options->source, "A dataset, or one clip's folder in it (DIR/clips/CLIP)")
       ->required()
