@@ -1,5 +1,6 @@
 """`veldt.gym`: an environment as Gymnasium wants it."""
 
+import gymnasium
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
@@ -18,7 +19,9 @@ def _place(tmp_path_factory):
 
 @pytest.mark.filterwarnings("error")
 def test_gymnasiums_checker_passes(place):
-    check_env(FlightEnv(place, "down", render_mode="rgb_array"), skip_render_check=False)
+    made = gymnasium.make("Veldt/Flight-v0", plan_folder=place, clip="down", render_mode="rgb_array")
+    assert isinstance(made.unwrapped, FlightEnv)
+    check_env(made.unwrapped)
 
 
 def test_an_episode_begins_with_the_planned_pose_and_lasts_as_long_as_the_plan(place):

@@ -23,6 +23,7 @@ class FlightEnv(gymnasium.Env[NDArray[np.uint8], NDArray[np.float32]]):
     width). Reward: the share of the followed actors that are labelled in the frame, 0 to 1. An episode begins with
     the planned flight's first pose, and is truncated when the plan's time is over. It never terminates before.
 
+    `gymnasium.make("Veldt/Flight-v0", plan_folder=…, clip=…)` makes one too, once this module is imported.
     `info` has `capture`: the whole Capture, and `camera_to_world`.
     """
 
@@ -124,3 +125,6 @@ def pose_of(place_m: NDArray[np.float64], heading_rad: float, down_rad: float) -
     pose = np.eye(4)
     pose[:3] = np.column_stack([right, np.cross(forward, right), forward, place_m])
     return pose
+
+
+gymnasium.register("Veldt/Flight-v0", entry_point=FlightEnv)
