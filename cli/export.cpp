@@ -145,6 +145,38 @@ int run_export(const ExportArguments& options, const CommonOptions& common) {
   return kDone;
 }
 
+/// What pictures and masks become.
+void add_picture_options(CLI::App& command, ExportArguments& options) {
+  command
+      .add_option("--link", options.link, "How to place pictures; copies where the file system cannot link")
+      ->check(CLI::IsMember({"hard", "symlink", "copy"}))
+      ->default_str("hard");
+  command
+      .add_option("--images", options.images,
+                  "8-bit pictures after gain control, or 16-bit pictures in kelvin")
+      ->check(CLI::IsMember({"ir8", "ir16"}))
+      ->default_str("ir8");
+  command
+      .add_option(
+          "--segmentation", options.segmentation,
+          "Masks of --format coco as run lengths (default) or polygons; polygon with --format yolo writes "
+          "outlines instead of boxes")
+      ->check(CLI::IsMember({"rle", "polygon"}));
+  command
+      .add_option("--tiff-type", options.tiff_type,
+                  "Pixels of --format tiff: kelvin, or counts with their scale in the tags")
+      ->check(CLI::IsMember({"float32", "uint16"}))
+      ->default_str("float32");
+  command
+      .add_option(
+          "--origin", options.what.origin,
+          "Where --format tiff puts the scene's (0, 0) on Earth (WGS 84), e.g. -19.3,23.1; by default 23 deg "
+          "east, on the latitude and at the height of the dataset's weather")
+      ->type_name("LAT,LON[,HEIGHT]");
+  add_box_style(command, options.what.boxes,
+                "Boxes around visible pixels, or with the margin of 1 to 2 px that people leave");
+}
+
 }  // namespace
 
 void add_export(CLI::App& app, Session& session) {
@@ -165,34 +197,7 @@ void add_export(CLI::App& app, Session& session) {
   command->add_option("--out", options->out, "Folder of the export, empty or new")
       ->required()
       ->type_name("DIR");
-  command
-      ->add_option("--link", options->link, "How to place pictures; copies where the file system cannot link")
-      ->check(CLI::IsMember({"hard", "symlink", "copy"}))
-      ->default_str("hard");
-  command
-      ->add_option("--images", options->images,
-                   "8-bit pictures after gain control, or 16-bit pictures in kelvin")
-      ->check(CLI::IsMember({"ir8", "ir16"}))
-      ->default_str("ir8");
-  command
-      ->add_option(
-          "--segmentation", options->segmentation,
-          "Masks of --format coco as run lengths (default) or polygons; polygon with --format yolo writes "
-          "outlines instead of boxes")
-      ->check(CLI::IsMember({"rle", "polygon"}));
-  command
-      ->add_option("--tiff-type", options->tiff_type,
-                   "Pixels of --format tiff: kelvin, or counts with their scale in the tags")
-      ->check(CLI::IsMember({"float32", "uint16"}))
-      ->default_str("float32");
-  command
-      ->add_option(
-          "--origin", options->what.origin,
-          "Where --format tiff puts the scene's (0, 0) on Earth (WGS 84), e.g. -19.3,23.1; by default 23 deg "
-          "east, on the latitude and at the height of the dataset's weather")
-      ->type_name("LAT,LON[,HEIGHT]");
-  add_box_style(*command, options->what.boxes,
-                "Boxes around visible pixels, or with the margin of 1 to 2 px that people leave");
+  add_picture_options(*command, *options);
   CLI::Option* split =
       command
           ->add_option("--split", options->split,

@@ -19,11 +19,11 @@ std::vector<std::size_t> first_bones(const BakedScene& scene, const BakedTrack& 
   return first;
 }
 
-template <typename Number, std::size_t size>
-std::array<Number, size> between(const std::array<Number, size>& from, const std::array<Number, size>& to,
-                                 double share) {
-  std::array<Number, size> out;
-  for (std::size_t i = 0; i < size; ++i)
+template <typename Numbers>
+Numbers between(const Numbers& from, const Numbers& to, double share) {
+  using Number = typename Numbers::value_type;
+  Numbers out{};
+  for (std::size_t i = 0; i < out.size(); ++i)
     out[i] = static_cast<Number>(std::lerp(static_cast<double>(from[i]), static_cast<double>(to[i]), share));
   return out;
 }

@@ -134,8 +134,8 @@ void widen_range(const FrameSource& source, double& lowest_k, double& highest_k)
       Plane<float> kelvin = read_kelvin_picture(source.frames[frame].file, source.kelvin->kelvin_per_count);
       std::ranges::sort(kelvin.pixels());
       const std::size_t out = kelvin.size() / kOutside;
-      lowest_k = std::min<double>(lowest_k, kelvin.pixels()[out]);
-      highest_k = std::max<double>(highest_k, kelvin.pixels()[kelvin.size() - 1 - out]);
+      lowest_k = std::min(lowest_k, static_cast<double>(kelvin.pixels()[out]));
+      highest_k = std::max(highest_k, static_cast<double>(kelvin.pixels()[kelvin.size() - 1 - out]));
     } catch (const DataError&) {
       continue;  // named when it is measured
     }

@@ -143,7 +143,10 @@ Outline filled_outline(const TargetMask& mask) {
     const Bridge bridge = nearest(whole, parts[k].ring);
     if (bridge.between_px < parts[k].area_px) join(whole, bridge.from, parts[k].ring, bridge.to);
   }
-  const auto within = [](int place) { return place / 2 + (place % 2 == 0 ? kFromEdgePx : 1 - kFromEdgePx); };
+  const auto within = [](int place) {
+    const int pixel = place / 2;
+    return pixel + (place % 2 == 0 ? kFromEdgePx : 1 - kFromEdgePx);
+  };
   Outline outline;
   for (const cv::Point& point : without_middles(whole))
     outline.push_back({.x_px = mask.left_px + within(point.x), .y_px = mask.top_px + within(point.y)});

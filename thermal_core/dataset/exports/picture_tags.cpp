@@ -132,7 +132,7 @@ void check_near(const LocalVector& point_m) {
 
 CameraAttitude attitude_at(const std::array<double, 16>& pose, const PlaceOnEarth& place,
                            const GeoPosition& where) {
-  std::array<LocalVector, 3> axes;
+  std::array<LocalVector, 3> axes{};
   for (std::size_t axis = 0; axis < 3; ++axis)
     axes[axis] = place.direction_at(where, {pose[axis], pose[4 + axis], pose[8 + axis]});
   return attitude_of(axes[0], axes[1], axes[2]);

@@ -7,14 +7,6 @@
 
 namespace thermal {
 
-/// A TIFF of one channel as stored.
-struct StoredTemperatures {
-  Plane<float> values;            ///< exact: floats, or counts of 16 bits
-  bool counts = false;            ///< of 16 bits
-  std::optional<double> scale{};  ///< of GDAL's metadata: value x scale + offset
-  double offset = 0;
-};
-
 /// Reads a picture of temperatures [K]: a TIFF of 32-bit floats in kelvin, or a TIFF or PNG of 16-bit counts. The scale of
 /// counts is `kelvin_per_count`, or that of a TIFF's tags, as GDAL and `veldt export --format tiff` write it; kelvin are
 /// rounded once, so that these are the ones that were exported, bit for bit.

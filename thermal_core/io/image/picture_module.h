@@ -4,8 +4,8 @@
 
 #include "io/image/encoded_picture.h"
 #include "io/image/grey_plane.h"
-#include "io/image/kelvin_picture.h"
 #include "io/image/picture_size.h"
+#include "io/image/stored_temperatures.h"
 #include "io/image/text_coverage.h"
 #include "io/image/tiff.h"
 #include "io/system/files.h"

@@ -13,7 +13,7 @@ namespace thermal::pictures {
 /// As read_grey_picture() in io/image/grey_picture.h, with faults of the file without its name.
 [[nodiscard]] GreyPicture read_grey(const Path& file);
 
-/// Of read_kelvin_picture() in io/image/kelvin_picture.h, with faults of the file without its name.
+/// Of read_kelvin_picture() in io/image/stored_temperatures.h, with faults of the file without its name.
 [[nodiscard]] StoredTemperatures read_temperatures(const Path& file);
 
 /// As encode_tiff() in io/image/tiff.h.

@@ -134,7 +134,8 @@ std::array<double, 3> sexagesimal(double angle_deg) {
   constexpr std::int64_t kMicro = 1'000'000;
   const std::int64_t micro_seconds = std::llround(std::abs(angle_deg) * 3600 * kMicro);
   const std::int64_t minutes = micro_seconds / (60 * kMicro);
-  return {static_cast<double>(minutes / 60), static_cast<double>(minutes % 60),
+  const std::int64_t degrees = minutes / 60;
+  return {static_cast<double>(degrees), static_cast<double>(minutes % 60),
           static_cast<double>(micro_seconds % (60 * kMicro)) / kMicro};
 }
 
@@ -159,7 +160,7 @@ void add_gdal_metadata(TiffWriter& writer, const std::string& xml) {
   if (xml.empty()) return;
   constexpr std::uint32_t kGdalMetadata = 42112;
   static char name[] = "GDALMetadata";
-  static const TIFFFieldInfo info = {
+  static const TIFFFieldInfo kInfo = {
       .field_tag = kGdalMetadata,
       .field_readcount = -1,
       .field_writecount = -1,
@@ -169,7 +170,7 @@ void add_gdal_metadata(TiffWriter& writer, const std::string& xml) {
       .field_passcount = 0,
       .field_name = name,
   };
-  writer.check(TIFFMergeFieldInfo(writer.tiff(), &info, 1) == 0);
+  writer.check(TIFFMergeFieldInfo(writer.tiff(), &kInfo, 1) == 0);
   writer.set(kGdalMetadata, xml.c_str());
 }
 
