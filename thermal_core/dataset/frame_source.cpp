@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "dataset/dataset_file.h"
+#include "dataset/frame_lines.h"
 #include "dataset/frame_names.h"
 #include "dataset/label_pictures.h"
 #include "dataset/label_source.h"
@@ -53,18 +53,9 @@ void say_if_none(const LabelSet& set, const std::string& category, FrameSource& 
 std::map<int, double> altitudes_in(const Path& file) {
   std::map<int, double> altitudes;
   check_is_no_link(file);
-  std::istringstream lines(read_file(file));
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    try {
-      const Json frame = Json::parse(line);
-      if (frame.contains("agl_m"))
-        altitudes[frame.at("frame_index").get<int>()] = frame["agl_m"].get<double>();
-    } catch (const Json::exception& error) {
-      throw DataError(fmt::format("{}:{}: not a frame of a clip: {}", file.string(), number, error.what()));
-    }
-  }
+  for_frame_lines(file, [&altitudes](const Json& frame) {
+    if (frame.contains("agl_m")) altitudes[frame.at("frame_index").get<int>()] = frame["agl_m"].get<double>();
+  });
   return altitudes;
 }
 

@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -15,6 +14,7 @@
 #include "dataset/dataset_file.h"
 #include "dataset/exports/coco.h"
 #include "dataset/exports/picture_tags.h"
+#include "dataset/frame_lines.h"
 #include "dataset/label_pictures.h"
 #include "dataset/layout.h"
 #include "io/image/png.h"
@@ -52,20 +52,12 @@ ExportInput by_clip(const ExportInput& input) {
 std::map<int, FramePose> poses_in(const Path& file) {
   std::map<int, FramePose> poses;
   check_is_no_link(file);
-  std::istringstream lines(read_file(file));
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    try {
-      const Json frame = Json::parse(line);
-      FramePose& pose = poses[frame.at("frame_index").get<int>()];
-      pose.time_s = frame.at("time_s").get<double>();
-      if (frame.contains("camera_to_world"))
-        pose.camera_to_world = frame["camera_to_world"].get<std::array<double, 16>>();
-    } catch (const Json::exception& error) {
-      throw DataError(fmt::format("{}:{}: not a frame of a clip: {}", file.string(), number, error.what()));
-    }
-  }
+  for_frame_lines(file, [&poses](const Json& frame) {
+    FramePose& pose = poses[frame.at("frame_index").get<int>()];
+    pose.time_s = frame.at("time_s").get<double>();
+    if (frame.contains("camera_to_world"))
+      pose.camera_to_world = frame["camera_to_world"].get<std::array<double, 16>>();
+  });
   return poses;
 }
 

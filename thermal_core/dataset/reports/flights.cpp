@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/printable.h"
+#include "dataset/frame_lines.h"
 #include "dataset/plan/planning.h"
 #include "io/assets.h"
 #include "io/config/lens.h"
@@ -50,17 +50,7 @@ void add_frame(const Json& frame, FlightTrack& track) {
 
 FlightTrack read_track(const Path& file, const std::string& clip) {
   FlightTrack track{.clip = clip, .camera_to_world = {}, .agl_m = {}};
-  std::istringstream lines(read_file(file));
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    try {
-      add_frame(Json::parse(line), track);
-    } catch (const Json::exception& error) {
-      throw DataError(fmt::format("{}:{}: not a frame of a clip: {}", file.string(), number, error.what()));
-    }
-  }
-  if (track.agl_m.size() != track.camera_to_world.size()) track.agl_m.clear();
+  for_frame_lines(file, [&track](const Json& frame) { add_frame(frame, track); });
   return track;
 }
 
