@@ -10,6 +10,7 @@ import pytest
 
 import passes
 import tiff_tags
+from earth import axes_at, earth_coordinates_m
 from pictures import read_grey
 from program import Veldt, files_below
 from tiff_tags import read_tags
@@ -153,32 +154,6 @@ def test_times_are_local_solar_time(made):
     assert read_tags(made / NAMES[3])["exif"][tiff_tags.DATE_TIME_ORIGINAL] == "2026:07:09 23:59:00"
 
 
-def _earth_m(latitude_deg: float, longitude_deg: float, height_m: float) -> np.ndarray:
-    """Earth-centred coordinates (3,) on the WGS 84 ellipsoid."""
-    squared = (2 - 1 / 298.257223563) / 298.257223563
-    lat, lon = math.radians(latitude_deg), math.radians(longitude_deg)
-    normal_m = 6378137 / math.sqrt(1 - squared * math.sin(lat) ** 2)
-    return np.array(
-        [
-            (normal_m + height_m) * math.cos(lat) * math.cos(lon),
-            (normal_m + height_m) * math.cos(lat) * math.sin(lon),
-            (normal_m * (1 - squared) + height_m) * math.sin(lat),
-        ]
-    )
-
-
-def _axes(latitude_deg: float, longitude_deg: float) -> np.ndarray:
-    """East, north and up of a place, in rows."""
-    lat, lon = math.radians(latitude_deg), math.radians(longitude_deg)
-    return np.array(
-        [
-            [-math.sin(lon), math.cos(lon), 0],
-            [-math.sin(lat) * math.cos(lon), -math.sin(lat) * math.sin(lon), math.cos(lat)],
-            [math.cos(lat) * math.cos(lon), math.cos(lat) * math.sin(lon), math.sin(lat)],
-        ]
-    )
-
-
 def _position(gps: dict) -> tuple[float, float, float]:
     angles = [
         sum(float(part) / 60**k for k, part in enumerate(gps[number]))
@@ -195,7 +170,9 @@ def test_positions_are_within_a_centimetre(place, tmp_path, origin):
     for name, pose in zip(NAMES, POSES):
         gps = read_tags(made / name)["gps"]
         assert (gps[0], gps[18]) == (bytes([2, 3, 0, 0]), "WGS-84")
-        local_m = _axes(*origin[:2]) @ (_earth_m(*_position(gps)) - _earth_m(*origin[:2], height_m))
+        local_m = axes_at(*origin[:2]) @ (
+            earth_coordinates_m(*_position(gps)) - earth_coordinates_m(*origin[:2], height_m)
+        )
         assert np.abs(local_m - np.array(pose)[[3, 7, 11]]).max() < 0.002  # the step of heights is 1 mm
 
 

@@ -1,4 +1,4 @@
-"""Fixtures for tests with a real Blender."""
+"""Fixtures for tests with a real Blender or a real browser."""
 
 import os
 import shutil
@@ -13,3 +13,13 @@ def _blender() -> str:
     if found is None:
         pytest.fail("no Blender: neither on PATH nor named by BLENDER")
     return found
+
+
+@pytest.fixture(scope="module", name="browser")
+def _browser(tmp_path_factory):
+    """Chromium, without a window."""
+    from browser import open_browser  # Selenium, which no other test here needs
+
+    browser = open_browser(tmp_path_factory.mktemp("profile"))
+    yield browser
+    browser.close()

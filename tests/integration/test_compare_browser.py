@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from browser import DESKTOP, PHONE, open_browser
+from browser import DESKTOP, PHONE
 from pictures import write_grey
 from program import Veldt
 
@@ -14,13 +14,6 @@ return [...document.querySelectorAll("canvas")].map((canvas) => {
   return new Set(Array.from({ length: data.length / 4 }, (_, k) => data[4 * k] + 256 * data[4 * k + 1])).size > 5;
 });
 """
-
-
-@pytest.fixture(scope="module", name="browser")
-def _browser(tmp_path_factory):
-    browser = open_browser(tmp_path_factory.mktemp("profile"))
-    yield browser
-    browser.close()
 
 
 def _write(veldt: Veldt, folder: str, labels: bool) -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from browser import DESKTOP, PHONE, open_browser
+from browser import DESKTOP, PHONE
 from legibility import CONTRAST, TARGETS
 from program import Veldt
 from reports import change, flown_config, make_dataset
@@ -12,13 +12,6 @@ SIZES = {"desktop": DESKTOP, "phone": PHONE}
 SECTIONS = ["frames", "labels", "distributions", "places", "flights", "clips", "physics", "provenance"]
 # Chart.js's canvases: counts, six histograms, terms.
 CHARTS = 8
-
-
-@pytest.fixture(scope="module", name="browser")
-def _browser(tmp_path_factory):
-    browser = open_browser(tmp_path_factory.mktemp("profile"))
-    yield browser
-    browser.close()
 
 
 def _enrich(document: dict) -> None:

@@ -5,7 +5,7 @@ import time
 import pytest
 
 import passes
-from browser import DESKTOP, PHONE, open_browser
+from browser import DESKTOP, PHONE
 from legibility import CONTRAST, TARGETS
 from program import Veldt
 from reports import change
@@ -22,13 +22,6 @@ from view_page import (
 )
 
 SIZES = {"desktop": DESKTOP, "phone": PHONE}
-
-
-@pytest.fixture(scope="module", name="browser")
-def _browser(tmp_path_factory):
-    browser = open_browser(tmp_path_factory.mktemp("profile"))
-    yield browser
-    browser.close()
 
 
 @pytest.fixture(scope="module", name="dataset")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import passes
-from browser import DESKTOP, PHONE, open_browser
+from browser import DESKTOP, PHONE
 from view_page import (
     NOTHING_OVER,
     choose,
@@ -23,13 +23,6 @@ from view_page import (
 SIZES = {"desktop": DESKTOP, "phone": PHONE}
 WIDTH, HEIGHT = passes.WIDTH, passes.HEIGHT
 HUMAN = (0, 229, 255)
-
-
-@pytest.fixture(scope="module", name="browser")
-def _browser(tmp_path_factory):
-    browser = open_browser(tmp_path_factory.mktemp("profile"))
-    yield browser
-    browser.close()
 
 
 @pytest.fixture(scope="module", name="dataset")

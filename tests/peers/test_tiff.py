@@ -16,6 +16,8 @@ import tifffile
 import xmltodict
 from PIL import Image
 
+from earth import axes_at, earth_coordinates_m
+
 ORIGIN = (-19.3, 23.1, 950.0)
 OPTIONS = (f"--origin={','.join(map(str, ORIGIN))}",)
 FRAMES = 12
@@ -50,32 +52,6 @@ def _height_m(tags: dict) -> float:
     return sign * float(tags["GPS GPSAltitude"].values[0])
 
 
-def _earth_m(latitude_deg: float, longitude_deg: float, height_m: float) -> np.ndarray:
-    squared = (2 - 1 / 298.257223563) / 298.257223563
-    lat, lon = math.radians(latitude_deg), math.radians(longitude_deg)
-    normal_m = 6378137 / math.sqrt(1 - squared * math.sin(lat) ** 2)
-    level_m = (normal_m + height_m) * math.cos(lat)
-    return np.array(
-        [
-            level_m * math.cos(lon),
-            level_m * math.sin(lon),
-            (normal_m * (1 - squared) + height_m) * math.sin(lat),
-        ]
-    )
-
-
-def _axes(latitude_deg: float, longitude_deg: float) -> np.ndarray:
-    """East, north, up of a place, in rows."""
-    lat, lon = math.radians(latitude_deg), math.radians(longitude_deg)
-    return np.array(
-        [
-            [-math.sin(lon), math.cos(lon), 0],
-            [-math.sin(lat) * math.cos(lon), -math.sin(lat) * math.sin(lon), math.cos(lat)],
-            [math.cos(lat) * math.cos(lon), math.cos(lat) * math.sin(lon), math.sin(lat)],
-        ]
-    )
-
-
 @pytest.fixture(scope="module", name="poses")
 def _poses(place) -> list[dict]:
     return json.loads((place.folder / "passes" / "survey.json").read_text())
@@ -105,8 +81,10 @@ def test_positions_are_within_a_centimetre(export, poses):
     folder = export("survey", "tiff", *OPTIONS)
     for frame, pose in enumerate(poses):
         tags = _exif(_file(folder, frame))
-        earth_m = _earth_m(_angle_deg(tags, "GPSLatitude"), _angle_deg(tags, "GPSLongitude"), _height_m(tags))
-        local_m = _axes(*ORIGIN[:2]) @ (earth_m - _earth_m(*ORIGIN))
+        earth_m = earth_coordinates_m(
+            _angle_deg(tags, "GPSLatitude"), _angle_deg(tags, "GPSLongitude"), _height_m(tags)
+        )
+        local_m = axes_at(*ORIGIN[:2]) @ (earth_m - earth_coordinates_m(*ORIGIN))
         assert np.abs(local_m - np.array(pose["camera_to_world"])[[3, 7, 11]]).max() < 0.01
 
 
@@ -135,11 +113,11 @@ def test_views_as_opendronemap_turns_them(export, poses):
                 math.cos(p) * math.cos(r),
             ]
         )
-        here = _axes(_angle_deg(tags, "GPSLatitude"), _angle_deg(tags, "GPSLongitude"))
+        here = axes_at(_angle_deg(tags, "GPSLatitude"), _angle_deg(tags, "GPSLongitude"))
         view = here.T @ (down[[1, 0, 2]] * [1, 1, -1])
         matrix = np.array(pose["camera_to_world"]).reshape(4, 4)
         # Angles have six decimals: 1e-8 rad.
-        assert np.abs(_axes(*ORIGIN[:2]) @ view - matrix[:3, 2]).max() < 3e-8
+        assert np.abs(axes_at(*ORIGIN[:2]) @ view - matrix[:3, 2]).max() < 3e-8
 
 
 def test_the_camera_as_opendronemap_takes_it(export):
