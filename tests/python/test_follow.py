@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from veldt import plan
-from veldt.gym import FlightEnv, pose_of
+from veldt.gym import FlightEnv
+from veldt.poses import pose_looking
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -47,7 +48,7 @@ def test_spots_are_found_where_they_are_the_clearest_first(example):
 
 def test_a_spot_is_where_its_ray_meets_the_ground(example):
     camera = example.Intrinsics(640, 512, 800, 800, 320, 256)
-    pose = pose_of(np.array([10.0, 20.0, 61.0]), np.pi / 2, np.pi / 4)  # to the north, 45 degrees down
+    pose = pose_looking(np.array([10.0, 20.0, 61.0]), np.pi / 2, np.pi / 4)  # to the north, 45 degrees down
     middle = example.place_on_ground(example.Spot(320, 256, 0), pose, camera, 0)
     assert np.allclose(middle, [10, 81])
     assert example.place_on_ground(example.Spot(320, 256 - 900, 0), pose, camera, 0) is None
@@ -57,7 +58,7 @@ def test_a_spot_is_where_its_ray_meets_the_ground(example):
 
 def test_what_stays_is_not_followed(example):
     camera = example.Intrinsics(640, 512, 800, 800, 320, 256)
-    pose = pose_of(np.array([0.0, 0.0, 61.0]), np.pi / 2, np.pi / 4)
+    pose = pose_looking(np.array([0.0, 0.0, 61.0]), np.pi / 2, np.pi / 4)
     pilot = example.Pilot(pose, camera, 10)
     for frame in range(50):
         grey = np.full((512, 640), 90, np.uint8)

@@ -7,7 +7,7 @@ from gymnasium.utils.env_checker import check_env
 
 from configs import tiny
 from veldt import plan
-from veldt.gym import FlightEnv, pose_of
+from veldt.gym import FlightEnv
 
 
 @pytest.fixture(name="place", scope="module")
@@ -62,12 +62,3 @@ def test_the_reward_is_the_share_that_is_seen(place):
     nobody = FlightEnv(place, "down", follow="rhinoceros")
     nobody.reset()
     assert nobody.step(np.zeros(5, np.float32))[1] == 0
-
-
-def test_poses_have_no_roll_and_look_where_they_say():
-    pose = pose_of(np.array([1.0, 2.0, 30.0]), np.pi / 2, np.pi / 6)
-    assert np.allclose(pose[:3, 2], [0, np.cos(np.pi / 6), -0.5])
-    assert np.allclose(pose[:3, 0], [1, 0, 0])
-    assert np.allclose(pose[:3, :3] @ pose[:3, :3].T, np.eye(3))
-    assert np.linalg.det(pose[:3, :3]) == pytest.approx(1)
-    assert pose[:3, 3].tolist() == [1, 2, 30]

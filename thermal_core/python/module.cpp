@@ -5,6 +5,7 @@ PYBIND11_MODULE(_core, module) {
   thermal::python::add_band(module);
   thermal::python::add_camera(module);
   thermal::python::add_converter(module);
+  thermal::python::add_earth(module);
   thermal::python::add_heat(module);
   thermal::python::add_labels(module);
   thermal::python::add_runs(module);

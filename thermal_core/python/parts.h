@@ -10,6 +10,7 @@ void add_errors(pybind11::module_& module);
 void add_band(pybind11::module_& module);
 void add_camera(pybind11::module_& module);
 void add_converter(pybind11::module_& module);
+void add_earth(pybind11::module_& module);
 void add_heat(pybind11::module_& module);
 void add_labels(pybind11::module_& module);
 void add_runs(pybind11::module_& module);

@@ -78,6 +78,12 @@ GeoPosition PlaceOnEarth::position_of(const LocalVector& point_m) const {
   return geodetic(earth_m);
 }
 
+LocalVector PlaceOnEarth::point_at(const GeoPosition& position) const {
+  LocalVector from_origin_m = earth_centred_m(position);
+  for (std::size_t k = 0; k < 3; ++k) from_origin_m[k] -= earth_m_[k];
+  return {dot(axes_[0], from_origin_m), dot(axes_[1], from_origin_m), dot(axes_[2], from_origin_m)};
+}
+
 LocalVector PlaceOnEarth::direction_at(const GeoPosition& place, const LocalVector& direction) const {
   const LocalVector earth = along(axes_, direction);
   const std::array<LocalVector, 3> there = axes_at(place);

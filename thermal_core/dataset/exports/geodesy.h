@@ -20,6 +20,9 @@ class PlaceOnEarth {
   /// Where a point [m] of the scene is. Iterates Bowring's equation (Survey Review 23, 323, 1976) twice.
   [[nodiscard]] GeoPosition position_of(const LocalVector& point_m) const;
 
+  /// The point [m] of the scene that is at a position: exact, in closed form.
+  [[nodiscard]] LocalVector point_at(const GeoPosition& position) const;
+
   /// A direction of the scene in the axes of another place: at a distance d they differ by d / 6370 km.
   [[nodiscard]] LocalVector direction_at(const GeoPosition& place, const LocalVector& direction) const;
 

@@ -52,6 +52,10 @@ class Camera:
     @property
     def response(self) -> list[tuple[float, float]]: ...
 
+class PlaceOnEarth:
+    def __init__(self, origin: tuple[float, float, float]) -> None: ...
+    def point_at(self, position: tuple[float, float, float]) -> list[float]: ...
+
 Made = tuple[NDArray[np.uint8], NDArray[np.uint16], bool, str]
 
 class Converter:

@@ -9,6 +9,7 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
+from .poses import pose_looking
 from .world import Capture, World
 
 _STEEPEST_RAD = np.pi / 2
@@ -101,7 +102,7 @@ class FlightEnv(gymnasium.Env[NDArray[np.uint8], NDArray[np.float32]]):
         return np.repeat(self._capture.ir8[:, :, None], 3, axis=2)
 
     def _take(self) -> tuple[NDArray[np.uint8], dict[str, Any]]:
-        pose = pose_of(self._place_m, self._heading_rad, self._down_rad)
+        pose = pose_looking(self._place_m, self._heading_rad, self._down_rad)
         self._capture = self._world.capture(pose, self._time_s(self._frame))
         return self._capture.ir8, {"capture": self._capture, "camera_to_world": pose}
 
@@ -115,16 +116,6 @@ class FlightEnv(gymnasium.Env[NDArray[np.uint8], NDArray[np.float32]]):
         followed = [actor for actor in self._capture.actors.values() if actor.category == self._follow]
         seen = {label.track_id for label in self._capture.labels if label.category == self._follow}
         return len(seen) / len(followed) if followed else 0.0
-
-
-def pose_of(place_m: NDArray[np.float64], heading_rad: float, down_rad: float) -> NDArray[np.float64]:
-    """A camera's pose (4, 4) without roll: heading counter-clockwise from east, `down_rad` below the horizon."""
-    cos, sin = np.cos(heading_rad), np.sin(heading_rad)
-    forward = np.array([np.cos(down_rad) * cos, np.cos(down_rad) * sin, -np.sin(down_rad)])
-    right = np.array([sin, -cos, 0.0])
-    pose = np.eye(4)
-    pose[:3] = np.column_stack([right, np.cross(forward, right), forward, place_m])
-    return pose
 
 
 gymnasium.register("Veldt/Flight-v0", entry_point=FlightEnv)

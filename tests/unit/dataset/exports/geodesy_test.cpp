@@ -82,6 +82,16 @@ TEST_CASE("Places are where the tangent plane has them, to a micrometre up to 10
   }
 }
 
+TEST_CASE("The point of a position is the one that has it, to a micrometre") {
+  for (const GeoPosition& origin :
+       {GeoPosition{-19, 23, 900}, GeoPosition{0, 179.9, 0}, GeoPosition{88.9, -70, 0}}) {
+    const PlaceOnEarth place(origin);
+    for (const LocalVector& point_m :
+         {LocalVector{0, 0, 0}, LocalVector{500, -700, 61}, LocalVector{-1e5, 1e5, 1e4}})
+      CHECK_THAT(distance_m(place.point_at(place.position_of(point_m)), point_m), WithinAbs(0, 1e-6));
+  }
+}
+
 TEST_CASE("Directions turn with the place: north by the convergence of meridians") {
   const PlaceOnEarth place({.latitude_deg = -19, .longitude_deg = 23, .height_m = 0});
   const GeoPosition east = place.position_of({10'000, 0, 0});

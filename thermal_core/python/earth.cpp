@@ -1,0 +1,46 @@
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "base/error.h"
+#include "dataset/exports/geodesy.h"
+#include "python/arrays.h"
+#include "python/parts.h"
+
+namespace thermal::python {
+namespace {
+
+/// Latitude, longitude [deg] and height [m].
+using Position = std::array<double, 3>;
+
+/// Latitudes beyond `most_deg` are refused.
+GeoPosition geo_position_of(const Position& position, double most_deg) {
+  const auto [latitude_deg, longitude_deg, height_m] = position;
+  // Not a number is refused too.
+  if (!(std::abs(latitude_deg) <= most_deg))
+    throw ConfigError(
+        fault("latitude", fmt::format("{}", latitude_deg), "deg", fmt::format("-{0} to {0}", most_deg)));
+  if (!(std::abs(longitude_deg) <= 360))
+    throw ConfigError(fault("longitude", fmt::format("{}", longitude_deg), "deg", "-360 to 360"));
+  if (!std::isfinite(height_m))
+    throw ConfigError(fault("height", fmt::format("{}", height_m), "m", "a number"));
+  return {.latitude_deg = latitude_deg, .longitude_deg = longitude_deg, .height_m = height_m};
+}
+
+}  // namespace
+
+void add_earth(py::module_& module) {
+  py::class_<PlaceOnEarth>(module, "PlaceOnEarth")
+      .def(py::init([](const Position& origin) { return PlaceOnEarth(geo_position_of(origin, 89)); }),
+           py::arg("origin"))
+      .def(
+          "point_at",
+          [](const PlaceOnEarth& place, const Position& position) {
+            return place.point_at(geo_position_of(position, 90));
+          },
+          py::arg("position"));
+}
+
+}  // namespace thermal::python
