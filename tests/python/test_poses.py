@@ -41,7 +41,9 @@ def test_quaternions_and_angles_agree_with_pymavlink():
     ours = rotation_of_attitude(*np.deg2rad(angles_deg))
     theirs = Quaternion(np.deg2rad(angles_deg))
     dcm = theirs.dcm
-    assert np.allclose(ours, [[dcm.a.x, dcm.a.y, dcm.a.z], [dcm.b.x, dcm.b.y, dcm.b.z], [dcm.c.x, dcm.c.y, dcm.c.z]])
+    assert np.allclose(
+        ours, [[dcm.a.x, dcm.a.y, dcm.a.z], [dcm.b.x, dcm.b.y, dcm.b.z], [dcm.c.x, dcm.c.y, dcm.c.z]]
+    )
     assert np.allclose(rotation_of_quaternion(*(3 * np.array(theirs.q))), ours)
 
 
@@ -90,7 +92,9 @@ def test_positions_are_metres_from_the_origin(autopilot):
     vehicle = Vehicle([5, 6, 7], HOME)
     vehicle.receive(autopilot.position(-19.295, 23.107, 1001), 0)
     vehicle.receive(autopilot.attitude(), 0)
-    expected_m = axes_at(*HOME[:2]) @ (earth_coordinates_m(-19.295, 23.107, 1001) - earth_coordinates_m(*HOME))
+    expected_m = axes_at(*HOME[:2]) @ (
+        earth_coordinates_m(-19.295, 23.107, 1001) - earth_coordinates_m(*HOME)
+    )
     assert np.allclose(vehicle.pose_at(0)[:3, 3], expected_m, atol=1e-6)
 
 
@@ -121,7 +125,9 @@ def test_a_fixed_camera_looks_below_the_front_of_the_body(autopilot):
         (0, 0.4, 1.4),
     ],
 )
-def test_a_gimbal_keeps_the_horizon_and_its_yaw_counts_as_its_flags_say(autopilot, flags, yaw_rad, heading_rad):
+def test_a_gimbal_keeps_the_horizon_and_its_yaw_counts_as_its_flags_say(
+    autopilot, flags, yaw_rad, heading_rad
+):
     vehicle = Vehicle([0, 0, 0], HOME)
     vehicle.receive(autopilot.position() + autopilot.attitude(roll=0.3, pitch=-0.2, yaw=1), 0)
     vehicle.receive(autopilot.gimbal([0, -0.7, yaw_rad], flags), 0)
@@ -131,7 +137,9 @@ def test_a_gimbal_keeps_the_horizon_and_its_yaw_counts_as_its_flags_say(autopilo
 def test_older_gimbals_send_degrees_from_the_front(autopilot):
     vehicle = Vehicle([0, 0, 0], HOME)
     vehicle.receive(autopilot.position() + autopilot.attitude(roll=0.3, yaw=1), 0)
-    vehicle.receive(autopilot("mount_orientation", time_boot_ms=0, roll=0, pitch=-30, yaw=10, yaw_absolute=0), 0)
+    vehicle.receive(
+        autopilot("mount_orientation", time_boot_ms=0, roll=0, pitch=-30, yaw=10, yaw_absolute=0), 0
+    )
     expected = pose_of_attitude([0, 0, 0], 0, -np.pi / 6, 1 + np.deg2rad(10))
     assert np.allclose(vehicle.pose_at(0), expected, atol=1e-6)
 

@@ -1,4 +1,4 @@
-"""Fly a planned place by the poses that arrive over UDP, and send what the camera sees: `python -m veldt.fly --help`."""
+"""Fly a planned place by the poses that arrive over UDP, and send what the camera sees (`python -m veldt.fly`)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ class Sink(Protocol):
 
 class Poses:
     """The poses that arrive as datagrams: MAVLink, or JSON with `camera_to_world` (4 x 4), or with `position_m` (east,
-    north, up) and `yaw_deg` (from north, clockwise), `pitch_deg` (up), `roll_deg`. The last kind that came counts."""
+    north, up) and `yaw_deg` (from north, clockwise), `pitch_deg` (up), `roll_deg`. The last kind that came counts.
+    """
 
     def __init__(self, address: tuple[str, int], vehicle: Vehicle) -> None:
         """IoError if nothing can be received at the address."""
@@ -88,7 +89,9 @@ def pose_of_json(text: bytes | str) -> NDArray[np.float64]:
         angles_rad = np.deg2rad([float(given.get(f"{name}_deg", 0)) for name in ("roll", "pitch", "yaw")])
         pose = pose_of_attitude(np.array(given["position_m"], float).reshape(3), *angles_rad)
     except (ValueError, TypeError, KeyError, AttributeError) as error:
-        raise ConfigError(f"pose: {type(error).__name__}: {error}; expected camera_to_world or position_m") from error
+        raise ConfigError(
+            f"pose: {type(error).__name__}: {error}; expected camera_to_world or position_m"
+        ) from error
     if not np.isfinite(pose).all():
         raise ConfigError("pose: not a number; expected numbers")
     return pose
@@ -116,12 +119,16 @@ class Flight(NamedTuple):
 
 
 def fly(
-    world: World, poses: Poses, sink: Sink, clock: Callable[[], float] = time.monotonic, seconds: float | None = None
+    world: World,
+    poses: Poses,
+    sink: Sink,
+    clock: Callable[[], float] = time.monotonic,
+    seconds: float | None = None,
 ) -> Flight:
     """Send the camera's frames at their true rate from the first pose on, until the plan's time or `seconds` are over.
     A frame that is late by more than a frame is dropped, and the camera goes on."""
     while poses.pose_at(clock()) is None:
-        poses.receive_until(clock() + 0.1, clock)
+        poses.receive_until(clock() + 0.01, clock)
     start_s, frame, sent, worst_s = clock(), 0, 0, 0.0
     length_s = world.flight_s[-1] - world.flight_s[0]
     count = int(np.floor(min(length_s, seconds or length_s) * world.frame_rate_hz + 1e-6)) + 1
@@ -179,12 +186,27 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("plan", help="folder of a plan with render.engine embree and render.posed_actors all")
     parser.add_argument("clip", help="its clip: the place, the time and the camera")
-    parser.add_argument("--poses", type=_address, default=("127.0.0.1", 14550), metavar="HOST:PORT",
-                        help="where poses arrive; 127.0.0.1:14550 by default")  # fmt: skip
-    parser.add_argument("--origin", type=_origin, metavar="LAT,LON,M", help="where the scene's (0, 0, 0) is, its height "
-                        "as the autopilot counts it; by default the planned flight begins at the first position")  # fmt: skip
-    parser.add_argument("--down", type=float, default=45, metavar="DEG",
-                        help="of a camera without a gimbal's messages: below the drone's front (45)")  # fmt: skip
+    parser.add_argument(
+        "--poses",
+        type=_address,
+        default=("127.0.0.1", 14550),
+        metavar="HOST:PORT",
+        help="where poses arrive; 127.0.0.1:14550 by default",
+    )
+    parser.add_argument(
+        "--origin",
+        type=_origin,
+        metavar="LAT,LON,M",
+        help="where the scene's (0, 0, 0) is, its height as the autopilot counts it; by default the "
+        "planned flight begins at the first position",
+    )
+    parser.add_argument(
+        "--down",
+        type=float,
+        default=45,
+        metavar="DEG",
+        help="of a camera without a gimbal's messages: below the drone's front (45)",
+    )
     parser.add_argument("--rate", type=float, metavar="HZ", help="frames a second; the clip's by default")
     parser.add_argument("--seconds", type=float, help="stop after this time; by default with the plan's")
     parser.add_argument("--video", required=True, metavar="URL", help="where frames go, as of `veldt stream`")
@@ -203,7 +225,9 @@ def main(arguments: list[str] | None = None) -> int:
         vehicle = Vehicle(world.flight_poses[0][:3, 3], given.origin, np.deg2rad(given.down))
         poses = Poses(given.poses, vehicle)
         size = {"width_px": world.camera.width_px, "height_px": world.camera.height_px}
-        with Stream(given.video, **size, frame_rate_hz=world.frame_rate_hz, labels_url=given.labels) as stream:
+        with Stream(
+            given.video, **size, frame_rate_hz=world.frame_rate_hz, labels_url=given.labels
+        ) as stream:
             print(f"waiting for poses on UDP port {poses.port}", file=sys.stderr, flush=True)
             done = fly(world, poses, stream, seconds=given.seconds)
     except Error as error:
@@ -211,8 +235,10 @@ def main(arguments: list[str] | None = None) -> int:
         return 2 if isinstance(error, ConfigError) else 1
     except KeyboardInterrupt:
         return 130
-    print(f"{done.sent} frames sent, {done.dropped} dropped, the latest {1e3 * done.worst_s:.0f} ms late; "
-          f"{poses.received} datagrams received, {len(poses.rejected)} rejected")  # fmt: skip
+    print(
+        f"{done.sent} frames sent, {done.dropped} dropped, the latest {1e3 * done.worst_s:.0f} ms late; "
+        f"{poses.received} datagrams received, {len(poses.rejected)} rejected"
+    )
     for fault in poses.rejected:
         print(f"veldt.fly: {fault}", file=sys.stderr)
     return 3 if poses.rejected else 0

@@ -15,15 +15,19 @@ _LONGEST_S = 1.0  # that a message is carried on by its speeds; afterwards the d
 
 
 class Vehicle:
-    """A drone: position by GLOBAL_POSITION_INT, attitude by ATTITUDE, and its camera by GIMBAL_DEVICE_ATTITUDE_STATUS or
-    MOUNT_ORIENTATION. Between messages it goes on with their speeds, for a second at most.
+    """A drone: position by GLOBAL_POSITION_INT, attitude by ATTITUDE, and its camera by
+    GIMBAL_DEVICE_ATTITUDE_STATUS or MOUNT_ORIENTATION. Between messages it goes on with their
+    speeds, for a second at most.
 
     The first system that says where it is counts; others are ignored. A camera without a gimbal's messages is fixed to
     the body, and looks `down_rad` below its front.
     """
 
     def __init__(
-        self, start_m: ArrayLike, origin: tuple[float, float, float] | None = None, down_rad: float = np.pi / 4
+        self,
+        start_m: ArrayLike,
+        origin: tuple[float, float, float] | None = None,
+        down_rad: float = np.pi / 4,
     ) -> None:
         """origin: latitude, longitude [deg] and height [m] of the scene's (0, 0, 0), of the heights that the autopilot
         sends (above the sea). None: the first position is start_m, east, north and up [m].
@@ -39,8 +43,8 @@ class Vehicle:
         self._last: dict[str, tuple[float, Any]] = {}
 
     def receive(self, data: bytes, arrived_s: float) -> None:
-        """Take a datagram that arrived at a time [s] of the caller's clock: whole messages. What is none, or of no use, is
-        ignored."""
+        """Take a datagram that arrived at a time [s] of the caller's clock: whole messages. What is none, or of no
+        use, is ignored."""
         parser = common.MAVLink(None)  # a new one: what a broken datagram leaves must not spoil the next
         parser.robust_parsing = True
         for message in parser.parse_buffer(data) or []:
@@ -51,7 +55,7 @@ class Vehicle:
                 self._last[kind] = (arrived_s, message)
 
     def pose_at(self, time_s: float) -> NDArray[np.float64] | None:
-        """The camera's pose (4, 4) at a time [s] of the same clock; None before there are a position and an attitude."""
+        """The camera's pose (4, 4) at a time [s] of the same clock; None before position and attitude have come."""
         body = self._body_at(time_s)
         if body is None or "GLOBAL_POSITION_INT" not in self._last:
             return None
@@ -66,7 +70,11 @@ class Vehicle:
         if self._place is None:
             self._place = PlaceOnEarth(position)
         speed_m_s = np.array([message.vy, message.vx, -message.vz]) * 1e-2
-        return self._start_m + self._place.point_at(position) + speed_m_s * self._age_s("GLOBAL_POSITION_INT", time_s)
+        return (
+            self._start_m
+            + self._place.point_at(position)
+            + speed_m_s * self._age_s("GLOBAL_POSITION_INT", time_s)
+        )
 
     def _body_at(self, time_s: float) -> NDArray[np.float64] | None:
         if "ATTITUDE" not in self._last:
@@ -100,6 +108,8 @@ def _turned(rates_rad_s: tuple[float, float, float], for_s: float) -> NDArray[np
 
 def _yaw_is_from_north(flags: int) -> bool:
     """As the message's definition says: by the flags of the frame, else by the lock of yaw."""
-    if flags & (common.GIMBAL_DEVICE_FLAGS_YAW_IN_EARTH_FRAME | common.GIMBAL_DEVICE_FLAGS_YAW_IN_VEHICLE_FRAME):
+    if flags & (
+        common.GIMBAL_DEVICE_FLAGS_YAW_IN_EARTH_FRAME | common.GIMBAL_DEVICE_FLAGS_YAW_IN_VEHICLE_FRAME
+    ):
         return bool(flags & common.GIMBAL_DEVICE_FLAGS_YAW_IN_EARTH_FRAME)
     return bool(flags & common.GIMBAL_DEVICE_FLAGS_YAW_LOCK)

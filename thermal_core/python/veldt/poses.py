@@ -6,7 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 _NED_TO_ENU = np.array([[0, 1, 0], [1, 0, 0], [0, 0, -1.0]])
-_CAMERA_TO_BODY = np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0.0]])  # a camera that looks to the front of a level body
+_CAMERA_TO_BODY = np.array(
+    [[0, 0, 1], [1, 0, 0], [0, 1, 0.0]]
+)  # a camera that looks to the front of a level body
 
 
 def pose_looking(place_m: ArrayLike, heading_rad: float, down_rad: float) -> NDArray[np.float64]:
@@ -14,14 +16,18 @@ def pose_looking(place_m: ArrayLike, heading_rad: float, down_rad: float) -> NDA
     return pose_of_attitude(place_m, 0, -down_rad, np.pi / 2 - heading_rad)
 
 
-def pose_of_attitude(place_m: ArrayLike, roll_rad: float, pitch_rad: float, yaw_rad: float) -> NDArray[np.float64]:
+def pose_of_attitude(
+    place_m: ArrayLike, roll_rad: float, pitch_rad: float, yaw_rad: float
+) -> NDArray[np.float64]:
     """As aviation counts angles: yaw clockwise from north, then pitch up from the horizon, then roll to the right."""
     return pose_of_rotation(place_m, rotation_of_attitude(roll_rad, pitch_rad, yaw_rad))
 
 
 def rotation_of_attitude(roll_rad: float, pitch_rad: float, yaw_rad: float) -> NDArray[np.float64]:
     """From a body's axes (front, right, down) to north, east, down (3, 3)."""
-    (cos_r, cos_p, cos_y), (sin_r, sin_p, sin_y) = (f([roll_rad, pitch_rad, yaw_rad]) for f in (np.cos, np.sin))
+    (cos_r, cos_p, cos_y), (sin_r, sin_p, sin_y) = (
+        f([roll_rad, pitch_rad, yaw_rad]) for f in (np.cos, np.sin)
+    )
     yaw = np.array([[cos_y, -sin_y, 0], [sin_y, cos_y, 0], [0, 0, 1]])
     pitch = np.array([[cos_p, 0, sin_p], [0, 1, 0], [-sin_p, 0, cos_p]])
     roll = np.array([[1, 0, 0], [0, cos_r, -sin_r], [0, sin_r, cos_r]])

@@ -1,0 +1,141 @@
+"""`veldt.fly`: poses in over UDP, frames out."""
+
+import json
+import socket
+import time
+
+import numpy as np
+import pytest
+
+from configs import tiny
+from flight_log import replay, write_log
+from veldt import ConfigError, IoError, World, plan
+from veldt.fly import Poses, fly, line_of, main, pose_of_json
+from veldt.mavlink import Vehicle
+
+ORIGIN = (-19.3, 23.1, 940.0)
+SETTINGS = ["render.engine=embree", "render.posed_actors=all"]
+
+
+@pytest.fixture(name="place", scope="module")
+def _place(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("fly") / "plan"
+    plan(tiny(), folder, settings=SETTINGS)
+    return folder
+
+
+@pytest.fixture(name="poses")
+def _poses():
+    poses = Poses(("127.0.0.1", 0), Vehicle([0, 0, 0], ORIGIN))
+    yield poses
+    poses.close()
+
+
+class _Sink:
+    def __init__(self):
+        self.frames, self.lines = [], []
+
+    def send(self, ir8, line):
+        """Keep them."""
+        self.frames.append(ir8.copy())
+        self.lines.append(line)
+        return True
+
+
+def _send(port, *texts):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
+        for text in texts:
+            out.sendto(text.encode(), ("127.0.0.1", port))
+
+
+def test_a_log_of_the_planned_flight_shows_what_the_plan_would(place, poses, tmp_path):
+    world, twin, sink = World(place, "side"), World(place, "side"), _Sink()
+    write_log(tmp_path / "flight.tlog", ORIGIN, world.flight_s, world.flight_poses)
+    sending = replay(tmp_path / "flight.tlog", poses.port)
+    done = fly(world, poses, sink)
+    sending.join()
+    assert done.sent + done.dropped == len(world.flight_s)
+    assert done.sent >= 2
+    for frame, line in zip(sink.frames, sink.lines, strict=True):
+        # The flight begins with the first message, and a message is up to 20 ms old: a few centimetres of the way.
+        planned = world.flight_poses[line["frame"]]
+        pose = np.array(line["camera_to_world"])
+        assert np.linalg.norm(pose[:3, 3] - planned[:3, 3]) < 1
+        assert np.allclose(pose[:3, :3], planned[:3, :3], atol=0.02)
+        assert np.array_equal(twin.capture(pose, line["time_s"]).ir8, frame)
+
+
+def test_json_says_poses_too(poses):
+    _send(poses.port, json.dumps({"position_m": [1, 2, 30], "yaw_deg": 90, "pitch_deg": -30}))
+    poses.receive_until(time.monotonic() + 0.2, time.monotonic)
+    pose = poses.pose_at(0)
+    assert pose[:3, 3].tolist() == [1, 2, 30]
+    assert np.allclose(pose[:3, 2], [np.sqrt(0.75), 0, -0.5])
+    _send(
+        poses.port,
+        json.dumps({"camera_to_world": np.round(pose, 4).tolist()}),
+        "{}",
+        '{"position_m": [1, 2]}',
+    )
+    poses.receive_until(time.monotonic() + 0.2, time.monotonic)
+    assert np.allclose(poses.pose_at(0), pose, atol=1e-4)
+    assert (poses.received, len(poses.rejected)) == (4, 2)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "{",
+        "{}",
+        '{"position_m": [1, 2]}',
+        '{"position_m": [1, 2, NaN]}',
+        '{"position_m": [1, 2, 3], "yaw_deg": "north"}',
+        '{"camera_to_world": [1, 2, 3]}',
+        '{"camera_to_world": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 0], [0, 0, 0, 1]]}',
+        '{"camera_to_world": [[2, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}',
+    ],
+)
+def test_what_is_no_pose_is_refused(text):
+    with pytest.raises(ConfigError, match="expected"):
+        pose_of_json(text)
+
+
+class _SlowClock:
+    """A clock on which every look takes a while, so that making a frame does."""
+
+    def __init__(self, step_s):
+        self.now_s, self._step_s = 0.0, step_s
+
+    def __call__(self):
+        self.now_s += self._step_s
+        return self.now_s
+
+
+def test_frames_that_are_late_by_more_than_a_frame_are_dropped(place, poses):
+    _send(poses.port, '{"position_m": [0, 0, 40], "pitch_deg": -90}')
+    world, sink = World(place, "side"), _Sink()
+    poses.receive_until(time.monotonic() + 0.2, time.monotonic)
+    # Two looks a frame: when it is due, and when it is done.
+    done = fly(world, poses, sink, clock=_SlowClock(1.3 / world.frame_rate_hz))
+    frames = [line["frame"] for line in sink.lines]
+    assert done.sent == len(frames) < len(world.flight_s)
+    assert done.sent + done.dropped == len(world.flight_s)
+    assert done.worst_s > 1 / world.frame_rate_hz
+    assert max(np.diff(frames)) > 1
+
+
+def test_a_line_has_what_a_detector_is_judged_by(place):
+    world = World(place, "side")
+    capture = world.capture(world.flight_poses[0], world.flight_s[0])
+    line = json.loads(json.dumps(line_of(0, world.flight_s[0], world.flight_poses[0], capture)))
+    assert np.array_equal(line["camera_to_world"], world.flight_poses[0])
+    assert [label["bbox"] for label in line["labels"]] == [list(label.box_px) for label in capture.labels]
+
+
+def test_a_port_in_use_and_an_address_for_others_are_refused(poses, capsys):
+    with pytest.raises(IoError, match=r"^127.0.0.1:\d+: Address already in use; expected a free UDP port$"):
+        Poses(("127.0.0.1", poses.port), Vehicle([0, 0, 0]))
+    assert main(["plan", "side", "--poses", "0.0.0.0:14550", "--video", "udp://127.0.0.1:5600"]) == 2
+    assert (
+        capsys.readouterr().err == 'veldt.fly: --poses = "0.0.0.0"; expected 127.0.0.1, or --allow-remote\n'
+    )
