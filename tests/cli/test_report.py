@@ -2,13 +2,15 @@
 
 import base64
 import hashlib
+import json
 import re
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from pictures import read_planes
+from pictures import read_grey
 from program import files_below
 from reports import CLIPS, Page, change, make_dataset
 
@@ -26,6 +28,13 @@ def _report(veldt, *arguments) -> Page:
     assert (done.code, done.out, done.err) == (0, "", "")
     out = arguments[arguments.index("--out") + 1] if "--out" in arguments else f"{arguments[0]}/report.html"
     return Page(veldt.folder / out)
+
+
+def _shown(veldt, frame: dict) -> np.ndarray:
+    """The picture of a frame on the page."""
+    file = veldt.folder / "frame.jpg"
+    file.write_bytes(base64.b64decode(frame["picture"].split(",", 1)[1]))
+    return read_grey(file)
 
 
 # --- the page ---------------------------------------------------------------------------------------------------------
@@ -180,10 +189,8 @@ def test_frames_shown_stand_for_each_clip(veldt, dataset):
 
 def test_pictures_are_the_clips_own(veldt, dataset):
     frame = _report(veldt, "out").figures["samples"]["frames"][0]
-    file = veldt.folder / "frame.jpg"
-    file.write_bytes(base64.b64decode(frame["picture"].split(",", 1)[1]))
-    (shown,) = read_planes(file).values()
-    (own,) = read_planes(dataset / "clips" / "down" / "ir8" / "000000.png").values()
+    shown = _shown(veldt, frame)
+    own = read_grey(dataset / "clips" / "down" / "ir8" / "000000.png")
     assert shown.shape == own.shape
     # Quality 82 divides coefficients of 8 x 8 pixels by up to 44 grey values; noise of small pictures loses a few.
     assert np.abs(shown.astype(float) - own).mean() < 4
@@ -283,6 +290,20 @@ def test_a_coco_file_has_a_page_beside_it(veldt, dataset):
     figures = Page(veldt.folder / "mine" / "report.html").figures
     assert "record" not in figures and "flights" not in figures
     assert figures["samples"]["frames"] == [] and len(figures["samples"]["missing"]) == 4  # no pictures there
+
+
+def test_pictures_of_temperatures_fill_the_grey_scale(veldt, dataset):
+    done = veldt("export", dataset.name, "--format", "tiff", "--out", "tiffs")
+    assert done.code == 0
+    labels = json.loads((dataset / "annotations.json").read_text(encoding="utf-8"))
+    for image in labels["images"]:
+        clip, frame = Path(image["file_name"]).parts[1], Path(image["file_name"]).stem
+        image["file_name"] = f"{clip}/images/{clip}_{frame}.tif"
+    (veldt.folder / "tiffs" / "labels.json").write_text(json.dumps(labels), encoding="utf-8")
+    figures = _report(veldt, "tiffs/labels.json", "--out", "kelvin.html").figures
+    assert len(figures["samples"]["frames"]) == 4 and figures["samples"]["missing"] == []
+    for sample in figures["samples"]["frames"]:
+        assert np.ptp(_shown(veldt, sample)) > 200
 
 
 def test_a_birdsai_folder_has_a_page(veldt, dataset):

@@ -14,13 +14,41 @@
 namespace thermal::pictures {
 namespace {
 
+/// The value below which a share of the finite pixels lies.
+float quantile_of(std::vector<float> pixels, double share) {
+  std::erase_if(pixels, [](float value) { return !std::isfinite(value); });
+  if (pixels.empty()) return 0;
+  const auto place = pixels.begin() + std::lround(share * static_cast<double>(pixels.size() - 1));
+  std::nth_element(pixels.begin(), place, pixels.end());
+  return *place;
+}
+
+/// Grey levels of temperatures, or of counts of more than 8 bits, which fill a small part of their scale: black and
+/// white at the 0.5 and 99.5 % points.
+OIIO::ImageBuf stretched(const OIIO::ImageBuf& picture) {
+  constexpr double kTail = 0.005;
+  std::vector<float> pixels(picture.spec().image_pixels());
+  picture.get_pixels(OIIO::ROI(0, picture.spec().width, 0, picture.spec().height, 0, 1, 0, 1),
+                     OIIO::TypeDesc::FLOAT, pixels.data());
+  const float low = quantile_of(pixels, kTail);
+  const float range = std::max(quantile_of(pixels, 1 - kTail) - low, 1e-6F);
+  for (float& value : pixels)
+    value = std::isfinite(value) ? std::clamp((value - low) / range, 0.F, 1.F) : 0.F;
+  OIIO::ImageBuf grey(OIIO::ImageSpec(picture.spec().width, picture.spec().height, 1, OIIO::TypeDesc::UINT8));
+  grey.set_pixels(OIIO::ROI::All(), OIIO::TypeDesc::FLOAT, pixels.data());
+  return grey;
+}
+
 /// 8 bits, grey or red, green and blue.
 OIIO::ImageBuf read_picture(const Path& file) {
   if (!std::filesystem::exists(file))
     throw IoError(fmt::format("cannot read {}: no such file", file.string()));
   OIIO::ImageBuf picture(file.string());
-  if (!picture.read(0, 0, true, OIIO::TypeDesc::UINT8))
+  const bool known = picture.init_spec(file.string(), 0, 0);
+  const bool deep = known && picture.nchannels() == 1 && picture.spec().format.basesize() > 1;
+  if (!picture.read(0, 0, true, deep ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8))
     throw DataError(fmt::format("{}: damaged: {}", file.string(), picture.geterror()));
+  if (deep) return stretched(picture);
   const int channels = picture.nchannels() < 3 ? 1 : 3;
   return picture.nchannels() == channels ? picture : OIIO::ImageBufAlgo::channels(picture, channels, {});
 }
