@@ -26,8 +26,8 @@ namespace {
 
 /// The one table of commands, in the order help shows them; CMake's options of these names leave some out.
 constexpr std::array kCommands = {
-    add_generate, add_plan,   add_render,   add_convert,  add_merge,
-    add_cluster,  add_export, add_inspect,  add_validate,
+    add_generate, add_plan,   add_render,  add_convert,  add_merge,
+    add_cluster,  add_export, add_inspect, add_validate,
 #if VELDT_BALANCE
     add_balance,
 #endif
@@ -41,7 +41,7 @@ constexpr std::array kCommands = {
 #if VELDT_VIDEO
     add_video,    add_view,
 #endif
-    add_budget,   add_heat,   add_radiance,
+    add_stream,   add_budget, add_heat,    add_radiance,
 #if VELDT_BENCH
     add_bench,
 #endif

@@ -61,6 +61,7 @@ void add_compare(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
 void add_video(CLI::App& app, Session& session);
 void add_view(CLI::App& app, Session& session);
+void add_stream(CLI::App& app, Session& session);
 void add_balance(CLI::App& app, Session& session);
 void add_budget(CLI::App& app, Session& session);
 void add_heat(CLI::App& app, Session& session);

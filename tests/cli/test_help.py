@@ -88,6 +88,7 @@ OPTIONS = {
         "--width-px",
     },
     "view": {"--out", "--clips"},
+    "stream": {"--video", "--labels", "--clips", "--rate", "--repeat", "--allow-remote", "--set"},
     "budget": {"--set", "--json"},
     "heat": {"--set", "--plot", "--json"},
     "radiance": {

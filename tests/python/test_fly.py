@@ -2,6 +2,8 @@
 
 import json
 import socket
+import subprocess
+import sys
 import time
 
 import numpy as np
@@ -35,8 +37,9 @@ class _Sink:
     def __init__(self):
         self.frames, self.lines = [], []
 
-    def send(self, ir8, line):
+    def send(self, ir8, line, number):
         """Keep them."""
+        assert number == line["frame"]
         self.frames.append(ir8.copy())
         self.lines.append(line)
         return True
@@ -127,7 +130,7 @@ def test_frames_that_are_late_by_more_than_a_frame_are_dropped(place, poses):
 def test_a_line_has_what_a_detector_is_judged_by(place):
     world = World(place, "side")
     capture = world.capture(world.flight_poses[0], world.flight_s[0])
-    line = json.loads(json.dumps(line_of(0, world.flight_s[0], world.flight_poses[0], capture)))
+    line = json.loads(json.dumps(line_of(world.flight_s[0], world.flight_poses[0], capture)))
     assert np.array_equal(line["camera_to_world"], world.flight_poses[0])
     assert [label["bbox"] for label in line["labels"]] == [list(label.box_px) for label in capture.labels]
 
@@ -139,3 +142,27 @@ def test_a_port_in_use_and_an_address_for_others_are_refused(poses, capsys):
     assert (
         capsys.readouterr().err == 'veldt.fly: --poses = "0.0.0.0"; expected 127.0.0.1, or --allow-remote\n'
     )
+
+
+def test_the_command_flies_by_mavlink_and_sends_video_and_lines(place, tmp_path):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as client:
+        client.bind(("127.0.0.1", 0))
+        client.settimeout(20)
+        run = subprocess.Popen(
+            [sys.executable, "-m", "veldt.fly", str(place), "side", "--poses", "127.0.0.1:0", "--video",
+             "udp://127.0.0.1:9", "--labels", f"udp://127.0.0.1:{client.getsockname()[1]}"],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        )  # fmt: skip
+        port = int(run.stderr.readline().rpartition(" ")[2])
+        world = World(place, "side")
+        write_log(tmp_path / "flight.tlog", ORIGIN, world.flight_s, world.flight_poses)
+        replay(tmp_path / "flight.tlog", port).join()
+        out, err = run.communicate(timeout=60)
+        assert (run.returncode, err) == (0, "")
+        sent = int(out.split()[0])
+        lines = [json.loads(client.recv(1 << 16)) for _ in range(sent)]
+    assert f"{sent} frames sent, {len(world.flight_s) - sent} dropped, the latest " in out
+    # Without --origin, the flight begins where the planned one does.
+    first = np.array(lines[0]["camera_to_world"])
+    assert np.linalg.norm(first[:3, 3] - world.flight_poses[0][:3, 3]) < 0.2
+    assert {label["category"] for line in lines for label in line["labels"]} >= {"elephant"}

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -16,5 +17,30 @@ using RunLengths = std::vector<std::uint32_t>;
 
 /// Inverse of encode_coco_rle. DataError if it could not have written the string.
 [[nodiscard]] RunLengths decode_coco_rle(std::string_view text);
+
+/// Pixels that run lengths cover, zeros and ones.
+[[nodiscard]] constexpr std::int64_t covered_px(const RunLengths& runs) noexcept {
+  std::int64_t pixels = 0;
+  for (const std::uint32_t run : runs) pixels += run;
+  return pixels;
+}
+
+/// Calls take(x, y, height) for each vertical stretch of ones [px] in a picture of this height, which they cover.
+template <typename Take>
+void for_stretches(const RunLengths& runs, int height_px, const Take& take) {
+  std::int64_t at = 0;
+  bool inside = false;
+  for (const std::uint32_t run : runs) {
+    const std::int64_t end = at + run;
+    while (inside && at < end) {
+      const auto y = static_cast<int>(at % height_px);
+      const auto stretch_px = static_cast<int>(std::min<std::int64_t>(end - at, height_px - y));
+      take(static_cast<int>(at / height_px), y, stretch_px);
+      at += stretch_px;
+    }
+    at = end;
+    inside = !inside;
+  }
+}
 
 }  // namespace thermal

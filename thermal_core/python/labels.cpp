@@ -17,20 +17,14 @@ namespace {
 /// Column-major run lengths as a plane of 0 and 1. DataError unless they cover it exactly.
 Plane<std::uint8_t> mask_of(const RunLengths& runs, int width_px, int height_px) {
   Plane<std::uint8_t> mask(width_px, height_px);
-  const std::size_t size = mask.size();
-  const auto height = static_cast<std::size_t>(height_px);
-  std::size_t at = 0;
-  bool inside = false;
-  for (const std::uint32_t run : runs) {
-    if (run > size - at) break;
-    for (std::size_t end = at + run; inside && at < end; ++at)
-      mask.at(static_cast<int>(at / height), static_cast<int>(at % height)) = 1;
-    if (!inside) at += run;
-    inside = !inside;
-  }
-  if (at == size) return mask;
-  throw DataError(
-      fault("run lengths", std::to_string(at), "px", std::to_string(size) + " px, as the picture has"));
+  const auto size = static_cast<std::int64_t>(mask.size());
+  if (covered_px(runs) != size)
+    throw DataError(fault("run lengths", std::to_string(covered_px(runs)), "px",
+                          std::to_string(size) + " px, as the picture has"));
+  for_stretches(runs, height_px, [&](int x, int y, int stretch_px) {
+    for (int row = y; row < y + stretch_px; ++row) mask.at(x, row) = 1;
+  });
+  return mask;
 }
 
 std::vector<Instance> instances_of(const ArrayOf<std::uint16_t>& index_plane,

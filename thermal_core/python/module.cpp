@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, module) {
   thermal::python::add_heat(module);
   thermal::python::add_labels(module);
   thermal::python::add_runs(module);
+  thermal::python::add_stream(module);
   thermal::python::add_world(module);
   thermal::python::add_files(module);
 }

@@ -14,6 +14,7 @@ void add_earth(pybind11::module_& module);
 void add_heat(pybind11::module_& module);
 void add_labels(pybind11::module_& module);
 void add_runs(pybind11::module_& module);
+void add_stream(pybind11::module_& module);
 void add_world(pybind11::module_& module);
 void add_files(pybind11::module_& module);
 

@@ -28,24 +28,6 @@ RunLengths counts_of(const Json& counts) {
                             : counts.get<RunLengths>();
 }
 
-/// Calls take(x, y, height) with each vertical stretch of a mask of a height.
-template <typename Take>
-void for_stretches(const RunLengths& counts, int height_px, const Take& take) {
-  std::int64_t at = 0;
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    std::int64_t left = k % 2 == 1 ? counts[k] : 0;
-    if (k % 2 == 0) at += counts[k];
-    while (left > 0) {
-      const auto x = static_cast<int>(at / height_px);
-      const auto y = static_cast<int>(at % height_px);
-      const int long_px = static_cast<int>(std::min<std::int64_t>(left, height_px - y));
-      take(x, y, long_px);
-      at += long_px;
-      left -= long_px;
-    }
-  }
-}
-
 TargetMask cut_mask(const RunLengths& counts, int width_px, int height_px) {
   int left = width_px, right = -1, top = height_px, bottom = -1;
   for_stretches(counts, height_px, [&](int x, int y, int long_px) {
@@ -93,8 +75,7 @@ TargetMask mask_of(const Json& annotation) {
     const int height_px = code.at("size").at(0).get<int>();
     const int width_px = code.at("size").at(1).get<int>();
     const RunLengths counts = counts_of(code.at("counts"));
-    std::int64_t pixels = 0;
-    for (const std::uint32_t count : counts) pixels += count;
+    const std::int64_t pixels = covered_px(counts);
     if (height_px < 1 || width_px < 1 || pixels != std::int64_t{height_px} * width_px || pixels > kMostPixels)
       throw refuse();
     TargetMask mask = cut_mask(counts, width_px, height_px);

@@ -1,11 +1,13 @@
 #include "dataset/run/live_clip.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "dataset/clip/annotations.h"
 #include "dataset/clip/heat_days.h"
 #include "dataset/passes/outline.h"
 #include "dataset/run/convert_requests.h"
@@ -54,6 +56,18 @@ const ClipImager::Frame& LiveClip::make(const Passes& passes, const ManifestFram
   check(passes);
   scenes_.convert(passes, frame, last_ ? &*last_ : nullptr, converted_);
   return expose(number, frame);
+}
+
+Json LiveClip::labels() const {
+  Json labels = Json::array();
+  for (const Instance& instance : frame_.instances) {
+    const auto actor = std::ranges::find(manifest_.objects, instance.index, &ManifestObject::index);
+    Json label = {{"category", actor->category}};
+    label.update(
+        label_entry(instance, *actor, manifest_.camera, task_.labels, frame_.pictures.shutter_closed));
+    labels.push_back(std::move(label));
+  }
+  return labels;
 }
 
 void LiveClip::restart(std::uint32_t seed) {

@@ -9,6 +9,7 @@
 #include "dataset/clip/scenes.h"
 #include "dataset/clip/task.h"
 #include "dataset/run/convert_options.h"
+#include "io/json/file.h"
 #include "scene/manifest.h"
 #include "scene/material.h"
 #include "scene/passes.h"
@@ -40,6 +41,9 @@ class LiveClip {
   /// clock from the clip's begin; there is no last one. It smears by what moved since the frame before; a first one does
   /// not.
   const ClipImager::Frame& make(const Passes& passes, const ManifestFrame& frame, int number);
+
+  /// The labels of the last frame that was made: label_entry() of each, and its category's name first.
+  [[nodiscard]] Json labels() const;
 
   /// Begins the clip again, as if nothing had been made of it; with another camera of the same kind if `seed` is another:
   /// its noise, and its errors from pixel to pixel.

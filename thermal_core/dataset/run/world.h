@@ -44,6 +44,9 @@ class World {
   [[nodiscard]] std::span<const std::array<double, 16>> flight_poses() const noexcept {
     return track_.camera_to_world;
   }
+  /// The pose of the planned flight at a time [s], which is clamped to flight_s(): a frame's own, and between two the
+  /// place on a straight line and the axes turned evenly (to 1e-4 rad where they differ by 10 degrees).
+  [[nodiscard]] std::array<double, 16> flight_pose_at(double time_s) const;
   [[nodiscard]] double frame_rate_hz() const noexcept { return clip_->manifest().frame_rate_hz; }
 
   /// The frame that the camera takes from a pose (row-major 4 x 4, OpenCV camera axes, east, north, up [m]) at a time

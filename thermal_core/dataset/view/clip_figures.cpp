@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
@@ -25,8 +24,7 @@ bool covers_frame(const Json& segmentation, const ClipFilm& film) {
   const Json counts = segmentation.value("counts", Json());
   if (!counts.is_string()) return false;
   try {
-    const RunLengths runs = decode_coco_rle(counts.get_ref<const std::string&>());
-    return std::accumulate(runs.begin(), runs.end(), std::int64_t{0}) ==
+    return covered_px(decode_coco_rle(counts.get_ref<const std::string&>())) ==
            std::int64_t{film.width_px} * film.height_px;
   } catch (const DataError&) {
     return false;

@@ -15,6 +15,7 @@ from .datasets import Clip, Dataset, Frame, Label, open_dataset
 from .heat import HeatOfDay
 from .labels import Instance, instances
 from .runs import Outcome, Progress, generate, plan
+from .stream import Stream, StreamCounts
 from .world import Actor, Capture, Intrinsics, World
 
 __all__ = [
@@ -39,6 +40,8 @@ __all__ = [
     "MadeFrame",
     "Outcome",
     "Progress",
+    "Stream",
+    "StreamCounts",
     "TryAgainError",
     "World",
     "generate",

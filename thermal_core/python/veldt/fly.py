@@ -25,7 +25,7 @@ _MOST_BYTES = 65_535  # of a datagram
 class Sink(Protocol):
     """Where frames go: veldt.Stream."""
 
-    def send(self, ir8: NDArray[np.uint8], line: dict) -> bool:
+    def send(self, ir8: NDArray[np.uint8], line: dict, number: int) -> bool:
         """False if the frame was dropped."""
 
 
@@ -138,21 +138,21 @@ def fly(
         pose = poses.pose_at(due_s)
         time_s = float(world.flight_s[0] + frame / world.frame_rate_hz)
         capture = world.capture(pose, time_s)
-        sent += sink.send(capture.ir8, line_of(frame, time_s, pose, capture))
+        line = {"stream_s": frame / world.frame_rate_hz, "frame": frame, "left_out": frame - sent}
+        sent += sink.send(capture.ir8, line | line_of(time_s, pose, capture), frame)
         late_s = clock() - due_s
         worst_s = max(worst_s, late_s)
         frame += max(1, int(late_s * world.frame_rate_hz))
     return Flight(sent, count - sent, worst_s)
 
 
-def line_of(frame: int, time_s: float, pose: NDArray[np.float64], capture: Capture) -> dict:
-    """What is sent beside a frame."""
+def line_of(time_s: float, pose: NDArray[np.float64], capture: Capture) -> dict:
+    """What is known of a frame, as `veldt stream` says it."""
     return {
-        "frame": frame,
         "time_s": time_s,
         "camera_to_world": pose.tolist(),
         "shutter_closed": capture.shutter_closed,
-        "labels": [label.values for label in capture.labels],
+        "labels": [{"category": label.category} | label.values for label in capture.labels],
     }
 
 

@@ -1,0 +1,161 @@
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/command.h"
+#include "cli/output.h"
+#include "cli/planning.h"
+#include "cli/progress_bar.h"
+#include "cli/stop_signal.h"
+#include "dataset/plan/plan_folder.h"
+#include "dataset/stream/live_stream.h"
+#include "io/assets.h"
+#include "io/system/passing_folder.h"
+#include "io/video/h264_file.h"
+
+namespace veldt {
+namespace {
+
+struct StreamArguments {
+  std::string config;
+  std::string video;
+  std::string labels;
+  std::vector<std::string> clips;
+  std::vector<std::string> settings;
+  double rate_hz = 0;
+  bool repeat = false;
+  bool allow_remote = false;
+};
+
+/// ConfigError for an address that others can reach, unless that is allowed.
+void check_is_local(const thermal::NetAddress& address, const std::string& option, bool allow_remote) {
+  if (allow_remote || address.is_loopback()) return;
+  throw thermal::ConfigError(thermal::fault(option, address.url(), "", "127.0.0.1, or --allow-remote"));
+}
+
+thermal::LiveStreamOptions request_of(const StreamArguments& options) {
+  thermal::LiveStreamOptions request = {.plan = options.config,
+                                        .assets = thermal::Assets::find(),
+                                        .clips = options.clips,
+                                        .video = thermal::parse_video_address(options.video, "--video"),
+                                        .repeat = options.repeat};
+  check_is_local(request.video, "--video", options.allow_remote);
+  if (!options.labels.empty()) {
+    request.lines = thermal::parse_line_address(options.labels, "--labels");
+    check_is_local(*request.lines, "--labels", options.allow_remote);
+  }
+  if (options.rate_hz > 0) request.frame_rate_hz = options.rate_hz;
+  return request;
+}
+
+/// Plans a config into the folder, for cameras that fly live.
+void plan_into_folder(const StreamArguments& options, const thermal::Path& folder,
+                      const thermal::Assets& assets, const CommonOptions& common) {
+  std::vector<std::string> settings = options.settings;
+  settings.insert(settings.end(), {"render.engine=embree", "render.posed_actors=all"});
+  const thermal::Config config = load_config(options.config, settings, assets);
+  plan_with_progress(common, assets, [&](const thermal::PlanOptions& planning) {
+    thermal::plan_with_config(folder, config, options.config, planning);
+  });
+}
+
+std::string words_of(const thermal::StreamedClip& clip) {
+  const thermal::Lateness& late = clip.lateness;
+  std::string words = fmt::format(
+      "{}: {} of {} frames sent at {:g} Hz, {} left out, {} dropped; {:.0f} ms after they were due "
+      "({:.0f} ms for 95 %, {:.0f} ms at most)",
+      clip.clip, clip.sent, clip.frames(), clip.frame_rate_hz, clip.late, clip.dropped, 1e3 * late.median_s,
+      1e3 * late.high_s, 1e3 * late.most_s);
+  if (!clip.fault.empty()) words += "; " + clip.fault;
+  return words;
+}
+
+/// Tells every few seconds how a clip goes, on standard error.
+class StateLine {
+ public:
+  explicit StateLine(bool quiet) : quiet_(quiet) {}
+
+  void show(const thermal::StreamedClip& clip) {
+    constexpr std::chrono::seconds kEach(5);
+    const auto now = std::chrono::steady_clock::now();
+    if (quiet_ || now - last_ < kEach) return;
+    last_ = now;
+    print_error("{}\n", words_of(clip));
+  }
+
+ private:
+  bool quiet_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+int run_stream(const StreamArguments& options, const CommonOptions& common) {
+  thermal::LiveStreamOptions request = request_of(options);
+  watch_for_stop();
+  std::optional<thermal::PassingFolder> folder;
+  if (!std::filesystem::is_directory(options.config)) {
+    folder.emplace();
+    request.plan = folder->path() / "plan";
+    plan_into_folder(options, request.plan, request.assets, common);
+  } else if (!options.settings.empty()) {
+    throw thermal::ConfigError(thermal::fault("--set", options.settings.front(), "", "a config, not a plan"));
+  }
+  StateLine line(common.quiet);
+  bool any_lost = false;
+  thermal::stream_flights(
+      request, [] { return stop_signal() != 0; },
+      [&line](const thermal::StreamedClip& clip) { line.show(clip); },
+      [&](const thermal::StreamedClip& clip) {
+        any_lost = any_lost || clip.late + clip.dropped > 0;
+        if (common.quiet) return;
+        print("{}\n", words_of(clip));
+        std::fflush(stdout);  // whoever reads a pipe hears of each clip at once
+      });
+  if (stop_signal() != 0) return 128 + stop_signal();
+  return any_lost ? kSomeRejected : kDone;
+}
+
+}  // namespace
+
+void add_stream(CLI::App& app, Session& session) {
+  CLI::App* command =
+      add_command(app, session, "stream",
+                  "Send what the cameras of a config see, live: video, and a line of JSON a frame");
+  command->footer(
+      "Frames that cannot be made in time are left out, and counted; exit code 3 says that there were some.\n"
+      "Receive the video with ffplay udp://127.0.0.1:5600, the lines with nc 127.0.0.1 5601. To push to "
+      "RTSP, a\n"
+      "server must run, or ffplay -rtsp_flags listen rtsp://127.0.0.1:8554/veldt.\n"
+      "Example: veldt stream configs/demo.json --video udp://127.0.0.1:5600 --labels tcp://127.0.0.1:5601 "
+      "--set render.supersample=1");
+  auto options = std::make_shared<StreamArguments>();
+  command
+      ->add_option("config", options->config, "Config of a dataset, JSON, or a plan with all actors' bones")
+      ->required()
+      ->type_name("CONFIG|PLAN");
+  command
+      ->add_option("--video", options->video,
+                   "Where video goes: udp://HOST:PORT (MPEG-TS) or rtsp://HOST:PORT/PATH")
+      ->required()
+      ->type_name("URL");
+  command
+      ->add_option("--labels", options->labels,
+                   "Where lines go: tcp://HOST:PORT, a server for any number of clients, or udp://HOST:PORT")
+      ->type_name("URL");
+  command->add_option("--clips", options->clips, "Clips to send; all of them if not given")
+      ->delimiter(',')
+      ->type_name("ID,…");
+  command->add_option("--rate", options->rate_hz, "Frames a second; each clip's own if not given")
+      ->check(CLI::PositiveNumber)
+      ->type_name("HZ");
+  command->add_flag("--repeat", options->repeat, "Begin again after the last clip, until stopped");
+  command->add_flag("--allow-remote", options->allow_remote, "Accept addresses of other machines");
+  add_settings(command, options->settings);
+  command->callback([options, &session] {
+    session.run = [options, &session] { return run_stream(*options, session.common); };
+  });
+}
+
+}  // namespace veldt

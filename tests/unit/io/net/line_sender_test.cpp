@@ -1,0 +1,148 @@
+#include "io/net/line_sender.h"
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include <arpa/inet.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+
+namespace line_sender_test {
+
+using namespace thermal;
+
+namespace {
+
+sockaddr_in loopback(std::uint16_t port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return address;
+}
+
+/// A socket of the other side.
+class Peer {
+ public:
+  explicit Peer(int type) : number_(socket(AF_INET, type, 0)) {}
+  ~Peer() { close(number_); }
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+
+  [[nodiscard]] bool connect_to(std::uint16_t port) const {
+    const sockaddr_in to = loopback(port);
+    return connect(number_, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
+  }
+
+  /// A port that is free, which this socket takes.
+  [[nodiscard]] std::uint16_t take_port() const {
+    sockaddr_in at = loopback(0);
+    socklen_t size = sizeof at;
+    REQUIRE(bind(number_, reinterpret_cast<const sockaddr*>(&at), size) == 0);
+    REQUIRE(getsockname(number_, reinterpret_cast<sockaddr*>(&at), &size) == 0);
+    return ntohs(at.sin_port);
+  }
+
+  void be_served() const { REQUIRE(listen(number_, 1) == 0); }
+
+  /// What arrives until nothing does for 0.3 s.
+  [[nodiscard]] std::string read() const {
+    std::string text;
+    std::string part(1 << 16, '\0');
+    pollfd wait = {.fd = number_, .events = POLLIN, .revents = 0};
+    while (poll(&wait, 1, 300) > 0) {
+      const ssize_t size = recv(number_, part.data(), part.size(), 0);
+      if (size <= 0) break;
+      text.append(part, 0, static_cast<std::size_t>(size));
+    }
+    return text;
+  }
+
+ private:
+  int number_;
+};
+
+NetAddress at(const char* scheme, std::uint16_t port) {
+  return {.scheme = scheme, .host = "127.0.0.1", .port = port, .path = ""};
+}
+
+std::uint16_t free_port() { return Peer(SOCK_STREAM).take_port(); }
+
+}  // namespace
+
+TEST_CASE("Clients get the lines from their connection on, and one that goes is no fault") {
+  const std::uint16_t port = free_port();
+  LineSender sender(at("tcp", port));
+  sender.send("nobody hears");
+  const Peer stays(SOCK_STREAM);
+  REQUIRE(stays.connect_to(port));
+  {
+    const Peer goes(SOCK_STREAM);
+    REQUIRE(goes.connect_to(port));
+    sender.send("one");
+    CHECK(sender.counts().clients == 2);
+    CHECK(goes.read() == "one\n");
+  }
+  for (int k = 0; k < 3; ++k) sender.send("two");
+  CHECK(stays.read() == "one\ntwo\ntwo\ntwo\n");
+  CHECK(sender.counts().clients == 1);
+}
+
+TEST_CASE("A client that does not read misses whole lines, and holds up nobody") {
+  const std::uint16_t port = free_port();
+  LineSender sender(at("tcp", port));
+  const Peer slow(SOCK_STREAM);
+  const Peer quick(SOCK_STREAM);
+  REQUIRE(slow.connect_to(port));
+  REQUIRE(quick.connect_to(port));
+  const std::string line(100'000, 'x');
+  std::string read;
+  for (int k = 0; k < 100; ++k) {
+    sender.send(line);
+    if (k % 5 == 4) read += quick.read();
+  }
+  CHECK(read.size() == 100 * (line.size() + 1));
+  CHECK(sender.counts().missed > 0);
+  std::thread finish([&sender] { sender.finish(5); });
+  const std::string late = slow.read();
+  finish.join();
+  const std::size_t lines = late.size() / (line.size() + 1);
+  CHECK(late.size() == lines * (line.size() + 1));
+  CHECK(static_cast<std::int64_t>(lines) == 100 - sender.counts().missed);
+}
+
+TEST_CASE("Each line is a datagram, whether somebody listens or not") {
+  std::uint16_t port = 0;
+  {
+    const Peer listener(SOCK_DGRAM);
+    port = listener.take_port();
+    LineSender sender(at("udp", port));
+    sender.send("one");
+    sender.send(std::string(70'000, 'x'));
+    CHECK(listener.read() == "one\n");
+    CHECK(sender.counts().sent == 1);
+    CHECK(sender.counts().missed == 1);
+  }
+  LineSender sender(at("udp", port));
+  for (int k = 0; k < 3; ++k) sender.send("nobody hears");
+  CHECK(sender.counts().missed == 0);
+}
+
+TEST_CASE("A port in use and an unknown host are faults") {
+  const Peer other(SOCK_STREAM);
+  const std::uint16_t port = other.take_port();
+  other.be_served();
+  CHECK(message_of<IoError>([&] { LineSender(at("tcp", port)); }) ==
+        "cannot listen at tcp://127.0.0.1:" + std::to_string(port) + ": Address already in use");
+  CHECK_THAT(message_of<IoError>(
+                 [] { LineSender({.scheme = "udp", .host = "no.such.invalid", .port = 9, .path = ""}); }),
+             Catch::Matchers::StartsWith("cannot send to udp://no.such.invalid:9: "));
+}
+
+}  // namespace line_sender_test

@@ -1,0 +1,155 @@
+#include "dataset/stream/frame_stream.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "io/net/line_sender.h"
+#include "io/video/h264_stream.h"
+
+namespace thermal {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kMostWaiting = 4;
+constexpr std::chrono::seconds kRetry(1);
+constexpr std::chrono::seconds kLastWords(2);
+
+struct Item {
+  Plane<std::uint8_t> frame;
+  std::int64_t time = 0;
+  std::string line;
+};
+
+}  // namespace
+
+NetAddress parse_video_address(const std::string& url, const std::string& where) {
+  return parse_address(url, {"udp", "rtsp"}, where);
+}
+
+NetAddress parse_line_address(const std::string& url, const std::string& where) {
+  return parse_address(url, {"tcp", "udp"}, where);
+}
+
+struct FrameStream::Impl {
+  StreamTarget target;
+  std::unique_ptr<LineSender> lines;
+  std::atomic<bool> cut = false;      ///< nobody waits any longer
+  std::unique_ptr<H264Stream> video;  ///< the sender's; null while there is no receiver
+  mutable std::mutex mutex;           ///< of all below
+  std::condition_variable changed;
+  std::deque<Item> waiting;
+  Counts counts;
+  bool closing = false;
+  bool done = false;
+  std::thread sender;
+
+  explicit Impl(StreamTarget to) : target(std::move(to)), video(connect()) {
+    if (target.lines) lines = std::make_unique<LineSender>(*target.lines);
+    sender = std::thread([this] { run(); });
+  }
+
+  [[nodiscard]] std::unique_ptr<H264Stream> connect() {
+    return std::make_unique<H264Stream>(target.video, target.frame_rate_hz, target.width_px, target.height_px,
+                                        [this] { return cut.load(); });
+  }
+
+  /// The next item; none at the end.
+  std::optional<Item> next() {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [this] { return closing || !waiting.empty(); });
+    if (waiting.empty()) return std::nullopt;
+    Item item = std::move(waiting.front());
+    waiting.pop_front();
+    return item;
+  }
+
+  void note_fault(const Error& error) {
+    video.reset();
+    const std::lock_guard lock(mutex);
+    counts.fault = error.what();
+  }
+
+  void send_video(const Item& item, Clock::time_point& retry_at) {
+    try {
+      if (!video && Clock::now() >= retry_at) video = connect();
+      if (video) video->add(item.frame, item.time);
+    } catch (const IoError& error) {
+      note_fault(error);
+      retry_at = Clock::now() + kRetry;
+    }
+    const std::lock_guard lock(mutex);
+    ++(video ? counts.sent : counts.dropped);
+  }
+
+  void run() {
+    Clock::time_point retry_at{};
+    while (const std::optional<Item> item = next()) {
+      send_video(*item, retry_at);
+      if (!lines) continue;
+      lines->send(item->line);
+      const std::lock_guard lock(mutex);
+      counts.lines_missed = lines->counts().missed;
+    }
+    try {
+      if (video) video->close();
+    } catch (const IoError& error) {
+      note_fault(error);
+    }
+    if (lines) lines->finish(std::chrono::duration<double>(kLastWords).count());
+    const std::lock_guard lock(mutex);
+    done = true;
+    changed.notify_all();
+  }
+
+  /// `patience`: for the last frames; then the stream is cut.
+  void close(Clock::duration patience) {
+    if (!sender.joinable()) return;
+    std::unique_lock lock(mutex);
+    closing = true;
+    changed.notify_all();
+    if (!changed.wait_for(lock, patience, [this] { return done; })) {
+      counts.dropped += static_cast<std::int64_t>(waiting.size());
+      waiting.clear();
+      cut = true;
+    }
+    lock.unlock();
+    sender.join();
+  }
+};
+
+FrameStream::FrameStream(const StreamTarget& target) : impl_(std::make_unique<Impl>(target)) {}
+
+FrameStream::~FrameStream() { impl_->close({}); }
+
+bool FrameStream::send(const Plane<std::uint8_t>& frame, std::int64_t time, std::string line) {
+  const StreamTarget& target = impl_->target;
+  if (frame.width_px() != target.width_px || frame.height_px() != target.height_px)
+    throw ConfigError(fault("frame", fmt::format("{} x {}", frame.width_px(), frame.height_px()), "px",
+                            fmt::format("{} x {}", target.width_px, target.height_px)));
+  const std::lock_guard lock(impl_->mutex);
+  if (impl_->closing || impl_->waiting.size() >= kMostWaiting) {
+    ++impl_->counts.dropped;
+    return false;
+  }
+  impl_->waiting.push_back({.frame = frame, .time = time, .line = std::move(line)});
+  impl_->changed.notify_all();
+  return true;
+}
+
+void FrameStream::close() { impl_->close(kLastWords); }
+
+FrameStream::Counts FrameStream::counts() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->counts;
+}
+
+}  // namespace thermal

@@ -1,0 +1,21 @@
+#include "dataset/stream/lateness.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thermal {
+
+int frames_to_leave_out(double late_s, double frame_rate_hz) noexcept {
+  return std::max(0, static_cast<int>(std::floor(late_s * frame_rate_hz)) - 1);
+}
+
+Lateness lateness_of(std::vector<double> late_s) {
+  if (late_s.empty()) return {};
+  std::ranges::sort(late_s);
+  const auto at = [&late_s](double share) {
+    return late_s[static_cast<std::size_t>(std::lround(share * static_cast<double>(late_s.size() - 1)))];
+  };
+  return {.median_s = at(0.5), .high_s = at(0.95), .most_s = late_s.back()};
+}
+
+}  // namespace thermal

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace thermal {
+
+/// Where to send, as of a URL: scheme://host:port/path.
+struct NetAddress {
+  std::string scheme;  ///< in small letters
+  std::string host;    ///< without the brackets of IPv6
+  std::uint16_t port = 0;
+  std::string path;  ///< with its slash, or empty
+
+  /// Whether the host is this machine, and nobody else can be reached by it: 127.0.0.0/8, ::1 or "localhost".
+  [[nodiscard]] bool is_loopback() const;
+
+  /// "udp://[::1]:5600".
+  [[nodiscard]] std::string url() const;
+};
+
+/// ConfigError with `where` (such as "--video") for another text, a scheme that is not among `schemes`, and a port that is
+/// not 1 to 65535.
+[[nodiscard]] NetAddress parse_address(std::string_view text, const std::vector<std::string>& schemes,
+                                       const std::string& where);
+
+}  // namespace thermal

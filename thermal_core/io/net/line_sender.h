@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "io/net/address.h"
+
+namespace thermal {
+
+/// Sends lines of text to whoever listens, and never waits for them. `udp`: a datagram a line. `tcp`: a server for any
+/// number of clients; a client gets the lines from its connection on. A client that reads more slowly than lines come
+/// misses whole lines once 1 MiB wait for it.
+class LineSender {
+ public:
+  struct Counts {
+    std::int64_t sent = 0;    ///< lines, to each client
+    std::int64_t missed = 0;  ///< lines that a slow client did not get, and those too long for a datagram
+    int clients = 0;          ///< now
+  };
+
+  /// IoError if the host is unknown, or the port of a server in use.
+  explicit LineSender(const NetAddress& address);
+  ~LineSender();
+  LineSender(const LineSender&) = delete;
+  LineSender& operator=(const LineSender&) = delete;
+
+  /// Sends a line, to which a line end is added.
+  void send(std::string_view line);
+
+  /// Gives slow clients `seconds` at most to read what waits for them.
+  void finish(double seconds);
+
+  [[nodiscard]] Counts counts() const noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace thermal

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "base/image.h"
+#include "io/net/address.h"
+
+namespace thermal {
+
+/// Sends grey frames as H.264 video: MPEG-TS by `udp`, which nobody has to receive, or pushed to a server by `rtsp`.
+/// Each frame leaves at once, a keyframe is among every second's, and whoever joins later waits for it.
+class H264Stream {
+ public:
+  /// @param frame_rate_hz  > 0
+  /// @param interrupted  asked while the stream waits, from the thread that uses it: true ends the wait with an IoError
+  /// IoError if nobody answers, or FFmpeg has no encoder.
+  H264Stream(const NetAddress& address, double frame_rate_hz, int width_px, int height_px,
+             std::function<bool()> interrupted);
+  ~H264Stream();
+  H264Stream(const H264Stream&) = delete;
+  H264Stream& operator=(const H264Stream&) = delete;
+
+  /// Sends a frame of the size given at first. `time`: in frames since the first; later than the one before. Waits for a
+  /// server that reads slowly. IoError if it is gone; the stream is of no use then.
+  void add(const Plane<std::uint8_t>& frame, std::int64_t time);
+
+  /// Ends the stream. IoError as of add().
+  void close();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace thermal
