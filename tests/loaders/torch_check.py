@@ -24,6 +24,7 @@ from torchvision.ops import masks_to_boxes
 from torchvision.transforms import InterpolationMode, v2
 
 from truth import Truth, arguments, read_truth
+from veldt import open_dataset
 from veldt.torch import FrameDataset, collate, per_label, results
 
 _STEP = 7  # of frames, for what takes long
@@ -60,6 +61,18 @@ def check_splits(truth: Truth) -> str:
         ids = [target["image_id"] for _, target in FrameDataset(truth.folder, clips=[clip], masks=False)]
         assert ids == [picture.image["id"] for picture in truth.pictures if picture.clip == clip]
     return f"each of {len(truth.clips)} clips alone has its own frames"
+
+
+def check_ignored(truth: Truth) -> str:
+    """Labels that are marked `ignore` are left out, unless they are asked for."""
+    dataset = open_dataset(truth.folder)
+    at = next(at for at, picture in enumerate(truth.pictures) if picture.labels)
+    tracks = truth.pictures[at].of("track_id")
+    sets = [FrameDataset(dataset, ignored=ignored) for ignored in (False, True)]
+    sets[0].frame(at).labels[0].values["ignore"] = True
+    found = [frames[at][1]["track_ids"].tolist() for frames in sets]
+    assert found == [tracks[1:], tracks], found
+    return "a label marked as ignored is left out, unless it is asked for"
 
 
 def check_flip(truth: Truth) -> str:
@@ -195,6 +208,7 @@ def main() -> None:
     checks = (
         check_frames,
         check_splits,
+        check_ignored,
         check_flip,
         check_resize,
         check_halved,

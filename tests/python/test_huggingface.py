@@ -68,6 +68,17 @@ def test_splits_are_clips_and_may_lack_targets(two, load, tmp_path):
     assert loaded["validation"]["image_id"] == [passes.FRAMES + 1, passes.FRAMES + 2]
 
 
+def test_ignored_labels_are_left_out(veldt, load, tmp_path):
+    passes.write_clip(veldt.folder / "small")
+    done = veldt("convert", "small", "--out", "ignored", "--set", "labels.ignore_below_area_px=10", "--quiet")
+    assert (done.code, done.err) == (0, "")
+    dataset = open_dataset(veldt.folder / "ignored")
+    marked = {label.category: label.values["ignore"] for label in dataset["one"][0].labels}
+    assert marked == {"human": True, "elephant": False}
+    write_image_folder(dataset, tmp_path / "out")
+    assert load(tmp_path / "out")["train"][0]["objects"]["track_id"] == [9]
+
+
 def test_splits_of_an_export(two, veldt, tmp_path):
     export = tmp_path / "coco"
     done = veldt(

@@ -45,7 +45,8 @@ class FrameDataset(torch.utils.data.Dataset[tuple[tv_tensors.Image, Target]]):
         """clips: only these, such as those of a split (splits_of()). pixels: "ir16_k", apparent temperature [K] in
         float32, from which every count of ir16 can be had back; "ir16", counts in int32; "ir8", grey levels in uint8.
         masks: whether targets have them. ignored: whether targets have labels that are marked `ignore` too. transforms:
-        of image and target, such as those of torchvision.transforms.v2; boxes and masks follow them.
+        of image and target, such as those of torchvision.transforms.v2; boxes and masks follow them. What they pad
+        and rotate in is 0 K, unless their `fill` says otherwise.
 
         ConfigError for other pixels, KeyError for an unknown clip; open_dataset()'s errors.
         """
