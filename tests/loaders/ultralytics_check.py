@@ -3,27 +3,35 @@
 
     tests/loaders/ultralytics_check.py DATASET
 
-Run by hand, with the packages `ultralytics` and `torch`. Exports a dataset without and with splits, in both box styles,
-and reads it with check_det_dataset() and YOLODataset. Pictures, categories and boxes must be those of the COCO export,
-and no picture may be missing, rejected or read without its label file. The rules that this relies on are also in
-tests/cli/test_export_yolo.py, which needs no package.
+Run by `./run loaders`, with the packages `ultralytics` and `torch`. Exports a dataset without and with splits, in both
+box styles, and reads it with check_det_dataset() and YOLODataset. Pictures, categories and boxes must be those of the
+COCO export, and no picture may be missing, rejected or read without its label file. The rules that this relies on are
+also in tests/cli/test_export_yolo.py, which needs no package.
+
+Outlines (--segmentation polygon), drawn as Ultralytics draws them, must fit the masks as well as export.json says. The
+masks that it trains on are drawn through a thousand points along each outline, and may differ on its border alone.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
 import subprocess
 import tempfile
 from pathlib import Path
 
 import cv2
 import numpy as np
-from ultralytics import __version__
-from ultralytics.data.dataset import YOLODataset
-from ultralytics.data.utils import check_det_dataset, load_dataset_cache_file
 
-_VELDT = Path(__file__).resolve().parents[2] / "build" / "release" / "bin" / "veldt"
+os.environ |= {"YOLO_OFFLINE": "true", "YOLO_VERBOSE": "false"}
+from ultralytics import __version__
+from ultralytics.cfg import get_cfg
+from ultralytics.data.dataset import YOLODataset
+from ultralytics.data.utils import check_det_dataset, load_dataset_cache_file, polygon2mask
+
+from truth import Picture, Truth, arguments, read_truth
+
 _SPLITS = ((), ("--split", "train:0.5,val:0.5"))
 _STYLES = ("visible", "drawn")
 _WITHIN_PX = 1e-3
@@ -104,18 +112,72 @@ def check(options: argparse.Namespace, scratch: Path, style: str, split: tuple[s
     return f"{style} boxes, {split[1] if split else 'no split'}: {len(seen)} pictures and {boxes} boxes agree"
 
 
+def _iou(one: np.ndarray, other: np.ndarray) -> float:
+    return np.count_nonzero(one & other) / np.count_nonzero(one | other)
+
+
+def _is_at_border(pixels: np.ndarray, mask: np.ndarray) -> bool:
+    """Whether all pixels are within one pixel of the mask's border."""
+    near = np.ones((3, 3), np.uint8)
+    inner, outer = cv2.erode(mask.astype(np.uint8), near), cv2.dilate(mask.astype(np.uint8), near)
+    return not (pixels & ((outer == 0) | (inner == 1))).any()
+
+
+def _trained_on(loaded: YOLODataset, index: int, size: tuple[int, int]) -> np.ndarray:
+    """The masks of a sample, (n, height, width), without the border that makes it square."""
+    masks = loaded[index]["masks"].numpy().astype(bool)
+    top, left = ((total - used) // 2 for total, used in zip(masks.shape[1:], size))
+    return masks[:, top : top + size[0], left : left + size[1]]
+
+
+def _fit_of(loaded: YOLODataset, index: int, picture: Picture) -> list[tuple[str, float, float]]:
+    """Of each target: size class, IoU of its outline with its mask, and of the mask that is trained on."""
+    size = (picture.image["height"], picture.image["width"])
+    label, fits = loaded.labels[index], []
+    names = [loaded.data["names"][int(k)] for k in label["cls"][:, 0]]
+    assert names == picture.of("category")
+    masks, trained_on = picture.masks(), _trained_on(loaded, index, size)
+    for k, mask in enumerate(masks):
+        outline = polygon2mask(size, [(label["segments"][k] * size[::-1]).reshape(-1)]).astype(bool)
+        assert _is_at_border(trained_on[k] ^ outline, outline)
+        fits.append((picture.labels[k]["size_class"], _iou(outline, mask), _iou(trained_on[k], mask)))
+    return fits
+
+
+def check_outlines(options: argparse.Namespace, scratch: Path, truth: Truth) -> list[str]:
+    """Export outlines, read them, and return how well they fit the masks."""
+    out = _export(options, scratch / "outlines", "--format", "yolo", "--segmentation", "polygon")
+    data, hyp = check_det_dataset(str(out / "data.yaml")), get_cfg()
+    hyp.mask_ratio, hyp.overlap_mask = 1, False  # whole masks of their own
+    loaded = YOLODataset(data["train"], _PICTURE_PX, augment=False, data=data, task="segment", hyp=hyp)
+    _check_scan(out, "train", len(truth.pictures))
+    pictures = {picture.name: picture for picture in truth.pictures}
+    fits = []
+    for index, file in enumerate(map(Path, loaded.im_files)):
+        fits += _fit_of(loaded, index, pictures[file.stem])
+    assert len(fits) == truth.targets
+    lines = []
+    record = json.loads((out / "export.json").read_text(encoding="utf-8"))["outline_iou"]
+    for name, stated in record.items():
+        figures = np.array([fit[1:] for fit in fits if fit[0] == name])
+        (drawn, trained_on), (least, least_trained_on) = figures.mean(0), figures.min(0)
+        assert len(figures) == stated["targets"]
+        assert max(abs(drawn - stated["mean"]), abs(least - stated["least"])) < 1e-9
+        lines.append(
+            f"{name}: {len(figures)} outlines, IoU with the masks {drawn:.4f} (at least {least:.4f}), "
+            f"as trained on {trained_on:.4f} ({least_trained_on:.4f})"
+        )
+    return lines
+
+
 def main() -> None:
     """Check a dataset."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("dataset", type=Path)
-    parser.add_argument("--veldt", type=Path, default=_VELDT)
-    options = parser.parse_args()
+    options = arguments(__doc__)
     lines = []
     with tempfile.TemporaryDirectory() as scratch:
         for style in _STYLES:
             lines += [check(options, Path(scratch), style, split) for split in _SPLITS]
+        lines += check_outlines(options, Path(scratch), read_truth(options.dataset))
     print(f"ultralytics {__version__}", *lines, sep="\n")
 
 

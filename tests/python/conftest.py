@@ -1,6 +1,7 @@
 """Fixtures for tests of the Python package."""
 
 import json
+import sys
 
 import pytest
 
@@ -8,6 +9,9 @@ import passes
 from configs import tiny
 from program import Veldt
 from veldt import open_dataset
+
+# Behind the packages: `datasets` is Hugging Face's in these tests, not that of tests/support.
+sys.path.sort(key=lambda folder: folder.endswith("support"))
 
 
 @pytest.fixture(name="veldt", scope="session")

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 import passes
-from veldt import DataError, IoError, open_dataset
+from veldt import DataError, IoError, open_dataset, splits_of
 
 
 def _read(file) -> np.ndarray:
@@ -37,6 +37,31 @@ def test_labels_have_masks_and_values(converted):
     assert np.array_equal(elephant.mask(), passes.object_index(0) == passes.ELEPHANT)
     assert elephant.values["truncated"]
     assert elephant.box_px == (0, 10, 5, 4)
+
+
+def test_ids_and_categories_are_those_of_annotations_json(veldt, generated):
+    passes.write_clip(veldt.folder / "first", "first", 4)
+    (veldt.folder / "first" / "000001.exr").write_bytes(b"broken")
+    passes.write_clip(veldt.folder / "second", "second")
+    done = veldt("convert", "first", "second", "--out", "ids", "--quiet")
+    assert done.code == 3  # a frame is skipped, and its id with it
+    for dataset in (open_dataset(veldt.folder / "ids"), generated):
+        document = json.loads((dataset.folder / "annotations.json").read_text(encoding="utf-8"))
+        assert dataset.categories == {each["name"]: each["id"] for each in document["categories"]}
+        clips = {video["id"]: video["name"] for video in document["videos"]}
+        ids = {(clips[i["video_id"]], i["frame_index"]): i["id"] for i in document["images"]}
+        assert {(frame.clip.id, frame.index): frame.image_id for frame in dataset.frames()} == ids
+
+
+def test_splits_of_what_has_none(tmp_path):
+    with pytest.raises(IoError) as fault:
+        splits_of(tmp_path)
+    expected = "no annotations/*.json; expected an export in COCO's format with splits"
+    assert str(fault.value) == f"{tmp_path}: {expected}"
+    (tmp_path / "annotations").mkdir()
+    (tmp_path / "annotations" / "train.json").write_text("{", encoding="utf-8")
+    with pytest.raises(DataError, match="train.json: not JSON: "):
+        splits_of(tmp_path)
 
 
 def test_poses_are_matrices_or_unknown(generated, converted):

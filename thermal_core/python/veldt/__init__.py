@@ -11,7 +11,7 @@ from veldt._core import Cancelled, ConfigError, DataError, Error, IoError, TryAg
 from .band import Band
 from .camera import Camera, Exposure
 from .converter import Converter, MadeFrame
-from .datasets import Clip, Dataset, Frame, Label, open_dataset
+from .datasets import Clip, Dataset, Frame, Label, open_dataset, splits_of
 from .heat import HeatOfDay
 from .labels import Instance, instances
 from .runs import Outcome, Progress, generate, plan
@@ -48,4 +48,5 @@ __all__ = [
     "instances",
     "open_dataset",
     "plan",
+    "splits_of",
 ]

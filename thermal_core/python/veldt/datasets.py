@@ -4,9 +4,11 @@ for."""
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import accumulate
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -15,6 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import veldt._core as _core
+
+_IMAGES = re.compile(r',\s*"images"\s*:\s*\[')
 
 
 @dataclass(frozen=True)
@@ -46,8 +50,18 @@ class Frame:
 
     clip: Clip = field(repr=False)
     index: int
-    values: dict[str, Any] = field(repr=False)
-    """Its line of frames.jsonl: gain curve, checksums and all that follows."""
+    line: str = field(repr=False)
+    """Of frames.jsonl, as text: a fifth of the memory."""
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """Its line of frames.jsonl: gain curve, checksums and all that follows."""
+        return json.loads(self.line)
+
+    @property
+    def image_id(self) -> int:
+        """Its image's id in the dataset's annotations.json, and so in results for `veldt evaluate`."""
+        return self.clip.dataset.images_before[self.clip.id] + self.index + 1
 
     @property
     def time_s(self) -> float:
@@ -67,11 +81,11 @@ class Frame:
 
     def ir8(self) -> NDArray[np.uint8]:
         """Grey levels, (height, width)."""
-        return _core.read_png8(str(self._file("ir8")))
+        return _core.read_png8(str(self.file("ir8")))
 
     def ir16(self) -> NDArray[np.uint16]:
         """Apparent temperature in counts, (height, width)."""
-        return _core.read_png16(str(self._file("ir16")))
+        return _core.read_png16(str(self.file("ir16")))
 
     def ir16_k(self) -> NDArray[np.float32]:
         """Apparent temperature [K], (height, width): ir16() times kelvin_per_count, rounded to single precision."""
@@ -82,7 +96,8 @@ class Frame:
         """Its actors."""
         return self.clip.labels_of(self.index)
 
-    def _file(self, kind: str) -> Path:
+    def file(self, kind: str) -> Path:
+        """That of its "ir8" or "ir16"."""
         return self.clip.folder / kind / f"{self.index:06d}.png"
 
 
@@ -121,8 +136,8 @@ class Clip(Sequence[Frame]):
 
     @cached_property
     def _frames(self) -> list[Frame]:
-        lines = [json.loads(line) for line in _core.read_text(str(self.folder / "frames.jsonl")).splitlines()]
-        return [Frame(self, line["frame_index"], line) for line in lines]
+        lines = _core.read_text(str(self.folder / "frames.jsonl")).splitlines()
+        return [Frame(self, json.loads(line)["frame_index"], line) for line in lines]
 
     @cached_property
     def _labels(self) -> dict[int, list[Label]]:
@@ -155,6 +170,19 @@ class Dataset(Sequence[Clip]):
         """Step of ir16 [K]."""
         return self.document["kelvin_per_count"]
 
+    @cached_property
+    def categories(self) -> dict[str, int]:
+        """Names of all categories with their ids in annotations.json, in its order. IoError or DataError if that file
+        cannot be read."""
+        file = self.folder / "annotations.json"
+        return {category["name"]: category["id"] for category in _head_of(file)["categories"]}
+
+    @cached_property
+    def images_before(self) -> dict[str, int]:
+        """By clip: the largest id of an image in annotations.json before its own. Frames that were skipped have one."""
+        largest = accumulate((clip[-1].index + 1 if len(clip) else 0 for clip in self), initial=0)
+        return dict(zip((clip.id for clip in self), largest))
+
     def frames(self) -> Iterator[Frame]:
         """All frames of all clips."""
         for clip in self:
@@ -179,6 +207,31 @@ class Dataset(Sequence[Clip]):
 def open_dataset(folder: str | PathLike[str]) -> Dataset:
     """A dataset's clips. IoError if a file cannot be read, DataError if it is none of a dataset."""
     return Dataset(Path(folder))
+
+
+def splits_of(export: str | PathLike[str]) -> dict[str, list[str]]:
+    """The ids of the clips in each split of what `veldt export --format coco --split` wrote. IoError unless it has a
+    folder annotations/ with a file for each split, DataError if one is none of COCO."""
+    files = sorted(Path(export).glob("annotations/*.json"))
+    if not files:
+        raise _core.IoError(
+            f"{export}: no annotations/*.json; expected an export in COCO's format with splits"
+        )
+    return {file.stem: [video["name"] for video in _head_of(file)["videos"]] for file in files}
+
+
+def _head_of(file: Path) -> dict[str, Any]:
+    """A COCO file of ours without its images and what follows them, which may be gigabytes."""
+    text = ""
+    try:
+        with open(file, encoding="utf-8") as stream:
+            while not (images := _IMAGES.search(text)) and (more := stream.read(1 << 16)):
+                text += more
+        return json.loads(text[: images.start()] + "}" if images else text)
+    except OSError as error:
+        raise _core.IoError(f"cannot read {file}: {error.strerror}") from error
+    except ValueError as error:
+        raise _core.DataError(f"{file}: not JSON: {error}") from error
 
 
 def _read_json(file: Path) -> Any:
