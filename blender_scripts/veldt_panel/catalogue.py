@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-# As `veldt inspect` guesses; tests/integration/test_panel_names.py compares the two.
+# As `veldt inspect` guesses; tests/cli/test_panel_names.py compares the two.
 _GROUNDS = ("soil", "wet_soil", "grass", "road")
 _OTHER_WORDS = {
     **dict.fromkeys(("person", "people", "man", "woman", "poacher", "ranger", "pedestrian"), "human"),
@@ -74,7 +74,7 @@ def words_of(name: str) -> list[str]:
 
 def _find(things: dict[str, Thing], word: str) -> Thing | None:
     for form in (word, word[:-1] if word.endswith("s") else word):
-        if found := things.get(form) or things.get(_OTHER_WORDS.get(form, "")):
+        if found := things.get(_OTHER_WORDS.get(form, "")) or things.get(form):
             return found
     return None
 

@@ -214,11 +214,7 @@ def faults(folder: Path, blend: str) -> dict:
     for name in ("material", "kind"):
         bpy.data.objects["Cube"].veldt.property_unset(name)
     after = dump()
-    job = _module("jobs").render_passes(_request())
-    for _ in range(2):
-        next(job)
-    frames = sorted(each.name for each in (folder / "passes" / "clip.part").iterdir())
-    job.close()
+    frames = _stop_with_escape(folder / "passes" / "clip.part")
     kept = sorted(each.name for each in (folder / "passes" / "clip").iterdir())
     left = sorted(each.name for each in (folder / "passes").iterdir())
     _preferences().program = str(folder / "no_program")
@@ -227,6 +223,20 @@ def faults(folder: Path, blend: str) -> dict:
         **{"errors": errors, "before": before, "after": after, "stopped": dump()},
         **{"part": frames, "kept": kept, "left": left},
     }
+
+
+def _stop_with_escape(folder: Path) -> list[str]:
+    """Render beside a window, as Blender would call it, and stop during the second frame; the files by then."""
+    jobs, operators = _module("jobs"), _module("operators")
+    names = ("modal", "_finish", "_fail", "_end")
+    running = type("Running", (), {name: getattr(operators.JobOperator, name) for name in names})()
+    running.__dict__.update(_job=jobs.render_passes(_request()), _timer=None, report=print)
+    for kind in ("TIMER", "MOUSEMOVE", "TIMER"):
+        assert running.modal(bpy.context, SimpleNamespace(type=kind)) == {"RUNNING_MODAL"}
+    files = sorted(each.name for each in folder.iterdir())
+    assert running.modal(bpy.context, SimpleNamespace(type="ESC")) == {"CANCELLED"}
+    assert bpy.context.window_manager.veldt.message == "Stopped"
+    return files
 
 
 def _request():
