@@ -9,7 +9,7 @@ import json
 import subprocess
 import sys
 from pathlib import Path
-from types import SimpleNamespace
+from types import MethodType, SimpleNamespace
 
 import addon_utils
 import bpy
@@ -228,9 +228,9 @@ def faults(folder: Path, blend: str) -> dict:
 def _stop_with_escape(folder: Path) -> list[str]:
     """Render beside a window, as Blender would call it, and stop during the second frame; the files by then."""
     jobs, operators = _module("jobs"), _module("operators")
-    names = ("modal", "_finish", "_fail", "_end")
-    running = type("Running", (), {name: getattr(operators.JobOperator, name) for name in names})()
-    running.__dict__.update(_job=jobs.render_passes(_request()), _timer=None, report=print)
+    running = SimpleNamespace(_job=jobs.render_passes(_request()), _timer=None, report=print)
+    for name in ("modal", "_finish", "_fail", "_end"):
+        setattr(running, name, MethodType(getattr(operators.JobOperator, name), running))
     for kind in ("TIMER", "MOUSEMOVE", "TIMER"):
         assert running.modal(bpy.context, SimpleNamespace(type=kind)) == {"RUNNING_MODAL"}
     files = sorted(each.name for each in folder.iterdir())
