@@ -84,7 +84,7 @@ std::string usage_fault(const CLI::App* app, const CLI::Error& error) {
   if (!unknown.empty() && unknown.front().starts_with('-'))
     return fmt::format("option {} before a command; see veldt --help", unknown.front());
   const std::vector<std::string> known = command_names(*app);
-  const std::string choice = "expected one of " + thermal::list_names(known);
+  const std::string choice = "expected one of " + thermal::list_names(known, known.size());
   if (unknown.empty()) return fmt::format("no command; {}; see veldt --help", choice);
   return fmt::format("unknown command \"{}\"; {}{}", unknown.front(), choice,
                      thermal::did_you_mean(unknown.front(), known));
