@@ -13,7 +13,7 @@ def without_folder_links(text: str, folder: Path) -> str:
 
 
 def notebook_to_markdown(text: str) -> str:
-    """A notebook (nbformat 4, language Python) with its outputs: text and PNG pictures; other outputs are dropped."""
+    """A notebook (nbformat 4, language Python) with its outputs: text, PNG and JPEG pictures."""
     cells = json.loads(text)["cells"]
     return "\n\n".join(_cell_to_markdown(cell) for cell in cells) + "\n"
 
@@ -28,10 +28,11 @@ def _cell_to_markdown(cell: dict) -> str:
 def _output_to_markdown(output: dict) -> str:
     if output["output_type"] == "stream":
         return _fenced("".join(output["text"]), "text")
-    data = output.get("data", {})
-    if "image/png" in data:
-        return f"![Output](data:image/png;base64,{''.join(data['image/png']).replace(chr(10), '')})"
-    return _fenced("".join(data.get("text/plain", [])), "text")
+    data = output["data"]
+    for kind in ("image/png", "image/jpeg"):
+        if kind in data:
+            return f"![Output](data:{kind};base64,{''.join(data[kind]).replace(chr(10), '')})"
+    return _fenced("".join(data["text/plain"]), "text")
 
 
 def _fenced(text: str, language: str) -> str:

@@ -11,7 +11,8 @@ sys.path.insert(0, str(DOCS))
 
 from pages import notebook_to_markdown, without_folder_links  # pylint: disable=wrong-import-position
 
-PICTURE = {"output_type": "display_data", "data": {"image/png": "aGk=\n", "text/plain": ["<Figure>"]}}
+PNG = {"output_type": "display_data", "data": {"image/png": "aGk=\n", "text/plain": ["<Figure>"]}}
+JPEG = {"output_type": "display_data", "data": {"image/jpeg": ["aG\n", "k="], "text/plain": ["<Figure>"]}}
 
 
 def cell(kind: str, source: list[str], outputs: list[dict] | None = None) -> dict:
@@ -32,11 +33,11 @@ def test_notebook_becomes_text_code_and_outputs():
     value = {"output_type": "execute_result", "data": {"text/plain": ["[14]"]}}
     cells = [
         cell("markdown", ["# Title\n", "Text."]),
-        cell("code", ["print(12)\n", "[14]"], [printed, value, PICTURE]),
+        cell("code", ["print(12)\n", "[14]"], [printed, value, PNG, JPEG]),
     ]
     assert notebook_to_markdown(json.dumps({"cells": cells})) == (
         "# Title\nText.\n\n```python\nprint(12)\n[14]\n```\n\n```text\n12\n13\n```\n\n```text\n[14]\n```\n\n"
-        "![Output](data:image/png;base64,aGk=)\n"
+        "![Output](data:image/png;base64,aGk=)\n\n![Output](data:image/jpeg;base64,aGk=)\n"
     )
 
 
