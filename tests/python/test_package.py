@@ -18,6 +18,15 @@ def test_stubs_name_what_the_compiled_part_has():
             assert members - {"__init__"} == has, name
 
 
+def test_stubs_document_errors_as_the_compiled_part_does():
+    stub = ast.parse(Path(veldt.__file__).with_name("_core.pyi").read_text(encoding="utf-8"))
+    classes = [node for node in stub.body if isinstance(node, ast.ClassDef)]
+    errors = [node for node in classes if issubclass(getattr(_core, node.name), Exception)]
+    assert len(errors) == 6
+    for node in errors:
+        assert ast.get_docstring(node) == getattr(_core, node.name).__doc__, node.name
+
+
 def test_all_names_are_documented():
     for name in veldt.__all__:
         assert getattr(veldt, name).__doc__, name

@@ -18,6 +18,7 @@ struct AveragePrecision {
 
 /// COCO's IoU thresholds, with numpy's rounding: 0.9 is 0.8999999999999999.
 inline constexpr std::size_t kIouSteps = 10;
+/// 0.5, 0.55 … 0.95.
 [[nodiscard]] std::array<double, kIouSteps> iou_steps() noexcept;
 
 /// Area under the precision-recall curve as COCO defines it: precision made non-increasing in recall, and its mean at

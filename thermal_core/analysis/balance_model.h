@@ -16,6 +16,7 @@ struct LevelBounds {
   ClassCounts least_at_most{};   ///< v_k <= the last level at which sum_i min(T_ik, level) is within L^k_u
   ClassCounts most_available{};  ///< max_i T_ik
 };
+/// Those of a program.
 [[nodiscard]] LevelBounds level_bounds(const BalanceProgram& program);
 
 /// How a video enters a model.

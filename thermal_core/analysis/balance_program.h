@@ -48,6 +48,7 @@ struct BalanceSolution {
   [[nodiscard]] bool operator==(const BalanceSolution&) const = default;
 };
 
+/// How exact and how long a search is.
 struct BalanceOptions {
   double gap = 0.01;         ///< largest accepted gap; 0: the optimum
   double time_limit_s = 60;  ///< wall clock
@@ -56,6 +57,7 @@ struct BalanceOptions {
   void validate() const;
 };
 
+/// The best solution that was found, and how far from the optimum it can be.
 struct BalanceResult {
   BalanceSolution solution;
   std::int64_t bound = 0;  ///< proven lower bound of the objective

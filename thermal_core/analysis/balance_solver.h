@@ -6,20 +6,24 @@
 
 namespace thermal {
 
+/// A bound that does not bind.
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// minimise cost . x with lower <= x <= upper, some of x whole, and lower <= A x <= upper.
 struct IntegerProgram {
+  /// A variable, its bounds and its cost.
   struct Column {
     double lower = 0;
     double upper = kUnbounded;
     double cost = 0;
     bool whole = false;
   };
+  /// A variable times a factor.
   struct Term {
     std::size_t column = 0;
     double factor = 0;
   };
+  /// A sum of terms, and its bounds.
   struct Row {
     double lower = -kUnbounded;
     double upper = kUnbounded;
@@ -35,12 +39,14 @@ struct IntegerProgram {
   }
 };
 
+/// When a search ends.
 struct SolverLimits {
   double gap = 0;         ///< largest accepted (objective - bound) / |objective|
   double time_s = 60;     ///< wall clock
   int nodes = 100000000;  ///< of the search tree
 };
 
+/// How a search ended.
 enum class SolverEnd {
   solved,      ///< to within the gap
   stopped,     ///< stopped at a limit, with a solution
@@ -48,6 +54,7 @@ enum class SolverEnd {
   nothing,     ///< stopped at a limit without a solution
 };
 
+/// What a search found.
 struct SolverResult {
   SolverEnd end = SolverEnd::nothing;
   std::vector<double> values;  ///< one per column; empty without a solution. Whole ones to within 1e-6

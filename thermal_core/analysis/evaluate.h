@@ -13,6 +13,7 @@
 
 namespace thermal {
 
+/// Which detections count, and what a match is.
 struct EvaluateOptions {
   double iou = 0.5;            ///< lowest IoU of a match, above 0, at most 1
   double score = 0.5;          ///< detections below do not count, except in average precision
@@ -37,8 +38,10 @@ struct Counts {
 /// By SizeClass: a target's is its track's; an unmatched detection's is that of its own box.
 using SizeCounts = std::array<Counts, 3>;
 
+/// The sum over all sizes.
 [[nodiscard]] Counts total(const SizeCounts& counts) noexcept;
 
+/// How well detections agree with labels.
 struct Evaluation {
   /// [video][category], as in the set.
   std::vector<std::vector<SizeCounts>> counts;

@@ -45,6 +45,7 @@ class EvaluationCells {
 /// Intersection over union, 0..1; over the detection's own area if the target is a crowd. 0 where they only touch.
 [[nodiscard]] double overlap(const LabelBox& detection, const Target& target) noexcept;
 
+/// The index of a detection that matches no target.
 inline constexpr std::size_t kNoTarget = static_cast<std::size_t>(-1);
 
 /// Which target each detection matches, as an index into `cell.targets`, or kNoTarget: in order, each takes the

@@ -24,6 +24,7 @@ struct FrameRequest {
   std::optional<double> kelvin_per_count = {};  ///< of a folder's pictures; empty: their tags say it
 };
 
+/// A picture to measure, and what is known about it.
 struct SourceFrame {
   Path file;
   std::string name;

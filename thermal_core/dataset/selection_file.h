@@ -14,6 +14,7 @@ struct SelectedVideo {
   std::vector<int> frames;  ///< indices in the video, from 0, ascending
 };
 
+/// The selected frames of a dataset.
 struct SelectedDataset {
   std::string path;  ///< as given
   std::string name;  ///< of its LabelSet

@@ -25,6 +25,7 @@ struct SeenBox {
                                              const ManifestObject& actor, const ActorPose& pose,
                                              const std::array<double, 16>& camera_to_world);
 
+/// What is nearer to the camera than this is not projected.
 inline constexpr double kNearestM = 0.05;
 
 /// The visible box of an actor within the picture, extended beyond each border it touches to the projected box of the

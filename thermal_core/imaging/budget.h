@@ -64,6 +64,7 @@ struct TermEffect {
   std::string impossible = {};  ///< missing input; empty: the term is possible
 };
 
+/// The effect of each term, and which are kept.
 struct Budget {
   std::vector<TermEffect> effects;  ///< in the order of kTerms
   Terms kept;
@@ -90,6 +91,7 @@ struct MaterialShift {
   double path_k = 0;
   double inversion_k = 0;
 };
+/// The shifts of a material that is seen from range_m away.
 [[nodiscard]] MaterialShift shift_of(const Material& material, const SceneOutline::Night& night,
                                      double range_m, const SpectralResponse& response);
 

@@ -7,6 +7,7 @@
 
 namespace thermal {
 
+/// Wavelength of the finest octave.
 inline constexpr double kFinestNoiseCells = 2;
 
 /// The octaves of a noise.

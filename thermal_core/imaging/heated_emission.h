@@ -15,6 +15,7 @@
 
 namespace thermal {
 
+/// Step of depths in crowns.
 inline constexpr double kCrownStepM = 0.25;
 
 /// Sky view of leaves whose depth in their crown is not known.

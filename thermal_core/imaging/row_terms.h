@@ -61,6 +61,7 @@ struct Row {
 /// Adds one term to a row. A scene's chain is a list of these; dropped terms are not in it.
 using RowTerm = std::function<void(Row&)>;
 
+/// Those of each surface of a scene.
 using SurfaceOpticsList = std::vector<SurfaceOptics>;
 
 /// Emission of every surface at its mean temperature.

@@ -20,7 +20,9 @@ void write_manifest(const Path& file, const Manifest& manifest);
 
 /// Entries of a manifest, or of a baked scene, that conform to its schema.
 [[nodiscard]] ManifestObject manifest_object_of(const Json& json);
+/// The same of a material.
 [[nodiscard]] ManifestMaterial manifest_material_of(const Json& json);
+/// The same of a bed that an animal has left.
 [[nodiscard]] WarmBed warm_bed_of(const Json& json);
 
 }  // namespace thermal

@@ -22,12 +22,14 @@ struct LabelBox {
 /// Size of a target in its video (Bondi et al. 2018); see assign_size_classes().
 enum class SizeClass { small, medium, large };
 
+/// Its name in files: "small", "medium" or "large".
 [[nodiscard]] std::string size_class_name(SizeClass size) noexcept;
 
 /// By the mean area of a track's boxes over its video: small below 200 px, large above 2000 px, else medium.
 /// Source: Bondi et al., COMPASS 2018, section 5.
 [[nodiscard]] SizeClass size_class_of(double mean_box_area_px) noexcept;
 
+/// What labels call actors of one kind.
 struct LabelCategory {
   int id = 0;
   std::string name;
@@ -39,6 +41,7 @@ struct LabelVideo {
   double frame_rate_hz = 0;  ///< 0: unknown
 };
 
+/// A picture that has labels.
 struct LabelImage {
   std::int64_t id = 0;
   std::string file;  ///< relative to LabelSet::root, "/" between folders
@@ -91,6 +94,7 @@ void assign_size_classes(LabelSet& set);
 
 /// Whether a category is people; all others except vehicles, with bicycles and motorbikes, are animals.
 enum class Kind { animal, human, vehicle };
+/// The kind of a category.
 [[nodiscard]] Kind kind_of(const std::string& category) noexcept;
 
 }  // namespace thermal

@@ -22,6 +22,7 @@ struct TargetMeans {
 [[nodiscard]] std::vector<TargetMeans> target_means(const Plane<float>& picture,
                                                     std::span<const Instance> instances);
 
+/// Width of the gap between a box and its ring, which blur fills with the target's radiance.
 inline constexpr int kGuardPx = 2;
 
 /// Width of the ring [px]: half of the box's larger side, rounded up, and at least 4.

@@ -7,6 +7,7 @@ namespace thermal {
 /// extrapolated. Humid air ends sooner: above 25 g m^-3 of water (310 K and 60 %, 300 K and 100 %) the path stays
 /// what it is there, and a sky is never more than a blackbody (from 312 K and 60 %, 300 K and 100 %).
 inline constexpr double kColdestAirK = 233;
+/// The warmest that is accepted [K]: see kColdestAirK.
 inline constexpr double kHottestAirK = 323;
 
 /// The largest inversion that is accepted [K]: the camera's radiance of air is taken to change linearly along the

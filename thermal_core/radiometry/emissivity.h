@@ -7,6 +7,7 @@ namespace thermal {
 /// Emissivity of a surface against wavelength: straight lines between samples.
 class EmissivitySpectrum {
  public:
+  /// Emissivity at one wavelength.
   struct Sample {
     double wavelength_um;
     double emissivity;

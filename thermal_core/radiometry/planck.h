@@ -2,9 +2,10 @@
 
 namespace thermal {
 
-/// First radiation constant for radiance, 2 h c^2 [W m^2 sr^-1], and second, h c / k [m K].
+/// First radiation constant for radiance, 2 h c^2 [W m^2 sr^-1].
 /// Exact SI 2019 values of h, c, k (Tiesinga et al., Rev. Mod. Phys. 93, 025010, 2021).
 inline constexpr double kFirstRadiationConstant = 1.191042972397188414e-16;
+/// Second radiation constant, h c / k [m K]; from the same values.
 inline constexpr double kSecondRadiationConstant = 0.01438776877503933802;
 
 /// Spectral radiance of a blackbody [W m^-2 sr^-1 um^-1].

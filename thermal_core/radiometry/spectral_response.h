@@ -8,6 +8,7 @@ namespace thermal {
 /// Relative response of a camera against wavelength: straight lines between samples, zero outside them.
 class SpectralResponse {
  public:
+  /// Relative response at one wavelength.
   struct Sample {
     double wavelength_um;
     double response;

@@ -9,6 +9,7 @@ namespace thermal {
 
 /// Rays that are computed together.
 inline constexpr std::size_t kLanes = 16;
+/// A number for each of the rays.
 template <typename Number>
 using Lanes = std::array<Number, kLanes>;
 
@@ -25,6 +26,7 @@ struct UnitLanes {
   VectorLanes<float> direction;
   Lanes<double> length;
 };
+/// Unit vectors along directions, and how long those are.
 [[nodiscard]] UnitLanes units(const VectorLanes<double>& direction) noexcept;
 
 /// What rays from the camera need to know of a triangle. It is a, a + ab, a + ac from the camera, in world axes.
@@ -53,6 +55,7 @@ struct TriangleLanes {
   std::array<Lanes<double>, 3> depth_m;
   std::array<VectorLanes<double>, 3> normal;
 };
+/// Puts a triangle into one lane.
 void put_lane(const TriangleSight& triangle, std::size_t lane, TriangleLanes& out) noexcept;
 
 /// What rays see of triangles.

@@ -24,16 +24,20 @@ struct Vector3 {
   }
 };
 
+/// The scalar product.
 [[nodiscard]] VELDT_INLINE constexpr double dot(const Vector3& a, const Vector3& b) noexcept {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/// The vector product.
 [[nodiscard]] VELDT_INLINE constexpr Vector3 cross(const Vector3& a, const Vector3& b) noexcept {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// The Euclidean length.
 [[nodiscard]] VELDT_INLINE double length(const Vector3& a) noexcept { return std::sqrt(dot(a, a)); }
 
+/// A vector of three numbers of any type.
 template <typename Number>
 [[nodiscard]] constexpr Vector3 vector_of(const std::array<Number, 3>& a) noexcept {
   return {static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2])};

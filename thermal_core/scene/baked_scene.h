@@ -16,6 +16,7 @@ namespace thermal {
 template <typename Number>
 using Transform = std::array<Number, 12>;
 
+/// Triangles that things of a scene share.
 struct BakedMesh {
   std::string name;
   bool smooth = false;                                      ///< normals are interpolated between vertices
@@ -38,11 +39,13 @@ struct BakedPlants {
   std::span<const std::uint32_t> mesh;
 };
 
+/// A part of an actor's body that moves as a whole.
 struct BakedBone {
   std::string name;
   std::size_t mesh = 0;
 };
 
+/// An actor; tracks say where its bones are.
 struct BakedActor {
   std::uint16_t object = 0;
   std::string name;

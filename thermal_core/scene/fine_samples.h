@@ -13,6 +13,7 @@ namespace thermal {
 [[nodiscard]] Plane<std::uint16_t> filled_in(const Plane<std::uint16_t>& pixels,
                                              const std::vector<std::uint16_t>& samples,
                                              const FineSamples& fine);
+/// The same of floats.
 [[nodiscard]] Plane<float> filled_in(const Plane<float>& pixels, const std::vector<float>& samples,
                                      const FineSamples& fine);
 

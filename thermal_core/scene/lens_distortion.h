@@ -6,6 +6,7 @@
 
 namespace thermal {
 
+/// Largest overscan on each side.
 inline constexpr int kMostOverscanPx = 4096;
 
 /// What a lens does to the picture of a pinhole, by Brown and Conrady: names, order and meaning are OpenCV's.

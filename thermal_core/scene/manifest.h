@@ -13,10 +13,13 @@
 namespace thermal {
 
 inline constexpr int kLargestIndex = 32767;  ///< Blender's limit of pass_index
+/// Object index of pixels that show the sky.
 inline constexpr int kSkyIndex = 0;
 
+/// What kind of thing an object index stands for.
 enum class ObjectClass { ground, water, plant, actor };
 
+/// Red, green and blue, 0 to 255.
 using Colour = std::array<std::uint8_t, 3>;
 
 /// Names of channels with unusual names; empty: found by the known spellings.
@@ -77,6 +80,7 @@ struct ActorPose {
   double heading_rad = 0;
 };
 
+/// A frame's file, and what is known about its moment.
 struct ManifestFrame {
   std::string file;
   double time_s = 0;

@@ -34,6 +34,7 @@ struct Mirrored {
 
   [[nodiscard]] bool empty() const noexcept { return object_index.empty(); }
 };
+/// Samples of those pixels that have samples of their own, one pixel after another.
 template <typename Value>
 using SampleList = std::vector<Value>;
 

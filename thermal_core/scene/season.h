@@ -12,6 +12,7 @@ enum class Season { winter, summer };
   return name == "summer" ? Season::summer : Season::winter;
 }
 
+/// Its name in configs: "winter" or "summer".
 [[nodiscard]] constexpr std::string_view season_name(Season season) noexcept {
   return season == Season::winter ? "winter" : "summer";
 }

@@ -23,11 +23,13 @@ struct Terms {
 /// A config's choice for one term; `automatic` leaves it to the budget.
 enum class TermChoice { off, on, automatic };
 
+/// Its name in configs: "off", "on" or "auto".
 [[nodiscard]] constexpr std::string_view choice_name(TermChoice choice) noexcept {
   if (choice == TermChoice::automatic) return "auto";
   return choice == TermChoice::on ? "on" : "off";
 }
 
+/// A config's choices.
 struct TermChoices {
   TermChoice place = TermChoice::off;
   TermChoice facing = TermChoice::off;
@@ -50,6 +52,7 @@ struct TermInfo {
   bool Terms::*kept;
   bool Terms::*needed = nullptr;
 };
+/// All terms, in the order in which they are computed.
 inline constexpr TermInfo kTerms[] = {{"place", &TermChoices::place, &Terms::place},
                                       {"facing", &TermChoices::facing, &Terms::facing},
                                       {"variation", &TermChoices::variation, &Terms::variation},

@@ -13,6 +13,7 @@
 
 namespace thermal {
 
+/// Of the 8-bit frame.
 inline constexpr std::size_t kLevels = 256;
 
 /// How one 8-bit frame was made from its 16-bit frame: thresholds[k] is the smallest 16-bit count shown as level k +

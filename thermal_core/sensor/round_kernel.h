@@ -43,6 +43,7 @@ struct RoundKernel {
   QuadrantKernel halo;
 };
 
+/// Side of the blocks of pixels that the wide halo is made of.
 inline constexpr int kHaloBlockPx = 4;
 
 /// Finds the weights by least squares over all two-dimensional frequencies f that they tell apart, up to 1 cycle per

@@ -16,6 +16,7 @@ enum class Psf {
   physical   ///< diffraction, the pixel's footprint and a Gaussian for all other imperfections
 };
 
+/// Blur by the lens and the pixels.
 struct OpticsParameters {
   Psf psf = Psf::gaussian;
   double blur_sigma_px = 1;           ///< gaussian; 0: no blur
@@ -66,6 +67,7 @@ struct HousingParameters {
   [[nodiscard]] bool operator==(const HousingParameters&) const = default;
 };
 
+/// Pixels that do not work.
 struct BadPixelParameters {
   double dead_share = 0;       ///< of all pixels; dead pixels measure nothing
   bool replace_dead = true;    ///< by the mean of their working neighbours, as cameras do
@@ -89,6 +91,7 @@ enum class AgcMode {
   clahe         ///< histogram equalisation in tiles, with a clip limit, damped in time
 };
 
+/// Whether warm things are bright or dark in the 8-bit frame.
 enum class Polarity { white_hot, black_hot };
 
 /// Sharpening of the 8-bit picture.
@@ -109,6 +112,7 @@ struct DenoiseParameters {
   [[nodiscard]] bool operator==(const DenoiseParameters&) const = default;
 };
 
+/// Gain control: how 16-bit frames become 8-bit frames.
 struct AgcParameters {
   AgcMode mode = AgcMode::scene_max;
   Polarity polarity = Polarity::white_hot;

@@ -29,6 +29,7 @@ namespace thermal {
 /// In-band radiance [W m^-2 sr^-1] of a blackbody at a temperature [K], by a sensor's model and response.
 [[nodiscard]] std::function<double(double temperature_k)> radiance_of(RadianceModel model,
                                                                       const SpectralResponse& response);
+/// The same by the parameters of a sensor.
 [[nodiscard]] std::function<double(double temperature_k)> radiance_of(const SensorParameters& parameters);
 
 /// Inverse of exact Planck radiance for a ThermalCamera with this response, tabulated from 180 K to 420 K and, once
@@ -54,6 +55,7 @@ struct SensorFrame {
 /// 16-bit pictures at the native rate / n are every n-th of those at the native rate, bit for bit.
 class ThermalCamera {
  public:
+  /// What a camera's noise, size and surroundings depend on.
   struct Clip {
     std::string id;
     std::uint32_t seed = 1;

@@ -13,6 +13,7 @@
 
 namespace thermal {
 
+/// What is compared.
 struct CompareOptions {
   FrameRequest real;
   FrameRequest other;
@@ -46,6 +47,7 @@ struct Told {
       real_halves;  ///< real against real, averaged over halvings; empty: too few units
 };
 
+/// How far one set of frames is from another.
 struct Comparison {
   SetFigures real;
   SetFigures other;
@@ -63,6 +65,7 @@ struct Halves {
   MeasuredFrames first;
   MeasuredFrames second;
 };
+/// Random halves of a set's frames; the draw depends on `seed` and `draw` alone.
 [[nodiscard]] Halves halves_of(const std::vector<FrameFigures>& frames, std::uint32_t seed,
                                std::uint32_t draw);
 

@@ -44,6 +44,7 @@ struct WonPairs {
   double won = 0;
   double pairs = 0;
 };
+/// Counts them over all pairs of a negative and a positive score; equal ones are half won.
 [[nodiscard]] WonPairs won_pairs(const std::vector<double>& negative, const std::vector<double>& positive);
 
 /// Units in a random order, which depends on `seed` and `draw` alone.

@@ -7,6 +7,7 @@
 
 namespace thermal {
 
+/// Of 8 bits.
 inline constexpr std::size_t kGreyLevels = 256;
 
 /// How a frame uses the grey levels 0 to 255.

@@ -31,6 +31,7 @@ struct Measure {
 
 /// Names of the features by which a classifier tells frames, or crops of targets, apart.
 [[nodiscard]] const std::vector<std::string>& frame_features();
+/// The same of crops of targets.
 [[nodiscard]] const std::vector<std::string>& crop_features();
 
 /// Features of frames; units numbered anew.

@@ -12,6 +12,7 @@ namespace thermal {
 /// The same of half of them.
 [[nodiscard]] double median_of(std::vector<double> values);
 
+/// The arithmetic mean.
 [[nodiscard]] double mean_of(const std::vector<double>& values);
 
 /// Standard deviation with n - 1; 0 of fewer than two.

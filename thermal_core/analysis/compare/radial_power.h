@@ -10,6 +10,7 @@ namespace thermal {
 
 /// Edges of the bands of a frame's spectrum, cycles a pixel: octaves, and finer ones where cameras blur.
 inline constexpr std::array kBandEdges = {0.005, 0.01, 0.02, 0.04, 0.08, 0.16, 0.25, 0.35, 0.5};
+/// How many bands there are.
 inline constexpr std::size_t kBands = kBandEdges.size() - 1;
 
 /// A frame's power by the radius of the frequency.

@@ -34,6 +34,7 @@ struct StillFootage {
   std::size_t runs = 0;
 };
 
+/// A set of frames, and what was measured on each.
 struct SetFigures {
   FrameSource source;
   std::vector<FrameFigures> frames;

@@ -21,6 +21,7 @@ struct AltitudeRow {
 /// Bands of 20 m around 20, 40, 60 … m that have targets; empty without known heights.
 [[nodiscard]] std::vector<AltitudeRow> targets_by_altitude(const SetFigures& set);
 
+/// Of one figure over targets.
 struct MeanAndDeviation {
   double mean = 0;
   double deviation = 0;
@@ -49,6 +50,7 @@ struct TargetCounts {
   std::size_t targets = 0;
   std::size_t with_margins = 0;
 };
+/// How many targets a set has.
 [[nodiscard]] TargetCounts target_counts(const SetFigures& set);
 
 }  // namespace thermal

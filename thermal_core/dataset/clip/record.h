@@ -19,7 +19,7 @@ struct SkippedFrame {
   [[nodiscard]] bool operator==(const SkippedFrame&) const = default;
 };
 
-/// The record of a finished clip: clips/<clip>/clip.json.
+/// The record of a finished clip: `clips/<clip>/clip.json`.
 struct ClipRecord {
   std::string clip;
   std::string season;
@@ -38,6 +38,7 @@ struct ClipRecord {
   std::optional<double> unusable_normal_share = {};
 };
 
+/// The content of clip.json.
 [[nodiscard]] Json to_json(const ClipRecord& record);
 
 /// Adds unusable_depth_share and unusable_normal_share, if they are known.

@@ -12,6 +12,7 @@
 
 namespace thermal {
 
+/// What a split of an export holds.
 struct ExportedSplit {
   std::string name;
   int clips = 0;
@@ -19,6 +20,7 @@ struct ExportedSplit {
   std::vector<int> labels;  ///< per category
 };
 
+/// What an export wrote, and what it could not represent.
 struct ExportOutcome {
   bool already_there = false;  ///< this very export existed already: nothing was written
   std::vector<std::string> categories;

@@ -10,6 +10,7 @@
 
 namespace thermal {
 
+/// What an export is made of: see DATASET.md.
 enum class ExportFormat { coco, yolo, mot, birdsai, webdataset, tiff };
 
 /// Masks of labels: run lengths, or outlines.
@@ -18,6 +19,7 @@ enum class Segmentation { rle, polygon };
 /// Pixels of TIFFs: kelvin, or counts whose scale the tags say.
 enum class TiffType { float32, uint16 };
 
+/// What is exported, and how.
 struct ExportOptions {
   Path source;  ///< as read_labels() accepts it
   ExportFormat format = ExportFormat::coco;

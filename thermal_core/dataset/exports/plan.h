@@ -18,11 +18,13 @@ struct ExportInput {
   bool boxes_changed = false;  ///< those of the set are not those of the file it was read from
 };
 
+/// A picture that goes into an export.
 struct PlannedPicture {
   std::size_t image = 0;  ///< index into the set's images
   std::string to;         ///< relative to the export's folder, "/" between folders
 };
 
+/// A text file of an export.
 struct PlannedText {
   std::string to;
   std::string content;

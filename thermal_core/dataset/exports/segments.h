@@ -15,6 +15,7 @@ namespace thermal {
 /// How well outlines reproduce masks: intersection over union, by size class.
 class OutlineFigures {
  public:
+  /// Intersection over union of outlines with masks, over targets.
   struct Figures {
     int targets = 0;
     double sum = 0;

@@ -7,6 +7,7 @@
 
 namespace thermal {
 
+/// Outlines of masks by the id of their label.
 using Outlines = std::unordered_map<std::int64_t, Outline>;
 
 /// Ultralytics' YOLO layout: images/SPLIT/NAME.png, labels/SPLIT/NAME.txt beside it, data.yaml. One line per label:

@@ -14,6 +14,7 @@
 
 namespace thermal {
 
+/// Which passes are examined, and how.
 struct InspectOptions {
   Assets assets;
   std::vector<Path> passes;  ///< a folder, or files and patterns of one folder

@@ -24,14 +24,17 @@ struct ChosenPlanes {
 
 /// Contents of a clip's passes, counted over the pixels of all frames read.
 struct PassSurvey {
+  /// A cryptomatte's entry.
   struct Matte {
     std::string name;  ///< empty: the file does not name it
     std::int64_t pixels = 0;
   };
+  /// Depths that are usable.
   struct DepthRange {
     float nearest_m = 0;
     float farthest_m = 0;
   };
+  /// A frame that cannot be read, and why.
   struct BadFrame {
     std::string file;
     std::string reason;

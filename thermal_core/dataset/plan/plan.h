@@ -35,6 +35,7 @@ struct DatasetPlan {
   std::map<std::string, std::string> files;  ///< SHA-256 of the other files it was made from, by path
 };
 
+/// Version of the format of plans.
 inline constexpr int kPlanVersion = 1;
 
 /// The part of a config that its plan depends on; with another sensor, weather or season, a plan is the same.

@@ -24,8 +24,9 @@ struct FlightTrack {
   std::vector<double> agl_m;                            ///< of the same frames; empty unless all have one
 };
 
-/// Indices of x, y and z in camera_to_world.
-inline constexpr std::size_t kX = 3, kY = 7, kZ = 11;
+inline constexpr std::size_t kX = 3;   ///< index of x in camera_to_world
+inline constexpr std::size_t kY = 7;   ///< of y
+inline constexpr std::size_t kZ = 11;  ///< of z
 
 /// Reads a clip's frames.jsonl; a clip without poses gives a track without points. DataError with file and line.
 [[nodiscard]] FlightTrack read_track(const Path& file, const std::string& clip);

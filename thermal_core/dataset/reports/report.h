@@ -9,6 +9,7 @@
 
 namespace thermal {
 
+/// What a report is about, and where it goes.
 struct ReportRequest {
   Path source;  ///< anything that read_labels() reads
   Path out;     ///< the page; empty: report.html in the dataset, or beside a COCO file
@@ -18,6 +19,7 @@ struct ReportRequest {
   std::function<void(const Progress&)> show = {};
 };
 
+/// What a report shows.
 struct ReportOutcome {
   Path out;
   std::size_t clips = 0;  ///< or videos

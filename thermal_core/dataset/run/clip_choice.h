@@ -13,8 +13,10 @@ namespace thermal {
 [[nodiscard]] std::vector<ClipConfig> choose_clips(const Config& config, const std::vector<std::string>& ids,
                                                    const Shard& shard);
 
+/// The ids of clips, in their order.
 [[nodiscard]] std::vector<std::string> ids_of(const std::vector<ClipConfig>& clips);
 
+/// How many frames the clips have together.
 [[nodiscard]] int frames_of(const std::vector<ClipConfig>& clips);
 
 /// Positions of these clips in the config: the part of its folder that a run locks.

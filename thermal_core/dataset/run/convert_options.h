@@ -11,6 +11,7 @@
 
 namespace thermal {
 
+/// What `veldt convert` is given.
 struct ConvertOptions {
   Assets assets;
   std::vector<Path> passes = {};           ///< folders, each one clip: EXR files and a manifest.json

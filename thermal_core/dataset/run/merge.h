@@ -11,6 +11,7 @@
 
 namespace thermal {
 
+/// What is joined.
 struct MergeOptions {
   std::vector<Path> sources;          ///< datasets, each with some of one config's clips
   Path out;                           ///< not one of them; may hold some of the clips already
@@ -19,6 +20,7 @@ struct MergeOptions {
   Linking linking = Linking::hard;  ///< where the file system supports them; otherwise copies
 };
 
+/// What was joined, and what is missing.
 struct MergeOutcome {
   RunOutcome run;                                           ///< `made` are the merged clips
   std::vector<std::string> missing;                         ///< clips of the config that are complete nowhere

@@ -11,6 +11,7 @@
 
 namespace thermal {
 
+/// What `veldt generate` is given.
 struct GenerateOptions {
   Assets assets;
   Path out;

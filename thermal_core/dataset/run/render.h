@@ -7,7 +7,7 @@
 
 namespace thermal {
 
-/// Renders passes and manifests only, into passes/<clip>; otherwise like generate(). `config` has the clips of the
+/// Renders passes and manifests only, into `passes/<clip>`; otherwise like generate(). `config` has the clips of the
 /// plan, which plan_to_render() has written.
 RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
                   const RunHooks& hooks);

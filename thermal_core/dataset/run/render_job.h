@@ -35,6 +35,7 @@ class ClipLost : public Error {
 /// with the next.
 class RenderJob {
  public:
+  /// What Blender renders.
   struct Task {
     Path blender;
     Assets assets;

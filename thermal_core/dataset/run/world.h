@@ -14,6 +14,7 @@
 
 namespace thermal {
 
+/// How a world is flown in.
 struct WorldOptions {
   std::optional<double> frame_rate_hz = {};  ///< of the camera; empty: the clip's
   /// Whether the camera may fly anywhere in the place. If not, the ground beyond what the planned flight shows is as at

@@ -38,6 +38,7 @@ struct GridCell {
   PixelRect bar;      ///< with its labels, to the right of the picture; empty if there is none
 };
 
+/// Where clips stand in a video.
 struct Grid {
   int width_px = 0;  ///< of the whole; both even, as video wants them
   int height_px = 0;

@@ -15,6 +15,7 @@ namespace thermal {
 /// Most clips that one video shows.
 inline constexpr std::size_t kMostClips = 16;
 
+/// What a video shows, and how.
 struct VideoRequest {
   Path source;  ///< a dataset, or a clip's folder in one
   Path beside;  ///< another dataset, whose clips of the same ids are shown beside; empty: none
@@ -30,6 +31,7 @@ struct VideoRequest {
   Assets assets;
 };
 
+/// What was written.
 struct VideoOutcome {
   int frames = 0;  ///< written
   double seconds = 0;

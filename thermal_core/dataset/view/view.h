@@ -11,6 +11,7 @@
 
 namespace thermal {
 
+/// What a page shows, and where it goes.
 struct ViewRequest {
   Path source;  ///< a dataset, or a clip's folder in one
   Path out;     ///< folder of the page; new, empty, or of an earlier page, which is replaced
@@ -18,6 +19,7 @@ struct ViewRequest {
   Assets assets;
 };
 
+/// What was written.
 struct ViewOutcome {
   Path page;  ///< to be opened in a browser
   std::size_t clips = 0;

@@ -8,6 +8,7 @@
 
 namespace thermal {
 
+/// What a vehicle's engine does.
 enum class EngineState {
   driving,
   idling,  ///< runs while the vehicle stands

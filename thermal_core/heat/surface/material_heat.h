@@ -15,6 +15,7 @@ using ByMoisture = std::array<Properties, 3>;
 /// Properties at a moisture from 0, dry, to 1, saturated.
 [[nodiscard]] GroundProperties at_moisture(const ByMoisture<GroundProperties>& states,
                                            double moisture) noexcept;
+/// The same of leaves.
 [[nodiscard]] CanopyProperties at_moisture(const ByMoisture<CanopyProperties>& states,
                                            double moisture) noexcept;
 

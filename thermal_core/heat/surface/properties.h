@@ -75,6 +75,7 @@ struct CanopyProperties {
 /// Properties between two others: 0 is `a`, 1 is `b`. Both have the same subsoil.
 [[nodiscard]] GroundProperties between(const GroundProperties& a, const GroundProperties& b,
                                        double share) noexcept;
+/// The same of leaves.
 [[nodiscard]] CanopyProperties between(const CanopyProperties& a, const CanopyProperties& b,
                                        double share) noexcept;
 

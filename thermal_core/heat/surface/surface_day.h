@@ -57,6 +57,7 @@ struct CanopyDay {
   SurfaceDay leaves;
   SurfaceDay ground;
 };
+/// The settled day of leaves and of the ground below them.
 [[nodiscard]] CanopyDay day_of_canopy(const CanopyProperties& canopy, const GroundProperties& ground,
                                       const Site& site, const DayAround& around, const HeatSteps& steps);
 

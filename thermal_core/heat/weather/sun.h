@@ -36,6 +36,7 @@ struct SunPath {
 
 /// Directions to the sun in the middle of each hour: k + 0.5 of local solar time.
 using SunHours = std::array<EastNorthUp, 24>;
+/// The directions of a day.
 [[nodiscard]] SunHours sun_hours(const SunPath& path) noexcept;
 
 /// Irradiance of a surface that faces the sun above the air, at the sun's mean distance [W m^-2]: 0.0820 MJ m^-2

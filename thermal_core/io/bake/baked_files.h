@@ -11,7 +11,7 @@ namespace thermal {
 /// that nothing has, a value that is not finite. IoError if it cannot be read.
 [[nodiscard]] BakedScene read_baked_scene(const Path& folder, const Assets& assets);
 
-/// Reads a clip's track, tracks/<clip>.json and .bin; errors as above, also if it does not belong to the scene.
+/// Reads a clip's track, `tracks/<clip>.json` and .bin; errors as above, also if it does not belong to the scene.
 [[nodiscard]] BakedTrack read_baked_track(const Path& folder, const std::string& clip,
                                           const BakedScene& scene, const Assets& assets);
 

@@ -63,6 +63,7 @@ class SectionResolver {
                   const Assets& assets)
       : given_(given), resolved_(resolved), schema_(schema), name_(name), assets_(assets) {}
 
+  /// What a clip or a flight has of its own.
   struct Own {
     Json changes;                       ///< to the dataset's resolved sections, with all numbers filled in
     SharedSettings settings = nullptr;  ///< null: the dataset's

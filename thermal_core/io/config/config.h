@@ -17,6 +17,7 @@ namespace thermal {
 /// What renders the passes: Cycles in Blender, or the library's ray caster (raycast/).
 enum class Engine { blender, embree };
 
+/// A clip of a config.
 struct ClipConfig {
   std::string id;
   Season season = Season::winter;

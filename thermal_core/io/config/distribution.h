@@ -44,6 +44,7 @@ std::vector<std::string> draw_within(Json& value, const Json& rules, const DrawK
 
 /// The schema's rules for a member of an object, and for the entries of a list; an empty object where it has none.
 [[nodiscard]] const Json& rules_for(const Json& rules, const std::string& key);
+/// The same for the entries of a list.
 [[nodiscard]] const Json& rules_for_items(const Json& rules);
 
 }  // namespace thermal

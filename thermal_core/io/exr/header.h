@@ -28,6 +28,7 @@ struct ExrChannel {
   [[nodiscard]] std::string full_name() const;
 };
 
+/// What a pass holds.
 enum class PassKind { object_index, material_index, depth, normal };
 
 /// Kind of a pass by its name, in the spellings in use, whatever their case and with or without spaces, "_" and "-":
@@ -40,6 +41,7 @@ enum class PassKind { object_index, material_index, depth, normal };
 /// RenderMan Interface's name for the shading normal.
 [[nodiscard]] std::optional<PassKind> pass_kind_of(std::string_view pass);
 
+/// The text with capital letters; only ASCII changes.
 [[nodiscard]] std::string upper_case(std::string_view text);
 
 /// The channel that fits a pass best among these channels of one layer: by spelling, in the order above, then by
@@ -103,6 +105,7 @@ struct ExrHeader {
 
 /// Information on the parts of an EXR file besides their channels.
 struct ExrParts {
+  /// A part of a multi-part file.
   struct Part {
     std::string name;
     std::string view;

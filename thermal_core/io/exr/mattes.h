@@ -30,6 +30,7 @@ namespace thermal {
 /// Maps mattes to objects.
 class MatteNames {
  public:
+  /// A name in a cryptomatte, and the object that it stands for.
   struct Matte {
     std::string text;  ///< a name, or a pattern of names
     bool is_pattern = false;

@@ -9,6 +9,7 @@ class Mat;
 
 namespace thermal {
 
+/// File formats of stills, and of pictures in reports.
 enum class PictureFormat : std::uint8_t { png, jpeg };
 
 /// The bytes of a picture file: PNG at its highest compression, or JPEG at quality 92.

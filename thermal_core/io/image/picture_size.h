@@ -4,6 +4,7 @@
 
 namespace thermal {
 
+/// Of a picture file.
 struct PictureSize {
   int width_px = 0;
   int height_px = 0;

@@ -35,6 +35,7 @@ struct TiffTags {
 /// not be empty. It has no time of writing: the bytes depend on picture, tags, and the versions of libtiff and of the
 /// library that it compresses with. IoError with libtiff's reason.
 [[nodiscard]] std::string encode_tiff(const Plane<float>& picture, const TiffTags& tags);
+/// The same with 16 bits.
 [[nodiscard]] std::string encode_tiff(const Plane<std::uint16_t>& picture, const TiffTags& tags);
 
 }  // namespace thermal

@@ -8,6 +8,7 @@
 
 namespace thermal {
 
+/// Takes the next piece of a document's text.
 using TakeText = std::function<void(std::string_view text)>;
 
 /// Layout of a document: like to_text(), or all in one line.

@@ -35,6 +35,7 @@ struct Cores {
   [[nodiscard]] int usable() const noexcept;
 };
 
+/// Those of this machine, for this process.
 [[nodiscard]] Cores find_cores();
 
 }  // namespace thermal

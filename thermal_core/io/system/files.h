@@ -16,6 +16,7 @@
 
 namespace thermal {
 
+/// Of a file or a folder.
 using Path = std::filesystem::path;
 
 /// An error of the system by its number: "cannot DOING PLACE: reason". TryAgainError if the disk is full, otherwise

@@ -70,6 +70,7 @@ struct FrameName {
 /// Files of a clip in order. Frames are ordered by the number in their names and spaced by the greatest common step;
 /// steps without a file are gaps.
 struct FrameSequence {
+  /// A step of a sequence.
   struct Frame {
     FrameName name;  ///< of a gap: the name it would have
     bool is_gap = false;

@@ -26,7 +26,9 @@ class Sha256 {
   std::unique_ptr<Context> context_;
 };
 
+/// SHA-256 in 64 hexadecimal digits.
 [[nodiscard]] std::string sha256_of(std::span<const std::byte> bytes);
+/// The same of a text.
 [[nodiscard]] std::string sha256_of(std::string_view text);
 
 }  // namespace thermal

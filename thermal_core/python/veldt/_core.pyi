@@ -1,4 +1,6 @@
-"""The compiled part of the package, which only the package itself calls."""
+"""The compiled part of the package, which only the package itself calls. `./run docs` imports this file instead."""
+
+from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -6,12 +8,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-class Error(Exception): ...
-class ConfigError(Error): ...
-class DataError(Error): ...
-class IoError(Error): ...
-class TryAgainError(Error): ...
-class Cancelled(Error): ...
+class Error(Exception):
+    """Caused by the user, the data or the machine."""
+
+class ConfigError(Error):
+    """An invalid config or argument."""
+
+class DataError(Error):
+    """Something was read, but its contents are invalid."""
+
+class IoError(Error):
+    """A file, folder or program could not be read, written or run."""
+
+class TryAgainError(Error):
+    """Temporary: a full disk, another run in the same folder."""
+
+class Cancelled(Error):
+    """A stop was requested."""
 
 class Band:
     def __init__(self, samples: Sequence[tuple[float, float]]) -> None: ...
