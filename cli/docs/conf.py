@@ -22,7 +22,7 @@ source_suffix = {".rst": "restructuredtext", ".md": "markdown", ".ipynb": "markd
 include_patterns = [
     "*.md",
     "assets/**.md",
-    "blender_scripts/*.md",
+    "blender_scripts/**.md",
     "cli/docs/*.md",
     "cli/docs/*.rst",
     "configs/*.ipynb",
@@ -40,7 +40,7 @@ default_role = "code"
 nitpick_ignore_regex = [("py:.*", r"(?!veldt\.).*")]
 autoclass_content = "both"
 autodoc_member_order = "bysource"
-autodoc_mock_imports = ["gymnasium"]
+autodoc_mock_imports = ["datasets", "gymnasium", "pyarrow", "pymavlink", "supervision", "torch", "torchvision"]
 autodoc_type_aliases = {"ArrayLike": "ArrayLike", "Source": "Source"}
 python_use_unqualified_type_names = True
 

@@ -19,8 +19,9 @@ struct StreamTarget {
   int height_px = 0;
 };
 
-/// Schemes of the two.
+/// parse_address() with the schemes that a stream's video may have: udp and rtsp.
 [[nodiscard]] NetAddress parse_video_address(const std::string& url, const std::string& where);
+/// The same for its lines: tcp and udp.
 [[nodiscard]] NetAddress parse_line_address(const std::string& url, const std::string& where);
 
 /// Sends frames as video, and a line of text with each, on a thread of its own: whoever makes frames never waits. If more

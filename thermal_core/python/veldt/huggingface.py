@@ -36,7 +36,8 @@ def write_image_folder(
     `datasets` rejects splits without targets, whose types it cannot guess.
 
     ConfigError for a folder that exists, other splits, one without frames, and a clip in two of them; KeyError for an
-    unknown clip. The folder appears when it is whole; a killed run leaves FOLDER.part_… beside it.
+    unknown clip. The folder appears when it is whole; a killed run leaves one beside it whose name goes on with
+    `.part_`.
     """
     out = Path(folder)
     if out.exists():
