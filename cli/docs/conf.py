@@ -40,7 +40,15 @@ default_role = "code"
 nitpick_ignore_regex = [("py:.*", r"(?!veldt\.).*")]
 autoclass_content = "both"
 autodoc_member_order = "bysource"
-autodoc_mock_imports = ["datasets", "gymnasium", "pyarrow", "pymavlink", "supervision", "torch", "torchvision"]
+autodoc_mock_imports = [
+    "datasets",
+    "gymnasium",
+    "pyarrow",
+    "pymavlink",
+    "supervision",
+    "torch",
+    "torchvision",
+]
 autodoc_type_aliases = {"ArrayLike": "ArrayLike", "Source": "Source"}
 python_use_unqualified_type_names = True
 

@@ -1,36 +1,17 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
 
 #include "io/system/files.h"
+#include "io/video/h264_settings.h"
 
 namespace thermal {
-
-/// How a video is encoded. Its bytes depend on this, the frames and the encoder's version alone.
-struct H264Settings {
-  double frame_rate_hz = 9;  ///< > 0
-  int width_px = 0;          ///< > 0; an odd side becomes one pixel longer
-  int height_px = 0;
-  std::string preset = "ultrafast";  ///< of x264
-  int quality = 26;                  ///< x264's constant rate factor: 0 without loss, 51 worst
-  int threads = 1;  ///< of the encoder: a constant, because the bytes depend on it, never the number of cores
-  bool streamable = false;  ///< the index comes first, so that a browser plays while it loads
-};
 
 /// Writes an H.264 video (MP4) of 8-bit YUV 4:2:0 frames, levels 16 to 235 (ITU-R BT.601).
 class H264File {
  public:
-  /// Where the next frame's pixels go: Y, then U and V of half the size each way. Sides are even.
-  struct Planes {
-    std::array<std::uint8_t*, 3> data{};
-    std::array<int, 3> stride_px{};
-    int width_px = 0;
-    int height_px = 0;
-  };
+  using Planes = VideoPlanes;
 
   /// IoError if the file or the encoder cannot be opened, TryAgainError if the disk is full.
   H264File(const Path& file, const H264Settings& settings);

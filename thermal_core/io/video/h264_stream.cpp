@@ -54,7 +54,7 @@ H264Stream::H264Stream(const NetAddress& address, double frame_rate_hz, int widt
 H264Stream::~H264Stream() = default;
 
 void H264Stream::add(const Plane<std::uint8_t>& frame, std::int64_t time) {
-  impl_->writer.add([&frame](const H264File::Planes& planes) { draw_grey(frame, planes); }, time);
+  impl_->writer.add([&frame](const VideoPlanes& planes) { draw_grey(frame, planes); }, time);
 }
 
 void H264Stream::close() { impl_->writer.close(); }

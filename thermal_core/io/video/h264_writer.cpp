@@ -13,12 +13,12 @@ extern "C" {
 namespace thermal::ffmpeg {
 namespace {
 
-int ask(void* interrupted) { return (*static_cast<const std::function<bool()>*>(interrupted))() ? 1 : 0; }
+int ask(void* interrupted) { return (*static_cast<std::function<bool()>*>(interrupted))() ? 1 : 0; }
 
 }  // namespace
 
 H264Writer::H264Writer(Container container, const H264Settings& settings, Fault fault,
-                       const std::function<bool()>* interrupted)
+                       std::function<bool()>* interrupted)
     : container_(std::move(container)), fault_(std::move(fault)) {
   open_encoder(settings);
   open_container(settings, interrupted);
@@ -49,14 +49,12 @@ void H264Writer::open_encoder(const H264Settings& settings) {
   check(av_frame_get_buffer(picture_.get(), 0));
 }
 
-void H264Writer::open_container(const H264Settings& settings, const std::function<bool()>* interrupted) {
+void H264Writer::open_container(const H264Settings& settings, std::function<bool()>* interrupted) {
   AVFormatContext* made = nullptr;
   check(avformat_alloc_output_context2(&made, nullptr, container_.format.c_str(), container_.url.c_str()));
   format_.reset(made);
   format_->flags |= AVFMT_FLAG_BITEXACT;  // no name of a library's version in the file
-  if (interrupted != nullptr)
-    format_->interrupt_callback = {.callback = ask,
-                                   .opaque = const_cast<std::function<bool()>*>(interrupted)};
+  if (interrupted != nullptr) format_->interrupt_callback = {.callback = ask, .opaque = interrupted};
   if (container_.live) {
     format_->flags |= AVFMT_FLAG_FLUSH_PACKETS;
     format_->max_delay = 0;
@@ -74,7 +72,7 @@ void H264Writer::open_container(const H264Settings& settings, const std::functio
   check(avformat_write_header(format_.get(), nullptr));
 }
 
-void H264Writer::add(const std::function<void(const H264File::Planes&)>& draw, std::int64_t time) {
+void H264Writer::add(const std::function<void(const VideoPlanes&)>& draw, std::int64_t time) {
   check(av_frame_make_writable(picture_.get()));
   draw({.data = {picture_->data[0], picture_->data[1], picture_->data[2]},
         .stride_px = {picture_->linesize[0], picture_->linesize[1], picture_->linesize[2]},

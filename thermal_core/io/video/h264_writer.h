@@ -4,7 +4,7 @@
 #include <string>
 
 #include "io/video/ffmpeg.h"
-#include "io/video/h264_file.h"
+#include "io/video/h264_settings.h"
 
 namespace thermal::ffmpeg {
 
@@ -23,10 +23,10 @@ class H264Writer {
 
   /// `interrupted`: asked while FFmpeg waits; true ends the wait. Must outlive this object, as must what it uses.
   H264Writer(Container container, const H264Settings& settings, Fault fault,
-             const std::function<bool()>* interrupted);
+             std::function<bool()>* interrupted);
 
   /// The next frame, which `draw` fills in. `time`: in frames since the first; later than the one before.
-  void add(const std::function<void(const H264File::Planes&)>& draw, std::int64_t time);
+  void add(const std::function<void(const VideoPlanes&)>& draw, std::int64_t time);
 
   /// Ends the file or stream.
   void close();
@@ -36,7 +36,7 @@ class H264Writer {
     if (result < 0) fault_(result);
   }
   void open_encoder(const H264Settings& settings);
-  void open_container(const H264Settings& settings, const std::function<bool()>* interrupted);
+  void open_container(const H264Settings& settings, std::function<bool()>* interrupted);
   void encode(const AVFrame* what);
 
   Container container_;

@@ -13,7 +13,7 @@ PreviewVideo::PreviewVideo(const Path& file, double frame_rate_hz, int width_px,
                    .threads = 1}) {}
 
 void PreviewVideo::add(const Plane<std::uint8_t>& frame) {
-  file_.add([&frame](const H264File::Planes& planes) { draw_grey(frame, planes); });
+  file_.add([&frame](const VideoPlanes& planes) { draw_grey(frame, planes); });
 }
 
 void PreviewVideo::close() { file_.close(); }

@@ -14,7 +14,7 @@ std::uint8_t video_level(std::uint8_t level) {
 
 }  // namespace
 
-void draw_grey(const Plane<std::uint8_t>& frame, const H264File::Planes& out) {
+void draw_grey(const Plane<std::uint8_t>& frame, const VideoPlanes& out) {
   for (int y = 0; y < out.height_px; ++y) {
     const auto row = frame.row(std::min(y, frame.height_px() - 1));
     std::uint8_t* const to = out.data[0] + static_cast<std::ptrdiff_t>(y) * out.stride_px[0];

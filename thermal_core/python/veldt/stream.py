@@ -23,8 +23,8 @@ class StreamCounts(NamedTuple):
 
 
 class Stream:
-    """Sends frames as H.264 video, and a line of JSON with each, on a thread of its own: send() never waits. If more than
-    a few frames wait to be sent, the next is dropped. If the receiver of an RTSP stream goes away, frames are dropped
+    """Sends frames as H.264 video, and a line of JSON with each, on a thread of its own: send() never waits. If more
+    than a few frames wait to be sent, the next is dropped. If the receiver of an RTSP stream goes away, frames are dropped
     while the stream tries each second to reach it again.
 
     >>> with veldt.Stream("udp://127.0.0.1:5600", width_px=640, height_px=512, frame_rate_hz=9) as stream:
