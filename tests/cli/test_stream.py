@@ -12,6 +12,7 @@ import pytest
 
 from configs import tiny
 from pictures import read_grey
+from ports import free_port, wait_until_bound
 from program import Veldt
 
 SETTINGS = ["render.engine=embree", "render.posed_actors=all"]
@@ -25,12 +26,6 @@ def _planned(tmp_path_factory):
     assert veldt("plan", "tiny.json", "--out", "plan", "--quiet", "--set", *SETTINGS).code == 0
     assert veldt("generate", "--plan", "plan", "--out", "made", "--quiet").code == 0
     return veldt
-
-
-def _free_port(kind=socket.SOCK_DGRAM):
-    with socket.socket(socket.AF_INET, kind) as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
 
 
 class _Lines(threading.Thread):
@@ -61,15 +56,18 @@ class _Lines(threading.Thread):
 class _Receiver:
     """FFmpeg, which decodes what it receives to grey frames."""
 
-    def __init__(self, url, size, *options):
+    def __init__(self, scheme, port, size, *options):
         width, height = size
+        url = (
+            f"udp://127.0.0.1:{port}?timeout=5000000" if scheme == "udp" else f"rtsp://127.0.0.1:{port}/veldt"
+        )
         self._shape = (height, width)
         self._process = subprocess.Popen(
             ["ffmpeg", "-loglevel", "error", *options, "-i", url, "-vf", f"crop={width}:{height}:0:0,format=gray",
              "-vsync", "passthrough", "-f", "rawvideo", "-"],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE,
         )  # fmt: skip
-        time.sleep(0.5)  # until it listens
+        wait_until_bound(port, socket.SOCK_DGRAM if scheme == "udp" else socket.SOCK_STREAM)
 
     def frames(self):
         """All that came, until a second without."""
@@ -87,9 +85,9 @@ def _size(planned):
 
 
 def test_ffmpeg_receives_the_frames_and_a_client_the_lines_of_generate(planned):
-    video, labels = _free_port(), _free_port(socket.SOCK_STREAM)
+    video, labels = free_port(socket.SOCK_DGRAM), free_port(socket.SOCK_STREAM)
     lines = _Lines(labels)
-    receiver = _Receiver(f"udp://127.0.0.1:{video}?timeout=5000000", _size(planned))
+    receiver = _Receiver("udp", video, _size(planned))
     # Two a second, so that any machine is in time.
     done = planned(
         "stream", "plan", "--clips", "side", "--rate", "2",
@@ -107,9 +105,9 @@ def test_ffmpeg_receives_the_frames_and_a_client_the_lines_of_generate(planned):
 
 
 def test_at_the_clips_own_rate_frames_and_labels_are_those_of_generate(planned):
-    video, labels = _free_port(), _free_port(socket.SOCK_STREAM)
+    video, labels = free_port(socket.SOCK_DGRAM), free_port(socket.SOCK_STREAM)
     lines = _Lines(labels)
-    receiver = _Receiver(f"udp://127.0.0.1:{video}?timeout=5000000", _size(planned))
+    receiver = _Receiver("udp", video, _size(planned))
     planned("stream", "plan", "--clips", "down", "--video", f"udp://127.0.0.1:{video}",
             "--labels", f"tcp://127.0.0.1:{labels}")  # fmt: skip
     frames, told = receiver.frames(), lines.lines()
@@ -129,8 +127,8 @@ def test_at_the_clips_own_rate_frames_and_labels_are_those_of_generate(planned):
 
 
 def test_a_killed_receiver_of_rtsp_costs_frames_and_no_more(planned):
-    port = _free_port(socket.SOCK_STREAM)
-    receiver = _Receiver(f"rtsp://127.0.0.1:{port}/veldt", _size(planned), "-rtsp_flags", "listen")
+    port = free_port(socket.SOCK_STREAM)
+    receiver = _Receiver("rtsp", port, _size(planned), "-rtsp_flags", "listen")
     run = planned.start(
         "stream", "plan", "--clips", "side", "--repeat", "--video", f"rtsp://127.0.0.1:{port}/veldt"
     )
@@ -165,7 +163,7 @@ def test_wrong_usage(planned, options, message):
 
 
 def test_a_server_that_does_not_answer_and_a_port_in_use_are_faults(planned):
-    port = _free_port(socket.SOCK_STREAM)
+    port = free_port(socket.SOCK_STREAM)
     done = planned("stream", "plan", "--video", f"rtsp://127.0.0.1:{port}/veldt")
     assert (done.code, done.err) == (
         1,

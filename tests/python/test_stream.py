@@ -9,26 +9,21 @@ import time
 import numpy as np
 import pytest
 
+from ports import free_port, wait_until_bound
 from veldt import ConfigError, IoError, Stream
 
 SIZE = {"width_px": 640, "height_px": 512}
 
 
-def _free_port(kind=socket.SOCK_DGRAM):
-    with socket.socket(socket.AF_INET, kind) as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
-
-
 def test_frames_and_lines_arrive():
-    video, labels = _free_port(), _free_port()
+    video, labels = free_port(socket.SOCK_DGRAM), free_port(socket.SOCK_DGRAM)
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as client:
         client.bind(("127.0.0.1", labels))
         receiver = subprocess.Popen(
             ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=width,height,nb_read_frames",
              "-of", "json", f"udp://127.0.0.1:{video}?timeout=2000000"], stdout=subprocess.PIPE,
         )  # fmt: skip
-        time.sleep(0.5)
+        wait_until_bound(video, socket.SOCK_DGRAM)
         with Stream(
             f"udp://127.0.0.1:{video}", **SIZE, frame_rate_hz=30, labels_url=f"udp://127.0.0.1:{labels}"
         ) as stream:
@@ -42,12 +37,12 @@ def test_frames_and_lines_arrive():
 
 
 def test_a_receiver_that_stops_reading_costs_frames_and_no_time():
-    port = _free_port(socket.SOCK_STREAM)
+    port = free_port(socket.SOCK_STREAM)
     url = f"rtsp://127.0.0.1:{port}/veldt"
     receiver = subprocess.Popen(
         ["ffmpeg", "-loglevel", "error", "-rtsp_flags", "listen", "-i", url, "-f", "null", "-"]
     )
-    time.sleep(0.5)
+    wait_until_bound(port, socket.SOCK_STREAM)
     stream = Stream(url, **SIZE, frame_rate_hz=30)
     rng = np.random.default_rng(1)
     noise = rng.integers(0, 256, (8, 512, 640), np.uint8)  # hardly compresses: 0.3 MB a frame
@@ -81,7 +76,7 @@ def test_a_receiver_that_stops_reading_costs_frames_and_no_time():
 def test_faults_have_the_words_of_the_command():
     with pytest.raises(ConfigError, match='^video_url = "x"; expected udp://HOST:PORT or rtsp://HOST:PORT$'):
         Stream("x", **SIZE, frame_rate_hz=9)
-    port = _free_port(socket.SOCK_STREAM)
+    port = free_port(socket.SOCK_STREAM)
     with pytest.raises(IoError, match="Connection refused$"):
         Stream(f"rtsp://127.0.0.1:{port}/veldt", **SIZE, frame_rate_hz=9)
     with Stream("udp://127.0.0.1:9", **SIZE, frame_rate_hz=9) as stream:
