@@ -70,6 +70,12 @@ void H264Writer::open_container(const H264Settings& settings, std::function<bool
   if (settings.streamable) check(av_opt_set(format_->priv_data, "movflags", "+faststart", 0));
   if (container_.format == "rtsp") check(av_opt_set(format_->priv_data, "rtsp_transport", "tcp", 0));
   check(avformat_write_header(format_.get(), nullptr));
+  connected_ = container_.live;
+}
+
+H264Writer::~H264Writer() {
+  if (connected_)
+    av_write_trailer(format_.get());  // frees what only the trailer frees, whether it can be sent or not
 }
 
 void H264Writer::add(const std::function<void(const VideoPlanes&)>& draw, std::int64_t time) {
@@ -99,6 +105,7 @@ void H264Writer::encode(const AVFrame* what) {
 
 void H264Writer::close() {
   encode(nullptr);
+  connected_ = false;
   check(av_write_trailer(format_.get()));
   if (format_->pb != nullptr) check(avio_closep(&format_->pb));
 }

@@ -25,6 +25,11 @@ class H264Writer {
   H264Writer(Container container, const H264Settings& settings, Fault fault,
              std::function<bool()>* interrupted);
 
+  /// A file that is not closed is none; a stream ends, and its connection with it.
+  ~H264Writer();
+  H264Writer(const H264Writer&) = delete;
+  H264Writer& operator=(const H264Writer&) = delete;
+
   /// The next frame, which `draw` fills in. `time`: in frames since the first; later than the one before.
   void add(const std::function<void(const VideoPlanes&)>& draw, std::int64_t time);
 
@@ -45,6 +50,7 @@ class H264Writer {
   Codec encoder_;
   Picture picture_{av_frame_alloc()};
   Packet packet_{av_packet_alloc()};
+  bool connected_ = false;  ///< a stream that FFmpeg must end
 };
 
 }  // namespace thermal::ffmpeg
