@@ -40,10 +40,8 @@ bool has_needed_ground_maps(const Path& folder, const Config& config, const Asse
                              [&known](const SunPath& path) { return std::ranges::count(known, path) > 0; });
 }
 
-std::shared_ptr<const GroundMaps> needed_ground_maps(const Path& folder, const Config& config,
-                                                     const Assets& assets) {
-  if (!needs_ground_maps(config) || !has_ground_maps(folder)) return nullptr;
-  return std::make_shared<const GroundMaps>(read_ground_maps(folder, assets));
+bool uses_ground_maps(const Path& folder, const Config& config) {
+  return needs_ground_maps(config) && has_ground_maps(folder);
 }
 
 void add_ground_maps(const Path& folder, const Path& scratch, const Config& config, const Assets& assets,

@@ -1,14 +1,12 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "dataset/run/progress.h"
 #include "heat/weather/sun.h"
 #include "io/assets.h"
 #include "io/config/config.h"
-#include "scene/ground_maps.h"
 
 namespace thermal {
 
@@ -21,9 +19,8 @@ namespace thermal {
 /// Whether the maps in a plan's folder, if there are any, serve this config, or it needs none.
 [[nodiscard]] bool has_needed_ground_maps(const Path& folder, const Config& config, const Assets& assets);
 
-/// The maps in a plan's folder, if this config's temperatures need them and there are any. Errors as read_ground_maps().
-[[nodiscard]] std::shared_ptr<const GroundMaps> needed_ground_maps(const Path& folder, const Config& config,
-                                                                   const Assets& assets);
+/// Whether a plan's folder has maps of the ground, and this config's temperatures need them.
+[[nodiscard]] bool uses_ground_maps(const Path& folder, const Config& config);
 
 /// Makes the maps of the scene in a plan's folder, on all cores, and writes them there. `scratch` is a folder on the same
 /// disk. Errors as read_baked_scene() and write_ground_maps().

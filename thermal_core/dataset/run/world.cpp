@@ -12,7 +12,9 @@
 #include "dataset/plan/ground_planning.h"
 #include "dataset/run/tracing.h"
 #include "io/bake/baked_files.h"
+#include "io/bake/ground_maps_file.h"
 #include "io/config/materials.h"
+#include "raycast/vectors.h"
 
 namespace thermal {
 namespace {
@@ -50,15 +52,17 @@ Manifest manifest_for(const PlannedDataset& planned, const BakedScene& scene, co
   return manifest;
 }
 
-std::unique_ptr<LiveClip> clip_for(const PlannedDataset& planned, const Path& plan, Manifest manifest,
-                                   const Assets& assets) {
+std::unique_ptr<LiveClip> clip_for(const PlannedDataset& planned, const Path& plan, const BakedScene& scene,
+                                   Manifest manifest, const Assets& assets) {
   const Config& config = planned.config;
   auto materials = std::make_shared<const MaterialLibrary>(read_materials(assets));
   const KeptTerms kept(config, outline_of(config, planned.plan, *materials));
+  std::shared_ptr<const GroundMaps> ground;
+  if (uses_ground_maps(plan, config))
+    ground = std::make_shared<const GroundMaps>(read_ground_maps(plan, scene.ground, assets));
   HeatDays heat(*materials);
   const ClipConfig& clip = config.clip(manifest.clip, "clip");
-  ClipTask task = task_of(config, clip, kept.of(settings_of(config, clip)), heat,
-                          needed_ground_maps(plan, config, assets));
+  ClipTask task = task_of(config, clip, kept.of(settings_of(config, clip)), heat, std::move(ground));
   return std::make_unique<LiveClip>(std::move(manifest), std::move(materials), std::move(task));
 }
 
@@ -82,30 +86,22 @@ void check_pose(const std::array<double, 16>& pose) {
                           "a rotation and a place [m] in four rows of four"));
 }
 
-std::array<double, 3> unit(const std::array<double, 3>& axis) {
-  const double length = std::hypot(axis[0], axis[1], axis[2]);
-  return {axis[0] / length, axis[1] / length, axis[2] / length};
-}
-
-std::array<double, 3> cross(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+Vector3 unit(const Vector3& axis) { return (1 / length(axis)) * axis; }
 
 /// A pose at a share of the way between two that look nearly alike.
 std::array<double, 16> pose_between(const std::array<double, 16>& from, const std::array<double, 16>& to,
                                     double share) {
   std::array<double, 16> pose{};
   for (std::size_t k = 0; k < pose.size(); ++k) pose[k] = from[k] + share * (to[k] - from[k]);
-  const auto column = [&pose](std::size_t k) {
-    return std::array<double, 3>{pose[k], pose[4 + k], pose[8 + k]};
-  };
-  const std::array<double, 3> forward = unit(column(2));
-  const std::array<double, 3> down = unit(cross(forward, column(0)));
-  const std::array<double, 3> right = cross(down, forward);
-  for (std::size_t row = 0; row < 3; ++row) {
-    pose[4 * row] = right[row];
-    pose[4 * row + 1] = down[row];
-    pose[4 * row + 2] = forward[row];
+  const auto column = [&pose](std::size_t k) { return Vector3{pose[k], pose[4 + k], pose[8 + k]}; };
+  const Vector3 forward = unit(column(2));
+  const Vector3 down = unit(cross(forward, column(0)));
+  const Vector3 right = cross(down, forward);
+  const std::array<Vector3, 3> axes = {right, down, forward};
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    pose[k] = axes[k].x;
+    pose[4 + k] = axes[k].y;
+    pose[8 + k] = axes[k].z;
   }
   return pose;
 }
@@ -124,7 +120,7 @@ World::World(PlannedDataset planned, const Path& plan, const std::string& clip, 
       moments_(scene_, track_) {
   if (options.frame_rate_hz && !(*options.frame_rate_hz > 0 && std::isfinite(*options.frame_rate_hz)))
     throw ConfigError(fault("frame_rate_hz", fmt::format("{}", *options.frame_rate_hz), "Hz", "above 0"));
-  clip_ = clip_for(planned_, plan, manifest_for(planned_, scene_, track_, clip, options), assets);
+  clip_ = clip_for(planned_, plan, scene_, manifest_for(planned_, scene_, track_, clip, options), assets);
   const Config& config = planned_.config;
   tracer_ = std::make_unique<const CameraTracer>(caster_, clip_->manifest().camera,
                                                  Sampling{.supersample = config.supersample,
