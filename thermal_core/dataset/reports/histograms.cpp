@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/nearest_rank.h"
+
 namespace thermal {
 namespace {
 
@@ -13,12 +15,6 @@ double round_width(double width) {
     if (factor * power <= width * (1 + 1e-9)) return factor * power;
   }
   return power;
-}
-
-/// Quantile of sorted values.
-double quantile(const std::vector<double>& sorted, double share) {
-  const auto last = static_cast<double>(sorted.size() - 1);
-  return sorted[static_cast<std::size_t>(std::lround(share * last))];
 }
 
 /// Values that hardly differ get fewer bins, so that the numbers of the bins stay exact.
@@ -65,8 +61,8 @@ std::vector<double> bin_edges(std::vector<double> values, Bins bins) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   constexpr double kTail = 0.005;
-  const double low = quantile(values, kTail);
-  const double high = quantile(values, 1 - kTail);
+  const double low = nearest_rank(values, kTail);
+  const double high = nearest_rank(values, 1 - kTail);
   if (bins == Bins::logarithmic) return logarithmic_edges(low, high);
   if (bins == Bins::linear) return linear_edges(low, high);
   std::vector<double> edges;
@@ -84,7 +80,7 @@ Json histogram_of(const std::vector<HistogramValue>& values, std::size_t categor
     if (entry.value) ++counts[entry.category][bin_of(*entry.value, edges)];
   }
   json["least"] = known.front();
-  json["median"] = quantile(known, 0.5);
+  json["median"] = nearest_rank(known, 0.5);
   json["most"] = known.back();
   json["below"] = std::lower_bound(known.begin(), known.end(), edges.front()) - known.begin();
   json["above"] = known.end() - std::upper_bound(known.begin(), known.end(), edges.back());

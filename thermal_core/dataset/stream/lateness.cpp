@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/nearest_rank.h"
+
 namespace thermal {
 
 int frames_to_leave_out(double late_s, double frame_rate_hz) noexcept {
@@ -12,10 +14,8 @@ int frames_to_leave_out(double late_s, double frame_rate_hz) noexcept {
 Lateness lateness_of(std::vector<double> late_s) {
   if (late_s.empty()) return {};
   std::ranges::sort(late_s);
-  const auto at = [&late_s](double share) {
-    return late_s[static_cast<std::size_t>(std::lround(share * static_cast<double>(late_s.size() - 1)))];
-  };
-  return {.median_s = at(0.5), .high_s = at(0.95), .most_s = late_s.back()};
+  return {
+      .median_s = nearest_rank(late_s, 0.5), .high_s = nearest_rank(late_s, 0.95), .most_s = late_s.back()};
 }
 
 }  // namespace thermal

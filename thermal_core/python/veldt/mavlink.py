@@ -34,10 +34,8 @@ class Vehicle:
 
         ConfigError for a latitude beyond 89 deg and the like.
         """
-        self._start_m = np.asarray(start_m, float)
+        self._start_m = np.asarray(start_m, float) if origin is None else np.zeros(3)
         self._place = None if origin is None else PlaceOnEarth(origin)
-        if origin is not None:
-            self._start_m = np.zeros(3)
         self._fixed = rotation_of_attitude(0, -down_rad, 0)
         self._system: int | None = None
         self._last: dict[str, tuple[float, Any]] = {}
