@@ -17,8 +17,8 @@
 #include "cli/named_document.h"
 #include "cli/output.h"
 #include "cli/stop_signal.h"
+#include "dataset/run/render.h"
 #include "io/assets.h"
-#include "io/system/child_process.h"
 #include "io/system/cores.h"
 
 namespace veldt {
@@ -195,14 +195,7 @@ thermal::Config load_config(const thermal::Path& file, const std::vector<std::st
   }
 }
 
-thermal::Path find_blender(const std::string& named) {
-  thermal::Path found = thermal::find_program(named.empty() ? "blender" : named);
-  if (!found.empty()) return found;
-  if (!named.empty())
-    throw thermal::ConfigError(thermal::fault("--blender", named, "", "an executable program"));
-  throw thermal::IoError(
-      "no blender on PATH; install it (apt-get install blender) or name one with --blender PATH");
-}
+thermal::Path find_blender(const std::string& named) { return thermal::find_blender(named, "--blender"); }
 
 void add_commands(CLI::App& app, Session& session) {
   app.name("veldt");

@@ -73,7 +73,7 @@ def test_no_blender_on_path(veldt):
     check_fault(
         done,
         1,
-        "no blender on PATH; install it (apt-get install blender) or name one with --blender PATH",
+        "no blender on PATH; install it (apt-get install blender) or name one with --blender",
     )
     assert not (veldt.folder / "out").exists()
 

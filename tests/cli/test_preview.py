@@ -92,7 +92,7 @@ def test_no_blender_on_path(veldt):
     done = veldt("render", "config.json", "--out", "out", "--preview", env={"PATH": ""})
     assert (done.code, done.out) == (1, "")
     assert done.err == (
-        "veldt: no blender on PATH; install it (apt-get install blender) or name one with --blender PATH\n"
+        "veldt: no blender on PATH; install it (apt-get install blender) or name one with --blender\n"
     )
     assert not (veldt.folder / "out").exists()
 

@@ -53,3 +53,12 @@ def test_faults_have_the_programs_words(tmp_path):
     with pytest.raises(IoError, match="nothing.json"):
         generate(tmp_path / "nothing.json", tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+def test_a_missing_blender_has_the_programs_words(tmp_path, monkeypatch):
+    blender = {"settings": ["render.engine=blender"]}
+    with pytest.raises(ConfigError, match="^blender = /nowhere/blender; expected an executable program$"):
+        generate(tiny(), tmp_path / "out", blender="/nowhere/blender", **blender)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(IoError, match=r"^no blender on PATH; install it .* or name one with blender$"):
+        generate(tiny(), tmp_path / "out", **blender)

@@ -16,6 +16,7 @@
 #include "dataset/run/clip_choice.h"
 #include "dataset/run/generate.h"
 #include "dataset/run/planning.h"
+#include "dataset/run/render.h"
 #include "io/system/child_process.h"
 #include "python/parts.h"
 
@@ -106,9 +107,9 @@ struct RunSettings {
   bool keep_passes = false;
 };
 
-RunOutcome run(const PlannedDataset& dataset, GenerateOptions options, Listener& listener) {
-  if (dataset.config.engine == Engine::blender && options.blender.empty())
-    throw IoError("no blender on PATH; install it (apt-get install blender) or name one");
+RunOutcome run(const PlannedDataset& dataset, GenerateOptions options, const RunSettings& settings,
+               Listener& listener) {
+  if (dataset.config.engine == Engine::blender) options.blender = find_blender(settings.blender, "blender");
   const RunHooks hooks = {.progress = [&](const Progress& now) { listener.report("frames", now); },
                           .cancelled = [&] { return listener.is_to_stop(); }};
   try {
@@ -145,7 +146,8 @@ py::dict generate_config(const Sources& sources, const std::string& out, const R
     listener.raise();
     Config cut = with_flights_cut(config, plan, (options.plan / "plan.json").string());
     (void)choose_clips(cut, options.clips, options.shard);
-    outcome = run({.config = std::move(cut), .plan = std::move(plan)}, std::move(options), listener);
+    outcome =
+        run({.config = std::move(cut), .plan = std::move(plan)}, std::move(options), settings, listener);
   }
   return dict_of(outcome);
 }
@@ -159,7 +161,7 @@ py::dict generate_plan(const std::string& plan, const std::string& home, const s
     GenerateOptions options = options_of(home, out, plan, settings);
     const PlannedDataset dataset = open_plan(plan, options.assets);
     check_files_of_clips(plan, ids_of(choose_clips(dataset.config, options.clips, options.shard)));
-    outcome = run(dataset, std::move(options), listener);
+    outcome = run(dataset, std::move(options), settings, listener);
   }
   return dict_of(outcome);
 }

@@ -14,6 +14,7 @@
 #include "dataset/run/tracing.h"
 #include "dataset/run/worker_pool.h"
 #include "io/bake/ground_maps_file.h"
+#include "io/system/child_process.h"
 #include "io/system/folder_lock.h"
 
 namespace thermal {
@@ -77,6 +78,14 @@ RenderJob::Task preview_task(const Config& config, const GenerateOptions& option
 }
 
 }  // namespace
+
+Path find_blender(const std::string& named, const std::string& option) {
+  Path found = find_program(named.empty() ? "blender" : named);
+  if (!found.empty()) return found;
+  if (!named.empty()) throw ConfigError(fault(option, named, "", "an executable program"));
+  throw IoError(
+      fmt::format("no blender on PATH; install it (apt-get install blender) or name one with {}", option));
+}
 
 RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
                   const RunHooks& hooks) {

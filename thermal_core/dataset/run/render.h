@@ -1,11 +1,17 @@
 #pragma once
 
+#include <string>
+
 #include "dataset/plan/plan.h"
 #include "dataset/run/options.h"
 #include "dataset/run/progress.h"
 #include "io/config/config.h"
 
 namespace thermal {
+
+/// The Blender to use: `named`, or "blender" on PATH where that is empty. ConfigError if the named one is no program,
+/// IoError if there is none; `option` is what names one, such as "--blender".
+[[nodiscard]] Path find_blender(const std::string& named, const std::string& option);
 
 /// Renders passes and manifests only, into `passes/<clip>`; otherwise like generate(). `config` has the clips of the
 /// plan, which plan_to_render() has written.
