@@ -1,6 +1,6 @@
-#include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -8,13 +8,11 @@
 #include "cli/command.h"
 #include "cli/output.h"
 #include "cli/planning.h"
-#include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
 #include "dataset/plan/plan_folder.h"
 #include "dataset/stream/live_stream.h"
 #include "io/assets.h"
 #include "io/system/passing_folder.h"
-#include "io/video/h264_file.h"
 
 namespace veldt {
 namespace {
@@ -25,15 +23,13 @@ struct StreamArguments {
   std::string labels;
   std::vector<std::string> clips;
   std::vector<std::string> settings;
-  double rate_hz = 0;
+  std::optional<double> rate_hz;
   bool repeat = false;
   bool allow_remote = false;
 };
 
-/// ConfigError for an address that others can reach, unless that is allowed.
 void check_is_local(const thermal::NetAddress& address, const std::string& option, bool allow_remote) {
-  if (allow_remote || address.is_loopback()) return;
-  throw thermal::ConfigError(thermal::fault(option, address.url(), "", "127.0.0.1, or --allow-remote"));
+  if (!allow_remote) thermal::check_is_loopback(address, option, "--allow-remote");
 }
 
 thermal::LiveStreamOptions request_of(const StreamArguments& options) {
@@ -41,13 +37,14 @@ thermal::LiveStreamOptions request_of(const StreamArguments& options) {
                                         .assets = thermal::Assets::find(),
                                         .clips = options.clips,
                                         .video = thermal::parse_video_address(options.video, "--video"),
+                                        .frame_rate_hz = options.rate_hz,
                                         .repeat = options.repeat};
   check_is_local(request.video, "--video", options.allow_remote);
   if (!options.labels.empty()) {
     request.lines = thermal::parse_line_address(options.labels, "--labels");
     check_is_local(*request.lines, "--labels", options.allow_remote);
   }
-  if (options.rate_hz > 0) request.frame_rate_hz = options.rate_hz;
+  if (options.rate_hz) thermal::check_frame_rate(*options.rate_hz, "--rate");
   return request;
 }
 
@@ -69,27 +66,10 @@ std::string words_of(const thermal::StreamedClip& clip) {
       "({:.0f} ms for 95 %, {:.0f} ms at most)",
       clip.clip, clip.sent, clip.frames(), clip.frame_rate_hz, clip.late, clip.dropped, 1e3 * late.median_s,
       1e3 * late.high_s, 1e3 * late.most_s);
+  if (clip.lines_missed > 0) words += fmt::format("; {} lines missed", clip.lines_missed);
   if (!clip.fault.empty()) words += "; " + clip.fault;
   return words;
 }
-
-/// Tells every few seconds how a clip goes, on standard error.
-class StateLine {
- public:
-  explicit StateLine(bool quiet) : quiet_(quiet) {}
-
-  void show(const thermal::StreamedClip& clip) {
-    constexpr std::chrono::seconds kEach(5);
-    const auto now = std::chrono::steady_clock::now();
-    if (quiet_ || now - last_ < kEach) return;
-    last_ = now;
-    print_error("{}\n", words_of(clip));
-  }
-
- private:
-  bool quiet_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 int run_stream(const StreamArguments& options, const CommonOptions& common) {
   thermal::LiveStreamOptions request = request_of(options);
@@ -102,13 +82,14 @@ int run_stream(const StreamArguments& options, const CommonOptions& common) {
   } else if (!options.settings.empty()) {
     throw thermal::ConfigError(thermal::fault("--set", options.settings.front(), "", "a config, not a plan"));
   }
-  StateLine line(common.quiet);
   bool any_lost = false;
   thermal::stream_flights(
       request, [] { return stop_signal() != 0; },
-      [&line](const thermal::StreamedClip& clip) { line.show(clip); },
+      [&common](const thermal::StreamedClip& clip) {
+        if (!common.quiet) print_error("{}\n", words_of(clip));
+      },
       [&](const thermal::StreamedClip& clip) {
-        any_lost = any_lost || clip.late + clip.dropped > 0;
+        any_lost = any_lost || clip.late + clip.dropped + clip.lines_missed > 0;
         if (common.quiet) return;
         print("{}\n", words_of(clip));
         std::fflush(stdout);  // whoever reads a pipe hears of each clip at once
@@ -124,7 +105,9 @@ void add_stream(CLI::App& app, Session& session) {
       add_command(app, session, "stream",
                   "Send what the cameras of a config see, live: video, and a line of JSON a frame");
   command->footer(
-      "Frames that cannot be made in time are left out, and counted; exit code 3 says that there were some.\n"
+      "Frames that cannot be made in time are left out, and counted, as are frames and lines that a "
+      "receiver\n"
+      "misses; exit code 3 says that there were some.\n"
       "Receive the video with ffplay udp://127.0.0.1:5600, the lines with nc 127.0.0.1 5601. To push to "
       "RTSP, a\n"
       "server must run, or ffplay -rtsp_flags listen rtsp://127.0.0.1:8554/veldt.\n"
@@ -147,8 +130,7 @@ void add_stream(CLI::App& app, Session& session) {
   command->add_option("--clips", options->clips, "Clips to send; all of them if not given")
       ->delimiter(',')
       ->type_name("ID,…");
-  command->add_option("--rate", options->rate_hz, "Frames a second; each clip's own if not given")
-      ->check(CLI::PositiveNumber)
+  command->add_option("--rate", options->rate_hz, "Frames a second, 0.1 to 240; each clip's own if not given")
       ->type_name("HZ");
   command->add_flag("--repeat", options->repeat, "Begin again after the last clip, until stopped");
   command->add_flag("--allow-remote", options->allow_remote, "Accept addresses of other machines");

@@ -152,6 +152,8 @@ def test_a_killed_receiver_of_rtsp_costs_frames_and_no_more(planned):
         (["--video", "srt://127.0.0.1:5600"],
          '--video = "srt://127.0.0.1:5600"; expected udp://HOST:PORT or rtsp://HOST:PORT'),
         (["--video", "udp://127.0.0.1:5600", "--set", "seed=2"], "--set = seed=2; expected a config, not a plan"),
+        (["--video", "udp://127.0.0.1:5600", "--rate", "nan"], "--rate = nan Hz; expected 0.1 to 240"),
+        (["--video", "udp://127.0.0.1:5600", "--rate", "1e9"], "--rate = 1e+09 Hz; expected 0.1 to 240"),
         (["--video", "udp://127.0.0.1:5600", "--clips", "up"],
          '--clips = "up"; expected one of down, side'),
     ],
@@ -160,6 +162,19 @@ def test_wrong_usage(planned, options, message):
     done = planned("stream", "plan", *options)
     assert (done.code, done.out) == (2, "")
     assert done.err == f"veldt: {message}\n"
+
+
+def test_a_server_that_accepts_and_says_nothing_is_given_up_and_ctrl_c_ends_the_wait(planned):
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        url = f"rtsp://127.0.0.1:{silent.getsockname()[1]}/veldt"
+        done = planned("stream", "plan", "--video", url)
+        assert (done.code, done.err) == (1, f"veldt: cannot send to {url}: no answer within 5 s\n")
+        run = planned.start("stream", "plan", "--video", url)
+        silent.accept()
+        silent.accept()
+        run.send_signal(signal.SIGINT)
+        out, err = run.communicate(timeout=30)
+    assert (run.returncode, out, err) == (130, "", "")
 
 
 def test_a_server_that_does_not_answer_and_a_port_in_use_are_faults(planned):

@@ -23,11 +23,26 @@ constexpr std::size_t kMostWaiting = 4;
 constexpr std::chrono::seconds kRetry(1);
 constexpr std::chrono::seconds kLastWords(2);
 
+constexpr double kLeastRateHz = 0.1;
+constexpr double kMostRateHz = 240;
+constexpr int kMostSidePx = 8192;
+
 struct Item {
   Plane<std::uint8_t> frame;
   std::int64_t time = 0;
-  std::string line;
 };
+
+void check_side(int side_px, const char* where) {
+  if (side_px >= 1 && side_px <= kMostSidePx) return;
+  throw ConfigError(fault(where, fmt::format("{}", side_px), "px", fmt::format("1 to {}", kMostSidePx)));
+}
+
+const StreamTarget& checked(const StreamTarget& target) {
+  check_frame_rate(target.frame_rate_hz, "frame_rate_hz");
+  check_side(target.width_px, "width_px");
+  check_side(target.height_px, "height_px");
+  return target;
+}
 
 }  // namespace
 
@@ -39,27 +54,36 @@ NetAddress parse_line_address(const std::string& url, const std::string& where) 
   return parse_address(url, {"tcp", "udp"}, where);
 }
 
+void check_frame_rate(double frame_rate_hz, const std::string& where) {
+  if (frame_rate_hz >= kLeastRateHz && frame_rate_hz <= kMostRateHz) return;
+  throw ConfigError(fault(where, fmt::format("{:g}", frame_rate_hz), "Hz",
+                          fmt::format("{} to {}", kLeastRateHz, kMostRateHz)));
+}
+
 struct FrameStream::Impl {
   StreamTarget target;
-  std::unique_ptr<LineSender> lines;
+  std::function<bool()> stopped;      ///< asked until there is a receiver
   std::atomic<bool> cut = false;      ///< nobody waits any longer
   std::unique_ptr<H264Stream> video;  ///< the sender's; null while there is no receiver
   mutable std::mutex mutex;           ///< of all below
   std::condition_variable changed;
+  std::unique_ptr<LineSender> lines;
   std::deque<Item> waiting;
   Counts counts;
   bool closing = false;
   bool done = false;
   std::thread sender;
 
-  explicit Impl(StreamTarget to) : target(std::move(to)), video(connect()) {
+  Impl(const StreamTarget& to, std::function<bool()> ask)
+      : target(checked(to)), stopped(std::move(ask)), video(connect()) {
+    stopped = {};
     if (target.lines) lines = std::make_unique<LineSender>(*target.lines);
     sender = std::thread([this] { run(); });
   }
 
   [[nodiscard]] std::unique_ptr<H264Stream> connect() {
     return std::make_unique<H264Stream>(target.video, target.frame_rate_hz, target.width_px, target.height_px,
-                                        [this] { return cut.load(); });
+                                        [this] { return cut.load() || (stopped && stopped()); });
   }
 
   /// The next item; none at the end.
@@ -88,37 +112,40 @@ struct FrameStream::Impl {
     }
     const std::lock_guard lock(mutex);
     ++(video ? counts.sent : counts.dropped);
+    --counts.waiting;
   }
 
   void run() {
     Clock::time_point retry_at{};
-    while (const std::optional<Item> item = next()) {
-      send_video(*item, retry_at);
-      if (!lines) continue;
-      lines->send(item->line);
-      const std::lock_guard lock(mutex);
-      counts.lines_missed = lines->counts().missed;
-    }
+    while (const std::optional<Item> item = next()) send_video(*item, retry_at);
     try {
       if (video) video->close();
     } catch (const IoError& error) {
       note_fault(error);
     }
-    if (lines) lines->finish(std::chrono::duration<double>(kLastWords).count());
     const std::lock_guard lock(mutex);
     done = true;
     changed.notify_all();
   }
 
-  /// `patience`: for the last frames; then the stream is cut.
+  void drop_waiting() {
+    counts.dropped += static_cast<std::int64_t>(waiting.size());
+    counts.waiting -= static_cast<std::int64_t>(waiting.size());
+    waiting.clear();
+  }
+
+  /// `patience`: for the last frames and lines, beside each other; then the stream is cut.
   void close(Clock::duration patience) {
     if (!sender.joinable()) return;
+    const Clock::time_point end = Clock::now() + patience;
     std::unique_lock lock(mutex);
     closing = true;
     changed.notify_all();
-    if (!changed.wait_for(lock, patience, [this] { return done; })) {
-      counts.dropped += static_cast<std::int64_t>(waiting.size());
-      waiting.clear();
+    lock.unlock();
+    if (lines) lines->finish(std::chrono::duration<double>(patience).count());
+    lock.lock();
+    if (!changed.wait_until(lock, end, [this] { return done; })) {
+      drop_waiting();
       cut = true;
     }
     lock.unlock();
@@ -126,21 +153,28 @@ struct FrameStream::Impl {
   }
 };
 
-FrameStream::FrameStream(const StreamTarget& target) : impl_(std::make_unique<Impl>(target)) {}
+FrameStream::FrameStream(const StreamTarget& target, std::function<bool()> stopped)
+    : impl_(std::make_unique<Impl>(target, std::move(stopped))) {}
 
 FrameStream::~FrameStream() { impl_->close({}); }
 
-bool FrameStream::send(const Plane<std::uint8_t>& frame, std::int64_t time, std::string line) {
+bool FrameStream::send(const Plane<std::uint8_t>& frame, std::int64_t time, std::string_view line) {
   const StreamTarget& target = impl_->target;
   if (frame.width_px() != target.width_px || frame.height_px() != target.height_px)
     throw ConfigError(fault("frame", fmt::format("{} x {}", frame.width_px(), frame.height_px()), "px",
                             fmt::format("{} x {}", target.width_px, target.height_px)));
   const std::lock_guard lock(impl_->mutex);
+  Counts& counts = impl_->counts;
+  if (impl_->lines && !impl_->closing) {
+    impl_->lines->send(line);
+    counts.lines_missed = impl_->lines->counts().missed;
+  }
   if (impl_->closing || impl_->waiting.size() >= kMostWaiting) {
-    ++impl_->counts.dropped;
+    ++counts.dropped;
     return false;
   }
-  impl_->waiting.push_back({.frame = frame, .time = time, .line = std::move(line)});
+  impl_->waiting.push_back({.frame = frame, .time = time});
+  ++counts.waiting;
   impl_->changed.notify_all();
   return true;
 }

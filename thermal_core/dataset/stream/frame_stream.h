@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "base/image.h"
 #include "io/net/address.h"
@@ -14,8 +16,8 @@ namespace thermal {
 struct StreamTarget {
   NetAddress video;                      ///< udp or rtsp
   std::optional<NetAddress> lines = {};  ///< udp or tcp
-  double frame_rate_hz = 9;              ///< > 0
-  int width_px = 0;
+  double frame_rate_hz = 9;              ///< 0.1 to 240
+  int width_px = 0;                      ///< 1 to 8192
   int height_px = 0;
 };
 
@@ -24,28 +26,34 @@ struct StreamTarget {
 /// The same for its lines: tcp and udp.
 [[nodiscard]] NetAddress parse_line_address(const std::string& url, const std::string& where);
 
+/// ConfigError with `where` unless a stream may have this rate: 0.1 to 240 Hz.
+void check_frame_rate(double frame_rate_hz, const std::string& where);
+
 /// Sends frames as video, and a line of text with each, on a thread of its own: whoever makes frames never waits. If more
-/// than a few wait to be sent, the next is dropped. If the receiver of the video goes away, frames are dropped while the
-/// stream tries each second to reach it again; lines are sent nevertheless.
+/// than a few wait to be sent, the next is dropped. If the receiver of the video goes away, or reads nothing for 5 s, frames
+/// are dropped while the stream tries each second to reach it again. Lines leave at once, whatever becomes of the video.
 class FrameStream {
  public:
   struct Counts {
     std::int64_t sent = 0;
     std::int64_t dropped = 0;       ///< no room, or no receiver
+    std::int64_t waiting = 0;       ///< neither yet; at most a few
     std::int64_t lines_missed = 0;  ///< LineSender::Counts::missed
     std::string fault = {};         ///< why the last frame without a receiver had none; stays
   };
 
-  /// IoError as of H264Stream and LineSender.
-  explicit FrameStream(const StreamTarget& target);
+  /// `stopped`: asked until the receiver has answered; true ends the wait with an IoError.
+  /// ConfigError for a rate or size out of range; IoError as of H264Stream and LineSender.
+  explicit FrameStream(const StreamTarget& target, std::function<bool()> stopped = {});
   /// Sends nothing more; close() does.
   ~FrameStream();
   FrameStream(const FrameStream&) = delete;
   FrameStream& operator=(const FrameStream&) = delete;
 
   /// Hands over a frame, which is copied, and its line. `time`: in frames since the stream's begin; later than that of the
-  /// frame before. False if it is dropped because there is no room. ConfigError for another size than the target's.
-  bool send(const Plane<std::uint8_t>& frame, std::int64_t time, std::string line);
+  /// frame before. False if it is dropped because there is no room; its line leaves nevertheless. ConfigError for another
+  /// size than the target's.
+  bool send(const Plane<std::uint8_t>& frame, std::int64_t time, std::string_view line);
 
   /// Sends what waits, two seconds at most, and ends the stream.
   void close();

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <thread>
 #include <utility>
 
+#include "base/error.h"
 #include "dataset/run/clip_choice.h"
 #include "dataset/run/world.h"
 
@@ -13,6 +15,8 @@ namespace thermal {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kStateEach(5);
 
 Clock::duration duration_of(double seconds) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -37,7 +41,7 @@ struct Outlet {
   FrameStream stream;
   std::optional<Clock::time_point> begin = {};
 
-  explicit Outlet(const StreamTarget& to) : target(to), stream(to) {}
+  Outlet(const StreamTarget& to, const std::function<bool()>& stopped) : target(to), stream(to, stopped) {}
 
   [[nodiscard]] bool fits(const StreamTarget& other) const {
     return target.frame_rate_hz == other.frame_rate_hz && target.width_px == other.width_px &&
@@ -103,6 +107,7 @@ class Flight {
     constexpr double kRounded = 1e-6;  // of a frame
     const int count = static_cast<int>((world_.flight_s().back() - first_s) * rate_hz + kRounded) + 1;
     const Clock::time_point begin = outlet_.next_frame();
+    Clock::time_point state_due = begin + kStateEach;
     for (int frame = 0; frame < count;) {
       const Clock::time_point due = begin + duration_of(frame / rate_hz);
       if (!sleep_until(due, stopped)) break;
@@ -112,25 +117,39 @@ class Flight {
       const int left_out = std::min(frames_to_leave_out(late_s, rate_hz), count - 1 - frame);
       streamed_.late += left_out;
       frame += 1 + left_out;
+      if (Clock::now() < state_due) continue;
+      state_due += kStateEach;
       state(result());
     }
+    settle(stopped);
     return result();
   }
 
  private:
   void send(int frame, double time_s, std::int64_t count) {
     const ClipImager::Frame& made = world_.capture(world_.flight_pose_at(time_s), time_s);
-    ++made_;
+    count_frames();
     outlet_.stream.send(made.pictures.ir8, count, line_of(world_, streamed_, count, frame, made));
   }
 
-  /// Frames that still wait count as sent.
-  [[nodiscard]] StreamedClip& result() {
+  /// Waits until the last frames are sent or dropped.
+  void settle(const std::function<bool()>& stopped) {
+    constexpr std::chrono::milliseconds kLook(10);
+    while (!stopped() && outlet_.stream.counts().waiting > 0) std::this_thread::sleep_for(kLook);
+    if (stopped()) outlet_.stream.close();
+  }
+
+  void count_frames() {
     const FrameStream::Counts now = outlet_.stream.counts();
+    streamed_.sent = static_cast<int>(now.sent - before_.sent);
     streamed_.dropped = static_cast<int>(now.dropped - before_.dropped);
-    streamed_.sent = made_ - streamed_.dropped;
-    streamed_.lateness = lateness_of(late_s_);
+    streamed_.lines_missed = now.lines_missed - before_.lines_missed;
     streamed_.fault = streamed_.dropped > 0 ? now.fault : "";
+  }
+
+  [[nodiscard]] const StreamedClip& result() {
+    count_frames();
+    streamed_.lateness = lateness_of(late_s_);
     return streamed_;
   }
 
@@ -139,7 +158,51 @@ class Flight {
   FrameStream::Counts before_;
   StreamedClip streamed_;
   std::vector<double> late_s_;
-  int made_ = 0;
+};
+
+/// Flies clips one after the other, through one stream as long as their cameras allow.
+class Flights {
+ public:
+  Flights(const LiveStreamOptions& options, const std::function<bool()>& stopped)
+      : options_(options), stopped_(stopped) {}
+
+  ~Flights() {
+    if (outlet_) outlet_->stream.close();
+  }
+  Flights(const Flights&) = delete;
+  Flights& operator=(const Flights&) = delete;
+
+  StreamedClip fly(const std::string& clip, const std::function<void(const StreamedClip&)>& state) {
+    enter(clip);
+    connect();
+    return Flight(*world_, clip, *outlet_).fly(stopped_, state);
+  }
+
+ private:
+  void enter(const std::string& clip) {
+    if (world_ && clip == clip_) {
+      world_->restart(world_->clip().task().seed);
+      return;
+    }
+    world_.reset();
+    world_ = std::make_unique<World>(options_.plan, clip, options_.assets,
+                                     WorldOptions{.frame_rate_hz = options_.frame_rate_hz, .roam = false});
+    clip_ = clip;
+  }
+
+  void connect() {
+    const StreamTarget target = target_for(options_, *world_);
+    if (outlet_ && outlet_->fits(target)) return;
+    if (outlet_) outlet_->stream.close();
+    outlet_.reset();
+    outlet_ = std::make_unique<Outlet>(target, stopped_);
+  }
+
+  const LiveStreamOptions& options_;
+  const std::function<bool()>& stopped_;
+  std::string clip_;
+  std::unique_ptr<World> world_;
+  std::unique_ptr<Outlet> outlet_;
 };
 
 }  // namespace
@@ -149,22 +212,18 @@ void stream_flights(const LiveStreamOptions& options, const std::function<bool()
                     const std::function<void(const StreamedClip&)>& done) {
   const PlannedDataset planned = open_plan(options.plan, options.assets);
   const std::vector<std::string> clips = ids_of(choose_clips(planned.config, options.clips, {}));
-  std::unique_ptr<Outlet> outlet;
-  do {
-    for (const std::string& clip : clips) {
-      World world(options.plan, clip, options.assets,
-                  {.frame_rate_hz = options.frame_rate_hz, .roam = false});
-      const StreamTarget target = target_for(options, world);
-      if (outlet && !outlet->fits(target)) outlet->stream.close();
-      if (!outlet || !outlet->fits(target)) {
-        outlet.reset();
-        outlet = std::make_unique<Outlet>(target);
+  if (options.frame_rate_hz) check_frame_rate(*options.frame_rate_hz, "frame_rate_hz");
+  Flights flights(options, stopped);
+  try {
+    do {
+      for (const std::string& clip : clips) {
+        if (stopped()) return;
+        done(flights.fly(clip, state));
       }
-      done(Flight(world, clip, *outlet).fly(stopped, state));
-      if (stopped()) break;
-    }
-  } while (options.repeat && !stopped());
-  if (outlet) outlet->stream.close();
+    } while (options.repeat);
+  } catch (const IoError&) {
+    if (!stopped()) throw;  // a wait for the receiver has ended
+  }
 }
 
 }  // namespace thermal

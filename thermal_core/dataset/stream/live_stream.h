@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -28,6 +29,7 @@ struct StreamedClip {
   int sent = 0;
   int late = 0;     ///< left out, because those before took too long
   int dropped = 0;  ///< made, but not sent
+  std::int64_t lines_missed = 0;
   Lateness lateness = {};
   std::string fault = {};  ///< of FrameStream::Counts
 
@@ -36,11 +38,14 @@ struct StreamedClip {
 
 /// Flies the planned flights as they are timed, and sends what their cameras take, with a line of JSON each. A frame that
 /// cannot be made in time is left out: the camera's clock goes on. `done` is called after each clip, and after one that is
-/// stopped; `state` while it is sent. Returns when all is sent, or hooks.cancelled().
+/// stopped; `state` every five seconds while it is sent. Returns when all is sent, or stopped().
+///
+/// Between clips nothing is sent while the next one's place is built, for seconds; a single clip that is repeated begins
+/// again at once.
 ///
 /// With each clip's own frame rate, frames are those of `generate`, bit for bit, before the first that is left out. At
 /// another rate the camera moves on straight lines between the planned frames.
-/// ConfigError as of World; IoError as of FrameStream.
+/// ConfigError as of World and FrameStream; IoError as of FrameStream.
 void stream_flights(const LiveStreamOptions& options, const std::function<bool()>& stopped,
                     const std::function<void(const StreamedClip&)>& state,
                     const std::function<void(const StreamedClip&)>& done);

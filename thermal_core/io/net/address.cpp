@@ -51,6 +51,11 @@ std::string NetAddress::url() const {
   return fmt::format("{}://{}{}{}:{}{}", scheme, v6 ? "[" : "", host, v6 ? "]" : "", port, path);
 }
 
+void check_is_loopback(const NetAddress& address, const std::string& where, const std::string& permit) {
+  if (address.is_loopback()) return;
+  throw ConfigError(fault(where, address.url(), "", fmt::format("127.0.0.1, or {}", permit)));
+}
+
 NetAddress parse_address(std::string_view text, const std::vector<std::string>& schemes,
                          const std::string& where) {
   const std::optional<NetAddress> address = split(text);

@@ -21,6 +21,9 @@ struct NetAddress {
   [[nodiscard]] std::string url() const;
 };
 
+/// ConfigError for an address that others can reach; `permit` is what allows it, such as "--allow-remote".
+void check_is_loopback(const NetAddress& address, const std::string& where, const std::string& permit);
+
 /// ConfigError with `where` (such as "--video") for another text, a scheme that is not among `schemes`, and a port that is
 /// not 1 to 65535.
 [[nodiscard]] NetAddress parse_address(std::string_view text, const std::vector<std::string>& schemes,

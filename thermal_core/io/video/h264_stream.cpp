@@ -1,5 +1,6 @@
 #include "io/video/h264_stream.h"
 
+#include <chrono>
 #include <string>
 #include <utility>
 
@@ -12,6 +13,11 @@
 namespace thermal {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+/// What a receiver may take to answer, or to read a frame.
+constexpr std::chrono::seconds kPatience(5);
+
 /// MPEG-TS packets of 188 bytes, as many as fit an Ethernet frame.
 constexpr const char* kWholePackets = "?pkt_size=1316";
 
@@ -21,23 +27,42 @@ ffmpeg::H264Writer::Container container_for(const NetAddress& address) {
   return {.format = "mpegts", .url = address.url() + kWholePackets, .global_header = false, .live = true};
 }
 
-ffmpeg::H264Writer::Fault faults_of(const NetAddress& address) {
-  return [url = address.url()](int error) {
-    throw IoError(
-        fmt::format("cannot send to {}: {}", url,
-                    error == AVERROR_ENCODER_NOT_FOUND ? "FFmpeg has no libx264" : ffmpeg::reason_of(error)));
-  };
-}
-
 }  // namespace
 
 struct H264Stream::Impl {
+  std::string url;
   std::function<bool()> interrupted;
+  Clock::time_point give_up = Clock::now() + kPatience;
+  bool given_up = false;
+  std::function<bool()> must_end = [this] {
+    given_up = given_up || Clock::now() > give_up || interrupted();
+    return given_up;
+  };
   ffmpeg::H264Writer writer;
 
   Impl(const NetAddress& address, const H264Settings& settings, std::function<bool()> ask)
-      : interrupted(std::move(ask)),
-        writer(container_for(address), settings, faults_of(address), &interrupted) {}
+      : url(address.url()),
+        interrupted(std::move(ask)),
+        writer(
+            container_for(address), settings, [this](int error) { fail(error); }, &must_end) {}
+
+  [[noreturn]] void fail(int error) const {
+    throw IoError(fmt::format("cannot send to {}: {}", url, reason_of(error)));
+  }
+
+  [[nodiscard]] std::string reason_of(int error) const {
+    if (error == AVERROR_ENCODER_NOT_FOUND) return "FFmpeg has no libx264";
+    if (!given_up) return ffmpeg::reason_of(error);
+    return interrupted() ? "stopped" : fmt::format("no answer within {} s", kPatience.count());
+  }
+
+  /// FFmpeg's codes tell little of a wait that is given up: it may report another fault, or none.
+  template <typename Send>
+  void in_time(const Send& send) {
+    give_up = Clock::now() + kPatience;
+    send();
+    if (given_up) fail(AVERROR_EXIT);
+  }
 };
 
 H264Stream::H264Stream(const NetAddress& address, double frame_rate_hz, int width_px, int height_px,
@@ -54,9 +79,12 @@ H264Stream::H264Stream(const NetAddress& address, double frame_rate_hz, int widt
 H264Stream::~H264Stream() = default;
 
 void H264Stream::add(const Plane<std::uint8_t>& frame, std::int64_t time) {
-  impl_->writer.add([&frame](const VideoPlanes& planes) { draw_grey(frame, planes); }, time);
+  impl_->in_time(
+      [&] { impl_->writer.add([&frame](const VideoPlanes& planes) { draw_grey(frame, planes); }, time); });
 }
 
-void H264Stream::close() { impl_->writer.close(); }
+void H264Stream::close() {
+  impl_->in_time([this] { impl_->writer.close(); });
+}
 
 }  // namespace thermal

@@ -15,7 +15,7 @@ class H264Stream {
  public:
   /// @param frame_rate_hz  > 0
   /// @param interrupted  asked while the stream waits, from the thread that uses it: true ends the wait with an IoError
-  /// IoError if nobody answers, or FFmpeg has no encoder.
+  /// IoError if nobody answers within 5 s, or FFmpeg has no encoder.
   H264Stream(const NetAddress& address, double frame_rate_hz, int width_px, int height_px,
              std::function<bool()> interrupted);
   ~H264Stream();
@@ -23,7 +23,7 @@ class H264Stream {
   H264Stream& operator=(const H264Stream&) = delete;
 
   /// Sends a frame of the size given at first. `time`: in frames since the first; later than the one before. Waits for a
-  /// server that reads slowly. IoError if it is gone; the stream is of no use then.
+  /// server that reads slowly, 5 s at most. IoError if it is gone; the stream is of no use then.
   void add(const Plane<std::uint8_t>& frame, std::int64_t time);
 
   /// Ends the stream. IoError as of add().

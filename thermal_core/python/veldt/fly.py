@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import ipaddress
 import json
 import socket
 import sys
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veldt import ConfigError, Error, IoError, Stream
+from veldt._core import check_is_loopback, frames_to_leave_out
 from .mavlink import Vehicle
 from .poses import pose_of_attitude
 from .world import Capture, World
@@ -142,7 +142,7 @@ def fly(
         sent += sink.send(capture.ir8, line | line_of(time_s, pose, capture), frame)
         late_s = clock() - due_s
         worst_s = max(worst_s, late_s)
-        frame += max(1, int(late_s * world.frame_rate_hz))
+        frame += 1 + frames_to_leave_out(late_s, world.frame_rate_hz)
     return Flight(sent, count - sent, worst_s)
 
 
@@ -166,14 +166,13 @@ def _origin(text: str) -> tuple[float, float, float]:
     return latitude_deg, longitude_deg, height_m
 
 
-def _check_loopback(host: str) -> None:
-    """ConfigError for a host that others can reach."""
-    try:
-        local = host == "localhost" or ipaddress.ip_address(host).is_loopback
-    except ValueError:
-        local = False
-    if not local:
-        raise ConfigError(f'--poses = "{host}"; expected 127.0.0.1, or --allow-remote')
+def _check_addresses(given: argparse.Namespace) -> None:
+    """ConfigError for an address that others can reach."""
+    host, port = given.poses
+    addresses = {"--poses": f"udp://{host}:{port or 1}", "--video": given.video, "--labels": given.labels}
+    for option, url in addresses.items():
+        if url is not None:
+            check_is_loopback(url, option, "--allow-remote")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -220,13 +219,17 @@ def main(arguments: list[str] | None = None) -> int:
     given = _parser().parse_args(arguments)
     try:
         if not given.allow_remote:
-            _check_loopback(given.poses[0])
+            _check_addresses(given)
         world = World(given.plan, given.clip, frame_rate_hz=given.rate)
         vehicle = Vehicle(world.flight_poses[0][:3, 3], given.origin, np.deg2rad(given.down))
         poses = Poses(given.poses, vehicle)
         size = {"width_px": world.camera.width_px, "height_px": world.camera.height_px}
         with Stream(
-            given.video, **size, frame_rate_hz=world.frame_rate_hz, labels_url=given.labels
+            given.video,
+            **size,
+            frame_rate_hz=world.frame_rate_hz,
+            labels_url=given.labels,
+            allow_remote=given.allow_remote,
         ) as stream:
             print(f"waiting for poses on UDP port {poses.port}", file=sys.stderr, flush=True)
             done = fly(world, poses, stream, seconds=given.seconds)
@@ -235,13 +238,15 @@ def main(arguments: list[str] | None = None) -> int:
         return 2 if isinstance(error, ConfigError) else 1
     except KeyboardInterrupt:
         return 130
+    sent, lines_missed, fault = stream.counts.sent, stream.counts.lines_missed, stream.counts.fault
+    dropped = done.sent + done.dropped - sent
     print(
-        f"{done.sent} frames sent, {done.dropped} dropped, the latest {1e3 * done.worst_s:.0f} ms late; "
-        f"{poses.received} datagrams received, {len(poses.rejected)} rejected"
+        f"{sent} frames sent, {dropped} dropped, {lines_missed} lines missed, the latest "
+        f"{1e3 * done.worst_s:.0f} ms late; {poses.received} datagrams received, {len(poses.rejected)} rejected"
     )
-    for fault in poses.rejected:
-        print(f"veldt.fly: {fault}", file=sys.stderr)
-    return 3 if poses.rejected else 0
+    for text in [*poses.rejected, fault] if fault else poses.rejected:
+        print(f"veldt.fly: {text}", file=sys.stderr)
+    return 3 if poses.rejected or dropped or lines_missed else 0
 
 
 if __name__ == "__main__":

@@ -16,6 +16,8 @@ class StreamCounts(NamedTuple):
     sent: int
     dropped: int
     """No room, or nobody to receive them."""
+    waiting: int
+    """Neither yet; at most a few."""
     lines_missed: int
     """Lines that slow clients did not get, and those too long for a datagram."""
     fault: str
@@ -23,9 +25,10 @@ class StreamCounts(NamedTuple):
 
 
 class Stream:
-    """Sends frames as H.264 video, and a line of JSON with each, on a thread of its own: send() never waits. If more
-    than a few frames wait to be sent, the next is dropped. If the receiver of an RTSP stream goes away, frames are dropped
-    while the stream tries each second to reach it again.
+    """Sends frames as H.264 video on a thread of its own, and a line of JSON with each: send() never waits. If more
+    than a few frames wait to be sent, the next is dropped. If the receiver of an RTSP stream goes away, or reads
+    nothing for 5 s, frames are dropped while the stream tries each second to reach it again. Lines leave at once,
+    whatever becomes of the video. FFmpeg prints no messages of its own from the first stream on.
 
     >>> with veldt.Stream("udp://127.0.0.1:5600", width_px=640, height_px=512, frame_rate_hz=9) as stream:
     ...     stream.send(capture.ir8, {"time_s": time_s})
@@ -39,25 +42,33 @@ class Stream:
         height_px: int,
         frame_rate_hz: float,
         labels_url: str | None = None,
+        allow_remote: bool = False,
     ) -> None:
         """video_url: udp://HOST:PORT (MPEG-TS) or rtsp://HOST:PORT/PATH, whose server must run. labels_url:
-        tcp://HOST:PORT, a server for any number of clients, or udp://HOST:PORT, a datagram a line.
+        tcp://HOST:PORT, a server for any number of clients, or udp://HOST:PORT, a datagram a line. allow_remote: hosts
+        may be other than this machine. Sides of 1 to 8192 px, 0.1 to 240 Hz.
 
-        ConfigError for another URL; IoError if nobody answers, or the server's port is in use.
+        ConfigError for another URL, rate or size; IoError if nobody answers within 5 s, or the server's port is in use.
         """
-        self._stream = _core.FrameStream(video_url, labels_url, frame_rate_hz, width_px, height_px)
+        self._stream = _core.FrameStream(
+            video_url, labels_url, frame_rate_hz, width_px, height_px, allow_remote
+        )
         self._next = 0
 
     def send(self, ir8: ArrayLike, line: dict[str, Any], number: int | None = None) -> bool:
         """Hand over a frame (height, width) of 8 bits and what its line says. number: in frames since the stream began,
-        later than the last; None: the next. False if there was no room.
+        later than the last; None: the next. False if there was no room; the line leaves nevertheless.
 
-        ConfigError for another size, and a number that has passed.
+        ConfigError for another size, a number that has passed, and NaN or infinity in the line.
         """
         number = self._next if number is None else number
         if number < self._next:
             raise _core.ConfigError(f"number = {number}; expected {self._next} or more")
-        taken = self._stream.send(ir8, number, json.dumps(line))
+        try:
+            text = json.dumps(line, allow_nan=False)
+        except ValueError as error:
+            raise _core.ConfigError(f"line: {error}; expected finite numbers") from error
+        taken = self._stream.send(ir8, number, text)
         self._next = number + 1
         return taken
 

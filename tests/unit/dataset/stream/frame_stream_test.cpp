@@ -1,8 +1,13 @@
 #include "dataset/stream/frame_stream.h"
 
+#include <cmath>
+
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
+#include "support/peer.h"
 
 namespace frame_stream_test {
 
@@ -38,6 +43,7 @@ TEST_CASE("All frames are sent or counted as dropped, however quickly they come"
   stream.close();
   CHECK(stream.counts().sent == taken);
   CHECK(stream.counts().sent + stream.counts().dropped == 500);
+  CHECK(stream.counts().waiting == 0);
 }
 
 TEST_CASE("Frames of another size, and a server that does not answer, are faults") {
@@ -48,6 +54,40 @@ TEST_CASE("Frames of another size, and a server that does not answer, are faults
   refused.video = parse_video_address("rtsp://127.0.0.1:9/veldt", "--video");
   CHECK(message_of<IoError>([&] { FrameStream{refused}; }) ==
         "cannot send to rtsp://127.0.0.1:9/veldt: Connection refused");
+}
+
+TEST_CASE("A server that accepts and never answers is given up after 5 s, or when the run is stopped") {
+  const Peer silent(SOCK_STREAM);
+  StreamTarget target = nobody();
+  target.video = parse_video_address(fmt::format("rtsp://127.0.0.1:{}/veldt", silent.take_port()), "--video");
+  silent.be_served();
+  const std::string where = "cannot send to " + target.video.url() + ": ";
+  CHECK(message_of<IoError>([&] { FrameStream{target}; }) == where + "no answer within 5 s");
+  int asked = 0;
+  CHECK(message_of<IoError>([&] { FrameStream(target, [&asked] { return ++asked > 2; }); }) ==
+        where + "stopped");
+}
+
+TEST_CASE("Lines that cannot be sent are counted") {
+  FrameStream stream(nobody());
+  CHECK(
+      stream.send(Plane<std::uint8_t>(65, 47, 100), 0, std::string(70'000, 'x')));  // no datagram is as long
+  CHECK(stream.counts().lines_missed == 1);
+}
+
+TEST_CASE("A stream's rate and size have limits") {
+  const auto fault_of = [](double rate_hz, int width_px, int height_px) {
+    StreamTarget target = nobody();
+    target.frame_rate_hz = rate_hz;
+    target.width_px = width_px;
+    target.height_px = height_px;
+    return message_of<ConfigError>([&] { FrameStream{target}; });
+  };
+  CHECK(fault_of(0, 64, 48) == "frame_rate_hz = 0 Hz; expected 0.1 to 240");
+  CHECK(fault_of(1e9, 64, 48) == "frame_rate_hz = 1e+09 Hz; expected 0.1 to 240");
+  CHECK(fault_of(std::nan(""), 64, 48) == "frame_rate_hz = nan Hz; expected 0.1 to 240");
+  CHECK(fault_of(9, 0, 48) == "width_px = 0 px; expected 1 to 8192");
+  CHECK(fault_of(9, 64, 8193) == "height_px = 8193 px; expected 1 to 8192");
 }
 
 }  // namespace frame_stream_test
