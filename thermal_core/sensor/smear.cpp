@@ -248,14 +248,18 @@ void Smear::apply(const ImageMotion& motion, Plane<float>& picture, double ages,
 
 void Smear::find_samples(double ages, double intervals) {
   if (samples_.size() > kMostRemembered) samples_.clear();
+  std::vector<std::pair<const std::int64_t, Samples>*> missing;
   for (std::vector<Piece>& row : pieces_) {
     for (Piece& piece : row) {
-      auto found = samples_.find(piece.motion);
-      if (found == samples_.end())
-        found = samples_.emplace(piece.motion, samples_of(piece.motion, ages, intervals)).first;
+      const auto [found, is_new] = samples_.try_emplace(piece.motion);
+      if (is_new) missing.push_back(&*found);
       piece.samples = &found->second;
     }
   }
+  parallel_for(missing.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      missing[k]->second = samples_of(missing[k]->first, ages, intervals);
+  });
 }
 
 Smear::Samples Smear::samples_of(std::int64_t motion, double ages, double intervals) const {
@@ -269,6 +273,8 @@ Smear::Samples Smear::samples_of(std::int64_t motion, double ages, double interv
     samples.taps.push_back(samples.taps.front());
     samples.taps.back().weight = 0;
   }
+  samples.weights.reserve(samples.taps.size());
+  samples.offsets.reserve(samples.taps.size());
   for (const SmearTap& tap : samples.taps) {
     samples.weights.push_back(tap.weight);
     samples.offsets.push_back(static_cast<std::ptrdiff_t>(tap.y_px) * sharp_.width_px() + tap.x_px);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/cholesky.h"
+#include "base/clones.h"
 #include "sensor/smear.h"
 
 namespace thermal {
@@ -55,7 +56,19 @@ const std::vector<Node>& nodes_of(int count) {
 }
 
 constexpr std::size_t kSamples = 2 * kReachPx;
-using Weights = std::array<double, kSamples>;
+constexpr std::size_t kLanes = 8;  // that fill the processor's registers; those past the samples are 0
+using Weights = std::array<double, kLanes>;
+
+/// Adds the products of weights down and across to a part of a grid.
+VELDT_CLONES void add_products(const double* down, const double* across, double* __restrict out,
+                               std::size_t width) {
+  for (std::size_t row = 0; row < kSamples; ++row, out += width)
+    for (std::size_t i = 0; i < kLanes; ++i) out[i] += down[row] * across[i];
+}
+
+VELDT_CLONES void mix_weights(const double* one, const double* other, double share, double* __restrict out) {
+  for (std::size_t i = 0; i < kLanes; ++i) out[i] = (1 - share) * one[i] + share * other[i];
+}
 
 /// Integral of cos(2 pi f x) over the frequencies that are interpolated best, over their number.
 double correlation(double px) {
@@ -91,8 +104,7 @@ class Interpolation {
     const auto step = static_cast<std::size_t>(std::min(place, kSteps - 1.0));
     const double share = place - static_cast<double>(step);
     Weights weights{};
-    for (std::size_t i = 0; i < weights.size(); ++i)
-      weights.at(i) = (1 - share) * all_.at(step).at(i) + share * all_.at(step + 1).at(i);
+    mix_weights(all_.at(step).data(), all_.at(step + 1).data(), share, weights.data());
     return weights;
   }
 
@@ -119,28 +131,26 @@ class TapGrid {
   explicit TapGrid(const Way& way)
       : left_(static_cast<int>(std::floor(std::min(way.from_x_px, way.from_x_px + way.x_px))) - kReachPx),
         top_(static_cast<int>(std::floor(std::min(way.from_y_px, way.from_y_px + way.y_px))) - kReachPx),
-        width_(static_cast<int>(std::ceil(std::abs(way.x_px))) + 2 * kReachPx + 3),
-        weights_(
-            static_cast<std::size_t>(width_) *
-            static_cast<std::size_t>(static_cast<int>(std::ceil(std::abs(way.y_px))) + 2 * kReachPx + 3)) {}
+        width_(static_cast<int>(std::ceil(std::abs(way.x_px)) + kLanes + 3)),
+        weights_(static_cast<std::size_t>(width_) *
+                 static_cast<std::size_t>(std::ceil(std::abs(way.y_px)) + kSamples + 3)) {}
 
   void add(double x_px, double y_px, double weight) {
     static const Interpolation kInterpolation;
     const double x = std::floor(x_px);
     const double y = std::floor(y_px);
     const Weights across = kInterpolation.at(x_px - x);
-    const Weights down = kInterpolation.at(y_px - y);
+    Weights down = kInterpolation.at(y_px - y);
+    for (double& share : down) share *= weight;
     const int first_x = static_cast<int>(x) - (kReachPx - 1) - left_;
     const int first_y = static_cast<int>(y) - (kReachPx - 1) - top_;
-    for (int row = 0; row < static_cast<int>(kSamples); ++row) {
-      double* out = &weights_[static_cast<std::size_t>((first_y + row) * width_ + first_x)];
-      const double share = weight * down[static_cast<std::size_t>(row)];
-      for (std::size_t i = 0; i < across.size(); ++i) out[i] += share * across[i];
-    }
+    add_products(down.data(), across.data(), &weights_[static_cast<std::size_t>(first_y * width_ + first_x)],
+                 static_cast<std::size_t>(width_));
   }
 
   [[nodiscard]] std::vector<SmearTap> taps() const {
     std::vector<SmearTap> taps;
+    taps.reserve(weights_.size());
     double sum = 0;
     for (const double weight : weights_) sum += std::abs(weight) < kLeastWeight ? 0 : weight;
     for (std::size_t i = 0; i < weights_.size(); ++i) {
@@ -181,6 +191,7 @@ std::vector<SmearTap> long_taps(const Way& way, double ages) {
   const double dense_px = way.length_px() * std::min(1.0, 1 / ages);
   const int steps = std::clamp(static_cast<int>(std::ceil(8 * dense_px)), 64, kMostSteps);
   std::vector<SmearTap> taps;
+  taps.reserve(4 * static_cast<std::size_t>(steps));
   for (int i = 0; i < steps; ++i) {
     const double place =
         steps * (age_integral((i + 1.0) / steps, ages) - age_integral(static_cast<double>(i) / steps, ages));
