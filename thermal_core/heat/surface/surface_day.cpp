@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "heat/surface/leaf_layer.h"
+#include "heat/weather/humid_air.h"
 
 namespace thermal {
 namespace {
