@@ -91,7 +91,7 @@ void add_engine(CLI::App* command, std::string& engine);
 [[nodiscard]] thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
                                           const thermal::Assets& assets);
 
-/// The same of the library, which --blender names.
+/// thermal::find_blender() for the option --blender.
 [[nodiscard]] thermal::Path find_blender(const std::string& named);
 
 /// Parses and runs a command line; errors go to standard error. Returns the exit code.

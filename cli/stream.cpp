@@ -105,12 +105,10 @@ void add_stream(CLI::App& app, Session& session) {
       add_command(app, session, "stream",
                   "Send what the cameras of a config see, live: video, and a line of JSON a frame");
   command->footer(
-      "Frames that cannot be made in time are left out, and counted, as are frames and lines that a "
-      "receiver\n"
-      "misses; exit code 3 says that there were some.\n"
-      "Receive the video with ffplay udp://127.0.0.1:5600, the lines with nc 127.0.0.1 5601. To push to "
-      "RTSP, a\n"
-      "server must run, or ffplay -rtsp_flags listen rtsp://127.0.0.1:8554/veldt.\n"
+      "Frames that cannot be made in time are left out, and counted, as are frames and lines that a\n"
+      "receiver misses; exit code 3 says that there were some.\n"
+      "Receive the video with ffplay udp://127.0.0.1:5600, the lines with nc 127.0.0.1 5601. To push to\n"
+      "RTSP, a server must run, or ffplay -rtsp_flags listen rtsp://127.0.0.1:8554/veldt.\n"
       "Example: veldt stream configs/demo.json --video udp://127.0.0.1:5600 --labels tcp://127.0.0.1:5601 "
       "--set render.supersample=1");
   auto options = std::make_shared<StreamArguments>();
