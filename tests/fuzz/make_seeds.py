@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 from exr_seeds import write_exr_seeds
+from picture_seeds import write_picture_seeds
 from plan_seeds import write_plan_seeds
 from png_seeds import write_png_seeds
 
@@ -133,6 +134,7 @@ WORDS = {
     " cryptomatte/ /manifest /name /hash /conversion IndexOB.X IndexMA.X Depth.Z Normal.X Scene. Actors. .R .G .B .A"
     " CryptoObject00".split(),
     "index_picture": ["IHDR", "PLTE", "IDAT", "IEND", "tRNS", "gAMA", "sRGB", "iCCP", "zTXt", "eXIf"],
+    "picture": ["II*\0", "MM\0*", 'role="scale">', 'role="offset">', "nan", "1e308", "IHDR", "JFIF"],
     "plan": [],
     "log": ["time_s", "x_m", "y_m", "z_m", "agl_m", "altitude_m", "yaw_deg", "nan", "inf", "1e308"],
 }
@@ -196,6 +198,7 @@ def main(folder: Path) -> None:
         for file in files:
             shutil.copyfile(file, folder / target / file.name)
     write_exr_seeds(folder / "exr_passes")
+    write_picture_seeds(folder / "picture")
     write_png_seeds(folder / "index_picture")
     write_plan_seeds(folder)
 

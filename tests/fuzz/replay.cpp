@@ -24,8 +24,9 @@ const std::map<std::string_view, void (*)(Bytes)> kTargets = {
     {"config", fuzz::config},           {"dataset", fuzz::dataset},
     {"detections", fuzz::detections},   {"exr_passes", fuzz::exr_passes},
     {"ground_maps", fuzz::ground_maps}, {"index_picture", fuzz::index_picture},
-    {"manifest", fuzz::manifest},       {"scene_plan", fuzz::scene_plan},
-    {"tracks", fuzz::tracks},           {"variants", fuzz::variants}};
+    {"manifest", fuzz::manifest},       {"picture", fuzz::picture},
+    {"scene_plan", fuzz::scene_plan},   {"tracks", fuzz::tracks},
+    {"variants", fuzz::variants}};
 
 /// Files of these folders, and these files, in an order that is the same everywhere. A folder may be missing.
 std::vector<Path> inputs_of(int count, char** paths) {

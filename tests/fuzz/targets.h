@@ -17,6 +17,7 @@ void exr_passes(Bytes bytes);     ///< an EXR file; its last byte chooses the ma
 void ground_maps(Bytes bytes);    ///< a plan's ground.json, a NUL byte, and ground.bin
 void index_picture(Bytes bytes);  ///< a PNG; its last byte chooses the manifest
 void manifest(Bytes bytes);       ///< a manifest
+void picture(Bytes bytes);        ///< a TIFF, PNG or JPEG of grey levels or temperatures
 void scene_plan(Bytes bytes);     ///< a plan's plan.json and config.json, as one JSON
 void tracks(Bytes bytes);         ///< a track's JSON, a NUL byte, and its arrays
 void variants(Bytes bytes);       ///< variants of a small config

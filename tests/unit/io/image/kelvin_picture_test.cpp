@@ -1,8 +1,13 @@
 #include "io/image/kelvin_picture.h"
 
+#include <filesystem>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
+#include "io/image/grey_picture.h"
+#include "io/image/jpeg.h"
 #include "io/image/png.h"
 #include "io/image/tiff.h"
 #include "support/catch.h"
@@ -31,6 +36,19 @@ Plane<float> kelvin_of(const Plane<std::uint16_t>& counts) {
   for (std::size_t k = 0; k < counts.size(); ++k)
     kelvin.pixels()[k] = static_cast<float>(counts.pixels()[k] * 0.01);
   return kelvin;
+}
+
+/// A little-endian TIFF that says it is 15,000 px wide and high.
+std::string with_large_claim(std::string tiff) {
+  for (const char tag : {'\0', '\1'}) {  // 256 is the width, 257 the height
+    const std::string name = {tag, '\1'};
+    std::size_t at = 0;
+    do at = tiff.find(name, at + 1);
+    while (at != std::string::npos && tiff.substr(at + 4, 4) != std::string("\1\0\0\0", 4));
+    REQUIRE(at != std::string::npos);
+    tiff.replace(at + 8, 2, "\x98\x3a");
+  }
+  return tiff;
 }
 
 }  // namespace
@@ -76,6 +94,17 @@ TEST_CASE("Pictures without temperatures") {
   CHECK(fault_of(encode_tiff(Plane<std::uint16_t>(8, 8, 30000),
                              {.gdal_metadata = "<Item role=\"scale\">x</Item>"}))
             .find("scale of its counts = unknown") != std::string::npos);
+}
+
+TEST_CASE("A file that claims more pixels than it can hold takes no memory for them") {
+  const TemporaryFolder folder;
+  const Path file = folder.file("a.tif", with_large_claim(encode_tiff(Plane<float>(8, 8, 300.0F), {})));
+  const std::string words =
+      fmt::format("{}: size = 15000 x 15000 px; expected what a file of {} bytes can hold", file.string(),
+                  std::filesystem::file_size(file));
+  CHECK(message_of<DataError>([&] { (void)read_kelvin_picture(file, {}); }) == words);
+  CHECK(message_of<DataError>([&] { (void)read_grey_picture(file); }) == words);
+  CHECK(message_of<DataError>([&] { (void)as_jpeg(file, 16); }) == words);
 }
 
 }  // namespace kelvin_picture_test

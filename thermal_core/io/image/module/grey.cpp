@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "io/image/module/claimed_size.h"
 #include "io/image/module/functions.h"
-#include "io/system/read_limits.h"
 
 namespace thermal::pictures {
 namespace {
@@ -18,11 +18,7 @@ namespace {
   throw DataError(fmt::format("{}; expected {}", what, rule));
 }
 
-void check(const OIIO::ImageSpec& spec) {
-  const auto pixels = static_cast<std::int64_t>(spec.image_pixels());
-  if (pixels < 1 || pixels > ReadLimits().pixels || spec.depth > 1)
-    refuse(fmt::format("size = {} x {} x {} px", spec.width, spec.height, spec.depth),
-           fmt::format("1 to {} pixels", ReadLimits().pixels));
+void check_depth(const OIIO::ImageSpec& spec) {
   const auto type = static_cast<OIIO::TypeDesc::BASETYPE>(spec.format.basetype);
   if (type != OIIO::TypeDesc::UINT8 && type != OIIO::TypeDesc::UINT16)
     refuse(fmt::format("pixels = {}", spec.format.c_str()), "grey of 8 or 16 bits");
@@ -49,7 +45,8 @@ GreyPicture read_grey(const Path& file) {
   const auto in = OIIO::ImageInput::open(file.string());
   if (!in) throw DataError(fmt::format("damaged: {}", OIIO::geterror()));
   const OIIO::ImageSpec spec = in->spec();
-  check(spec);
+  check_claimed_size(spec, file);
+  check_depth(spec);
   const int channels = spec.nchannels < 3 ? 1 : 3;
   const std::vector<std::uint16_t> samples = stored(*in, channels);
   const int bits = spec.format == OIIO::TypeDesc::UINT8 ? 8 : 16;

@@ -11,8 +11,8 @@
 #include <tiffio.h>
 
 #include "base/error.h"
+#include "io/image/module/claimed_size.h"
 #include "io/image/module/functions.h"
-#include "io/system/read_limits.h"
 
 namespace thermal::pictures {
 namespace {
@@ -57,10 +57,7 @@ StoredTemperatures read_temperatures(const Path& file) {
   const auto in = OIIO::ImageInput::open(file.string());
   if (!in) throw DataError(fmt::format("damaged: {}", OIIO::geterror()));
   const OIIO::ImageSpec spec = in->spec();
-  const auto pixels = static_cast<std::int64_t>(spec.image_pixels());
-  if (pixels < 1 || pixels > ReadLimits().pixels || spec.depth > 1)
-    throw DataError(fmt::format("size = {} x {} x {} px; expected 1 to {} pixels", spec.width, spec.height,
-                                spec.depth, ReadLimits().pixels));
+  check_claimed_size(spec, file);
   const bool counts = spec.format == OIIO::TypeDesc::UINT16;
   if ((!counts && spec.format != OIIO::TypeDesc::FLOAT) || spec.nchannels != 1)
     throw DataError(fmt::format("pixels = {} x {}; expected one channel of 32-bit floats or 16-bit counts",

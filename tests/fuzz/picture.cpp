@@ -1,0 +1,40 @@
+#include <algorithm>
+#include <cmath>
+
+#include "fuzz/targets.h"
+#include "io/image/grey_picture.h"
+#include "io/image/jpeg.h"
+#include "io/image/kelvin_picture.h"
+
+namespace {
+
+/// The readers go by the extension: one that fits how the bytes begin.
+std::string name_for(Bytes bytes) {
+  const std::string_view text = text_of(bytes);
+  if (text.starts_with("\x89PNG")) return "picture.png";
+  return text.starts_with("II") || text.starts_with("MM") ? "picture.tif" : "picture.jpg";
+}
+
+void demand_grey(const thermal::GreyPicture& picture) {
+  demand(!picture.levels.empty(), "a picture without pixels");
+  demand(picture.bits == 8 || picture.bits == 16, "levels of 8 or 16 bits");
+  if (picture.bits == 8)
+    demand(std::ranges::all_of(picture.levels.pixels(), [](int level) { return level <= 255; }),
+           "levels that fit their bits");
+}
+
+void demand_finite(const thermal::Plane<float>& kelvin) {
+  demand(!kelvin.empty(), "a picture without pixels");
+  demand(std::ranges::all_of(kelvin.pixels(), [](float value) { return std::isfinite(value); }),
+         "finite temperatures");
+}
+
+}  // namespace
+
+void fuzz::picture(Bytes bytes) {
+  const auto file = as_file(bytes, name_for(bytes));
+  tolerate([&] { demand_grey(thermal::read_grey_picture(file)); });
+  tolerate([&] { demand_finite(thermal::read_kelvin_picture(file, {})); });
+  tolerate([&] { demand_finite(thermal::read_kelvin_picture(file, 0.01)); });
+  tolerate([&] { demand(!thermal::as_jpeg(file, 16).empty(), "a JPEG of what was read"); });
+}

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+
+#include "io/system/files.h"
+
+namespace thermal::pictures {
+
+/// DataError, without the file's name, for a picture of more pixels than ReadLimits has, or than a file of this length can
+/// hold; for volumes too. Before memory is taken for its pixels.
+void check_claimed_size(const OIIO::ImageSpec& spec, const Path& file);
+
+}  // namespace thermal::pictures
