@@ -6,6 +6,7 @@
 #include "dataset/exports/export_options.h"
 #include "dataset/exports/plan.h"
 #include "dataset/run/progress.h"
+#include "io/image/tiff.h"
 
 namespace thermal {
 
