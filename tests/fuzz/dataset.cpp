@@ -45,8 +45,8 @@ class Place {
 
   /// Removes what the last input made.
   void clear() const {
-    for (const char* name : {"set", "coco", "yolo", "mot", "merged", "page.html"})
-      std::filesystem::remove_all(folder_ / name);
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+      if (entry.path().filename() != "secret") std::filesystem::remove_all(entry.path());
   }
   [[nodiscard]] Path at(const std::string& name) const { return folder_ / name; }
   [[nodiscard]] bool is_untouched() const {
