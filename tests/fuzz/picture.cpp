@@ -5,6 +5,7 @@
 #include "io/image/grey_picture.h"
 #include "io/image/jpeg.h"
 #include "io/image/kelvin_picture.h"
+#include "io/image/picture_module.h"
 
 namespace {
 
@@ -32,6 +33,7 @@ void demand_finite(const thermal::Plane<float>& kelvin) {
 }  // namespace
 
 void fuzz::picture(Bytes bytes) {
+  (void)thermal::picture_module();  // where it cannot be loaded, nothing would be tested
   const auto file = as_file(bytes, name_for(bytes));
   tolerate([&] { demand_grey(thermal::read_grey_picture(file)); });
   tolerate([&] { demand_finite(thermal::read_kelvin_picture(file, {})); });
