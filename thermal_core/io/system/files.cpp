@@ -309,13 +309,13 @@ void put_folder(const Path& whole, const Path& place, const Path& last) {
     if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(whole));
   std::ranges::sort(files);
   std::erase(files, last);
-  files.push_back(last);
   make_fresh_folder(place);
   try {
     for (const Path& file : files) {
       make_folder((place / file).parent_path());
       copy_content(whole / file, place / file);
     }
+    write_file_atomically(place / last, read_file(whole / last));
   } catch (...) {
     (void)sweep_folder(place);
     throw;

@@ -114,7 +114,8 @@ void make_own_folder(const Path& folder);
 void replace_folder(const Path& whole, const Path& place);
 
 /// Copies the files of a complete folder to `place` one by one, `last` last, then removes the folder, as far as possible.
-/// What was in `place` is removed first. For places that cannot rename: a reader takes the folder for complete when it has `last`.
+/// What was in `place` is removed first. For places that cannot rename folders: a reader takes the folder for complete when
+/// it has `last`, which appears there with its whole content.
 /// IoError with the file and the system's reason; TryAgainError if the disk is full.
 void put_folder(const Path& whole, const Path& place, const Path& last);
 

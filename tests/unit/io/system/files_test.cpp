@@ -285,6 +285,29 @@ TEST_CASE("A folder is put elsewhere as a whole, and what was there is gone") {
   CHECK(entries_of(folder.path()) == 1);
 }
 
+TEST_CASE("The last file of a folder that is put elsewhere is there with its whole content, or not at all") {
+  const TemporaryFolder folder;
+  const std::string record(std::size_t{8} << 20U, 'x');
+  const Path place = folder / "place/clip.json";
+  std::atomic<bool> done = false;
+  std::atomic<int> whole = 0;
+  std::atomic<int> partial = 0;
+  std::thread reader([&] {
+    std::error_code error;
+    while (!done || whole == 0)
+      if (const auto bytes = std::filesystem::file_size(place, error); !error)
+        ++(bytes == record.size() ? whole : partial);
+  });
+  for (int k = 0; k < 4; ++k) {
+    make_folder(folder / "whole");
+    write_file(folder / "whole/clip.json", std::as_bytes(std::span(record)));
+    put_folder(folder / "whole", folder / "place", "clip.json");
+  }
+  done = true;
+  reader.join();
+  CHECK(partial == 0);
+}
+
 TEST_CASE("Of a folder that cannot be put elsewhere, nothing is left there, and nothing is lost") {
   const TemporaryFolder folder;
   make_folder(folder / "whole/ir8");
