@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include <fmt/format.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include "base/error.h"
@@ -17,6 +16,7 @@
 #include "dataset/clip/output.h"
 #include "dataset/clip/pass_source.h"
 #include "dataset/clip/scenes.h"
+#include "io/system/naming.h"
 
 namespace thermal {
 namespace {
@@ -139,11 +139,7 @@ class ClipMaker {
     }
     const Path file = file_of(passes_, work.number);
     reader_.read(file, needs_, buffer);
-    try {
-      scenes_.convert(buffer.passes, work.number, work.scenes);
-    } catch (const DataError& error) {
-      throw DataError(fmt::format("{}: {}", file.string(), error.what()));
-    }
+    naming(file, [&] { scenes_.convert(buffer.passes, work.number, work.scenes); });
   }
 
   /// Frames arrive here one by one; with several outputs, these are what can be shared between cores. Faults are

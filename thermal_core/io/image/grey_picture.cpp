@@ -5,12 +5,11 @@
 #include <cstdlib>
 #include <string>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "base/text.h"
 #include "io/image/index_picture.h"
 #include "io/image/picture_module.h"
+#include "io/system/naming.h"
 
 namespace thermal {
 namespace {
@@ -50,11 +49,9 @@ bool is_grey_picture(const Path& file) {
 
 GreyPicture read_grey_picture(const Path& file) {
   check_is_file(file);
-  try {
+  return naming(file, [&file] {
     return extension_of(file) == ".png" ? read_png(file) : picture_module().read_grey(file);
-  } catch (const DataError& error) {
-    throw DataError(fmt::format("{}: {}", file.string(), error.what()));
-  }
+  });
 }
 
 }  // namespace thermal

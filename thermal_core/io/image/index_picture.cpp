@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/system/naming.h"
 #include "scene/camera_geometry.h"
 
 namespace thermal {
@@ -94,16 +95,6 @@ Colour colour_of(std::uint32_t number) noexcept {
 
 std::string in_words(const Colour& colour) {
   return fmt::format("#{:06x} ({}, {}, {})", number_of(colour), colour[0], colour[1], colour[2]);
-}
-
-/// Adds the file's name to errors thrown inside.
-template <typename Work>
-auto naming(const Path& file, const Work& work) {
-  try {
-    return work();
-  } catch (const DataError& error) {
-    throw DataError(fmt::format("{}: {}", file.string(), error.what()));
-  }
 }
 
 void check_needs(const PassNeeds& needs) {

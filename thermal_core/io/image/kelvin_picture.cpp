@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "io/image/picture_module.h"
 #include "io/image/png.h"
+#include "io/system/naming.h"
 
 namespace thermal {
 namespace {
@@ -23,11 +24,7 @@ StoredTemperatures stored_png(const Path& file) {
 
 StoredTemperatures stored_tiff(const Path& file) {
   check_is_file(file);
-  try {
-    return picture_module().read_temperatures(file);
-  } catch (const DataError& error) {
-    throw DataError(fmt::format("{}: {}", file.string(), error.what()));
-  }
+  return naming(file, [&file] { return picture_module().read_temperatures(file); });
 }
 
 void check_kelvin(const Path& file, const Plane<float>& kelvin) {

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "io/image/jpeg.h"
+#include "io/system/naming.h"
 
 namespace thermal {
 namespace {
@@ -27,7 +28,9 @@ const PictureModule& picture_module() {
   return module;
 }
 
-std::string as_jpeg(const Path& picture, int most_px) { return picture_module().as_jpeg(picture, most_px); }
+std::string as_jpeg(const Path& picture, int most_px) {
+  return naming(picture, [&] { return picture_module().as_jpeg(picture, most_px); });
+}
 
 PictureSize read_picture_size(const Path& file) { return picture_module().read_picture_size(file); }
 

@@ -15,6 +15,7 @@ namespace thermal {
 /// What OpenImageIO, libtiff and OpenCV's imgcodecs do for Veldt. They bring 230 libraries that take .3 s to load, so they are in
 /// a module (io/pictures/), and programs load it when they need it. These functions throw as their callers say.
 struct PictureModule {
+  /// As as_jpeg() in io/image/jpeg.h, with faults of the file without its name.
   std::string (*as_jpeg)(const Path& picture, int most_px);
   PictureSize (*read_picture_size)(const Path& file);
   TextPicture (*draw_text)(const Path& font, const std::string& ascii, int size_px);

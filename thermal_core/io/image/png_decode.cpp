@@ -7,6 +7,7 @@
 #include "io/image/png.h"
 #include "io/image/png_file.h"
 #include "io/pass_reader.h"
+#include "io/system/naming.h"
 
 namespace thermal {
 namespace {
@@ -32,12 +33,10 @@ Plane<T> read(PngFile& file) {
 
 template <typename T>
 Plane<T> read_named(const Path& path) {
-  try {
+  return naming(path, [&path] {
     PngFile file(path);
     return read<T>(file);
-  } catch (const DataError& error) {
-    throw DataError(fmt::format("{}: {}", path.string(), error.what()));
-  }
+  });
 }
 
 }  // namespace

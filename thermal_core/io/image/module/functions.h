@@ -4,7 +4,7 @@
 
 namespace thermal::pictures {
 
-/// As as_jpeg() in io/image/jpeg.h.
+/// As as_jpeg() in io/image/jpeg.h, with faults of the file without its name.
 [[nodiscard]] std::string as_jpeg(const Path& picture, int most_px);
 
 /// As draw_text() in io/image/text_picture.h, of printable ASCII that is not all spaces, with a font that exists.

@@ -40,24 +40,16 @@ OIIO::ImageBuf stretched(const OIIO::ImageBuf& picture) {
   return grey;
 }
 
-void check_size_of(const Path& file, const OIIO::ImageSpec& spec) {
-  try {
-    check_claimed_size(spec, file);
-  } catch (const DataError& error) {
-    throw DataError(fmt::format("{}: {}", file.string(), error.what()));
-  }
-}
-
 /// 8 bits, grey or red, green and blue.
 OIIO::ImageBuf read_picture(const Path& file) {
   if (!std::filesystem::exists(file))
     throw IoError(fmt::format("cannot read {}: no such file", file.string()));
   OIIO::ImageBuf picture(file.string());
   const bool known = picture.init_spec(file.string(), 0, 0);
-  if (known) check_size_of(file, picture.spec());
+  if (known) check_claimed_size(picture.spec(), file);
   const bool deep = known && picture.nchannels() == 1 && picture.spec().format.basesize() > 1;
   if (!picture.read(0, 0, true, deep ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8))
-    throw DataError(fmt::format("{}: damaged: {}", file.string(), picture.geterror()));
+    throw DataError(fmt::format("damaged: {}", picture.geterror()));
   if (deep) return stretched(picture);
   const int channels = picture.nchannels() < 3 ? 1 : 3;
   return picture.nchannels() == channels ? picture : OIIO::ImageBufAlgo::channels(picture, channels, {});

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "base/error.h"
+#include "io/system/files.h"
+
+namespace thermal {
+
+/// The result of `work`; the file's name is put before what a DataError says.
+template <typename Work>
+auto naming(const Path& file, const Work& work) {
+  try {
+    return work();
+  } catch (const DataError& error) {
+    throw DataError(file.string() + ": " + error.what());
+  }
+}
+
+}  // namespace thermal
