@@ -55,6 +55,14 @@ TEST_CASE("Grey levels of 8 bits are shown as they are") {
   check_is_ramp(shown_png(folder, ramp<std::uint8_t>(40, 200)), 40, 200);
 }
 
+TEST_CASE("A picture in the place of another is shown in its own size") {
+  const TemporaryFolder folder;
+  (void)shown_tiff(folder, Plane<float>(8, 6, 300.0F));
+  const Plane<std::uint16_t> levels = shown_tiff(folder, ramp(281.0F, 294.0F));
+  CHECK(levels.width_px() == 128);
+  CHECK(levels.height_px() == 32);
+}
+
 TEST_CASE("Temperatures and counts fill the scale, whatever part of theirs they take") {
   const TemporaryFolder folder;
   check_is_ramp(shown_tiff(folder, ramp<float>(281, 294)), 0, 255);

@@ -38,16 +38,35 @@ Plane<float> kelvin_of(const Plane<std::uint16_t>& counts) {
   return kelvin;
 }
 
-/// A little-endian TIFF that says it is 15,000 px wide and high.
+/// The place of the value of a tag below 512, of one number, in a little-endian TIFF.
+std::size_t value_of_tag(const std::string& tiff, char low_byte) {
+  const std::string name = {low_byte, '\1'};
+  std::size_t at = 0;
+  do at = tiff.find(name, at + 1);
+  while (at != std::string::npos && tiff.substr(at + 4, 4) != std::string("\1\0\0\0", 4));
+  REQUIRE(at != std::string::npos);
+  return at + 8;
+}
+
+constexpr char kWidth = '\0';      // 256
+constexpr char kHeight = '\1';     // 257
+constexpr char kSamples = '\x15';  // 277
+
+/// A TIFF that says it is 15,000 px wide and high.
 std::string with_large_claim(std::string tiff) {
-  for (const char tag : {'\0', '\1'}) {  // 256 is the width, 257 the height
-    const std::string name = {tag, '\1'};
-    std::size_t at = 0;
-    do at = tiff.find(name, at + 1);
-    while (at != std::string::npos && tiff.substr(at + 4, 4) != std::string("\1\0\0\0", 4));
-    REQUIRE(at != std::string::npos);
-    tiff.replace(at + 8, 2, "\x98\x3a");
-  }
+  for (const char tag : {kWidth, kHeight}) tiff.replace(value_of_tag(tiff, tag), 2, "\x98\x3a");
+  return tiff;
+}
+
+/// A TIFF that says it is 200 px wide and high, with 1,000 channels.
+std::string with_deep_claim(std::string tiff) {
+  for (const char tag : {kWidth, kHeight}) tiff.replace(value_of_tag(tiff, tag), 2, {'\xc8', '\0'});
+  return tiff.replace(value_of_tag(tiff, kSamples), 2, "\xe8\x03");
+}
+
+/// A TIFF that says its rows are 2 px longer than they are.
+std::string with_long_rows(std::string tiff) {
+  tiff[value_of_tag(tiff, kWidth)] += 2;
   return tiff;
 }
 
@@ -96,15 +115,36 @@ TEST_CASE("Pictures without temperatures") {
             .find("scale of its counts = unknown") != std::string::npos);
 }
 
-TEST_CASE("A file that claims more pixels than it can hold takes no memory for them") {
+TEST_CASE("A file that claims more than it can hold takes no memory for it") {
   const TemporaryFolder folder;
-  const Path file = folder.file("a.tif", with_large_claim(encode_tiff(Plane<float>(8, 8, 300.0F), {})));
-  const std::string words =
-      fmt::format("{}: size = 15000 x 15000 px; expected what a file of {} bytes can hold", file.string(),
-                  std::filesystem::file_size(file));
+  const std::string tiff = encode_tiff(Plane<float>(8, 8, 300.0F), {});
+  const auto [name, content, claim] = GENERATE_REF(table<const char*, std::string, const char*>(
+      {{"wide.tif", with_large_claim(tiff), "15000 x 15000 px of 4 bytes each"},
+       {"deep.tif", with_deep_claim(tiff), "200 x 200 px of 4000 bytes each"}}));
+  const Path file = folder.file(name, content);
+  const std::string words = fmt::format("{}: size = {}; expected what a file of {} bytes can hold",
+                                        file.string(), claim, std::filesystem::file_size(file));
   CHECK(message_of<DataError>([&] { (void)read_kelvin_picture(file, {}); }) == words);
   CHECK(message_of<DataError>([&] { (void)read_grey_picture(file); }) == words);
   CHECK(message_of<DataError>([&] { (void)as_jpeg(file, 16); }) == words);
+}
+
+TEST_CASE("A TIFF whose pixels end early is damaged, however it is read") {
+  const TemporaryFolder folder;
+  const auto [name, content] = GENERATE(table<const char*, std::string>(
+      {{"floats.tif", with_long_rows(encode_tiff(Plane<float>(8, 8, 300.0F), {}))},
+       {"counts.tif", with_long_rows(encode_tiff(Plane<std::uint16_t>(8, 8, 7500), {}))}}));
+  const Path file = folder.file(name, content);
+  const std::string words = file.string() + ": damaged: ";
+  CHECK_THAT(message_of<DataError>([&] { (void)read_kelvin_picture(file, 0.04); }), StartsWith(words));
+  CHECK_THAT(message_of<DataError>([&] { (void)as_jpeg(file, 16); }), StartsWith(words));
+}
+
+TEST_CASE("Counts that end early are no grey picture") {
+  const TemporaryFolder folder;
+  const Path file = folder.file("a.tif", with_long_rows(encode_tiff(Plane<std::uint16_t>(8, 8, 7500), {})));
+  CHECK_THAT(message_of<DataError>([&] { (void)read_grey_picture(file); }),
+             StartsWith(file.string() + ": damaged: "));
 }
 
 }  // namespace kelvin_picture_test

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "io/image/module/claimed_size.h"
 #include "io/image/module/functions.h"
+#include "io/image/module/picture_input.h"
 
 namespace thermal::pictures {
 namespace {
@@ -31,24 +31,16 @@ std::uint16_t grey_of(const std::uint16_t* pixel, int channels, int tint) {
   return pixel[0];
 }
 
-std::vector<std::uint16_t> stored(OIIO::ImageInput& in, int channels) {
-  std::vector<std::uint16_t> samples(static_cast<std::size_t>(in.spec().image_pixels()) *
-                                     static_cast<std::size_t>(channels));
-  if (!in.read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT16, samples.data()))
-    throw DataError(fmt::format("damaged: {}", in.geterror()));
-  return samples;
-}
-
 }  // namespace
 
 GreyPicture read_grey(const Path& file) {
-  const auto in = OIIO::ImageInput::open(file.string());
-  if (!in) throw DataError(fmt::format("damaged: {}", OIIO::geterror()));
+  const auto in = open_picture(file);
   const OIIO::ImageSpec spec = in->spec();
-  check_claimed_size(spec, file);
   check_depth(spec);
   const int channels = spec.nchannels < 3 ? 1 : 3;
-  const std::vector<std::uint16_t> samples = stored(*in, channels);
+  std::vector<std::uint16_t> samples(static_cast<std::size_t>(spec.image_pixels()) *
+                                     static_cast<std::size_t>(channels));
+  read_channels(*in, file, channels, OIIO::TypeDesc::UINT16, samples.data());
   const int bits = spec.format == OIIO::TypeDesc::UINT8 ? 8 : 16;
   const int scale = bits == 8 ? 257 : 1;  // OpenImageIO takes 255 of 8 bits for 65535 of 16
   GreyPicture picture = {.levels = Plane<std::uint16_t>(spec.width, spec.height), .bits = bits};

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "io/image/module/claimed_size.h"
 #include "io/image/module/functions.h"
+#include "io/image/module/picture_input.h"
 
 namespace thermal::pictures {
 namespace {
@@ -44,15 +44,15 @@ OIIO::ImageBuf stretched(const OIIO::ImageBuf& picture) {
 OIIO::ImageBuf read_picture(const Path& file) {
   if (!std::filesystem::exists(file))
     throw IoError(fmt::format("cannot read {}: no such file", file.string()));
-  OIIO::ImageBuf picture(file.string());
-  const bool known = picture.init_spec(file.string(), 0, 0);
-  if (known) check_claimed_size(picture.spec(), file);
-  const bool deep = known && picture.nchannels() == 1 && picture.spec().format.basesize() > 1;
-  if (!picture.read(0, 0, true, deep ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8))
-    throw DataError(fmt::format("damaged: {}", picture.geterror()));
-  if (deep) return stretched(picture);
-  const int channels = picture.nchannels() < 3 ? 1 : 3;
-  return picture.nchannels() == channels ? picture : OIIO::ImageBufAlgo::channels(picture, channels, {});
+  // No ImageBuf of the file: that takes the size from a cache, which may be older than the file, and writes beyond it.
+  const auto in = open_picture(file);
+  const OIIO::ImageSpec spec = in->spec();
+  const bool deep = spec.nchannels == 1 && spec.format.basesize() > 1;
+  const OIIO::TypeDesc type = deep ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
+  const int channels = spec.nchannels < 3 ? 1 : 3;
+  OIIO::ImageBuf picture(OIIO::ImageSpec(spec.width, spec.height, channels, type));
+  read_channels(*in, file, channels, type, picture.localpixels());
+  return deep ? stretched(picture) : picture;
 }
 
 OIIO::ImageBuf at_most(OIIO::ImageBuf picture, int most_px) {

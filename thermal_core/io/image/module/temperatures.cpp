@@ -1,33 +1,26 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
-#include <tiffio.h>
 
 #include "base/error.h"
-#include "io/image/module/claimed_size.h"
 #include "io/image/module/functions.h"
+#include "io/image/module/picture_input.h"
+#include "io/image/module/tiff_library.h"
 
 namespace thermal::pictures {
 namespace {
 
-int say_nothing_of(TIFF*, void*, const char*, const char*, va_list) { return 1; }
-
 /// GDAL's metadata of a TIFF, which OpenImageIO does not read; empty without.
 std::string gdal_metadata(const Path& file) {
   constexpr std::uint32_t kTag = 42112;
-  const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(TIFFOpenOptionsAlloc(),
-                                                                                 &TIFFOpenOptionsFree);
-  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), say_nothing_of, nullptr);
-  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), say_nothing_of, nullptr);
-  const std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff(TIFFOpenExt(file.c_str(), "r", options.get()),
-                                                         &TIFFClose);
+  std::string reason;
+  const Tiff tiff = open_tiff(file, reason);
   const TIFFField* field = tiff ? TIFFFindField(tiff.get(), kTag, TIFF_ANY) : nullptr;
   if (field == nullptr) return {};
   const char* text = nullptr;
@@ -54,17 +47,14 @@ std::optional<double> item(std::string_view xml, std::string_view role) {
 }  // namespace
 
 StoredTemperatures read_temperatures(const Path& file) {
-  const auto in = OIIO::ImageInput::open(file.string());
-  if (!in) throw DataError(fmt::format("damaged: {}", OIIO::geterror()));
+  const auto in = open_picture(file);
   const OIIO::ImageSpec spec = in->spec();
-  check_claimed_size(spec, file);
   const bool counts = spec.format == OIIO::TypeDesc::UINT16;
   if ((!counts && spec.format != OIIO::TypeDesc::FLOAT) || spec.nchannels != 1)
     throw DataError(fmt::format("pixels = {} x {}; expected one channel of 32-bit floats or 16-bit counts",
                                 spec.nchannels, spec.format.c_str()));
   StoredTemperatures stored = {.values = Plane<float>(spec.width, spec.height), .counts = counts};
-  if (!in->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, stored.values.pixels().data()))
-    throw DataError(fmt::format("damaged: {}", in->geterror()));
+  read_channels(*in, file, 1, OIIO::TypeDesc::FLOAT, stored.values.pixels().data());
   if (counts)  // OpenImageIO takes 65535 for 1; the product is within 0.01 of a whole number
     for (float& value : stored.values.pixels()) value = std::round(value * 65535.0F);
   const std::string metadata = gdal_metadata(file);

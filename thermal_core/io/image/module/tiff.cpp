@@ -2,13 +2,12 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <memory>
 
 #include <fmt/format.h>
-#include <tiffio.h>
 
 #include "base/error.h"
 #include "io/image/module/functions.h"
+#include "io/image/module/tiff_library.h"
 
 // libtiff and not OpenImageIO: OpenImageIO 2.4 writes no GPS directory, no XMP but what it knows, and the time of writing.
 
@@ -52,22 +51,10 @@ toff_t seek(thandle_t handle, toff_t offset, int whence) {
 int close_nothing(thandle_t) { return 0; }
 toff_t size_of_file(thandle_t handle) { return memory_of(handle).bytes.size(); }
 
-int keep_reason(TIFF*, void* memory, const char*, const char* format, va_list arguments) {
-  std::array<char, 256> text{};
-  (void)std::vsnprintf(text.data(), text.size(), format, arguments);
-  memory_of(memory).reason = text.data();
-  return 1;
-}
-
-int say_nothing(TIFF*, void*, const char*, const char*, va_list) { return 1; }
-
 class TiffWriter {
  public:
   TiffWriter() {
-    const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(TIFFOpenOptionsAlloc(),
-                                                                                   &TIFFOpenOptionsFree);
-    TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_reason, &memory_);
-    TIFFOpenOptionsSetWarningHandlerExtR(options.get(), say_nothing, nullptr);
+    const TiffOptions options = quiet_options(memory_.reason);
     // Little endian on every machine.
     tiff_.reset(TIFFClientOpenExt("a TIFF in memory", "wl", &memory_, read_bytes, write_bytes, seek,
                                   close_nothing, size_of_file, nullptr, nullptr, options.get()));
@@ -106,7 +93,7 @@ class TiffWriter {
 
  private:
   TiffMemory memory_;
-  std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff_{nullptr, &TIFFClose};
+  Tiff tiff_{nullptr, &TIFFClose};
 };
 
 bool has_exif(const TiffTags& tags) {
