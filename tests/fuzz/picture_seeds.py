@@ -15,6 +15,7 @@ from png_seeds import GREY, png
 WIDTH, HEIGHT, BITS, COMPRESSION, PHOTOMETRIC, STRIP = 256, 257, 258, 259, 262, 273
 SAMPLES, ROWS, STRIP_BYTES, FORMAT, GDAL_METADATA = 277, 278, 279, 339, 42112
 SHORT, LONG, ASCII = 3, 4, 2
+HEAD_BYTES = 8
 PLAIN, DEFLATE = 1, 8
 COUNTS = '<GDALMetadata><Item name="SCALE" sample="0" role="scale">0.04</Item></GDALMetadata>'
 
@@ -34,18 +35,18 @@ def tiff(pixels: np.ndarray, compression: int = PLAIN, metadata: str = "") -> by
     tags = [
         (WIDTH, LONG, 1, pixels.shape[1]),
         (HEIGHT, LONG, 1, pixels.shape[0]),
-        (BITS, SHORT, samples, 8 * pixels.itemsize if samples == 1 else 8),
+        (BITS, SHORT, samples, 8 * pixels.itemsize if samples == 1 else HEAD_BYTES),
         (COMPRESSION, SHORT, 1, compression),
         (PHOTOMETRIC, SHORT, 1, 2 if samples == 3 else 1),
-        (STRIP, LONG, 1, 8 + len(bits) + len(text)),
+        (STRIP, LONG, 1, HEAD_BYTES + len(bits) + len(text)),
         (SAMPLES, SHORT, 1, samples),
         (ROWS, LONG, 1, pixels.shape[0]),
         (STRIP_BYTES, LONG, 1, len(data)),
         (FORMAT, SHORT, 1, 3 if pixels.dtype.kind == "f" else 1),
-        *([(GDAL_METADATA, ASCII, len(text), 8 + len(bits))] if metadata else []),
+        *([(GDAL_METADATA, ASCII, len(text), HEAD_BYTES + len(bits))] if metadata else []),
     ]
     directory = struct.pack("<H", len(tags)) + b"".join(struct.pack("<HHII", *tag) for tag in tags)
-    head = struct.pack("<2sHI", b"II", 42, 8 + len(bits) + len(text) + len(data))
+    head = struct.pack("<2sHI", b"II", 42, HEAD_BYTES + len(bits) + len(text) + len(data))
     return head + bits + text + data + directory + bytes(4)
 
 
