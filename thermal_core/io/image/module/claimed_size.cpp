@@ -10,7 +10,6 @@
 #include "io/system/read_limits.h"
 
 namespace thermal::pictures {
-
 namespace {
 
 /// Zstandard, which packs best, makes 128 kB of 4 bytes.
