@@ -48,9 +48,10 @@ std::size_t value_of_tag(const std::string& tiff, char low_byte) {
   return at + 8;
 }
 
-constexpr char kWidth = '\0';      // 256
-constexpr char kHeight = '\1';     // 257
-constexpr char kSamples = '\x15';  // 277
+constexpr char kWidth = '\0';           // 256
+constexpr char kHeight = '\1';          // 257
+constexpr char kSamples = '\x15';       // 277
+constexpr char kRowsPerStrip = '\x16';  // 278
 
 /// A TIFF that says it is 15,000 px wide and high.
 std::string with_large_claim(std::string tiff) {
@@ -62,6 +63,13 @@ std::string with_large_claim(std::string tiff) {
 std::string with_deep_claim(std::string tiff) {
   for (const char tag : {kWidth, kHeight}) tiff.replace(value_of_tag(tiff, tag), 2, {'\xc8', '\0'});
   return tiff.replace(value_of_tag(tiff, kSamples), 2, "\xe8\x03");
+}
+
+/// A TIFF that says a strip has 1,296,911,693 rows.
+std::string with_tall_claim(std::string tiff) {
+  const std::size_t value = value_of_tag(tiff, kRowsPerStrip);
+  tiff[value - 6] = '\4';  // of 32 bits
+  return tiff.replace(value, 4, "MMMM");
 }
 
 /// A TIFF that says its rows are 2 px longer than they are.
@@ -119,14 +127,23 @@ TEST_CASE("A file that claims more than it can hold takes no memory for it") {
   const TemporaryFolder folder;
   const std::string tiff = encode_tiff(Plane<float>(8, 8, 300.0F), {});
   const auto [name, content, claim] = GENERATE_REF(table<const char*, std::string, const char*>(
-      {{"wide.tif", with_large_claim(tiff), "15000 x 15000 px of 4 bytes each"},
-       {"deep.tif", with_deep_claim(tiff), "200 x 200 px of 4000 bytes each"}}));
+      {{"wide.tif", with_large_claim(tiff), "size = 15000 x 15000 px of 4 bytes each"},
+       {"deep.tif", with_deep_claim(tiff), "size = 200 x 200 px of 4000 bytes each"},
+       {"tall.tif", with_tall_claim(tiff), "strips = 8 x 1296911693 px of 4 bytes each"}}));
   const Path file = folder.file(name, content);
-  const std::string words = fmt::format("{}: size = {}; expected what a file of {} bytes can hold",
-                                        file.string(), claim, std::filesystem::file_size(file));
+  const std::string words = fmt::format("{}: {}; expected what a file of {} bytes can hold", file.string(),
+                                        claim, std::filesystem::file_size(file));
   CHECK(message_of<DataError>([&] { (void)read_kelvin_picture(file, {}); }) == words);
   CHECK(message_of<DataError>([&] { (void)read_grey_picture(file); }) == words);
   CHECK(message_of<DataError>([&] { (void)as_jpeg(file, 16); }) == words);
+}
+
+TEST_CASE("A strip may have fewer rows than it says, as many writers have it") {
+  const TemporaryFolder folder;
+  const Plane<float> kelvin(8, 8, 300.0F);
+  std::string tiff = encode_tiff(kelvin, {});
+  tiff.replace(value_of_tag(tiff, kRowsPerStrip), 2, "\xff\xff");
+  CHECK(read_kelvin_picture(folder.file("a.tif", tiff), {}) == kelvin);
 }
 
 TEST_CASE("A TIFF whose pixels end early is damaged, however it is read") {

@@ -15,27 +15,40 @@ namespace {
 /// Zstandard, which packs best, makes 128 kB of 4 bytes.
 constexpr std::uint64_t kMostPerByte = 1U << 15U;
 
-void check_fits(const char* what, int width_px, int height_px, const OIIO::ImageSpec& spec,
+struct Claim {
+  const char* what;
+  int width_px;
+  int height_px;
+};
+
+void check_fits(const Claim& claim, const OIIO::ImageSpec& spec, std::int64_t most_pixels,
                 std::uint64_t file_bytes) {
-  const std::uint64_t pixels = static_cast<std::uint64_t>(width_px) * static_cast<std::uint64_t>(height_px);
-  const std::uint64_t claimed_bytes = pixels * spec.pixel_bytes(true);
-  if (claimed_bytes / kMostPerByte <= file_bytes) return;
+  const std::int64_t pixels = std::int64_t{claim.width_px} * claim.height_px;
+  const bool countable =
+      claim.width_px >= 0 && claim.height_px >= 0;  // from 2^31 on, they come as negative ones
+  const std::uint64_t bytes = static_cast<std::uint64_t>(pixels) * spec.pixel_bytes(true);
+  if (countable && pixels <= most_pixels && bytes / kMostPerByte <= file_bytes) return;
   throw DataError(fmt::format("{} = {} x {} px of {} bytes each; expected what a file of {} bytes can hold",
-                              what, width_px, height_px, spec.pixel_bytes(true), file_bytes));
+                              claim.what, claim.width_px, claim.height_px, spec.pixel_bytes(true),
+                              file_bytes));
 }
 
 }  // namespace
 
 void check_claimed_size(const OIIO::ImageSpec& spec, const Path& file) {
+  const std::int64_t most_pixels = ReadLimits().pixels;
   const auto pixels = static_cast<std::int64_t>(spec.image_pixels());
-  if (pixels < 1 || pixels > ReadLimits().pixels || spec.depth > 1)
+  if (pixels < 1 || pixels > most_pixels || spec.depth > 1)
     throw DataError(fmt::format("size = {} x {} x {} px; expected 1 to {} pixels", spec.width, spec.height,
-                                spec.depth, ReadLimits().pixels));
+                                spec.depth, most_pixels));
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
   if (error) return;  // of no regular file
-  check_fits("size", spec.width, spec.height, spec, bytes);
-  check_fits("tiles", spec.tile_width, spec.tile_height, spec, bytes);
+  // OpenImageIO takes address space for all rows of a strip, which may be more than there are: 65,535 is usual.
+  const int strip_rows = spec.get_int_attribute("tiff:RowsPerStrip");
+  check_fits({"size", spec.width, spec.height}, spec, most_pixels, bytes);
+  check_fits({"tiles", spec.tile_width, spec.tile_height}, spec, most_pixels, bytes);
+  check_fits({"strips", spec.width, strip_rows}, spec, 4 * most_pixels, bytes);
 }
 
 }  // namespace thermal::pictures
