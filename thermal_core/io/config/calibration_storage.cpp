@@ -105,7 +105,9 @@ class Lines {
       return;
     }
     begun_ = true;
-    if (line.starts_with("- ")) return add_value(line.substr(2));
+    const bool is_entry = line.starts_with("- ");
+    take_indent(indent, is_entry);
+    if (is_entry) return add_value(line.substr(2));
     const auto end = std::ranges::find_if_not(line, is_name);
     const auto key_size = static_cast<std::size_t>(end - line.begin());
     const std::string_view rest = line.substr(key_size);
@@ -119,12 +121,25 @@ class Lines {
   }
 
  private:
+  /// Lines of a list or of keys stand below each other. Others, OpenCV 4.6 may read for ever.
+  void take_indent(std::size_t indent, bool is_entry) {
+    const std::size_t place = 2 * indent + (is_entry ? 1 : 0);  // a list may stand right below its key
+    if (open_.empty() && is_entry) fail("key: value");
+    const bool is_new = open_.empty() || place > open_.back();
+    if (is_new ? !value_may_follow_ : std::ranges::find(open_, place) == open_.end())
+      fail("as many spaces as a line above has");
+    while (!is_new && place < open_.back()) open_.pop_back();
+    if (is_new) open_.push_back(place);
+    value_may_follow_ = false;
+  }
+
   void add_value(std::string_view value) {
     value.remove_prefix(std::min(value.find_first_not_of(' '), value.size()));
     if (const std::size_t comment = value.find(" #");
         comment != std::string_view::npos && !value.starts_with('"'))
       value = value.substr(0, comment);
-    if (value.empty() || value == "!!opencv-matrix") return;
+    value_may_follow_ = value.empty() || value == "!!opencv-matrix";
+    if (value_may_follow_) return;
     if (value.starts_with('[')) return add_to_list(value);
     const char quote = value.front();
     if (quote == '"' || quote == '\'') {
@@ -161,6 +176,8 @@ class Lines {
   int number_ = 0;
   int depth_ = 0;  ///< of lists that have not ended
   bool begun_ = false;
+  std::vector<std::size_t> open_;  ///< places of the lists and keys that have not ended
+  bool value_may_follow_ = true;   ///< in lines further in
 };
 
 }  // namespace

@@ -186,8 +186,8 @@ TEST_CASE("A size that no file fills is not made room for") {
 }
 
 TEST_CASE("What OpenCV cannot read is refused in its words, without a word on the terminal") {
-  CHECK(fault_in("%YAML:1.0\n---\na: 1\n   b: 2\n") ==
-        "cal.yml: Incorrect indentation; expected OpenCV's YAML, XML or JSON, or ROS' camera_info");
+  CHECK(fault_in("%YAML:1.0\n---\na: [ 1, , 2 ]\n") ==
+        "cal.yml: Invalid character; expected OpenCV's YAML, XML or JSON, or ROS' camera_info");
   CHECK(fault_in("") == "cal.yml: no keys; expected some, such as camera_matrix");
 }
 
@@ -198,9 +198,16 @@ TEST_CASE("OpenCV is not given what it or ROS would not have written") {
   CHECK(fault_in("a: [[[[[1]]]]]\n") == "cal.yml:1: expected lists less deep");
   CHECK(fault_in("[ 1, 2 ]") == "cal.yml:1: expected key: value");
   CHECK(fault_in("a:\n   b: 1\n   : 2\n") == "cal.yml:3: expected key: value");
+  const std::string indent = "expected as many spaces as a line above has";
+  CHECK(fault_in("- 10\n i:\n- 0\n- 3\n") == "cal.yml:1: expected key: value");
+  CHECK(fault_in("a:\n- 10\n i:\n- 0\n") == "cal.yml:3: " + indent);
+  CHECK(fault_in("a:\n   b: 1\n c: 2\n") == "cal.yml:3: " + indent);
+  CHECK(fault_in("a: 1\n   b: 1\n") == "cal.yml:2: " + indent);
+  CHECK(fault_in("a:\n   b:\n      c: 1\n d: 1\n") == "cal.yml:4: " + indent);
   CHECK(fault_in("a: b: c\n") ==
         "cal.yml:1: expected a number, a word, a string in quotes, or a list in [ ]");
-  CHECK(fault_in("- - 1\n") == "cal.yml:1: expected a number, a word, a string in quotes, or a list in [ ]");
+  CHECK(fault_in("a:\n- - 1\n") ==
+        "cal.yml:2: expected a number, a word, a string in quotes, or a list in [ ]");
   CHECK(fault_in("a: \"b\n") == "cal.yml:1: expected a string in quotes, without others in it");
   CHECK(fault_in("a: 1\n%YAML:1.0\n") == "cal.yml:2: expected key: value");
   const std::string xml = "<?xml version=\"1.0\"?>\n";
