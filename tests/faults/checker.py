@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Collection, Iterable
 from pathlib import Path
@@ -15,11 +16,11 @@ Committed = dict[str, dict[str, tuple[int, int]]]
 
 
 def committed(work: Path) -> Committed:
-    """Inode and time of each file of the clips that are complete, by folder."""
+    """Inode and time of each file of the clips that are complete, by folder; the next run makes others again."""
     found: Committed = {}
     for record in sorted(work.glob("*/clips/*/clip.json")):
         clip = record.parent
-        if clip.name.endswith(".part"):
+        if clip.name.endswith(".part") or json.loads(record.read_text(encoding="utf-8")).get("skipped"):
             continue
         files = [file for file in clip.rglob("*") if file.is_file()]
         found[str(clip.relative_to(work))] = {

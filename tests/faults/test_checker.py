@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import signal
 import subprocess
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import night
+from checker import committed
 from datasets import flip_bit
 from processes import adopt_orphans
 from runs import Ended
@@ -97,6 +99,14 @@ def test_what_is_spoilt_is_a_loss(scenes, tmp_path, monkeypatch, name):
     done = _round(scenes, tmp_path, monkeypatch, _nothing(), spoil)
     assert not done.recovered and loss in done.losses
     assert (tmp_path / "rounds" / "0" / "disturbed").is_dir()
+
+
+def test_a_clip_that_lacks_frames_may_be_made_again(tmp_path):
+    for name, skipped in (("whole", []), ("lacking", [{"frame": 2, "reason": "cannot be read"}])):
+        record = tmp_path / "out" / "clips" / name / "clip.json"
+        record.parent.mkdir(parents=True)
+        record.write_text(json.dumps({"skipped": skipped}), encoding="utf-8")
+    assert list(committed(tmp_path)) == ["out/clips/whole"]
 
 
 ENDED = {

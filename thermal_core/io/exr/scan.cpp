@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <fstream>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -104,8 +106,9 @@ class ByteReader {
  private:
   void take(void* to, std::size_t count, const std::string& what) {
     check_left(static_cast<std::int64_t>(count), what);
+    errno = 0;
     in_.read(static_cast<char*>(to), static_cast<std::streamsize>(count));
-    if (!in_) throw DataError(what + " cannot be read");
+    if (!in_) throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), what);
     left_ -= static_cast<std::int64_t>(count);
   }
 
