@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import atexit
+import functools
 import json
 import os
+import select
 import subprocess
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -33,6 +37,51 @@ def check_fault(done: Ended, code: int, message: str) -> None:
     assert (done.code, done.out, done.err) == (code, "", f"veldt: {message}\n")
 
 
+class _CommandServer:
+    """A running command_server.cpp."""
+
+    def __init__(self, program: Path):
+        self._process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        atexit.register(self._end)
+
+    def run(self, words: list[str], environment: dict[str, str], folder: Path, timeout_s: float) -> Ended:
+        """Run a command line to the end."""
+        with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+            files = {
+                name: f"/proc/{os.getpid()}/fd/{file.fileno()}" for name, file in (("out", out), ("err", err))
+            }
+            order = {"arguments": words, "environment": environment, "folder": str(folder)} | files
+            self._process.stdin.write(json.dumps(order) + "\n")
+            self._process.stdin.flush()
+            if not select.select([self._process.stdout], [], [], timeout_s)[0]:
+                self._process.kill()
+                _server.cache_clear()
+                raise subprocess.TimeoutExpired(words, timeout_s)
+            return Ended(int(self._process.stdout.readline()), _text(out), _text(err))
+
+    def _end(self) -> None:
+        self._process.stdin.close()
+        self._process.wait()
+
+
+@functools.cache
+def _server(program: Path) -> _CommandServer | None:
+    """The one for this program, where it has been built with tests."""
+    server = program.parent / "command_server"
+    return _CommandServer(server) if server.exists() else None
+
+
+def _is_text(word: str) -> bool:
+    """Whether JSON can hold it: names of files may be any bytes."""
+    return not any("\ud800" <= letter <= "\udfff" for letter in word)
+
+
+def _text(file) -> str:
+    """All that was written to a file, as subprocess reads it."""
+    file.seek(0)
+    return file.read().decode().replace("\r\n", "\n").replace("\r", "\n")
+
+
 class Veldt:
     """The program, run in `folder`, so that its messages contain short paths."""
 
@@ -43,11 +92,18 @@ class Veldt:
     def __call__(
         self, *arguments, env: dict | None = None, under: Sequence[str] = (), timeout_s: float = 300
     ) -> Ended:
-        """Run to the end. `env` changes the environment; `under` is a command that runs the program."""
+        """Run to the end. `env` changes the environment; `under` is a command that runs the program.
+
+        Without either, a process that has loaded the program's libraries runs the command (command_server.cpp).
+        """
+        words, environment = list(map(str, arguments)), _environment(env)
+        server = _server(self.program)
+        if server and not under and not env and all(map(_is_text, [*words, *environment.values()])):
+            return server.run(words, environment, self.folder, timeout_s)
         done = subprocess.run(
-            [*under, self.program, *map(str, arguments)],
+            [*under, self.program, *words],
             cwd=self.folder,
-            env=_environment(env),
+            env=environment,
             capture_output=True,
             text=True,
             timeout=timeout_s,
