@@ -27,6 +27,7 @@ include_patterns = [
     "cli/docs/*.rst",
     "configs/*.ipynb",
     "configs/*.md",
+    "tests/README.md",
     "tests/THREATS.md",
     "tests/fuzz/found/ORIGIN.md",
     "thermal_core/*.md",

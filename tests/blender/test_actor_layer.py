@@ -9,6 +9,8 @@ from rendering import PLANES, Run, render
 from scenes import tiny
 from veldt import ids
 
+pytestmark = pytest.mark.blender
+
 LAYER = "Actors.IndexOB.X"
 CLIPS = ("down", "side")
 

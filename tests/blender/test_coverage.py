@@ -43,6 +43,7 @@ def _cells(points_m: np.ndarray) -> np.ndarray:
     return np.unique(row[inside] * (x1 - x0) + column[inside])
 
 
+@pytest.mark.blender
 @pytest.mark.parametrize(
     "look_angle_deg, aircraft, duration_s",
     [(90, "multirotor", 120), (45, "multirotor", 75), (90, "fixed_wing", 90), (60, "fixed_wing", 90)],

@@ -14,6 +14,8 @@ from pictures import read_planes
 from program import Veldt
 from rendering import BLENDER, PLANES
 
+pytestmark = pytest.mark.blender
+
 FRAMES = 3
 WIDTH_PX, HEIGHT_PX = 640, 512
 CLIPS = ("down", "side", "low")

@@ -15,6 +15,8 @@ from scenes import tiny
 from test_models import bush, okapi
 from veldt.config import ROOT
 
+pytestmark = pytest.mark.blender
+
 
 # A long box of material `hide` (2 x 0.5 x 1, facing -y, its middle off the origin), under a parent that is moved and
 # turned, mirrored by a modifier; on it a small one, scaled by -1, of material `horn`, at the end it faces.

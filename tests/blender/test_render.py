@@ -4,11 +4,14 @@ import shutil
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from rendering import PLANES, Run, render
 from scenes import tiny
 from veldt import ids
 from veldt.blender_images import is_whole_exr
+
+pytestmark = pytest.mark.blender
 
 CLIPS = ("down", "side")
 

@@ -13,6 +13,8 @@ from veldt.groups.actors import poses
 from veldt.config import ROOT
 from veldt.world import plan_world
 
+pytestmark = pytest.mark.blender
+
 FRAMES = (0, 70)  # the second beyond the frames that are posed at once
 
 # Positions of all vertices in some frames of a clip, by frame and object index, with bones in the order of objects.

@@ -14,6 +14,8 @@ from veldt.groups.actors import track
 from veldt.sightings import box_corners_m
 from veldt.world import plan_world
 
+pytestmark = pytest.mark.blender
+
 CLIPS = ("down", "side")
 
 

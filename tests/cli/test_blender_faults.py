@@ -9,6 +9,8 @@ from configs import tiny
 from fake_blender import generate
 from program import ROOT, check_fault
 
+pytestmark = pytest.mark.usefixtures("planned")
+
 LOG = "; log: out/passes/down.log"
 KILLED = "; unless someone killed it, the machine may have run out of memory" + LOG
 NUMPY = (
