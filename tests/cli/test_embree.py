@@ -140,6 +140,19 @@ def test_killed_it_goes_on_to_the_same_dataset(veldt, frames):
     assert content_of(veldt.folder / "out") == content_of(veldt.folder / "whole")
 
 
+def test_passes_of_another_config_are_not_removed(veldt, usual):
+    _make(veldt, "--set", "render.supersample=2", "--clips", CLIPS[0], command="render")
+    passes = {
+        file: (veldt.folder / "out" / file).stat().st_mtime_ns
+        for file in files_below(veldt.folder / "out")
+        if file.startswith("passes/")
+    }
+    for _ in range(2):
+        _make(veldt)
+        assert {file: (veldt.folder / "out" / file).stat().st_mtime_ns for file in passes} == passes
+    assert veldt.pixels("out") == usual.pixels("out")
+
+
 def test_a_dataset_keeps_its_engine(veldt, usual):
     _make(veldt)
     done = veldt(*_arguments("--set", "render.actor_layer=false"), env=_NO_BLENDER)

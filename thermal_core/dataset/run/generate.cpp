@@ -78,7 +78,7 @@ class Generator {
     }
     std::vector<LeftOver> passes;
     std::vector<LeftOver> left_over = transaction_.close([&] {
-      if (!options_.keep_passes) passes = end_passes(layout_, finished_of(chosen_));
+      if (!options_.keep_passes) passes = end_passes(layout_, config_, finished_of(chosen_));
     });
     left_over.insert(left_over.end(), passes.begin(), passes.end());
     return outcome_of(monitor.outcome(), std::move(left_over));
@@ -123,7 +123,8 @@ class Generator {
 
   void commit(const ClipConfig& clip, const ClipRecord& record, RunMonitor& monitor) {
     transaction_.commit(record);
-    if (!options_.keep_passes) (void)sweep_folder(layout_.passes(clip.id));  // or end_passes() says why not
+    if (!options_.keep_passes && config_.engine == Engine::blender)
+      (void)sweep_folder(layout_.passes(clip.id));  // or end_passes() says why not
     monitor.made(clip);
   }
 

@@ -18,6 +18,14 @@ bool has_clips(const Path& passes) {
   return error || std::ranges::any_of(entries, [](const auto& entry) { return entry.is_directory(); });
 }
 
+/// Whether the passes are of another config, as `veldt render` may have left them.
+bool holds_others(const Layout& layout, const Config& config) {
+  if (!std::filesystem::exists(layout.passes_config())) return false;
+  const Json there =
+      Json::parse(read_file(layout.passes_config()), nullptr, false);  // of a damaged file, too
+  return !differences(config.resolved, there).empty();
+}
+
 }  // namespace
 
 void begin_passes(const Layout& layout, const Config& config, const std::vector<std::string>& clips) {
@@ -38,9 +46,10 @@ void check_same_passes(const Layout& layout, const Config& config) {
                   layout.passes().string(), fmt::join(found, ", ")));
 }
 
-std::vector<LeftOver> end_passes(const Layout& layout, const std::vector<std::string>& clips) {
+std::vector<LeftOver> end_passes(const Layout& layout, const Config& config,
+                                 const std::vector<std::string>& clips) {
   std::vector<LeftOver> left_over;
-  if (!std::filesystem::is_directory(layout.passes())) return left_over;
+  if (!std::filesystem::is_directory(layout.passes()) || holds_others(layout, config)) return left_over;
   const auto sweep = [&left_over](const Path& folder) {
     if (auto left = sweep_folder(folder)) left_over.push_back(*std::move(left));
   };

@@ -17,8 +17,10 @@ void begin_passes(const Layout& layout, const Config& config, const std::vector<
 /// A folder for passes belongs to one config, like a dataset's. ConfigError with the keys that differ.
 void check_same_passes(const Layout& layout, const Config& config);
 
-/// Removes the passes of these clips, and with the last clip's everything beside them. Returns what could not be removed.
-std::vector<LeftOver> end_passes(const Layout& layout, const std::vector<std::string>& clips);
+/// Removes the passes of these clips, and with the last clip's everything beside them. Passes that veldt render made of
+/// another config stay. Returns what could not be removed.
+std::vector<LeftOver> end_passes(const Layout& layout, const Config& config,
+                                 const std::vector<std::string>& clips);
 
 /// The render jobs for these clips, one task each. They report restarts to the monitor.
 [[nodiscard]] std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,
