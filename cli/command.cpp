@@ -175,8 +175,9 @@ void add_engine(CLI::App* command, std::string& engine) {
   command
       ->add_option(
           "--engine", engine,
-          "What renders: blender, or embree, which is much faster (default: render.engine of the config)")
-      ->check(CLI::IsMember({"blender", "embree"}))
+          "What renders: embree, the ray caster; blender; or auto: embree wherever it can draw the config "
+          "(default: render.engine of the config, or auto)")
+      ->check(CLI::IsMember({"auto", "blender", "embree"}))
       ->type_name("NAME");
 }
 

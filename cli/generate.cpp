@@ -117,6 +117,7 @@ int run_generate(const GenerateArguments& options, const CommonOptions& common, 
   check_sources(options, work.command);
   const thermal::Assets assets = thermal::Assets::find();
   thermal::PlannedDataset dataset = read_sources(options, assets);
+  if (!common.quiet && !options.dry_run && !options.preview) print_engine(dataset.config);
   const thermal::GenerateOptions request = {
       .assets = assets,
       .out = options.out,
@@ -213,7 +214,7 @@ void add_generate(CLI::App& app, Session& session) {
            "the interruption. A finished dataset is left unchanged. A clip that cannot be made does not\n"
            "stop the others: the exit code is 3, dataset.json has the reason, and the next run tries it\n"
            "again.\n"
-           "Example: veldt generate configs/demo.json --out my_dataset --engine embree",
+           "Example: veldt generate configs/demo.json --out my_dataset",
        .plan = thermal::plan_to_generate,
        .run = thermal::generate});
 }

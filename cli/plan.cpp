@@ -51,7 +51,7 @@ void add_plan(CLI::App& app, Session& session) {
   command->footer(
       "A plan has all that any machine needs to make its part of a dataset with veldt generate --plan: the\n"
       "config with its defaults, the scene and all paths, with checksums.\n"
-      "Example: veldt plan configs/savanna.json --out plan --engine embree");
+      "Example: veldt plan configs/savanna.json --out plan");
   auto options = std::make_shared<PlanArguments>();
   command->add_option("config", options->config, "Config of a dataset, JSON")->required();
   command->add_option("--out", options->out, "Folder of the plan")->required()->type_name("DIR");

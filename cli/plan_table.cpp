@@ -50,6 +50,12 @@ std::string bytes_text(double bytes) {
 
 }  // namespace
 
+void print_engine(const thermal::Config& config) {
+  if (config.engine_reason.empty()) return;
+  const char* name = config.engine == thermal::Engine::embree ? "embree" : "blender";
+  print("engine: {} ({})\n", name, config.engine_reason);
+}
+
 void print_plan(const thermal::Config& config, const thermal::DatasetPlan& plan,
                 const std::vector<thermal::ClipConfig>& chosen) {
   std::set<std::string> ids;
@@ -68,6 +74,7 @@ void print_plan(const thermal::Config& config, const thermal::DatasetPlan& plan,
   }
   if (row.clips > 0) print_row(row);
   if (all.clips > row.clips) print_row(all);
+  print_engine(config);
   const thermal::Estimate estimate = thermal::estimate_run(config, all.clips, all.frames);
   print("about {} on 2 cores, {} of disk space\n", duration_text(estimate.seconds),
         bytes_text(estimate.bytes));

@@ -129,7 +129,11 @@ class Settings(bpy.types.PropertyGroup):
     config: StringProperty(name="Config", description="A config.json of Veldt", subtype="FILE_PATH")
     engine: EnumProperty(
         name="Engine",
-        items=(("embree", "Embree", "Fast"), ("blender", "Blender", "Needs Blender as a program")),
+        items=(
+            ("auto", "Automatic", "Embree wherever it can draw the config"),
+            ("embree", "Embree", "Fast"),
+            ("blender", "Blender", "Needs Blender as a program"),
+        ),
     )
 
 

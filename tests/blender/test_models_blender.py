@@ -9,7 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import configs
 import rendering
+from pictures import read_planes
+from program import Veldt
 from rendering import BLENDER
 from scenes import tiny
 from test_models import bush, okapi
@@ -153,12 +156,29 @@ def _home(folder: Path, made: Path) -> Path:
     return folder
 
 
-def _config() -> dict:
-    def change(config):
-        config["scene"]["groups"][0]["species"] = "okapi"
-        config["scene"]["plants"] = {"okapi": {"per_ha": 100}}
+def _with_models(config: dict) -> None:
+    config["scene"]["groups"][0]["species"] = "okapi"
+    config["scene"]["plants"] = {"okapi": {"per_ha": 100}}
 
-    return tiny(change)
+
+def _config() -> dict:
+    return tiny(_with_models)
+
+
+def _check_models_are_seen(passes: Path) -> None:
+    manifest = json.loads((passes / "side" / "manifest.json").read_text())
+    actors = {entry["index"]: entry for entry in manifest["objects"] if entry.get("species") == "okapi"}
+    plant = next(entry["index"] for entry in manifest["objects"] if entry["name"] == "okapi")
+    seen = {
+        int(index)
+        for frame in range(3)
+        for clip in ("side", "down")
+        for index in np.unique(read_planes(passes / clip / f"{frame:06d}.exr")["Scene.IndexOB.X"])
+    }
+    assert actors.keys() & seen and plant in seen
+    box = np.array(next(iter(actors.values()))["bounds_m"])
+    assert (np.ptp(box, axis=0) >= SIZE_M).all()
+    assert {"index", "material", "part"} in [set(entry) for entry in manifest["materials"]]
 
 
 def test_a_model_is_rendered(made, tmp_path, monkeypatch):
@@ -166,19 +186,19 @@ def test_a_model_is_rendered(made, tmp_path, monkeypatch):
     monkeypatch.setattr(rendering, "ROOT", home)
     run = rendering.render(tmp_path, _config())
     assert run.code == 0, run.log
-    manifest = run.manifest("side")
-    actors = {entry["index"]: entry for entry in manifest["objects"] if entry.get("species") == "okapi"}
-    plant = next(entry["index"] for entry in manifest["objects"] if entry["name"] == "okapi")
-    seen = {
-        int(index)
-        for frame in range(3)
-        for clip in ("side", "down")
-        for index in np.unique(run.planes(clip, frame)["Scene.IndexOB.X"])
-    }
-    assert actors.keys() & seen and plant in seen
-    box = np.array(next(iter(actors.values()))["bounds_m"])
-    assert (np.ptp(box, axis=0) >= SIZE_M).all()
-    assert {"index", "material", "part"} in [set(entry) for entry in manifest["materials"]]
+    _check_models_are_seen(run.out)
+
+
+def test_the_ray_caster_draws_the_models_that_blender_reads(made, tmp_path):
+    home = {"VELDT_HOME": str(_home(tmp_path / "home", made))}
+    veldt = Veldt(tmp_path)
+    veldt.write("config.json", configs.tiny(_with_models) | {"render": {}})
+    arguments = ("render", "config.json", "--out", "out", "--progress", "none")
+    done = veldt(*arguments, env=home | {"PATH": "/nonexistent"})
+    assert done.code == 1 and "only Blender can read it, and it is missing" in done.err
+    done = veldt(*arguments, "--blender", BLENDER, env=home)
+    assert (done.code, done.err) == (0, "") and done.out.startswith("engine: embree ")
+    _check_models_are_seen(veldt.folder / "out" / "passes")
 
 
 def test_a_broken_file_stops_everything_before_it_is_rendered(made, tmp_path):

@@ -4,6 +4,7 @@ import signal
 
 import pytest
 
+import fake_blender
 from configs import CLIPS, FRAMES, tiny
 from datasets import content_of
 from processes import wait_until
@@ -24,7 +25,7 @@ def _make(veldt, *options, command="generate", out="out") -> None:
 def _config() -> dict:
     """With plants, actors and everything that depends on them."""
     config = tiny()
-    config["render"] = {"actor_layer": True}
+    config["render"]["actor_layer"] = True
     return config
 
 
@@ -140,6 +141,52 @@ def test_killed_it_goes_on_to_the_same_dataset(veldt, frames):
     assert content_of(veldt.folder / "out") == content_of(veldt.folder / "whole")
 
 
+def _leave_open(veldt, **render) -> None:
+    veldt.write("config.json", _config() | {"render": {"actor_layer": True, **render}})
+
+
+def test_it_is_chosen_where_the_config_names_no_engine(veldt, usual):
+    _leave_open(veldt)
+    chosen = "engine: embree (the ray caster, which draws all of this config)\n"
+    arguments = ["config.json", "--progress", "none", "--out"]
+    for command in (["generate", *arguments, "out", "--dry-run"], ["plan", *arguments, "plan"]):
+        assert chosen in veldt(*command, env=_NO_BLENDER).out
+    done = veldt("generate", *arguments, "out", env=_NO_BLENDER)
+    assert (done.code, done.out, done.err) == (0, chosen + "out: 2 clips made, 16 frames\n", "")
+    assert veldt.read("out/dataset.json") == usual.read("out/dataset.json")
+    _make(veldt)
+    done = veldt("generate", *arguments, "out", "--engine", "auto", env=_NO_BLENDER)
+    assert done.out == chosen + "out: nothing to do, 2 clips already existed\n"
+
+
+def test_blender_is_chosen_for_what_the_rays_do_not_reach(veldt):
+    _leave_open(veldt, overscan_px=8)
+    why = "because of render.overscan_px = 8 px: embree draws nothing beyond the picture"
+    arguments = ["config.json", "--progress", "none", "--out", "out"]
+    assert f"engine: blender ({why})\n" in veldt("generate", *arguments, "--dry-run", env=_NO_BLENDER).out
+    blender = fake_blender.install(veldt.folder)
+    done = veldt("render", *arguments, "--blender", blender, env=_NO_BLENDER)
+    assert done.out.startswith(f"engine: blender ({why})\n")
+    assert veldt.read("out/passes/config.json")["render"]["engine"] == "blender"
+    done = veldt("generate", *arguments, env=_NO_BLENDER)
+    assert (done.code, done.out) == (1, f"engine: blender ({why})\n")
+    assert done.err.startswith("veldt: no blender on PATH")
+
+
+def test_a_dataset_by_blender_says_how_to_go_on(veldt):
+    fake_blender.generate(veldt, fake_blender.install(veldt.folder), "--engine", "blender", "--clips", "down")
+    _leave_open(veldt)
+    arguments = ["generate", "config.json", "--out", "out", "--progress", "none"]
+    done = veldt(*arguments)
+    assert done.code == 2
+    assert 'render.engine is "embree" here and "blender" there' in done.err
+    assert done.err.endswith(
+        "; expected the same config with --set render.engine=blender, or another folder\n"
+    )
+    done = veldt(*arguments, "--engine", "blender", "--blender", veldt.folder / "fake_blender")
+    assert done.out == "out: 1 clip made, 8 frames; 1 already existed\n"
+
+
 def test_passes_of_another_config_are_not_removed(veldt, usual):
     _make(veldt, "--set", "render.supersample=2", "--clips", CLIPS[0], command="render")
     passes = {
@@ -151,6 +198,21 @@ def test_passes_of_another_config_are_not_removed(veldt, usual):
         _make(veldt)
         assert {file: (veldt.folder / "out" / file).stat().st_mtime_ns for file in passes} == passes
     assert veldt.pixels("out") == usual.pixels("out")
+
+
+def test_a_converted_dataset_names_no_engine_that_was_not_asked_for(veldt):
+    _make(veldt, command="render")
+    _leave_open(veldt)
+    convert = ["convert", "out/passes", "--config", "config.json", "--quiet", "--out"]
+    for out, settings, engine in (
+        ("open", [], "auto"),
+        ("named", ["--set", "render.engine=blender"], "blender"),
+    ):
+        done = veldt(*convert, out, *settings)
+        assert (done.code, done.err) == (0, "")
+        assert veldt.read(f"{out}/dataset.json")["config"]["render"]["engine"] == engine
+        assert veldt(*convert, out, *settings).code == 0
+    assert veldt.pixels("open") == veldt.pixels("named")
 
 
 def test_a_dataset_keeps_its_engine(veldt, usual):

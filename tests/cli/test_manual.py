@@ -179,7 +179,7 @@ def test_bash_completes_every_option_and_choice(helps):
     "words, offered",
     [
         (["generate", "--engine", "e"], ["embree"]),
-        (["generate", "--engine", "="], ["blender", "embree"]),  # bash splits --engine=
+        (["generate", "--engine", "="], ["auto", "blender", "embree"]),  # bash splits --engine=
         (["generate", "--engine", "=", "e"], ["embree"]),
         (["generate", "config.json", "--en"], ["--engine"]),
         (["cluster", "--nodes", "4", "s"], ["slurm"]),
@@ -248,7 +248,7 @@ def test_fish_completes(helps, tmp_path):
     _need("fish")
     (tmp_path / "config.json").touch()
     assert set(_fish("veldt ", tmp_path)) == {*helps, "help"}
-    assert _fish("veldt generate --engine ", tmp_path) == ["blender", "embree"]
+    assert _fish("veldt generate --engine ", tmp_path) == ["auto", "blender", "embree"]
     assert _fish("veldt generate con", tmp_path) == ["config.json"]
     assert _fish("veldt cluster s", tmp_path) == ["slurm"]
     for command, text in helps.items():

@@ -85,7 +85,7 @@ check_completion() {
     COMP_WORDS=(veldt generate --engine "") COMP_CWORD=3 COMP_LINE="veldt generate --engine " COMP_POINT=24
     "$load" veldt "" --engine || [[ $? == 124 ]]
     complete -p veldt >/dev/null && _veldt && echo "${COMPREPLY[*]}"')
-  [[ $found == "blender embree" ]] || fail "completion of --engine offers \"$found\"; expected \"blender embree\""
+  [[ $found == "auto blender embree" ]] || fail "completion of --engine offers \"$found\"; expected \"auto blender embree\""
 }
 
 # --- removal ----------------------------------------------------------------------------------------------------------

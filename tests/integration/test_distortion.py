@@ -36,7 +36,8 @@ class Rendered:
     """A generated dataset with its passes, and a second one with a pinhole camera from the same passes."""
 
     def __init__(self, folder, blender: str, supersample: int, camera: dict, lens: dict, pinhole: str):
-        config = tiny(behind_a_lens) | {"render": {"supersample": supersample}, "camera": camera}
+        render = {"engine": "blender", "supersample": supersample}
+        config = tiny(behind_a_lens) | {"render": render, "camera": camera}
         self.lens, self.supersample = lens, supersample
         veldt = Veldt(folder)
         veldt.write("cal.yml", CALIBRATION)

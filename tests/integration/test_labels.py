@@ -20,7 +20,7 @@ def _apart(config: dict) -> None:
     for k, group in enumerate(config["scene"]["groups"]):
         group.update(start_m=50 * k, spacing_m=6 + 2 * k)
     config["camera"] = {"width_px": WIDTH, "height_px": HEIGHT, "pixel_pitch_um": 30}
-    config["render"] = {"actor_layer": True}
+    config["render"]["actor_layer"] = True
     azimuths_deg = {"people": 20, "herd": 70, "zebras": 160}
     config["clips"] = [
         {
@@ -51,7 +51,7 @@ def _in_a_thicket(config: dict) -> None:
     for clip, view in zip(config["clips"], ({"altitude_m": 20, "speed_m_s": 3}, {"look_angle_deg": 15})):
         clip["flight"].update(view)
         clip["frames"], clip["frame_rate_hz"] = 16, 4
-    config["render"] = {"actor_layer": True, "overscan_px": OVERSCAN}
+    config["render"] |= {"actor_layer": True, "overscan_px": OVERSCAN}
 
 
 def _picture(plane: np.ndarray, manifest: dict) -> np.ndarray:

@@ -9,7 +9,7 @@ from configs import tiny
 
 def _physical(config: dict) -> None:
     config["sensor"] = {"model": "physical", "netd_mk": 40}
-    config["render"] = {"supersample": 2}
+    config["render"]["supersample"] = 2
     for clip in config["clips"]:
         clip["frames"] = 2
 

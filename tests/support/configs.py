@@ -62,6 +62,7 @@ _TINY = {
         ],
     },
     "camera": {"width_px": 96, "height_px": 80, "pixel_pitch_um": 100},
+    "render": {"engine": "blender"},
     "clips": [
         {
             "id": "down",

@@ -15,13 +15,13 @@ namespace thermal {
 namespace {
 
 void check_same_config(const Layout& layout, const Json& config, const Json& there) {
-  const std::vector<std::string> found = differences(config, there.value("config", Json::object()));
+  const Json recorded = there.value("config", Json::object());
+  const std::vector<std::string> found = differences(config, recorded);
   if (found.empty()) return;
   constexpr std::size_t kMost = 8;
   throw ConfigError(
-      fmt::format("{} holds a dataset made from another config: {}; expected the same config, or "
-                  "another folder",
-                  layout.root.string(), list_names(found, kMost)));
+      fmt::format("{} holds a dataset made from another config: {}; expected {}, or another folder",
+                  layout.root.string(), list_names(found, kMost), expected_config(config, recorded)));
 }
 
 /// The dataset that a run is to go on with. Something else in its place is a fault of the request.

@@ -46,6 +46,13 @@ std::optional<Json> clip_of_flight(const Config& config, const Manifest& manifes
   return std::nullopt;
 }
 
+/// Nothing is rendered here: an engine that the config leaves open is not one that drew the passes.
+Config resolved(const Json& document, const std::string& name, const Assets& assets) {
+  Config config = resolve_config(document, name, assets);
+  if (!config.engine_reason.empty()) config.resolved["render"]["engine"] = "auto";
+  return config;
+}
+
 /// Reduces a config to these clips, so that the dataset is complete once they are made.
 Config only_clips_of(Config config, const std::vector<ClipPasses>& sources) {
   Json documents = Json::array();
@@ -123,7 +130,7 @@ std::vector<ConvertRequest> convert_requests(const ConvertOptions& options,
   const std::string name = options.config ? options.config_name : "--set";
   root_resolved_files(document, folder_of(options.config ? options.config_name : "."));
   // Resolved even if only variants are made, so that shared faults are not attributed to the first variant.
-  Config shared = only_clips_of(resolve_config(document, name, options.assets), sources);
+  Config shared = only_clips_of(resolved(document, name, options.assets), sources);
   check_cameras(shared, sources, name);
   if (!shared.gives_intrinsics) check_settings(options, sources);
   std::vector<ConvertRequest> requests;
@@ -133,7 +140,7 @@ std::vector<ConvertRequest> convert_requests(const ConvertOptions& options,
   }
   check_out(options.out);
   for (const Variant& variant : read_variants(*options.variants, options.variants_name, options.assets)) {
-    Config config = resolve_config(changed_by(variant, document), variant.where, options.assets);
+    Config config = resolved(changed_by(variant, document), variant.where, options.assets);
     requests.push_back({.variant = variant.name,
                         .where = variant.where,
                         .config = only_clips_of(std::move(config), sources),

@@ -39,11 +39,12 @@ void begin_passes(const Layout& layout, const Config& config, const std::vector<
 
 void check_same_passes(const Layout& layout, const Config& config) {
   if (!std::filesystem::exists(layout.passes_config())) return;
-  const std::vector<std::string> found = differences(config.resolved, read_json(layout.passes_config()));
+  const Json there = read_json(layout.passes_config());
+  const std::vector<std::string> found = differences(config.resolved, there);
   if (found.empty()) return;
-  throw ConfigError(
-      fmt::format("{} holds passes of another config: {}; expected the same config, or another folder",
-                  layout.passes().string(), fmt::join(found, ", ")));
+  throw ConfigError(fmt::format("{} holds passes of another config: {}; expected {}, or another folder",
+                                layout.passes().string(), fmt::join(found, ", "),
+                                expected_config(config.resolved, there)));
 }
 
 std::vector<LeftOver> end_passes(const Layout& layout, const Config& config,

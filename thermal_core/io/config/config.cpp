@@ -130,6 +130,17 @@ std::vector<Lens> lenses_of(const Config& config) {
   return lenses;
 }
 
+/// Puts an engine in the place of `auto`: the ray caster, which draws all but passes that extend beyond the picture.
+/// Returns why, empty if there was an engine.
+std::string choose_engine(Json& render) {
+  if (render["engine"] != "auto") return "";
+  const Json overscan_px = render.value("overscan_px", Json(0));
+  render["engine"] = overscan_px == 0 ? "embree" : "blender";
+  if (overscan_px == 0) return "the ray caster, which draws all of this config";
+  return fmt::format("because of render.overscan_px = {} px: embree draws nothing beyond the picture",
+                     overscan_px.dump());
+}
+
 /// A real camera's pixels average what they see: 4 x 4 samples, with the engine `embree` only where they differ. The
 /// published model has one sample a pixel.
 void fill_sampling(Json& render, bool physical) {
@@ -281,6 +292,7 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   for (const Json& flight : document["flights"]) config.flights.push_back(flight["id"]);
   check_flown(config.flights, config.clips, faults);
   check_intrinsics(config.camera, faults);
+  config.engine_reason = choose_engine(document["render"]);
   fill_sampling(document["render"], config.physical);
   const Json& render = document["render"];
   if (render["sampling"] == "adaptive" && render["engine"] != "embree")
@@ -298,6 +310,14 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   document.erase("$schema");
   config.resolved = std::move(document);
   return config;
+}
+
+std::string expected_config(const Json& here, const Json& there) {
+  const Json::json_pointer engine("/render/engine");
+  if (!here.contains(engine) || !there.contains(engine) || here[engine] == there[engine] ||
+      !there[engine].is_string())
+    return "the same config";
+  return "the same config with --set render.engine=" + there[engine].get<std::string>();
 }
 
 }  // namespace thermal

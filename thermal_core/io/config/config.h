@@ -40,6 +40,7 @@ struct Config : ClipSettings {
   bool actor_layer = false;
   bool poses_all = false;  ///< a plan has the bones of all actors, whether its cameras see them or not
   Engine engine = Engine::blender;
+  std::string engine_reason;       ///< why it was chosen, for messages; empty: render.engine names it
   bool adaptive_sampling = false;  ///< all rays only for pixels that need them; with `embree`
   bool physical = false;           ///< every term the scene needs; otherwise the published model
   bool heat_balance = false;       ///< temperatures follow the weather; otherwise those of Table 1
@@ -97,5 +98,9 @@ void root_resolved_files(Json& document, const Path& folder);
 /// Checks a document against configs/schema/config.schema.json and fills in its defaults. The numbers of a camera's
 /// calibration replace the name of its file. ConfigError with one line per fault, each starting with `name`.
 [[nodiscard]] Config resolve_config(Json document, const std::string& name, const Assets& assets);
+
+/// What must be given to go on with what was made from a resolved config: the same config, and its engine if that is the
+/// one that differs.
+[[nodiscard]] std::string expected_config(const Json& here, const Json& there);
 
 }  // namespace thermal

@@ -70,7 +70,7 @@ def generate(
     """Make a dataset, or the rest of one, as `veldt generate` does.
 
     config: a config or its file, or `plan_folder`: what plan() wrote. settings: "key=value", as of --set, such as
-    "render.engine=embree". clips: only these. jobs: Blender processes. threads: of everything together; 0: all cores.
+    "render.engine=blender". clips: only these. jobs: Blender processes. threads: of everything together; 0: all cores.
     progress: called from time to time, never twice at once; what it raises ends the run. So does Ctrl-C. Finished clips
     stay, and the next call goes on.
 

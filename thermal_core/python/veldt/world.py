@@ -58,7 +58,7 @@ class World:
     """A clip's place, with its actors where they are planned to be, and a camera wherever you put it. The camera's
     noise, lag, shutter and gain control go on from capture to capture.
 
-    >>> veldt.plan("night.json", "plan", settings=["render.engine=embree", "render.posed_actors=all"])
+    >>> veldt.plan("night.json", "plan", settings=["render.posed_actors=all"])
     >>> world = veldt.World("plan", "camp", roam=False)
     >>> for time_s, pose in zip(world.flight_s, world.flight_poses):
     ...     capture = world.capture(pose, time_s)           # the frames of `veldt generate`, bit for bit

@@ -45,6 +45,52 @@ std::string fault_in_setting(const std::string& assignment) {
 
 }  // namespace
 
+TEST_CASE("The ray caster draws what the config leaves open, but for passes that extend beyond the picture") {
+  const Config open = resolved(least());
+  CHECK(open.engine == Engine::embree);
+  CHECK(open.engine_reason == "the ray caster, which draws all of this config");
+  CHECK(open.resolved["render"]["engine"] == "embree");
+  CHECK(resolved(with_setting("render.overscan_px=0")).engine == Engine::embree);
+  const Config wide = resolved(with_setting("render.overscan_px=8"));
+  CHECK(wide.engine == Engine::blender);
+  CHECK(wide.engine_reason ==
+        "because of render.overscan_px = 8 px: embree draws nothing beyond the picture");
+  CHECK(wide.resolved["render"]["engine"] == "blender");
+  for (const char* name : {"blender", "embree"}) {
+    const Config named = resolved(with_setting(std::string("render.engine=") + name));
+    CHECK(named.resolved["render"]["engine"] == name);
+    CHECK(named.engine_reason.empty());
+  }
+  for (const Config& chosen : {open, wide}) {
+    const Config again = resolved(chosen.resolved);
+    CHECK(again.resolved == chosen.resolved);
+    CHECK(again.engine_reason.empty());
+  }
+}
+
+TEST_CASE("Sampling follows the engine that was chosen") {
+  Json physical = with_setting("sensor.model=physical");
+  physical["sensor"]["netd_mk"] = 40;
+  CHECK(resolved(physical).adaptive_sampling);
+  CHECK_FALSE(resolved(least()).adaptive_sampling);  // the published model has one sample a pixel
+  physical["render"]["overscan_px"] = 8;
+  CHECK_FALSE(resolved(physical).adaptive_sampling);
+  CHECK(resolved(physical).supersample == 4);
+  physical["render"]["sampling"] = "adaptive";
+  CHECK(fault_in(physical) ==
+        R"(night.json: render.sampling = "adaptive"; expected "full", or render.engine = "embree")");
+}
+
+TEST_CASE("What was made by another engine is continued with that one") {
+  const Json here = resolved(least()).resolved;
+  const Json there = resolved(with_setting("render.engine=blender")).resolved;
+  CHECK(expected_config(here, there) == "the same config with --set render.engine=blender");
+  CHECK(expected_config(here, here) == "the same config");
+  CHECK(expected_config(here, resolved(with_setting("seed=2")).resolved) == "the same config");
+  CHECK(expected_config(here, Json::object()) == "the same config");
+  CHECK(expected_config(here, {{"render", {{"engine", 3}}}}) == "the same config");
+}
+
 TEST_CASE("A minimal config is valid, and all defaults are filled in") {
   const Config config = resolved(least());
   CHECK(config.name == "night");

@@ -14,7 +14,7 @@ using namespace thermal;
 namespace {
 
 /// A camera of 201 x 1 px whose last pixel's centre is at x = 1: focal length 1 mm, pitch 10 um.
-Json config_with(const std::string& distortion, const std::string& render = "{}") {
+Json config_with(const std::string& distortion, const std::string& render = R"({"engine": "blender"})") {
   return parse_json(R"({"name": "night", "clips": [{"id": "a", "season": "winter", "frames": 3}],
                         "camera": {"width_px": 201, "height_px": 1, "focal_length_m": 0.001,
                                    "pixel_pitch_um": 10, "distortion": )" +
@@ -50,8 +50,10 @@ TEST_CASE("Overscan is what the lens needs, unless the config sets more") {
   CHECK(config.overscan_px == 25);
   CHECK(config.resolved["render"]["overscan_px"] == 25);
   CHECK(resolved(config.resolved).resolved == config.resolved);
-  CHECK(resolved(config_with(R"({"k1": -0.128})", R"({"overscan_px": 40})")).overscan_px == 40);
-  CHECK(resolved(config_with("{}", R"({"overscan_px": 40})")).overscan_px == 40);
+  CHECK(
+      resolved(config_with(R"({"k1": -0.128})", R"({"engine": "blender", "overscan_px": 40})")).overscan_px ==
+      40);
+  CHECK(resolved(config_with("{}", R"({"engine": "blender", "overscan_px": 40})")).overscan_px == 40);
 }
 
 TEST_CASE(
@@ -70,13 +72,13 @@ TEST_CASE(
 
 TEST_CASE("The place is planned as far as Blender's passes reach") {
   CHECK(resolved(config_with(R"({"k1": -0.128})")).view_margin_px == 25);
-  CHECK(resolved(config_with("{}", R"({"overscan_px": 40})")).view_margin_px == 40);
+  CHECK(resolved(config_with("{}", R"({"engine": "blender", "overscan_px": 40})")).view_margin_px == 40);
   CHECK(resolved(config_with("{}")).view_margin_px == 0);
 }
 
 TEST_CASE("Too little overscan is an error, and so is a lens that folds the picture over") {
   CHECK(
-      fault_in(config_with(R"({"k1": -0.128})", R"({"overscan_px": 24})")) ==
+      fault_in(config_with(R"({"k1": -0.128})", R"({"engine": "blender", "overscan_px": 24})")) ==
       "night.json: render.overscan_px = 24 px; expected at least 25 px for camera.distortion, or none given");
   CHECK(fault_in(config_with(R"({"k1": -1})")) ==
         "night.json: camera.distortion = k1 -1, k2 0, p1 0, p2 0, k3 0; expected a distortion that is one to "
