@@ -92,9 +92,9 @@ def replay(read: Callable[[bytes], None], paths: list[Path]) -> int:
     slow = 0
     for file in files:
         print(file, flush=True)  # the last one named is the one that ended it
-        start = time.monotonic()
+        start_s = time.process_time()
         read(file.read_bytes())
-        if time.monotonic() - start > LONGEST_S:
+        if time.process_time() - start_s > LONGEST_S:
             print(f"{file} took more than {LONGEST_S:g} s")
             slow += 1
     print(f"{len(files) - slow} of {len(files)} inputs are sound")

@@ -1,14 +1,17 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
 #include <arpa/inet.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "support/catch.h"
+#include "support/patience.h"
 
 namespace thermal {
 
@@ -23,7 +26,10 @@ inline sockaddr_in loopback(std::uint16_t port) {
 /// A socket of the other side, on this machine.
 class Peer {
  public:
-  explicit Peer(int type) : number_(socket(AF_INET, type, 0)) {}
+  explicit Peer(int type) : number_(socket(AF_INET, type, 0)) {
+    const timeval patience = {.tv_sec = kPatienceMs / 1000, .tv_usec = 0};
+    setsockopt(number_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  }
   ~Peer() { close(number_); }
   Peer(const Peer&) = delete;
   Peer& operator=(const Peer&) = delete;
@@ -44,17 +50,22 @@ class Peer {
 
   void be_served() const { REQUIRE(listen(number_, 1) == 0); }
 
-  /// What arrives until nothing does for 0.3 s.
-  [[nodiscard]] std::string read() const {
+  /// Waits for at least so many bytes, or for the end.
+  [[nodiscard]] std::string read(std::size_t bytes) const {
     std::string text;
     std::string part(1 << 16, '\0');
-    pollfd wait = {.fd = number_, .events = POLLIN, .revents = 0};
-    while (poll(&wait, 1, 300) > 0) {
+    while (text.size() < bytes) {
       const ssize_t size = recv(number_, part.data(), part.size(), 0);
       if (size <= 0) break;
       text.append(part, 0, static_cast<std::size_t>(size));
     }
     return text;
+  }
+
+  /// Whether nothing has arrived that was not read.
+  [[nodiscard]] bool has_read_all() const {
+    pollfd look = {.fd = number_, .events = POLLIN, .revents = 0};
+    return poll(&look, 1, 0) == 0;
   }
 
  private:

@@ -21,7 +21,7 @@ class Signal {
  public:
   void give() { given_.store(true, std::memory_order_relaxed); }
   void wait() const {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);
     while (!given_.load(std::memory_order_relaxed)) {
       if (std::chrono::steady_clock::now() > end) give_up();
       std::this_thread::yield();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/catch.h"
+#include "support/patience.h"
 
 namespace parallel_test {
 
@@ -17,14 +18,21 @@ using namespace thermal;
 
 namespace {
 
-/// Number of threads at work on chunks that take long enough for others to join in.
-std::set<std::thread::id> threads_at_work() {
+/// The threads at work on chunks, each of which waits until so many have joined in, and gives others time to.
+std::set<std::thread::id> threads_at_work(std::size_t awaited = 1) {
   std::set<std::thread::id> threads;
   std::mutex mutex;
+  const auto have_joined = [&] {
+    const std::lock_guard lock(mutex);
+    return threads.size() >= awaited;
+  };
   parallel_for(64, 1, [&](std::size_t, std::size_t) {
     std::this_thread::sleep_for(std::chrono::microseconds(500));
-    const std::lock_guard lock(mutex);
-    threads.insert(std::this_thread::get_id());
+    {
+      const std::lock_guard lock(mutex);
+      threads.insert(std::this_thread::get_id());
+    }
+    (void)wait_until(have_joined);
   });
   return threads;
 }
@@ -58,12 +66,13 @@ TEST_CASE("Chunks are the same whatever the number of threads") {
 }
 
 TEST_CASE("A limit of one thread keeps all work on the caller's") {
-  CHECK(with_threads(1, threads_at_work) == std::set<std::thread::id>{std::this_thread::get_id()});
+  CHECK(with_threads(1, [] { return threads_at_work(); }) ==
+        std::set<std::thread::id>{std::this_thread::get_id()});
 }
 
 TEST_CASE("A limit bounds the threads at work, and ends with its work") {
-  CHECK(with_threads(2, threads_at_work).size() <= 2);
-  if (thread_count(0) > 1) CHECK(threads_at_work().size() > 1);
+  CHECK(with_threads(2, [] { return threads_at_work(); }).size() <= 2);
+  if (thread_count(0) > 1) CHECK(threads_at_work(2).size() > 1);
 }
 
 TEST_CASE("No number of threads is as many as the limit around it, and a larger limit within has no effect") {

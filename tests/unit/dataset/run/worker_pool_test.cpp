@@ -18,7 +18,7 @@ using Hands = std::vector<std::vector<std::string>>;
 /// A Blender that reports its scene as built, and waits.
 std::vector<RenderJob::Task> idle_tasks(const TemporaryFolder& folder, const Hands& hands) {
   const Path program =
-      folder.file("blender", "#!/bin/sh\necho '{\"event\": \"scene_built\"}' >&3; exec sleep 60\n");
+      folder.file("blender", "#!/bin/sh\necho '{\"event\": \"scene_built\"}' >&3; exec sleep 3600\n");
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   std::vector<RenderJob::Task> tasks;
   for (const auto& hand : hands)

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "support/catch.h"
+#include "support/patience.h"
 #include "support/temporary_folder.h"
 
 namespace passing_folder_test {
@@ -54,12 +55,7 @@ TEST_CASE("A passing folder goes with its contents if its process is interrupted
     int status = 0;
     REQUIRE(::waitpid(process, &status, 0) == process);
     CHECK(WTERMSIG(status) == signal);
-    bool is_gone = false;
-    for (int tries = 0; tries < 1000 && !is_gone; ++tries) {
-      ::usleep(10000);
-      is_gone = std::filesystem::is_empty(temporaries.folder.path());
-    }
-    CHECK(is_gone);
+    CHECK(wait_until([&] { return std::filesystem::is_empty(temporaries.folder.path()); }));
   }
 }
 
