@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from pictures import read_planes
+from processes import PATIENCE_S
 from veldt.config import ROOT
 
 BLENDER = os.environ.get("BLENDER") or shutil.which("blender") or "blender"
@@ -94,7 +95,7 @@ def render(
             pass_fds=[writer],
             capture_output=True,
             text=True,
-            timeout=120,
+            timeout=PATIENCE_S,
             check=False,
             preexec_fn=lambda: _limit_files(largest_file_bytes),
         )

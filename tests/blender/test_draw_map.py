@@ -8,6 +8,7 @@ import numpy as np
 import OpenImageIO as oiio
 import pytest
 
+from processes import PATIENCE_S
 from scenes import tiny
 from veldt.config import ROOT
 from veldt.images import write_rgb
@@ -33,7 +34,7 @@ def _run(tmp_path, config: dict, points=None):
     if points is not None:
         (tmp_path / "points.json").write_text(json.dumps(points), encoding="utf-8")
         command += ["--points", str(tmp_path / "points.json")]
-    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=PATIENCE_S)
 
 
 @pytest.fixture(scope="module", name="place")

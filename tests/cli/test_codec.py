@@ -109,7 +109,7 @@ def test_killed_in_a_clip_it_goes_on_to_the_same_dataset(veldt, usual):
     fake_blender.hold_after(veldt.folder, "down", 3)
     run = veldt.start(*_run(veldt))
     made = veldt.folder / "out" / "clips" / "down.part" / "ir8"
-    assert wait_until(lambda: made.exists() and len(list(made.iterdir())) == 4, 60)
+    assert wait_until(lambda: made.exists() and len(list(made.iterdir())) == 4)
     run.kill()
     run.communicate()
     _generate(veldt)

@@ -1,6 +1,5 @@
 """`convert` turns passes into the canonical dataset: correct pixels and labels, complete or not at all."""
 
-import os
 import re
 import shutil
 import signal
@@ -11,7 +10,7 @@ import pytest
 import passes
 from labels import check_labels
 from pictures import read_grey, write_exr
-from processes import wait_until
+from processes import PATIENCE_S, interrupt
 from program import ROOT, files_below
 
 IDEAL = ["sensor.optics.blur_sigma_px=0", "sensor.noise.amount=0"]
@@ -214,37 +213,40 @@ def test_progress_in_json_counts_every_frame(veldt, clips):
 # --- killed -----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "when", ["dataset.json", "clips/one.part", "clips/one", "clips/two.part", "clips/two"]
-)
-def test_killed_at_any_moment_it_goes_on_to_the_same_dataset(veldt, when):
-    """Sends SIGKILL as soon as a file exists that marks the moment."""
-    frames = 40  # long enough to be caught in the middle
-    folders = [passes.write_clip(veldt.folder / clip, clip, frames) for clip in ("one", "two")]
+MOMENTS = {  # the path before which it is held, and the clips that are whole by then
+    "before the first clip": ("out/clips/one.part/ir8", []),
+    "in the first clip": ("out/clips/one.part/ir16/000006.png", []),
+    "between the clips": ("out/clips/two.part/ir8", ["one"]),
+    "in the second clip": ("out/clips/two.part/ir16/000006.png", ["one"]),
+    "before the second clip is whole": ("out/clips/two.part/clip.json", ["one"]),
+    "at the end": ("out/annotations.json.tmp", ["one", "two"]),
+}
+
+
+@pytest.mark.parametrize("moment", MOMENTS)
+def test_killed_at_any_moment_it_goes_on_to_the_same_dataset(veldt, gate, moment):
+    folders = [passes.write_clip(veldt.folder / clip, clip, 12) for clip in ("one", "two")]
     _convert(veldt, *folders, "--out", "undisturbed")
-    run = veldt.start("convert", *folders, "--out", "out", "--progress", "none")
-    assert wait_until((veldt.folder / "out" / when).exists, 60)
+    before, whole = MOMENTS[moment]
+    run = gate.start(veldt, before, "convert", *folders, "--out", "out", "--progress", "none")
     run.kill()
     run.communicate()
-    assert run.returncode in (-signal.SIGKILL, 0)
-    assert run.returncode == -signal.SIGKILL or when == "clips/two"  # nothing but the last may come too late
-    whole = [clip for clip in ("one", "two") if (veldt.folder / "out" / "clips" / clip).exists()]
+    assert run.returncode == -signal.SIGKILL
+    assert [clip for clip in ("one", "two") if (veldt.folder / "out" / "clips" / clip).exists()] == whole
     _convert(veldt, *folders, "--out", "out")
     assert veldt.pixels("out") == veldt.pixels("undisturbed")
     assert files_below(veldt.folder / "out") == files_below(veldt.folder / "undisturbed")
-    assert whole == {"clips/two.part": ["one"], "clips/two": ["one", "two"], "clips/one": ["one"]}.get(
-        when, []
-    )
     assert veldt("validate", "out").code == 0
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_asked_to_stop_it_says_so_and_goes_on_later(veldt, number):
-    folder = passes.write_clip(veldt.folder / "one", frames=60)
-    run = veldt.start("convert", folder, "--out", "out", "--progress", "none")
-    assert wait_until((veldt.folder / "out" / "clips" / "one.part").exists, 60)
-    os.kill(run.pid, number)
-    out, err = run.communicate(timeout=10)
+def test_asked_to_stop_it_says_so_and_goes_on_later(veldt, gate, number):
+    folder = passes.write_clip(veldt.folder / "one", frames=40)
+    before = "out/clips/one.part/ir16/000003.png"
+    run = gate.start(veldt, before, "convert", folder, "--out", "out", "--progress", "none")
+    interrupt(run.pid, number)
+    gate.open()
+    out, err = run.communicate(timeout=PATIENCE_S)
     assert (run.returncode, out) == (128 + number, "")
     assert err == "veldt: stopped on request; run the same command again to resume\n"
     assert not (veldt.folder / "out" / "clips" / "one").exists()

@@ -11,6 +11,7 @@ import pytest
 
 import passes
 from pictures import read_grey, write_exr
+from processes import PATIENCE_S, interrupt
 from program import Veldt, files_below
 
 CLIPS = ("one", "two", "three")
@@ -315,8 +316,8 @@ def _held(many):
 def test_stopped_it_leaves_nothing(many):
     run = _held(many)
     assert (many.folder / "x.part").is_dir()
-    run.send_signal(signal.SIGINT)
-    out, err = run.communicate(timeout=60)
+    interrupt(run.pid, signal.SIGINT)
+    out, err = run.communicate(timeout=PATIENCE_S)
     assert (run.returncode, out) == (128 + signal.SIGINT, "")
     assert err.splitlines()[-1] == "veldt: stopped on request; run the same command again to resume"
     assert sorted(path.name for path in many.folder.iterdir()) == ["many.json", "pictures"]
@@ -327,7 +328,7 @@ def test_two_runs_at_once(many):
     done = many("export", "many.json", "--format", "yolo", "--out", "x", "--progress", "none")
     message = "x.part is in use by another run of veldt; try again when that one has ended"
     assert (done.code, done.out, done.err) == (75, "", f"veldt: {message}\n")
-    run.communicate(timeout=60)
+    run.communicate(timeout=PATIENCE_S)
     assert run.returncode == 0
     assert len(list((many.folder / "x/images/train").iterdir())) == 3000
 
@@ -335,7 +336,7 @@ def test_two_runs_at_once(many):
 def test_killed_it_starts_again(many):
     run = _held(many)
     run.kill()
-    run.communicate(timeout=60)
+    run.communicate(timeout=PATIENCE_S)
     assert (many.folder / "x.part" / "images").is_dir()
     assert not (many.folder / "x").exists()
     (many.folder / "x.part" / "left.txt").write_text("by a run of before")

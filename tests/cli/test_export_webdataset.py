@@ -12,6 +12,7 @@ import pytest
 
 import passes
 from pictures import write_exr
+from processes import PATIENCE_S, interrupt
 from program import Veldt, check_fault, files_below
 
 CLIPS = ("one", "two", "three")
@@ -225,8 +226,8 @@ def _held(veldt, *options):
 def test_stopped_it_leaves_nothing(veldt, options):
     _many(veldt)
     run = _held(veldt, *options)
-    run.send_signal(signal.SIGINT)
-    out, err = run.communicate(timeout=60)
+    interrupt(run.pid, signal.SIGINT)
+    out, err = run.communicate(timeout=PATIENCE_S)
     assert (run.returncode, out) == (128 + signal.SIGINT, "")
     assert err.splitlines()[-1] == "veldt: stopped on request; run the same command again to resume"
     assert not (veldt.folder / "x").exists() and not (veldt.folder / "x.part").exists()
@@ -241,7 +242,7 @@ def test_killed_it_starts_again(veldt, options):
     while not list(veldt.folder.glob("x*/train/many-*.tar")):
         run.stderr.readline()
     run.kill()
-    run.communicate(timeout=60)
+    run.communicate(timeout=PATIENCE_S)
     assert not (veldt.folder / "x" / "export.json").exists()
     assert bool(options[:-2]) == (veldt.folder / "x").exists()
     out = _made(veldt, "x", *options, source="many.json")

@@ -60,7 +60,7 @@ def test_a_clip_s_record_names_no_files_but_its_own(veldt, dataset, command, nam
     (veldt.folder / "foreign" / "mine.txt").write_text("theirs")
     _add_file(dataset, name, "theirs")
     before = files_below(veldt.folder / "home")
-    done = veldt(*COMMANDS[command], timeout_s=60)
+    done = veldt(*COMMANDS[command])
     check_fault(done, 1, f'foreign/data/clips/one/clip.json: files = "{name}"; {FILES}')
     assert (veldt.folder / "home" / "mine.txt").read_text() == "mine"
     assert [file for file in files_below(veldt.folder / "home") if "merged" not in file] == before
@@ -120,7 +120,7 @@ def test_a_report_embeds_pictures_of_its_dataset_only(veldt, dataset, name):
     for image in labels["images"]:
         image["file_name"] = name
     (dataset / "annotations.json").write_text(json.dumps(labels))
-    done = veldt("report", "foreign/data", "--out", "report.html", timeout_s=60)
+    done = veldt("report", "foreign/data", "--out", "report.html")
     rule = 'expected a relative path without "..", control characters, or parts that begin with "-" or exceed 200 bytes'
     check_fault(done, 1, f'made_up: file_name of image 1 = "{name}"; {rule}')
     assert not (veldt.folder / "report.html").exists()

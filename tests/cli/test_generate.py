@@ -12,7 +12,7 @@ import pytest
 import fake_blender
 from configs import CLIPS, FRAMES, tiny
 from datasets import content_of
-from processes import running_with, wait_until
+from processes import PATIENCE_S, running_with, wait_until
 from program import Veldt, files_below
 
 
@@ -157,12 +157,12 @@ def _reached(veldt, clip: str, frame: int) -> bool:
 def test_killed_at_any_moment_it_goes_on_to_the_same_dataset(veldt, usual, moment):
     fake_blender.hold_after(veldt.folder, *MOMENTS[moment])
     run = veldt.start(*_run(veldt))
-    assert wait_until(lambda: _reached(veldt, *MOMENTS[moment]), 60)
+    assert wait_until(lambda: _reached(veldt, *MOMENTS[moment]))
     assert _has_renderer(veldt)
     run.kill()
     assert run.communicate() == ("", "")
     assert run.returncode == -signal.SIGKILL
-    assert wait_until(lambda: not _has_renderer(veldt), 2)  # the renderer ends with its parent process
+    assert wait_until(lambda: not _has_renderer(veldt))  # which is held, and ends with its parent process
     _generate(veldt)
     assert veldt.pixels("out") == usual.pixels("out")
     assert files_below(veldt.folder / "out") == files_below(usual.folder / "out")
@@ -175,9 +175,9 @@ def test_killed_at_any_moment_it_goes_on_to_the_same_dataset(veldt, usual, momen
 def test_asked_to_stop_it_stops_the_renderer_and_goes_on_later(veldt, usual, number):
     fake_blender.hold_after(veldt.folder, "side", 2)
     run = veldt.start(*_run(veldt))
-    assert wait_until(lambda: _reached(veldt, "side", 2), 60)
+    assert wait_until(lambda: _reached(veldt, "side", 2))
     os.kill(run.pid, number)
-    out, err = run.communicate(timeout=3)
+    out, err = run.communicate(timeout=PATIENCE_S)  # less than the renderer is held
     assert (run.returncode, out) == (128 + number, "")
     assert err == "veldt: stopped on request; run the same command again to resume\n"
     assert not _has_renderer(veldt)
@@ -188,7 +188,7 @@ def test_asked_to_stop_it_stops_the_renderer_and_goes_on_later(veldt, usual, num
 def test_a_second_run_in_the_same_folder_is_turned_away(veldt, usual):
     fake_blender.hold_after(veldt.folder, "down", 3)
     run = veldt.start(*_run(veldt))
-    assert wait_until(lambda: _reached(veldt, "down", 3), 60)
+    assert wait_until(lambda: _reached(veldt, "down", 3))
     second = veldt(*_run(veldt))
     assert (second.code, second.out) == (75, "")
     assert (
@@ -205,7 +205,7 @@ def test_a_config_changed_between_kill_and_resume_is_refused(veldt):
     """Even if no clip was finished: the folder belongs to the config that created it."""
     fake_blender.hold_after(veldt.folder, "down", 3)
     run = veldt.start(*_run(veldt))
-    assert wait_until(lambda: _reached(veldt, "down", 3), 60)
+    assert wait_until(lambda: _reached(veldt, "down", 3))
     run.kill()
     run.communicate()
     veldt.write("config.json", tiny(lambda config: config.update(seed=8)))
@@ -234,8 +234,8 @@ def test_jobs_make_the_same_dataset(veldt, usual, jobs):
 def test_jobs_render_at_the_same_time_and_share_the_threads(veldt, usual):
     fake_blender.hold_after(veldt.folder, "down", 3)
     run = veldt.start(*_run(veldt, "--jobs", "2", "--threads", "5"))
-    assert wait_until((veldt.folder / "out" / "clips" / "side").exists, 60)
-    assert wait_until(lambda: _reached(veldt, "down", 3), 60)
+    assert wait_until((veldt.folder / "out" / "clips" / "side").exists)
+    assert wait_until(lambda: _reached(veldt, "down", 3))
     (command,) = [line for line in running_with(veldt.folder / "out" / "passes").values() if "down" in line]
     assert " --threads 2 " in command and " --clip side" not in command
     run.kill()
@@ -267,7 +267,7 @@ def test_shards_at_the_same_time_in_one_folder(veldt, usual, first):
     clip, second = ("down", "1/2") if first == "0/2" else ("side", "0/2")
     fake_blender.hold_after(veldt.folder, clip, 3)
     run = veldt.start(*_run(veldt, "--shard", first))
-    assert wait_until(lambda: _reached(veldt, clip, 3), 60)
+    assert wait_until(lambda: _reached(veldt, clip, 3))
     done = veldt(*_run(veldt, "--shard", second))
     assert (done.code, done.err) == (0, "")
     assert done.out == f"{veldt.folder}/out: 1 clip made, 8 frames; the dataset is not complete yet\n"
@@ -292,7 +292,7 @@ def test_a_conversion_waits_for_no_shard(veldt):
     """Commands that need exclusive access to the folder are rejected, too."""
     fake_blender.hold_after(veldt.folder, "down", 3)
     run = veldt.start(*_run(veldt, "--shard", "0/2"))
-    assert wait_until(lambda: _reached(veldt, "down", 3), 60)
+    assert wait_until(lambda: _reached(veldt, "down", 3))
     done = veldt(*_run(veldt, "--preview", command="render"))
     assert (done.code, done.out) == (75, "")
     run.kill()

@@ -119,7 +119,11 @@ def test_a_long_plan_says_how_far_it_is(veldt, command):
     env = {"VELDT_PYTHON": str(python)}
     first, *rest = veldt(*command[:1], config, *command[1:], "--progress", "plain", env=env).err.splitlines()
     assert first == "1/2 flights, 0.0 flights/s, starting, clip down"
-    assert [line.partition(" flights")[0] for line in rest] == ["2/2", "2/2"]
+    done = [line.partition(" flights")[0] for line in rest]
+    assert [one for one in done if one != "1/2"] == [
+        "2/2",
+        "2/2",
+    ]  # the planner's own first, only if it takes seconds
 
 
 # --- the output folder ------------------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@ import subprocess
 
 import pytest
 
+from processes import PATIENCE_S
 from program import PROGRAM
 
 SHARE = PROGRAM.parents[1] / "share"
@@ -48,7 +49,7 @@ def _source(page: str) -> str:
 
 
 def _run(*command, **options) -> subprocess.CompletedProcess:
-    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=60, **options)
+    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=PATIENCE_S, **options)
 
 
 def _need(program: str) -> None:

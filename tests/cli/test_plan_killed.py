@@ -12,7 +12,7 @@ import pytest
 import fake_blender
 import held_planner
 from configs import CLIPS, tiny
-from processes import parent_of, parents, running_with, wait_until
+from processes import PATIENCE_S, parent_of, parents, running_with, wait_until
 from program import Veldt, files_below
 
 WRITTEN = {  # at a moment: files in the unfinished plan that must, and must not, be there
@@ -71,7 +71,7 @@ def _start(veldt: Veldt, command: str, moment: str):
         *ARGUMENTS[command],
         env={"VELDT_PYTHON": str(veldt.folder / "held_python")},
     )
-    assert wait_until(lambda: held_planner.is_held(veldt.folder), 60)
+    assert wait_until(lambda: held_planner.is_held(veldt.folder))
     part = _part(veldt, command)
     there, missing = WRITTEN[moment]
     assert all((part / name).exists() for name in there)
@@ -88,7 +88,7 @@ def _part(veldt: Veldt, command: str) -> Path:
 
 def _check_nothing_runs(veldt: Veldt, command: str) -> None:
     """Neither the planner nor a worker of it."""
-    assert wait_until(lambda: not running_with(_part(veldt, command)), 10)
+    assert wait_until(lambda: not running_with(_part(veldt, command)))
 
 
 def _check_again(veldt: Veldt, command: str, usual: dict) -> None:
@@ -120,7 +120,7 @@ def test_killed_it_takes_its_planner_along_and_starts_again(veldt, usual, comman
 def test_a_killed_planner_is_reported_and_leaves_nothing(veldt, usual, command, moment):
     run, planner = _start(veldt, command, moment)
     os.kill(planner, signal.SIGKILL)
-    out, err = run.communicate(timeout=60)
+    out, err = run.communicate(timeout=PATIENCE_S)
     how = f"{veldt.folder}/held_python plan_scene.py was killed by signal 9 (Killed)"
     assert (run.returncode, out, err) == (75, "", f"veldt: {how}; {HINT}\n")
     _check_nothing_runs(veldt, command)
@@ -133,7 +133,7 @@ def test_a_killed_worker_of_the_planner_is_reported_at_once_and_leaves_nothing(v
     run, planner = _start(veldt, command, "baking tracks")
     worker = max(process for process, parent in parents().items() if parent == planner)
     os.kill(worker, signal.SIGKILL)
-    out, err = run.communicate(timeout=30)  # less than it is held
+    out, err = run.communicate(timeout=PATIENCE_S)  # less than the others are held
     how = f"{veldt.folder}/held_python plan_scene.py ended with exit code 75"
     why = "a worker process was killed by signal 9 (Killed)"
     assert (run.returncode, out, err) == (75, "", f"veldt: {how}: {why}; {HINT}\n")

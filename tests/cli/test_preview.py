@@ -8,7 +8,7 @@ import pytest
 
 import fake_blender
 from configs import tiny
-from processes import running_with, wait_until
+from processes import PATIENCE_S, running_with, wait_until
 from program import files_below
 
 MADE = ["config.json", "map.png", "overview.png"]
@@ -77,11 +77,11 @@ def test_asked_to_stop_it_stops_the_renderer(veldt, blender):
     out = veldt.folder / "out"
     fake_blender.hold_after(veldt.folder, "preview", 0)
     run = veldt.start(*_run(blender, "--progress", "none", out=out))
-    assert wait_until((out / "preview" / "overview.png").exists, 60)
+    assert wait_until((out / "preview" / "overview.png").exists)
     os.kill(run.pid, signal.SIGINT)
-    run.communicate(timeout=3)
+    run.communicate(timeout=PATIENCE_S)  # less than the renderer is held
     assert run.returncode == 128 + signal.SIGINT
-    assert wait_until(lambda: not running_with(out), 2)
+    assert wait_until(lambda: not running_with(out))
 
 
 # --- what can go wrong ------------------------------------------------------------------------------------------------

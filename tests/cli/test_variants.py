@@ -10,7 +10,6 @@ import pytest
 import passes
 from opened import Opened
 from pictures import write_exr
-from processes import wait_until
 from program import ROOT, files_below
 
 # What a variant may change, and the same by --set.
@@ -200,14 +199,13 @@ def test_a_variant_of_other_settings_is_left_alone(veldt, clips):
 # --- killed, in use, spoilt -------------------------------------------------------------------------------------------
 
 
-def test_killed_it_goes_on_to_the_same_datasets(veldt):
-    frames = 40  # long enough to be caught in the middle
-    folders = [passes.write_clip(veldt.folder / clip, clip, frames) for clip in ("one", "two")]
+def test_killed_it_goes_on_to_the_same_datasets(veldt, gate):
+    folders = [passes.write_clip(veldt.folder / clip, clip, 12) for clip in ("one", "two")]
     veldt.write("list.json", _list("plain", "summer"))
     run = ("convert", *folders, "--variants", "list.json")
     assert veldt(*run, "--out", "undisturbed", "--quiet").code == 0
-    started = veldt.start(*run, "--out", "out", "--progress", "none")
-    assert wait_until((veldt.folder / "out" / "summer" / "clips" / "two.part").exists, 60)
+    before = "out/summer/clips/two.part/ir16/000006.png"
+    started = gate.start(veldt, before, *run, "--out", "out", "--progress", "none")
     started.kill()
     started.communicate()
     assert started.returncode == -signal.SIGKILL
@@ -220,7 +218,7 @@ def test_killed_it_goes_on_to_the_same_datasets(veldt):
         ]
     done = veldt(*run, "--out", "out", "--progress", "none")
     assert done.out == "".join(
-        f"out/{name}: 1 clip made, 40 frames; 1 already existed\n" for name in ("plain", "summer")
+        f"out/{name}: 1 clip made, 12 frames; 1 already existed\n" for name in ("plain", "summer")
     )
     for name in ("plain", "summer"):
         assert veldt.pixels(f"out/{name}") == veldt.pixels(f"undisturbed/{name}")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 from pathlib import Path
 
@@ -13,6 +12,7 @@ import pytest
 
 from passes import FRAMES, HEIGHT, WIDTH
 from pictures import read_grey
+from processes import PATIENCE_S, interrupt
 from program import files_below
 from reports import make_dataset
 
@@ -142,8 +142,8 @@ def test_asked_to_stop_it_leaves_nothing(veldt, dataset):
     before = files_below(veldt.folder)
     run = veldt.start("video", "out/clips/down", "--out", "v.mp4", "--progress", "json")
     run.stderr.readline()
-    os.kill(run.pid, signal.SIGINT)
-    _, err = run.communicate(timeout=60)
+    interrupt(run.pid, signal.SIGINT)
+    _, err = run.communicate(timeout=PATIENCE_S)
     assert run.returncode == 128 + signal.SIGINT
     assert "the same command" in err
     assert files_below(veldt.folder) == before

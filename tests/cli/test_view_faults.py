@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import passes
+from processes import PATIENCE_S, interrupt
 from program import check_fault, files_below
 from reports import change, make_dataset
 
@@ -157,8 +158,8 @@ def test_stopped_it_leaves_what_was_there(veldt):
     before = files_below(veldt.folder)
     run = _started(veldt, page.name)
     assert (veldt.folder / "page.part" / "index.html").exists()
-    run.send_signal(signal.SIGINT)
-    out, err = run.communicate(timeout=60)
+    interrupt(run.pid, signal.SIGINT)
+    out, err = run.communicate(timeout=PATIENCE_S)
     assert (run.returncode, out) == (128 + signal.SIGINT, "")
     assert err.splitlines()[-1] == "veldt: stopped on request; run the same command again to resume"
     assert files_below(veldt.folder) == before
@@ -168,7 +169,7 @@ def test_stopped_it_leaves_what_was_there(veldt):
 def test_killed_it_starts_again(veldt):
     run = _started(veldt, "page")
     run.kill()
-    run.communicate(timeout=60)
+    run.communicate(timeout=PATIENCE_S)
     part = veldt.folder / "page.part"
     assert part.is_dir() and not (veldt.folder / "page").exists()
     (part / "data" / "stale.js").write_text("", encoding="utf-8")

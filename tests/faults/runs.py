@@ -10,10 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from processes import parents, wait_until
+from processes import PATIENCE_S, parents, wait_until
 from program import PROGRAM
-
-HUNG_S = 120.0  # a run that takes longer waits for something that never comes
 
 
 @dataclass(frozen=True)
@@ -50,7 +48,7 @@ def start(
 def finish(run: subprocess.Popen, work: Path, name: str = "run") -> Ended:
     """Wait for a run; one that hangs is killed."""
     try:
-        code: int | None = run.wait(HUNG_S)
+        code: int | None = run.wait(PATIENCE_S)
     except subprocess.TimeoutExpired:
         run.kill()
         run.wait()
@@ -95,13 +93,13 @@ def send(process: int, number: int) -> bool:
 
 def left_over() -> list[str]:
     """Names of the processes that outlive their runs by seconds; they are killed."""
-    wait_until(lambda: not _orphans(), 10)
+    wait_until(lambda: not _orphans())
     found = []
     for process in _orphans():
         found.append(name_of(process))
         for one in reversed(descendants(process)):
             send(one, signal.SIGKILL)
-    wait_until(lambda: not _orphans(), 10)
+    wait_until(lambda: not _orphans())
     return found
 
 

@@ -81,7 +81,7 @@ SPOILT = {
         "out/clips/first was committed and is made again",
     ),
     "a process": (
-        lambda work: subprocess.run(["sh", "-c", "sleep 60 &"], check=True),
+        lambda work: subprocess.run(["sh", "-c", "sleep 3600 &"], check=True),
         "process left by the resumed run: sleep",
     ),
 }

@@ -8,7 +8,6 @@ from __future__ import annotations
 import itertools
 import os
 import re
-import resource
 import shlex
 from pathlib import Path
 
@@ -17,7 +16,7 @@ import pytest
 import passes
 from bad_input import ALL, NO_CLIP, NOTHING, OTHERS, RUN, BadInput
 from bad_inputs import BAD_INPUTS
-from program import files_below
+from program import files_below, used_s
 from raw_exr import exr_bytes
 
 README = Path(__file__).parent / "README.md"
@@ -38,18 +37,12 @@ def _made(out: Path) -> str:
     return {3: ALL, 2: OTHERS}.get(pictures[0], f"{pictures[0]} frames") if whole else "halves"
 
 
-def _used_s() -> float:
-    """Processor time of the programs that have ended."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
-
-
 @pytest.mark.parametrize("bad", BAD_INPUTS, ids=lambda bad: f"{bad.group}: {bad.name}")
 def test_a_bad_input_gets_what_the_table_says(veldt, bad: BadInput):
     bad.spoil(passes.write_clip(veldt.folder / "one"))
-    begun_s = _used_s()
+    begun_s = used_s()
     done = veldt(*RUN, *bad.more, under=UNDER)
-    assert _used_s() - begun_s < LONGEST_S
+    assert used_s() - begun_s < LONGEST_S
     expected = "".join(f"veldt: {line}\n" for line in bad.message.splitlines())
     assert (done.code, done.out, done.err) == (bad.code, "", expected)
     assert _made(veldt.folder / "out") == bad.made

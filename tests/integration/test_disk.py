@@ -12,6 +12,7 @@ import pytest
 
 import passes
 from datasets import content_of
+from processes import PATIENCE_S
 from program import PROGRAM, ROOT, Veldt, files_below
 from small_disk import BLOCK, can_be_root_of_a_namespace, small_disk
 
@@ -45,7 +46,7 @@ def test_this_file_as_root_of_a_namespace():
         "no:cacheprovider",
         __file__,
     ]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE_S, check=False)
     assert done.returncode == 0, done.stdout
 
 

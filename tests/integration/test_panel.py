@@ -12,6 +12,7 @@ import pytest
 
 from configs import tiny
 from pictures import read_grey
+from processes import PATIENCE_S
 from program import PROGRAM, ROOT, Veldt
 
 EXTENSION = ROOT / "blender_scripts" / "veldt_panel"
@@ -55,7 +56,7 @@ class Session:
             },
             capture_output=True,
             text=True,
-            timeout=300,
+            timeout=PATIENCE_S,
             check=False,
         )
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]

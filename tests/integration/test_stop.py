@@ -1,16 +1,15 @@
 """`convert` stopped in the middle of a clip: no partial clip is left, and the same command completes the dataset."""
 
-import os
 import signal
 
 import pytest
 
 import passes
 from datasets import content_of
-from processes import wait_until
+from processes import PATIENCE_S, interrupt
 from program import files_below
 
-FRAMES = 300  # long enough to be caught in the middle
+FRAMES = 40  # more than a run begins after it was asked to stop
 STOPPED = "veldt: stopped on request; run the same command again to resume\n"
 
 
@@ -22,12 +21,18 @@ def _clip(veldt):
     return veldt.folder / "usual"
 
 
-def _start(veldt, *more, part="out/clips/one.part"):
-    """A run that has written some pictures, and not all."""
-    run = veldt.start("convert", "one", "--out", "out", "--progress", "none", "--threads", "1", *more)
-    pictures = veldt.folder / part / "ir16"
-    assert wait_until(lambda: pictures.is_dir() and len(list(pictures.iterdir())) > 5, 60)
+def _held(veldt, gate, *more, part="out/clips/one.part"):
+    """A run that has written some pictures, and is held before the next."""
+    command = ["convert", "one", "--out", "out", "--progress", "none", "--threads", "1", *more]
+    run = gate.start(veldt, f"{part}/ir16/000006.png", *command)
+    assert len(list((veldt.folder / part / "ir16").iterdir())) == 6
     return run
+
+
+def _stop(run, gate, number):
+    interrupt(run.pid, number)
+    gate.open()
+    return run.communicate(timeout=PATIENCE_S)
 
 
 def _below(folder):
@@ -35,10 +40,9 @@ def _below(folder):
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-def test_asked_to_stop_it_leaves_nothing_half_made(veldt, clip, number):
-    run = _start(veldt)
-    os.kill(run.pid, number)
-    out, err = run.communicate(timeout=60)
+def test_asked_to_stop_it_leaves_nothing_half_made(veldt, gate, clip, number):
+    run = _held(veldt, gate)
+    out, err = _stop(run, gate, number)
     assert (run.returncode, out, err) == (128 + number, "", STOPPED)
     assert _below(veldt.folder / "out") == [".lock", "annotations.json", "clips", "dataset.json"]
     assert veldt.read("out/dataset.json")["clips"] == [{"id": "one", "status": "pending"}]
@@ -46,11 +50,10 @@ def test_asked_to_stop_it_leaves_nothing_half_made(veldt, clip, number):
     assert content_of(veldt.folder / "out") == content_of(clip)
 
 
-def test_asked_to_stop_it_leaves_nothing_of_any_variant(veldt, clip):
+def test_asked_to_stop_it_leaves_nothing_of_any_variant(veldt, gate, clip):
     veldt.write("variants.json", {"variants": [{"name": "a"}, {"name": "b", "season": "summer"}]})
-    run = _start(veldt, "--variants", "variants.json", part="out/b/clips/one.part")
-    run.terminate()
-    assert (run.communicate(timeout=60), run.returncode) == (("", STOPPED), 128 + signal.SIGTERM)
+    run = _held(veldt, gate, "--variants", "variants.json", part="out/b/clips/one.part")
+    assert (_stop(run, gate, signal.SIGTERM), run.returncode) == (("", STOPPED), 128 + signal.SIGTERM)
     for name in ("a", "b"):
         assert list((veldt.folder / "out" / name / "clips").iterdir()) == []
     again = veldt("convert", "one", "--out", "out", "--variants", "variants.json", "--quiet")
@@ -58,8 +61,8 @@ def test_asked_to_stop_it_leaves_nothing_of_any_variant(veldt, clip):
     assert veldt.pixels("out/a") == veldt.pixels(clip)
 
 
-def test_killed_it_leaves_what_the_next_run_sweeps_away(veldt, clip):
-    run = _start(veldt)
+def test_killed_it_leaves_what_the_next_run_sweeps_away(veldt, gate, clip):
+    run = _held(veldt, gate)
     run.kill()
     run.communicate()
     assert run.returncode == -signal.SIGKILL
@@ -69,7 +72,7 @@ def test_killed_it_leaves_what_the_next_run_sweeps_away(veldt, clip):
     assert content_of(veldt.folder / "out") == content_of(clip)
 
 
-def test_stopped_while_a_clip_is_made_again_the_old_one_stays(veldt, clip):
+def test_stopped_while_a_clip_is_made_again_the_old_one_stays(veldt, gate, clip):
     """A clip that lacks a frame is replaced in one step, when the new one is whole."""
     frame = veldt.folder / "one" / f"{FRAMES // 2:06d}.exr"
     content = frame.read_bytes()
@@ -77,9 +80,8 @@ def test_stopped_while_a_clip_is_made_again_the_old_one_stays(veldt, clip):
     assert veldt("convert", "one", "--out", "out", "--quiet").code == 3
     old = content_of(veldt.folder / "out" / "clips" / "one")
     frame.write_bytes(content)
-    run = _start(veldt)
-    run.terminate()
-    run.communicate(timeout=60)
+    run = _held(veldt, gate)
+    _stop(run, gate, signal.SIGTERM)
     assert run.returncode == 128 + signal.SIGTERM
     assert content_of(veldt.folder / "out" / "clips" / "one") == old
     assert veldt("validate", "out").code == 0

@@ -13,6 +13,8 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.wait import WebDriverWait
 
+from processes import PATIENCE_S
+
 DESKTOP = (1280, 800)
 PHONE = (390, 844)
 
@@ -50,9 +52,9 @@ class Browser:
         """What a JavaScript function body returns."""
         return self._driver.execute_script(script)
 
-    def wait_for(self, condition: str, timeout_s: float = 20) -> None:
+    def wait_for(self, condition: str) -> None:
         """Wait until a JavaScript expression is true."""
-        WebDriverWait(self._driver, timeout_s, poll_frequency=0.02).until(
+        WebDriverWait(self._driver, PATIENCE_S, poll_frequency=0.02).until(
             lambda _: self.run(f"return {condition}"), f"never true: {condition}"
         )
 

@@ -15,6 +15,7 @@ import time
 from pathlib import Path
 
 import passes
+from processes import HELD_S
 from program import Ended, Veldt
 from raw_exr import write_exr
 
@@ -99,7 +100,7 @@ def _hold(clip: str, frame: int) -> None:
     _die(folder, clip, frame)
     if _order(folder / _HOLDS) == f"{clip} {frame}":
         (folder / _HOLDS).unlink()
-        time.sleep(60)
+        time.sleep(HELD_S)
 
 
 def _die(folder: Path, clip: str, frame: int) -> None:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import socket
 import struct
-import threading
-import time
 from pathlib import Path
 
 import numpy as np
@@ -56,18 +54,14 @@ def _messages_at(origin, place_m, forward, time_s: float):
     )
 
 
-def replay(path: Path, port: int) -> threading.Thread:
-    """Send a log's messages to a UDP port of this machine, as they were timed; joined when all are sent."""
+def send(datagram: bytes, to: tuple[str, int]) -> None:
+    """Send one; on this machine it has arrived afterwards."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
+        out.sendto(datagram, to)
 
-    def send() -> None:
-        log = mavutil.mavlink_connection(str(path), dialect="common")
-        start_s, first_s = time.monotonic(), None
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
-            while (message := log.recv_msg()) is not None:
-                first_s = message._timestamp if first_s is None else first_s
-                time.sleep(max(0, start_s + message._timestamp - first_s - time.monotonic()))
-                out.sendto(message.get_msgbuf(), ("127.0.0.1", port))
 
-    thread = threading.Thread(target=send)
-    thread.start()
-    return thread
+def read_log(path: Path) -> list[tuple[float, bytes]]:
+    """A log's messages, with the times [s] from the first on."""
+    log = mavutil.mavlink_connection(str(path), dialect="common")
+    messages = list(iter(log.recv_msg, None))
+    return [(one._timestamp - messages[0]._timestamp, bytes(one.get_msgbuf())) for one in messages]

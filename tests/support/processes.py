@@ -1,11 +1,19 @@
-"""What runs on this machine."""
+"""What runs on this machine, and how long tests wait for it.
+
+No test may depend on how fast the machine is: PATIENCE_S only ends the wait for what never comes.
+"""
 
 from __future__ import annotations
 
 import ctypes
+import os
+import re
 import time
 from collections.abc import Callable
 from pathlib import Path
+
+PATIENCE_S = 600.0
+HELD_S = 6 * PATIENCE_S  # how long what is held stays, if nobody ends it: longer than anybody waits
 
 _PR_SET_CHILD_SUBREAPER = 36  # <linux/prctl.h>
 
@@ -23,14 +31,30 @@ def running_with(word: str | Path) -> dict[int, str]:
     return found
 
 
-def wait_until(condition: Callable[[], bool], seconds: float) -> bool:
-    """Wait for a condition; whether it came true in time."""
-    end = time.monotonic() + seconds
+def wait_until(condition: Callable[[], bool]) -> bool:
+    """Wait for a condition; whether it came true."""
+    end = time.monotonic() + PATIENCE_S
     while not condition():
         if time.monotonic() > end:
             return False
         time.sleep(0.02)
     return True
+
+
+def interrupt(process: int, number: int) -> None:
+    """Send `veldt` a signal that asks it to stop, and return when it knows."""
+    os.kill(process, number)
+    assert wait_until(lambda: knows_of(process, number))
+
+
+def knows_of(process: int, number: int) -> bool:
+    """Whether `veldt` has taken such a signal: then it has no handler for it any more, as when it has ended."""
+    try:
+        status = Path(f"/proc/{process}/status").read_text(encoding="utf-8")
+    except (FileNotFoundError, ProcessLookupError):
+        return True
+    caught = int(re.search(r"SigCgt:\s*(\w+)", status)[1], 16)
+    return not caught >> (number - 1) & 1
 
 
 def parent_of(process: int) -> int:

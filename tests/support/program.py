@@ -6,12 +6,15 @@ import atexit
 import functools
 import json
 import os
+import resource
 import select
 import subprocess
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+
+from processes import PATIENCE_S
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("VELDT_PROGRAM") or ROOT / "build" / "release" / "bin" / "veldt")
@@ -44,7 +47,7 @@ class _CommandServer:
         self._process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         atexit.register(self._end)
 
-    def run(self, words: list[str], environment: dict[str, str], folder: Path, timeout_s: float) -> Ended:
+    def run(self, words: list[str], environment: dict[str, str], folder: Path) -> Ended:
         """Run a command line to the end."""
         with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
             files = {
@@ -53,11 +56,16 @@ class _CommandServer:
             order = {"arguments": words, "environment": environment, "folder": str(folder)} | files
             self._process.stdin.write(json.dumps(order) + "\n")
             self._process.stdin.flush()
-            if not select.select([self._process.stdout], [], [], timeout_s)[0]:
+            if not select.select([self._process.stdout], [], [], PATIENCE_S)[0]:
                 self._process.kill()
                 _server.cache_clear()
-                raise subprocess.TimeoutExpired(words, timeout_s)
+                raise subprocess.TimeoutExpired(words, PATIENCE_S)
             return Ended(int(self._process.stdout.readline()), _text(out), _text(err))
+
+    def used_s(self) -> float:
+        """Processor time of the runs that have ended."""
+        stat = Path(f"/proc/{self._process.pid}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
+        return (int(stat[13]) + int(stat[14])) / os.sysconf("SC_CLK_TCK")
 
     def _end(self) -> None:
         self._process.stdin.close()
@@ -69,6 +77,12 @@ def _server(program: Path) -> _CommandServer | None:
     """The one for this program, where it has been built with tests."""
     server = program.parent / "command_server"
     return _CommandServer(server) if server.exists() else None
+
+
+def used_s(program: Path = PROGRAM) -> float:
+    """Processor time of all runs that have ended."""
+    used, server = resource.getrusage(resource.RUSAGE_CHILDREN), _server(program)
+    return used.ru_utime + used.ru_stime + (server.used_s() if server else 0)
 
 
 def _is_text(word: str) -> bool:
@@ -89,9 +103,7 @@ class Veldt:
         self.folder = folder
         self.program = program
 
-    def __call__(
-        self, *arguments, env: dict | None = None, under: Sequence[str] = (), timeout_s: float = 300
-    ) -> Ended:
+    def __call__(self, *arguments, env: dict | None = None, under: Sequence[str] = ()) -> Ended:
         """Run to the end. `env` changes the environment; `under` is a command that runs the program.
 
         Without either, a process that has loaded the program's libraries runs the command (command_server.cpp).
@@ -99,14 +111,14 @@ class Veldt:
         words, environment = list(map(str, arguments)), _environment(env)
         server = _server(self.program)
         if server and not under and not env and all(map(_is_text, [*words, *environment.values()])):
-            return server.run(words, environment, self.folder, timeout_s)
+            return server.run(words, environment, self.folder)
         done = subprocess.run(
             [*under, self.program, *words],
             cwd=self.folder,
             env=environment,
             capture_output=True,
             text=True,
-            timeout=timeout_s,
+            timeout=PATIENCE_S,
             check=False,
         )
         return Ended(done.returncode, done.stdout, done.stderr)
