@@ -13,7 +13,6 @@ import socket
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,7 +20,8 @@ from pathlib import Path
 import pytest
 
 import keeper
-from processes import wait_until
+from ports import free_port
+from processes import PATIENCE_S, wait_until
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "scontrol", "sinfo", "scancel")
 _SBIN = "/usr/local/sbin:/usr/sbin:/sbin"  # not on every user's PATH
@@ -36,12 +36,11 @@ _ENDED = {
     "BOOT_FAIL",
     "DEADLINE",
 }
-_START_S = 30
 _LOG_LINES = 8
 
-# Short times: a node that has not answered for 4 s is down, which the controller notices within 10 s; a requeued job
-# waits 6 s, until the credential of its last run has expired (2 minutes by default). Jobs that ended stay listed for an
-# hour. A node has one CPU and 4 GB, whatever the machine has.
+# Short times: a node that has not answered for 20 s is down, which is more than a busy machine needs to answer; a
+# requeued job waits 6 s, until the credential of its last run has expired (2 minutes by default). Jobs that ended stay
+# listed for an hour. A node has one CPU and 4 GB, whatever the machine has.
 _CONFIG = """\
 ClusterName=test
 SlurmctldHost={host}(127.0.0.1)
@@ -70,8 +69,8 @@ SelectTypeParameters=CR_CPU
 SchedulerType=sched/backfill
 SchedulerParameters=sched_interval=1,sched_min_interval=0,bf_interval=1,batch_sched_delay=0
 SlurmdParameters=config_overrides
-SlurmdTimeout=4
-MessageTimeout=2
+SlurmdTimeout=20
+MessageTimeout=10
 SlurmctldTimeout=10
 KillWait=2
 MinJobAge=3600
@@ -137,7 +136,7 @@ class Slurm:
             cwd=cwd or self.folder,
             capture_output=True,
             text=True,
-            timeout=60,
+            timeout=PATIENCE_S,
             check=False,
         )
         assert done.returncode == 0, f"{arguments}: {done.stdout}{done.stderr}"
@@ -160,13 +159,12 @@ class Slurm:
         """The states of the same jobs, such as RUNNING."""
         return {name: fields["JobState"] for name, fields in self.jobs(job).items()}
 
-    def wait(self, job: str, seconds: float) -> dict[str, str]:
-        """The states of the same jobs once all have ended; an assertion fails, with all logs, if they don't in time."""
-        end = time.monotonic() + seconds
-        while not set((states := self.states(job)).values()) <= _ENDED:
-            assert time.monotonic() < end, f"job {job} after {seconds} s: {states}\n{self.logs()}"
-            time.sleep(0.2)
-        return states
+    def wait(self, job: str) -> dict[str, str]:
+        """The states of the same jobs once all have ended; an assertion fails, with all logs, if they never do."""
+        assert wait_until(
+            lambda: set(self.states(job).values()) <= _ENDED
+        ), f"{self.states(job)}\n{self.logs()}"
+        return self.states(job)
 
     def node_state(self, node: str) -> str:
         """Such as idle, alloc or down; with * if it doesn't answer."""
@@ -225,7 +223,10 @@ class Slurm:
         return ["munged", "--foreground", *(f"--{o}={self.folder}/munge.{e}" for o, e in files.items())]
 
     def _write_config(self) -> None:
-        ports = _free_ports(1 + len(self.nodes))
+        ports: list[int] = []
+        while len(ports) <= len(self.nodes):
+            port = free_port(socket.SOCK_STREAM)
+            ports += [port] if port not in ports else []
         host = socket.gethostname().partition(".")[0]
         nodes = [
             f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs=1 RealMemory=4096 State=UNKNOWN"
@@ -253,11 +254,11 @@ class Slurm:
 
     def _await(self, name: str, ready) -> None:
         crashed = lambda: [each for each, daemon in self._daemons.items() if not daemon.runs()]
-        wait_until(lambda: crashed() or ready(), _START_S)
+        wait_until(lambda: crashed() or ready())
         for each in crashed():
             raise CannotStart(f"{each} ended: {self._said(each)}")
         if not ready():
-            raise CannotStart(f"{name} is not ready after {_START_S} s: {self._said(name)}")
+            raise CannotStart(f"{name} never becomes ready: {self._said(name)}")
 
     def _said(self, name: str) -> str:
         files = [self.folder / f"{name}.{end}" for end in ("log", "out")]
@@ -266,14 +267,6 @@ class Slurm:
 
 def _last_lines(file: Path) -> str:
     return "\n".join(file.read_text(encoding="utf-8", errors="replace").splitlines()[-_LOG_LINES:])
-
-
-def _free_ports(count: int) -> list[int]:
-    sockets = [socket.create_server(("127.0.0.1", 0)) for _ in range(count)]
-    ports = [each.getsockname()[1] for each in sockets]
-    for each in sockets:
-        each.close()
-    return ports
 
 
 @contextmanager

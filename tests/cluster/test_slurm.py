@@ -9,7 +9,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass, field
@@ -18,7 +17,8 @@ from pathlib import Path
 import pytest
 
 from configs import tiny
-from processes import parent_of, running_with, wait_until
+from gate import Gate
+from processes import knows_of, parent_of, running_with, wait_until
 from program import PROGRAM, Veldt, files_below
 from slurm import Slurm, running_slurm
 from small_disk import BLOCK, SmallDisk, small_disk
@@ -28,15 +28,16 @@ SHARDS = 8
 CLIPS = 40
 CRASHED, REQUEUED, FULL, STOPPED, BROKEN, CANCELLED = range(1, 7)  # shards, by what happens to them
 
-# What the nodes find on PATH: the program, with an option that it does not know for one shard.
+# What the nodes find on PATH: the program, which is held in some shards, and has an option that it does not know in one.
 _PROGRAM = f"""\
 #!/bin/sh
-exec "{PROGRAM}" "$@" $(cat "wrong_options_$SLURM_ARRAY_TASK_ID" 2>/dev/null)
+exec env $(cat "held_$SLURM_ARRAY_TASK_ID" 2>/dev/null) \\
+  "{PROGRAM}" "$@" $(cat "wrong_options_$SLURM_ARRAY_TASK_ID" 2>/dev/null)
 """
 
 
 def _config() -> dict:
-    """Clips long enough to halt a shard after the first of its own."""
+    """Five clips a shard."""
     config = tiny()
     config["render"] = {"actor_layer": True, "engine": "embree"}
     two = config["clips"]
@@ -69,7 +70,7 @@ class Made:
 
     def wait(self, array: str, merge: str) -> None:
         """Wait for the merge, and keep what came of all jobs."""
-        state = self.slurm.wait(merge, 180)[merge]
+        state = self.slurm.wait(merge)[merge]
         self.merges.append((state, self.log(merge)))
         jobs = self.slurm.jobs(array)
         self.arrays.append({int(jobs[name]["ArrayTaskId"]): jobs[name] for name in sorted(jobs)})
@@ -92,44 +93,40 @@ class Made:
         return {shard: (job["JobState"], job["ExitCode"], job["Restarts"]) for shard, job in jobs}
 
 
-def _hold(made: Made, shards: list[int]) -> dict[int, int]:
-    """Halt shards, each of them as soon as it has finished its first clip; their processes."""
-    held = {}
-    end = time.monotonic() + 120
-    while len(held) < len(shards):
-        assert time.monotonic() < end, f"only shards {list(held)} have made a clip\n{made.slurm.logs()}"
-        for shard in set(shards) - set(held):
-            if made.clips_of(shard):
-                (held[shard],) = running_with(f"--out {made.veldt.folder}/shards/{shard} ")
-                os.kill(held[shard], signal.SIGSTOP)
-                assert made.clips_of(shard) < CLIPS // SHARDS, f"shard {shard} was halted too late"
-        time.sleep(0.01)
-    return held
+def _gate(made: Made, library: Path, shard: int, stack: ExitStack) -> Gate:
+    """Has a shard held after its first clip."""
+    folder = made.veldt.folder / f"gate{shard}"
+    folder.mkdir()
+    gate = stack.enter_context(Gate(folder, library))
+    only = ("--plan", "plan", "--shard", f"{shard}/{SHARDS}", "--out", "none", "--dry-run")
+    second = made.veldt("generate", *only).out.splitlines()[2].split()[0]  # below the titles
+    settings = gate.variables(f"/{second}.part/ir8")
+    made.veldt.write(f"held_{shard}", " ".join(f"{name}={value}" for name, value in settings.items()))
+    return gate
 
 
-def _awaits(process: int, number: int) -> bool:
-    """Whether a halted process will get a signal when it goes on."""
-    status = Path(f"/proc/{process}/status").read_text(encoding="utf-8")
-    return bool(int(re.search(r"ShdPnd:\s*(\w+)", status)[1], 16) >> (number - 1) & 1)
-
-
-def _disturb(made: Made, array: str) -> None:
-    """Disturb four shards, each of them between two clips."""
-    stopped = _hold(made, [CRASHED, REQUEUED, STOPPED])[STOPPED]
+def _disturb(made: Made, array: str, gates: dict[int, Gate]) -> None:
+    """Disturb four shards, each of them between two clips; there are nodes for three at a time."""
+    for shard in (CRASHED, REQUEUED, STOPPED):
+        gates[shard].wait_for()
+        assert made.clips_of(shard) == 1
     crashed = f"{array}_{CRASHED}"
     made.crashed_node = made.slurm.jobs(crashed)[crashed]["NodeList"]
     made.slurm.kill_node(made.crashed_node)
-    made.slurm.command("scontrol", "requeue", f"{array}_{REQUEUED}")  # also has it go on, and end
+    made.slurm.command("scontrol", "requeue", f"{array}_{REQUEUED}")
+    stopped = gates[STOPPED].held()
     os.kill(parent_of(stopped), signal.SIGTERM)  # the script alone, as before a time limit
-    assert wait_until(lambda: _awaits(stopped, signal.SIGTERM), 30), made.slurm.logs()
-    os.kill(stopped, signal.SIGCONT)
-    _hold(made, [CANCELLED])
+    assert wait_until(lambda: knows_of(stopped, signal.SIGTERM)), made.slurm.logs()
+    for shard in (CRASHED, REQUEUED, STOPPED):
+        gates[shard].open()
+    gates[CANCELLED].wait_for()
     made.slurm.command("scancel", f"{array}_{CANCELLED}")
+    gates[CANCELLED].open()
 
 
 def _free_space(made: Made, job: str, disk: SmallDisk) -> None:
     """Free disk space once a job was requeued."""
-    assert wait_until(lambda: made.slurm.jobs(job)[job]["Restarts"] != "0", 120), made.slurm.logs()
+    assert wait_until(lambda: made.slurm.jobs(job)[job]["Restarts"] != "0"), made.slurm.logs()
     disk.free_space()
 
 
@@ -149,7 +146,7 @@ def _prepare(veldt: Veldt) -> None:
 
 
 @pytest.fixture(scope="module", name="made")
-def _made(tmp_path_factory) -> Iterator[Made]:
+def _made(tmp_path_factory, gate_library) -> Iterator[Made]:
     veldt = Veldt(tmp_path_factory.mktemp("made"))
     with ExitStack() as stack:
         made = Made(veldt, stack.enter_context(running_slurm(NODES)))
@@ -159,8 +156,10 @@ def _made(tmp_path_factory) -> Iterator[Made]:
             disk.leave(400 * BLOCK)  # two clips fit in
         except pytest.skip.Exception as reason:
             disk, made.no_disk = None, str(reason)
+        shards = (CRASHED, REQUEUED, STOPPED, CANCELLED)
+        gates = {shard: _gate(made, gate_library, shard, stack) for shard in shards}
         array, merge = made.hand_in()
-        _disturb(made, array)
+        _disturb(made, array, gates)
         if disk:
             _free_space(made, f"{array}_{FULL}", disk)
         made.wait(array, merge)
@@ -184,7 +183,7 @@ def test_a_crashed_node_leaves_its_shard_to_another(made):
     assert made.ends(0)[CRASHED] == ("COMPLETED", "0:0", "1")
     assert made.arrays[0][CRASHED]["NodeList"] != made.crashed_node
     made.slurm.start_node(made.crashed_node)
-    assert wait_until(lambda: made.slurm.node_state(made.crashed_node) == "idle", 30)
+    assert wait_until(lambda: made.slurm.node_state(made.crashed_node) == "idle")
 
 
 def test_a_requeued_shard_goes_on(made):
@@ -258,8 +257,8 @@ def test_no_process_outlives_a_killed_test(made):
     ) as test:
         folder = test.stdout.readline().strip()
         assert folder and folder != str(made.slurm.folder)
-        assert wait_until(lambda: running_with(f"{folder}/n0/job"), 10)
+        assert wait_until(lambda: running_with(f"{folder}/n0/job"))
         test.kill()
-    assert wait_until(lambda: not running_with(folder), 10), running_with(folder)
+    assert wait_until(lambda: not running_with(folder)), running_with(folder)
     shutil.rmtree(folder)
     assert running_with(made.slurm.folder)
