@@ -15,6 +15,8 @@ from datasets import content_of
 from processes import PATIENCE_S, running_with, wait_until
 from program import Veldt, files_below
 
+pytestmark = pytest.mark.usefixtures("planned")
+
 
 def _run(veldt, *options, command="generate") -> list[str]:
     """The arguments of a run; the full path of its folder distinguishes its processes from those of other tests."""

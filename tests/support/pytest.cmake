@@ -4,11 +4,11 @@ find_program(VELDT_TEST_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(VELDT_TEST_PYTHON python3 REQUIRED)
 cmake_host_system_information(RESULT VELDT_CORES QUERY NUMBER_OF_LOGICAL_CORES)
 
-# veldt_pytest(NAME name LABELS kind cost FILES test_….py … [WHICH part of names] [SERIAL] TIMEOUT seconds)
+# veldt_pytest(NAME name LABELS kind cost FILES test_….py … [WHICH part of names] [SKIP reason] [SERIAL])
 # One run of pytest over all files, on all cores; with SERIAL on one, beside other tests. Its own times are in
 # Testing/<name>.xml. Whoever skips says why, and only those with a reason in SKIP may.
 function(veldt_pytest)
-  cmake_parse_arguments(TEST "SERIAL" "NAME;WHICH;SKIP;TIMEOUT" "LABELS;FILES" ${ARGN})
+  cmake_parse_arguments(TEST "SERIAL" "NAME;WHICH;SKIP" "LABELS;FILES" ${ARGN})
   if(TEST_WHICH)
     set(which -k "${TEST_WHICH}")
   endif()
@@ -20,8 +20,8 @@ function(veldt_pytest)
            COMMAND ${VELDT_TEST_LAUNCHER} ${VELDT_TEST_PYTHON} -B -m pytest -q ${on_all_cores}
                    --junitxml ${CMAKE_BINARY_DIR}/Testing/${TEST_NAME}.xml ${which} ${TEST_FILES}
            WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
-  set_tests_properties(${TEST_NAME} PROPERTIES LABELS "${TEST_LABELS};pytest" TIMEOUT ${TEST_TIMEOUT} ENVIRONMENT
-                                               "VELDT_PROGRAM=$<TARGET_FILE:veldt>")
+  set_tests_properties(${TEST_NAME} PROPERTIES LABELS "${TEST_LABELS};pytest" TIMEOUT ${VELDT_PATIENCE_S}
+                                               ENVIRONMENT "VELDT_PROGRAM=$<TARGET_FILE:veldt>")
   if(NOT TEST_SERIAL)
     set_tests_properties(${TEST_NAME} PROPERTIES PROCESSORS ${VELDT_CORES})
   endif()
