@@ -142,7 +142,7 @@ int run_guarded(const Session& session) {
     print_fault(place.empty() ? error.what() : place + ": " + error.code().message());
     return is_full(error.code()) ? kTryAgain : kFailed;
   } catch (const std::bad_alloc&) {
-    throw;  // main() reports it without allocating
+    throw;  // run_program() reports it without allocating
   } catch (const std::exception& error) {
     print_fault(error.what());
     return kFailed;

@@ -1,17 +1,3 @@
-#include <cstdio>
-#include <new>
+#include "cli/program.h"
 
-#include "cli/command.h"
-#include "cli/output.h"
-#include "io/video/h264_file.h"
-
-int main(int argc, char** argv) {
-  veldt::open_standard_streams();
-  thermal::silence_ffmpeg();
-  try {
-    return veldt::run_command_line(argc, argv);
-  } catch (const std::bad_alloc&) {
-    (void)std::fputs("veldt: out of memory; try again with more, or with fewer --threads\n", stderr);
-    return veldt::kTryAgain;
-  }
-}
+int main(int argc, char** argv) { return veldt::run_program(argc, argv); }
