@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <new>
 #include <sstream>
 #include <system_error>
 
@@ -21,7 +20,6 @@
 #include "dataset/run/render.h"
 #include "io/assets.h"
 #include "io/system/cores.h"
-#include "io/video/h264_file.h"
 
 namespace veldt {
 namespace {
@@ -144,7 +142,7 @@ int run_guarded(const Session& session) {
     print_fault(place.empty() ? error.what() : place + ": " + error.code().message());
     return is_full(error.code()) ? kTryAgain : kFailed;
   } catch (const std::bad_alloc&) {
-    throw;  // reported without allocating
+    throw;  // run_program() reports it without allocating
   } catch (const std::exception& error) {
     print_fault(error.what());
     return kFailed;
@@ -208,9 +206,7 @@ void add_commands(CLI::App& app, Session& session) {
   for (const auto& add : kCommands) add(app, session);
 }
 
-namespace {
-
-int run_parsed(int argc, const char* const* argv) {
+int run_command_line(int argc, const char* const* argv) {
   CLI::App app;
   Session session;
   add_commands(app, session);
@@ -221,19 +217,6 @@ int run_parsed(int argc, const char* const* argv) {
     return written(print_parsed(app, error));
   }
   return written(run_guarded(session));
-}
-
-}  // namespace
-
-int run_command_line(int argc, const char* const* argv) {
-  open_standard_streams();
-  thermal::silence_ffmpeg();
-  try {
-    return run_parsed(argc, argv);
-  } catch (const std::bad_alloc&) {
-    (void)std::fputs("veldt: out of memory; try again with more, or with fewer --threads\n", stderr);
-    return kTryAgain;
-  }
 }
 
 }  // namespace veldt

@@ -94,7 +94,7 @@ void add_engine(CLI::App* command, std::string& engine);
 /// thermal::find_blender() for the option --blender.
 [[nodiscard]] thermal::Path find_blender(const std::string& named);
 
-/// All that the program does: parses and runs a command line; errors go to standard error. Returns the exit code.
+/// Parses and runs a command line; errors go to standard error. Returns the exit code.
 int run_command_line(int argc, const char* const* argv);
 
 }  // namespace veldt

@@ -1,3 +1,3 @@
-#include "cli/command.h"
+#include "cli/program.h"
 
-int main(int argc, char** argv) { return veldt::run_command_line(argc, argv); }
+int main(int argc, char** argv) { return veldt::run_program(argc, argv); }

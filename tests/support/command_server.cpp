@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "cli/command.h"
+#include "cli/program.h"
 #include "io/json/file.h"
 
 namespace {
@@ -44,7 +44,7 @@ void set_environment(const Json& variables) {
   const auto arguments = order.at("arguments").get<std::vector<std::string>>();
   std::vector<const char*> words = {"veldt"};
   for (const std::string& argument : arguments) words.push_back(argument.c_str());
-  std::exit(veldt::run_command_line(static_cast<int>(words.size()), words.data()));
+  std::exit(veldt::run_program(static_cast<int>(words.size()), words.data()));
 }
 
 int run_apart(const Json& order) {

@@ -1,6 +1,6 @@
 #include "raycast/embree.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/error.h"
 #include "base/hand_over.h"

@@ -26,9 +26,9 @@ double positive(std::string_view text) {
 
 /// Content of a small file; empty if it cannot be read.
 std::string content_of(const Path& file) {
-  constexpr std::size_t kMostBytes = 64 << 10;
+  constexpr std::size_t kMostContentBytes = 64 << 10;
   try {
-    return read_text_file(file, kMostBytes);
+    return read_text_file(file, kMostContentBytes);
   } catch (const IoError&) {
     return "";
   }
