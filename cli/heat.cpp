@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "cli/command.h"
 #include "cli/heat_plot.h"
@@ -22,6 +23,7 @@ constexpr int kHours[] = {0, 3, 6, 9, 12, 15, 18, 21};
 struct HeatArguments {
   std::string config;
   std::vector<std::string> settings;
+  std::vector<std::string> surfaces;
   std::string plot;
   bool json = false;
 };
@@ -60,7 +62,23 @@ std::string title_of(const SeasonHeat& heat) {
       day.rain_days_ago);
 }
 
-std::vector<SeasonHeat> heat_of(const thermal::Config& config, const thermal::MaterialLibrary& materials) {
+using Surfaces = std::map<std::string, thermal::MaterialHeat>;
+
+/// Those that are named; all if none is.
+Surfaces choose(const Surfaces& all, const std::vector<std::string>& names) {
+  if (names.empty()) return all;
+  Surfaces chosen;
+  for (const std::string& name : names) {
+    const auto found = all.find(name);
+    if (found == all.end())
+      throw thermal::ConfigError(
+          thermal::fault("--surfaces", name, "", "surfaces that veldt heat lists without this option"));
+    chosen.insert(*found);
+  }
+  return chosen;
+}
+
+std::vector<SeasonHeat> heat_of(const thermal::Config& config, const Surfaces& surfaces) {
   std::vector<SeasonHeat> seasons;
   std::vector<thermal::FlownWeather> flown = thermal::flown_weather(config);
   flown.resize(std::min(flown.size(), kMostDays));
@@ -68,8 +86,7 @@ std::vector<SeasonHeat> heat_of(const thermal::Config& config, const thermal::Ma
     seasons.push_back({.season = season,
                        .weather = weather,
                        .flown_h = std::move(flown_h),
-                       .report = thermal::heat_report(weather.day, thermal::heat_of_materials(materials),
-                                                      weather.solar_h)});
+                       .report = thermal::heat_report(weather.day, surfaces, weather.solar_h)});
   }
   return seasons;
 }
@@ -136,9 +153,10 @@ thermal::Json to_json(const SeasonHeat& heat) {
 int run_heat(const HeatArguments& options, const CommonOptions& common) {
   const thermal::Assets assets = thermal::Assets::find();
   const thermal::Config config = load_config(options.config, options.settings, assets);
-  const thermal::MaterialLibrary materials = thermal::read_materials(assets);
+  const Surfaces surfaces =
+      choose(thermal::heat_of_materials(thermal::read_materials(assets)), options.surfaces);
   const std::vector<SeasonHeat> seasons =
-      thermal::with_threads(common.threads, [&] { return heat_of(config, materials); });
+      thermal::with_threads(common.threads, [&] { return heat_of(config, surfaces); });
   if (!options.plot.empty()) {
     std::vector<PlottedDay> days;
     for (const SeasonHeat& heat : seasons)
@@ -168,10 +186,13 @@ int run_heat(const HeatArguments& options, const CommonOptions& common) {
 void add_heat(CLI::App& app, Session& session) {
   CLI::App* command = add_command(
       app, session, "heat", "Temperatures of every kind of surface over the day, and what they depend on");
-  command->footer("Example: veldt heat configs/demo.json --plot day.svg");
+  command->footer("Example: veldt heat configs/demo.json --surfaces soil,grass,water,acacia --plot day.svg");
   auto options = std::make_shared<HeatArguments>();
   command->add_option("config", options->config, "Config of a dataset, JSON")->required();
   add_settings(command, options->settings);
+  command->add_option("--surfaces", options->surfaces, "Surfaces to show; all if not given")
+      ->delimiter(',')
+      ->type_name("NAME,…");
   command->add_option("--plot", options->plot, "Write the day as a chart, SVG");
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &session] {

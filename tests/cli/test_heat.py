@@ -5,6 +5,7 @@ import xml.etree.ElementTree
 import pytest
 
 from configs import tiny
+from program import check_fault
 
 
 def _physical(config):
@@ -47,6 +48,18 @@ def test_the_table_has_a_line_per_material_and_the_plot_is_an_svg(veldt):
     assert [line for line in done.out.splitlines() if line.startswith("soil  ")]
     root = xml.etree.ElementTree.parse(veldt.folder / "day.svg").getroot()
     assert root.tag.endswith("svg")
+
+
+def test_chosen_surfaces_are_shown_alone(veldt):
+    veldt.write("config.json", tiny(_physical))
+    done = veldt("heat", "config.json", "--surfaces", "soil,acacia wood", "--json")
+    assert (done.code, done.err) == (0, "")
+    assert [set(day["materials"]) for day in done.json()["days"]] == [{"soil", "acacia wood"}] * 2
+    check_fault(
+        veldt("heat", "config.json", "--surfaces", "sol"),
+        2,
+        "--surfaces = sol; expected surfaces that veldt heat lists without this option",
+    )
 
 
 @pytest.mark.parametrize(
