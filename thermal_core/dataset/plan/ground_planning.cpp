@@ -25,21 +25,6 @@ std::vector<SunPath> paths_in(const Path& folder, const Assets& assets) {
   }
 }
 
-/// What the planned clips show, with all that a lens or overscan adds to it.
-std::vector<GroundView> views_of(const Path& folder, const DatasetPlan& plan, const BakedScene& scene,
-                                 const Assets& assets) {
-  std::vector<GroundView> views;
-  for (const ClipPlan& clip : plan.clips) {
-    const BakedTrack track = read_baked_track(folder, clip.id, scene, assets);
-    Manifest manifest;
-    manifest.camera = track.camera.value_or(scene.camera);
-    manifest.overscan_px = scene.view_margin_px;
-    views.push_back({.camera = pixels_camera(manifest),
-                     .camera_to_world = {track.camera_to_world.begin(), track.camera_to_world.end()}});
-  }
-  return views;
-}
-
 }  // namespace
 
 bool needs_ground_maps(const Config& config) { return config.physical && config.heat_balance; }
@@ -57,6 +42,20 @@ bool has_needed_ground_maps(const Path& folder, const Config& config, const Asse
                              [&known](const SunPath& path) { return std::ranges::count(known, path) > 0; });
 }
 
+std::vector<GroundView> ground_views(const Path& folder, const DatasetPlan& plan, const BakedScene& scene,
+                                     const Assets& assets) {
+  std::vector<GroundView> views;
+  for (const ClipPlan& clip : plan.clips) {
+    const BakedTrack track = read_baked_track(folder, clip.id, scene, assets);
+    Manifest manifest;
+    manifest.camera = track.camera.value_or(scene.camera);
+    manifest.overscan_px = scene.view_margin_px;
+    views.push_back({.camera = pixels_camera(manifest),
+                     .camera_to_world = {track.camera_to_world.begin(), track.camera_to_world.end()}});
+  }
+  return views;
+}
+
 bool uses_ground_maps(const Path& folder, const Config& config) {
   return needs_ground_maps(config) && has_ground_maps(folder);
 }
@@ -70,7 +69,7 @@ void add_ground_maps(const Path& folder, const Path& scratch, const Config& conf
   };
   const BakedScene scene = read_baked_scene(folder, assets);
   std::optional<std::vector<GroundView>> views;
-  if (!config.poses_all) views = views_of(folder, plan, scene, assets);
+  if (!config.poses_all) views = ground_views(folder, plan, scene, assets);
   write_ground_maps(make_ground_maps(scene, days, views, show_cells), folder, scratch);
 }
 
