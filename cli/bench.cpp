@@ -8,6 +8,7 @@
 #include "bench/engines_suite.h"
 #include "bench/heat_suite.h"
 #include "bench/labels_suite.h"
+#include "bench/maps_suite.h"
 #include "bench/radiance_suite.h"
 #include "bench/render_suite.h"
 #include "bench/sensor_suite.h"
@@ -150,6 +151,7 @@ std::vector<std::string> suite_names() {
 #endif
   names.emplace_back("render");
   names.emplace_back("engines");
+  names.emplace_back("maps");
   return names;
 }
 
@@ -192,6 +194,10 @@ int run_bench(const BenchArguments& options, const CommonOptions& common) {
     return show(options.suite, thermal::run_balance_suite(teller(quiet)), options.json);
 #endif
   if (options.suite == "render") return show(options.suite, measure_rendering(options, quiet), options.json);
+  if (options.suite == "maps") {
+    const thermal::MapsSuiteTask task = {thermal::Assets::find(), common.threads, teller(quiet)};
+    return show(options.suite, thermal::run_maps_suite(task), options.json);
+  }
   if (options.suite == "engines") return show(options.suite, measure_engines(options, common), options.json);
   const thermal::MaterialLibrary materials = thermal::read_materials(thermal::Assets::find());
   if (options.suite == "heat")

@@ -16,7 +16,7 @@ void plan_with_progress(const CommonOptions& common, const thermal::Assets& asse
   std::vector<thermal::LeftOver> left_over;
   {
     ProgressBar bar(common, "planning", "flights", kPatience);
-    ProgressBar maps(common, "building the scene", "parts", kPatience);
+    ProgressBar maps(common, "building the scene", "cells", kPatience);
     plan({.assets = assets,
           .threads = common.threads,
           .blender = thermal::find_program("blender"),

@@ -228,3 +228,18 @@ def test_without_a_blender_embree_is_measured_alone(veldt, small_home):
     assert lines[1].split() == ["frame,", "s", "embree"]
     assert [line for line in lines if "cycles" in line or "differ" in line] == []
     assert len(lines) == sum(2 + len(rows) for rows in FROM_EMBREE.values())
+
+
+def test_maps_are_measured_where_pixels_read_them(veldt, small_home):
+    done = veldt("bench", "--suite", "maps", "--json", env=small_home)
+    assert done.code == 0, done.err
+    names = ("demo", "savanna", "savanna horizon")
+    steps = [f"{name}{step}" for name in names for step in (", planning", "", ", 2584 rays")]
+    assert done.err == "".join(f"measuring {step}\n" for step in steps)
+    rows = {row["name"]: row["figures"] for row in done.json()["rows"]}
+    assert tuple(rows) == names
+    for figures in rows.values():
+        assert figures["processor s"] > 0
+        assert 0 < figures["traced share"] < 1
+        assert 0 < figures["sky view rms"] < 0.022  # as 89 rays a cell
+        assert abs(figures["mean"]) < 0.003

@@ -46,9 +46,9 @@ def _place(tmp_path_factory) -> Veldt:
     return veldt
 
 
-def _array(veldt: Veldt, name: str) -> np.ndarray:
-    entry = veldt.read("plan/ground.json")["arrays"][name]
-    data = (veldt.folder / "plan" / "ground.bin").read_bytes()
+def _array(veldt: Veldt, name: str, out: str = "plan") -> np.ndarray:
+    entry = veldt.read(f"{out}/ground.json")["arrays"][name]
+    data = (veldt.folder / out / "ground.bin").read_bytes()
     count = int(np.prod(entry["shape"]))
     return np.frombuffer(data, entry["type"], count, entry["offset"]).reshape(entry["shape"])
 
@@ -69,7 +69,8 @@ def test_a_physical_plan_has_maps_and_their_checksums(place):
 
 def test_they_show_the_crowns_and_the_water_of_the_scene(place):
     sky, crown = _array(place, "sky_view"), _array(place, "crown_top_m")
-    assert sky[crown > 3].mean() < 0.8 * sky[crown == 0].mean()
+    seen = sky < 255
+    assert sky[seen & (crown > 3)].mean() < 0.8 * sky[seen & (crown == 0)].mean()
     assert 0.02 < (crown > 0).mean() < 0.5
     moisture = _array(place, "moisture")
     assert moisture[60, 60] == 255  # in the middle of the water
@@ -141,8 +142,58 @@ def test_damaged_maps_are_not_used(place, tmp_path):
     assert "used/ground.bin is damaged, or of another plan" in done.err
 
 
-def test_progress_shows_the_maps(place):
+def test_progress_counts_their_cells(place):
     done = place("plan", "config.json", "--out", "shown", "--progress", "json")
     events = [json.loads(line) for line in done.err.splitlines()]
-    parts = [event["parts_done"] for event in events if event["clip"] == "ground maps"]
-    assert parts == list(range(1, 51))
+    cells = [event for event in events if event["clip"] == "ground maps"]
+    assert len({event["cells_total"] for event in cells}) == 1
+    assert 0 < cells[-1]["cells_done"] == cells[-1]["cells_total"] <= _CELLS**2
+
+
+def _seen_from_above(veldt: Veldt) -> Veldt:
+    """A config whose only clip looks down on a part of the place."""
+    config = _config("winter", "summer")
+    flight = {"pattern": "transect", "points_m": [[-30, 25], [30, 25]], "altitude_m": 20, "speed_m_s": 5}
+    config["clips"] = [config["clips"][0] | {"flight": flight | {"look_angle_deg": 90}}]
+    veldt.write("config.json", config)
+    return veldt
+
+
+def _lit(veldt: Veldt, out: str) -> tuple[np.ndarray, np.ndarray]:
+    return _array(veldt, "sky_view", out), _array(veldt, "sunlit", out)[0]
+
+
+def test_light_is_traced_where_a_clip_can_see(veldt):
+    _seen_from_above(veldt)
+    _plan(veldt, "seen")
+    _plan(veldt, "whole", "--set", "render.posed_actors=all", "--set", "render.engine=embree")
+    sky, sun = _lit(veldt, "seen")
+    whole_sky, whole_sun = _lit(veldt, "whole")
+    open_hours = np.bitwise_or.reduce(whole_sun, axis=None)
+    is_open = (sky == 255) & (sun == open_hours)
+    assert 0.05 < (~is_open).mean() < 0.6
+    assert np.array_equal(sun[~is_open], whole_sun[~is_open])
+    assert np.abs(sky[~is_open].astype(int) - whole_sky[~is_open]).mean() < 0.05
+    track = veldt.read(next((veldt.folder / "seen/tracks").glob("*.json")).relative_to(veldt.folder))
+    entry = track["arrays"]["camera_to_world"]
+    data = next((veldt.folder / "seen/tracks").glob("*.bin")).read_bytes()
+    poses = np.frombuffer(data, entry["type"], int(np.prod(entry["shape"])), entry["offset"]).reshape(
+        -1, 4, 4
+    )
+    for x_m, y_m in poses[:, :2, 3]:
+        row, column = int(y_m + 60), int(x_m + 60)
+        around = np.s_[row - 5 : row + 6, column - 5 : column + 6]
+        assert np.array_equal(sun[around], whole_sun[around])
+    for name in ("height_m", "crown_top_m", "moisture", "kind", "grass"):
+        assert np.array_equal(_array(veldt, name, "seen"), _array(veldt, name, "whole"))
+
+
+def test_other_flights_make_other_maps(veldt):
+    _seen_from_above(veldt)
+    _plan(veldt, "plan")
+    before = _lit(veldt, "plan")
+    _plan(veldt, "plan", "--set", "clips[0].flight.points_m=[[-30,-40],[30,-40]]")
+    elsewhere = _lit(veldt, "plan")
+    assert (before[0][:60] == 255).mean() > 0.99 > 0.9 > (elsewhere[0][:60] == 255).mean()
+    _plan(veldt, "again", "--set", "clips[0].flight.points_m=[[-30,-40],[30,-40]]")
+    assert _sums(veldt, "again")["ground.bin"] == _sums(veldt, "plan")["ground.bin"]

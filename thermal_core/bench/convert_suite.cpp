@@ -9,22 +9,13 @@
 
 #include "base/parallel.h"
 #include "bench/convert_stages.h"
+#include "bench/measure.h"
 #include "bench/sensor_scene.h"
 #include "io/exr/passes_writer.h"
 #include "io/system/passing_folder.h"
 
 namespace thermal {
 namespace {
-
-/// Processor time of this process so far, over all its threads.
-double processor_s() {
-  rusage used{};
-  ::getrusage(RUSAGE_SELF, &used);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
 
 double peak_mb() {
   rusage used{};

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include <sys/resource.h>
+
 namespace thermal {
 namespace {
 
@@ -55,6 +57,15 @@ double middle_run_s(const std::function<void()>& work) {
   }
   std::ranges::sort(runs_s);
   return runs_s[1];
+}
+
+double processor_s() noexcept {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
 double memcpy_s(std::size_t bytes, double budget_s) {

@@ -41,6 +41,9 @@ class ErrorStatistics {
 /// The middle one of three runs [s].
 [[nodiscard]] double middle_run_s(const std::function<void()>& work);
 
+/// Processor time of this process so far [s], over all its threads.
+[[nodiscard]] double processor_s() noexcept;
+
 /// Time [s] to copy this many bytes with memcpy, measured in this run.
 [[nodiscard]] double memcpy_s(std::size_t bytes, double budget_s = 0.5);
 

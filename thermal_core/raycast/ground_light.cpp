@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 
 #include "base/parallel.h"
 #include "base/rng.h"
 #include "raycast/embree.h"
 #include "raycast/place.h"
 #include "raycast/ray_caster.h"
+#include "raycast/shading_part.h"
 #include "raycast/sky_rays.h"
 #include "scene/ground_moisture.h"
 #include "scene/top_heights.h"
@@ -19,8 +21,7 @@ namespace thermal {
 namespace {
 
 static_assert(kLanes == kPacketRays);
-constexpr std::size_t kBlock = 4;  // cells along a side of those that are traced together
-static_assert(kBlock * kBlock == kLanes);
+static_assert(kBlockCells * kBlockCells == kLanes);
 
 /// Rays start this far above the ground [m]: more than the rounding of positions 5 km from the origin.
 constexpr float kLiftM = 0.01F;
@@ -46,8 +47,8 @@ std::array<float, 2> shift_of(std::size_t row, std::size_t column) noexcept {
 Block block_at(const GroundMaps& maps, std::size_t first_row, std::size_t first_column) noexcept {
   Block block;
   for (std::size_t k = 0; k < kLanes; ++k) {
-    const std::size_t row = std::min(first_row + k / kBlock, maps.cells - 1);
-    const std::size_t column = std::min(first_column + k % kBlock, maps.cells - 1);
+    const std::size_t row = std::min(first_row + k / kBlockCells, maps.cells - 1);
+    const std::size_t column = std::min(first_column + k % kBlockCells, maps.cells - 1);
     const std::size_t cell = row * maps.cells + column;
     block.cells[k] = cell;
     const auto x_m = static_cast<float>(cell_middle_m(maps.size_m, maps.cells, column));
@@ -86,27 +87,38 @@ VectorLanes<float> same_for_all(const EastNorthUp& direction) noexcept {
   return lanes;
 }
 
+/// The hours of a day in which the sun is up.
+std::uint32_t hours_of(const SunHours& sun) noexcept {
+  std::uint32_t hours = 0;
+  for (std::size_t hour = 0; hour < sun.size(); ++hour) hours |= (sun[hour][2] > 0 ? 1U : 0U) << hour;
+  return hours;
+}
+
 class LightTracer {
  public:
-  LightTracer(const Place& place, std::span<const SunDay> days, std::size_t sky_rays, GroundMaps& maps)
-      : scene_(place.surroundings().scene.get()), days_(days), sky_(sky_rays), maps_(maps) {}
+  LightTracer(const Place& place, std::span<const SunDay> days, const BlockRays& rays, GroundMaps& maps)
+      : scene_(place.surroundings().scene.get()), days_(days), rays_(rays), maps_(maps) {
+    for (const std::size_t count : rays)
+      if (count > 0) sky_.try_emplace(count, count);
+  }
 
-  void trace(std::size_t row, std::size_t column) const {
-    const Block block = block_at(maps_, row, column);
-    trace_sky(block);
+  void trace(std::size_t number) const {
+    const std::size_t side = blocks_along(maps_.cells);
+    const Block block = block_at(maps_, number / side * kBlockCells, number % side * kBlockCells);
+    trace_sky(block, sky_.at(rays_[number]));
     for (std::size_t day = 0; day < days_.size(); ++day) trace_day(block, days_[day], maps_.sunlit[day]);
   }
 
  private:
-  void trace_sky(const Block& block) const {
+  void trace_sky(const Block& block, const SkyRays& sky) const {
     Lanes<std::size_t> seen{};
-    for (std::size_t ray = 0; ray < sky_.count(); ++ray) {
-      const unsigned reached = reach_sky(scene_, block, sky_.at(ray, block.shift));
+    for (std::size_t ray = 0; ray < sky.count(); ++ray) {
+      const unsigned reached = reach_sky(scene_, block, sky.at(ray, block.shift));
       for (std::size_t k = 0; k < kLanes; ++k) seen[k] += reached >> k & 1U;
     }
     for (std::size_t k = 0; k < kLanes; ++k)
       maps_.sky_view[block.cells[k]] =
-          static_cast<std::uint8_t>((2 * 255 * seen[k] + sky_.count()) / (2 * sky_.count()));
+          static_cast<std::uint8_t>((2 * 255 * seen[k] + sky.count()) / (2 * sky.count()));
   }
 
   void trace_day(const Block& block, const SunDay& day, SunlitHours& out) const {
@@ -121,9 +133,50 @@ class LightTracer {
 
   RTCScene scene_;
   std::span<const SunDay> days_;
-  SkyRays sky_;
+  const BlockRays& rays_;
+  std::map<std::size_t, SkyRays> sky_;  ///< by their count
   GroundMaps& maps_;
 };
+
+/// Where the rays of traced blocks start, by squares of them.
+std::vector<RayStart> starts_of(const GroundMaps& maps, const BlockRays& rays) {
+  constexpr std::size_t kSquareBlocks = 8;
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  const std::size_t side = blocks_along(maps.cells);
+  const std::size_t squares = (side + kSquareBlocks - 1) / kSquareBlocks;
+  std::vector<RayStart> starts(
+      squares * squares,
+      {.low_m = {kEndless, kEndless}, .high_m = {-kEndless, -kEndless}, .height_m = kEndless});
+  for (std::size_t cell = 0; cell < maps.height_m.size(); ++cell) {
+    const std::array<std::size_t, 2> number = {cell % maps.cells, cell / maps.cells};
+    if (rays[number[1] / kBlockCells * side + number[0] / kBlockCells] == 0) continue;
+    constexpr std::size_t kSquareCells = kSquareBlocks * kBlockCells;
+    RayStart& start = starts[number[1] / kSquareCells * squares + number[0] / kSquareCells];
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const double place_m = cell_middle_m(maps.size_m, maps.cells, number[axis]);
+      start.low_m[axis] = std::min(start.low_m[axis], place_m);
+      start.high_m[axis] = std::max(start.high_m[axis], place_m);
+    }
+    start.height_m = std::min(start.height_m, static_cast<double>(maps.height_m[cell]));
+  }
+  std::erase_if(starts, [](const RayStart& start) { return start.height_m == kEndless; });
+  return starts;
+}
+
+std::vector<EastNorthUp> suns_of(std::span<const SunDay> days) {
+  std::vector<EastNorthUp> suns;
+  for (const SunDay& day : days) suns.insert(suns.end(), day.sun.begin(), day.sun.end());
+  return suns;
+}
+
+/// Of a block at the border, those that are in the maps.
+std::size_t cells_in(std::size_t number, std::size_t cells) noexcept {
+  const std::size_t side = blocks_along(cells);
+  const auto along = [cells](std::size_t block) {
+    return std::min(kBlockCells, cells - block * kBlockCells);
+  };
+  return along(number / side) * along(number % side);
+}
 
 /// Where no ground is drawn, its height is 0.
 void fill_heights(const TopHeights& tops, GroundMaps& maps) {
@@ -150,36 +203,62 @@ GroundCovers covers_of(const BakedGround& ground) {
 
 }  // namespace
 
-void trace_ground_light(const RayCaster& caster, std::span<const SunDay> days, GroundMaps& maps,
-                        std::size_t sky_rays, const ShowParts& show) {
-  constexpr int kParts = 50;
+BlockRays rays_for(const std::vector<float>& finest_pixels_m, double cell_m) {
+  // A pixel reads means of cells over at least two thirds of its width: 4, 16 or 64 cells.
+  const auto rays = [cell_m](float pixel_m) -> std::size_t {
+    if (!std::isfinite(pixel_m)) return 0;
+    const double cells = static_cast<double>(pixel_m) / cell_m;
+    return cells < 3 ? kSkyRays : cells < 6 ? 34 : cells < 12 ? 13 : 8;
+  };
+  BlockRays counts;
+  for (const float pixel_m : finest_pixels_m) counts.push_back(rays(pixel_m));
+  return counts;
+}
+
+void trace_ground_light(const RayCaster& caster, std::span<const SunDay> days, const BlockRays& rays,
+                        GroundMaps& maps, const ShowCells& show) {
+  constexpr std::size_t kParts = 50;
+  constexpr std::size_t kLeastPart = 1024;
   constexpr std::size_t kGrain = 16;
   const std::size_t cells = maps.cells * maps.cells;
-  maps.sky_view.assign(cells, 0);
+  maps.sky_view.assign(cells, 255);
   maps.sunlit.clear();
   for (const SunDay& day : days)
-    maps.sunlit.push_back({.path = day.path, .hours = std::vector<std::uint32_t>(cells)});
-  const LightTracer tracer(caster.place(), days, sky_rays, maps);
-  const std::size_t side = (maps.cells + kBlock - 1) / kBlock;
-  for (int part = 0; part < kParts; ++part) {
-    const std::size_t first = side * side * static_cast<std::size_t>(part) / kParts;
-    const std::size_t last = side * side * static_cast<std::size_t>(part + 1) / kParts;
-    parallel_for(last - first, kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t block = first + begin; block < first + end; ++block)
-        tracer.trace(block / side * kBlock, block % side * kBlock);
+    maps.sunlit.push_back({.path = day.path, .hours = std::vector<std::uint32_t>(cells, hours_of(day.sun))});
+  std::vector<std::size_t> blocks;
+  std::size_t total = 0;
+  for (std::size_t number = 0; number < rays.size(); ++number) {
+    if (rays[number] == 0) continue;
+    blocks.push_back(number);
+    total += cells_in(number, maps.cells);
+  }
+  const LightTracer tracer(caster.place(), days, rays, maps);
+  const std::size_t part = std::max(kLeastPart, blocks.size() / kParts);
+  std::size_t done = 0;
+  for (std::size_t first = 0; first < blocks.size(); first += part) {
+    const auto now = std::span(blocks).subspan(first, std::min(part, blocks.size() - first));
+    parallel_for(now.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (const std::size_t number : now.subspan(begin, end - begin)) tracer.trace(number);
     });
-    if (show) show(part + 1, kParts);
+    for (const std::size_t number : now) done += cells_in(number, maps.cells);
+    if (show) show(static_cast<int>(done), static_cast<int>(total));
   }
 }
 
-GroundMaps make_ground_maps(const BakedScene& scene, std::span<const SunDay> days, const ShowParts& show) {
+GroundMaps make_ground_maps(const BakedScene& scene, std::span<const SunDay> days,
+                            const std::optional<std::vector<GroundView>>& views, const ShowCells& show) {
   GroundMaps maps;
   maps.size_m = scene.ground.size_m;
   maps.cells = ground_map_cells(maps.size_m);
   maps.moisture = ground_moisture(scene.ground, maps.cells);
   maps.covers = covers_of(scene.ground);
   fill_heights(top_heights(scene, maps.size_m, maps.cells), maps);
-  trace_ground_light(RayCaster(scene), days, maps, kSkyRays, show);
+  const std::size_t blocks = blocks_along(maps.cells) * blocks_along(maps.cells);
+  const BlockRays rays =
+      views ? rays_for(finest_pixels_m(scene, maps, *views), maps.size_m / static_cast<double>(maps.cells))
+            : BlockRays(blocks, kSkyRays);
+  const ShadingPart part(scene, maps.size_m, starts_of(maps, rays), suns_of(days));
+  trace_ground_light(RayCaster(part.scene()), days, rays, maps, show);
   return maps;
 }
 

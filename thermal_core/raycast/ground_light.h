@@ -2,10 +2,13 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "scene/baked_scene.h"
 #include "scene/ground_maps.h"
+#include "scene/seen_ground.h"
 
 namespace thermal {
 
@@ -20,17 +23,27 @@ struct SunDay {
 /// Rays for the sky view of a cell, a number of Fibonacci's (SkyRays). Root-mean-square error: see ACCURACY.md.
 inline constexpr std::size_t kSkyRays = 89;
 
-/// Called with parts that are done, of how many; on the calling thread.
-using ShowParts = std::function<void(int done, int total)>;
+/// Rays for the sky view of the cells of each block, [row of y, column of x]; 0: the cells are not traced.
+using BlockRays = std::vector<std::size_t>;
+
+/// The rays that blocks need, by the finest pixels that show them: fewer where pixels show means of many cells, so that
+/// those means are as good; none where there is no pixel.
+[[nodiscard]] BlockRays rays_for(const std::vector<float>& finest_pixels_m, double cell_m);
+
+/// Called with cells that are done, of how many; on the calling thread.
+using ShowCells = std::function<void(int done, int total)>;
 
 /// Fills in sky_view and sunlit of maps whose place and heights are known, by rays that start 1 cm above the middle of
-/// each cell and end at anything they hit: ground, water, crowns. The sun is a point. A cell that is not within 1e9 m
-/// of the origin sees all there is. The result depends on nothing else, such as threads or the processor's vectors.
-void trace_ground_light(const RayCaster& caster, std::span<const SunDay> days, GroundMaps& maps,
-                        std::size_t sky_rays = kSkyRays, const ShowParts& show = {});
+/// each cell and end at anything they hit: ground, water, crowns. The sun is a point. A cell that is not traced, or not
+/// within 1e9 m of the origin, sees all there is. The result depends on nothing else, such as threads or the processor's
+/// vectors.
+void trace_ground_light(const RayCaster& caster, std::span<const SunDay> days, const BlockRays& rays,
+                        GroundMaps& maps, const ShowCells& show = {});
 
-/// All maps of a scene, on all cores. Error if there is not enough memory.
+/// All maps of a scene, on all cores. Light is traced where `views` may show it; without them, everywhere. Error if there
+/// is not enough memory.
 [[nodiscard]] GroundMaps make_ground_maps(const BakedScene& scene, std::span<const SunDay> days,
-                                          const ShowParts& show = {});
+                                          const std::optional<std::vector<GroundView>>& views = {},
+                                          const ShowCells& show = {});
 
 }  // namespace thermal

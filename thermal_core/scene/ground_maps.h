@@ -33,7 +33,8 @@ struct GroundCovers {
 
 /// What each square of the ground receives, [row of y, column of x], from south and west, of cells x cells squares. The
 /// place is that of BakedGround: a square of size_m around the origin. Values are those of the middle of a cell, on the
-/// drawn ground or water. Actors are not part of it.
+/// drawn ground or water. Actors are not part of it. Where no clip of a plan can see the ground, sky and sun are those of
+/// an open plain: sky_view is 255, and all hours of the day are sunlit.
 struct GroundMaps {
   double size_m = 0;
   std::size_t cells = 0;

@@ -34,7 +34,11 @@ double area_m2(double x_m, double y_m, const Corner& a, const Corner& b) noexcep
 class Raster {
  public:
   Raster(double size_m, std::size_t cells, std::span<float> heights_m) noexcept
-      : size_m_(size_m), cells_(cells), heights_m_(heights_m) {}
+      : size_m_(size_m),
+        cells_(cells),
+        per_m_(static_cast<double>(cells) / size_m),
+        origin_(0.5 * static_cast<double>(cells) - 0.5),
+        heights_m_(heights_m) {}
 
   void add(const Corner& a, const Corner& b, const Corner& c) const noexcept {
     const Range columns = middles_between(std::min({a[0], b[0], c[0]}), std::max({a[0], b[0], c[0]}));
@@ -54,10 +58,11 @@ class Raster {
   [[nodiscard]] Range middles_between(double least_m, double most_m) const noexcept {
     constexpr double kRounding = 1e-6;  // of a cell
     const auto cells = static_cast<double>(cells_);
-    const double first = std::ceil((least_m / size_m_ + 0.5) * cells - 0.5 - kRounding);
-    const double last = std::floor((most_m / size_m_ + 0.5) * cells - 0.5 + kRounding);
+    const double first = least_m * per_m_ + origin_ - kRounding;
+    const double last = most_m * per_m_ + origin_ + kRounding;
     if (!(first <= last && first < cells && last >= 0)) return {};
-    return {.begin = static_cast<std::size_t>(std::max(first, 0.0)),
+    const auto below = static_cast<std::size_t>(std::max(first, 0.0));
+    return {.begin = static_cast<double>(below) < first ? below + 1 : below,
             .end = static_cast<std::size_t>(std::min(last, cells - 1)) + 1};
   }
 
@@ -77,6 +82,8 @@ class Raster {
 
   double size_m_;
   std::size_t cells_;
+  double per_m_;   ///< cells
+  double origin_;  ///< number of the cell whose middle is the origin
   std::span<float> heights_m_;
 };
 

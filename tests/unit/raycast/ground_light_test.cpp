@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "base/parallel.h"
@@ -39,7 +40,8 @@ GroundMaps level(double size_m, std::size_t cells, float height_m = 0) {
 GroundMaps lit(const Scenery& place, GroundMaps maps, const std::vector<SunDay>& days = {},
                std::size_t rays = kManyRays) {
   const thermal::BakedScene scene = place.baked();
-  thermal::trace_ground_light(thermal::RayCaster(scene), days, maps, rays);
+  const std::size_t side = thermal::blocks_along(maps.cells);
+  thermal::trace_ground_light(thermal::RayCaster(scene), days, thermal::BlockRays(side * side, rays), maps);
   return maps;
 }
 
@@ -221,46 +223,101 @@ TEST_CASE("Actors hide nothing") {
   CHECK(view_of_origin(place) == 1);
 }
 
+namespace {
+
+/// Of a grove of 40 m, on one cell of covers.
+class GroveGround {
+ public:
+  GroveGround() : scene_(place_.baked()) {
+    scene_.ground = {.size_m = 40,
+                     .cells = 1,
+                     .covers = {"grass"},
+                     .height_m = heights_,
+                     .shore_m = {},
+                     .cover = all_,
+                     .canopy = all_,
+                     .fine_cells = 1,
+                     .kind = none_,
+                     .grass = all_,
+                     .trodden = none_,
+                     .ash = none_};
+  }
+
+  [[nodiscard]] GroundMaps maps(const std::optional<std::vector<thermal::GroundView>>& views = {}) const {
+    const std::vector<SunDay> days = {day_of(50)};
+    return thermal::make_ground_maps(scene_, days, views);
+  }
+
+ private:
+  Scenery place_ = grove::place();
+  thermal::BakedScene scene_;
+  std::vector<float> heights_ = std::vector<float>(4, 0.5F);
+  std::vector<std::uint8_t> all_ = {255};
+  std::vector<std::uint8_t> none_ = {0};
+};
+
+}  // namespace
+
 TEST_CASE("Any number of threads makes the same maps") {
-  const Scenery place = grove::place();
-  thermal::BakedScene scene = place.baked();
-  const std::vector<float> heights(4, 0.5F);
-  const std::vector<std::uint8_t> cover = {255};
-  const std::vector<std::uint8_t> zero = {0};
-  scene.ground = {.size_m = 40,
-                  .cells = 1,
-                  .covers = {"grass"},
-                  .height_m = heights,
-                  .shore_m = {},
-                  .cover = cover,
-                  .canopy = cover,
-                  .fine_cells = 1,
-                  .kind = zero,
-                  .grass = cover,
-                  .trodden = zero,
-                  .ash = zero};
-  const std::vector<SunDay> days = {day_of(50)};
+  const GroveGround ground;
   const auto made_by = [&](int threads) {
-    return thermal::with_threads(threads, [&] { return thermal::make_ground_maps(scene, days); });
+    return thermal::with_threads(threads, [&] { return ground.maps(); });
   };
   const GroundMaps one = made_by(1);
   CHECK(made_by(2) == one);
   CHECK(made_by(0) == one);
   CHECK(one.cells == 40);
-  CHECK(one.covers == thermal::GroundCovers{1, {"grass"}, zero, cover, zero, zero});
+  CHECK(one.covers == thermal::GroundCovers{1, {"grass"}, {0}, {255}, {0}, {0}});
   CHECK(std::ranges::max(one.crown_top_m) > 4.5F);
   CHECK(std::ranges::min(one.sky_view) < 100);
 }
 
-TEST_CASE("Parts that are done are shown in order") {
-  std::vector<int> parts;
-  GroundMaps maps = level(9, 9);
+TEST_CASE("Where a camera sees the ground, maps are as if it saw everything, and open elsewhere") {
+  const GroveGround ground;
+  const GroundMaps whole = ground.maps();
+  const thermal::GroundView above = {.camera = pinhole(64, 64, 64),
+                                     .camera_to_world = {looking_down(3, 2, 9)}};
+  const GroundMaps seen = ground.maps({{above}});
+  CHECK(ground.maps({{above, above}}) == seen);
+  CHECK((seen.height_m == whole.height_m && seen.crown_top_m == whole.crown_top_m));
+  std::size_t traced = 0;
+  for (std::size_t cell = 0; cell < whole.sky_view.size(); ++cell) {
+    const double x_m = static_cast<double>(cell % 40) - 19.5;
+    const double y_m = static_cast<double>(cell / 40) - 19.5;
+    const bool same = seen.sky_view[cell] == whole.sky_view[cell] &&
+                      seen.sunlit[0].hours[cell] == whole.sunlit[0].hours[cell];
+    const bool open = seen.sky_view[cell] == 255 && seen.sunlit[0].hours[cell] == 0x3FFC0;
+    INFO("at " << x_m << ", " << y_m);
+    if (std::max(std::abs(x_m - 3), std::abs(y_m - 2)) < 8) CHECK(same);  // 4.5 m are in the picture
+    if (std::max(std::abs(x_m - 3), std::abs(y_m - 2)) > 20) CHECK(open);
+    CHECK((same || open));
+    traced += same && !open ? 1 : 0;
+  }
+  CHECK(traced > 50);
+}
+
+TEST_CASE("Without a view, no ground is traced") {
+  const GroundMaps maps = GroveGround().maps(std::vector<thermal::GroundView>{});
+  CHECK(std::ranges::count(maps.sky_view, 255) == 1600);
+}
+
+TEST_CASE("Blocks have fewer rays the more of their cells a pixel holds") {
+  constexpr float kNever = std::numeric_limits<float>::infinity();
+  CHECK(thermal::rays_for({0, 1.4F, 1.6F, 3.1F, 6.1F, 1000, kNever}, 0.5) ==
+        thermal::BlockRays{89, 89, 34, 13, 8, 8, 0});
+}
+
+TEST_CASE("Cells that are done are shown in order") {
+  std::vector<int> cells;
+  GroundMaps maps = level(9, 135);
   const thermal::BakedScene scene;
-  thermal::trace_ground_light(thermal::RayCaster(scene), {}, maps, 8, [&parts](int done, int total) {
-    CHECK(total == 50);
-    parts.push_back(done);
+  thermal::BlockRays rays(34 * 34, 8);
+  rays.front() = 0;
+  thermal::trace_ground_light(thermal::RayCaster(scene), {}, rays, maps, [&cells](int done, int total) {
+    CHECK(total == 135 * 135 - 16);
+    cells.push_back(done);
   });
-  CHECK((parts.size() == 50 && std::ranges::is_sorted(parts) && parts.back() == 50));
+  CHECK((cells.size() == 2 && cells.front() < cells.back() && cells.back() == 135 * 135 - 16));
 }
 
 }  // namespace ground_light_test

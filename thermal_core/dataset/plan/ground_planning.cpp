@@ -1,11 +1,13 @@
 #include "dataset/plan/ground_planning.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/error.h"
 #include "io/bake/baked_files.h"
 #include "io/bake/ground_maps_file.h"
 #include "raycast/ground_light.h"
+#include "scene/camera_geometry.h"
 
 namespace thermal {
 namespace {
@@ -40,19 +42,35 @@ bool has_needed_ground_maps(const Path& folder, const Config& config, const Asse
                              [&known](const SunPath& path) { return std::ranges::count(known, path) > 0; });
 }
 
+std::vector<GroundView> ground_views(const Path& folder, const DatasetPlan& plan, const BakedScene& scene,
+                                     const Assets& assets) {
+  std::vector<GroundView> views;
+  for (const ClipPlan& clip : plan.clips) {
+    const BakedTrack track = read_baked_track(folder, clip.id, scene, assets);
+    Manifest manifest;
+    manifest.camera = track.camera.value_or(scene.camera);
+    manifest.overscan_px = scene.view_margin_px;
+    views.push_back({.camera = pixels_camera(manifest),
+                     .camera_to_world = {track.camera_to_world.begin(), track.camera_to_world.end()}});
+  }
+  return views;
+}
+
 bool uses_ground_maps(const Path& folder, const Config& config) {
   return needs_ground_maps(config) && has_ground_maps(folder);
 }
 
-void add_ground_maps(const Path& folder, const Path& scratch, const Config& config, const Assets& assets,
-                     const std::function<void(const Progress&)>& show) {
+void add_ground_maps(const Path& folder, const Path& scratch, const Config& config, const DatasetPlan& plan,
+                     const Assets& assets, const std::function<void(const Progress&)>& show) {
   std::vector<SunDay> days;
   for (const SunPath& path : sun_paths(config)) days.push_back({.path = path, .sun = sun_hours(path)});
-  const auto show_part = [&show](int done, int total) {
+  const auto show_cells = [&show](int done, int total) {
     if (show) show({.clip = "ground maps", .done = done, .total = total});
   };
   const BakedScene scene = read_baked_scene(folder, assets);
-  write_ground_maps(make_ground_maps(scene, days, show_part), folder, scratch);
+  std::optional<std::vector<GroundView>> views;
+  if (!config.poses_all) views = ground_views(folder, plan, scene, assets);
+  write_ground_maps(make_ground_maps(scene, days, views, show_cells), folder, scratch);
 }
 
 }  // namespace thermal

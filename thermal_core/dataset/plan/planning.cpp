@@ -130,10 +130,11 @@ bool has_its_maps(const Path& folder, const Config& config, const PlanOptions& o
 
 /// Adds the maps that a plan's folder lacks, through `part`, and their checksums. A plan that is killed in between does
 /// not agree with its checksums, and is made again.
-void complete_maps(const Path& folder, const Path& part, const Config& config, const PlanOptions& options) {
+void complete_maps(const Path& folder, const Path& part, const Config& config, const DatasetPlan& plan,
+                   const PlanOptions& options) {
   if (has_its_maps(folder, config, options)) return;
   with_threads(options.threads,
-               [&] { add_ground_maps(folder, part, config, options.assets, options.show_maps); });
+               [&] { add_ground_maps(folder, part, config, plan, options.assets, options.show_maps); });
   write_checksums(folder);
 }
 
@@ -164,13 +165,13 @@ DatasetPlan plan_again(const Path& folder, const Config& config, const std::stri
   const Path part = unfinished_plan(folder);
   const HeldFolder held(part);
   if (auto plan = current_plan(folder, config, options)) {  // another run has made it, or it lacks maps
-    complete_maps(folder, part, config, options);
+    complete_maps(folder, part, config, *plan, options);
     return *std::move(plan);
   }
   (void)run_planning(config, name, options, baking_arguments(part, folder, options));
   DatasetPlan plan = plan_of(read_json(part / "plan.json"), (part / "plan.json").string(), options.assets);
   if (may_replace) may_replace(plan);
-  complete_maps(part, part, config, options);
+  complete_maps(part, part, config, plan, options);
   write_checksums(part);
   replace_folder(part, folder);
   return plan;

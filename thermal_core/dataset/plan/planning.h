@@ -17,7 +17,7 @@ struct PlanOptions {
   Path blender = {};  ///< reads models of other programs; empty: there is none
   /// Called for each planned clip or flight; `clip` is its id.
   std::function<void(const Progress&)> show = {};
-  /// The same for parts of the maps of the ground; `clip` is "ground maps".
+  /// The same for cells of the maps of the ground; `clip` is "ground maps".
   std::function<void(const Progress&)> show_maps = {};
   /// Also bakes what a preview needs.
   bool preview = false;

@@ -1,0 +1,176 @@
+#include "bench/maps_suite.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "base/parallel.h"
+#include "bench/measure.h"
+#include "dataset/plan/ground_planning.h"
+#include "dataset/plan/planning.h"
+#include "io/bake/baked_files.h"
+#include "io/json/file.h"
+#include "io/system/passing_folder.h"
+#include "raycast/ground_light.h"
+#include "raycast/ray_caster.h"
+#include "scene/camera_geometry.h"
+
+namespace thermal {
+namespace {
+
+constexpr std::size_t kReferenceRays = 2584;
+
+/// A config, and which of its pixels are looked at: every so many along each axis.
+struct Case {
+  std::string name;
+  Json document;
+  int stride_px = 16;
+};
+
+/// A square of cells whose mean a pixel reads: its south-western cell, and cells along its side.
+using Square = std::pair<std::size_t, std::size_t>;
+
+/// As textures of the ground have them: the level whose cells are nearest to the pixel, of at most 8 cells.
+std::size_t cells_for(double pixel_cells) noexcept {
+  std::size_t cells = 1;
+  while (cells < 8 && pixel_cells > 1.5 * static_cast<double>(cells)) cells *= 2;
+  return cells;
+}
+
+/// How many of the pixels that are looked at read each square.
+std::map<Square, double> squares_in(const BakedScene& scene, const RayCaster& caster, const BakedTrack& track,
+                                    const GroundMaps& maps, int stride_px) {
+  std::set<std::uint16_t> ground;
+  for (const BakedSurface& surface : scene.surfaces) ground.insert(surface.object);
+  const CameraIntrinsics fine = track.camera.value_or(scene.camera);
+  const CameraIntrinsics camera = {.width_px = fine.width_px / stride_px,
+                                   .height_px = fine.height_px / stride_px,
+                                   .fx_px = fine.fx_px / stride_px,
+                                   .fy_px = fine.fy_px / stride_px,
+                                   .cx_px = fine.cx_px / stride_px,
+                                   .cy_px = fine.cy_px / stride_px};
+  const CameraRays rays(camera);
+  const ClipTracer tracer(caster, track, camera);
+  const double cells_a_m = static_cast<double>(maps.cells) / maps.size_m;
+  std::map<Square, double> squares;
+  Passes passes;
+  for (std::size_t frame = 0; frame < track.frames; ++frame) {
+    tracer.trace(frame, {.depth = true}, passes);
+    const std::array<double, 16>& pose = track.camera_to_world[frame];
+    for (std::size_t k = 0; k < passes.object_index.size(); ++k) {
+      if (!ground.contains(passes.object_index.pixels()[k])) continue;
+      const auto depth_m = static_cast<double>(passes.depth_m.pixels()[k]);
+      std::array<std::size_t, 2> cell{};
+      bool inside = true;
+      const std::size_t across = cells_for(cells_a_m * depth_m / fine.fx_px);
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        const double along = pose[4 * axis] * static_cast<double>(rays.x().pixels()[k]) +
+                             pose[4 * axis + 1] * static_cast<double>(rays.y().pixels()[k]) +
+                             pose[4 * axis + 2];
+        const double place = (pose[4 * axis + 3] + depth_m * along + maps.size_m / 2) * cells_a_m;
+        inside = inside && place >= 0 && place < static_cast<double>(maps.cells - across);
+        if (inside) cell[axis] = static_cast<std::size_t>(place) / across * across;
+      }
+      if (inside) squares[{cell[1] * maps.cells + cell[0], across}] += 1;
+    }
+  }
+  return squares;
+}
+
+double sky_view(const GroundMaps& maps, const Square& square) noexcept {
+  double sum = 0;
+  for (std::size_t k = 0; k < square.second * square.second; ++k)
+    sum += maps.sky_view[square.first + k / square.second * maps.cells + k % square.second];
+  return sum / 255 / static_cast<double>(square.second * square.second);
+}
+
+/// Rays for the blocks of these squares alone.
+BlockRays reference_rays(const std::map<Square, double>& squares, std::size_t cells) {
+  const std::size_t side = blocks_along(cells);
+  BlockRays rays(side * side);
+  for (const auto& [square, pixels] : squares)
+    for (std::size_t k = 0; k < square.second * square.second; ++k) {
+      const std::size_t cell = square.first + k / square.second * cells + k % square.second;
+      rays[cell / cells / kBlockCells * side + cell % cells / kBlockCells] = kReferenceRays;
+    }
+  return rays;
+}
+
+RenderRow measured(const Case& one, const Path& folder, const MapsSuiteTask& task) {
+  task.announce(one.name + ", planning");
+  const Config config = resolve_config(one.document, one.name, task.assets);
+  const PlanOptions options = {.assets = task.assets, .threads = task.threads};
+  Json bare = one.document;
+  bare["scene"]["temperatures"] = "table_1";  // the same plan without maps
+  const DatasetPlan plan =
+      plan_into(folder / one.name, resolve_config(std::move(bare), one.name, task.assets), one.name, options);
+  task.announce(one.name);
+  std::vector<SunDay> days;
+  for (const SunPath& path : sun_paths(config)) days.push_back({.path = path, .sun = sun_hours(path)});
+  const double begin_s = processor_s();
+  const BakedScene scene = read_baked_scene(folder / one.name, task.assets);
+  const std::vector<GroundView> views = ground_views(folder / one.name, plan, scene, task.assets);
+  const GroundMaps maps = make_ground_maps(scene, days, views);
+  const double taken_s = processor_s() - begin_s;
+
+  task.announce(one.name + ", 2584 rays");
+  const BlockRays rays =
+      rays_for(finest_pixels_m(scene, maps, views), maps.size_m / static_cast<double>(maps.cells));
+  const auto traced = static_cast<double>(rays.size()) - static_cast<double>(std::ranges::count(rays, 0U));
+  const RayCaster caster(scene);
+  std::map<Square, double> squares;
+  for (const ClipPlan& clip : plan.clips) {
+    const BakedTrack track = read_baked_track(folder / one.name, clip.id, scene, task.assets);
+    for (const auto& [square, pixels] : squares_in(scene, caster, track, maps, one.stride_px))
+      squares[square] += pixels;
+  }
+  GroundMaps reference = maps;
+  trace_ground_light(caster, {}, reference_rays(squares, maps.cells), reference);
+  double pixels = 0;
+  double sum = 0;
+  double sum2 = 0;
+  for (const auto& [square, weight] : squares) {
+    const double error = sky_view(maps, square) - sky_view(reference, square);
+    pixels += weight;
+    sum += weight * error;
+    sum2 += weight * error * error;
+  }
+  return {.group = "maps of the ground",
+          .name = one.name,
+          .figures = {{"processor s", taken_s},
+                      {"traced share", traced / static_cast<double>(rays.size())},
+                      {"sky view rms", std::sqrt(sum2 / pixels)},
+                      {"mean", sum / pixels}}};
+}
+
+std::vector<Case> cases(const Assets& assets) {
+  const auto document = [&assets](const char* name) {
+    const Path file = assets.config(name);
+    return resolve_config(read_json(file), file.string(), assets).resolved;
+  };
+  Json horizon = document("savanna");
+  Json clip = horizon.at("clips").back();
+  clip["frames"] = 4;
+  clip["flight"]["look_angle_deg"] = 8;
+  horizon["clips"] = Json::array({std::move(clip)});
+  return {{.name = "demo", .document = document("demo")},
+          {.name = "savanna", .document = document("savanna")},
+          {.name = "savanna horizon", .document = std::move(horizon), .stride_px = 32}};
+}
+
+}  // namespace
+
+std::vector<RenderRow> run_maps_suite(const MapsSuiteTask& task) {
+  const PassingFolder folder;
+  return with_threads(task.threads, [&] {
+    std::vector<RenderRow> rows;
+    for (const Case& one : cases(task.assets)) rows.push_back(measured(one, folder.path(), task));
+    return rows;
+  });
+}
+
+}  // namespace thermal

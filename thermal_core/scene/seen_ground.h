@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "scene/baked_scene.h"
+#include "scene/camera_intrinsics.h"
+#include "scene/ground_maps.h"
+
+namespace thermal {
+
+/// A camera, with all that it sees beyond a pinhole's picture, and its poses.
+struct GroundView {
+  CameraIntrinsics camera;
+  std::vector<std::array<double, 16>> camera_to_world;  ///< row-major 4 x 4, OpenCV camera axes
+};
+
+/// Cells along a side of the blocks into which maps are cut.
+inline constexpr std::size_t kBlockCells = 4;
+
+/// Blocks along a side of maps; the last ones may be cut off.
+[[nodiscard]] inline std::size_t blocks_along(std::size_t cells) noexcept {
+  return (cells + kBlockCells - 1) / kBlockCells;
+}
+
+/// Of each block of cells, [row of y, column of x]: the width on the ground [m] of the finest pixel that may show one of
+/// its cells or read its values, also mirrored by water; infinite where there is none. Read are cells of a few pixels
+/// and of 4 cells around what is seen, because values are interpolated and means over pixels. Nothing hides the ground.
+/// @param maps  with heights
+[[nodiscard]] std::vector<float> finest_pixels_m(const BakedScene& scene, const GroundMaps& maps,
+                                                 std::span<const GroundView> views);
+
+}  // namespace thermal
