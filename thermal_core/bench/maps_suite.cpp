@@ -23,12 +23,11 @@ namespace thermal {
 namespace {
 
 constexpr std::size_t kReferenceRays = 2584;
+constexpr int kStridePx = 16;  // between the pixels that are looked at, along each axis
 
-/// A config, and which of its pixels are looked at: every so many along each axis.
 struct Case {
   std::string name;
   Json document;
-  int stride_px = 16;
 };
 
 /// A square of cells whose mean a pixel reads: its south-western cell, and cells along its side.
@@ -43,16 +42,16 @@ std::size_t cells_for(double pixel_cells) noexcept {
 
 /// How many of the pixels that are looked at read each square.
 std::map<Square, double> squares_in(const BakedScene& scene, const RayCaster& caster, const BakedTrack& track,
-                                    const GroundMaps& maps, int stride_px) {
+                                    const GroundMaps& maps) {
   std::set<std::uint16_t> ground;
   for (const BakedSurface& surface : scene.surfaces) ground.insert(surface.object);
   const CameraIntrinsics fine = track.camera.value_or(scene.camera);
-  const CameraIntrinsics camera = {.width_px = fine.width_px / stride_px,
-                                   .height_px = fine.height_px / stride_px,
-                                   .fx_px = fine.fx_px / stride_px,
-                                   .fy_px = fine.fy_px / stride_px,
-                                   .cx_px = fine.cx_px / stride_px,
-                                   .cy_px = fine.cy_px / stride_px};
+  const CameraIntrinsics camera = {.width_px = fine.width_px / kStridePx,
+                                   .height_px = fine.height_px / kStridePx,
+                                   .fx_px = fine.fx_px / kStridePx,
+                                   .fy_px = fine.fy_px / kStridePx,
+                                   .cx_px = fine.cx_px / kStridePx,
+                                   .cy_px = fine.cy_px / kStridePx};
   const CameraRays rays(camera);
   const ClipTracer tracer(caster, track, camera);
   const double cells_a_m = static_cast<double>(maps.cells) / maps.size_m;
@@ -125,8 +124,7 @@ RenderRow measured(const Case& one, const Path& folder, const MapsSuiteTask& tas
   std::map<Square, double> squares;
   for (const ClipPlan& clip : plan.clips) {
     const BakedTrack track = read_baked_track(folder / one.name, clip.id, scene, task.assets);
-    for (const auto& [square, pixels] : squares_in(scene, caster, track, maps, one.stride_px))
-      squares[square] += pixels;
+    for (const auto& [square, pixels] : squares_in(scene, caster, track, maps)) squares[square] += pixels;
   }
   GroundMaps reference = maps;
   trace_ground_light(caster, {}, reference_rays(squares, maps.cells), reference);
@@ -143,6 +141,7 @@ RenderRow measured(const Case& one, const Path& folder, const MapsSuiteTask& tas
           .name = one.name,
           .figures = {{"processor s", taken_s},
                       {"traced share", traced / static_cast<double>(rays.size())},
+                      {"pixels", pixels},
                       {"sky view rms", std::sqrt(sum2 / pixels)},
                       {"mean", sum / pixels}}};
 }
@@ -159,7 +158,7 @@ std::vector<Case> cases(const Assets& assets) {
   horizon["clips"] = Json::array({std::move(clip)});
   return {{.name = "demo", .document = document("demo")},
           {.name = "savanna", .document = document("savanna")},
-          {.name = "savanna horizon", .document = std::move(horizon), .stride_px = 32}};
+          {.name = "savanna horizon", .document = std::move(horizon)}};
 }
 
 }  // namespace
