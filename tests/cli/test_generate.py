@@ -22,16 +22,7 @@ def _run(veldt, *options, command="generate") -> list[str]:
     """The arguments of a run; the full path of its folder distinguishes its processes from those of other tests."""
     blender, out = veldt.folder / "fake_blender", veldt.folder / "out"
     silent = [] if "--progress" in options else ["--progress", "none"]
-    return [
-        command,
-        "config.json",
-        "--out",
-        str(out),
-        "--blender",
-        str(blender),
-        *silent,
-        *options,
-    ]
+    return [command, "config.json", "--out", str(out), "--blender", str(blender), *silent, *options]
 
 
 def _generate(veldt, *options, command="generate"):

@@ -90,7 +90,7 @@ OPTIONS = {
     "view": {"--out", "--clips"},
     "stream": {"--video", "--labels", "--clips", "--rate", "--repeat", "--allow-remote", "--set"},
     "budget": {"--set", "--json"},
-    "heat": {"--set", "--plot", "--json"},
+    "heat": {"--set", "--plot", "--surfaces", "--json"},
     "radiance": {
         "--temperature-k",
         "--radiance",

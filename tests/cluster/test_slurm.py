@@ -28,7 +28,7 @@ SHARDS = 8
 CLIPS = 40
 CRASHED, REQUEUED, FULL, STOPPED, BROKEN, CANCELLED = range(1, 7)  # shards, by what happens to them
 
-# What the nodes find on PATH: the program, which is held in some shards, and has an option that it does not know in one.
+# What the nodes find on PATH: the program, held in some shards, and with an option that it does not know in one.
 _PROGRAM = f"""\
 #!/bin/sh
 exec env $(cat "held_$SLURM_ARRAY_TASK_ID" 2>/dev/null) \\

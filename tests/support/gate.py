@@ -44,7 +44,7 @@ class Gate:
         return run
 
     def around(self, program: str, before: str) -> Path:
-        """A script that runs a program, which is held: for one that `veldt` starts, and to which it hands no variables."""
+        """A script that runs a program, which is held: for what `veldt` starts, and to which it hands no variables."""
         script = self._fifo.with_name("held")
         settings = " ".join(f"'{name}={value}'" for name, value in self.variables(before).items())
         script.write_text(f'#!/bin/sh\nexec env {settings} "{program}" "$@"\n', encoding="utf-8")
