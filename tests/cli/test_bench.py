@@ -185,5 +185,5 @@ def test_progress_of_measuring_the_converter_is_reported(converting):
 def test_an_unknown_suite_is_a_usage_fault(veldt):
     done = veldt("bench", "--suite", "optics")
     assert (done.code, done.out) == (2, "")
-    suites = "radiance,heat,sensor,truth,labels,convert,balance,render,engines"
+    suites = "radiance,heat,sensor,truth,labels,convert,balance,render,engines,maps"
     assert done.err == f"veldt: --suite: optics not in {{{suites}}}; see veldt bench --help\n"
