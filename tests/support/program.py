@@ -44,7 +44,10 @@ class _CommandServer:
     """A running command_server.cpp."""
 
     def __init__(self, program: Path):
-        self._process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        bound = os.environ | {"LD_BIND_NOW": "1"}  # once here instead of in each child
+        self._process = subprocess.Popen(
+            [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=bound
+        )
         atexit.register(self._end)
 
     def run(self, words: list[str], environment: dict[str, str], folder: Path) -> Ended:

@@ -16,7 +16,8 @@ class RadianceTable {
   static constexpr int kNodesPerKelvin = 16;
   static constexpr int kSteps = static_cast<int>(kHottest - kColdest) * kNodesPerKelvin;
 
-  /// Tabulates `band`, then measures how far it departs from the reference between all nodes.
+  /// Evaluates `band` at every fourth node and puts cubics through the logarithms, then measures how far straight lines
+  /// between the nodes depart from those.
   explicit RadianceTable(BandRadiance band);
 
   /// Temperature plane [K] to radiance plane [W m^-2 sr^-1], of equal size; they may be the same memory.
@@ -67,7 +68,7 @@ class RadianceTable {
     return node.radiance_w_m2_sr + (position - static_cast<float>(index)) * node.step_w_m2_sr;
   }
   [[nodiscard]] float outside(float temperature_k) const noexcept;
-  void measure(const std::vector<double>& at_nodes, const std::vector<BandValue>& at_middles);
+  void measure(const std::vector<double>& radiance);
 
   BandRadiance band_;
   std::vector<Node> nodes_;
