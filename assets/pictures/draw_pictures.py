@@ -39,26 +39,24 @@ LARGE_SPECIES = ("elephant", "giraffe", "hippopotamus", "lorry", "pickup", "rhin
 FONT = ROOT / "assets" / "fonts" / "B612-Regular.otf"
 
 # Rows of the gallery, presets of sensors, all of one frame.
-CAMERAS = (
-    "airsim_w_256x144",
-    "airsim_w",
-    "flir_vue_pro_640_13mm",
-    "flir_vue_pro_640_19mm",
-    "boson_640_14mm",
-    "boson_640_18mm",
-)
+PUBLISHED_CAMERAS = ("airsim_w_256x144", "airsim_w")
+PHYSICAL_CAMERAS = ("flir_vue_pro_640_13mm", "flir_vue_pro_640_19mm", "boson_640_14mm", "boson_640_18mm")
 GALLERY_CLIP = "summer_follow_61m"
 CLOSE_LANES = "clips[0].flight.lane_spacing_m=20"  # of the other clip, as narrow pictures need them
 
-# What the test draws to save time: less land around the flights, fewer pixels, some of the hours.
-DEMO = Frames("configs/demo.json")
-CAMERAS_SHOWN = tuple(
+# What the test draws to save time: less land around the flights, fewer pixels, some of the hours; the cameras in the
+# small place of the hours, those of one model and size in one run.
+DEMO = Frames("configs/demo.json", ("scene.terrain.size_m=600", CLOSE_LANES))
+CAMERAS_SHOWN = (
+    *(
+        Frames("configs/hours.json", (f"sensor.preset={camera}",), ("winter_1800",))
+        for camera in PUBLISHED_CAMERAS
+    ),
     Frames(
-        "configs/demo.json",
-        (f"sensor.preset={camera}", "scene.terrain.size_m=600", CLOSE_LANES),
-        (GALLERY_CLIP,),
-    )
-    for camera in CAMERAS
+        "configs/hours.json",
+        tuple(f"clips[{k}].sensor.preset={camera}" for k, camera in enumerate(PHYSICAL_CAMERAS)),
+        ("winter_1800", "winter_2100", "winter_0000", "winter_0300"),
+    ),
 )
 SHEET = Frames(
     "configs/contact_sheet.json",
@@ -166,7 +164,7 @@ def draw_models(shop: Workshop, out: Path) -> None:
 def draw_gallery(shop: Workshop, out: Path) -> None:
     """The middle of a frame, a row a camera: clean, blurred and noisy, in winter and in summer."""
     tiles = []
-    for camera in CAMERAS:
+    for camera in (*PUBLISHED_CAMERAS, *PHYSICAL_CAMERAS):
         row, preset = BUILD / "gallery" / camera, f"sensor.preset={camera}"
         shutil.rmtree(ROOT / row, ignore_errors=True)
         cut = (
@@ -262,7 +260,7 @@ def draw_follow(shop: Workshop, out: Path) -> None:
 PICTURES = {
     "demo.jpg": Picture(draw_demo, (DEMO,)),
     "report.jpg": Picture(draw_report, (DEMO,)),
-    "models.jpg": Picture(draw_models, (DEMO, CAMERAS_SHOWN[CAMERAS.index("airsim_w")])),
+    "models.jpg": Picture(draw_models, (DEMO, CAMERAS_SHOWN[PUBLISHED_CAMERAS.index("airsim_w")])),
     "gallery.jpg": Picture(draw_gallery, CAMERAS_SHOWN),
     "hours.jpg": Picture(draw_hours, (HOURS,)),
     "heat.svg": Picture(draw_day, (DAY,)),
