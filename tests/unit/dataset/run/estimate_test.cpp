@@ -29,24 +29,24 @@ double frame_s(Engine engine, int supersample, bool adaptive = false) {
 
 TEST_CASE("A frame of 640 x 512 takes as long as its engine has taken on two cores") {
   // One clip of configs/savanna.json by Blender (README), all four by Embree (thermal_core/ACCURACY.md).
-  CHECK(1 / frame_s(Engine::blender, 1) == Approx(5.8).epsilon(0.4));
-  CHECK(1 / frame_s(Engine::blender, 2) == Approx(1.9).epsilon(0.4));
-  CHECK(1 / frame_s(Engine::embree, 1) == Approx(31).epsilon(0.2));
-  CHECK(1 / frame_s(Engine::embree, 2) == Approx(12).epsilon(0.2));
-  CHECK(1 / frame_s(Engine::embree, 2, true) == Approx(16).epsilon(0.2));
+  CHECK_THAT(1 / frame_s(Engine::blender, 1), WithinRel(5.8, 0.4));
+  CHECK_THAT(1 / frame_s(Engine::blender, 2), WithinRel(1.9, 0.4));
+  CHECK_THAT(1 / frame_s(Engine::embree, 1), WithinRel(31.0, 0.2));
+  CHECK_THAT(1 / frame_s(Engine::embree, 2), WithinRel(12.0, 0.2));
+  CHECK_THAT(1 / frame_s(Engine::embree, 2, true), WithinRel(16.0, 0.2));
 }
 
 TEST_CASE("Adaptive sampling takes less time for rays, but no less at one ray per pixel") {
   constexpr double kFrameS = 0.012;
   const double full = frame_s(Engine::embree, 2) - kFrameS;
-  CHECK((frame_s(Engine::embree, 2, true) - kFrameS) / full == Approx(0.7));
+  CHECK_THAT((frame_s(Engine::embree, 2, true) - kFrameS) / full, WithinRel(0.7, 1e-6));
   CHECK(frame_s(Engine::embree, 1, true) == frame_s(Engine::embree, 1));
 }
 
 TEST_CASE("The start counts once, clips and overscan add to it, and disk space is that of the frames") {
   Config config = config_of(Engine::embree, 1, false);
   CHECK(estimate_run(config, 0, 0).seconds == 15);
-  CHECK(estimate_run(config, 10, 0).seconds == Approx(16));
+  CHECK_THAT(estimate_run(config, 10, 0).seconds, WithinRel(16.0, 1e-6));
   const double plain = frame_s(config);
   const double bytes = estimate_run(config, 1, 100).bytes;
   config.overscan_px = 64;
