@@ -58,10 +58,8 @@ _GREY = png_bytes(np.arange(4000, dtype=np.uint16).reshape(50, 80))
         (None, "expected a readable file (No such file or directory)"),
         (b"", "expected an image, and the file is empty"),
         (b"GIF89a", "expected a grey PNG or an EXR file (it is neither)"),
-        (
-            _GREY[:200],
-            "expected a grey PNG or an EXR file (Read error: hit end of file; PNG read error: IDAT: Read",
-        ),
+        # The rest is OpenImageIO's, whose versions differ.
+        (_GREY[:200], "expected a grey PNG or an EXR file (Read error: hit end of file"),
         (
             png_bytes(np.ones((2, 2, 3), np.uint8), RGB),
             "expected a grey PNG or an EXR file (its pixels are not grey)",

@@ -41,7 +41,7 @@ TEST_CASE("shapes that overlap are one stretch of a line") {
 
 TEST_CASE("a small target's signal is its area times its contrast") {
   const std::vector<TruthTarget> targets = truth_targets();
-  const TruthTarget& dot = truth_target(targets, "0.3 px");
+  const TruthTarget dot = truth_target(targets, "0.3 px");
   const TruthSteps steps = {.lines_per_px = 16, .radius_px = 24};
   const ContrastKernel kernel({.gaussian_sigma_px = 0.6}, dot.surface, {278, 0.914}, steps);
   const Plane<double> image = true_radiance(kernel, placed(dot, 1, 10.37, 9.81), 20, 20, 20);
@@ -53,7 +53,7 @@ TEST_CASE("a small target's signal is its area times its contrast") {
 
 TEST_CASE("as many rays as there are lines see what the lines see") {
   const std::vector<TruthTarget> targets = truth_targets();
-  const TruthTarget& person = truth_target(targets, "person");
+  const TruthTarget person = truth_target(targets, "person");
   const ContrastKernel kernel({}, person.surface, {278, 0.914}, {.radius_px = 24});
   const std::vector<TruthShape> shapes = placed(person, 6.27, 9.3, 8.6);
   const Plane<double> lines = true_radiance(kernel, shapes, 20, 18, 17);
