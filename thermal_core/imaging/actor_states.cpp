@@ -125,7 +125,7 @@ ActorStates states_of_actors(const Manifest& manifest, const MaterialLibrary& ma
                              const Weather& weather, std::uint32_t seed) {
   const std::map<std::uint16_t, bool> movement = movements(manifest);
   const double later_s = middle_s(manifest);
-  ActorStates all = {.classes = {.of_object = std::vector<std::uint8_t>(kLargestIndex + 1)}, .states = {{}}};
+  ActorStates all = {.classes = {.of_object = std::vector<std::uint8_t>(kIndexValues)}, .states = {{}}};
   for (const ManifestObject& object : manifest.objects) {
     ActorState state;
     if (object.fire) {

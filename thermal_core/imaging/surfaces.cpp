@@ -11,8 +11,6 @@
 namespace thermal {
 namespace {
 
-constexpr std::size_t kIndices = kLargestIndex + 1;
-
 void check_known(std::span<const IndexUse> uses, const std::vector<bool>& known, std::string_view plane,
                  std::string_view list) {
   for (const IndexUse& use : uses) {
@@ -31,7 +29,10 @@ void check_known(std::span<const IndexUse> uses, const std::vector<bool>& known,
 
 SurfaceMap::SurfaceMap(const Manifest& manifest, const MaterialLibrary& materials,
                        const ActorClasses& classes)
-    : by_object_(kIndices), by_material_(kIndices), known_objects_(kIndices), known_materials_(kIndices) {
+    : by_object_(kIndexValues),
+      by_material_(kIndexValues),
+      known_objects_(kIndexValues),
+      known_materials_(kIndexValues) {
   known_objects_[kSkyIndex] = true;
   by_object_[kSkyIndex] = add(materials.find("sky", "material of index 0"), "");
   for (const ManifestObject& object : manifest.objects) {
@@ -57,7 +58,7 @@ void SurfaceMap::add_classes(const ActorClasses& classes) {
       surfaces_.push_back(std::move(surface));
     }
   }
-  class_shift_.resize(kIndices);
+  class_shift_.resize(kIndexValues);
   for (std::size_t index = 0; index < classes.of_object.size(); ++index)
     class_shift_[index] = static_cast<std::uint16_t>(classes.of_object[index] * first.size());
 }

@@ -1,26 +1,28 @@
 #include "labels/instances.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 #include <cstring>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/index_plane.h"
+
 namespace thermal {
 namespace {
-
-constexpr std::size_t kIndices = 32768;
 
 /// Extents of the indices found so far, and for each possible index its position among them: planes hold few of the
 /// possible indices, and this is reset for every frame.
 class Survey {
  public:
-  Survey() : places_(kIndices, kNone) {}
+  Survey() : places_(kIndexValues, kNone) {}
 
   /// Counts a run of equal indices, columns [begin, end) of row y; rows must come in order.
   void add_run(std::uint16_t index, int begin, int end, int y) {
-    assert(index < kIndices);
     if (places_[index] == kNone) {
+      if (index > kLargestIndex) refuse(index, begin, y);
       places_[index] = static_cast<std::uint16_t>(uses_.size());
       uses_.push_back({.index = index, .first_x_px = begin, .first_y_px = y, .box = {begin, y, 0, 0}});
     }
@@ -40,6 +42,11 @@ class Survey {
   }
 
  private:
+  [[noreturn]] static void refuse(std::uint16_t index, int x, int y) {
+    throw DataError(fault(fmt::format("index at pixel ({}, {})", x, y), fmt::format("{}", index), "",
+                          fmt::format("a whole number from 0 to {}", kLargestIndex)));
+  }
+
   static constexpr std::uint16_t kNone = 0xFFFF;
   std::vector<std::uint16_t> places_;
   std::vector<IndexUse> uses_;
@@ -93,7 +100,7 @@ RunLengths mask_of(const Plane<std::uint16_t>& plane, std::uint16_t index, const
 
 }  // namespace
 
-IndexSet::IndexSet(std::span<const std::uint16_t> indices) : contains_(kIndices) {
+IndexSet::IndexSet(std::span<const std::uint16_t> indices) : contains_(kIndexValues) {
   for (const std::uint16_t index : indices) contains_[index] = true;
 }
 

@@ -38,7 +38,7 @@ struct Instance {
   std::optional<double> contrast_noise = {};  ///< difference of their radiances / noise of a pixel
 };
 
-/// A set of indices, at most 32767.
+/// A set of indices.
 class IndexSet {
  public:
   explicit IndexSet(std::span<const std::uint16_t> indices = {});
@@ -57,7 +57,8 @@ struct IndexUse {
   PixelBox box;
 };
 
-/// Every index of a plane with its extent, in ascending order, in one pass over the plane. Indices are at most 32767.
+/// Every index of a plane with its extent, in ascending order, in one pass over the plane. DataError with the first pixel
+/// whose index exceeds kLargestIndex.
 [[nodiscard]] std::vector<IndexUse> survey_indices(const Plane<std::uint16_t>& index_plane);
 
 /// The use of an index in a survey; null if absent.

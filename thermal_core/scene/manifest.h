@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "base/index_plane.h"
 #include "heat/body/vehicle_heat.h"
 #include "scene/camera_intrinsics.h"
 #include "scene/lens_distortion.h"
 
 namespace thermal {
 
-inline constexpr int kLargestIndex = 32767;  ///< Blender's limit of pass_index
 /// Object index of pixels that show the sky.
 inline constexpr int kSkyIndex = 0;
 

@@ -1,12 +1,15 @@
 #include "labels/instances.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <random>
 #include <set>
 
+#include "base/error.h"
 #include "support/catch.h"
 #include "support/drawn.h"
+#include "support/message_of.h"
 
 namespace instances_test {
 
@@ -177,6 +180,16 @@ TEST_CASE("The largest possible index can be surveyed") {
   REQUIRE(uses.size() == 1);
   CHECK(uses[0].index == 32767);
   CHECK(uses[0].pixels == 4);
+}
+
+TEST_CASE("A larger index is refused with its pixel, and is in no set") {
+  IndexPlane plane(4, 3, 1);
+  plane.at(2, 1) = 32768;
+  CHECK(message_of<DataError>([&] { (void)survey_indices(plane); }) ==
+        "index at pixel (2, 1) = 32768; expected a whole number from 0 to 32767");
+  CHECK_FALSE(IndexSet().contains(65535));
+  const std::array<std::uint16_t, 1> largest = {65535};
+  CHECK(IndexSet(largest).contains(65535));
 }
 
 TEST_CASE("On random planes of any shape, labels equal a count of every pixel") {

@@ -48,7 +48,7 @@ ClipAnnotations::ClipAnnotations(const Manifest& manifest, const LensDistortion&
     : manifest_(manifest),
       lens_(lens),
       parameters_(parameters),
-      objects_(kLargestIndex + 1, nullptr),
+      objects_(kIndexValues, nullptr),
       annotations_(spool) {
   parameters_.validate();
   for (const ManifestObject& object : manifest.objects) {
