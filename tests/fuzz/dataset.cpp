@@ -7,11 +7,15 @@
 
 #include "base/relative_name.h"
 #include "base/version.h"
+#include "dataset/clip_files.h"
+#include "dataset/dataset_file.h"
 #include "dataset/exports/export.h"
 #include "dataset/inspect/validate.h"
+#include "dataset/layout.h"
 #include "dataset/run/merge.h"
 #include "fuzz/targets.h"
 #include "io/json/file.h"
+#include "io/label_files/coco_head.h"
 #include "io/system/sha256.h"
 #include "support/assets.h"
 #if VELDT_REPORT
@@ -117,8 +121,24 @@ void make_links(const Json& links, const Path& root) {
   }
 }
 
+/// What the Python package reads of a dataset.
+void read_clips(const Path& set) {
+  for (const Json& clip : thermal::read_dataset_file(set)["clips"]) {
+    const Path folder = thermal::Layout{set}.clip(clip["id"]);
+    tolerate([&] { (void)thermal::read_clip_file(folder); });
+    tolerate([&] { thermal::for_clip_frames(folder, [](int, const Json&) {}); });
+    tolerate([&] {
+      thermal::for_clip_labels(folder, [](int, const std::string&, const std::string& text) {
+        demand(Json::accept(text), "an annotation is JSON");
+      });
+    });
+  }
+}
+
 void use(const Place& place) {
   const Path set = place.at("set");
+  tolerate([&set] { read_clips(set); });
+  tolerate([&set] { (void)thermal::read_coco_head(thermal::Layout{set}.annotations_json()); });
   tolerate([&set] { (void)thermal::validate_dataset(set); });
   tolerate([&] { thermal::merge({.sources = {set}, .out = place.at("merged")}, {}); });
   for (const auto format : {thermal::ExportFormat::coco, thermal::ExportFormat::yolo,

@@ -83,7 +83,9 @@ def test_any_array_of_the_right_shape_will_do():
         assert np.array_equal(_small().expose(other).ir16, expected.ir16)
     with pytest.raises(ConfigError, match="radiance_w_m2_sr = 32 x 40 px; expected 40 x 32, as the camera"):
         camera.expose(radiance.T)
-    with pytest.raises(ConfigError, match="radiance_w_m2_sr = 1 axes; expected two, of shape"):
+    with pytest.raises(
+        ConfigError, match=r"radiance_w_m2_sr = shape \(1280,\); expected \(height, width\), 1 to "
+    ):
         camera.expose(radiance.ravel())
 
 

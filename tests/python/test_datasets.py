@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 import passes
-from veldt import DataError, IoError, open_dataset, splits_of
+from veldt import ConfigError, DataError, IoError, open_dataset, splits_of
 
 
 def _read(file) -> np.ndarray:
@@ -60,7 +60,7 @@ def test_splits_of_what_has_none(tmp_path):
     assert str(fault.value) == f"{tmp_path}: {expected}"
     (tmp_path / "annotations").mkdir()
     (tmp_path / "annotations" / "train.json").write_text("{", encoding="utf-8")
-    with pytest.raises(DataError, match="train.json: not JSON: "):
+    with pytest.raises(DataError, match="train.json:1:2: not JSON: "):
         splits_of(tmp_path)
 
 
@@ -77,5 +77,5 @@ def test_faults(tmp_path, converted):
     (tmp_path / "dataset.json").write_text(json.dumps({"format": "other"}), encoding="utf-8")
     with pytest.raises(DataError, match="does not belong to a Veldt dataset"):
         open_dataset(tmp_path)
-    with pytest.raises(KeyError):
+    with pytest.raises(ConfigError, match='^clip = "two"; expected one of one$'):
         _ = open_dataset(converted[0])["two"]

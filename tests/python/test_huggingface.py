@@ -10,7 +10,7 @@ import datasets
 
 import passes
 from raw_exr import write_exr
-from veldt import ConfigError, open_dataset, splits_of
+from veldt import ConfigError, IoError, open_dataset, splits_of
 from veldt.huggingface import write_image_folder
 
 
@@ -104,7 +104,7 @@ def test_faults_leave_nothing(two, tmp_path):
         with pytest.raises(ConfigError) as fault:
             write_image_folder(two, out, splits)
         assert str(fault.value) == message
-    with pytest.raises(KeyError):
+    with pytest.raises(ConfigError, match='^clip = "three"; expected one of '):
         write_image_folder(two, out, {"train": ["three"]})
     (tmp_path / "there").mkdir()
     with pytest.raises(ConfigError) as fault:
@@ -115,6 +115,6 @@ def test_faults_leave_nothing(two, tmp_path):
 
 def test_an_unreadable_frame_leaves_nothing(two, tmp_path, monkeypatch):
     monkeypatch.setattr("veldt.datasets.Frame.file", lambda frame, kind: tmp_path / "missing.png")
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(IoError, match="missing.png"):
         write_image_folder(two, tmp_path / "out")
     assert not list(tmp_path.iterdir())

@@ -18,5 +18,7 @@ def test_instances_are_the_actors_pixels():
 
 
 def test_indices_have_a_limit():
-    with pytest.raises(DataError, match="index_plane = 32768; expected indices up to 32767"):
+    with pytest.raises(
+        DataError, match=r"index_plane at pixel \(0, 0\) = 32768; expected a whole number from 0 to 32767"
+    ):
         instances(np.full((2, 2), 32768), [1])

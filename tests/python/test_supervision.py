@@ -5,7 +5,7 @@ import pytest
 import supervision
 
 import passes
-from veldt import open_dataset
+from veldt import ConfigError, open_dataset
 from veldt.supervision import detections
 
 
@@ -40,5 +40,5 @@ def test_frames_without_labels_and_masks_left_out(converted):
 
 def test_unknown_categories_are_an_error(converted):
     frame = open_dataset(converted[0])["one"][0]
-    with pytest.raises(ValueError, match="elephant"):
+    with pytest.raises(ConfigError, match="elephant"):
         detections(frame.labels, ["human"])

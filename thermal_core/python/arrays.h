@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -15,9 +16,41 @@ namespace thermal::python {
 
 namespace py = pybind11;
 
-/// An argument of numbers: converted where it has another type, copied where its elements are not in C's order.
+/// Numbers of one type in C's order.
 template <typename T>
 using ArrayOf = py::array_t<T, py::array::c_style | py::array::forcecast>;
+
+/// The only ways from what users hand over to numbers. They take what numpy.asarray() makes an array of booleans, whole
+/// or real numbers from, in any order and with any strides. ConfigError "WHAT = …; expected …" for all else: texts,
+/// objects, dates, complex numbers, lists of different lengths, and more numbers than the normals of the largest picture.
+[[nodiscard]] py::array numbers_in(const py::handle& given, const char* what);
+
+/// As numbers of type T, which is real: copied where they are of another type or not in C's order.
+template <typename T>
+[[nodiscard]] ArrayOf<T> numbers_of(const py::handle& given, const char* what) {
+  return ArrayOf<T>(numbers_in(given, what));
+}
+
+/// The same, with ConfigError naming the first that is not finite.
+[[nodiscard]] ArrayOf<double> finite_numbers_of(const py::handle& given, const char* what);
+
+/// The same with two axes, of 1 to 256 million elements in all.
+[[nodiscard]] py::array plane_in(const py::handle& given, const char* what);
+
+/// A plane of real numbers [row, column]: a copy, because arrays belong to Python, which may change them.
+template <typename T>
+[[nodiscard]] Plane<T> plane_of(const py::handle& given, const char* what) {
+  const ArrayOf<T> array(plane_in(given, what));
+  Plane<T> plane(static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)));
+  std::copy_n(array.data(), plane.size(), plane.pixels().begin());
+  return plane;
+}
+
+/// A plane of grey levels: numpy.uint8 alone, as any other type would have to be scaled.
+[[nodiscard]] Plane<std::uint8_t> levels_of(const py::handle& given, const char* what);
+
+/// A plane of indices, by to_indices(): DataError for the first number that is none.
+[[nodiscard]] Plane<std::uint16_t> index_plane_of(const py::handle& given, const char* what);
 
 /// The pixels of a plane [row, column], without a copy: the array owns the plane.
 template <typename T>
@@ -27,18 +60,6 @@ template <typename T>
   const py::ssize_t shape[] = {owned->height_px(), owned->width_px()};
   const py::capsule owner(owned.release(), [](void* held) { delete static_cast<Plane<T>*>(held); });
   return py::array_t<T>(shape, pixels, owner);
-}
-
-/// Throws TypeError unless an array has two axes. `what` starts the message.
-void check_is_plane(const py::array& array, const char* what);
-
-/// The opposite, which copies: arrays belong to Python, which may change them.
-template <typename T>
-[[nodiscard]] Plane<T> plane_of(const ArrayOf<T>& array, const char* what) {
-  check_is_plane(array, what);
-  Plane<T> plane(static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)));
-  std::copy_n(array.data(), plane.size(), plane.pixels().begin());
-  return plane;
 }
 
 /// An array of another one's shape.

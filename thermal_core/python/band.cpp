@@ -2,10 +2,12 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <pybind11/stl.h>
+#include <fmt/format.h>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "io/config/spectra.h"
 #include "python/arrays.h"
@@ -21,7 +23,8 @@ constexpr std::size_t kValuesAChunk = 256;
 
 /// `function` of every value, on all cores.
 template <typename Function>
-py::array_t<double> mapped(const ArrayOf<double>& values, const Function& function) {
+py::array_t<double> mapped(const py::object& given, const char* what, const Function& function) {
+  const ArrayOf<double> values = numbers_of<double>(given, what);
   py::array_t<double> results = array_like<double>(values);
   const double* const in = values.data();
   double* const out = results.mutable_data();
@@ -41,7 +44,8 @@ class Band {
   [[nodiscard]] const SpectralResponse& response() const { return response_; }
   [[nodiscard]] const BandRadiance& reference() const { return reference_; }
 
-  [[nodiscard]] py::array_t<float> table_radiances(const ArrayOf<float>& temperatures_k) {
+  [[nodiscard]] py::array_t<float> table_radiances(const py::object& given) {
+    const ArrayOf<float> temperatures_k = numbers_of<float>(given, "temperature_k");
     py::array_t<float> results = array_like<float>(temperatures_k);
     const auto count = static_cast<std::size_t>(temperatures_k.size());
     const float* const in = temperatures_k.data();
@@ -61,10 +65,14 @@ class Band {
   std::optional<RadianceTable> table_;
 };
 
-std::unique_ptr<Band> band_of_samples(const std::vector<std::pair<double, double>>& samples) {
+std::unique_ptr<Band> band_of_samples(const py::object& given) {
+  const ArrayOf<double> samples = finite_numbers_of(given, "response");
+  if (samples.ndim() != 2 || samples.shape(1) != 2)
+    throw ConfigError(fault("response", fmt::format("{} numbers", samples.size()), "",
+                            "rows of a wavelength [um] and a relative response, (n, 2)"));
   std::vector<SpectralResponse::Sample> of_response;
-  for (const auto& [wavelength_um, response] : samples)
-    of_response.push_back({.wavelength_um = wavelength_um, .response = response});
+  for (py::ssize_t k = 0; k < samples.shape(0); ++k)
+    of_response.push_back({.wavelength_um = samples.at(k, 0), .response = samples.at(k, 1)});
   return std::make_unique<Band>(SpectralResponse(std::move(of_response)));
 }
 
@@ -81,27 +89,30 @@ void add_band(py::module_& module) {
       .def("table_radiances", &Band::table_radiances, py::arg("temperatures_k"))
       .def(
           "radiances",
-          [](const Band& band, const ArrayOf<double>& temperatures_k) {
-            return mapped(temperatures_k, [&](double k) { return band.reference().radiance(k); });
+          [](const Band& band, const py::object& temperatures_k) {
+            return mapped(temperatures_k, "temperature_k",
+                          [&](double k) { return band.reference().radiance(k); });
           },
           py::arg("temperatures_k"))
       .def(
           "derivatives",
-          [](const Band& band, const ArrayOf<double>& temperatures_k) {
-            return mapped(temperatures_k,
+          [](const Band& band, const py::object& temperatures_k) {
+            return mapped(temperatures_k, "temperature_k",
                           [&](double k) { return band.reference().evaluate(k).derivative_w_m2_sr_k; });
           },
           py::arg("temperatures_k"))
       .def(
           "relative_error_bounds",
-          [](const Band& band, const ArrayOf<double>& temperatures_k) {
-            return mapped(temperatures_k, [&](double k) { return band.reference().relative_error_bound(k); });
+          [](const Band& band, const py::object& temperatures_k) {
+            return mapped(temperatures_k, "temperature_k",
+                          [&](double k) { return band.reference().relative_error_bound(k); });
           },
           py::arg("temperatures_k"))
       .def(
           "temperatures",
-          [](const Band& band, const ArrayOf<double>& radiances_w_m2_sr) {
-            return mapped(radiances_w_m2_sr, [&](double l) { return band.reference().temperature(l); });
+          [](const Band& band, const py::object& radiances_w_m2_sr) {
+            return mapped(radiances_w_m2_sr, "radiance_w_m2_sr",
+                          [&](double l) { return band.reference().temperature(l); });
           },
           py::arg("radiances_w_m2_sr"));
 }

@@ -14,24 +14,32 @@
 namespace thermal::python {
 namespace {
 
+/// A number from `least` to `most`; ConfigError for others.
+double within(double least, double most, double value, const char* what, const char* unit) {
+  if (value >= least && value <= most) return value;
+  throw ConfigError(fault(what, fmt::format("{}", value), unit, fmt::format("{} to {}", least, most)));
+}
+
 /// A camera, and the room for one frame. Calls from several threads take turns.
 class Camera {
  public:
   Camera(const std::string& sections, const std::string& home, const std::string& clip, std::uint32_t seed,
          double frame_rate_hz, double air_k, float brightest_w_m2_sr)
       : config_(config_of_sections(sections, "camera", Assets(home))),
-        camera_(config_.sensor,
-                {.id = clip,
-                 .seed = seed,
-                 .frame_rate_hz = frame_rate_hz,
-                 .width_px = config_.camera.width_px,
-                 .height_px = config_.camera.height_px,
-                 .noise_gain = {},
-                 .air_k = air_k},
-                brightest_w_m2_sr),
+        camera_(
+            config_.sensor,
+            {.id = clip,
+             .seed = seed,
+             .frame_rate_hz = within(0.1, 240, frame_rate_hz, "frame_rate_hz", "Hz"),
+             .width_px = config_.camera.width_px,
+             .height_px = config_.camera.height_px,
+             .noise_gain = {},
+             .air_k = within(150, 350, air_k, "air_k", "K")},
+            static_cast<float>(within(1e-6, 1e6, brightest_w_m2_sr, "brightest_w_m2_sr", "W m^-2 sr^-1"))),
         radiance_w_m2_sr_(config_.camera.width_px, config_.camera.height_px) {}
 
-  [[nodiscard]] py::tuple expose(const ArrayOf<float>& radiance_w_m2_sr) {
+  [[nodiscard]] py::tuple expose(const py::object& given) {
+    const ArrayOf<float> radiance_w_m2_sr(plane_in(given, "radiance_w_m2_sr"));
     check_shape(radiance_w_m2_sr);
     SensorFrame frame;
     {
@@ -56,7 +64,6 @@ class Camera {
 
  private:
   void check_shape(const ArrayOf<float>& radiance_w_m2_sr) const {
-    check_is_plane(radiance_w_m2_sr, "radiance_w_m2_sr");
     const CameraIntrinsics& camera = config_.camera;
     if (radiance_w_m2_sr.shape(0) == camera.height_px && radiance_w_m2_sr.shape(1) == camera.width_px) return;
     throw ConfigError(fault(

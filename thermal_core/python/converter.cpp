@@ -22,17 +22,19 @@ namespace {
 /// Planes by name, as Python gives them; absent ones are empty.
 Passes passes_of(const py::dict& planes) {
   Passes passes;
-  const auto take = [&planes](const char* name, auto& plane) {
-    using Value = std::remove_reference_t<decltype(plane.pixels().front())>;
-    if (planes.contains(name)) plane = plane_of<Value>(planes[name].cast<ArrayOf<Value>>(), name);
+  const auto take_indices = [&planes](const char* name, Plane<std::uint16_t>& plane) {
+    if (planes.contains(name)) plane = index_plane_of(planes[name], name);
   };
-  take("object_index", passes.object_index);
-  take("material_index", passes.material_index);
-  take("actor_index", passes.actor_index);
-  take("depth_m", passes.depth_m);
-  take("normal_x", passes.normal[0]);
-  take("normal_y", passes.normal[1]);
-  take("normal_z", passes.normal[2]);
+  const auto take_numbers = [&planes](const char* name, Plane<float>& plane) {
+    if (planes.contains(name)) plane = plane_of<float>(planes[name], name);
+  };
+  take_indices("object_index", passes.object_index);
+  take_indices("material_index", passes.material_index);
+  take_indices("actor_index", passes.actor_index);
+  take_numbers("depth_m", passes.depth_m);
+  take_numbers("normal_x", passes.normal[0]);
+  take_numbers("normal_y", passes.normal[1]);
+  take_numbers("normal_z", passes.normal[2]);
   return passes;
 }
 
@@ -42,8 +44,8 @@ class Converter {
   Converter(const std::string& manifest, const std::string& name, const std::optional<std::string>& config,
             const std::string& config_name, std::vector<std::string> settings, const std::string& home)
       : options_{.assets = Assets(home), .config_name = config_name, .settings = std::move(settings)},
-        manifest_(parse_manifest(Json::parse(manifest), name, options_.assets)) {
-    if (config) options_.config = Json::parse(*config);
+        manifest_(parse_manifest(parse_json(manifest, name), name, options_.assets)) {
+    if (config) options_.config = parse_json(*config, config_name);
   }
 
   [[nodiscard]] py::tuple convert(int number, const py::dict& planes) {

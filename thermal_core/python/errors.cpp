@@ -1,24 +1,41 @@
+#include <exception>
+#include <string>
+#include <string_view>
+#include <utility>
+
 #include "base/error.h"
 #include "python/parts.h"
 
 namespace thermal::python {
 namespace {
 
-/// Named and pickled as veldt.`name`, where users find it.
+namespace py = pybind11;
+
+/// Named and pickled as veldt.`name`, where users find it. Messages may quote bytes of files that are no UTF-8.
 template <typename Exception>
-pybind11::object add_error(pybind11::module_& module, const char* name, const char* meaning,
-                           const pybind11::object& base) {
-  pybind11::object type = pybind11::register_exception<Exception>(module, name, base);
-  type.attr("__module__") = "veldt";
-  type.attr("__doc__") = meaning;
+py::object add_error(py::module_& module, const char* name, const char* meaning, const py::object& base) {
+  static py::object type;
+  type = py::reinterpret_steal<py::object>(
+      PyErr_NewExceptionWithDoc((std::string("veldt.") + name).c_str(), meaning, base.ptr(), nullptr));
+  module.attr(name) = type;
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(std::move(thrown));
+    } catch (const Exception& error) {
+      const std::string_view what = error.what();
+      const auto message = py::reinterpret_steal<py::object>(
+          PyUnicode_DecodeUTF8(what.data(), static_cast<Py_ssize_t>(what.size()), "backslashreplace"));
+      PyErr_SetObject(type.ptr(), message.ptr());
+    }
+  });
   return type;
 }
 
 }  // namespace
 
-void add_errors(pybind11::module_& module) {
-  const auto exception = pybind11::reinterpret_borrow<pybind11::object>(PyExc_Exception);
-  const pybind11::object base =
+void add_errors(py::module_& module) {
+  const auto exception = py::reinterpret_borrow<py::object>(PyExc_Exception);
+  const py::object base =
       add_error<Error>(module, "Error", "Caused by the user, the data or the machine.", exception);
   add_error<ConfigError>(module, "ConfigError", "An invalid config or argument.", base);
   add_error<DataError>(module, "DataError", "Something was read, but its contents are invalid.", base);

@@ -1,8 +1,9 @@
-#include <memory>
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include "base/error.h"
@@ -35,15 +36,28 @@ class Day {
 
   [[nodiscard]] const std::vector<std::string>& materials() const { return names_; }
 
-  [[nodiscard]] double air_k(double solar_h) const { return air_temperature_k(heat_.weather(), solar_h); }
+  [[nodiscard]] py::array_t<double> air_k(const py::object& given) const {
+    const ArrayOf<double> solar_h = finite_numbers_of(given, "solar_h");
+    py::array_t<double> result = array_like<double>(solar_h);
+    std::transform(solar_h.data(), solar_h.data() + solar_h.size(), result.mutable_data(),
+                   [this](double hour) { return air_temperature_k(heat_.weather(), hour); });
+    return result;
+  }
 
   /// `normals`: (…, 3) for places (…).
   [[nodiscard]] py::array_t<double> temperatures_k(const std::string& material, double solar_h,
-                                                   const ArrayOf<double>& sky_view,
-                                                   const ArrayOf<double>& sunlit,
-                                                   const ArrayOf<double>& moisture,
-                                                   const ArrayOf<double>& normals) const {
+                                                   const py::object& sky_views, const py::object& sunlits,
+                                                   const py::object& moistures,
+                                                   const py::object& normal_vectors) const {
     check_material(material);
+    const ArrayOf<double> sky_view = finite_numbers_of(sky_views, "sky_view");
+    const ArrayOf<double> sunlit = finite_numbers_of(sunlits, "sunlit");
+    const ArrayOf<double> moisture = finite_numbers_of(moistures, "moisture");
+    const ArrayOf<double> normals = finite_numbers_of(normal_vectors, "normal");
+    if (sunlit.size() != sky_view.size() || moisture.size() != sky_view.size() ||
+        normals.size() != 3 * sky_view.size())
+      throw ConfigError(fault("normal", fmt::format("{} numbers", normals.size()), "",
+                              fmt::format("3 for each of {} places", sky_view.size())));
     py::array_t<double> result = array_like<double>(sky_view);
     double* const out = result.mutable_data();
     const auto count = static_cast<std::size_t>(sky_view.size());

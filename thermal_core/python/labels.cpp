@@ -2,41 +2,43 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include "base/error.h"
+#include "io/system/read_limits.h"
 #include "labels/instances.h"
 #include "labels/rle.h"
 #include "python/arrays.h"
 #include "python/parts.h"
-#include "scene/manifest.h"
 
 namespace thermal::python {
 namespace {
 
-/// Column-major run lengths as a plane of 0 and 1. DataError unless they cover it exactly.
+/// Column-major run lengths as a plane of 0 and 1. DataError unless they cover it exactly, and for more pixels than are read of
+/// a picture.
 Plane<std::uint8_t> mask_of(const RunLengths& runs, int width_px, int height_px) {
-  Plane<std::uint8_t> mask(width_px, height_px);
-  const auto size = static_cast<std::int64_t>(mask.size());
+  const std::int64_t size = static_cast<std::int64_t>(width_px) * height_px;
+  if (width_px < 1 || height_px < 1 || size > ReadLimits{}.pixels)
+    throw DataError(fault("size of a mask", fmt::format("{} x {}", width_px, height_px), "px",
+                          fmt::format("1 to {} px in all", ReadLimits{}.pixels)));
   if (covered_px(runs) != size)
     throw DataError(fault("run lengths", std::to_string(covered_px(runs)), "px",
                           std::to_string(size) + " px, as the picture has"));
+  Plane<std::uint8_t> mask(width_px, height_px);
   for_stretches(runs, height_px, [&](int x, int y, int stretch_px) {
     for (int row = y; row < y + stretch_px; ++row) mask.at(x, row) = 1;
   });
   return mask;
 }
 
-std::vector<Instance> instances_of(const ArrayOf<std::uint16_t>& index_plane,
-                                   const std::vector<std::uint16_t>& actors) {
-  const Plane<std::uint16_t> plane = plane_of<std::uint16_t>(index_plane, "index_plane");
+/// `actors`: a plane too, or None.
+std::vector<Instance> instances_of(const py::object& index_plane, const py::object& actors) {
+  const Plane<std::uint16_t> plane = index_plane_of(index_plane, "index_plane");
+  const IndexSet labelled =
+      actors.is_none() ? IndexSet() : IndexSet(index_plane_of(actors, "actors").pixels());
   const py::gil_scoped_release others_run;
-  for (const std::uint16_t index : plane.pixels()) {
-    if (index > kLargestIndex)
-      throw DataError(
-          fault("index_plane", std::to_string(index), "", "indices up to " + std::to_string(kLargestIndex)));
-  }
-  return extract_instances(plane, survey_indices(plane), IndexSet(actors));
+  return extract_instances(plane, survey_indices(plane), labelled);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ struct Sources {
 };
 
 Config config_of(const Sources& sources) {
-  Json document = Json::parse(sources.config);
+  Json document = parse_json(sources.config, sources.name);
   for (const std::string& setting : sources.settings) apply_setting(document, setting);
   root_files(document, sources.folder);
   return resolve_config(std::move(document), sources.name, Assets(sources.home));

@@ -3,7 +3,7 @@
 namespace thermal::python {
 
 Config config_of_sections(const std::string& sections, const std::string& name, const Assets& assets) {
-  Json document = Json::parse(sections);
+  Json document = parse_json(sections, name);
   document["name"] = "sections";
   document["clips"] = Json::array({{{"id", "clip"},
                                     {"season", "winter"},

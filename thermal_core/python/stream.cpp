@@ -37,9 +37,8 @@ void add_stream(py::module_& module) {
            py::call_guard<py::gil_scoped_release>())
       .def(
           "send",
-          [](FrameStream& stream, const ArrayOf<std::uint8_t>& ir8, std::int64_t time,
-             const std::string& line) {
-            const Plane<std::uint8_t> frame = plane_of<std::uint8_t>(ir8, "ir8");
+          [](FrameStream& stream, const py::object& ir8, std::int64_t time, const std::string& line) {
+            const Plane<std::uint8_t> frame = levels_of(ir8, "ir8");
             const py::gil_scoped_release others_run;
             return stream.send(frame, time, line);
           },

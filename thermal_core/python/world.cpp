@@ -17,8 +17,9 @@
 namespace thermal::python {
 namespace {
 
-std::array<double, 16> pose_of(const ArrayOf<double>& matrix) {
+std::array<double, 16> pose_of(const py::object& given) {
   std::array<double, 16> pose{};
+  const ArrayOf<double> matrix = numbers_of<double>(given, "camera_to_world");
   if (matrix.ndim() != 2 || matrix.shape(0) != 4 || matrix.shape(1) != 4)
     throw ConfigError(fault("camera_to_world", std::to_string(matrix.size()) + " numbers", "", "4 x 4"));
   std::copy_n(matrix.data(), pose.size(), pose.begin());
@@ -58,7 +59,7 @@ class PythonWorld {
       : world_(std::make_unique<World>(plan, clip, Assets(home),
                                        WorldOptions{.frame_rate_hz = frame_rate_hz, .roam = roam})) {}
 
-  [[nodiscard]] py::tuple capture(const ArrayOf<double>& camera_to_world, double time_s) {
+  [[nodiscard]] py::tuple capture(const py::object& camera_to_world, double time_s) {
     const std::array<double, 16> pose = pose_of(camera_to_world);
     const py::gil_scoped_release others_run;
     const std::lock_guard turn(mutex_);

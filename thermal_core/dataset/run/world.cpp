@@ -66,9 +66,10 @@ std::unique_ptr<LiveClip> clip_for(const PlannedDataset& planned, const Path& pl
   return std::make_unique<LiveClip>(std::move(manifest), std::move(materials), std::move(task));
 }
 
-/// ConfigError unless a pose is a rotation and a finite place.
+/// ConfigError unless a pose is a rotation and a place near the scene, where single precision tells centimetres apart.
 void check_pose(const std::array<double, 16>& pose) {
   constexpr double kOff = 1e-6;
+  constexpr double kFarthestM = 100'000;
   const auto at = [&pose](std::size_t row, std::size_t column) { return pose[4 * row + column]; };
   bool good = std::ranges::all_of(pose, [](double entry) { return std::isfinite(entry); });
   for (std::size_t i = 0; i < 3; ++i) {
@@ -76,14 +77,14 @@ void check_pose(const std::array<double, 16>& pose) {
       const double product = at(0, i) * at(0, j) + at(1, i) * at(1, j) + at(2, i) * at(2, j);
       good = good && std::abs(product - (i == j ? 1 : 0)) <= kOff;
     }
-    good = good && at(3, i) == 0;
+    good = good && at(3, i) == 0 && std::abs(at(i, 3)) <= kFarthestM;
   }
   const double handedness = at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) -
                             at(0, 1) * (at(1, 0) * at(2, 2) - at(1, 2) * at(2, 0)) +
                             at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0));
   if (good && handedness > 0 && at(3, 3) == 1) return;
   throw ConfigError(fault("camera_to_world", fmt::format("[{}]", fmt::join(pose, ", ")), "",
-                          "a rotation and a place [m] in four rows of four"));
+                          "a rotation and a place within 100 km [m] in four rows of four"));
 }
 
 Vector3 unit(const Vector3& axis) { return (1 / length(axis)) * axis; }

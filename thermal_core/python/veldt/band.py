@@ -20,8 +20,7 @@ class Band:
     def __init__(self, begin_um: float = 8, end_um: float = 14, *, response: ArrayLike | None = None) -> None:
         """A flat band from begin_um to end_um [um], 0 < begin_um < end_um; or `response`: (n, 2) samples of
         wavelength [um] and relative response, n >= 2, wavelengths rising. ConfigError otherwise."""
-        samples = [(begin_um, 1), (end_um, 1)] if response is None else np.asarray(response, float).tolist()
-        self._band = _core.Band([tuple(sample) for sample in samples])
+        self._band = _core.Band([(begin_um, 1), (end_um, 1)] if response is None else response)
 
     @classmethod
     def of_file(cls, file: str | PathLike[str]) -> Band:

@@ -11,6 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 import veldt._core as _core
 from .band import Band
 from .home import home
+from .runs import json_of
+
+
+_LONGEST_REST_S = 86_400
 
 
 class Exposure(NamedTuple):
@@ -49,10 +53,10 @@ class Camera:
         radiance of level 255, which only the gain controls `scene_max` and `table_max` of the published model use.
         ConfigError for unknown presets and keys, with the nearest name.
         """
-        sections = json.loads(json.dumps(settings or {}))
+        sections = json.loads(json_of(settings or {}, "settings"))
         sections.setdefault("sensor", {}).setdefault("preset", preset)
         self._camera = _core.Camera(
-            json.dumps(sections), home(), clip, seed, frame_rate_hz, air_k, brightest_w_m2_sr
+            json_of(sections, "settings"), home(), clip, seed, frame_rate_hz, air_k, brightest_w_m2_sr
         )
         self._frame_rate_hz = frame_rate_hz
         self._next = 0
@@ -62,7 +66,8 @@ class Camera:
         once, as single precision. NaN and negative radiance count as 0.
 
         time_s: of the frame, from the first one at 0. Frames in between pass unseen: noise and shutter go on, lag and
-        gain control rest. ConfigError unless it is the next frame's time or later, on the clock of the frame rate.
+        gain control rest. ConfigError unless it is the next frame's time or later, by a day at most, on the clock of the
+        frame rate.
         """
         if time_s is not None:
             self._skip_to(time_s)
@@ -95,12 +100,15 @@ class Camera:
         return self._camera.kelvin_per_count
 
     def _skip_to(self, time_s: float) -> None:
+        if _core.finite_numbers(time_s, "time_s").ndim:
+            raise _core.ConfigError(f"time_s = {np.size(time_s)} numbers; expected one")
+        time_s = float(time_s)
         frame = round(time_s * self._frame_rate_hz)
         on_clock = abs(frame - time_s * self._frame_rate_hz) < 1e-3
-        if not on_clock or frame < self._next:
+        if not on_clock or not 0 <= frame - self._next <= _LONGEST_REST_S * self._frame_rate_hz:
             raise _core.ConfigError(
                 f"time_s = {time_s:g} s; expected a multiple of 1/{self._frame_rate_hz:g} s from "
-                f"{self._next / self._frame_rate_hz:g} s on"
+                f"{self._next / self._frame_rate_hz:g} s on, and within a day"
             )
         for _ in range(frame - self._next):
             self._camera.skip()

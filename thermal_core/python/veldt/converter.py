@@ -69,8 +69,8 @@ class Converter:
     ) -> MadeFrame:
         """Frame `number` of the manifest, in order; those left out pass unseen.
 
-        All planes are (height, width) as the manifest's renderer has them, indices up to 32767; normal is (height,
-        width, 3), in world axes; depth_m is along the camera's axis, 1e9 or more for sky. They are copied once. The
+        All planes are (height, width) as the manifest's renderer has them, indices whole from 0 to 32767, of any type of
+        numbers; normal is (height, width, 3), in world axes; depth_m is along the camera's axis, 1e9 or more for sky. They are copied once. The
         first frame's planes decide which physical terms are kept: a plane that they need must not be missing later.
         DataError for planes of another size, missing planes, and indices that the manifest lacks; the camera has then
         not moved on, and the frame can be converted again. ConfigError for a number that has passed.
@@ -83,7 +83,9 @@ class Converter:
         }
         planes = {name: plane for name, plane in given.items() if plane is not None}
         if normal is not None:
-            axes = np.asarray(normal, np.float32)
+            axes = _core.numbers(normal, "normal")
+            if axes.shape[2:] != (3,):
+                raise _core.ConfigError(f"normal = shape {axes.shape}; expected (height, width, 3)")
             planes |= {f"normal_{axis}": axes[..., k] for k, axis in enumerate("xyz")}
         return made_frame(self._converter.convert(number, planes))
 

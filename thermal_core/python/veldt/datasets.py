@@ -4,7 +4,6 @@ for."""
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -17,8 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import veldt._core as _core
-
-_IMAGES = re.compile(r',\s*"images"\s*:\s*\[')
 
 
 @dataclass(frozen=True)
@@ -113,7 +110,7 @@ class Clip(Sequence[Frame]):
     @cached_property
     def record(self) -> dict[str, Any]:
         """clip.json: season, seed, checksums."""
-        return _read_json(self.folder / "clip.json")
+        return json.loads(_core.read_clip_file(str(self.folder)))
 
     @property
     def frame_rate_hz(self) -> float:
@@ -136,18 +133,13 @@ class Clip(Sequence[Frame]):
 
     @cached_property
     def _frames(self) -> list[Frame]:
-        lines = _core.read_text(str(self.folder / "frames.jsonl")).splitlines()
-        return [Frame(self, json.loads(line)["frame_index"], line) for line in lines]
+        return [Frame(self, index, line) for index, line in _core.read_clip_frames(str(self.folder))]
 
     @cached_property
     def _labels(self) -> dict[int, list[Label]]:
-        document = _read_json(self.folder / "labels.json")
-        names = {category["id"]: category["name"] for category in document["categories"]}
-        frames = {image["id"]: image["frame_index"] for image in document["images"]}
         found: dict[int, list[Label]] = {}
-        for each in document["annotations"]:
-            label = Label.of(each, names[each["category_id"]])
-            found.setdefault(frames[each["image_id"]], []).append(label)
+        for frame_index, category, annotation in _core.read_clip_labels(str(self.folder)):
+            found.setdefault(frame_index, []).append(Label.of(json.loads(annotation), category))
         return found
 
 
@@ -168,14 +160,23 @@ class Dataset(Sequence[Clip]):
     @property
     def kelvin_per_count(self) -> float:
         """Step of ir16 [K]."""
-        return self.document["kelvin_per_count"]
+        return self.config["sensor"]["kelvin_per_count"]
 
     @cached_property
     def categories(self) -> dict[str, int]:
         """Names of all categories with their ids in annotations.json, in its order. IoError or DataError if that file
         cannot be read."""
-        file = self.folder / "annotations.json"
-        return {category["name"]: category["id"] for category in _head_of(file)["categories"]}
+        categories, _ = _core.read_coco_head(str(self.folder / "annotations.json"))
+        return dict(categories)
+
+    def category_id(self, name: str) -> int:
+        """That of a category in annotations.json; DataError if it has none of this name."""
+        if name in self.categories:
+            return self.categories[name]
+        known = ", ".join(self.categories)
+        raise _core.DataError(
+            f'{self.folder}: category = "{name}"; expected one of annotations.json: {known}'
+        )
 
     @cached_property
     def images_before(self) -> dict[str, int]:
@@ -189,13 +190,14 @@ class Dataset(Sequence[Clip]):
             yield from clip
 
     def __getitem__(self, at: int | str) -> Clip:
-        """A clip by its place or its id, KeyError for an unknown one; a slice gives a list."""
+        """A clip by its place or its id, ConfigError for an unknown one; a slice gives a list."""
         if not isinstance(at, str):
             return self._clips[at]
         for clip in self._clips:
             if clip.id == at:
                 return clip
-        raise KeyError(at)
+        known = ", ".join(clip.id for clip in self._clips)
+        raise _core.ConfigError(f'clip = "{at}"; expected one of {known or "none: no clip is complete"}')
 
     def __len__(self) -> int:
         return len(self._clips)
@@ -205,37 +207,17 @@ class Dataset(Sequence[Clip]):
 
 
 def open_dataset(folder: str | PathLike[str]) -> Dataset:
-    """A dataset's clips. IoError if a file cannot be read, DataError if it is none of a dataset."""
+    """A dataset's clips. What is in it is checked when it is first asked for: IoError if a file cannot be read, is no
+    regular one, or a link; DataError, with file, place and value, if it is none of a dataset."""
     return Dataset(Path(folder))
 
 
 def splits_of(export: str | PathLike[str]) -> dict[str, list[str]]:
     """The ids of the clips in each split of what `veldt export --format coco --split` wrote. IoError unless it has a
-    folder annotations/ with a file for each split, DataError if one is none of COCO."""
+    folder annotations/ with a file for each split, which is no link; DataError if one is none of COCO."""
     files = sorted(Path(export).glob("annotations/*.json"))
     if not files:
         raise _core.IoError(
             f"{export}: no annotations/*.json; expected an export in COCO's format with splits"
         )
-    return {file.stem: [video["name"] for video in _head_of(file)["videos"]] for file in files}
-
-
-def _head_of(file: Path) -> dict[str, Any]:
-    """A COCO file of ours without its images and what follows them, which may be gigabytes."""
-    text = ""
-    try:
-        with open(file, encoding="utf-8") as stream:
-            while not (images := _IMAGES.search(text)) and (more := stream.read(1 << 16)):
-                text += more
-        return json.loads(text[: images.start()] + "}" if images else text)
-    except OSError as error:
-        raise _core.IoError(f"cannot read {file}: {error.strerror}") from error
-    except ValueError as error:
-        raise _core.DataError(f"{file}: not JSON: {error}") from error
-
-
-def _read_json(file: Path) -> Any:
-    try:
-        return json.loads(_core.read_text(str(file)))
-    except ValueError as error:
-        raise _core.DataError(f"{file}: not JSON: {error}") from error
+    return {file.stem: _core.read_coco_head(str(file))[1] for file in files}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 import numpy as np
@@ -10,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import veldt._core as _core
 from .home import home
+from .runs import json_of
 
 
 class HeatOfDay:
@@ -21,7 +21,7 @@ class HeatOfDay:
 
     def __init__(self, season: str = "winter", weather: dict[str, Any] | None = None) -> None:
         """`weather`: keys of a config's section of that name that differ from the season's. ConfigError if invalid."""
-        self._day = _core.Day(season, json.dumps({"weather": weather or {}}), home())
+        self._day = _core.Day(season, json_of({"weather": weather or {}}, "weather"), home())
 
     @property
     def materials(self) -> list[str]:
@@ -30,8 +30,7 @@ class HeatOfDay:
 
     def air_k(self, solar_h: ArrayLike) -> NDArray[np.float64]:
         """Air temperature [K] at local solar times [h], any finite numbers."""
-        hours = np.asarray(solar_h, float)
-        return np.array([self._day.air_k(hour) for hour in hours.flat]).reshape(hours.shape)
+        return self._day.air_k(solar_h)
 
     def temperature_k(
         self,
@@ -48,11 +47,25 @@ class HeatOfDay:
         solar_h: local solar time [h]. sky_view: share of the sky that is seen, 0 to 1. sunlit: share of the day's
         sunbeams that arrive, 0 to 1. moisture: 0 dry to 1 saturated; None: of open ground after the last rain.
         normal: (…, 3) unit vectors east, north, up. Values outside count as the nearest inside. Interpolated between
-        days that are computed: off by up to a fifth of a kelvin. ConfigError for an unknown material.
+        days that are computed: off by up to a fifth of a kelvin. ConfigError for an unknown material, numbers that are
+        not finite, and shapes that do not broadcast.
         """
-        wet = self._day.open_moisture if moisture is None else moisture
-        normals = np.asarray(normal, float)
-        hours, *places = np.broadcast_arrays(solar_h, sky_view, sunlit, wet, normals[..., 0])
+        given = {
+            "solar_h": solar_h,
+            "sky_view": sky_view,
+            "sunlit": sunlit,
+            "moisture": self._day.open_moisture if moisture is None else moisture,
+            "normal": normal,
+        }
+        numbers = {name: _core.finite_numbers(value, name) for name, value in given.items()}
+        normals = numbers.pop("normal")
+        shapes = [*(value.shape for value in numbers.values()), normals.shape[:-1]]
+        if normals.shape[-1:] != (3,) or not _broadcast(shapes):
+            raise _core.ConfigError(
+                f"shapes {', '.join(map(str, [*shapes[:-1], normals.shape]))}; expected some that broadcast, and "
+                "(…, 3) of normal"
+            )
+        hours, *places = np.broadcast_arrays(*numbers.values(), normals[..., 0])
         result = np.empty(hours.shape)
         all_normals = np.broadcast_to(normals, (*hours.shape, 3))
         for hour in np.unique(hours):
@@ -60,3 +73,11 @@ class HeatOfDay:
             of_hour = [place[now] for place in places[:3]]
             result[now] = self._day.temperatures_k(material, float(hour), *of_hour, all_normals[now])
         return result
+
+
+def _broadcast(shapes: list[tuple[int, ...]]) -> bool:
+    try:
+        np.broadcast_shapes(*shapes)
+    except ValueError:
+        return False
+    return True

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import shutil
 import tempfile
 from collections.abc import Iterable, Mapping
 from os import PathLike
@@ -35,9 +33,9 @@ def write_image_folder(
     are linked, or copied where that is impossible. metadata.parquet has the rows with their types: with JSON lines,
     `datasets` rejects splits without targets, whose types it cannot guess.
 
-    ConfigError for a folder that exists, other splits, one without frames, and a clip in two of them; KeyError for an
-    unknown clip. The folder appears when it is whole; a killed run leaves one beside it whose name goes on with
-    `.part_`.
+    ConfigError for a folder that exists, other splits, one without frames, an unknown clip, and a clip in two of them;
+    open_dataset()'s errors: no link of the dataset is followed. The folder appears when it is whole; a killed run
+    leaves one beside it whose name goes on with `.part_`.
     """
     out = Path(folder)
     if out.exists():
@@ -104,7 +102,7 @@ def _write_split(dataset: Dataset, clips: list[Clip], folder: Path) -> None:
             writer.write_table(pyarrow.Table.from_pylist(rows, schema))
             for frame, row in zip(clip, rows):
                 for pixels, key in zip(_PIXELS, ("file_name", "ir16_file_name")):
-                    _link(frame.file(pixels), folder / row[key])
+                    _core.link_file(str(frame.file(pixels)), str(folder / row[key]))
 
 
 def _row(frame: Frame, categories: list[str]) -> dict[str, Any]:
@@ -120,7 +118,7 @@ def _row(frame: Frame, categories: list[str]) -> dict[str, Any]:
         "kelvin_per_count": frame.clip.dataset.kelvin_per_count,
         "objects": {
             "bbox": [list(label.box_px) for label in labels],
-            "category": [categories.index(label.category) for label in labels],
+            "category": [_place_of(label.category, categories) for label in labels],
             "area": [label.values["area"] for label in labels],
             "track_id": [label.track_id for label in labels],
             "rle": [label.values["segmentation"]["counts"] for label in labels],
@@ -128,8 +126,9 @@ def _row(frame: Frame, categories: list[str]) -> dict[str, Any]:
     }
 
 
-def _link(file: Path, to: Path) -> None:
-    try:
-        os.link(file, to)
-    except OSError:
-        shutil.copyfile(file, to)
+def _place_of(category: str, categories: list[str]) -> int:
+    if category in categories:
+        return categories.index(category)
+    raise _core.DataError(
+        f'category = "{category}"; expected one of annotations.json: {", ".join(categories)}'
+    )

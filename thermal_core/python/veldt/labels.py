@@ -52,8 +52,9 @@ class Instance:
 def instances(index_plane: ArrayLike, actors: Iterable[int]) -> list[Instance]:
     """The actors of an index plane (height, width) with their boxes and masks, in ascending order of index.
 
-    actors: indices that are labelled; others are not. DataError for indices above 32767, Blender's limit.
+    index_plane: numbers of any type. actors: indices that are labelled; others are not. DataError for the first number
+    that is not whole, from 0 to 32767, Blender's limit.
     """
-    plane = np.asarray(index_plane)
-    found = _core.instances(plane, list(actors))
-    return [Instance(each, plane.shape) for each in found]
+    listed = list(actors)
+    found = _core.instances(index_plane, [listed] if listed else None)
+    return [Instance(each, np.shape(index_plane)) for each in found]

@@ -101,6 +101,16 @@ def _sources(config: Source, settings: Iterable[str]) -> _core.Sources:
 def document_of(source: Source, name: str) -> tuple[str, str]:
     """The JSON of a document or its file, and what to call it in messages."""
     if isinstance(source, dict):
-        return json.dumps(source), name
+        return json_of(source, name), name
     file = fspath(source)
     return _core.read_json(file), file
+
+
+def json_of(document: Any, name: str) -> str:
+    """Its JSON; ConfigError for what JSON cannot hold."""
+    try:
+        return json.dumps(document, allow_nan=False)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise _core.ConfigError(
+            f"{name}: {error}; expected texts, finite numbers, lists and dictionaries"
+        ) from error

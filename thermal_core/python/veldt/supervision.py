@@ -7,12 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 import supervision as sv
 
+from veldt._core import ConfigError
 from .datasets import Label
 
 
 def detections(labels: Sequence[Label], categories: Sequence[str], *, masks: bool = True) -> sv.Detections:
     """Boxes, masks and tracks of a frame's labels, those marked `ignore` too. `class_id` is the place in `categories`,
-    as list(dataset.categories) and the YOLO export number them; ValueError for a category that it lacks.
+    as list(dataset.categories) and the YOLO export number them; ConfigError for a category that it lacks.
 
     >>> found = detections(frame.labels, list(dataset.categories))
     >>> picture = supervision.MaskAnnotator().annotate(cv2.cvtColor(frame.ir8(), cv2.COLOR_GRAY2BGR), found)
@@ -22,10 +23,14 @@ def detections(labels: Sequence[Label], categories: Sequence[str], *, masks: boo
     boxes = np.array([label.box_px for label in labels], np.float32)
     boxes[:, 2:] += boxes[:, :2]
     names = [label.category for label in labels]
+    if not set(names) <= set(categories):
+        raise ConfigError(
+            f"categories: {', '.join(categories)}; expected all of the labels': {', '.join(sorted(set(names)))}"
+        )
     return sv.Detections(
         xyxy=boxes,
         mask=np.array([label.mask() for label in labels]) if masks else None,
-        class_id=np.array([categories.index(name) for name in names]),
+        class_id=np.array([list(categories).index(name) for name in names]),
         tracker_id=np.array([label.track_id for label in labels]),
         data={"class_name": np.array(names)},
     )

@@ -48,7 +48,7 @@ class FrameDataset(torch.utils.data.Dataset[tuple[tv_tensors.Image, Target]]):
         of image and target, such as those of torchvision.transforms.v2; boxes and masks follow them. What they pad
         and rotate in is 0 K, unless their `fill` says otherwise.
 
-        ConfigError for other pixels, KeyError for an unknown clip; open_dataset()'s errors.
+        ConfigError for other pixels and an unknown clip; open_dataset()'s errors.
         """
         if pixels not in _TYPES:
             raise _core.ConfigError(f'pixels = "{pixels}"; expected one of ir16, ir16_k, ir8')
@@ -86,7 +86,9 @@ class FrameDataset(torch.utils.data.Dataset[tuple[tv_tensors.Image, Target]]):
         boxes[:, 2:] += boxes[:, :2]
         target = {
             "boxes": tv_tensors.BoundingBoxes(boxes, format="XYXY", canvas_size=size),
-            "labels": torch.tensor([self.categories[label.category] for label in labels], dtype=torch.int64),
+            "labels": torch.tensor(
+                [self.dataset.category_id(label.category) for label in labels], dtype=torch.int64
+            ),
             "track_ids": torch.tensor([label.track_id for label in labels], dtype=torch.int64),
             "image_id": frame.image_id,
         }
