@@ -10,7 +10,7 @@ struct PictureSize {
   int height_px = 0;
 };
 
-/// Size of a picture of any common format, from its header. IoError with the file and the library's reason.
+/// Size of a PNG, JPEG or TIFF, from its header. DataError with the file if it is none; IoError if it cannot be read.
 [[nodiscard]] PictureSize read_picture_size(const Path& file);
 
 }  // namespace thermal

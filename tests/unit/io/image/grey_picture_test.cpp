@@ -1,6 +1,7 @@
 #include "io/image/grey_picture.h"
 
 #include "base/error.h"
+#include "io/image/picture_size.h"
 #include "io/image/png.h"
 #include "support/catch.h"
 #include "support/message_of.h"
@@ -47,6 +48,24 @@ TEST_CASE("Pictures that cannot be read") {
              StartsWith("cannot read " + file.string()));
   write_file(file, {});
   CHECK_THAT(message_of<DataError>([&] { (void)read_grey_picture(file); }), StartsWith(file.string() + ": "));
+}
+
+TEST_CASE("Other formats are refused by their first bytes, whatever their name, before a decoder sees them") {
+  const TemporaryFolder folder;
+  const std::string pgm = "P5\n2 2\n255\nabcd";  // a whole picture, which OpenImageIO could read
+  for (const char* name : {"a.jpg", "a.tif"}) {
+    const Path file = folder.file(name, pgm);
+    CHECK(message_of<DataError>([&] { (void)read_grey_picture(file); }) ==
+          file.string() + ": it begins as no PNG, JPEG or TIFF does");
+    CHECK(message_of<DataError>([&] { (void)read_picture_size(file); }) ==
+          file.string() + ": it begins as no PNG, JPEG or TIFF does");
+  }
+  // A name of another format's does not matter either.
+  const TemporaryFolder other;
+  write_file(other.path() / "a.tif", encode_png(ramp<std::uint8_t>(1)));
+  CHECK(read_grey_picture(other.path() / "a.tif").levels.at(7, 1) == 27);
+  CHECK_THAT(message_of<IoError>([&] { (void)read_picture_size(other.path()); }),
+             EndsWith("no regular file"));
 }
 
 }  // namespace grey_picture_test

@@ -117,7 +117,8 @@ TEST_CASE("Pictures without temperatures") {
   Plane<float> broken(8, 8, 300.0F);
   broken.at(2, 2) = std::numeric_limits<float>::quiet_NaN();
   CHECK(fault_of(encode_tiff(broken, {})) == file.string() + ": pixels = not finite" + rule);
-  CHECK_THAT(fault_of("no TIFF"), StartsWith(file.string() + ": damaged: "));
+  CHECK(fault_of("no TIFF") == file.string() + ": it begins as no PNG, JPEG or TIFF does");
+  CHECK_THAT(fault_of(std::string("II*\0", 4)), StartsWith(file.string() + ": damaged: "));
   CHECK(fault_of(encode_tiff(Plane<std::uint16_t>(8, 8, 30000),
                              {.gdal_metadata = "<Item role=\"scale\">x</Item>"}))
             .find("scale of its counts = unknown") != std::string::npos);

@@ -42,8 +42,6 @@ OIIO::ImageBuf stretched(const OIIO::ImageBuf& picture) {
 
 /// 8 bits, grey or red, green and blue.
 OIIO::ImageBuf read_picture(const Path& file) {
-  if (!std::filesystem::exists(file))
-    throw IoError(fmt::format("cannot read {}: no such file", file.string()));
   // No ImageBuf of the file: that takes the size from a cache, which may be older than the file, and writes beyond it.
   const auto in = open_picture(file);
   const OIIO::ImageSpec spec = in->spec();

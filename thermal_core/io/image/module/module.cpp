@@ -7,7 +7,9 @@
 
 #include "base/error.h"
 #include "io/image/module/functions.h"
+#include "io/image/module/picture_input.h"
 #include "io/image/picture_module.h"
+#include "io/system/naming.h"
 
 namespace thermal::pictures {
 namespace {
@@ -22,8 +24,7 @@ std::string encode_picture(const cv::Mat& bgr, PictureFormat format) {
 }
 
 PictureSize read_picture_size(const Path& file) {
-  const auto in = OIIO::ImageInput::open(file.string());
-  if (!in) throw IoError(fmt::format("cannot read {}: {}", file.string(), OIIO::geterror()));
+  const auto in = naming(file, [&file] { return open_picture(file); });
   return {.width_px = in->spec().width, .height_px = in->spec().height};
 }
 
