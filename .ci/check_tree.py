@@ -1,5 +1,5 @@
 """Checks on the repository's files that no compiler makes: JSON that parses, configs that match the schema,
-no paths of a developer's machine, no path that a document leads astray. Standard input names the files, one a line,
+no paths of a developer's machine, no path that a document leads astray, no number that a locale changes. Standard input names the files, one a line,
 relative to the root.
 
 Exit 0 when all is well; 1 with one line a fault, `<file>[:<line>]: <what>; expected <rule>`.
@@ -20,6 +20,13 @@ MACHINE_PATH = re.compile(r"(?<![\w./-])/(?:home|root|work|Users)/")
 # recognized: reviews, and tests/integration/test_openings.py, look for that.
 DOCUMENT_VALUE = r"[\w.>-]+(?:\[\"|\.at\(\"|\.value\(\"|\.get<std::string>)"
 DOCUMENT_PATH = re.compile(rf"(?:(?<!/)/=? |\bPath[({{])(?:std::string\()?{DOCUMENT_VALUE}")
+
+
+# Numbers that follow the locale of the process, which may be a host program with a comma, and the streams that format them.
+LOCALE = re.compile(
+    r"\b(?:strto[dfl]+|ato[fil]|std::sto[dfl]+|setlocale|std::to_string\(\d*\.)\b|std::locale::global"
+    r"|<iomanip>|<< *(?:std::setprecision|std::fixed)"
+)
 
 
 def json_faults(path: Path) -> list[str]:
@@ -77,13 +84,23 @@ def document_path_faults(path: Path) -> list[str]:
     ]
 
 
+def locale_faults(path: Path) -> list[str]:
+    """One line for each line of C++ that reads or writes numbers as the locale has them."""
+    lines = enumerate(path.read_text(encoding="utf-8").splitlines(), start=1)
+    return [
+        f"{path}:{number}: what follows the locale; expected number_in(), std::from_chars or {{fmt}}"
+        for number, line in lines
+        if LOCALE.search(line.split("//")[0])
+    ]
+
+
 def file_faults(path: Path) -> list[str]:
     """All faults of one file."""
     faults = machine_path_faults(path)
     if path.suffix == ".json":
         faults += json_faults(path)
     if path.suffix in (".cpp", ".h") and path.parts[0] in ("thermal_core", "cli"):
-        faults += document_path_faults(path)
+        faults += document_path_faults(path) + locale_faults(path)
     return faults
 
 

@@ -1,7 +1,6 @@
 #include "dataset/exports/split_shares.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -20,11 +19,9 @@ bool is_word(const std::string& name) {
 std::optional<SplitShare> parse_split(const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos || !is_word(text.substr(0, colon))) return std::nullopt;
-  const std::string number = text.substr(colon + 1);
-  char* end = nullptr;
-  const double share = std::strtod(number.c_str(), &end);
-  if (number.empty() || *end != '\0' || !(share > 0) || share > 1) return std::nullopt;
-  return SplitShare{.name = text.substr(0, colon), .share = share};
+  const std::optional<double> share = number_in<double>(std::string_view(text).substr(colon + 1));
+  if (!share || !(*share > 0) || *share > 1) return std::nullopt;
+  return SplitShare{.name = text.substr(0, colon), .share = *share};
 }
 
 [[noreturn]] void refuse_splits(const std::string& text) {

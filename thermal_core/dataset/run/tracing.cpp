@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "dataset/clip/pass_source.h"
 #include "dataset/layout.h"
 #include "io/bake/baked_files.h"
@@ -20,7 +20,7 @@ namespace {
 
 /// The nearest decimal number, as Python's round() has it.
 double round_decimal(double value, int digits) {
-  return std::strtod(fmt::format("{:.{}f}", value, digits).c_str(), nullptr);
+  return number_in<double>(fmt::format("{:.{}f}", value, digits)).value_or(value);
 }
 
 /// As NumPy's round() has it, which is faster; without negative zeros.
