@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "cli/command.h"
 #include "cli/output.h"
 #include "dataset/plan/plan_folder.h"
@@ -49,6 +50,14 @@ std::string shell_quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
+}
+
+/// The same text; ConfigError for tabs, ends of lines and what is not UTF-8, which schedulers, shells and YAML read in ways
+/// of their own.
+const std::string& checked(const char* what, const std::string& text) {
+  if (thermal::printable(text) == text) return text;
+  throw thermal::ConfigError(
+      thermal::fault(what, text, "", "a text without control characters, in UTF-8, such as /data/park"));
 }
 
 /// A name that Kubernetes accepts: small letters, digits and hyphens, a letter or digit at both ends.
@@ -100,8 +109,9 @@ Values values_of(const ClusterArguments& options, const thermal::Config& config)
   for (const thermal::ClipConfig& clip : config.clips) frames += clip.frames;
   const thermal::Path data =
       options.data.empty() ? thermal::Path(options.plan) / ".." : thermal::Path(options.data);
-  const auto absolute = [](const thermal::Path& folder) {
-    return shell_quoted(std::filesystem::weakly_canonical(std::filesystem::absolute(folder)).string());
+  const auto absolute = [](const char* what, const thermal::Path& folder) {
+    return shell_quoted(
+        checked(what, std::filesystem::weakly_canonical(std::filesystem::absolute(folder)).string()));
   };
   return {{"name", label_of(config.name)},
           {"label", label_of(config.name)},
@@ -112,10 +122,10 @@ Values values_of(const ClusterArguments& options, const thermal::Config& config)
           {"memory_gb", std::to_string(options.memory_gb)},
           {"minutes", std::to_string(shard_minutes(config, shards, options.cores))},
           {"merge_minutes", std::to_string(merge_minutes(thermal::estimate_run(config, clips, frames)))},
-          {"plan", absolute(options.plan)},
-          {"data", absolute(data)},
-          {"image", thermal::Json(options.image).dump()},
-          {"claim", thermal::Json(options.claim).dump()}};
+          {"plan", absolute("plan", options.plan)},
+          {"data", absolute("--data", data)},
+          {"image", thermal::Json(checked("--image", options.image)).dump()},
+          {"claim", thermal::Json(checked("--claim", options.claim)).dump()}};
 }
 
 int run_cluster(const ClusterArguments& options) {

@@ -20,12 +20,16 @@ data={{data}}
 shards={{shards}}
 most_restarts=5
 
+# For a shell of any kind: the merge runs in /bin/sh, which may not know what printf %q writes.
+quoted() { # TEXT
+  printf "'%s'" "${1//\'/\'\\\'\'}"
+}
+
 submit() { # SBATCH_OPTIONS…
   local array
   array=$(sbatch --parsable "$@" "$0") || exit
   sbatch --dependency="afterany:${array%%;*}" --job-name=veldt_{{name}}_merge --time={{merge_minutes}} --mem={{memory_gb}}G \
-    --wrap "$(printf 'veldt merge --plan %q --shards %s %q/shards/* --out %q --progress plain' \
-      "$plan" "$shards" "$data" "$data/dataset")"
+    --wrap "veldt merge --plan $(quoted "$plan") --shards $shards $(quoted "$data")/shards/* --out $(quoted "$data/dataset") --progress plain"
 }
 
 # The code is 143 if Slurm asked to stop: two minutes before the time limit, or to free the node.

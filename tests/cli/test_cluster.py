@@ -25,7 +25,7 @@ case "$*" in *--parsable*) echo 77 ;; esac
 @pytest.fixture(scope="module", name="place")
 def _place(tmp_path_factory) -> Veldt:
     """A folder whose name needs quotes, with a plan and programs that stand in for Slurm's."""
-    folder = tmp_path_factory.mktemp("cluster") / "the ranger's data"
+    folder = tmp_path_factory.mktemp("cluster") / "the ranger's Büro"
     folder.mkdir()
     veldt = Veldt(folder)
     config = tiny() | {"name": "My_Park"}
@@ -84,6 +84,12 @@ def test_without_a_file_the_same_is_printed(place, scheduler):
     _write(place, scheduler)
     done = place("cluster", scheduler, "plan", "--shards", _SHARDS)
     assert (done.code, done.out, done.err) == (0, (place.folder / "jobs").read_text(encoding="utf-8"), "")
+
+
+def test_a_path_that_shells_read_in_ways_of_their_own_is_refused(place):
+    path = f"{place.folder}/a\\x09b"
+    rule = "expected a text without control characters, in UTF-8, such as /data/park"
+    check_fault(place("cluster", "slurm", "plan", "--data", "a\tb"), 2, f"--data = {path}; {rule}")
 
 
 def test_the_script_submits_shards_and_a_merge_that_waits_for_them(place):
