@@ -1,7 +1,6 @@
 #include "io/system/tar_file.h"
 
 #include <cerrno>
-#include <clocale>
 #include <cstddef>
 #include <new>
 #include <utility>
@@ -13,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "io/system/c_locale.h"
 
 namespace thermal {
 namespace {
@@ -30,22 +30,6 @@ struct FreeEntry {
 
 using Archive = std::unique_ptr<archive, FreeArchive>;
 using Entry = std::unique_ptr<archive_entry, FreeEntry>;
-
-/// While it exists, libarchive takes names for UTF-8, whatever the locale of the process is.
-class Utf8 {
- public:
-  Utf8() : locale_(::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr)), before_(::uselocale(locale_)) {}
-  ~Utf8() {
-    ::uselocale(before_);
-    if (locale_) ::freelocale(locale_);
-  }
-  Utf8(const Utf8&) = delete;
-  Utf8& operator=(const Utf8&) = delete;
-
- private:
-  locale_t locale_;
-  locale_t before_;
-};
 
 Archive new_archive() {
   Archive tar(::archive_write_new());
@@ -127,7 +111,7 @@ TarFile::~TarFile() = default;
 
 void TarFile::add(const std::string& name, std::string_view content) {
   archive* tar = impl_->tar.get();
-  const Utf8 names;
+  const CLocale names;
   impl_->check(::archive_write_header(tar, entry_of(name, content.size()).get()));
   impl_->check(::archive_write_data(tar, content.data(), content.size()));
   impl_->check(::archive_write_finish_entry(tar));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/system/c_locale.h"
 
 extern "C" {
 #include <libavutil/opt.h>
@@ -42,6 +43,7 @@ void H264Writer::open_encoder(const H264Settings& settings) {
     encoder_->gop_size = std::max(1, static_cast<int>(std::lround(settings.frame_rate_hz)));
     check(av_opt_set(encoder_->priv_data, "tune", "zerolatency", 0));
   }
+  const CLocale numbers;  // in the text of its settings, which x264 puts into the video
   check(avcodec_open2(encoder_.get(), codec, nullptr));
   picture_->format = encoder_->pix_fmt;
   picture_->width = encoder_->width;
