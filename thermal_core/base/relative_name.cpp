@@ -13,11 +13,19 @@ bool is_safe_part(std::string_view part) {
          part.front() != '-';
 }
 
+/// "C:" of "C:/x" and "C:x", which lead elsewhere on Windows.
+bool has_drive(std::string_view text) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return text.size() >= 2 && is_letter(text[0]) && text[1] == ':';
+}
+
 }  // namespace
 
 std::optional<RelativeName> RelativeName::of(std::string_view text) {
   if (text.size() > kMostBytes || printable(text) != text) return std::nullopt;
-  if (!std::ranges::all_of(split(text, '/'), is_safe_part)) return std::nullopt;
+  std::string on_windows(text);
+  std::ranges::replace(on_windows, '\\', '/');
+  if (has_drive(text) || !std::ranges::all_of(split(on_windows, '/'), is_safe_part)) return std::nullopt;
   return RelativeName(text);
 }
 

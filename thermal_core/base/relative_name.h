@@ -8,7 +8,8 @@
 namespace thermal {
 
 /// A name read from a file, checked before it becomes part of a path: a relative path of printable UTF-8 whose parts,
-/// separated by "/", have 1 to 200 bytes each and 4096 in all, are neither "." nor "..", and do not begin with "-".
+/// separated by "/", have 1 to 200 bytes each and 4096 in all, are neither "." nor "..", and do not begin with "-". The
+/// same holds for what Windows makes of it, where "\" separates parts too; it does not begin with a drive such as "C:".
 /// Whatever it is appended to, the path leads below that folder, unless there are symbolic links in it.
 class RelativeName {
  public:

@@ -15,8 +15,11 @@ TEST_CASE("Names that stay below a folder are taken as they are") {
 }
 
 TEST_CASE("Names that lead elsewhere, or that a terminal or a program would misread, are refused") {
-  for (const std::string name : {"", "/", "/etc/passwd", "..", "../a", "a/..", "a/../../b", ".", "./a",
-                                 "a//b", "a/", "-rf", "a/-b", "a\nb", "\x1b[2J", "a\tb", "\xff", "a\x7f"}) {
+  for (const std::string name :
+       {"",     "/",     "/etc/passwd", "..",       "../a", "a/..",          "a/../../b", ".",
+        "./a",  "a//b",  "a/",          "-rf",      "a/-b", "a\nb",          "\x1b[2J",   "a\tb",
+        "\xff", "a\x7f", "..\\a",       "a\\..\\b", "\\a",  "\\\\server\\a", "a\\-b",     "C:\\a",
+        "c:/a", "C:a"}) {
     CAPTURE(name);
     CHECK_FALSE(RelativeName::of(name));
   }
