@@ -28,6 +28,21 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+/// Takes the digits at the front of a text, if there are any.
+std::string_view take_digits(std::string_view& text) noexcept {
+  const std::string_view digits = text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
+  text.remove_prefix(digits.size());
+  return digits;
+}
+
+/// Of numbers of any length, as digits.
+int sign_of_difference(std::string_view one, std::string_view other) noexcept {
+  one.remove_prefix(std::min(one.find_first_not_of('0'), one.size()));
+  other.remove_prefix(std::min(other.find_first_not_of('0'), other.size()));
+  if (one.size() != other.size()) return one.size() < other.size() ? -1 : 1;
+  return one.compare(other);
+}
+
 }  // namespace
 
 std::string near_miss(std::string_view word, std::span<const std::string> candidates) {
@@ -68,6 +83,25 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     begin = end + 1;
   }
   return parts;
+}
+
+NameOrder compare_names(std::string_view one, std::string_view other) noexcept {
+  const auto byte_of = [](char letter) { return static_cast<unsigned char>(letter); };
+  while (!one.empty() && !other.empty()) {
+    const char first = one.front();
+    const char other_first = other.front();
+    const std::string_view number = take_digits(one);
+    const std::string_view other_number = take_digits(other);
+    if (!number.empty() && !other_number.empty()) {
+      const int sign = sign_of_difference(number, other_number);
+      if (sign != 0) return {.sign = sign, .by_number = true};
+      continue;
+    }
+    if (first != other_first) return {.sign = byte_of(first) < byte_of(other_first) ? -1 : 1};
+    one.remove_prefix(1);
+    other.remove_prefix(1);
+  }
+  return {.sign = static_cast<int>(other.empty()) - static_cast<int>(one.empty())};
 }
 
 }  // namespace thermal

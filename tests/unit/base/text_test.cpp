@@ -70,4 +70,26 @@ TEST_CASE("A number is the whole of its text") {
   CHECK_FALSE(number_in<std::size_t>("-1"));
 }
 
+TEST_CASE("Names are in the order of their numbers") {
+  const auto sign = [](const char* one, const char* other) {
+    CHECK(compare_names(other, one).sign == -compare_names(one, other).sign);
+    return compare_names(one, other).sign;
+  };
+  CHECK(sign("frame 2.png", "frame 10.png") == -1);
+  CHECK(sign("frame 002.png", "frame 10.png") == -1);
+  CHECK(sign("a/10", "b/2") == -1);
+  CHECK(sign("clip", "clip 1") == -1);
+  CHECK(sign("x1", "xa") == -1);
+  CHECK(sign("x1.png", "x01.png") == 0);
+  CHECK(sign("18446744073709551617", "18446744073709551616") == 1);
+  CHECK(sign("", "") == 0);
+}
+
+TEST_CASE("It is said whether numbers decide") {
+  CHECK(compare_names("frame_0001_ab3.png", "frame_0002_9cd.png").by_number);
+  CHECK_FALSE(compare_names("a1", "b1").by_number);
+  CHECK_FALSE(compare_names("9cd", "ab3").by_number);
+  CHECK_FALSE(compare_names("1.jpg", "1.png").by_number);
+}
+
 }  // namespace text_test
