@@ -118,7 +118,8 @@ void add_evaluate(CLI::App& app, Session& session) {
       ->required();
   command
       ->add_option("--detections", options->detections,
-                   "Detections: COCO results (.json), or a folder of YOLO results (VIDEO_PICTURE.txt)")
+                   "Detections: COCO results (.json), Ultralytics' too, or a folder of YOLO results "
+                   "(VIDEO_PICTURE.txt)")
       ->required();
   command->add_option("--iou", options->evaluate.iou, "Lowest IoU at which a detection matches a target")
       ->capture_default_str();

@@ -157,10 +157,10 @@ void add_picture_options(CLI::App& command, ExportArguments& options) {
       ->check(CLI::IsMember({"ir8", "ir16"}))
       ->default_str("ir8");
   command
-      .add_option(
-          "--segmentation", options.segmentation,
-          "Masks of --format coco as run lengths (default) or polygons; polygon with --format yolo writes "
-          "outlines instead of boxes")
+      .add_option("--segmentation", options.segmentation,
+                  "Masks of --format coco as run lengths or polygons (default: as they are); polygon with "
+                  "--format yolo "
+                  "writes outlines instead of boxes")
       ->check(CLI::IsMember({"rle", "polygon"}));
   command
       .add_option("--tiff-type", options.tiff_type,

@@ -249,3 +249,66 @@ def test_long_names_and_large_counts_stay_in_their_columns(veldt):
     assert "a name that is longer than the column 10000/10000/10000 " in counts_in_all
     assert len({len(line) for part in (rates, rates_in_all) for line in part.splitlines()}) == 1
     assert len({len(line) for part in (counts, counts_in_all) for line in part.splitlines()}) == 1
+
+
+# --- files of other programs ------------------------------------------------------------------------------------------
+
+
+def _precision(veldt, truth, detections):
+    """Average precision at IoU 0.5 by category."""
+    veldt.write("truth.json", truth)
+    veldt.write("found.json", detections)
+    done = veldt("evaluate", "--truth", "truth.json", "--detections", "found.json", "--json")
+    assert (done.code, done.err) == (0, "")
+    return {one["name"]: one["average_precision"]["ap50"] for one in done.json()["categories"]}
+
+
+def test_results_of_ultralytics_name_pictures_and_count_classes(veldt):
+    names = [f"night/{k:06d}.png" for k in range(3)]
+    categories = {1: "human", 2: "elephant", 5: "zebra"}
+    truth = {
+        "images": [{"id": k + 1, "file_name": n, "width": 640, "height": 512} for k, n in enumerate(names)],
+        "categories": [{"id": id, "name": name} for id, name in categories.items()],
+        "annotations": [
+            {"id": k + 1, "image_id": k + 1, "category_id": id, "bbox": [10 + 60 * k, 20, 30, 40]}
+            for k, id in enumerate(categories)
+        ],
+    }
+    found = [
+        {
+            "image_id": f"night_{k:06d}",
+            "file_name": f"night_{k:06d}.png",
+            "category_id": k + 1,
+            "bbox": [10 + 60 * k, 20, 30, 40],
+            "score": 0.9,
+        }
+        for k in range(3)
+    ]
+    assert _precision(veldt, truth, found) == {"human": 1, "elephant": 1, "zebra": 1}
+
+
+def test_camera_traps_have_ids_of_text_and_empty_pictures(veldt):
+    truth = {
+        "images": [
+            {"id": f"site1/{k}", "file_name": f"site1/{k}.png", "seq_id": "s", "frame_num": k} for k in (0, 1)
+        ],
+        "categories": [{"id": 0, "name": "empty"}, {"id": 1, "name": "elephant"}],
+        "annotations": [
+            {"id": "7f2c-a", "image_id": "site1/0", "category_id": 1, "bbox": [10.5, 20.25, 30, 40]},
+            {"id": "7f2c-b", "image_id": "site1/1", "category_id": 0},
+        ],
+    }
+    found = [{"image_id": "site1/0", "category_id": 1, "bbox": [10, 20, 30, 40], "score": 0.9}]
+    assert _precision(veldt, truth, found) == {"elephant": 1}
+
+
+def test_ids_may_be_floats(veldt):
+    truth = {
+        "images": [{"id": 1, "file_name": "a/0001.png", "width": 64.0, "height": 48}],
+        "categories": [{"id": 1, "name": "human"}],
+        "annotations": [
+            {"id": 1, "image_id": 1.0, "category_id": 1.0, "bbox": [10, 8, 20, 30], "area": 600.0}
+        ],
+    }
+    found = [{"image_id": 1, "category_id": 1, "bbox": [10, 8, 20, 30], "score": 0.9}]
+    assert _precision(veldt, truth, found) == {"human": 1}

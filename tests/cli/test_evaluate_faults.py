@@ -36,6 +36,10 @@ RESULTS = {
         _changed('"category_id": 1', '"category_id": "humen"'),
         ': [1].category_id = "humen"; expected one of 1 (human), 2 (elephant); did you mean "human"?',
     ),
+    "picture of another name": (
+        _changed('"image_id": 1', '"image_id": 1, "file_name": "2.png"'),
+        ': [1].image_id = 1; expected the id of its file_name, "2.png", and not of 1.png',
+    ),
     "score null": (_changed("0.9", "null"), ": [1].score = null; expected a finite number"),
     "score text": (_changed("0.9", '"0.9"'), ': [1].score = "0.9"; expected a finite number'),
     "score missing": (_changed(', "score": 0.9', ""), ": [1].score = nothing; expected one"),

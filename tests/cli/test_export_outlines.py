@@ -119,6 +119,6 @@ def test_labels_without_masks(place, kind):
     del document["annotations"][3]["segmentation"]
     place.write("data/boxes.json", document)
     done = _export(place, "x", "--format", kind, "--segmentation", "polygon", source="data/boxes.json")
-    rule = "expected run lengths of a mask, as Veldt writes them"
+    rule = "expected run lengths of a mask, or polygons of three corners or more"
     assert (done.code, done.out, done.err) == (1, "", f"veldt: annotation 4: segmentation = null; {rule}\n")
     assert not list(place.folder.glob("x*"))

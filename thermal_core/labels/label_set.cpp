@@ -14,6 +14,11 @@ struct BoxSum {
 
 }  // namespace
 
+std::string id_text(const LabelId& id) {
+  const auto* const number = std::get_if<std::int64_t>(&id);
+  return number != nullptr ? std::to_string(*number) : "\"" + std::get<std::string>(id) + "\"";
+}
+
 std::string size_class_name(SizeClass size) noexcept {
   if (size == SizeClass::small) return "small";
   return size == SizeClass::large ? "large" : "medium";
@@ -47,7 +52,8 @@ void assign_size_classes(LabelSet& set) {
 std::string flat_name(const LabelSet& set, const LabelImage& image) {
   const std::string file = image.file.substr(image.file.find_last_of('/') + 1);  // npos + 1 is 0
   std::string name = set.videos[image.video].name + "_" + file.substr(0, file.find_last_of('.'));
-  std::replace(name.begin(), name.end(), '/', '_');
+  std::ranges::replace_if(
+      name, [](char c) { return c == '/' || c == '\\'; }, '_');
   return name;
 }
 

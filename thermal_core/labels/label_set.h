@@ -1,12 +1,23 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace thermal {
+
+/// The id that a file of labels gives to a picture, a label or a category: a whole number or text. 1 and "1" differ;
+/// numbers precede texts.
+using LabelId = std::variant<std::int64_t, std::string>;
+
+/// For messages: 7, or "site1/0001" with quotes.
+[[nodiscard]] std::string id_text(const LabelId& id);
 
 /// A box in pixels: the top left corner of the top left pixel is (0, 0); sides may be fractional.
 struct LabelBox {
@@ -29,9 +40,25 @@ enum class SizeClass { small, medium, large };
 /// Source: Bondi et al., COMPASS 2018, section 5.
 [[nodiscard]] SizeClass size_class_of(double mean_box_area_px) noexcept;
 
+/// Whether the boxes of labels or detections are fractions of their pictures, as other formats have them: all within 0
+/// and 1, and not all of whole numbers. False without boxes.
+template <typename Boxed>
+[[nodiscard]] bool are_fractions(const std::vector<Boxed>& boxed) {
+  const auto sides = [](const LabelBox& box) {
+    return std::array{box.x_px, box.y_px, box.x_px + box.width_px, box.y_px + box.height_px};
+  };
+  const auto is_within = [&sides](const Boxed& one) {
+    return std::ranges::all_of(sides(one.box), [](double side) { return side >= 0 && side <= 1; });
+  };
+  const auto is_whole = [&sides](const Boxed& one) {
+    return std::ranges::all_of(sides(one.box), [](double side) { return side == std::floor(side); });
+  };
+  return std::ranges::all_of(boxed, is_within) && !std::ranges::all_of(boxed, is_whole);
+}
+
 /// What labels call actors of one kind.
 struct LabelCategory {
-  int id = 0;
+  LabelId id;
   std::string name;
 };
 
@@ -39,11 +66,12 @@ struct LabelCategory {
 struct LabelVideo {
   std::string name;
   double frame_rate_hz = 0;  ///< 0: unknown
+  bool in_time = true;       ///< false: nothing says in which order its pictures were taken
 };
 
 /// A picture that has labels.
 struct LabelImage {
-  std::int64_t id = 0;
+  LabelId id;
   std::string file;  ///< relative to LabelSet::root, "/" between folders
   int width_px = 0;  ///< 0: unknown
   int height_px = 0;
@@ -54,7 +82,7 @@ struct LabelImage {
 
 /// One target in one picture. Optional members are not given by every source.
 struct Label {
-  std::int64_t id = 0;
+  LabelId id;
   std::size_t image = 0;     ///< index into LabelSet::images
   std::size_t category = 0;  ///< index into LabelSet::categories
   LabelBox box;
@@ -78,7 +106,8 @@ struct Label {
 /// videos and frames; labels in the order of their images.
 struct LabelSet {
   std::string name;
-  std::string root;  ///< folder to which image file names are relative
+  std::string root;           ///< folder to which image file names are relative
+  bool from_windows = false;  ///< the file has "\" between folders, which became "/"
   std::vector<LabelCategory> categories;
   std::vector<LabelVideo> videos;
   std::vector<LabelImage> images;

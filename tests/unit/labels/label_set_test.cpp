@@ -46,6 +46,28 @@ TEST_CASE("A flat name is the video's and the picture's") {
   CHECK(flat_name(set, set.images[1]) == "winter_plain");
   set.videos[0].name = "2026/winter";
   CHECK(flat_name(set, set.images[0]) == "2026_winter_000012");
+  set.videos[0].name = "2026\\winter";
+  CHECK(flat_name(set, set.images[0]) == "2026_winter_000012");
+}
+
+TEST_CASE("Ids are numbers or texts, and say which") {
+  CHECK(id_text(LabelId(-7)) == "-7");
+  CHECK(id_text(LabelId("7")) == "\"7\"");
+  CHECK(LabelId(7) != LabelId("7"));
+  CHECK(LabelId(9) < LabelId("1"));
+}
+
+TEST_CASE("Boxes within the first pixel, not all of whole numbers, are fractions of their pictures") {
+  const auto boxed = [](const std::vector<LabelBox>& boxes) {
+    std::vector<Label> labels(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) labels[i].box = boxes[i];
+    return are_fractions(labels);
+  };
+  CHECK(boxed({{0.25, 0.5, 0.75, 0.5}, {0, 0, 1, 1}}));
+  CHECK_FALSE(boxed({{0.25, 0.5, 0.75, 0.5}, {0, 0, 1, 1.5}}));
+  CHECK_FALSE(boxed({{-0.25, 0.5, 0.75, 0.5}}));
+  CHECK_FALSE(boxed({{0, 0, 1, 1}}));
+  CHECK_FALSE(boxed({}));
 }
 
 TEST_CASE("People are humans, vehicles vehicles, everything else animals") {

@@ -60,8 +60,11 @@ ExportPlan plan_birdsai(const ExportInput& input) {
     const LabelImage& image = set.images[i];
     const std::string clip = file_name_of(set.videos[image.video].name);
     const std::string folder = input.split_asked ? input.splits[input.of_video[image.video]] + "/" : "";
-    if (i == 0 || image.video != set.images[i - 1].video)
-      plan.texts.push_back({.to = fmt::format("{}annotations/{}.csv", folder, clip), .content = ""});
+    if (i == 0 || image.video != set.images[i - 1].video) {
+      check_in_time(set, image, "birdsai");
+      plan.texts.push_back(
+          {.to = fmt::format("{}annotations/{}.csv", folder, clip), .content = "", .of = image.file});
+    }
     plan.texts.back().content += rows_of(set, first[i], first[i + 1]);
     plan.pictures.push_back({.image = i,
                              .to = fmt::format("{}images/{}/{}_{:010}{}", folder, clip, clip,

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "io/json/entry.h"
 #include "io/json/file.h"
 
 namespace thermal {
@@ -47,24 +48,27 @@ class Splitter {
   }
 
   void take_annotation(const Json& element) {
-    const auto image = images_.find(element.at("image_id"));
+    const auto image = images_.find(label_id_in(element.at("image_id")));
     if (image == images_.end()) return;
     const std::size_t split = split_of(image->second);
-    if (!input_.boxes_changed && segments_ == nullptr) return add(split, "annotations", element);
+    const bool is_empty = element.value("bbox", Json()).is_null();  // its picture has no targets
+    if (is_empty || (!input_.boxes_changed && segments_ == nullptr))
+      return add(split, "annotations", element);
     Json annotation = element;
-    if (input_.boxes_changed) annotation["bbox"] = bbox_of(boxes_.at(element.at("id")));
-    if (segments_ != nullptr) annotation["segmentation"] = segments_->polygons_of(element);
+    if (input_.boxes_changed) annotation["bbox"] = bbox_of(boxes_.at(label_id_in(element.at("id"))));
+    if (segments_ != nullptr) annotation["segmentation"] = segments_->segmentation_of(element);
     add(split, "annotations", annotation);
   }
 
   void take_image(const Json& element) {
-    const auto found = images_.find(element.at("id"));
+    const auto found = images_.find(label_id_in(element.at("id")));
     if (found == images_.end()) return;
     Json image = element;
     image["file_name"] = input_.set.images[found->second].file;
     const std::size_t split = split_of(found->second);
     add(split, "images", image);
-    if (image.contains("video_id")) videos_[split].insert(image["video_id"].dump());
+    if (const Json& video = image.value("video_id", Json()); !video.is_null())
+      videos_[split].insert(label_id_in(video));
   }
 
   [[nodiscard]] std::size_t split_of(std::size_t image) const {
@@ -79,7 +83,7 @@ class Splitter {
 
   void add_videos(std::size_t split) {
     for (const Json& video : all_videos_)
-      if (videos_[split].contains(video.at("id").dump())) add(split, "videos", video);
+      if (videos_[split].contains(label_id_in(video.at("id")))) add(split, "videos", video);
   }
 
   /// Keys in the order of the file read; its lists are empty in `rest`.
@@ -95,17 +99,17 @@ class Splitter {
 
   const ExportInput& input_;
   SegmentMaker* segments_;                                 ///< null: masks stay as they are
-  std::unordered_map<std::int64_t, std::size_t> images_;   ///< index in the set, by id
-  std::unordered_map<std::int64_t, LabelBox> boxes_;       ///< those that changed, by the label's id
+  std::unordered_map<LabelId, std::size_t> images_;        ///< index in the set, by id
+  std::unordered_map<LabelId, LabelBox> boxes_;            ///< those that changed, by the label's id
   std::vector<std::map<std::string, std::string>> lists_;  ///< by split and key
-  std::vector<std::set<std::string>> videos_;              ///< ids with images, by split
+  std::vector<std::set<LabelId>> videos_;                  ///< ids with images, by split
   std::vector<Json> all_videos_;
 };
 
 Json annotation_of(const LabelSet& set, const Label& label) {
-  Json json = {{"id", label.id},
-               {"image_id", set.images[label.image].id},
-               {"category_id", set.categories[label.category].id},
+  Json json = {{"id", json_of(label.id)},
+               {"image_id", json_of(set.images[label.image].id)},
+               {"category_id", json_of(set.categories[label.category].id)},
                {"bbox", bbox_of(label.box)},
                {"area", label.area_px},
                {"iscrowd", label.crowd ? 1 : 0}};
@@ -118,12 +122,8 @@ Json annotation_of(const LabelSet& set, const Label& label) {
 }
 
 Json image_of(const LabelImage& image) {
-  return {{"id", image.id},
-          {"file_name", image.file},
-          {"width", image.width_px},
-          {"height", image.height_px},
-          {"video_id", image.video + 1},
-          {"frame_index", image.frame_index}};
+  return {{"id", json_of(image.id)},   {"file_name", image.file},     {"width", image.width_px},
+          {"height", image.height_px}, {"video_id", image.video + 1}, {"frame_index", image.frame_index}};
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ std::string coco_text(const LabelSet& set) {
   Json document = {{"info", {{"description", set.name}, {"version", "1"}}}};
   for (const char* list : {"categories", "videos", "images", "annotations"}) document[list] = Json::array();
   for (const LabelCategory& category : set.categories)
-    document["categories"].push_back({{"id", category.id}, {"name", category.name}});
+    document["categories"].push_back({{"id", json_of(category.id)}, {"name", category.name}});
   for (std::size_t i = 0; i < set.videos.size(); ++i)
     document["videos"].push_back({{"id", i + 1}, {"name", set.videos[i].name}});
   for (const LabelImage& image : set.images) document["images"].push_back(image_of(image));
@@ -153,7 +153,9 @@ ExportPlan plan_coco(const ExportInput& input, const std::string& text, const st
   for (std::size_t i = 0; i < input.set.images.size(); ++i)
     plan.pictures.push_back(
         {.image = i, .to = std::filesystem::path(input.set.images[i].file).lexically_normal().string()});
-  std::vector<std::string> files = as_is ? std::vector{text} : split_coco(input, text, name, segments);
+  std::vector<std::string> files;
+  if (!as_is || segments != nullptr) files = split_coco(input, text, name, segments);
+  if (as_is && (segments == nullptr || !segments->has_changed())) files = {text};
   for (std::size_t split = 0; split < files.size(); ++split)
     plan.texts.push_back(
         {.to = input.split_asked ? "annotations/" + input.splits[split] + ".json" : "annotations.json",

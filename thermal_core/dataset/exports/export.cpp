@@ -109,6 +109,7 @@ Json request_of(const ExportOptions& options, const ExportSource& source) {
                   {"images", options.ir16 || options.format == ExportFormat::tiff ? "ir16" : "ir8"}};
   if (options.boxes == BoxStyle::drawn) request["box_style"] = "drawn";
   if (options.segmentation == Segmentation::polygon) request["segmentation"] = "polygon";
+  if (options.segmentation == Segmentation::rle && source.has_foreign_masks) request["segmentation"] = "rle";
   if (options.format == ExportFormat::webdataset) {
     request["samples_per_shard"] = samples_per_shard(options);
   } else if (options.format == ExportFormat::tiff) {
@@ -284,9 +285,8 @@ ExportOutcome export_dataset(const ExportOptions& options, const RunHooks& hooks
   outcome.origin_given = !options.origin.empty();
   outcome.already_there = is_there(options, out, request, source.input);
   if (outcome.already_there) return outcome;
-  SegmentMaker segments(source.input.set);
-  ExportPlan plan =
-      make_plan(options, source, options.segmentation == Segmentation::polygon ? &segments : nullptr);
+  SegmentMaker segments(source.input.set, options.segmentation.value_or(Segmentation::rle));
+  ExportPlan plan = make_plan(options, source, options.segmentation ? &segments : nullptr);
   outcome.outlines = segments.figures();
   plan.texts.push_back({.to = kRecord, .content = record_of(request, outcome)});
   check_targets(plan, source.input.set);

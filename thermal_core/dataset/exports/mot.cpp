@@ -47,6 +47,7 @@ class MotPlanner {
  private:
   void add(const Clip& clip) {
     check_alike(clip);
+    check_in_time(set_, set_.images[clip.begin], "mot");
     const std::size_t video = set_.images[clip.begin].video;
     const std::size_t split = input_.of_video[video];
     const std::string name = file_name_of(set_.videos[video].name);
@@ -57,8 +58,9 @@ class MotPlanner {
       plan_.pictures.push_back(
           {.image = i, .to = fmt::format("{}/img1/{:06}{}", folder, frame, ending_of(set_.images[i].file))});
     }
-    plan_.texts.push_back({.to = folder + "/gt/gt.txt", .content = rows(clip)});
-    plan_.texts.push_back({.to = folder + "/seqinfo.ini", .content = seqinfo(clip, name)});
+    const std::string& first = set_.images[clip.begin].file;
+    plan_.texts.push_back({.to = folder + "/gt/gt.txt", .content = rows(clip), .of = first});
+    plan_.texts.push_back({.to = folder + "/seqinfo.ini", .content = seqinfo(clip, name), .of = first});
   }
 
   /// seqinfo.ini has only one size and extension.
@@ -95,7 +97,7 @@ class MotPlanner {
     const LabelBox& box = label.box;
     return fmt::format("{},{},{},{},{},{},{},{},{:.4g}\n", frame, track, box.x_px + 1, box.y_px + 1,
                        box.width_px, box.height_px, label.ignore || label.crowd ? 0 : 1,
-                       set_.categories[label.category].id, label.visibility.value_or(1));
+                       class_number(label.category), label.visibility.value_or(1));
   }
 
   [[nodiscard]] std::string seqinfo(const Clip& clip, const std::string& name) const {
@@ -108,9 +110,17 @@ class MotPlanner {
 
   [[nodiscard]] std::string classes() const {
     std::string text;
-    for (const LabelCategory& category : set_.categories)
-      text += fmt::format("{} {}\n", category.id, printable(category.name));
+    for (std::size_t i = 0; i < set_.categories.size(); ++i)
+      text += fmt::format("{} {}\n", class_number(i), printable(set_.categories[i].name));
     return text;
+  }
+
+  [[nodiscard]] std::int64_t class_number(std::size_t category) const {
+    const bool are_numbers = std::ranges::all_of(set_.categories, [](const LabelCategory& one) {
+      return std::holds_alternative<std::int64_t>(one.id);
+    });
+    return are_numbers ? std::get<std::int64_t>(set_.categories[category].id)
+                       : static_cast<std::int64_t>(category + 1);
   }
 
   const ExportInput& input_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
@@ -28,8 +29,9 @@ cv::Mat enlarged(const TargetMask& mask) {
 }
 
 /// Inserts a ring at point `at` of another: there, around, back.
-void join(Ring& whole, std::size_t at, const Ring& ring, std::size_t from) {
-  Ring around(ring.begin() + static_cast<std::ptrdiff_t>(from), ring.end());
+template <typename Points>
+void join(Points& whole, std::size_t at, const Points& ring, std::size_t from) {
+  Points around(ring.begin() + static_cast<std::ptrdiff_t>(from), ring.end());
   around.insert(around.end(), ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(from) + 1);
   around.push_back(whole[at]);
   whole.insert(whole.begin() + static_cast<std::ptrdiff_t>(at) + 1, around.begin(), around.end());
@@ -116,6 +118,50 @@ Bridge nearest(const Ring& whole, const Ring& part) {
   return best;
 }
 
+/// The part of a polygon where `coordinate` is at most `most`, or at least that with `sign` -1 (Sutherland and Hodgman,
+/// Communications of the ACM 17:32, 1974).
+Outline cut_at(const Outline& polygon, double OutlinePoint::*coordinate, double most, double sign) {
+  Outline kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const OutlinePoint& a = polygon[i];
+    const OutlinePoint& b = polygon[(i + 1) % polygon.size()];
+    const double of_a = sign * (most - a.*coordinate);
+    const double of_b = sign * (most - b.*coordinate);
+    if (of_a >= 0) kept.push_back(a);
+    if ((of_a > 0 && of_b < 0) || (of_a < 0 && of_b > 0)) {
+      const double along = of_a / (of_a - of_b);
+      OutlinePoint crossing{.x_px = a.x_px + along * (b.x_px - a.x_px),
+                            .y_px = a.y_px + along * (b.y_px - a.y_px)};
+      crossing.*coordinate = most;
+      kept.push_back(crossing);
+    }
+  }
+  return kept;
+}
+
+Outline cut_to_picture(Outline polygon, int width_px, int height_px) {
+  polygon = cut_at(polygon, &OutlinePoint::x_px, width_px, 1);
+  polygon = cut_at(polygon, &OutlinePoint::x_px, 0, -1);
+  polygon = cut_at(polygon, &OutlinePoint::y_px, height_px, 1);
+  return cut_at(polygon, &OutlinePoint::y_px, 0, -1);
+}
+
+/// The corners of two polygons that are nearest to each other.
+std::pair<std::size_t, std::size_t> nearest_corners(const Outline& one, const Outline& other) {
+  std::pair<std::size_t, std::size_t> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < one.size(); ++i)
+    for (std::size_t k = 0; k < other.size(); ++k) {
+      const double along_px = one[i].x_px - other[k].x_px;
+      const double across_px = one[i].y_px - other[k].y_px;
+      const double squared = along_px * along_px + across_px * across_px;
+      if (squared >= least) continue;
+      least = squared;
+      best = {i, k};
+    }
+  return best;
+}
+
 double iou(int common_px, int area_px, int other_px) {
   return static_cast<double>(common_px) / (area_px + other_px - common_px);
 }
@@ -151,6 +197,25 @@ Outline filled_outline(const TargetMask& mask) {
   for (const cv::Point& point : without_middles(whole))
     outline.push_back({.x_px = mask.left_px + within(point.x), .y_px = mask.top_px + within(point.y)});
   return outline;
+}
+
+Outline joined_outline(const std::vector<Outline>& polygons, int width_px, int height_px) {
+  constexpr std::size_t kMostCorners = 5000;
+  Outline whole;
+  std::size_t corners = 0;
+  for (const Outline& polygon : polygons) {
+    const Outline part = cut_to_picture(polygon, width_px, height_px);
+    if (part.size() < 3) continue;
+    corners += part.size();
+    if (whole.empty()) {
+      whole = part;
+      continue;
+    }
+    if (corners > kMostCorners) return {};
+    const auto [at, from] = nearest_corners(whole, part);
+    join(whole, at, part, from);
+  }
+  return whole;
 }
 
 double edge_iou(const TargetMask& mask, std::span<const Outline> outlines) {

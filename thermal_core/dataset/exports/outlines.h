@@ -36,6 +36,11 @@ using Outline = std::vector<OutlinePoint>;  ///< closed: the last point is joine
 /// that is smaller than this line, or as small, is left out.
 [[nodiscard]] Outline filled_outline(const TargetMask& mask);
 
+/// One outline of polygons for formats that have no more, cut to their picture. Several are joined by lines of no width
+/// between their nearest corners, there and back, in their order. Empty if nothing is inside the picture, and for several
+/// polygons of more than 5000 corners in all, because the search compares all with all.
+[[nodiscard]] Outline joined_outline(const std::vector<Outline>& polygons, int width_px, int height_px);
+
 /// Intersection over union of a mask with outlines, filled where rays through centres of pixels cross an odd number of edges.
 [[nodiscard]] double edge_iou(const TargetMask& mask, std::span<const Outline> outlines);
 

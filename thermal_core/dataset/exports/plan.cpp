@@ -29,26 +29,36 @@ std::vector<std::size_t> first_labels(const LabelSet& set) {
 }
 
 std::string file_name_of(std::string name) {
-  std::ranges::replace(name, '/', '_');
+  std::ranges::replace_if(
+      name, [](char c) { return c == '/' || c == '\\'; }, '_');
   return name;
 }
 
 std::string ending_of(const std::string& file) { return std::filesystem::path(file).extension().string(); }
 
 void check_tracks(const LabelSet& set, std::string_view format) {
-  std::map<std::pair<std::size_t, std::int64_t>, std::int64_t> seen;  // label by image, track
+  std::map<std::pair<std::size_t, std::int64_t>, const Label*> seen;  // by image, track
   for (const Label& label : set.labels) {
     const std::string& file = set.images[label.image].file;
     if (!label.track_id)
       throw DataError(
-          fmt::format("annotation {} of {} has no track_id; expected one, as --format {} requires", label.id,
-                      file, format));
-    const auto [there, fresh] = seen.emplace(std::pair(label.image, *label.track_id), label.id);
+          fmt::format("annotation {} of {} has no track_id; expected one, as --format {} requires",
+                      id_text(label.id), file, format));
+    const auto [there, fresh] = seen.emplace(std::pair(label.image, *label.track_id), &label);
     if (!fresh)
       throw DataError(
           fmt::format("annotations {} and {} of {} both have track_id {}; expected one annotation per track",
-                      there->second, label.id, file, *label.track_id));
+                      id_text(there->second->id), id_text(label.id), file, *label.track_id));
   }
+}
+
+void check_in_time(const LabelSet& set, const LabelImage& image, std::string_view format) {
+  const LabelVideo& video = set.videos[image.video];
+  if (video.in_time) return;
+  throw DataError(
+      fmt::format("{}: nothing says in which order its pictures were taken; expected frame_index or frame_id "
+                  "of images, or names that differ in a number, as --format {} requires",
+                  video.name, format));
 }
 
 void check_targets(const ExportPlan& plan, const LabelSet& set) {
@@ -60,7 +70,7 @@ void check_targets(const ExportPlan& plan, const LabelSet& set) {
       throw DataError(fmt::format("\"{}\" and \"{}\" would both become {}; expected names that differ",
                                   there->second, file, to));
   };
-  for (const PlannedText& text : plan.texts) check(text.to, text.to);
+  for (const PlannedText& text : plan.texts) check(text.to, text.of.empty() ? text.to : text.of);
   for (const PlannedShard& shard : plan.shards) check(shard.to, shard.to);
   for (const PlannedPicture& picture : plan.pictures) check(picture.to, set.images[picture.image].file);
 }

@@ -28,6 +28,7 @@ struct PlannedPicture {
 struct PlannedText {
   std::string to;
   std::string content;
+  std::string of = {};  ///< the picture that it is named after, for messages; empty: none
 };
 
 /// A tar file of pictures with their labels.
@@ -47,7 +48,7 @@ struct ExportPlan {
 /// Where the labels of each image start; one more entry for the end.
 [[nodiscard]] std::vector<std::size_t> first_labels(const LabelSet& set);
 
-/// A name usable for one file or folder: "/" becomes "_".
+/// A name usable for one file or folder: "/" and "\" become "_".
 [[nodiscard]] std::string file_name_of(std::string name);
 
 /// ".png" of "a/b.png"; empty without an extension.
@@ -55,6 +56,9 @@ struct ExportPlan {
 
 /// DataError with the labels unless all have tracks, unique within a picture. `format` is the format that needs them.
 void check_tracks(const LabelSet& set, std::string_view format);
+
+/// DataError if nothing says in which order the pictures of an image's video were taken. `format` needs to know.
+void check_in_time(const LabelSet& set, const LabelImage& image, std::string_view format);
 
 /// DataError if a file would be written outside the export's folder, or over another one.
 void check_targets(const ExportPlan& plan, const LabelSet& set);

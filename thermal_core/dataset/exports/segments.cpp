@@ -1,21 +1,44 @@
 #include "dataset/exports/segments.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "io/json/entry.h"
+#include "labels/polygon_mask.h"
 #include "labels/rle.h"
 
 namespace thermal {
 namespace {
 
 constexpr std::int64_t kMostPixels = std::int64_t{64} << 20;  // enlarged, 256 MB
-constexpr const char* kMaskRule = "run lengths of a mask, as Veldt writes them";
+constexpr const char* kMaskRule = "run lengths of a mask, or polygons of three corners or more";
 
 std::string where_of(const Json& annotation) {
   return fmt::format("annotation {}: segmentation", brief(annotation.at("id")));
 }
+
+DataError fault_of_mask(const Json& annotation, const char* rule = kMaskRule) {
+  return DataError(fault(where_of(annotation), brief(annotation.value("segmentation", Json())), "", rule));
+}
+
+using Polygon = std::vector<double>;  // x, y, x, y, …
+
+bool is_polygon(const Json& json) {
+  constexpr double kMostPx = 1e8;
+  const auto is_place = [](const Json& v) { return v.is_number() && std::abs(v.get<double>()) <= kMostPx; };
+  return json.is_array() && json.size() >= 6 && json.size() % 2 == 0 && std::ranges::all_of(json, is_place);
+}
+
+std::vector<Polygon> polygons_in(const Json& annotation) {
+  const Json& given = annotation.at("segmentation");
+  if (given.empty() || !std::ranges::all_of(given, is_polygon)) throw fault_of_mask(annotation);
+  return given.get<std::vector<Polygon>>();
+}
+
+bool has_polygons(const Json& annotation) { return annotation.value("segmentation", Json()).is_array(); }
 
 bool is_run_lengths(const Json& annotation) {
   const auto found = annotation.find("segmentation");
@@ -65,10 +88,7 @@ Json OutlineFigures::json() const {
 }
 
 TargetMask mask_of(const Json& annotation) {
-  const auto refuse = [&] {
-    const Json& given = annotation.value("segmentation", Json());
-    return DataError(fault(where_of(annotation), brief(given), "", kMaskRule));
-  };
+  const auto refuse = [&annotation] { return fault_of_mask(annotation); };
   if (!is_run_lengths(annotation)) throw refuse();
   try {
     const Json& code = annotation.at("segmentation");
@@ -86,16 +106,33 @@ TargetMask mask_of(const Json& annotation) {
   }
 }
 
-SegmentMaker::SegmentMaker(const LabelSet& set) {
-  for (const Label& label : set.labels) sizes_.emplace(label.id, label.size);
+SegmentMaker::SegmentMaker(const LabelSet& set, Segmentation wanted) : wanted_(wanted) {
+  for (const Label& label : set.labels) {
+    const LabelImage& image = set.images[label.image];
+    targets_.emplace(label.id, Target{.size = label.size,
+                                      .crowd = label.crowd,
+                                      .width_px = image.width_px,
+                                      .height_px = image.height_px});
+  }
+}
+
+const SegmentMaker::Target& SegmentMaker::target_of(const Json& annotation) const {
+  return targets_.at(label_id_in(annotation.at("id")));
+}
+
+Json SegmentMaker::segmentation_of(const Json& annotation) {
+  const Json given = annotation.value("segmentation", Json());
+  Json made = wanted_ == Segmentation::polygon ? polygons_of(annotation) : run_lengths_of(annotation);
+  has_changed_ |= made != given;
+  return made;
 }
 
 Json SegmentMaker::polygons_of(const Json& annotation) {
-  const Json& given = annotation.value("segmentation", Json());
-  if (annotation.value("iscrowd", 0) != 0 || given.is_array()) return given;
+  const Target& target = target_of(annotation);
+  if (target.crowd || has_polygons(annotation)) return annotation.value("segmentation", Json());
   const TargetMask mask = mask_of(annotation);
   const std::vector<Outline> outlines = edge_outlines(mask);
-  count(annotation, edge_iou(mask, outlines));
+  figures_.add(target.size, edge_iou(mask, outlines));
   Json polygons = Json::array();
   for (const Outline& outline : outlines) {
     Json& polygon = polygons.emplace_back(Json::array());
@@ -107,15 +144,36 @@ Json SegmentMaker::polygons_of(const Json& annotation) {
   return polygons;
 }
 
-Outline SegmentMaker::outline_of(const Json& annotation) {
-  const TargetMask mask = mask_of(annotation);
-  Outline outline = filled_outline(mask);
-  count(annotation, filled_iou(mask, outline));
-  return outline;
+Json SegmentMaker::run_lengths_of(const Json& annotation) const {
+  if (is_run_lengths(annotation)) return annotation.at("segmentation");
+  if (!has_polygons(annotation)) throw fault_of_mask(annotation);
+  const Target& target = target_of(annotation);
+  if (std::int64_t{target.width_px} * target.height_px > kMostPixels)
+    throw fault_of_mask(annotation, "polygons in a picture of at most 64 million pixels");
+  const std::vector<Polygon> polygons = polygons_in(annotation);
+  return {{"size", {target.height_px, target.width_px}},
+          {"counts", encode_coco_rle(mask_of_polygons(polygons, target.width_px, target.height_px))}};
 }
 
-void SegmentMaker::count(const Json& annotation, double iou) {
-  figures_.add(sizes_.at(annotation.at("id").get<std::int64_t>()), iou);
+Outline SegmentMaker::outline_of(const Json& annotation) {
+  const Target& target = target_of(annotation);
+  if (!has_polygons(annotation)) {
+    const TargetMask mask = mask_of(annotation);
+    Outline outline = filled_outline(mask);
+    figures_.add(target.size, filled_iou(mask, outline));
+    return outline;
+  }
+  std::vector<Outline> outlines;
+  for (const Polygon& polygon : polygons_in(annotation)) {
+    Outline& outline = outlines.emplace_back();
+    for (std::size_t i = 0; i < polygon.size(); i += 2)
+      outline.push_back({.x_px = polygon[i], .y_px = polygon[i + 1]});
+  }
+  Outline outline = joined_outline(outlines, target.width_px, target.height_px);
+  if (outline.empty())
+    throw fault_of_mask(annotation,
+                        "polygons inside their picture, with at most 5000 corners if there are several");
+  return outline;
 }
 
 }  // namespace thermal

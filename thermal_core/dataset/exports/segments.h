@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "dataset/exports/export_options.h"
 #include "dataset/exports/outlines.h"
 #include "io/json/file.h"
 #include "labels/label_set.h"
@@ -40,24 +41,41 @@ class OutlineFigures {
 /// most 64 million pixels.
 [[nodiscard]] TargetMask mask_of(const Json& annotation);
 
-/// Turns masks into outlines while a file of COCO is read.
+/// Turns masks into what an export has, while a file of COCO is read. `segmentation` is read as run lengths, {"size",
+/// "counts"} with compressed counts or a list, or as polygons, lists of x, y, x, y, … of three corners or more, all
+/// within 1e8 px. DataError "annotation 3: segmentation = …; expected …" for anything else, and for none.
 class SegmentMaker {
  public:
-  explicit SegmentMaker(const LabelSet& set);
+  /// The set's pictures have sizes.
+  SegmentMaker(const LabelSet& set, Segmentation wanted);
 
-  /// `segmentation` as COCO has polygons: a list of x, y, x, y, … for each part (edge_outlines()). Crowds, which have run
-  /// lengths always, and what is polygons already, stay as they are.
-  [[nodiscard]] Json polygons_of(const Json& annotation);
+  /// `segmentation` as wanted. Polygons are lists of x, y, x, y, … for each part (edge_outlines()); crowds, which have
+  /// run lengths always, keep them. Run lengths are those of mask_of_polygons(). What is as wanted already stays.
+  [[nodiscard]] Json segmentation_of(const Json& annotation);
 
-  /// The single outline of an annotation (filled_outline()).
+  /// The single outline of an annotation: filled_outline() of run lengths, joined_outline() of polygons.
   [[nodiscard]] Outline outline_of(const Json& annotation);
+
+  /// Whether a `segmentation` was not as wanted.
+  [[nodiscard]] bool has_changed() const noexcept { return has_changed_; }
 
   [[nodiscard]] const OutlineFigures& figures() const noexcept { return figures_; }
 
  private:
-  void count(const Json& annotation, double iou);
+  struct Target {
+    SizeClass size = SizeClass::medium;
+    bool crowd = false;
+    int width_px = 0;  ///< of its picture
+    int height_px = 0;
+  };
 
-  std::unordered_map<std::int64_t, SizeClass> sizes_;  ///< by the label's id
+  [[nodiscard]] const Target& target_of(const Json& annotation) const;
+  [[nodiscard]] Json polygons_of(const Json& annotation);
+  [[nodiscard]] Json run_lengths_of(const Json& annotation) const;
+
+  Segmentation wanted_;
+  std::unordered_map<LabelId, Target> targets_;  ///< by the label's id
+  bool has_changed_ = false;
   OutlineFigures figures_;
 };
 

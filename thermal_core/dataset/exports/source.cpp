@@ -80,7 +80,8 @@ bool has_folders_of_splits(ExportFormat format) {
 }
 
 bool needs_sizes(const ExportOptions& options) {
-  return has_folders_of_splits(options.format) || options.boxes == BoxStyle::drawn;
+  return has_folders_of_splits(options.format) || options.boxes == BoxStyle::drawn ||
+         options.segmentation.has_value();
 }
 
 void find_sizes(LabelSet& set) {
@@ -121,9 +122,10 @@ ExportSource read_export_source(const ExportOptions& options) {
   const Path file = coco_file_of(options.source);
   if (options.format == ExportFormat::coco || tiff || options.segmentation || file.empty())
     source.coco = file.empty() ? coco_text(set) : read_file(file);
+  source.has_foreign_masks = !is_ours(options.source);
   source.coco_name = file.empty() ? set.name : file.string();
   source.labels_sha256 = source.coco.empty() ? sha256_of_file(file) : sha256_of(source.coco);
-  source.all = options.selection.empty() && options.splits.empty() && !options.ir16 &&
+  source.all = options.selection.empty() && options.splits.empty() && !options.ir16 && !set.from_windows &&
                options.boxes == BoxStyle::visible && options.segmentation != Segmentation::polygon;
   source.input.boxes_changed = options.boxes == BoxStyle::drawn;
   if (source.input.boxes_changed) widen_as_drawn(set);

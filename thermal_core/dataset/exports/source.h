@@ -10,9 +10,10 @@ namespace thermal {
 /// Everything read for an export, before anything is written.
 struct ExportSource {
   ExportInput input;
-  std::string coco;       ///< the COCO file of the labels, complete, if the format has one
-  std::string coco_name;  ///< for messages
-  bool all = true;        ///< nothing is removed, renamed or split
+  std::string coco;                ///< the COCO file of the labels, complete, if the format has one
+  std::string coco_name;           ///< for messages
+  bool all = true;                 ///< nothing is removed, renamed or split
+  bool has_foreign_masks = false;  ///< they may be polygons: the file is not of a Veldt dataset
   std::string labels_sha256;
   std::uint32_t seed = 1;  ///< of the splits
 };

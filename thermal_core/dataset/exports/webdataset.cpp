@@ -9,6 +9,7 @@
 #include "base/relative_name.h"
 #include "dataset/exports/coco.h"
 #include "dataset/label_pictures.h"
+#include "io/json/entry.h"
 #include "io/json/file.h"
 #include "io/system/tar_file.h"
 
@@ -25,7 +26,8 @@ std::string key_of(const LabelSet& set, const LabelImage& image) {
 void check_ending(const LabelImage& image) {
   const std::string ending = ending_of(image.file);
   if (ending.size() > 1 && ending != ".json") return;
-  throw DataError(fault(fmt::format("file_name of image {}", image.id), fmt::format("\"{}\"", image.file), "",
+  throw DataError(fault(fmt::format("file_name of image {}", id_text(image.id)),
+                        fmt::format("\"{}\"", image.file), "",
                         "the extension of a picture, such as .png, as --format webdataset requires"));
 }
 
@@ -49,9 +51,9 @@ void check_keys(const LabelSet& set) {
 
 Json annotation_of_sample(const LabelSet& set, const Label& label) {
   const LabelCategory& category = set.categories[label.category];
-  Json json = {{"id", label.id},
+  Json json = {{"id", json_of(label.id)},
                {"category", category.name},
-               {"category_id", category.id},
+               {"category_id", json_of(category.id)},
                {"bbox", bbox_of(label.box)},
                {"area", label.area_px},
                {"iscrowd", label.crowd ? 1 : 0},

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "io/json/file.h"
+#include "io/json/entry.h"
 
 namespace thermal {
 namespace {
@@ -68,13 +68,13 @@ std::string why_not_in_yolo(const LabelSet& set, const Label& label) {
 
 Outlines yolo_outlines(const ExportInput& input, const std::string& text, const std::string& name,
                        SegmentMaker& segments) {
-  std::unordered_set<std::int64_t> wanted;
+  std::unordered_set<LabelId> wanted;
   for (const Label& label : input.set.labels)
     if (why_not_in_yolo(input.set, label).empty()) wanted.insert(label.id);
   Outlines outlines;
   (void)parse_json_elements(text, name, [&](const std::string& list, std::size_t, const Json& element) {
     if (list != "annotations") return;
-    const auto id = element.at("id").get<std::int64_t>();
+    const LabelId id = label_id_in(element.at("id"));
     if (wanted.contains(id)) outlines.emplace(id, segments.outline_of(element));
   });
   return outlines;
@@ -92,7 +92,7 @@ ExportPlan plan_yolo(const ExportInput& input, const std::string& folder, const 
     for (std::size_t k = first[i]; k < first[i + 1]; ++k)
       if (const Label& label = set.labels[k]; why_not_in_yolo(set, label).empty())
         lines += outlines == nullptr ? line_of(label, image) : line_of(label, image, outlines->at(label.id));
-    plan.texts.push_back({.to = "labels/" + place + ".txt", .content = std::move(lines)});
+    plan.texts.push_back({.to = "labels/" + place + ".txt", .content = std::move(lines), .of = image.file});
   }
   plan.texts.push_back({.to = "data.yaml", .content = data_yaml(input, folder)});
   return plan;

@@ -8,7 +8,7 @@
 namespace thermal {
 
 /// Outlines of masks by the id of their label.
-using Outlines = std::unordered_map<std::int64_t, Outline>;
+using Outlines = std::unordered_map<LabelId, Outline>;
 
 /// Ultralytics' YOLO layout: images/SPLIT/NAME.png, labels/SPLIT/NAME.txt beside it, data.yaml. One line per label:
 /// class (from 0, in the order of the categories), then centre and size of the box, clipped to the picture, as

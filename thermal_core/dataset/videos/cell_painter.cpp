@@ -207,11 +207,12 @@ void CellPainter::paint_tags(const std::vector<const Label*>& labels, bool shutt
   const int size_px = std::max(11, style_.text_px * 8 / 10);
   const int pad_px = std::max(2, size_px / 4);
   std::vector<Tagged> tags;
+  const Label* const first = film_.labels.labels.data();
   for (const Label* label : labels)
     tags.push_back({.box = shown(label->box),
                     .tag = {letters_.width_px(tag_of(*label), size_px) + 2 * pad_px,
                             letters_.capital_px(size_px) + 2 * pad_px + 1},
-                    .track = label->track_id.value_or(-label->id)});
+                    .track = label->track_id.value_or(first - label - 1)});  // without: its own
   constexpr std::int64_t kNoTrack = std::numeric_limits<std::int64_t>::min();
   if (shutter_closed) tags.push_back({.box = shutter_plate(), .tag = {0, 0}, .track = kNoTrack});
   const std::vector<TagPlace> places = placer_.place(tags);

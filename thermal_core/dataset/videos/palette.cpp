@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <variant>
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -119,8 +120,9 @@ PaletteTable palette_table(const std::string& name) {
       did_you_mean(name, palette_names()));
 }
 
-PaletteColour category_colour(int id) noexcept {
-  const int place = std::max(1, id) - 1;
+PaletteColour category_colour(const LabelId& id) noexcept {
+  const auto* const number = std::get_if<std::int64_t>(&id);
+  const std::int64_t place = number == nullptr ? 0 : std::max<std::int64_t>(1, *number) - 1;
   return kCategoryColours[static_cast<std::size_t>(place) % kCategoryColours.size()];
 }
 

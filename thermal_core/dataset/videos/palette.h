@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "labels/label_set.h"
+
 namespace thermal {
 
 /// Red, green, blue.
@@ -22,8 +24,8 @@ using PaletteTable = std::array<PaletteColour, 256>;
 /// `name`: one of palette_names(). ConfigError "--palette = …" otherwise.
 [[nodiscard]] PaletteTable palette_table(const std::string& name);
 
-/// The colour of boxes and tracks of a category, by its id: light, to be shown on black. Ids below 1 have that of 1, and
-/// those past the table begin it again.
-[[nodiscard]] PaletteColour category_colour(int id) noexcept;
+/// The colour of boxes and tracks of a category, by its id: light, to be shown on black. Ids below 1, and texts, have that
+/// of 1, and those past the table begin it again.
+[[nodiscard]] PaletteColour category_colour(const LabelId& id) noexcept;
 
 }  // namespace thermal

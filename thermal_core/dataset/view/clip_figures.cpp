@@ -59,9 +59,10 @@ Json categories_of_clip(const LabelSet& set) {
 
 /// A label without a track is a target of its own.
 Json targets_of_clip(const LabelSet& set) {
-  std::map<std::size_t, std::set<std::pair<bool, std::int64_t>>> targets;
+  std::map<std::size_t, std::set<std::pair<bool, LabelId>>> targets;
   for (const Label& label : set.labels)
-    targets[label.category].emplace(label.track_id.has_value(), label.track_id.value_or(label.id));
+    targets[label.category].emplace(label.track_id.has_value(),
+                                    label.track_id ? LabelId(*label.track_id) : label.id);
   Json list = Json::array();
   for (const auto& [category, tracks] : targets)
     list.push_back({{"category", category}, {"count", tracks.size()}});
@@ -119,7 +120,7 @@ ClipMasks read_clip_masks(const ClipFilm& film) {
     if (!covers_frame(json["segmentation"], film))
       throw entry.fault_of("segmentation",
                            fmt::format("run lengths of {} x {} px", film.width_px, film.height_px));
-    masks[entry.integer("id")] = json["segmentation"]["counts"];
+    masks[entry.id("id")] = json["segmentation"]["counts"];
   });
   return masks;
 }

@@ -12,7 +12,7 @@
 namespace thermal {
 
 /// Masks of a clip's labels by the labels' ids: COCO's compressed run lengths, in columns of the whole frame.
-using ClipMasks = std::unordered_map<std::int64_t, std::string>;
+using ClipMasks = std::unordered_map<LabelId, std::string>;
 
 /// Reads the masks of a clip's labels.json; labels without run lengths have none.
 /// DataError "FILE: annotations[3].segmentation = …" for run lengths that do not cover a frame of the film exactly.

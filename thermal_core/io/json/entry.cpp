@@ -4,10 +4,40 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <variant>
 
 #include <fmt/format.h>
 
 namespace thermal {
+namespace {
+
+constexpr double kMostExact = 9007199254740992;  // 2^53: floats past it skip whole numbers
+
+/// Empty for what is none, or is past 64 bits.
+std::optional<std::int64_t> whole_number_in(const Json& value) {
+  if (value.is_number_float()) {
+    const double number = value.get<double>();
+    const bool is_whole = std::abs(number) <= kMostExact && number == std::floor(number);
+    return is_whole ? std::optional(static_cast<std::int64_t>(number)) : std::nullopt;
+  }
+  if (!value.is_number_integer()) return {};
+  // JSON integers above this are unsigned, and would become negative.
+  if (value.is_number_unsigned() && value.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max())
+    return {};
+  return value.get<std::int64_t>();
+}
+
+}  // namespace
+
+LabelId label_id_in(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (const auto number = whole_number_in(value)) return *number;
+  throw DataError(fault("an id", brief(value), "", "a whole number or text"));
+}
+
+Json json_of(const LabelId& id) {
+  return std::visit([](const auto& value) { return Json(value); }, id);
+}
 
 JsonEntry::JsonEntry(const Json& json, const std::string& file, const std::string& list, std::size_t place)
     : json_(json), file_(file), list_(&list), place_(place) {
@@ -21,11 +51,19 @@ JsonEntry::JsonEntry(const Json& json, const std::string& file) : json_(json), f
 
 std::int64_t JsonEntry::integer(const char* key) const {
   const Json& value = at(key);
-  if (!value.is_number_integer()) throw fault_of(key, "a whole number");
-  // JSON integers above this are unsigned, and would become negative.
-  if (value.is_number_unsigned() && value.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max())
-    throw fault_of(key, "a whole number up to 9223372036854775807");
-  return value.get<std::int64_t>();
+  if (const auto number = whole_number_in(value)) return *number;
+  if (value.is_number_integer()) throw fault_of(key, "a whole number up to 9223372036854775807");
+  const double number = value.is_number() ? value.get<double>() : 0;
+  const bool is_rounded = std::abs(number) > kMostExact && std::abs(number) < kMostExact * 1024;
+  throw fault_of(key, is_rounded ? "a whole number; past 2^53 without \".\" and \"e\", which round it"
+                                 : "a whole number");
+}
+
+LabelId JsonEntry::id(const char* key) const {
+  const Json& value = at(key);
+  if (value.is_string()) return text(key);
+  if (!value.is_number()) throw fault_of(key, "a whole number or text");
+  return integer(key);
 }
 
 int JsonEntry::count(const char* key) const {
@@ -59,7 +97,7 @@ bool JsonEntry::flag(const char* key) const {
   if (!has(key)) return false;
   const Json& value = json_[key];
   if (value.is_boolean()) return value.get<bool>();
-  const std::int64_t number = value.is_number_integer() ? value.get<std::int64_t>() : -1;
+  const std::int64_t number = whole_number_in(value).value_or(-1);
   if (number == 0 || number == 1) return number == 1;
   throw fault_of(key, "0, 1, false or true");
 }

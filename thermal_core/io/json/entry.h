@@ -10,6 +10,12 @@
 
 namespace thermal {
 
+/// An id of a file of labels. DataError unless it is text or a whole number, as JsonEntry::integer() reads it.
+[[nodiscard]] LabelId label_id_in(const Json& value);
+
+/// A number or text.
+[[nodiscard]] Json json_of(const LabelId& id);
+
 /// One object of a list in an external JSON file, or the file's only one, read key by key. A wrong value, or a missing
 /// required key, is a DataError "FILE: LIST[PLACE].KEY = VALUE; expected RULE". A null value counts as missing.
 class JsonEntry {
@@ -21,8 +27,10 @@ class JsonEntry {
   JsonEntry(const Json& json, const std::string& file);
 
   [[nodiscard]] bool has(const char* key) const { return json_.contains(key) && !json_[key].is_null(); }
-  /// Up to 2^63 - 1.
+  /// Up to 2^63 - 1. 1.0 is 1, up to 2^53: pandas writes whole numbers so where others are missing.
   [[nodiscard]] std::int64_t integer(const char* key) const;
+  /// The same, or text that is not empty.
+  [[nodiscard]] LabelId id(const char* key) const;
   /// 0 to `most`.
   [[nodiscard]] std::int64_t whole_number(const char* key, std::int64_t most) const;
   /// A size or a number of frames: 0 to 1e9.
@@ -38,9 +46,10 @@ class JsonEntry {
   [[nodiscard]] LabelBox box(const char* key) const;
 
   [[nodiscard]] DataError fault_of(const char* key, const std::string& rule) const;
+  /// "FILE: LIST[PLACE].KEY", for messages.
+  [[nodiscard]] std::string place_of(const char* key) const;
 
  private:
-  [[nodiscard]] std::string place_of(const char* key) const;
   [[nodiscard]] const Json& at(const char* key) const;
 
   const Json& json_;

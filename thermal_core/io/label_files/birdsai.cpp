@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,6 +22,7 @@ namespace thermal {
 namespace {
 
 constexpr int kColumns = 10;
+constexpr int kObjectColumn = 1;  // ids of 64 bits; all others are small
 constexpr std::string_view kUnknownAnimal = "animal";
 
 /// By species number.
@@ -29,7 +31,7 @@ constexpr std::array<std::string_view, 9> kSpecies = {
 
 struct Row {
   int frame = 0;
-  int object = 0;
+  std::int64_t object = 0;
   LabelBox box;
   std::string_view category;
   bool occluded = false;
@@ -52,22 +54,24 @@ std::string_view trimmed(std::string_view cell) {
   return cell.substr(0, cell.find_last_not_of(' ') + 1);
 }
 
-std::array<int, kColumns> numbers_of(std::string_view line, const Place& place) {
+std::array<std::int64_t, kColumns> numbers_of(std::string_view line, const Place& place) {
   const std::vector<std::string_view> cells = split(line, ',');
   if (cells.size() != kColumns) {
     throw place.fault_of(fmt::format("{} columns", cells.size()),
                          "10: frame, object_id, x_min, y_min, w, h, class, species, occluded, noisy");
   }
-  std::array<int, kColumns> numbers{};
+  std::array<std::int64_t, kColumns> numbers{};
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::optional<int> number = number_in<int>(trimmed(cells[i]));
-    if (!number) throw place.fault_of(fmt::format("column {} is \"{}\"", i + 1, cells[i]), "a whole number");
+    const std::optional<std::int64_t> number = number_in<std::int64_t>(trimmed(cells[i]));
+    const bool fits = i == kObjectColumn || (number && std::in_range<int>(*number));
+    if (!number || !fits)
+      throw place.fault_of(fmt::format("column {} is \"{}\"", i + 1, cells[i]), "a whole number");
     numbers[i] = *number;
   }
   return numbers;
 }
 
-std::string_view category_of(int animal_or_human, int species, const Place& place) {
+std::string_view category_of(std::int64_t animal_or_human, std::int64_t species, const Place& place) {
   if (animal_or_human != 0 && animal_or_human != 1)
     throw place.fault_of(fmt::format("class {}", animal_or_human), "0 (animal) or 1 (human)");
   if (species < -1 || species >= static_cast<int>(kSpecies.size()))
@@ -79,17 +83,17 @@ std::string_view category_of(int animal_or_human, int species, const Place& plac
   return kSpecies[static_cast<std::size_t>(species)];
 }
 
-bool flag_of(int number, const char* name, const Place& place) {
+bool flag_of(std::int64_t number, const char* name, const Place& place) {
   if (number != 0 && number != 1) throw place.fault_of(fmt::format("{} {}", name, number), "0 or 1");
   return number == 1;
 }
 
 Row row_of(std::string_view line, const Place& place) {
-  const std::array<int, kColumns> n = numbers_of(line, place);
+  const std::array<std::int64_t, kColumns> n = numbers_of(line, place);
   if (n[0] < 0) throw place.fault_of(fmt::format("frame {}", n[0]), "0 or more");
   if (n[4] < 0 || n[5] < 0)
     throw place.fault_of(fmt::format("a box of {} x {} px", n[4], n[5]), "sides that are not negative");
-  return {.frame = n[0],
+  return {.frame = static_cast<int>(n[0]),
           .object = n[1],
           .box = {.x_px = static_cast<double>(n[2]),
                   .y_px = static_cast<double>(n[3]),
@@ -100,25 +104,33 @@ Row row_of(std::string_view line, const Place& place) {
           .noisy = flag_of(n[9], "noisy", place)};
 }
 
-/// Files of a folder with one of these extensions, by their names without it; empty if the folder does not exist.
-std::map<std::string, Path> files_of(const Path& folder, std::initializer_list<std::string_view> endings) {
-  std::map<std::string, Path> files;
+/// Files of a folder with one of these extensions, in the order of their names; empty if the folder does not exist.
+std::vector<Path> files_of(const Path& folder, std::initializer_list<std::string_view> endings) {
+  std::vector<Path> files;
   if (!std::filesystem::is_directory(folder)) return files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const Path& file = entry.path();
     if (std::find(endings.begin(), endings.end(), file.extension().string()) != endings.end())
-      files.emplace(file.stem().string(), file);
+      files.push_back(file);
   }
+  std::ranges::sort(files, {}, [](const Path& file) { return std::pair(file.stem(), file.extension()); });
   return files;
 }
 
 /// Pictures of a video by frame: VIDEO_0000000012.jpg is frame 12. Other names do not belong to the video.
 std::map<int, Path> pictures_of(const Path& folder, const std::string& video) {
   std::map<int, Path> pictures;
-  for (const auto& [stem, file] : files_of(folder / video, {".jpg", ".jpeg", ".png"})) {
+  for (const Path& file : files_of(folder / video, {".jpg", ".jpeg", ".png"})) {
+    const std::string stem = file.stem().string();
     if (!stem.starts_with(video + "_")) continue;
     const std::string_view digits = std::string_view(stem).substr(video.size() + 1);
-    if (const std::optional<int> frame = number_in<int>(digits)) pictures.emplace(*frame, file);
+    const std::optional<int> frame = number_in<int>(digits);
+    if (!frame) continue;
+    const auto [there, fresh] = pictures.emplace(*frame, file);
+    if (!fresh)
+      throw DataError(fmt::format("{}: {} and {} are both frame {}; expected one picture per frame",
+                                  (folder / video).string(), there->second.filename().string(),
+                                  file.filename().string(), *frame));
   }
   return pictures;
 }
@@ -134,10 +146,9 @@ class BirdsaiReader {
     const auto videos = files_of(folder_ / "annotations", {".csv"});
     if (videos.empty()) throw IoError((folder_ / "annotations").string() + " holds no .csv file");
     std::vector<std::vector<Row>> rows;
-    for (const auto& [video, file] : videos) rows.push_back(rows_of(file));
+    for (const Path& file : videos) rows.push_back(rows_of(file));
     number_used_categories(rows);
-    std::size_t i = 0;
-    for (const auto& [video, file] : videos) add_video(video, rows[i++]);
+    for (std::size_t i = 0; i < videos.size(); ++i) add_video(videos[i].stem().string(), rows[i]);
     return std::move(set_);
   }
 
@@ -145,7 +156,7 @@ class BirdsaiReader {
   std::vector<Row> rows_of(const Path& file) const {
     const std::string text = read_text_file(file);
     std::vector<Row> rows;
-    std::set<std::pair<int, int>> seen;
+    std::set<std::pair<int, std::int64_t>> seen;
     Place place{.file = file.string()};
     for (std::string_view line : split(text, '\n')) {
       ++place.line;

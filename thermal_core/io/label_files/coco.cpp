@@ -10,29 +10,52 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/json/entry.h"
+#include "io/label_files/frame_order.h"
 
 namespace thermal {
 namespace {
 
+constexpr const char* kFractionsRule = "px; all boxes of the file are fractions of their pictures";
+
 /// A label with its references, which may be defined later in the file.
 struct UnresolvedLabel {
   Label label;
-  std::int64_t image_id = 0;
-  std::int64_t category_id = 0;
+  LabelId image_id;
+  LabelId category_id;
+  bool has_box = true;
+  std::size_t place = 0;  ///< in the file
 };
 
-struct UnresolvedImage {
-  LabelImage image;
-  std::optional<std::int64_t> video_id;
-};
+/// "a/b" of "a/b/c.png" and "./a//b/c.png"; empty without a folder.
+std::string folder_of(const std::string& file) {
+  return Path(file).lexically_normal().parent_path().string();
+}
 
-/// "a/b/c.png" is in "a_b".
-std::string folder_name(const std::string& file) {
-  std::string folder = file.substr(0, std::min(file.find_last_of('/') + 1, file.size()));
-  if (folder.ends_with('/')) folder.pop_back();
-  std::replace(folder.begin(), folder.end(), '/', '_');
+/// "a_b" of "a/b".
+std::string in_one_word(std::string folder) {
+  std::ranges::replace(folder, '/', '_');
   return folder;
+}
+
+/// Category 0 of COCO Camera Traps says that a picture has no targets.
+bool is_empty(const LabelCategory& category) {
+  return category.id == LabelId(0) && lower_case(category.name) == "empty";
+}
+
+void refuse_foreign_image(const JsonEntry& entry) {
+  if (entry.has("detections"))
+    throw entry.fault_of("detections", "labels of COCO: this is a file of MegaDetector's results");
+  for (const char* key : {"neg_category_ids", "not_exhaustive_category_ids"})
+    if (entry.has(key)) throw entry.fault_of(key, "none: labels of LVIS are incomplete on purpose");
+}
+
+void refuse_foreign_label(const JsonEntry& entry) {
+  if (entry.has("bbox_mode") && entry.integer("bbox_mode") != 1)
+    throw entry.fault_of("bbox_mode", "1, a bbox of x, y, width and height in px, or none");
+  if (entry.optional_number("score").value_or(1) != 1)
+    throw entry.fault_of("score", "1 or none: labels, not the results of a detector");
 }
 
 /// Reads the lists one entry at a time, and links them at the end.
@@ -56,6 +79,7 @@ class CocoReader {
     }
     place_images();
     place_labels();
+    drop_empty_category();
     return std::move(set_);
   }
 
@@ -72,55 +96,68 @@ class CocoReader {
     if (list == "categories") take_category({json, file_, list, place});
     if (list == "videos") take_video({json, file_, list, place});
     if (list == "images") take_image({json, file_, list, place});
-    if (list == "annotations") take_label({json, file_, list, place});
+    if (list == "annotations") take_label({json, file_, list, place}, place);
   }
 
-  using Places = std::unordered_map<std::int64_t, std::size_t>;
+  using Places = std::unordered_map<LabelId, std::size_t>;
 
   /// Records an id, which must be new.
-  static std::int64_t new_id(const JsonEntry& entry, Places& places) {
-    const std::int64_t id = entry.integer("id");
+  static LabelId new_id(const JsonEntry& entry, Places& places) {
+    LabelId id = entry.id("id");
     if (const auto [there, fresh] = places.emplace(id, places.size()); !fresh)
       throw entry.fault_of("id", fmt::format("an id other than that of entry {}", there->second));
     return id;
   }
 
   void take_category(const JsonEntry& entry) {
-    const std::int64_t id = new_id(entry, category_places_);
-    set_.categories.push_back({static_cast<int>(id), entry.text("name")});
+    LabelId id = new_id(entry, category_places_);
+    set_.categories.push_back({std::move(id), entry.text("name")});
   }
 
   void take_video(const JsonEntry& entry) {
     new_id(entry, video_places_);
-    set_.videos.push_back({entry.text("name"), entry.optional_number("frame_rate_hz").value_or(0)});
+    const bool is_named = entry.has("name") || !entry.has("file_name");
+    const auto rate_hz = entry.optional_number(entry.has("frame_rate_hz") ? "frame_rate_hz" : "fps");
+    set_.videos.push_back({entry.text(is_named ? "name" : "file_name"), rate_hz.value_or(0)});
   }
 
   void take_image(const JsonEntry& entry) {
-    UnresolvedImage read;
+    refuse_foreign_image(entry);
+    StatedImage read;
     read.image = {.id = new_id(entry, image_places_),
-                  .file = entry.text("file_name"),
+                  .file = file_name_in(entry),
                   .width_px = entry.has("width") ? entry.count("width") : 0,
                   .height_px = entry.has("height") ? entry.count("height") : 0,
-                  .frame_index = entry.has("frame_index") ? entry.count("frame_index")
-                                                          : static_cast<int>(images_.size()),
                   .time_s = entry.optional_number("time_s")};
-    if (entry.has("video_id")) read.video_id = entry.integer("video_id");
+    if (entry.has("video_id")) read.video_id = entry.id("video_id");
+    if (entry.has("seq_id")) read.sequence_id = entry.id("seq_id");
+    read_frame_of(entry, read);
     images_.push_back(std::move(read));
   }
 
-  void take_label(const JsonEntry& entry) {
+  std::string file_name_in(const JsonEntry& entry) {
+    std::string name = entry.text("file_name");
+    set_.from_windows |= name.find('\\') != std::string::npos;
+    std::ranges::replace(name, '\\', '/');
+    return name;
+  }
+
+  void take_label(const JsonEntry& entry, std::size_t place) {
+    refuse_foreign_label(entry);
     UnresolvedLabel read{.label = read_label(entry),
-                         .image_id = entry.integer("image_id"),
-                         .category_id = entry.integer("category_id")};
+                         .image_id = entry.id("image_id"),
+                         .category_id = entry.id("category_id"),
+                         .has_box = entry.has("bbox"),
+                         .place = place};
     read.label.id = new_id(entry, label_places_);
-    labels_.push_back(read);
+    labels_.push_back(std::move(read));
   }
 
   static Label read_label(const JsonEntry& entry) {
     Label label;
-    label.box = entry.box("bbox");
+    if (entry.has("bbox")) label.box = entry.box("bbox");
     label.crowd = entry.flag("iscrowd");
-    label.ignore = entry.flag("ignore");
+    label.ignore = entry.flag("ignore") || entry.optional_number("mot_conf") == 0.0;
     label.noisy = entry.flag("noisy");
     label.truncated = entry.flag("truncated");
     label.visibility = entry.optional_number("visibility");
@@ -130,24 +167,16 @@ class CocoReader {
     label.contrast_k = entry.optional_number("contrast_k");
     label.contrast_noise = entry.optional_number("contrast_noise");
     label.area_px = entry.optional_number("area").value_or(label.box.area_px());
-    if (entry.has("track_id")) label.track_id = entry.integer("track_id");
+    const char* const track = entry.has("track_id") ? "track_id" : "instance_id";
+    if (entry.has(track)) label.track_id = entry.integer(track);
     if (entry.has("occluded")) label.occluded = entry.flag("occluded");
     return label;
   }
 
-  /// Sorts pictures by video and frame; pictures without a video form a video per folder.
+  /// Sorts pictures by video and frame.
   void place_images() {
-    std::map<std::string, std::size_t> folders;
-    for (std::size_t i = 0; i < images_.size(); ++i) {
-      UnresolvedImage& read = images_[i];
-      if (read.video_id) {
-        read.image.video = video_of(i, *read.video_id);
-        continue;
-      }
-      const auto [folder, fresh] = folders.emplace(folder_name(read.image.file), set_.videos.size());
-      if (fresh) set_.videos.push_back({folder->first.empty() ? set_.name : folder->first, 0});
-      read.image.video = folder->second;
-    }
+    find_videos();
+    order_frames(file_, images_, set_.videos);
     std::vector<std::size_t> order(images_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
@@ -161,33 +190,101 @@ class CocoReader {
     }
   }
 
-  std::size_t video_of(std::size_t image, std::int64_t id) const {
+  /// Pictures without a video form one per sequence, or per folder.
+  void find_videos() {
+    std::map<LabelId, std::size_t> sequences;
+    std::map<std::string, std::size_t> folders;
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+      StatedImage& read = images_[i];
+      if (read.video_id) {
+        read.image.video = video_of(i, *read.video_id);
+        continue;
+      }
+      const auto [video, fresh] = read.sequence_id ? place_in(sequences, *read.sequence_id)
+                                                   : place_in(folders, folder_of(read.image.file));
+      if (fresh) set_.videos.emplace_back();
+      read.image.video = video;
+    }
+    for (const auto& [id, video] : sequences)
+      set_.videos[video].name =
+          std::holds_alternative<std::string>(id) ? std::get<std::string>(id) : id_text(id);
+    name_folders(folders);
+  }
+
+  template <typename Key>
+  std::pair<std::size_t, bool> place_in(std::map<Key, std::size_t>& videos, const Key& key) const {
+    const auto [there, fresh] = videos.emplace(key, set_.videos.size());
+    return {there->second, fresh};
+  }
+
+  /// The video of folder a/b is called a_b, unless another one is, too.
+  void name_folders(const std::map<std::string, std::size_t>& folders) {
+    std::map<std::string, int> uses;
+    const auto usual_name = [this](const std::string& folder) {
+      return folder.empty() ? set_.name : in_one_word(folder);
+    };
+    for (const auto& [folder, video] : folders) ++uses[usual_name(folder)];
+    for (const auto& [folder, video] : folders) {
+      const std::string name = usual_name(folder);
+      set_.videos[video].name = uses[name] == 1 || folder.empty() ? name : folder;
+    }
+  }
+
+  std::size_t video_of(std::size_t image, const LabelId& id) const {
     const auto found = video_places_.find(id);
     if (found != video_places_.end()) return found->second;
-    throw DataError(fault(fmt::format("{}: images[{}].video_id", file_, image), std::to_string(id), "",
+    throw DataError(fault(fmt::format("{}: images[{}].video_id", file_, image), id_text(id), "",
                           "the id of one of the videos"));
   }
 
   void place_labels() {
-    for (std::size_t i = 0; i < labels_.size(); ++i) {
-      UnresolvedLabel& read = labels_[i];
-      read.label.image = place_of(image_places_, i, "image_id", read.image_id, "images");
-      read.label.category = place_of(category_places_, i, "category_id", read.category_id, "categories");
-      check_inside(i, read.label.box, set_.images[read.label.image]);
+    std::map<std::size_t, std::size_t> empty;  // annotation by picture
+    for (UnresolvedLabel& read : labels_) {
+      read.label.image = place_of(image_places_, read.place, "image_id", read.image_id, "images");
+      read.label.category =
+          place_of(category_places_, read.place, "category_id", read.category_id, "categories");
+      if (read.has_box) check_inside(read.place, read.label.box, set_.images[read.label.image]);
+      if (read.has_box) continue;
+      if (!is_empty(set_.categories[read.label.category]))
+        throw fault_of_label(read.place, "bbox", "nothing", "one, or category 0, \"empty\"");
+      empty.emplace(read.label.image, read.place);
+    }
+    std::erase_if(labels_, [](const UnresolvedLabel& read) { return !read.has_box; });
+    for (const UnresolvedLabel& read : labels_) {
+      if (const auto found = empty.find(read.label.image); found != empty.end())
+        throw fault_of_label(
+            read.place, "image_id", id_text(read.image_id),
+            fmt::format("a picture that annotations[{}] does not call empty", found->second));
     }
     std::stable_sort(labels_.begin(), labels_.end(), [](const UnresolvedLabel& a, const UnresolvedLabel& b) {
       return a.label.image < b.label.image;
     });
     set_.labels.reserve(labels_.size());
-    for (UnresolvedLabel& read : labels_) set_.labels.push_back(read.label);
+    for (UnresolvedLabel& read : labels_) set_.labels.push_back(std::move(read.label));
+    if (are_fractions(set_.labels))
+      throw fault_of_label(labels_.front().place, "bbox", box_text(set_.labels.front().box), kFractionsRule);
   }
 
-  std::size_t place_of(const Places& places, std::size_t label, const char* key, std::int64_t id,
+  void drop_empty_category() {
+    const auto empty = std::ranges::find_if(set_.categories, is_empty);
+    const auto place = static_cast<std::size_t>(empty - set_.categories.begin());
+    if (empty == set_.categories.end() ||
+        std::ranges::any_of(set_.labels, [place](const Label& label) { return label.category == place; }))
+      return;
+    set_.categories.erase(empty);
+    for (Label& label : set_.labels) label.category -= label.category > place ? 1 : 0;
+  }
+
+  [[nodiscard]] DataError fault_of_label(std::size_t label, const char* key, const std::string& value,
+                                         const std::string& rule) const {
+    return DataError(fault(fmt::format("{}: annotations[{}].{}", file_, label, key), value, "", rule));
+  }
+
+  std::size_t place_of(const Places& places, std::size_t label, const char* key, const LabelId& id,
                        const char* list) const {
     const auto found = places.find(id);
     if (found != places.end()) return found->second;
-    throw DataError(fault(fmt::format("{}: annotations[{}].{}", file_, label, key), std::to_string(id), "",
-                          fmt::format("the id of one of the {}", list)));
+    throw fault_of_label(label, key, id_text(id), fmt::format("the id of one of the {}", list));
   }
 
   /// A box may extend beyond its picture, as truncated targets do in many files, but must not lie outside it.
@@ -196,10 +293,13 @@ class CocoReader {
     if (box.x_px < image.width_px && box.y_px < image.height_px && box.x_px + box.width_px >= 0 &&
         box.y_px + box.height_px >= 0)
       return;
-    throw DataError(
-        fault(fmt::format("{}: annotations[{}].bbox", file_, label),
-              fmt::format("[{}, {}, {}, {}]", box.x_px, box.y_px, box.width_px, box.height_px), "px",
-              fmt::format("a box inside its picture, {} x {} px", image.width_px, image.height_px)));
+    throw fault_of_label(
+        label, "bbox", box_text(box) + " px",
+        fmt::format("a box inside its picture, {} x {} px", image.width_px, image.height_px));
+  }
+
+  static std::string box_text(const LabelBox& box) {
+    return fmt::format("[{}, {}, {}, {}]", box.x_px, box.y_px, box.width_px, box.height_px);
   }
 
   std::string file_;
@@ -208,7 +308,7 @@ class CocoReader {
   Places video_places_;
   Places image_places_;  ///< in the file's order until place_images()
   Places label_places_;
-  std::vector<UnresolvedImage> images_;
+  std::vector<StatedImage> images_;
   std::vector<UnresolvedLabel> labels_;
 };
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <cstdint>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "io/json/entry.h"
 #include "io/json/file.h"
+#include "io/label_files/picture_names.h"
 #include "io/system/text_file.h"
 
 namespace thermal {
@@ -40,72 +41,196 @@ std::string fault_of_place(const LabelBox& box, const LabelImage& image) {
   return fmt::format("a box that touches its picture, {} x {} px", image.width_px, image.height_px);
 }
 
-/// Indices of pictures and categories by their ids.
-class Ids {
+/// The picture of an entry of a results file, and how it is named.
+struct NamedPicture {
+  std::size_t image = 0;
+  bool by_name = false;  ///< and not by its id
+  bool has_file_name = false;
+  bool id_is_stem = false;  ///< image_id is the stem of file_name, as Ultralytics writes it
+};
+
+/// Finds the pictures of entries by `image_id` and `file_name`, which must agree.
+class PictureFinder {
  public:
-  explicit Ids(const LabelSet& truth) : truth_(truth) {
-    for (std::size_t i = 0; i < truth.images.size(); ++i) images_.emplace(truth.images[i].id, i);
-    for (std::size_t i = 0; i < truth.categories.size(); ++i) categories_.emplace(truth.categories[i].id, i);
+  explicit PictureFinder(const LabelSet& truth) : truth_(truth) {
+    for (std::size_t i = 0; i < truth.images.size(); ++i) ids_.emplace(truth.images[i].id, i);
   }
 
-  [[nodiscard]] std::size_t image(const JsonEntry& entry) const {
-    const auto found = images_.find(entry.integer("image_id"));
-    if (found == images_.end()) throw entry.fault_of("image_id", "the id of one of the truth's pictures");
-    return found->second;
-  }
-
-  [[nodiscard]] std::size_t category(const JsonEntry& entry, const Json& json) const {
-    if (json.contains("category_id") && json["category_id"].is_string())
-      throw entry.fault_of("category_id", rule() + did_you_mean(json["category_id"].get<std::string>(),
-                                                                category_names(truth_)));
-    const auto found = categories_.find(entry.integer("category_id"));
-    if (found == categories_.end()) throw entry.fault_of("category_id", rule());
-    return found->second;
+  NamedPicture find(const JsonEntry& entry) {
+    const LabelId id = entry.id("image_id");
+    const auto* const name = std::get_if<std::string>(&id);
+    NamedPicture found;
+    found.has_file_name = entry.has("file_name");
+    found.id_is_stem = found.has_file_name && is_stem(id, entry.text("file_name"));
+    if (const auto known = ids_.find(id); known != ids_.end()) {
+      found.image = known->second;
+    } else {
+      if (name == nullptr && !found.has_file_name)
+        throw entry.fault_of("image_id", "the id of one of the truth's pictures");
+      found.by_name = true;
+      const char* const key = name != nullptr ? "image_id" : "file_name";
+      found.image = named(entry, key, entry.text(key));
+    }
+    if (found.has_file_name && !names().is_name_of(entry.text("file_name"), found.image))
+      throw entry.fault_of("image_id", fmt::format("the id of its file_name, \"{}\", and not of {}",
+                                                   entry.text("file_name"), truth_.images[found.image].file));
+    return found;
   }
 
  private:
-  [[nodiscard]] std::string rule() const {
-    std::vector<std::string> known;
-    for (const LabelCategory& category : truth_.categories)
-      known.push_back(fmt::format("{} ({})", category.id, category.name));
-    return "one of " + list_names(known);
+  static bool is_stem(const LabelId& id, const std::string& file_name) {
+    const std::string stem = Path(name_without_ending(file_name)).filename().string();
+    if (const auto* const text = std::get_if<std::string>(&id)) return *text == stem;
+    return number_in<std::int64_t>(stem) == std::get<std::int64_t>(id);
+  }
+
+  std::size_t named(const JsonEntry& entry, const char* key, const std::string& name) {
+    const auto image = names().find(name, entry.place_of(key));
+    if (image) return *image;
+    throw entry.fault_of(key,
+                         "the id or the name of one of the truth's pictures" + names().suggestion_for(name));
+  }
+
+  /// Made for the first name alone: most files have ids.
+  const PictureNames& names() {
+    if (!names_) names_.emplace(truth_);
+    return *names_;
   }
 
   const LabelSet& truth_;
-  std::unordered_map<std::int64_t, std::size_t> images_;
-  std::unordered_map<std::int64_t, std::size_t> categories_;
+  std::unordered_map<LabelId, std::size_t> ids_;
+  std::optional<PictureNames> names_;
 };
 
-Detection detection_of(const JsonEntry& entry, const Json& json, const LabelSet& truth, const Ids& ids) {
-  const Detection detection{.image = ids.image(entry),
-                            .category = ids.category(entry, json),
-                            .box = entry.box("bbox"),
-                            .score = entry.number("score")};
-  const std::string wrong = fault_of_place(detection.box, truth.images[detection.image]);
-  if (!wrong.empty()) throw entry.fault_of("bbox", wrong);
-  return detection;
-}
+/// A category_id of a results file, and which category it is if it is an id, or a place in the truth's list from 1.
+struct CategoryNumber {
+  LabelId number;
+  std::optional<std::size_t> by_id = {};
+  std::optional<std::size_t> by_place = {};
+};
+
+/// Reads a COCO results file one entry at a time. Ultralytics numbers categories from 1 in the order of its classes, where
+/// COCO has ids; its files show in how they name pictures.
+class ResultsReader {
+ public:
+  ResultsReader(const LabelSet& truth, const std::string& file)
+      : truth_(truth), file_(file), pictures_(truth) {
+    for (std::size_t i = 0; i < truth.categories.size(); ++i) ids_.emplace(truth.categories[i].id, i);
+  }
+
+  void take(const JsonEntry& entry) {
+    if (entry.has("bbox_mode") && entry.integer("bbox_mode") != 1)
+      throw entry.fault_of("bbox_mode", "1, a bbox of x, y, width and height in px, or none");
+    const NamedPicture picture = pictures_.find(entry);
+    may_be_places_ &= picture.by_name || picture.id_is_stem;
+    must_be_places_ |= picture.by_name && picture.has_file_name;
+    numbers_.push_back(category_of(entry));
+    if (!may_be_places_ && !numbers_.back().by_id) throw entry.fault_of("category_id", rule_of_ids());
+    detections_.push_back(
+        {.image = picture.image, .category = 0, .box = entry.box("bbox"), .score = entry.number("score")});
+    const std::string wrong = fault_of_place(detections_.back().box, truth_.images[picture.image]);
+    if (!wrong.empty()) throw entry.fault_of("bbox", wrong);
+  }
+
+  std::vector<Detection> finish() {
+    if (are_fractions(detections_))
+      throw DataError(file_ + ": all boxes are fractions of their pictures; expected boxes in px");
+    const Reading meant = reading();
+    for (std::size_t i = 0; i < numbers_.size(); ++i) detections_[i].category = *(numbers_[i].*meant);
+    return std::move(detections_);
+  }
+
+ private:
+  using Reading = std::optional<std::size_t> CategoryNumber::*;
+
+  /// The one reading of the file's numbers that gives each a category.
+  [[nodiscard]] Reading reading() const {
+    const auto first_without = [this](Reading reading) {
+      const auto found = std::ranges::find_if(numbers_, [reading](const auto& n) { return !(n.*reading); });
+      return static_cast<std::size_t>(found - numbers_.begin());
+    };
+    const std::size_t no_id = first_without(&CategoryNumber::by_id);
+    const std::size_t no_place = first_without(&CategoryNumber::by_place);
+    const bool are_ids = no_id == numbers_.size() && !(must_be_places_ && may_be_places_);
+    const bool are_places = no_place == numbers_.size() && may_be_places_;
+    if (are_ids && are_places) check_alike();
+    if (are_ids) return &CategoryNumber::by_id;
+    if (are_places) return &CategoryNumber::by_place;
+    throw may_be_places_ ? fault_of(no_place, rule_of_places()) : fault_of(no_id, rule_of_ids());
+  }
+
+  void check_alike() const {
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+      const CategoryNumber& number = numbers_[i];
+      if (number.by_id == number.by_place) continue;
+      throw fault_of(
+          i, fmt::format("a number of one meaning: it is the id of {} and, as Ultralytics counts, {}",
+                         truth_.categories[*number.by_id].name, truth_.categories[*number.by_place].name));
+    }
+  }
+
+  [[nodiscard]] CategoryNumber category_of(const JsonEntry& entry) const {
+    CategoryNumber category{.number = entry.id("category_id")};
+    if (const auto found = ids_.find(category.number); found != ids_.end()) category.by_id = found->second;
+    const auto* const place = std::get_if<std::int64_t>(&category.number);
+    if (place != nullptr && *place >= 1 && std::cmp_less_equal(*place, truth_.categories.size()))
+      category.by_place = static_cast<std::size_t>(*place - 1);
+    return category;
+  }
+
+  [[nodiscard]] DataError fault_of(std::size_t entry, const std::string& rule) const {
+    return DataError(
+        fault(fmt::format("{}: [{}].category_id", file_, entry), id_text(numbers_[entry].number), "", rule));
+  }
+
+  [[nodiscard]] std::string rule_of_ids() const {
+    std::vector<std::string> known;
+    for (const LabelCategory& category : truth_.categories)
+      known.push_back(fmt::format("{} ({})", id_text(category.id), category.name));
+    const auto* const name = std::get_if<std::string>(&numbers_.back().number);
+    return "one of " + list_names(known) +
+           (name == nullptr ? "" : did_you_mean(*name, category_names(truth_)));
+  }
+
+  [[nodiscard]] std::string rule_of_places() const {
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < truth_.categories.size(); ++i)
+      known.push_back(fmt::format("{} ({})", i + 1, truth_.categories[i].name));
+    return "one of " + list_names(known) + ", counted as Ultralytics does";
+  }
+
+  const LabelSet& truth_;
+  const std::string& file_;
+  PictureFinder pictures_;
+  std::unordered_map<LabelId, std::size_t> ids_;
+  bool may_be_places_ = true;    ///< all entries name pictures as Ultralytics does
+  bool must_be_places_ = false;  ///< and some as nobody else does
+  std::vector<CategoryNumber> numbers_;
+  std::vector<Detection> detections_;
+};
 
 std::vector<Detection> read_coco_results(const Path& file, const LabelSet& truth) {
   const std::string name = file.string();
   const std::string text = read_file(file);
-  const Ids ids(truth);
-  std::vector<Detection> detections;
+  ResultsReader reader(truth, name);
   const auto is_list = [&name](bool is) {
     if (is) return;
     throw DataError(name +
                     R"(: no list of detections; expected [{"image_id", "category_id", "bbox", "score"}, …])");
   };
   const auto take = [&](const std::string& list, std::size_t place, const Json& json) {
+    if (list == "images" && json.is_object() && json.contains("detections"))
+      throw DataError(name +
+                      ": results of MegaDetector, whose boxes are fractions of pictures; expected COCO's");
     is_list(list.empty());
-    detections.push_back(detection_of(JsonEntry(json, name, list, place), json, truth, ids));
+    reader.take(JsonEntry(json, name, list, place));
   };
   try {
     is_list(parse_json_elements(text, name, take).is_array());
   } catch (const ConfigError& error) {
     throw DataError(error.what());
   }
-  return detections;
+  return reader.finish();
 }
 
 /// A line of YOLO results and its position, "FILE:LINE".
@@ -191,31 +316,15 @@ std::vector<Path> text_files(const Path& folder) {
   return files;
 }
 
-/// Pictures by the names that result files may use: flat_name(), and a picture's own name if it is unique.
-std::map<std::string, std::size_t> pictures_by_name(const LabelSet& truth) {
-  std::map<std::string, std::size_t> places;
-  std::set<std::string> shared;
-  for (std::size_t i = 0; i < truth.images.size(); ++i) {
-    const std::string own = Path(truth.images[i].file).stem().string();
-    if (!places.emplace(own, i).second) shared.insert(own);
-  }
-  for (const std::string& name : shared) places.erase(name);
-  for (std::size_t i = 0; i < truth.images.size(); ++i) places[flat_name(truth, truth.images[i])] = i;
-  return places;
-}
-
-std::size_t picture_of(const Path& file, const std::map<std::string, std::size_t>& pictures) {
+std::size_t picture_of(const Path& file, const PictureNames& pictures) {
   const std::string stem = file.stem().string();
-  const auto found = pictures.find(stem);
-  if (found != pictures.end()) return found->second;
-  std::vector<std::string> names;
-  for (const auto& [name, place] : pictures) names.push_back(name);
+  if (const auto image = pictures.find(stem, file.string())) return *image;
   throw DataError(fmt::format("{}: names no picture of the truth; expected VIDEO_PICTURE.txt{}",
-                              file.string(), did_you_mean(stem, names)));
+                              file.string(), pictures.suggestion_for(stem)));
 }
 
 std::vector<Detection> read_yolo_results(const Path& folder, const LabelSet& truth) {
-  const std::map<std::string, std::size_t> pictures = pictures_by_name(truth);
+  const PictureNames pictures(truth);
   std::vector<Detection> detections;
   for (const Path& file : text_files(folder)) {
     const std::size_t image = picture_of(file, pictures);

@@ -9,11 +9,17 @@
 namespace thermal {
 
 /// Reads a detector's output for the pictures of `truth`, in one of two formats:
-/// - a COCO results file, [{"image_id", "category_id", "bbox", "score"}, …]; other keys are ignored;
-/// - a folder of YOLO results, one file NAME.txt per picture, NAME being flat_name() or, if unique, the picture's own
-///   name, with lines "class cx cy w h score": the class from 0 in the order of the categories, the box's centre and
-///   size relative to the picture's. A picture without a file has no detections; files with other extensions are
-///   ignored.
+/// - a COCO results file, [{"image_id", "category_id", "bbox", "score"}, …], of any program or of Ultralytics
+///   (`save_json=True`). `image_id` is the id of a picture of the truth or, as text, its name; [`file_name`] must be of
+///   the same picture, and finds it where `image_id` is no id. Names are those of PictureNames. `category_id` is an
+///   id, or counts categories from 1 in the truth's order: so in a file whose `image_id`s are names or the stems of
+///   `file_name`, as Ultralytics writes them, if only that gives each a category, and wherever such a picture is found
+///   by `file_name` or a name beside one. Numbers that could be both, and differ, are an error. [`bbox_mode`] other
+///   than 1, and boxes that are fractions of their pictures (are_fractions(), MegaDetector), are errors; other keys are
+///   ignored, such as `segmentation`, `keypoints`, `area` and `id`;
+/// - a folder of YOLO results, one file NAME.txt per picture, NAME being one of PictureNames, with lines "class cx cy w h
+///   score": the class from 0 in the order of the categories, the box's centre and size relative to the picture's. A
+///   picture without a file has no detections; files with other extensions are ignored.
 /// The result may be empty.
 /// DataError "FILE: [3].score = null; expected …" or "FILE:LINE: …" for unknown pictures and categories, boxes and
 /// scores that are not finite, negative sizes, boxes that do not touch their picture, and other formats; IoError if

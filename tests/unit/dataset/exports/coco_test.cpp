@@ -56,6 +56,23 @@ TEST_CASE("A COCO file for each split has its pictures, labels and videos, and e
   CHECK(train["videos"].dump() == R"([{"id":1,"name":"east"}])");
 }
 
+TEST_CASE("Ids of any kind refer to each other, and an annotation without a box stays as it is") {
+  ExportInput input = two_splits();
+  input.set.images[3].id = "w/0";
+  input.set.labels[3].id = "d";
+  input.boxes_changed = true;
+  const std::string text =
+      R"({"annotations":[{"id":"d","image_id":"w/0","category_id":10,"bbox":[0,0,1,1]},)"
+      R"({"id":"e","image_id":"w/0","category_id":0}],"videos":[{"id":2.0,"name":"west"}],)"
+      R"("images":[{"id":"w/0","file_name":"a\\b.png","video_id":2}]})";
+  const Json document = json_of(plan_coco(input, text, "a.json", false), "annotations/val.json");
+  CHECK(document["annotations"].dump() ==
+        R"([{"id":"d","image_id":"w/0","category_id":10,"bbox":[10.0,2.0,4.0,4.0]},)"
+        R"({"id":"e","image_id":"w/0","category_id":0}])");
+  CHECK(document["images"][0]["file_name"] == "clips/west/ir8/000000.png");
+  CHECK(document["videos"].size() == 1);
+}
+
 TEST_CASE("Labels of another source become a COCO file") {
   ExportInput input = two_videos();
   input.set.labels[0].occluded = true;
@@ -86,10 +103,10 @@ TEST_CASE("A selection exports its frames with their labels") {
   const LabelSet taken = take_selected(
       input.set, taking({{.name = "east", .frames = {2, 3}}, {.name = "west", .frames = {0}}}), "s.json");
   REQUIRE(taken.images.size() == 3);
-  CHECK(taken.images[0].id == 12);
+  CHECK(taken.images[0].id == LabelId(12));
   CHECK(taken.videos.size() == 2);
   REQUIRE(taken.labels.size() == 2);
-  CHECK(taken.labels[0].id == 3);
+  CHECK(taken.labels[0].id == LabelId(3));
   CHECK(taken.labels[0].image == 0);
   CHECK(taken.labels[1].image == 2);
 }

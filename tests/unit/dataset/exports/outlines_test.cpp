@@ -159,7 +159,7 @@ TEST_CASE("A mask is read from run lengths, compressed or not") {
 }
 
 TEST_CASE("Masks that are none are faults") {
-  const std::string rule = "; expected run lengths of a mask, as Veldt writes them";
+  const std::string rule = "; expected run lengths of a mask, or polygons of three corners or more";
   const auto fault_of = [](const Json& segmentation) {
     return message_of<DataError>([&] { (void)mask_of({{"id", 7}, {"segmentation", segmentation}}); });
   };
@@ -170,6 +170,77 @@ TEST_CASE("Masks that are none are faults") {
         Json({{"size", {0, 4}}, {"counts", {0}}}), Json({{"size", "3"}, {"counts", {4}}}),
         Json({{"size", {60000, 60000}}, {"counts", {1, 3599999999}}})})
     CHECK(fault_of(code) == "annotation 7: segmentation = " + code.dump() + rule);
+}
+
+TEST_CASE("One polygon keeps its corners, and several are joined at the nearest ones") {
+  const Outline square = {{1, 1}, {3, 1}, {3, 3}, {1, 3}};
+  CHECK(joined_outline({square}, 20, 10) == square);
+  const Outline joined = joined_outline({square, {{9, 2.5}, {9, 5}, {5, 4}}}, 20, 10);
+  CHECK(joined == Outline{{1, 1}, {3, 1}, {3, 3}, {5, 4}, {9, 2.5}, {9, 5}, {5, 4}, {3, 3}, {1, 3}});
+}
+
+TEST_CASE("Polygons are cut to their picture") {
+  CHECK(ordered(joined_outline({{{-2, -2}, {8, -2}, {8, 4}, {-2, 4}}}, 6, 10)) ==
+        Outline{{0, 0}, {6, 0}, {6, 4}, {0, 4}});
+  CHECK(std::abs(doubled_area_px(joined_outline({{{2, -2}, {6, 2}, {2, 6}, {-2, 2}}}, 4, 4))) == 32);
+  CHECK(joined_outline({{{7, 1}, {9, 1}, {9, 3}}, {{1, 1}, {2, 1}, {2, 2}}}, 6, 10) ==
+        Outline{{1, 1}, {2, 1}, {2, 2}});
+  CHECK(joined_outline({{{7, 1}, {9, 1}, {9, 3}}}, 6, 10).empty());
+}
+
+TEST_CASE("Too many corners in several polygons are not compared") {
+  const Outline many(5000, {1, 1});
+  CHECK(joined_outline({many}, 20, 10).size() == 5000);
+  CHECK(joined_outline({many, {{1, 1}, {2, 1}, {2, 2}}}, 20, 10).empty());
+}
+
+namespace {
+
+/// A label with id "a" in a picture of 6 x 4 px.
+LabelSet one_label() {
+  LabelSet set;
+  set.images = {{.id = 1, .file = "a.png", .width_px = 6, .height_px = 4}};
+  set.labels.emplace_back().id = "a";
+  return set;
+}
+
+Json annotation(const Json& segmentation) { return {{"id", "a"}, {"segmentation", segmentation}}; }
+
+}  // namespace
+
+TEST_CASE("Polygons become run lengths, run lengths polygons, and what is as wanted stays") {
+  const Json polygon = Json::array({{1, 1, 3, 1, 3, 3, 1, 3}});
+  const Json runs = {{"size", {4, 6}}, {"counts", encode_coco_rle({5, 2, 2, 2, 13})}};
+  const Json listed = {{"size", {4, 6}}, {"counts", {5, 2, 2, 2, 13}}};
+  SegmentMaker to_runs(one_label(), Segmentation::rle);
+  CHECK(to_runs.segmentation_of(annotation(runs)) == runs);
+  CHECK(to_runs.segmentation_of(annotation(listed)) == listed);
+  CHECK_FALSE(to_runs.has_changed());
+  CHECK(to_runs.segmentation_of(annotation(polygon)) == runs);
+  CHECK(to_runs.has_changed());
+  SegmentMaker to_polygons(one_label(), Segmentation::polygon);
+  CHECK(to_polygons.segmentation_of(annotation(polygon)) == polygon);
+  CHECK_FALSE(to_polygons.has_changed());
+  CHECK(to_polygons.segmentation_of(annotation(runs)) == Json::array({{1, 1, 1, 3, 3, 3, 3, 1}}));
+  CHECK(to_polygons.outline_of(annotation(polygon)) == Outline{{1, 1}, {3, 1}, {3, 3}, {1, 3}});
+}
+
+TEST_CASE("Polygons that are none are faults") {
+  SegmentMaker segments(one_label(), Segmentation::rle);
+  const std::string rule = "; expected run lengths of a mask, or polygons of three corners or more";
+  for (const char* text : {"null", "[]", "[1,2,3,4,5,6]", "[[1,2,3,4]]", "[[1,2,3,4,5,6,7]]",
+                           "[[1,2,3,4,5,null]]", "[[1,2,3,4,5,1e+300]]", "\"a\"", "{\"counts\":\"05\"}"}) {
+    const Json given = annotation(parse_json(text, "text"));
+    const std::string message = "annotation \"a\": segmentation = " + std::string(text) + rule;
+    CHECK(message_of<DataError>([&] { (void)segments.segmentation_of(given); }) == message);
+    CHECK(message_of<DataError>([&] { (void)segments.outline_of(given); }) == message);
+  }
+  CHECK(message_of<DataError>([&] {
+          (void)segments.outline_of(annotation(Json::array({{7, 1, 9, 1, 9, 3}})));
+        }) ==
+        "annotation \"a\": segmentation = [[7,1,9,1,9,3]]; expected polygons inside their picture, with at "
+        "most 5000 "
+        "corners if there are several");
 }
 
 TEST_CASE("Figures of outlines are by size class") {

@@ -101,6 +101,27 @@ TEST_CASE("MOT: tracks of a clip are renumbered from 1 if needed") {
   CHECK(text_of(plan_mot(input), "train/west/gt/gt.txt") == "1,1,11,3,4,4,1,10,1\n");
 }
 
+TEST_CASE("MOT: classes are ids of 64 bits, or places where ids are texts") {
+  ExportInput input = two_videos();
+  input.set.categories[0].id = 3735928559;
+  CHECK(text_of(plan_mot(input), "classes.txt") == "3735928559 human\n8 giraffe\n10 vehicle\n");
+  CHECK(text_of(plan_mot(input), "train/east/gt/gt.txt").ends_with("2,7,3.5,2,1.25,3,1,3735928559,1\n"));
+  input.set.categories[0].id = "person";
+  CHECK(text_of(plan_mot(input), "classes.txt") == "1 human\n2 giraffe\n3 vehicle\n");
+  CHECK(text_of(plan_mot(input), "train/east/gt/gt.txt").ends_with("2,7,3.5,2,1.25,3,1,1,1\n"));
+}
+
+TEST_CASE("MOT and BIRDSAI need an order of time") {
+  ExportInput input = two_videos();
+  input.set.videos[0].in_time = false;
+  const std::string rule =
+      "east: nothing says in which order its pictures were taken; expected frame_index or frame_id of "
+      "images, or "
+      "names that differ in a number, as --format ";
+  CHECK(message_of<DataError>([&] { (void)plan_mot(input); }) == rule + "mot requires");
+  CHECK(message_of<DataError>([&] { (void)plan_birdsai(input); }) == rule + "birdsai requires");
+}
+
 TEST_CASE("MOT: labels without tracks, and videos that are not clips, are errors") {
   ExportInput input = two_videos();
   input.set.images[1].height_px = 12;
@@ -174,6 +195,21 @@ TEST_CASE("No file of an export is outside its folder, or where another one is")
         "that "
         "differ");
   CHECK(fault_of("a/..b/c..png") == "(no fault was thrown)");
+}
+
+TEST_CASE("Files that would replace each other are named by their pictures") {
+  ExportInput input = two_videos();
+  input.set.videos[0].name = "a/b";
+  input.set.videos[1].name = "a_b";
+  input.set.images[3].file = "clips/west/ir8/000000.jpg";
+  const auto fault_of = [&input](const ExportPlan& plan) {
+    return message_of<DataError>([&] { check_targets(plan, input.set); });
+  };
+  const std::string both =
+      "\"clips/east/ir8/000000.png\" and \"clips/west/ir8/000000.jpg\" would both become ";
+  CHECK(fault_of(plan_yolo(input, "/o")) == both + "labels/train/a_b_000000.txt; expected names that differ");
+  CHECK(fault_of(plan_mot(input)) == both + "train/a_b/gt/gt.txt; expected names that differ");
+  CHECK(fault_of(plan_birdsai(input)) == both + "annotations/a_b.csv; expected names that differ");
 }
 
 TEST_CASE("A video whose name is a path gets one folder, not several") {

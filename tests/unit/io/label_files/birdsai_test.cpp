@@ -81,6 +81,23 @@ TEST_CASE("Frames without a row are there if their picture is") {
   CHECK(set.labels[0].image == 1);
 }
 
+TEST_CASE("Two pictures of one frame are a fault") {
+  const TemporaryFolder folder;
+  const Path root = birdsai(folder, "1,1,1,1,2,2,0,1,0,0\n");
+  std::filesystem::create_directories(root / "images/night");
+  for (const char* name : {"night_0000000001.png", "night_1.jpg"})
+    (void)folder.file(std::string("real/images/night/") + name, "a picture");
+  CHECK(message_of<DataError>([&] { (void)read_birdsai(root); }) ==
+        (root / "images/night").string() +
+            ": night_0000000001.png and night_1.jpg are both frame 1; expected one picture per frame");
+}
+
+TEST_CASE("Objects of BIRDSAI have ids of 64 bits") {
+  const TemporaryFolder folder;
+  const LabelSet set = read_birdsai(birdsai(folder, "0,4294967295,1,1,2,2,0,1,0,0\n"));
+  CHECK(set.labels[0].track_id == std::optional<std::int64_t>(4294967295));
+}
+
 TEST_CASE("An invalid row of BIRDSAI is reported with its line") {
   CHECK(fault_in("0,1,1,1,2,2,0,1,0,0\n0,2,1,1,2,2,0,1,0\n") ==
         "2: 9 columns; expected 10: frame, object_id, x_min, y_min, w, h, class, species, occluded, noisy");

@@ -52,14 +52,14 @@ TEST_CASE("A COCO file becomes labels in the order of videos and frames") {
   CHECK(set.name == "truth");
   CHECK(set.root == folder.path().string());
   REQUIRE(set.images.size() == 2);
-  CHECK(set.images[0].id == 21);
+  CHECK(set.images[0].id == LabelId(21));
   CHECK(set.images[0].file == "clips/night/0.png");
   CHECK(set.images[1].frame_index == 1);
   CHECK(set.videos[0].frame_rate_hz == 9);
   REQUIRE(set.labels.size() == 3);
-  CHECK(set.labels[0].id == 5);
-  CHECK(set.labels[1].id == 6);
-  CHECK(set.labels[2].id == 4);
+  CHECK(set.labels[0].id == LabelId(5));
+  CHECK(set.labels[1].id == LabelId(6));
+  CHECK(set.labels[2].id == LabelId(4));
   CHECK(set.labels[2].image == 1);
   CHECK(set.categories[set.labels[0].category].name == "lion");
 }
@@ -93,7 +93,7 @@ TEST_CASE("Pictures without a video form a video per folder") {
   REQUIRE(set.videos.size() == 2);
   CHECK(set.videos[0].name == "b_x");
   CHECK(set.videos[1].name == "val");
-  CHECK(set.images[1].id == 3);
+  CHECK(set.images[1].id == LabelId(3));
   CHECK(set.images[1].width_px == 0);
   CHECK(flat_name(set, set.images[1]) == "b_x_1");
   CHECK(flat_name(set, set.images[2]) == "val_1");
@@ -143,9 +143,201 @@ TEST_CASE("Other files than COCO are reported") {
   CHECK(fault_in(R"({"images": [], "categories": []})") ==
         ": no list \"annotations\"; expected a COCO file with images, categories and annotations");
   CHECK(fault_in(R"({"images": [], "categories": [], "annotations": [{}]})") ==
-        ": annotations[0].bbox = nothing; expected one");
+        ": annotations[0].image_id = nothing; expected one");
   CHECK_THAT(fault_in("{\"images\": [,]}"), StartsWith(":1:13: not JSON: "));
   CHECK_THROWS_AS(read_coco("/nowhere/truth.json"), IoError);
+}
+
+// --- the order of time -----------------------------------------------------------------------------------------------
+
+namespace {
+
+/// Labels of a file with these images and annotations, of categories 0 "empty" and 1 "elephant".
+LabelSet read_family(const std::string& images, const std::string& annotations = "[]",
+                     const std::string& videos = R"([{"id": 1, "name": "vid"}])") {
+  const TemporaryFolder folder;
+  return read_coco(folder.file(
+      "truth.json", R"({"categories": [{"id": 0, "name": "empty"}, {"id": 1, "name": "elephant"}],)"
+                    R"("videos": )" +
+                        videos + R"(, "images": )" + images + R"(, "annotations": )" + annotations + "}"));
+}
+
+std::string family_fault(const std::string& images, const std::string& annotations = "[]") {
+  const std::string message = message_of<DataError>([&] { (void)read_family(images, annotations); });
+  return message.substr(message.find(": ") == std::string::npos ? 0 : message.find(": ") + 2);
+}
+
+std::vector<std::string> files_of(const LabelSet& set) {
+  std::vector<std::string> files;
+  for (const LabelImage& image : set.images) files.push_back(image.file);
+  return files;
+}
+
+using Names = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("Frames are in the order that CocoVID and COCO Camera Traps state") {
+  for (const std::string key : {"frame_index", "frame_id", "frame_num"}) {
+    const LabelSet set =
+        read_family(R"([{"id": 3, "file_name": "1.png", "video_id": 1, ")" + key +
+                    R"(": 20}, {"id": 1, "file_name": "2.png", "video_id": 1.0, ")" + key +
+                    R"(": 4.0}, {"id": 2, "file_name": "3.png", "video_id": 1, ")" + key + R"(": 5}])");
+    CHECK(files_of(set) == Names{"2.png", "3.png", "1.png"});
+    CHECK(set.images[0].frame_index == 4);
+    CHECK(set.images[2].frame_index == 20);
+    CHECK(set.videos[0].in_time);
+  }
+}
+
+TEST_CASE("Pictures of a sequence form a video") {
+  const LabelSet set =
+      read_family(R"([{"id": "b", "file_name": "s/2.png", "seq_id": "night", "frame_num": 1},)"
+                  R"({"id": "c", "file_name": "s/3.png", "seq_id": 7, "frame_num": 0},)"
+                  R"({"id": "a", "file_name": "s/1.png", "seq_id": "night", "frame_num": 0}])",
+                  "[]", "[]");
+  CHECK(files_of(set) == Names{"s/1.png", "s/2.png", "s/3.png"});
+  REQUIRE(set.videos.size() == 2);
+  CHECK(set.videos[0].name == "night");
+  CHECK(set.videos[1].name == "7");
+}
+
+TEST_CASE("Without keys the numbers in names order the frames") {
+  const LabelSet set = read_family(
+      R"([{"id": 1, "file_name": "v/f10.png"}, {"id": 2, "file_name": "v/f9.png"}, {"id": 3, "file_name": "v/f011.png"}])",
+      "[]", "[]");
+  CHECK(files_of(set) == Names{"v/f9.png", "v/f10.png", "v/f011.png"});
+  CHECK(set.images[2].frame_index == 2);
+  CHECK(set.videos[0].in_time);
+  CHECK_FALSE(
+      read_family(R"([{"id": 1, "file_name": "left.png"}, {"id": 2, "file_name": "right.png"}])", "[]", "[]")
+          .videos[0]
+          .in_time);
+  CHECK(read_family(R"([{"id": 1, "file_name": "left.png"}])", "[]", "[]").videos[0].in_time);
+}
+
+TEST_CASE("An order of time that contradicts itself is a fault") {
+  const auto with = [](const std::string& one, const std::string& other) {
+    return family_fault(R"([{"id": 1, "file_name": "1.png", "video_id": 1)" + one +
+                        R"(}, {"id": 2, "file_name": "2.png", "video_id": 1)" + other + "}]");
+  };
+  CHECK(with(R"(, "frame_id": 3)", R"(, "frame_id": 3)") ==
+        "images[1].frame_id = 3; expected a frame other than that of images[0] of the same video");
+  CHECK(with(R"(, "frame_id": 3)", "") ==
+        "images[1].frame_id = nothing; expected one, as images[0] of the same video has");
+  CHECK(with(R"(, "frame_index": 3, "frame_id": 4)", "") ==
+        "images[0].frame_id = 4; expected 3, the picture's frame_index");
+  CHECK(with(R"(, "frame_id": 1.5)", "") == "images[0].frame_id = 1.5; expected a whole number");
+}
+
+// --- ids -------------------------------------------------------------------------------------------------------------
+
+TEST_CASE("Ids arrive as they left: of 64 bits, as text, or as floats that are whole") {
+  const TemporaryFolder folder;
+  const LabelSet set = read_coco(folder.file("truth.json", R"({
+      "categories": [{"id": 3735928559, "name": "human"}, {"id": "ele", "name": "elephant"}],
+      "images": [{"id": "site1/0001", "file_name": "1.png"}, {"id": 9223372036854775807, "file_name": "2.png"}],
+      "annotations": [
+        {"id": "7f2c-a", "image_id": "site1/0001", "category_id": 3735928559.0, "bbox": [1, 2, 3, 4], "area": 12.0,
+         "iscrowd": 0.0, "instance_id": 4294967295},
+        {"id": -5, "image_id": 9223372036854775807, "category_id": "ele", "bbox": [1, 2, 3, 4]}]})"));
+  CHECK(set.categories[0].id == LabelId(3735928559));
+  CHECK(set.categories[1].id == LabelId("ele"));
+  CHECK(set.images[0].id == LabelId("site1/0001"));
+  CHECK(set.images[1].id == LabelId(9223372036854775807));
+  CHECK(set.labels[0].id == LabelId("7f2c-a"));
+  CHECK(set.labels[0].category == 0);
+  CHECK(set.labels[0].track_id == std::optional<std::int64_t>(4294967295));
+  CHECK(set.labels[1].image == 1);
+  CHECK(set.labels[1].category == 1);
+}
+
+TEST_CASE("Ids that are none, or rounded, are faults, and 1 is not \"1\"") {
+  CHECK(fault_with("/annotations/0/image_id", "20") ==
+        "annotations[0].image_id = \"20\"; expected the id of one of the images");
+  CHECK(fault_with("/images/1/id", 20.0) == "images[1].id = 20.0; expected an id other than that of entry 0");
+  CHECK(fault_with("/images/1/id", true) == "images[1].id = true; expected a whole number or text");
+  CHECK(fault_with("/images/1/id", 1e17) ==
+        "images[1].id = 1e+17; expected a whole number; past 2^53 without \".\" and \"e\", which round it");
+  CHECK(fault_with("/images/1/id", 1e300) == "images[1].id = 1e+300; expected a whole number");
+  CHECK(fault_with("/annotations/0/area", {600}) == "annotations[0].area = [600]; expected a finite number");
+}
+
+// --- pictures without targets ----------------------------------------------------------------------------------------
+
+TEST_CASE("An annotation called empty says that its picture has no targets") {
+  const std::string images =
+      R"([{"id": "a", "file_name": "1.png", "video_id": 1}, {"id": "b", "file_name": "2.png", "video_id": 1}])";
+  const std::string elephant = R"({"id": 1, "image_id": "a", "category_id": 1, "bbox": [1, 2, 3, 4]})";
+  const LabelSet set =
+      read_family(images, "[" + elephant + R"(, {"id": 2, "image_id": "b", "category_id": 0}])");
+  REQUIRE(set.labels.size() == 1);
+  CHECK(set.images.size() == 2);
+  REQUIRE(set.categories.size() == 1);
+  CHECK(set.categories[set.labels[0].category].name == "elephant");
+  CHECK(family_fault(images, "[" + elephant + R"(, {"id": 2, "image_id": "a", "category_id": 0}])") ==
+        "annotations[0].image_id = \"a\"; expected a picture that annotations[1] does not call empty");
+  CHECK(family_fault(images, R"([{"id": 2, "image_id": "b", "category_id": 1}])") ==
+        "annotations[0].bbox = nothing; expected one, or category 0, \"empty\"");
+}
+
+TEST_CASE("A category called empty that has boxes is one like others") {
+  const LabelSet set = read_family(R"([{"id": 1, "file_name": "1.png", "video_id": 1}])",
+                                   R"([{"id": 1, "image_id": 1, "category_id": 0, "bbox": [1, 2, 3, 4]}])");
+  CHECK(set.categories.size() == 2);
+  CHECK(set.labels[0].category == 0);
+}
+
+// --- keys that change the meaning of others --------------------------------------------------------------------------
+
+TEST_CASE("Keys of other formats that change the meaning are faults") {
+  CHECK(fault_with("/annotations/0/bbox_mode", 0) ==
+        "annotations[0].bbox_mode = 0; expected 1, a bbox of x, y, width and height in px, or none");
+  CHECK(fault_with("/annotations/0/bbox_mode", 1) == "(no fault was thrown)");
+  CHECK(fault_with("/annotations/0/score", 0.5) ==
+        "annotations[0].score = 0.5; expected 1 or none: labels, not the results of a detector");
+  CHECK(fault_with("/images/0/neg_category_ids", {2}) ==
+        "images[0].neg_category_ids = [2]; expected none: labels of LVIS are incomplete on purpose");
+  CHECK(fault_with("/images/0/detections", Json::array()) ==
+        "images[0].detections = []; expected labels of COCO: this is a file of MegaDetector's results");
+  CHECK(
+      family_fault(R"([{"id": 1, "file_name": "1.png", "video_id": 1}])",
+                   R"([{"id": 1, "image_id": 1, "category_id": 1, "bbox": [0.1, 0.2, 0.3, 0.4]}])") ==
+      "annotations[0].bbox = [0.1, 0.2, 0.3, 0.4]; expected px; all boxes of the file are fractions of their "
+      "pictures");
+}
+
+TEST_CASE("Other names of keys that are used") {
+  const LabelSet set = read_family(
+      R"([{"id": 1, "file_name": "1.png", "video_id": 1}])",
+      R"([{"id": 1, "image_id": 1, "category_id": 1, "bbox": [1, 2, 3, 4], "instance_id": 8, "mot_conf": 0}])",
+      R"([{"id": 1, "file_name": "MOT17-02", "fps": 30}])");
+  CHECK(set.videos[0].name == "MOT17-02");
+  CHECK(set.videos[0].frame_rate_hz == 30);
+  CHECK(set.labels[0].track_id == std::optional<std::int64_t>(8));
+  CHECK(set.labels[0].ignore);
+}
+
+// --- names of pictures -----------------------------------------------------------------------------------------------
+
+TEST_CASE("Names of Windows are names in folders") {
+  const LabelSet set = read_family(
+      R"([{"id": 1, "file_name": "a\\b\\1.png"}, {"id": 2, "file_name": "a_b\\1.png"}])", "[]", "[]");
+  CHECK(set.from_windows);
+  CHECK(files_of(set) == Names{"a/b/1.png", "a_b/1.png"});
+  REQUIRE(set.videos.size() == 2);  // one folder each, though both would be called a_b
+  CHECK(set.videos[0].name == "a/b");
+  CHECK(set.videos[1].name == "a_b");
+}
+
+TEST_CASE("Roundabout names are names in one folder") {
+  const LabelSet set = read_family(
+      R"([{"id": 1, "file_name": "./a/1.png"}, {"id": 2, "file_name": "a//2.png"}, {"id": 3, "file_name": "./3.png"}])",
+      "[]", "[]");
+  CHECK(set.videos.size() == 2);
+  CHECK(flat_name(set, set.images[0]) == "a_1");
+  CHECK(flat_name(set, set.images[1]) == "a_2");
+  CHECK(flat_name(set, set.images[2]) == "truth_3");
 }
 
 }  // namespace coco_file_test

@@ -110,7 +110,7 @@ TEST_CASE("Unknown pictures and categories are named") {
         "found.json: [0].category_id = \"elefant\"; expected one of 1 (human), 5 (elephant); did you mean "
         "\"elephant\"?");
   CHECK(fault_of(R"([{"image_id": "12", "category_id": 5, "bbox": [1, 2, 3, 4], "score": 1}])") ==
-        "found.json: [0].image_id = \"12\"; expected a whole number");
+        "found.json: [0].image_id = \"12\"; expected the id or the name of one of the truth's pictures");
 }
 
 TEST_CASE("Scores that are not finite numbers are named") {
@@ -245,6 +245,148 @@ TEST_CASE("Missing results cannot be read") {
   const std::string file = (folder / "found.json").string();
   CHECK(message_of<IoError>([&] { (void)read_detections(file, truth()); }) ==
         "cannot read " + file + ": No such file or directory");
+}
+
+// --- names instead of ids, as Ultralytics writes them -----------------------------------------------------------------
+
+namespace {
+
+/// Three pictures of a folder and one of another, ids from 0, and three categories of which the ids have a gap.
+LabelSet folders_truth() {
+  LabelSet set;
+  set.categories = {{1, "human"}, {2, "elephant"}, {5, "zebra"}};
+  set.videos = {{"night"}, {"day"}};
+  const std::vector<std::string> files = {"night/0001.png", "night/0002.png", "night/0003.png",
+                                          "day/0001.png"};
+  for (std::size_t i = 0; i < files.size(); ++i)
+    set.images.push_back({.id = static_cast<std::int64_t>(i),
+                          .file = files[i],
+                          .width_px = 640,
+                          .height_px = 512,
+                          .video = i < 3 ? std::size_t{0} : std::size_t{1}});
+  return set;
+}
+
+/// A results file of entries with these keys, each beside a box and a score.
+std::string entries(const std::vector<std::string>& keys) {
+  std::string text;
+  for (const std::string& key : keys)
+    text += (text.empty() ? "[" : ",\n") + ("{" + key + R"(, "bbox": [1, 2, 3, 4], "score": 0.9})");
+  return text + "]";
+}
+
+std::vector<Detection> read_entries(const std::vector<std::string>& keys,
+                                    const LabelSet& set = folders_truth()) {
+  const TemporaryFolder folder;
+  return read_detections(folder.file("found.json", entries(keys)), set);
+}
+
+std::string fault_of_entries(const std::vector<std::string>& keys, const LabelSet& set = folders_truth()) {
+  const std::string message = message_of<DataError>([&] { (void)read_entries(keys, set); });
+  const std::size_t name = message.find("found.json: ");
+  return name == std::string::npos ? message : message.substr(name + 12);
+}
+
+}  // namespace
+
+TEST_CASE("Pictures are found by names, and categories by their places then") {
+  const auto found =
+      read_entries({R"("image_id": "night_0001", "file_name": "night_0001.png", "category_id": 1)",
+                    R"("image_id": "0002", "file_name": "0002.png", "category_id": 2)",
+                    R"("image_id": "day_0001", "file_name": "sets\\day\\0001.jpg", "category_id": 3)",
+                    R"("image_id": "night/0003", "category_id": 3)",
+                    R"("image_id": 77, "file_name": "0003.png", "category_id": 3)"});
+  REQUIRE(found.size() == 5);
+  CHECK((found[0].image == 0 && found[1].image == 1 && found[2].image == 3));
+  CHECK((found[3].image == 2 && found[4].image == 2));
+  CHECK((found[0].category == 0 && found[1].category == 1 && found[2].category == 2));
+}
+
+TEST_CASE("image_id and file_name must be of one picture") {
+  CHECK(fault_of_entries({R"("image_id": 1, "file_name": "0001.png", "category_id": 1)"}) ==
+        "[0].image_id = 1; expected the id of its file_name, \"0001.png\", and not of night/0002.png");
+  CHECK(fault_of_entries({R"("image_id": "night_0002", "file_name": "night_0001.png", "category_id": 1)"}) ==
+        "[0].image_id = \"night_0002\"; expected the id of its file_name, \"night_0001.png\", and not of "
+        "night/0002.png");
+  CHECK(fault_of_entries({R"("image_id": 0, "file_name": "day/0001.png", "category_id": 1)"}) ==
+        "[0].image_id = 0; expected the id of its file_name, \"day/0001.png\", and not of night/0001.png");
+  CHECK(
+      read_entries({R"("image_id": 3, "file_name": "/data/sets/day/0001.png", "category_id": 5)"})[0].image ==
+      3);
+}
+
+TEST_CASE("Names that are none, or of two pictures, are faults") {
+  CHECK(fault_of_entries({R"("image_id": "nigth_0001", "category_id": 1)"}) ==
+        "[0].image_id = \"nigth_0001\"; expected the id or the name of one of the truth's pictures; did you "
+        "mean "
+        "\"night_0001\"?");
+  CHECK(fault_of_entries({R"("image_id": 9, "file_name": "0001.png", "category_id": 1)"}) ==
+        "[0].file_name = \"0001.png\"; expected the id or the name of one of the truth's pictures");
+  LabelSet set = folders_truth();
+  set.images[3].file = "night_0001.png";
+  set.images[2].file = "a/night_0001.png";
+  set.videos[1].name = set.videos[0].name = "x";
+  CHECK(fault_of_entries({R"("image_id": "x_night_0001", "category_id": 1)"}, set) ==
+        "[0].image_id: \"x_night_0001\" is both a/night_0001.png and night_0001.png; expected names that "
+        "differ");
+}
+
+TEST_CASE("Categories are ids where pictures are") {
+  CHECK(read_entries({R"("image_id": 3, "category_id": 5)"})[0].category == 2);
+  CHECK(fault_of_entries({R"("image_id": 3, "category_id": 3)"}) ==
+        "[0].category_id = 3; expected one of 1 (human), 2 (elephant), 5 (zebra)");
+  // A name that only counts places, and one that has ids.
+  CHECK(
+      fault_of_entries({R"("image_id": "0002", "file_name": "0002.png", "category_id": 5)"}) ==
+      "[0].category_id = 5; expected one of 1 (human), 2 (elephant), 3 (zebra), counted as Ultralytics does");
+  CHECK(read_entries({R"("image_id": "0002", "category_id": 5)"})[0].category == 2);
+  // The stem of the name is the id.
+  CHECK(read_entries({R"("image_id": 2, "file_name": "0002.png", "category_id": 3)"},
+                     [] {
+                       LabelSet set = folders_truth();
+                       for (LabelImage& image : set.images) image.id = std::get<std::int64_t>(image.id) + 1;
+                       return set;
+                     }())[0]
+            .category == 2);
+}
+
+TEST_CASE("Categories that may be ids or places are refused, unless both are the same") {
+  LabelSet set = folders_truth();
+  set.categories = {{0, "human"}, {1, "elephant"}};
+  CHECK(fault_of_entries({R"("image_id": "0002", "category_id": 1)"}, set) ==
+        "[0].category_id = 1; expected a number of one meaning: it is the id of elephant and, as Ultralytics "
+        "counts, "
+        "human");
+  CHECK(read_entries({R"("image_id": "0002", "file_name": "0002.png", "category_id": 1)"}, set)[0].category ==
+        0);
+  CHECK(read_entries({R"("image_id": "0002", "category_id": 1)", R"("image_id": "0003", "category_id": 0)"},
+                     set)[0]
+            .category == 1);
+  CHECK(read_entries({R"("image_id": "0002", "category_id": 1)"})[0].category == 0);
+}
+
+TEST_CASE("Ids that are texts or floats are ids") {
+  LabelSet set = folders_truth();
+  set.images[1].id = "site1/0002";
+  set.categories[1].id = "ele";
+  const auto found = read_entries(
+      {R"("image_id": "site1/0002", "category_id": "ele")", R"("image_id": 3.0, "category_id": 5.0)"}, set);
+  CHECK((found[0].image == 1 && found[0].category == 1));
+  CHECK((found[1].image == 3 && found[1].category == 2));
+  CHECK(fault_of_entries({R"("image_id": 1.5, "category_id": 5)"}) ==
+        "[0].image_id = 1.5; expected a whole number");
+}
+
+TEST_CASE("Boxes of other kinds are refused by name") {
+  CHECK(fault_of(R"([{"image_id": 12, "category_id": 5, "score": 0.5, "bbox": [0.1, 0.2, 0.3, 0.4]}])")
+            .ends_with("found.json: all boxes are fractions of their pictures; expected boxes in px"));
+  CHECK(fault_of(
+            R"([{"image_id": 12, "category_id": 5, "score": 0.5, "bbox": [1, 2, 3, 4], "bbox_mode": 0}])") ==
+        "found.json: [0].bbox_mode = 0; expected 1, a bbox of x, y, width and height in px, or none");
+  CHECK(
+      fault_of(
+          R"({"images": [{"file": "1.png", "detections": []}], "detection_categories": {"1": "animal"}})") ==
+      "found.json: results of MegaDetector, whose boxes are fractions of pictures; expected COCO's");
 }
 
 }  // namespace detections_files_test

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "labels/label_set.h"
+
+namespace thermal {
+
+/// "night/000000" of "night\000000.png".
+[[nodiscard]] std::string name_without_ending(std::string name);
+
+/// Pictures of labels by the names that results of a detector may use: flat_name(), the name with its folders, and if it
+/// is unique the name alone; with an ending or without, with "/" or "\" between folders.
+class PictureNames {
+ public:
+  /// `set` must outlive this.
+  explicit PictureNames(const LabelSet& set);
+
+  /// Empty if it names no picture. DataError, beginning with `where`, if it names two.
+  [[nodiscard]] std::optional<std::size_t> find(const std::string& name, const std::string& where) const;
+
+  /// Whether a name, perhaps with more or fewer folders, is one of this picture.
+  [[nodiscard]] bool is_name_of(const std::string& name, std::size_t image) const;
+
+  /// "; did you mean "x"?", or empty without a near miss.
+  [[nodiscard]] std::string suggestion_for(const std::string& name) const;
+
+ private:
+  struct Place {
+    std::size_t image = 0;
+    std::optional<std::size_t> other = {};  ///< another picture of this name
+  };
+  using Places = std::map<std::string, Place>;
+
+  static void add(Places& places, const std::string& name, std::size_t image);
+
+  const LabelSet& set_;
+  Places places_;
+};
+
+}  // namespace thermal
