@@ -124,6 +124,23 @@ void add_altitudes(const FrameRequest& request, FrameSource& source) {
   }
 }
 
+/// Of the labels' pictures with a frame's name, the one that is in its folder, if there are several.
+std::size_t picture_of_frame(const SourceFrame& frame, const std::vector<std::size_t>& named,
+                             const LabelSet& set, const Path& labels) {
+  if (named.size() == 1) return named.front();
+  const std::string file = std::filesystem::absolute(frame.file).lexically_normal().string();
+  std::vector<std::string> names;
+  std::vector<std::size_t> here;
+  for (const std::size_t k : named) {
+    names.push_back(set.images[k].file);
+    if (file.ends_with("/" + Path(names.back()).lexically_normal().string())) here.push_back(k);
+  }
+  if (here.size() == 1) return here.front();
+  throw DataError(fmt::format("{}: {} may be any of {}; expected one picture of this name, or one in {}",
+                              labels.string(), frame.name, list_names(names),
+                              frame.file.parent_path().string()));
+}
+
 void add_boxes(const FrameRequest& request, FrameSource& source) {
   const Path file = labels_of(request);
   if (file.empty()) {
@@ -132,14 +149,14 @@ void add_boxes(const FrameRequest& request, FrameSource& source) {
   }
   const LabelSet set = read_coco(file);
   const auto boxes = boxes_of(set, request.category);
-  std::unordered_map<std::string, std::size_t> images;
+  std::unordered_map<std::string, std::vector<std::size_t>> images;
   for (std::size_t k = 0; k < set.images.size(); ++k)
-    images[Path(set.images[k].file).filename().string()] = k;
+    images[Path(set.images[k].file).filename().string()].push_back(k);
   std::size_t named = 0;
   for (SourceFrame& frame : source.frames) {
     const auto image = images.find(frame.name);
     if (image == images.end()) continue;
-    frame.boxes = boxes[image->second];
+    frame.boxes = boxes[picture_of_frame(frame, image->second, set, file)];
     ++named;
   }
   if (named == 0)

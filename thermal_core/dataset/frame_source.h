@@ -51,8 +51,9 @@ struct FrameSource {
 
 /// Lists the frames of a source and reads its labels; opens no picture.
 /// ConfigError for labels and patterns of names for a Veldt dataset, and for drawn boxes of a folder; DataError for a
-/// folder without pictures, a name that does not match the pattern, labels that name none of the frames, and those of
-/// read_labels() and read_coco(); IoError if the source does not exist.
+/// folder without pictures, a name that does not match the pattern, labels that name none of the frames or have several
+/// pictures for one and none in its folder, and those of read_labels() and read_coco(); IoError if the source does not
+/// exist.
 [[nodiscard]] FrameSource read_frame_source(const FrameRequest& request);
 
 }  // namespace thermal
