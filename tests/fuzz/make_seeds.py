@@ -75,6 +75,23 @@ COCO = {
         }
     ],
 }
+CAMERA_TRAPS = {
+    "images": [
+        {"id": "s/2", "file_name": "s\\2.png", "width": 8, "height": 6, "seq_id": "night", "frame_num": 1},
+        {"id": "s/1", "file_name": "s\\1.png", "width": 8, "height": 6, "seq_id": "night", "frame_num": 0},
+    ],
+    "categories": [{"id": 0, "name": "empty"}, {"id": 1.0, "name": "lion"}],
+    "annotations": [
+        {
+            "id": "a",
+            "image_id": "s/1",
+            "category_id": 1,
+            "bbox": [1, 2, 3.5, 4],
+            "segmentation": [[1, 2, 4.5, 2, 4.5, 6, 1, 6], [0, 0, 1, 0, 1, 1]],
+        },
+        {"id": "b", "image_id": "s/2", "category_id": 0},
+    ],
+}
 DRAWS = {
     "name": "d",
     "seed": 1,
@@ -96,9 +113,20 @@ DRAWS = {
     ],
 }
 RESULTS = [{"image_id": 1, "category_id": 7, "bbox": [1, 2, 30.5, 40], "score": 0.5}]
+NAMED_RESULTS = [
+    {
+        "image_id": "video_0",
+        "file_name": "video_0.png",
+        "category_id": 2,
+        "bbox": [1, 2, 30.5, 40],
+        "score": 0.5,
+    },
+    {"image_id": "1", "file_name": "video\\1.jpg", "category_id": 1, "bbox": [1, 2, 30.5, 40], "score": 0.5},
+]
 TEXTS = {
     "birdsai/rows.csv": "4,2,10,20,5,6,1,-1,0,0\r\n4,1,-3,0,8,9,0,1,1,0\n\n0, 1,1,2,3,4,0,-1,0,1\n",
     "coco/small.json": json.dumps(COCO),
+    "coco/camera_traps.json": json.dumps(CAMERA_TRAPS),
     "config/settings.txt": "seed=3\nseason=summer\nsensor.preset=boson_640_14mm\nclips[1].frames=1\n"
     'weather.air_temperature_k=290\nsensor={"model": "physical"}',
     "config/tiny.json": '{"name": "t", "seed": 1, "clips": [{"id": "a", "season": "winter", "frames": 2,'
@@ -106,6 +134,7 @@ TEXTS = {
     ' "area_m": [0, 0, 9, 9], "heading_deg": 0}}]}',
     "config/draws.json": json.dumps(DRAWS),
     "detections/coco.json": json.dumps(RESULTS),
+    "detections/names.json": json.dumps(NAMED_RESULTS),
     "detections/yolo.txt": "0 0.5 0.5 0.1 0.2 0.9\r\n1 0 1 1 1 1e-3\n",
     "manifest/small.json": json.dumps(MANIFEST),
     "manifest/sequence.json": json.dumps(
@@ -125,10 +154,11 @@ WORDS = {
     "calibration": "%YAML:1.0 --- !!opencv-matrix camera_matrix cameraMatrix Camera_Matrix distortion_coefficients"
     " dist_coeffs image_width image_height cameraResolution rows cols dt data fisheye_model distortion_model plumb_bob"
     " rectification_matrix M1 type_id opencv-matrix .Nan .Inf opencv_storage <data> </data> !!binary $base64$".split(),
-    "coco": ["images", "annotations", "categories", "videos", "image_id", "category_id", "bbox", "file_name"],
+    "coco": "images annotations categories videos image_id category_id bbox file_name seq_id frame_id frame_index"
+    " frame_num empty segmentation counts size instance_id score bbox_mode".split(),
     "dataset": "../ ../../secret ../secret/key.png /dev/zero /etc/passwd @sum clips/one ir8/000000.png links files id"
     " record_sha256 file_name status done".split(),
-    "detections": ["image_id", "category_id", "bbox", "score", "1e308", "-1e308"],
+    "detections": ["image_id", "category_id", "bbox", "score", "file_name", "bbox_mode", "1e308", "-1e308"],
     "exr_passes": "channels chlist compression dataWindow displayWindow box2i lineOrder pixelAspectRatio float v2f name"
     " screenWindowCenter screenWindowWidth string tiles tiledesc type scanlineimage tiledimage chunkCount int version"
     " cryptomatte/ /manifest /name /hash /conversion IndexOB.X IndexMA.X Depth.Z Normal.X Scene. Actors. .R .G .B .A"
