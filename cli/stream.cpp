@@ -67,6 +67,7 @@ std::string words_of(const thermal::StreamedClip& clip) {
       clip.clip, clip.sent, clip.frames(), clip.frame_rate_hz, clip.late, clip.dropped, 1e3 * late.median_s,
       1e3 * late.high_s, 1e3 * late.most_s);
   if (clip.lines_missed > 0) words += fmt::format("; {} lines missed", clip.lines_missed);
+  if (clip.clients_refused > 0) words += fmt::format("; {} clients refused", clip.clients_refused);
   if (!clip.fault.empty()) words += "; " + clip.fault;
   return words;
 }
@@ -89,7 +90,7 @@ int run_stream(const StreamArguments& options, const CommonOptions& common) {
         if (!common.quiet) print_error("{}\n", words_of(clip));
       },
       [&](const thermal::StreamedClip& clip) {
-        any_lost = any_lost || clip.late + clip.dropped + clip.lines_missed > 0;
+        any_lost = any_lost || clip.late + clip.dropped + clip.lines_missed + clip.clients_refused > 0;
         if (common.quiet) return;
         print("{}\n", words_of(clip));
         std::fflush(stdout);  // whoever reads a pipe hears of each clip at once
@@ -106,7 +107,8 @@ void add_stream(CLI::App& app, Session& session) {
                   "Send what the cameras of a config see, live: video, and a line of JSON a frame");
   command->footer(
       "Frames that cannot be made in time are left out, and counted, as are frames and lines that a\n"
-      "receiver misses; exit code 3 says that there were some.\n"
+      "receiver misses, and clients beyond 16, which are closed at once; exit code 3 says that there were\n"
+      "some.\n"
       "Receive the video with ffplay udp://127.0.0.1:5600, the lines with nc 127.0.0.1 5601. To push to\n"
       "RTSP, a server must run, or ffplay -rtsp_flags listen rtsp://127.0.0.1:8554/veldt.\n"
       "Example: veldt stream configs/demo.json --video udp://127.0.0.1:5600 --labels tcp://127.0.0.1:5601 "
@@ -123,7 +125,7 @@ void add_stream(CLI::App& app, Session& session) {
       ->type_name("URL");
   command
       ->add_option("--labels", options->labels,
-                   "Where lines go: tcp://HOST:PORT, a server for any number of clients, or udp://HOST:PORT")
+                   "Where lines go: tcp://HOST:PORT, a server for 16 clients, or udp://HOST:PORT")
       ->type_name("URL");
   command->add_option("--clips", options->clips, "Clips to send; all of them if not given")
       ->delimiter(',')

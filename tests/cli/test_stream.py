@@ -56,7 +56,8 @@ STATE = re.compile(r"side: (\d+) of (\d+) frames sent at 2 Hz, (\d+) left out, (
 
 
 def test_a_client_gets_the_lines_and_the_video_has_the_frames(planned):
-    """Two frames a clip, again and again, until the client, which may come late, has the lines of several clips."""
+    """Two frames a clip, again and again, until the client, which may come late, has the lines of several clips, in
+    the end beside more clients than are served."""
     port, video = free_port(socket.SOCK_STREAM), Arrivals()
     run = planned.start(
         "stream", "plan", "--clips", "side", "--rate", "2", "--repeat",
@@ -64,10 +65,16 @@ def test_a_client_gets_the_lines_and_the_video_has_the_frames(planned):
     )  # fmt: skip
     with _connected(port) as client, client.makefile() as lines:
         told = [json.loads(lines.readline()) for _ in range(6)]
+        others = [socket.create_connection(("127.0.0.1", port)) for _ in range(20)]
+        assert [other.recv(1) for other in others] == 15 * [b"{"] + 5 * [b""]
+        told += [json.loads(lines.readline()) for _ in range(6)]
         interrupt(run.pid, signal.SIGINT)
         out, err = run.communicate(timeout=PATIENCE_S)
         told += map(json.loads, lines)
     assert (run.returncode, err) == (130, "")
+    for other in others:
+        other.close()
+    assert sum(map(int, re.findall("; ([0-9]+) clients refused\n", out))) == 5
     states = [tuple(map(int, STATE.fullmatch(line).groups())) for line in out.splitlines()]
     assert {count for _, count, _, _ in states[:-1]} == {2}
     assert len(_decoded(video.all(), _size(planned))) == sum(sent for sent, *_ in states)

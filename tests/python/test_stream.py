@@ -141,3 +141,15 @@ def test_faults_have_the_words_of_the_command():
         stream.send(np.zeros((512, 640), np.uint8), {}, 5)
         with pytest.raises(ConfigError, match="^number = 5; expected 6 or more$"):
             stream.send(np.zeros((512, 640), np.uint8), {}, 5)
+        for number in (6.5, "6"):
+            with pytest.raises(ConfigError, match=f"^number = {number}; expected 6 or more$"):
+                stream.send(np.zeros((512, 640), np.uint8), {}, number)
+        with pytest.raises(ConfigError, match="^number = 1099511627777; expected 1099511627776 at most$"):
+            stream.send(np.zeros((512, 640), np.uint8), {}, 2**40 + 1)
+        deep = []
+        for _ in range(100_000):
+            deep = [deep]
+        for value in (np.zeros(3), deep):
+            with pytest.raises(ConfigError, match="^line: .*; expected what JSON can hold$"):
+                stream.send(np.zeros((512, 640), np.uint8), {"value": value})
+        assert stream.clients_refused == 0

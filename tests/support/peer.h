@@ -50,6 +50,19 @@ class Peer {
 
   void be_served() const { REQUIRE(listen(number_, 1) == 0); }
 
+  /// Bytes that the kernel took for the other side, until it took no more: hardly any are kept on this side.
+  [[nodiscard]] std::size_t send_until_full() const {
+    const int least = 4096;
+    setsockopt(number_, SOL_SOCKET, SO_SNDBUF, &least, sizeof least);
+    const std::string part(1000, 'x');
+    std::size_t bytes = 0;
+    for (;;) {
+      const ssize_t sent = send(number_, part.data(), part.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+      if (sent <= 0) return bytes;
+      bytes += static_cast<std::size_t>(sent);
+    }
+  }
+
   /// Waits for at least so many bytes, or for the end.
   [[nodiscard]] std::string read(std::size_t bytes) const {
     std::string text;

@@ -44,6 +44,8 @@ void add_stream(py::module_& module) {
           },
           py::arg("ir8"), py::arg("time"), py::arg("line"))
       .def("close", &FrameStream::close, py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("clients_refused",
+                             [](const FrameStream& stream) { return stream.counts().clients_refused; })
       .def_property_readonly("counts", [](const FrameStream& stream) {
         const FrameStream::Counts counts = stream.counts();
         return py::make_tuple(counts.sent, counts.dropped, counts.waiting, counts.lines_missed, counts.fault);

@@ -168,6 +168,7 @@ bool FrameStream::send(const Plane<std::uint8_t>& frame, std::int64_t time, std:
   if (impl_->lines && !impl_->closing) {
     impl_->lines->send(line);
     counts.lines_missed = impl_->lines->counts().missed;
+    counts.clients_refused = impl_->lines->counts().refused;
   }
   if (impl_->closing || impl_->waiting.size() >= kMostWaiting) {
     ++counts.dropped;

@@ -36,10 +36,11 @@ class FrameStream {
  public:
   struct Counts {
     std::int64_t sent = 0;
-    std::int64_t dropped = 0;       ///< no room, or no receiver
-    std::int64_t waiting = 0;       ///< neither yet; at most a few
-    std::int64_t lines_missed = 0;  ///< LineSender::Counts::missed
-    std::string fault = {};         ///< why the last frame without a receiver had none; stays
+    std::int64_t dropped = 0;          ///< no room, or no receiver
+    std::int64_t waiting = 0;          ///< neither yet; at most a few
+    std::int64_t lines_missed = 0;     ///< LineSender::Counts::missed
+    std::int64_t clients_refused = 0;  ///< LineSender::Counts::refused
+    std::string fault = {};            ///< why the last frame without a receiver had none; stays
   };
 
   /// `stopped`: asked until the receiver has answered; true ends the wait with an IoError.

@@ -144,6 +144,7 @@ class Flight {
     streamed_.sent = static_cast<int>(now.sent - before_.sent);
     streamed_.dropped = static_cast<int>(now.dropped - before_.dropped);
     streamed_.lines_missed = now.lines_missed - before_.lines_missed;
+    streamed_.clients_refused = now.clients_refused - before_.clients_refused;
     streamed_.fault = streamed_.dropped > 0 ? now.fault : "";
   }
 

@@ -30,6 +30,7 @@ struct StreamedClip {
   int late = 0;     ///< left out, because those before took too long
   int dropped = 0;  ///< made, but not sent
   std::int64_t lines_missed = 0;
+  std::int64_t clients_refused = 0;
   Lateness lateness = {};
   std::string fault = {};  ///< of FrameStream::Counts
 

@@ -20,6 +20,8 @@ namespace thermal {
 namespace {
 
 constexpr std::size_t kMostWaiting = std::size_t{1} << 20U;  // [bytes] for one client
+constexpr int kMostAccepted = 64;                            // for one line
+constexpr int kUnreadBytes = 4096;                           // that the kernel keeps of what a client sends
 
 class Socket {
  public:
@@ -114,15 +116,21 @@ struct LineSender::Impl {
     }
     const int yes = 1;  // a server that ended a moment ago does not hold the port
     setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    setsockopt(socket.number(), SOL_SOCKET, SO_RCVBUF, &kUnreadBytes,
+               sizeof kUnreadBytes);  // clients inherit it
     if (bind(socket.number(), found->ai_addr, found->ai_addrlen) != 0 || listen(socket.number(), 8) != 0)
       throw failure(address, "listen at");
   }
 
-  void accept_all() {
-    for (;;) {
+  /// Whoever cannot be accepted now, because there are no descriptors left, waits for the next line.
+  void accept_clients() {
+    for (int k = 0; k < kMostAccepted; ++k) {
       Socket client(accept4(socket.number(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
       if (client.number() < 0) return;
-      clients.push_back({.socket = std::move(client)});
+      if (clients.size() < kMostClients)
+        clients.push_back({.socket = std::move(client)});
+      else
+        ++counts.refused;
     }
   }
 
@@ -134,7 +142,7 @@ struct LineSender::Impl {
   }
 
   void send_to_clients(std::string_view line) {
-    accept_all();
+    accept_clients();
     for (Client& client : clients) ++(client.queue(line) ? counts.sent : counts.missed);
     std::erase_if(clients, [](Client& client) { return !client.push(); });
     counts.clients = static_cast<int>(clients.size());

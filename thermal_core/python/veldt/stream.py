@@ -5,9 +5,13 @@ from __future__ import annotations
 import json
 from typing import Any, NamedTuple
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 import veldt._core as _core
+
+
+_LAST = 2**40  # 145 years at 240 Hz: times in a video's own ticks stay whole numbers of 64 bits
 
 
 class StreamCounts(NamedTuple):
@@ -45,7 +49,7 @@ class Stream:
         allow_remote: bool = False,
     ) -> None:
         """video_url: udp://HOST:PORT (MPEG-TS) or rtsp://HOST:PORT/PATH, whose server must run. labels_url:
-        tcp://HOST:PORT, a server for any number of clients, or udp://HOST:PORT, a datagram a line. allow_remote: hosts
+        tcp://HOST:PORT, a server for 16 clients, or udp://HOST:PORT, a datagram a line. allow_remote: hosts
         may be other than this machine. Sides of 1 to 8192 px, 0.1 to 240 Hz.
 
         ConfigError for another URL, rate or size; IoError if nobody answers within 5 s, or the server's port is in use.
@@ -57,17 +61,21 @@ class Stream:
 
     def send(self, ir8: ArrayLike, line: dict[str, Any], number: int | None = None) -> bool:
         """Hand over a frame (height, width) of 8 bits and what its line says. number: in frames since the stream began,
-        later than the last; None: the next. False if there was no room; the line leaves nevertheless.
+        later than the last, 2^40 at most; None: the next. False if there was no room; the line leaves nevertheless.
 
-        ConfigError for another size, a number that has passed, and NaN or infinity in the line.
+        ConfigError for another size, another number, and for NaN, infinity and what JSON cannot hold in the line.
         """
         number = self._next if number is None else number
-        if number < self._next:
+        if not isinstance(number, (int, np.integer)) or number < self._next:
             raise _core.ConfigError(f"number = {number}; expected {self._next} or more")
+        if number > _LAST:
+            raise _core.ConfigError(f"number = {number}; expected {_LAST} at most")
         try:
             text = json.dumps(line, allow_nan=False)
         except ValueError as error:
             raise _core.ConfigError(f"line: {error}; expected finite numbers") from error
+        except (TypeError, RecursionError) as error:
+            raise _core.ConfigError(f"line: {error}; expected what JSON can hold") from error
         taken = self._stream.send(ir8, number, text)
         self._next = number + 1
         return taken
@@ -76,6 +84,11 @@ class Stream:
     def counts(self) -> StreamCounts:
         """Up to now."""
         return StreamCounts(*self._stream.counts)
+
+    @property
+    def clients_refused(self) -> int:
+        """Clients of the lines that were closed at once, because 16 were connected."""
+        return self._stream.clients_refused
 
     def close(self) -> None:
         """Send what waits, two seconds at most, and end the stream."""

@@ -1,8 +1,12 @@
 #include "io/net/line_sender.h"
 
 #include <chrono>
+#include <deque>
 #include <string>
 #include <thread>
+
+#include <fcntl.h>
+#include <sys/resource.h>
 
 #include "base/error.h"
 #include "support/catch.h"
@@ -20,6 +24,24 @@ NetAddress at(const char* scheme, std::uint16_t port) {
 }
 
 std::uint16_t free_port() { return Peer(SOCK_STREAM).take_port(); }
+
+/// While it lives, the process can open nothing more.
+class NoDescriptors {
+ public:
+  NoDescriptors() {
+    REQUIRE(getrlimit(RLIMIT_NOFILE, &before_) == 0);
+    const int next = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    close(next);
+    const rlimit none = {.rlim_cur = static_cast<rlim_t>(next), .rlim_max = before_.rlim_max};
+    REQUIRE(setrlimit(RLIMIT_NOFILE, &none) == 0);
+  }
+  ~NoDescriptors() { setrlimit(RLIMIT_NOFILE, &before_); }
+  NoDescriptors(const NoDescriptors&) = delete;
+  NoDescriptors& operator=(const NoDescriptors&) = delete;
+
+ private:
+  rlimit before_{};
+};
 
 }  // namespace
 
@@ -62,6 +84,62 @@ TEST_CASE("A client that does not read misses whole lines, and holds up nobody")
   finish.join();
   CHECK(late.size() == lines * (line.size() + 1));
   CHECK(slow.has_read_all());
+}
+
+TEST_CASE("A client too many is closed at once, and counted, until another one goes") {
+  const std::uint16_t port = free_port();
+  LineSender sender(at("tcp", port));
+  std::deque<Peer> peers;
+  const auto connect_one = [&] {
+    REQUIRE(peers.emplace_back(SOCK_STREAM).connect_to(port));
+    sender.send("line");
+  };
+  for (int k = 0; k < LineSender::kMostClients; ++k) connect_one();
+  CHECK(sender.counts().clients == LineSender::kMostClients);
+  CHECK(sender.counts().refused == 0);
+  for (int k = 0; k < 100; ++k) {
+    connect_one();
+    CHECK(peers.back().read(1).empty());  // the end
+    peers.pop_back();
+  }
+  CHECK(sender.counts().clients == LineSender::kMostClients);
+  CHECK(sender.counts().refused == 100);
+  peers.pop_front();
+  for (int k = 0; k < 2; ++k) sender.send("line");  // the first shows that the client has gone
+  connect_one();
+  CHECK(peers.back().read(5) == "line\n");
+  CHECK(sender.counts().clients == LineSender::kMostClients);
+  CHECK(sender.counts().refused == 100);
+}
+
+TEST_CASE("Without descriptors, lines go on, and a client waits to be accepted") {
+  const std::uint16_t port = free_port();
+  LineSender sender(at("tcp", port));
+  const Peer first(SOCK_STREAM);
+  REQUIRE(first.connect_to(port));
+  sender.send("one");
+  const Peer second(SOCK_STREAM);
+  REQUIRE(second.connect_to(port));
+  {
+    const NoDescriptors none;
+    sender.send("two");
+  }
+  CHECK(first.read(8) == "one\ntwo\n");
+  CHECK(sender.counts().clients == 1);
+  sender.send("three");
+  CHECK(second.read(6) == "three\n");
+  CHECK(sender.counts().clients == 2);
+}
+
+TEST_CASE("What clients send is not read, and the kernel keeps little of it") {
+  const std::uint16_t port = free_port();
+  LineSender sender(at("tcp", port));
+  const Peer talks(SOCK_STREAM);
+  REQUIRE(talks.connect_to(port));
+  sender.send("one");
+  CHECK(talks.send_until_full() < 65'536);
+  sender.send("two");
+  CHECK(talks.read(8) == "one\ntwo\n");
 }
 
 TEST_CASE("Each line is a datagram, whether somebody listens or not") {
