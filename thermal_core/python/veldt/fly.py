@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import socket
 import sys
 import time
 from collections.abc import Callable
+from contextlib import closing
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -16,10 +18,18 @@ from numpy.typing import NDArray
 from veldt import ConfigError, Error, IoError, Stream
 from veldt._core import check_is_loopback, frames_to_leave_out
 from .mavlink import Vehicle
-from .poses import pose_of_attitude
+from .pose_json import pose_of_json
+from .rejections import Rejections, Unusable
 from .world import Capture, World
 
-_MOST_BYTES = 65_535  # of a datagram
+_MOST_BYTES = 4_096  # of a datagram
+_MOST_LATE = 256  # datagrams, about what a socket holds
+_CATCH_UP_S = 0.005
+_REPORT_EACH_S = 60.0
+
+
+def _nothing(_: str) -> None:
+    """Report nothing."""
 
 
 class Sink(Protocol):
@@ -30,39 +40,45 @@ class Sink(Protocol):
 
 
 class Poses:
-    """The poses that arrive as datagrams: MAVLink, or JSON with `camera_to_world` (4 x 4), or with `position_m` (east,
-    north, up) and `yaw_deg` (from north, clockwise), `pitch_deg` (up), `roll_deg`. The last kind that came counts.
+    """The poses that arrive as datagrams: MAVLink, as Vehicle takes it, or JSON, as pose_of_json() does. The last kind
+    that came counts. A datagram that cannot be used, or has more than 4,096 bytes, changes nothing: it is counted in
+    `rejected`, and reported.
     """
 
-    def __init__(self, address: tuple[str, int], vehicle: Vehicle) -> None:
-        """IoError if nothing can be received at the address."""
+    def __init__(
+        self, address: tuple[str, int], vehicle: Vehicle, report: Callable[[str], None] = _nothing
+    ) -> None:
+        """report: takes a line of text about what is rejected, at most once a minute for each reason.
+
+        IoError if nothing can be received at the address.
+        """
         try:
-            family, _, _, _, bound_to = socket.getaddrinfo(*address, type=socket.SOCK_DGRAM)[0]
-            self._socket = socket.socket(family, socket.SOCK_DGRAM)
-            self._socket.bind(bound_to)
-        except OSError as error:
-            raise IoError(f"{address[0]}:{address[1]}: {error.strerror}; expected a free UDP port") from error
+            self._socket = _bound_socket(address)
+        except (OSError, UnicodeError) as error:
+            reason = getattr(error, "strerror", "unknown host")
+            raise IoError(f"{address[0]}:{address[1]}: {reason}; expected a free UDP port") from error
         self.port: int = self._socket.getsockname()[1]
         self._vehicle = vehicle
         self._given: NDArray[np.float64] | None = None
         self.received = 0
-        self.rejected: list[str] = []
-        """What was wrong with datagrams of JSON, the last ten of them."""
+        self.of_no_use = 0
+        """Datagrams of whole MAVLink messages that say no pose."""
+        self.rejected = Rejections(report)
 
     def receive_until(self, time_s: float, clock: Callable[[], float]) -> None:
-        """Take all datagrams that arrive until a time of the clock, and those that are there already."""
-        while True:
-            self._socket.settimeout(max(time_s - clock(), 0) or 0.0)
+        """Take the datagrams that arrive until a time of the clock. If that is over, take those that are there already,
+        256 and for 5 ms at most: a flood holds up no frame."""
+        now_s = clock()
+        end_s, late = max(time_s, now_s + _CATCH_UP_S), 0
+        while now_s < end_s and late < _MOST_LATE:
+            self._socket.settimeout(max(time_s - now_s, 0))
             try:
-                datagram = self._socket.recv(_MOST_BYTES)
+                datagram = self._socket.recv(_MOST_BYTES + 1)
             except (BlockingIOError, TimeoutError):
                 return
-            self.received += 1
-            if datagram.lstrip().startswith(b"{"):
-                self._take_json(datagram)
-            else:
-                self._given = None
-                self._vehicle.receive(datagram, clock())
+            self._take(datagram, clock())
+            now_s = clock()
+            late += now_s >= time_s
 
     def pose_at(self, time_s: float) -> NDArray[np.float64] | None:
         """The pose at a time of the clock, None before there is one."""
@@ -72,40 +88,36 @@ class Poses:
         """Receive nothing more."""
         self._socket.close()
 
-    def _take_json(self, datagram: bytes) -> None:
+    def _take(self, datagram: bytes, now_s: float) -> None:
+        self.received += 1
         try:
-            self._given = pose_of_json(datagram)
-        except ConfigError as error:
-            self.rejected = [*self.rejected[-9:], str(error)]
+            if len(datagram) > _MOST_BYTES:
+                raise Unusable("too long", "datagram", "more bytes", f"{_MOST_BYTES} at most")
+            if datagram.lstrip().startswith(b"{"):
+                self._given = pose_of_json(datagram)
+            else:
+                self._take_messages(datagram, now_s)
+        except Unusable as fault:
+            self.rejected.add(fault, now_s)
+
+    def _take_messages(self, datagram: bytes, now_s: float) -> None:
+        used, faults = self._vehicle.receive(datagram, now_s)
+        if used and self._given is not None and self._vehicle.pose_at(now_s) is not None:
+            self._given = None
+        for fault in faults:
+            self.rejected.add(fault, now_s)
+        self.of_no_use += not used and not faults
 
 
-def pose_of_json(text: bytes | str) -> NDArray[np.float64]:
-    """A pose (4, 4) of one JSON object, as Poses takes it; a matrix is made a rotation if it is one to within 1e-3.
-    ConfigError for another text."""
+def _bound_socket(address: tuple[str, int]) -> socket.socket:
+    family, _, _, _, bound_to = socket.getaddrinfo(*address, type=socket.SOCK_DGRAM)[0]
+    bound = socket.socket(family, socket.SOCK_DGRAM)
     try:
-        given = json.loads(text)
-        if "camera_to_world" in given:
-            return _rotation_and_place(np.array(given["camera_to_world"], float))
-        angles_rad = np.deg2rad([float(given.get(f"{name}_deg", 0)) for name in ("roll", "pitch", "yaw")])
-        pose = pose_of_attitude(np.array(given["position_m"], float).reshape(3), *angles_rad)
-    except (ValueError, TypeError, KeyError, AttributeError) as error:
-        raise ConfigError(
-            f"pose: {type(error).__name__}: {error}; expected camera_to_world or position_m"
-        ) from error
-    if not np.isfinite(pose).all():
-        raise ConfigError("pose: not a number; expected numbers")
-    return pose
-
-
-def _rotation_and_place(pose: NDArray[np.float64]) -> NDArray[np.float64]:
-    if pose.shape != (4, 4) or not np.isfinite(pose).all():
-        raise ConfigError("camera_to_world: expected 4 x 4 numbers")
-    left, scales, right = np.linalg.svd(pose[:3, :3])
-    if np.abs(scales - 1).max() > 1e-3 or np.linalg.det(left @ right) < 0:
-        raise ConfigError("camera_to_world: expected a rotation and a place")
-    rotated = np.eye(4)
-    rotated[:3, :3], rotated[:3, 3] = left @ right, pose[:3, 3]
-    return rotated
+        bound.bind(bound_to)
+    except OSError:
+        bound.close()
+        raise
+    return bound
 
 
 class Flight(NamedTuple):
@@ -124,11 +136,17 @@ def fly(
     sink: Sink,
     clock: Callable[[], float] = time.monotonic,
     seconds: float | None = None,
+    report: Callable[[str], None] = _nothing,
 ) -> Flight:
     """Send the camera's frames at their true rate from the first pose on, until the plan's time or `seconds` are over.
-    A frame that is late by more than a frame is dropped, and the camera goes on."""
-    while poses.pose_at(clock()) is None:
-        poses.receive_until(clock() + 0.01, clock)
+    A frame that is late by more than a frame is dropped, and the camera goes on. While the first pose is missing,
+    `report` takes a line of text each minute; nothing but an exception, such as by Ctrl-C, ends the wait.
+
+    ConfigError unless `seconds` are above 0.
+    """
+    if seconds is not None and not seconds > 0:
+        raise ConfigError(f"seconds = {seconds:g} s; expected above 0")
+    _wait_for_pose(poses, clock, report)
     start_s, frame, sent, worst_s = clock(), 0, 0, 0.0
     length_s = world.flight_s[-1] - world.flight_s[0]
     count = int(np.floor(min(length_s, seconds or length_s) * world.frame_rate_hz + 1e-6)) + 1
@@ -146,6 +164,17 @@ def fly(
     return Flight(sent, count - sent, worst_s)
 
 
+def _wait_for_pose(poses: Poses, clock: Callable[[], float], report: Callable[[str], None]) -> None:
+    begun_s = clock()
+    report_s = begun_s + _REPORT_EACH_S
+    while poses.pose_at(clock()) is None:
+        now_s = clock()
+        poses.receive_until(now_s + 0.01, clock)
+        if now_s >= report_s:
+            report_s = now_s + _REPORT_EACH_S
+            report(f"no pose for {now_s - begun_s:.0f} s; expected position and attitude of MAVLink, or JSON")
+
+
 def line_of(time_s: float, pose: NDArray[np.float64], capture: Capture) -> dict:
     """What is known of a frame, as `veldt stream` says it."""
     return {
@@ -158,21 +187,53 @@ def line_of(time_s: float, pose: NDArray[np.float64], capture: Capture) -> dict:
 
 def _address(text: str) -> tuple[str, int]:
     host, _, port = text.rpartition(":")
+    if not (port.isascii() and port.isdigit() and len(port) <= 5 and int(port) <= 65_535):
+        raise ConfigError(f"--poses = {json.dumps(text)}; expected HOST:PORT, such as 127.0.0.1:14550")
     return host.strip("[]") or "127.0.0.1", int(port)
 
 
 def _origin(text: str) -> tuple[float, float, float]:
-    latitude_deg, longitude_deg, height_m = map(float, text.split(","))
-    return latitude_deg, longitude_deg, height_m
+    try:
+        origin = latitude_deg, longitude_deg, height_m = tuple(map(float, text.split(",")))
+        good = abs(latitude_deg) <= 89 and abs(longitude_deg) <= 180 and -1_000 <= height_m <= 20_000
+    except ValueError:
+        good = False
+    if good:
+        return origin
+    raise ConfigError(
+        f"--origin = {json.dumps(text)}; expected LAT,LON,M within 89 deg, 180 deg and -1000 to 20000 m, such as "
+        "--origin=-19.3,23.1,940"
+    )
+
+
+def _number(option: str, unit: str, expected: str, fits: Callable[[float], bool]) -> Callable[[str], float]:
+    """A reader of an option's finite number."""
+
+    def read(text: str) -> float:
+        try:
+            number = float(text)
+        except ValueError as error:
+            raise ConfigError(f"{option} = {json.dumps(text)}; expected {expected}") from error
+        if not (math.isfinite(number) and fits(number)):
+            raise ConfigError(f"{option} = {number:g} {unit}; expected {expected}")
+        return number
+
+    return read
 
 
 def _check_addresses(given: argparse.Namespace) -> None:
-    """ConfigError for an address that others can reach."""
+    """ConfigError for an address that others can reach, unless that is allowed, and for poses of an unknown host."""
     host, port = given.poses
     addresses = {"--poses": f"udp://{host}:{port or 1}", "--video": given.video, "--labels": given.labels}
     for option, url in addresses.items():
-        if url is not None:
+        if url is not None and not given.allow_remote:
             check_is_loopback(url, option, "--allow-remote")
+    try:
+        socket.getaddrinfo(host, port, type=socket.SOCK_DGRAM)
+    except (socket.gaierror, UnicodeError) as error:
+        raise ConfigError(
+            f"--poses = {json.dumps(f'{host}:{port}')}; expected a known host, such as 127.0.0.1:14550"
+        ) from error
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -201,52 +262,78 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--down",
-        type=float,
+        type=_number("--down", "deg", "-90 to 90, such as 45", lambda deg: abs(deg) <= 90),
         default=45,
         metavar="DEG",
         help="of a camera without a gimbal's messages: below the drone's front (45)",
     )
-    parser.add_argument("--rate", type=float, metavar="HZ", help="frames a second; the clip's by default")
-    parser.add_argument("--seconds", type=float, help="stop after this time; by default with the plan's")
+    parser.add_argument(
+        "--rate",
+        type=_number("--rate", "Hz", "0.1 to 240, such as 9", lambda hz: 0.1 <= hz <= 240),
+        metavar="HZ",
+        help="frames a second, 0.1 to 240; the clip's by default",
+    )
+    parser.add_argument(
+        "--seconds",
+        type=_number("--seconds", "s", "above 0, such as 60", lambda s: s > 0),
+        help="stop after this time, above 0; by default with the plan's",
+    )
     parser.add_argument("--video", required=True, metavar="URL", help="where frames go, as of `veldt stream`")
     parser.add_argument("--labels", metavar="URL", help="where a JSON line a frame goes")
     parser.add_argument("--allow-remote", action="store_true", help="accept addresses that others can reach")
     return parser
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """The command; the exit codes of `veldt`."""
-    given = _parser().parse_args(arguments)
-    try:
-        if not given.allow_remote:
-            _check_addresses(given)
-        world = World(given.plan, given.clip, frame_rate_hz=given.rate)
-        vehicle = Vehicle(world.flight_poses[0][:3, 3], given.origin, np.deg2rad(given.down))
-        poses = Poses(given.poses, vehicle)
-        size = {"width_px": world.camera.width_px, "height_px": world.camera.height_px}
-        with Stream(
+def _report(text: str) -> None:
+    print(f"veldt.fly: {text}", file=sys.stderr, flush=True)
+
+
+def _run(given: argparse.Namespace) -> int:
+    _check_addresses(given)
+    world = World(given.plan, given.clip, frame_rate_hz=given.rate)
+    vehicle = Vehicle(world.flight_poses[0][:3, 3], given.origin, np.deg2rad(given.down))
+    size = {"width_px": world.camera.width_px, "height_px": world.camera.height_px}
+    with (
+        closing(Poses(given.poses, vehicle, _report)) as poses,
+        Stream(
             given.video,
             **size,
             frame_rate_hz=world.frame_rate_hz,
             labels_url=given.labels,
             allow_remote=given.allow_remote,
-        ) as stream:
-            print(f"waiting for poses on UDP port {poses.port}", file=sys.stderr, flush=True)
-            done = fly(world, poses, stream, seconds=given.seconds)
+        ) as stream,
+    ):
+        print(f"waiting for poses on UDP port {poses.port}", file=sys.stderr, flush=True)
+        done = fly(world, poses, stream, seconds=given.seconds, report=_report)
+    return _summary(done, poses, stream)
+
+
+def _summary(done: Flight, poses: Poses, stream: Stream) -> int:
+    """Print what became of frames and datagrams; the exit code."""
+    counts, refused, rejected = stream.counts, stream.clients_refused, poses.rejected
+    dropped = done.sent + done.dropped - counts.sent
+    text = (
+        f"{counts.sent} frames sent, {dropped} dropped, {counts.lines_missed} lines missed, the latest "
+        f"{1e3 * done.worst_s:.0f} ms late; {poses.received} datagrams received, {poses.of_no_use} of no use, "
+        f"{len(rejected)} rejected"
+    )
+    text += f" ({rejected})" if rejected else ""
+    text += f"; {refused} clients refused" if refused else ""
+    print(text)
+    if counts.fault:
+        _report(counts.fault)
+    return 3 if rejected or dropped or counts.lines_missed or refused else 0
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """The command; the exit codes of `veldt`."""
+    try:
+        return _run(_parser().parse_args(arguments))
     except Error as error:
-        print(f"veldt.fly: {error}", file=sys.stderr)
+        _report(str(error))
         return 2 if isinstance(error, ConfigError) else 1
     except KeyboardInterrupt:
         return 130
-    sent, lines_missed, fault = stream.counts.sent, stream.counts.lines_missed, stream.counts.fault
-    dropped = done.sent + done.dropped - sent
-    print(
-        f"{sent} frames sent, {dropped} dropped, {lines_missed} lines missed, the latest "
-        f"{1e3 * done.worst_s:.0f} ms late; {poses.received} datagrams received, {len(poses.rejected)} rejected"
-    )
-    for text in [*poses.rejected, fault] if fault else poses.rejected:
-        print(f"veldt.fly: {text}", file=sys.stderr)
-    return 3 if poses.rejected or dropped or lines_missed else 0
 
 
 if __name__ == "__main__":

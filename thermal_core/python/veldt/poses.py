@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .rejections import number_within
+
+FARTHEST_M = 10_000.0  # from the scene's (0, 0, 0), along each axis: scenes reach 5 km
 _NED_TO_ENU = np.array([[0, 1, 0], [1, 0, 0], [0, 0, -1.0]])
 _CAMERA_TO_BODY = np.array(
     [[0, 0, 1], [1, 0, 0], [0, 1, 0.0]]
@@ -44,6 +49,11 @@ def rotation_of_quaternion(w: float, x: float, y: float, z: float) -> NDArray[np
             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
         ]
     )
+
+
+def checked_place(where: str, place_m: Iterable[object]) -> NDArray[np.float64]:
+    """A place (3,) that arrived, east, north, up [m]. Unusable if it is none, or beyond FARTHEST_M along an axis."""
+    return np.array([number_within(where, one, "m", -FARTHEST_M, FARTHEST_M) for one in place_m])
 
 
 def pose_of_rotation(place_m: ArrayLike, body_to_ned: NDArray[np.float64]) -> NDArray[np.float64]:
