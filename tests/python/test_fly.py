@@ -158,18 +158,21 @@ class _Flood:
         return self.now_s
 
 
-def test_a_flood_is_taken_until_the_time_and_then_in_part(poses):
+def test_of_a_flood_the_newest_are_taken_until_the_time(poses):
     frozen = _Flood(poses, step_s=0)
-    poses.receive_until(0, frozen)
-    assert poses.received == 256
-    before = poses.received
+    for _ in range(1000):  # more than a socket holds
+        frozen()
+    poses.receive_until(0, lambda: 0)
+    there = poses.received
+    assert len(poses.rejected) == max(there - 256, 0)
+    assert poses.pose_at(0)[0, 3] == pytest.approx(1e-3 * (there - 1))
     clock = _Flood(poses)
     poses.receive_until(0.1, clock)
-    assert clock.now_s <= 0.102
-    late = poses.received - before
+    assert 0.1 <= clock.now_s <= 0.11
+    assert poses.received - there > 10
+    begun_s = clock.now_s
     poses.receive_until(0, clock)
-    assert clock.now_s <= 0.11
-    assert (late > 40, poses.received - before - late) == (True, 3)
+    assert clock.now_s <= begun_s + 0.01
 
 
 def test_a_flood_of_poses_takes_no_frames_and_the_newest_counts(place, poses):
@@ -191,7 +194,9 @@ def test_a_flood_of_junk_before_the_first_pose_does_not_hold_the_flight(place, p
 
     done = fly(World(place, "side"), poses, _Sink(), clock=_Junk(poses), seconds=0.2)
     assert done.dropped == 0
-    assert set(poses.rejected.counts) == {"not JSON", "not MAVLink"}
+    assert (
+        {"not JSON", "not MAVLink"} <= poses.rejected.counts.keys() <= {"not JSON", "not MAVLink", "too many"}
+    )
 
 
 def test_the_wait_for_the_first_pose_says_so_each_minute_and_can_be_ended():
@@ -268,7 +273,7 @@ class _SlowClock:
 def test_frames_that_are_late_by_more_than_a_frame_are_dropped(place, poses):
     _receive(poses, '{"position_m": [0, 0, 40], "pitch_deg": -90}')
     world, sink = World(place, "side"), _Sink()
-    # Two looks a frame: when it is due, and when it is done.
+    # Three looks a frame: two when it is due, and one when it is done.
     done = fly(world, poses, sink, clock=_SlowClock(1.3 / world.frame_rate_hz))
     frames = [line["frame"] for line in sink.lines]
     assert done.sent == len(frames) < len(world.flight_s)

@@ -8,6 +8,7 @@ import math
 import socket
 import sys
 import time
+from collections import deque
 from collections.abc import Callable
 from contextlib import closing
 from typing import NamedTuple, Protocol
@@ -23,8 +24,9 @@ from .rejections import Rejections, Unusable
 from .world import Capture, World
 
 _MOST_BYTES = 4_096  # of a datagram
-_MOST_LATE = 256  # datagrams, about what a socket holds
-_CATCH_UP_S = 0.005
+_MOST_HELD = 256  # datagrams, about what a socket holds
+_TAKE_S = 0.005
+_PAUSE_S = 0.02
 _REPORT_EACH_S = 60.0
 
 
@@ -60,25 +62,29 @@ class Poses:
         self.port: int = self._socket.getsockname()[1]
         self._vehicle = vehicle
         self._given: NDArray[np.float64] | None = None
+        self._held: deque[bytes] = deque(maxlen=_MOST_HELD)
         self.received = 0
         self.of_no_use = 0
         """Datagrams of whole MAVLink messages that say no pose."""
         self.rejected = Rejections(report)
 
     def receive_until(self, time_s: float, clock: Callable[[], float]) -> None:
-        """Take the datagrams that arrive until a time of the clock. If that is over, take those that are there already,
-        256 and for 5 ms at most: a flood holds up no frame."""
-        now_s = clock()
-        end_s, late = max(time_s, now_s + _CATCH_UP_S), 0
-        while now_s < end_s and late < _MOST_LATE:
-            self._socket.settimeout(max(time_s - now_s, 0))
-            try:
-                datagram = self._socket.recv(_MOST_BYTES + 1)
-            except (BlockingIOError, TimeoutError):
-                return
-            self._take(datagram, clock())
+        """Take the datagrams that arrive until a time of the clock; if that is over, those that are there already. A
+        flood holds up no frame, and leaves the processor to others: 256 datagrams wait at most, the newest, and after
+        5 ms of taking them comes a pause of 20 ms or, at the time, the end."""
+        wait_s = 0.0
+        while True:
+            self._hold(wait_s, clock)
             now_s = clock()
-            late += now_s >= time_s
+            end_s = min(now_s + _TAKE_S, time_s if now_s < time_s else math.inf)
+            while self._held and clock() < end_s:
+                self._take(self._held.popleft(), clock())
+            left_s = time_s - clock()
+            if left_s <= 0:
+                return
+            if self._held:
+                time.sleep(min(_PAUSE_S, max(left_s - _TAKE_S, 0)))
+            wait_s = 0.0 if self._held else left_s
 
     def pose_at(self, time_s: float) -> NDArray[np.float64] | None:
         """The pose at a time of the clock, None before there is one."""
@@ -88,8 +94,26 @@ class Poses:
         """Receive nothing more."""
         self._socket.close()
 
+    def _hold(self, wait_s: float, clock: Callable[[], float]) -> None:
+        """Wait for a datagram, and hold it and those that are there too, twice the most at once: the oldest go."""
+        before, dropped = self.received, 0
+        self._socket.settimeout(wait_s)
+        while self.received < before + 2 * _MOST_HELD:
+            try:
+                datagram = self._socket.recv(_MOST_BYTES + 1)
+            except (BlockingIOError, TimeoutError):
+                break
+            self._socket.settimeout(0)
+            self.received += 1
+            dropped += len(self._held) == _MOST_HELD
+            self._held.append(datagram)
+        if dropped:
+            fault = Unusable(
+                "too many", "datagrams", f"{_MOST_HELD + dropped} at once", f"{_MOST_HELD} at most"
+            )
+            self.rejected.add(fault, clock(), dropped)
+
     def _take(self, datagram: bytes, now_s: float) -> None:
-        self.received += 1
         try:
             if len(datagram) > _MOST_BYTES:
                 raise Unusable("too long", "datagram", "more bytes", f"{_MOST_BYTES} at most")

@@ -27,9 +27,9 @@ class Rejections:
         self._report = report
         self._reported_s: dict[str, float] = {}
 
-    def add(self, fault: Unusable, now_s: float) -> None:
+    def add(self, fault: Unusable, now_s: float, times: int = 1) -> None:
         """Count what arrived at a time [s] of a steady clock."""
-        count = self.counts[fault.reason] = self.counts.get(fault.reason, 0) + 1
+        count = self.counts[fault.reason] = self.counts.get(fault.reason, 0) + times
         if now_s - self._reported_s.get(fault.reason, -math.inf) >= _EACH_S:
             self._reported_s[fault.reason] = now_s
             self._report(f"rejected: {fault} ({fault.reason}; {count} up to now)")
