@@ -16,6 +16,8 @@ namespace {
 
 /// What follows "://", split at its last colon before the path.
 std::optional<NetAddress> split(std::string_view text) {
+  const auto is_blank = [](unsigned char letter) { return letter <= ' ' || letter == 0x7f; };
+  if (std::ranges::any_of(text, is_blank)) return {};
   const std::size_t scheme = text.find("://");
   if (scheme == std::string_view::npos) return {};
   const std::string_view rest = text.substr(scheme + 3);

@@ -24,8 +24,8 @@ struct NetAddress {
 /// ConfigError for an address that others can reach; `permit` is what allows it, such as "--allow-remote".
 void check_is_loopback(const NetAddress& address, const std::string& where, const std::string& permit);
 
-/// ConfigError with `where` (such as "--video") for another text, a scheme that is not among `schemes`, and a port that is
-/// not 1 to 65535.
+/// ConfigError with `where` (such as "--video") for another text, one with spaces or control characters, a scheme that is
+/// not among `schemes`, and a port that is not 1 to 65535.
 [[nodiscard]] NetAddress parse_address(std::string_view text, const std::vector<std::string>& schemes,
                                        const std::string& where);
 

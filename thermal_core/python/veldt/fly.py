@@ -10,7 +10,7 @@ import sys
 import time
 from collections import deque
 from collections.abc import Callable
-from contextlib import closing
+from contextlib import closing, suppress
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -71,7 +71,7 @@ class Poses:
     def receive_until(self, time_s: float, clock: Callable[[], float]) -> None:
         """Take the datagrams that arrive until a time of the clock; if that is over, those that are there already. A
         flood holds up no frame, and leaves the processor to others: 256 datagrams wait at most, the newest, and after
-        5 ms of taking them comes a pause of 20 ms or, at the time, the end."""
+        5 ms of taking them comes a pause of 20 ms or until the time."""
         wait_s = 0.0
         while True:
             self._hold(wait_s, clock)
@@ -82,9 +82,12 @@ class Poses:
             left_s = time_s - clock()
             if left_s <= 0:
                 return
+            wait_s = left_s
             if self._held:
-                time.sleep(min(_PAUSE_S, max(left_s - _TAKE_S, 0)))
-            wait_s = 0.0 if self._held else left_s
+                time.sleep(min(_PAUSE_S, left_s))
+                if left_s <= _PAUSE_S:
+                    return  # rested, a frame begins at once also where the processor is busy
+                wait_s = 0.0
 
     def pose_at(self, time_s: float) -> NDArray[np.float64] | None:
         """The pose at a time of the clock, None before there is one."""
@@ -309,7 +312,8 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _report(text: str) -> None:
-    print(f"veldt.fly: {text}", file=sys.stderr, flush=True)
+    with suppress(OSError):  # a terminal that has gone ends no flight
+        print(f"veldt.fly: {text}", file=sys.stderr, flush=True)
 
 
 def _run(given: argparse.Namespace) -> int:

@@ -22,11 +22,17 @@ TEST_CASE("A URL has scheme, host, port and path") {
 }
 
 TEST_CASE("What is no URL of these schemes is refused") {
-  for (const char* text : {"", "udp", "udp://", "udp://host", "udp://:5600", "udp://host:", "udp://host:0",
-                           "udp://host:65536", "udp://host:56x", "http://host:80", "host:5600"})
+  for (const char* text :
+       {"", "udp", "udp://", "udp://host", "udp://:5600", "udp://host:", "udp://host:0", "udp://host:65536",
+        "udp://host:56x", "http://host:80", "host:5600", "udp://ho st:5600", "udp://host:5600/a\nb"})
     CHECK(message_of<ConfigError>([&] {
             (void)parse_address(text, {"udp", "tcp"}, "--labels");
           }) == std::string("--labels = \"") + text + "\"; expected udp://HOST:PORT or tcp://HOST:PORT");
+}
+
+TEST_CASE("A host does not end at a zero byte before its end") {
+  using namespace std::string_view_literals;
+  CHECK_THROWS_AS(parse_address("udp://127.0.0.1\0.example:5600"sv, {"udp"}, "--video"), ConfigError);
 }
 
 TEST_CASE("Only addresses of this machine are loopback") {
