@@ -1,5 +1,5 @@
+#include <array>
 #include <memory>
-#include <optional>
 
 #include "analysis/compare/comparison.h"
 #include "analysis/compare/comparison_json.h"
@@ -11,6 +11,7 @@
 #include "cli/output.h"
 #include "cli/progress_bar.h"
 #include "io/assets.h"
+#include "io/image/kelvin_picture.h"
 
 namespace veldt {
 namespace {
@@ -28,8 +29,8 @@ struct CompareArguments {
   int frames = thermal::CompareOptions().most_frames;
   bool json = false;
   bool kelvin = false;
-  std::optional<double> real_kelvin_per_count;
-  std::optional<double> kelvin_per_count;
+  thermal::StoredScale real_scale = {.prefix = "--real-"};
+  thermal::StoredScale scale;
 };
 
 thermal::CompareOptions request_of(const CompareArguments& options) {
@@ -37,10 +38,9 @@ thermal::CompareOptions request_of(const CompareArguments& options) {
                    .labels = options.real_labels,
                    .names = options.real_names,
                    .names_option = "--real-names",
-
                    .category = options.category,
                    .kelvin = options.kelvin,
-                   .kelvin_per_count = options.real_kelvin_per_count},
+                   .scale = options.real_scale},
           .other = {.source = options.dataset,
                     .labels = options.labels,
                     .names = options.names,
@@ -48,7 +48,7 @@ thermal::CompareOptions request_of(const CompareArguments& options) {
                     .category = options.category,
                     .boxes = options.boxes,
                     .kelvin = options.kelvin,
-                    .kelvin_per_count = options.kelvin_per_count},
+                    .scale = options.scale},
           .most_frames = options.frames};
 }
 
@@ -66,6 +66,25 @@ thermal::Comparison compared(const CompareArguments& options, const CommonOption
 void check_page(const thermal::Path& file) {
   if (file.has_parent_path() && !std::filesystem::is_directory(file.parent_path()))
     throw thermal::ConfigError(thermal::fault("--html", file.string(), "", "a file in an existing folder"));
+}
+
+/// Adds --PREFIXkelvin-per-count and --PREFIXunit, which `kelvin` must accompany.
+void add_scale(CLI::App& command, CLI::Option* kelvin, thermal::StoredScale& scale,
+               const std::array<const char*, 2>& help) {
+  command.add_option(scale.prefix + "kelvin-per-count", scale.kelvin_per_count, help[0])
+      ->needs(kelvin)
+      ->check(CLI::PositiveNumber)
+      ->type_name("KELVIN");
+  command
+      .add_option_function<std::string>(
+          scale.prefix + "unit",
+          [&scale](const std::string& name) {
+            scale.unit =
+                name == "celsius" ? thermal::TemperatureUnit::celsius : thermal::TemperatureUnit::kelvin;
+          },
+          help[1])
+      ->needs(kelvin)
+      ->check(CLI::IsMember({"kelvin", "celsius"}));
 }
 
 bool print_rejected(const thermal::SetFigures& set) {
@@ -120,17 +139,12 @@ void add_compare(CLI::App& app, Session& session) {
                 "Boxes of DATASET around visible pixels, or with the margin that people leave, as in REAL");
   CLI::Option* kelvin = command->add_flag(
       "--kelvin", options->kelvin,
-      "Frames are temperatures: ir16 of a dataset, TIFFs of kelvin or of counts with a scale, 16-bit PNGs");
-  command
-      ->add_option("--real-kelvin-per-count", options->real_kelvin_per_count,
-                   "Scale of a folder's 16-bit real frames; by default their tags say it")
-      ->needs(kelvin)
-      ->check(CLI::PositiveNumber)
-      ->type_name("KELVIN");
-  command->add_option("--kelvin-per-count", options->kelvin_per_count, "The same of the other frames")
-      ->needs(kelvin)
-      ->check(CLI::PositiveNumber)
-      ->type_name("KELVIN");
+      "Frames are temperatures: ir16 of a dataset, TIFFs of floats or of counts with a scale, 16-bit PNGs");
+  add_scale(*command, kelvin, options->real_scale,
+            {"Scale of a folder's 16-bit real frames; by default their tags say it",
+             "Unit of a folder's real frames; by default their tags say it, or it is kelvin"});
+  add_scale(*command, kelvin, options->scale,
+            {"The same scale of the other frames", "The same unit of the other frames"});
   command->add_option("--frames", options->frames, "Most frames of each source, evenly spaced")
       ->capture_default_str();
   command

@@ -374,6 +374,30 @@ def test_16_bit_pngs_have_the_scale_that_is_given(radiometric):
     assert f"{folder}/000000.png: scale of its counts = unknown; {rule}" in done.err
 
 
+def test_tenths_of_degrees_celsius(radiometric):
+    folder = radiometric.folder / "tenths"
+    folder.mkdir()
+    rng = np.random.default_rng(3)
+    for k in range(4):
+        write_grey(folder / f"{k}.tif", rng.integers(100, 300, (24, 32)).astype(np.int16))
+    done = radiometric("compare", "tenths", "data", "--kelvin", "--progress", "none")
+    advice = "--real-kelvin-per-count 0.01, or 0.1 with --real-unit celsius for tenths of a degree"
+    assert done.code == 1
+    assert (
+        f"tenths/0.tif: scale of its counts = unknown; expected kelvin per count in its tags or as an option: {advice}"
+        in (done.err)
+    )
+    scale = ("--real-unit", "celsius", "--real-kelvin-per-count", "0.1")
+    found = _compare(radiometric, "tenths", "data", "--kelvin", *scale, "--json").json()
+    levels = found["levels"]
+    assert levels["lowest_k"] + _row(found, "mean")["real"] * levels["kelvin_per_level"] == pytest.approx(
+        293, abs=1
+    )
+    done = radiometric("compare", "data", "tenths", "--kelvin", *scale)
+    rule = "data is a Veldt dataset, which states the scale of its ir16; expected it for a folder of pictures of your own"
+    check_fault(done, 2, f"--real-kelvin-per-count: {rule}")
+
+
 def test_floats_are_temperatures_only_if_asked(radiometric):
     done = radiometric("compare", "float32/one/images", "data", "--progress", "none")
     assert done.code == 1

@@ -36,7 +36,10 @@ void fuzz::picture(Bytes bytes) {
   (void)thermal::picture_module();  // where it cannot be loaded, nothing would be tested
   const auto file = as_file(bytes, name_for(bytes));
   tolerate([&] { demand_grey(thermal::read_grey_picture(file)); });
-  tolerate([&] { demand_finite(thermal::read_kelvin_picture(file, {})); });
-  tolerate([&] { demand_finite(thermal::read_kelvin_picture(file, 0.01)); });
+  tolerate([&] { demand_finite(thermal::read_kelvin_picture(file)); });
+  tolerate([&] {
+    demand_finite(thermal::read_kelvin_picture(
+        file, {.kelvin_per_count = 0.01, .unit = thermal::TemperatureUnit::celsius}));
+  });
   tolerate([&] { demand(!thermal::as_jpeg(file, 16).empty(), "a JPEG of what was read"); });
 }

@@ -59,13 +59,23 @@ std::map<int, double> altitudes_in(const Path& file) {
   return altitudes;
 }
 
-double kelvin_per_count_of(const Path& dataset) {
+StoredScale scale_of(const Path& dataset) {
   const Json value = read_dataset_file(dataset).value("kelvin_per_count", Json());
   const double kelvin = value.is_number() ? value.get<double>() : 0;
   if (!(kelvin > 0))
     throw DataError(fault(Layout{dataset}.dataset_json().string() + ": kelvin_per_count", brief(value), "K",
                           "more than 0"));
-  return kelvin;
+  return {.kelvin_per_count = kelvin};
+}
+
+void check_has_no_scale(const FrameRequest& request) {
+  const std::string& prefix = request.scale.prefix;
+  const char* option = request.scale.kelvin_per_count ? "kelvin-per-count" : "unit";
+  if (request.scale.kelvin_per_count || request.scale.unit)
+    throw ConfigError(
+        fmt::format("{}{}: {} is a Veldt dataset, which states the scale of its ir16; expected it "
+                    "for a folder of pictures of your own",
+                    prefix, option, request.source.string()));
 }
 
 FrameSource read_dataset_frames(const FrameRequest& request) {
@@ -74,6 +84,7 @@ FrameSource read_dataset_frames(const FrameRequest& request) {
         fmt::format("{} is a Veldt dataset, which has labels and heights; expected a folder of "
                     "pictures with labels or a pattern of names of your own",
                     request.source.string()));
+  check_has_no_scale(request);
   LabelSet set = read_labels(request.source);
   if (request.kelvin)
     for (LabelImage& image : set.images) image.file = ir16_file(image.file);
@@ -95,7 +106,7 @@ FrameSource read_dataset_frames(const FrameRequest& request) {
     if (altitude != known->second.end()) frame.altitude_m = altitude->second;
     source.frames.push_back(std::move(frame));
   }
-  if (request.kelvin) source.kelvin = KelvinLevels{.kelvin_per_count = kelvin_per_count_of(request.source)};
+  if (request.kelvin) source.kelvin = KelvinLevels{.stored = scale_of(request.source)};
   say_if_none(set, request.category, source);
   return source;
 }
@@ -181,7 +192,7 @@ FrameSource read_folder_frames(const FrameRequest& request) {
   if (source.frames.empty())
     throw DataError(fault(source.name, "0 pictures", "",
                           "a Veldt dataset, or a folder of .png, .jpg, .jpeg, .tif or .tiff"));
-  if (request.kelvin) source.kelvin = KelvinLevels{.kelvin_per_count = request.kelvin_per_count};
+  if (request.kelvin) source.kelvin = KelvinLevels{.stored = request.scale};
   add_altitudes(request, source);
   add_boxes(request, source);
   return source;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/image/kelvin_picture.h"
 #include "io/system/files.h"
 #include "labels/box_style.h"
 #include "labels/label_set.h"
@@ -21,7 +22,7 @@ struct FrameRequest {
   std::string category = {};             ///< of the boxes, in any case; empty: people
   BoxStyle boxes = BoxStyle::visible;    ///< of a dataset
   bool kelvin = false;                   ///< frames are temperatures: a dataset's ir16
-  std::optional<double> kelvin_per_count = {};  ///< of a folder's pictures; empty: their tags say it
+  StoredScale scale = {};                ///< of a folder's pictures
 };
 
 /// A picture to measure, and what is known about it.
@@ -35,7 +36,7 @@ struct SourceFrame {
 
 /// What levels of temperatures mean: level 0 to 255 from the coldest to the warmest.
 struct KelvinLevels {
-  std::optional<double> kelvin_per_count;  ///< as stored; empty: the files say it
+  StoredScale stored;
   double lowest_k = 0;
   double kelvin_per_level = 1;
 };
@@ -50,10 +51,10 @@ struct FrameSource {
 };
 
 /// Lists the frames of a source and reads its labels; opens no picture.
-/// ConfigError for labels and patterns of names for a Veldt dataset, and for drawn boxes of a folder; DataError for a
-/// folder without pictures, a name that does not match the pattern, labels that name none of the frames or have several
-/// pictures for one and none in its folder, and those of read_labels() and read_coco(); IoError if the source does not
-/// exist.
+/// ConfigError for labels, patterns of names and a scale for a Veldt dataset, and for drawn boxes of a folder; DataError
+/// for a folder without pictures, a name that does not match the pattern, labels that name none of the frames or have
+/// several pictures for one and none in its folder, and those of read_labels() and read_coco(); IoError if the source does
+/// not exist.
 [[nodiscard]] FrameSource read_frame_source(const FrameRequest& request);
 
 }  // namespace thermal

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "base/error.h"
+#include "base/plausible.h"
 #include "base/ranges.h"
 #include "base/text.h"
 
@@ -13,10 +14,9 @@ namespace thermal {
 namespace {
 
 void check_temperature(const std::string& where, double value_k) {
-  constexpr double kHottest = 2000;
-  if (value_k > 0 && value_k <= kHottest) return;
-  throw ConfigError(
-      fault(where, fmt::format("{}", value_k), "K", fmt::format("above 0 K and at most {} K", kHottest)));
+  if (value_k > 0 && value_k <= kTemperatureK.most) return;
+  throw ConfigError(fault(where, fmt::format("{}", value_k), "K",
+                          fmt::format("above 0 K and at most {} K", kTemperatureK.most)));
 }
 
 void check_positive(const std::string& where, double value, const char* unit) {

@@ -118,7 +118,7 @@ Plane<float> grey_levels_of(const Path& file) {
 }
 
 Plane<float> kelvin_levels(const Path& file, const KelvinLevels& scale) {
-  Plane<float> levels = read_kelvin_picture(file, scale.kelvin_per_count);
+  Plane<float> levels = read_kelvin_picture(file, scale.stored);
   for (float& level : levels.pixels()) {
     const double above = (static_cast<double>(level) - scale.lowest_k) / scale.kelvin_per_level;
     level = static_cast<float>(std::clamp(above, 0.0, kGreyLevels - 1.0));
@@ -131,7 +131,7 @@ void widen_range(const FrameSource& source, double& lowest_k, double& highest_k)
   constexpr std::size_t kOutside = 1000;  // one pixel of so many at each end
   for (const std::size_t frame : evenly(source.frames.size(), kFrames)) {
     try {
-      Plane<float> kelvin = read_kelvin_picture(source.frames[frame].file, source.kelvin->kelvin_per_count);
+      Plane<float> kelvin = read_kelvin_picture(source.frames[frame].file, source.kelvin->stored);
       std::ranges::sort(kelvin.pixels());
       const std::size_t out = kelvin.size() / kOutside;
       lowest_k = std::min(lowest_k, static_cast<double>(kelvin.pixels()[out]));

@@ -1,17 +1,20 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "base/image.h"
 
 namespace thermal {
 
-/// A TIFF of one channel as stored.
+/// A picture of one channel as stored.
 struct StoredTemperatures {
   Plane<float> values;            ///< exact: floats, or counts of 16 bits
   bool counts = false;            ///< of 16 bits
   std::optional<double> scale{};  ///< of GDAL's metadata: value x scale + offset
   double offset = 0;
+  std::string unit{};               ///< of GDAL's metadata; empty: none
+  std::optional<double> no_data{};  ///< GDAL_NODATA: the stored value of pixels without one; may be NaN
 };
 
 }  // namespace thermal

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "io/image/module/functions.h"
 #include "io/image/module/picture_input.h"
+#include "io/image/module/tiff_library.h"
 
 namespace thermal::pictures {
 namespace {
@@ -37,6 +38,7 @@ GreyPicture read_grey(const Path& file) {
   const auto in = open_picture(file);
   const OIIO::ImageSpec spec = in->spec();
   check_depth(spec);
+  check_is_single(file);
   const int channels = spec.nchannels < 3 ? 1 : 3;
   std::vector<std::uint16_t> samples(static_cast<std::size_t>(spec.image_pixels()) *
                                      static_cast<std::size_t>(channels));

@@ -1,14 +1,15 @@
-#include <charconv>
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/image/module/functions.h"
 #include "io/image/module/picture_input.h"
 #include "io/image/module/tiff_library.h"
@@ -16,32 +17,63 @@
 namespace thermal::pictures {
 namespace {
 
-/// GDAL's metadata of a TIFF, which OpenImageIO does not read; empty without.
-std::string gdal_metadata(const Path& file) {
-  constexpr std::uint32_t kTag = 42112;
+constexpr std::uint32_t kMetadataTag = 42112;
+constexpr std::uint32_t kNoDataTag = 42113;
+
+/// A text of GDAL's in a TIFF, which OpenImageIO does not read; empty without.
+std::string text_of(const Path& file, std::uint32_t tag) {
   std::string reason;
   const Tiff tiff = open_tiff(file, reason);
-  const TIFFField* field = tiff ? TIFFFindField(tiff.get(), kTag, TIFF_ANY) : nullptr;
+  const TIFFField* field = tiff ? TIFFFindField(tiff.get(), tag, TIFF_ANY) : nullptr;
   if (field == nullptr) return {};
   const char* text = nullptr;
   // libtiff gives the length of tags that it does not know; to GDAL, which may be in this process, this one is known.
   if (TIFFFieldPassCount(field) == 0)
-    return TIFFGetField(tiff.get(), kTag, &text) == 1 && text != nullptr ? std::string(text) : std::string();
+    return TIFFGetField(tiff.get(), tag, &text) == 1 && text != nullptr ? std::string(text) : std::string();
   std::uint32_t count = 0;
   if (TIFFFieldReadCount(field) != TIFF_VARIABLE2) return {};
-  if (TIFFGetField(tiff.get(), kTag, &count, &text) != 1 || text == nullptr) return {};
+  if (TIFFGetField(tiff.get(), tag, &count, &text) != 1 || text == nullptr) return {};
   return {text, count};
 }
 
-/// The number of the first item of a role.
-std::optional<double> item(std::string_view xml, std::string_view role) {
+/// The text of the first item of a role; empty without.
+std::string_view item(std::string_view xml, std::string_view role) {
   const std::size_t found = xml.find(fmt::format("role=\"{}\">", role));
-  if (found == std::string_view::npos) return std::nullopt;
+  if (found == std::string_view::npos) return {};
   const std::string_view rest = xml.substr(xml.find('>', found) + 1);
-  double number = 0;
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
-  const bool ends = error == std::errc() && end != rest.data() + rest.size() && *end == '<';
-  return ends ? std::optional(number) : std::nullopt;
+  return rest.substr(0, rest.find('<'));
+}
+
+/// GDAL_NODATA, which GDAL and others may end with blanks or a zero byte.
+std::optional<double> no_data_in(const std::string& text) {
+  constexpr std::string_view kBlanks(" \t\n\r\0", 5);
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string::npos) return std::nullopt;
+  const std::string number = text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+  if (const auto value = number_in<double>(number)) return value;
+  throw DataError(fmt::format("GDAL_NODATA = \"{}\"; expected a number", number));
+}
+
+/// Reads the only channel, in its own type.
+template <typename Number>
+void read_values(OIIO::ImageInput& in, const Path& file, OIIO::TypeDesc type, Plane<float>& values) {
+  std::vector<Number> stored(values.size());
+  read_channels(in, file, 1, type, stored.data());
+  std::ranges::transform(stored, values.pixels().begin(),
+                         [](Number value) { return static_cast<float>(value); });
+}
+
+void read_values(OIIO::ImageInput& in, const Path& file, OIIO::TypeDesc type, StoredTemperatures& out) {
+  switch (type.basetype) {
+    case OIIO::TypeDesc::UINT16:
+      return read_values<std::uint16_t>(in, file, type, out.values);
+    case OIIO::TypeDesc::INT16:
+      return read_values<std::int16_t>(in, file, type, out.values);
+    case OIIO::TypeDesc::FLOAT:
+      return read_values<float>(in, file, type, out.values);
+    default:
+      return read_values<double>(in, file, type, out.values);
+  }
 }
 
 }  // namespace
@@ -49,17 +81,20 @@ std::optional<double> item(std::string_view xml, std::string_view role) {
 StoredTemperatures read_temperatures(const Path& file) {
   const auto in = open_picture(file);
   const OIIO::ImageSpec spec = in->spec();
-  const bool counts = spec.format == OIIO::TypeDesc::UINT16;
-  if ((!counts && spec.format != OIIO::TypeDesc::FLOAT) || spec.nchannels != 1)
-    throw DataError(fmt::format("pixels = {} x {}; expected one channel of 32-bit floats or 16-bit counts",
-                                spec.nchannels, spec.format.c_str()));
+  const bool counts = spec.format == OIIO::TypeDesc::UINT16 || spec.format == OIIO::TypeDesc::INT16;
+  const bool floats = spec.format == OIIO::TypeDesc::FLOAT || spec.format == OIIO::TypeDesc::DOUBLE;
+  if ((!counts && !floats) || spec.nchannels != 1)
+    throw DataError(
+        fmt::format("pixels = {} x {}; expected one channel of floats of 32 or 64 bits, or of 16-bit counts",
+                    spec.nchannels, spec.format.c_str()));
+  check_is_single(file);
   StoredTemperatures stored = {.values = Plane<float>(spec.width, spec.height), .counts = counts};
-  read_channels(*in, file, 1, OIIO::TypeDesc::FLOAT, stored.values.pixels().data());
-  if (counts)  // OpenImageIO takes 65535 for 1; the product is within 0.01 of a whole number
-    for (float& value : stored.values.pixels()) value = std::round(value * 65535.0F);
-  const std::string metadata = gdal_metadata(file);
-  stored.scale = item(metadata, "scale");
-  stored.offset = item(metadata, "offset").value_or(0);
+  read_values(*in, file, spec.format, stored);
+  const std::string metadata = text_of(file, kMetadataTag);
+  stored.scale = number_in<double>(item(metadata, "scale"));
+  stored.offset = number_in<double>(item(metadata, "offset")).value_or(0);
+  stored.unit = item(metadata, "unittype");
+  stored.no_data = no_data_in(text_of(file, kNoDataTag));
   return stored;
 }
 

@@ -56,4 +56,18 @@ void check_is_whole(const Path& file) {
   if (!tiff || !can_decode_all(tiff.get())) throw DataError(fmt::format("damaged: {}", reason));
 }
 
+void check_is_single(const Path& file) {
+  constexpr int kMostCopies = 64;  // each half as large
+  std::string reason;
+  const Tiff tiff = open_tiff(file, reason);
+  for (int k = 0; tiff && k < kMostCopies && TIFFReadDirectory(tiff.get()) == 1; ++k) {
+    std::uint32_t kind = 0;
+    (void)TIFFGetField(tiff.get(), TIFFTAG_SUBFILETYPE, &kind);
+    if ((kind & FILETYPE_MASK) != 0)
+      throw DataError("has a mask of pixels without a value; expected a picture of all pixels");
+    if ((kind & FILETYPE_REDUCEDIMAGE) == 0)
+      throw DataError("has several pages; expected one picture in each file");
+  }
+}
+
 }  // namespace thermal::pictures

@@ -22,4 +22,8 @@ using TiffOptions = std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFr
 /// deflated strip that ends early for whole, and its last pixels are what was in memory.
 void check_is_whole(const Path& file);
 
+/// DataError, without the file's name, if a TIFF has more than one picture: pages, or a mask of pixels without a value. Smaller
+/// copies, as of maps and thumbnails, are none. A file that is no TIFF passes.
+void check_is_single(const Path& file);
+
 }  // namespace thermal::pictures
