@@ -89,6 +89,7 @@ Json read_dataset_file(const Path& root) {
   Json dataset = read_as_data(file);
   if (!dataset.is_object() || dataset.value("format", Json()) != "veldt-dataset")
     throw DataError(file.string() + " does not belong to a Veldt dataset");
+  check_version(dataset, file.string(), 1);
   check_clips(dataset, file.string());
   check_values(dataset, file.string());
   return dataset;

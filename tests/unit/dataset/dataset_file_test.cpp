@@ -50,6 +50,13 @@ TEST_CASE("A value that others rely on is named if it is missing or of another k
   CHECK(clips_fault(R"([{"id": "a", "status": "failed"}])") == ": clips[0].reason = nothing; expected one");
 }
 
+TEST_CASE("Another version is refused by name") {
+  CHECK(fault_of(R"({"format": "veldt-dataset", "version": 999, "clips": []})") ==
+        ": version = 999; expected 1, the version that this program reads");
+  CHECK(fault_of(R"({"format": "veldt-dataset", "version": "1", "clips": []})") ==
+        ": version = \"1\"; expected 1, the version that this program reads");
+}
+
 TEST_CASE("Other files are refused") {
   for (const std::string content : {"{}", "[]", "7", R"({"format": "coco"})", R"({"format": 7})"})
     CHECK(fault_of(content) == " does not belong to a Veldt dataset");

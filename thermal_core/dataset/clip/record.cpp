@@ -90,6 +90,7 @@ ClipRecord read_clip_record(const Path& file) {
   try {
     const Json json = read_json(file);
     const JsonEntry entry(json, name);
+    check_version(json, name, 1);
     ClipRecord record = {.clip = entry.text("clip"),
                          .season = entry.text("season"),
                          .seed = static_cast<std::uint32_t>(entry.whole_number("seed", kMostSeed)),

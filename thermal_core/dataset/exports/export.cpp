@@ -20,6 +20,7 @@
 #include "dataset/exports/webdataset.h"
 #include "dataset/exports/yolo.h"
 #include "dataset/label_pictures.h"
+#include "io/json/entry.h"
 #include "io/json/file.h"
 #include "io/system/files.h"
 
@@ -160,6 +161,7 @@ bool is_there(const ExportOptions& options, const Path& out, const Json& request
   if (!std::filesystem::exists(out / kRecord))
     throw ConfigError(fault("--out", out.string(), "", "an empty or new folder"));
   const Json record = read_json(out / kRecord);
+  check_version(record, (out / kRecord).string(), 1);
   const std::vector<std::string> found = differences(request, record.value("request", Json::object()));
   if (found.empty()) return true;
   constexpr std::size_t kMost = 8;

@@ -39,6 +39,13 @@ Json json_of(const LabelId& id) {
   return std::visit([](const auto& value) { return Json(value); }, id);
 }
 
+void check_version(const Json& document, const std::string& file, int version) {
+  const auto found = document.find("version");
+  if (found == document.end() || *found == version) return;
+  throw DataError(fault(file + ": version", brief(*found), "",
+                        fmt::format("{}, the version that this program reads", version)));
+}
+
 JsonEntry::JsonEntry(const Json& json, const std::string& file, const std::string& list, std::size_t place)
     : json_(json), file_(file), list_(&list), place_(place) {
   if (!json.is_object())

@@ -16,6 +16,9 @@ namespace thermal {
 /// A number or text.
 [[nodiscard]] Json json_of(const LabelId& id);
 
+/// Checks the version of one of our own files. DataError with the file if it states another; without one, it is the first.
+void check_version(const Json& document, const std::string& file, int version);
+
 /// One object of a list in an external JSON file, or the file's only one, read key by key. A wrong value, or a missing
 /// required key, is a DataError "FILE: LIST[PLACE].KEY = VALUE; expected RULE". A null value counts as missing.
 class JsonEntry {

@@ -39,6 +39,7 @@ TEST_CASE("An invalid record is a DataError with the file") {
     changed[key] = value;
     return fault_of(to_text(changed));
   };
+  CHECK(with("version", 999) == ": version = 999; expected 1, the version that this program reads");
   CHECK(with("frames", 1e308) == ": frames = 1e+308; expected a whole number");
   CHECK(with("annotations", -1) == ": annotations = -1; expected a whole number from 0 to 1000000000");
   CHECK(with("seed", 4294967296) == ": seed = 4294967296; expected a whole number from 0 to 4294967295");
