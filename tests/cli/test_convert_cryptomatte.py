@@ -1,5 +1,7 @@
 """`convert` reads cryptomattes: like an index plane where objects fill pixels, and as mean radiance elsewhere."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -49,7 +51,7 @@ def _convert(veldt, folder, *options, out="out"):
 def _same_as_by_index(veldt, folder, *options):
     """Check that the dataset equals that of an index plane, bit for bit."""
     _convert(veldt, folder, *options)
-    passes.write_clip(veldt.folder / "index" / folder.name)
+    passes.write_clip(veldt.folder / "index" / folder.name, has_depth=False)
     done = veldt("convert", f"index/{folder.name}", "--out", "by_index", "--quiet", *options)
     assert (done.code, done.err) == (0, "")
     assert veldt.pixels("out") == veldt.pixels("by_index")
@@ -63,6 +65,27 @@ def _index_folder(veldt):
 
 def test_whole_pixels_make_the_dataset_of_an_index_plane(veldt):
     _same_as_by_index(veldt, _write(veldt.folder / "one"))
+
+
+def test_names_in_a_file_beside_are_those_of_the_passes(veldt):
+    """A pattern needs them. If they change, the clip is made again."""
+    folder = _write(veldt.folder / "one", listed=None)
+    key = next(iter(mattes.texts_of(None))).rsplit("/", 1)[0]
+    for frame in range(passes.FRAMES):
+        texts = mattes.texts_of(None) | {f"{key}/manif_file": "names.json"}
+        mattes.write_exr_with_texts(folder / f"{frame:06d}.exr", mattes.planes_of(_whole(frame)), texts)
+    document = passes.manifest("one") | {"cryptomatte": "CryptoObject"}
+    document["objects"][1]["mattes"] = ["shr*"]
+    passes.write_manifest(folder, document)
+    names = {name: f"{mattes.murmur_hash(name):08x}" for name in NAMES.values()}
+    (folder / "names.json").write_text(json.dumps(names), encoding="utf-8")
+    _convert(veldt, folder)
+    assert veldt("convert", "one", "--out", "out", "--quiet").code == 0
+    (folder / "names.json").write_text("{}", encoding="utf-8")
+    done = veldt("convert", "one", "--out", "out")
+    assert done.code == 1
+    assert "clip one: its manifest or its passes have changed; making it again\n" in done.err
+    assert "expected the hash of a name among the manifest's objects: ground, shr*, walker, cow" in done.err
 
 
 def test_names_missing_from_the_file_are_hashed(veldt):

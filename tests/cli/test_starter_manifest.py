@@ -1,9 +1,12 @@
 """`inspect --starter-manifest` writes a manifest to fill in, and `convert` names the values still missing."""
 
+import json
+
 import jsonschema
 import numpy as np
 import pytest
 
+import mattes
 from foreign_passes import ELEPHANT, GROUND, write_colours, write_cryptomatte, write_png
 from pictures import write_exr
 from program import ROOT
@@ -208,6 +211,45 @@ def test_json_is_json_and_writes_it_too(veldt, folder):
     done = veldt("inspect", "r", "--starter-manifest", "m.json", "--json", "--quiet")
     assert done.json()["frames_read"] == 2
     assert veldt.read("m.json")["clip"] == "r"
+
+
+def _write_mattes(folder, sidecar):
+    """Two objects, whose names a file beside the passes may have."""
+    names = np.array([["", "field", "field"], ["field", "field", "cow"]], dtype=object)
+    texts = mattes.texts_of(None) | {
+        next(iter(mattes.texts_of(None))).rsplit("/", 1)[0] + "/manif_file": sidecar
+    }
+    planes = mattes.planes_of([(names, (names != "").astype(np.float32))], "ViewLayer.CryptoObject")
+    mattes.write_exr_with_texts(folder / "1.exr", planes, texts)
+
+
+def test_names_of_mattes_may_be_in_a_file_beside(veldt, folder):
+    _write_mattes(folder, "names.json")
+    hashes = {name: f"{mattes.murmur_hash(name):08x}" for name in ("field", "cow")}
+    (folder / "names.json").write_text(json.dumps(hashes), encoding="utf-8")
+    document, _ = _begin(veldt)
+    assert [entry["name"] for entry in document["objects"]] == ["field", "cow"]
+    (folder / "manifest.json").unlink()
+    (folder / "names.json").write_text(json.dumps({"field": hashes["field"]}), encoding="utf-8")
+    document, lines = _begin(veldt)
+    assert [entry["name"] for entry in document["objects"]] == ["field"]
+    assert any(hashes["cow"] in line for line in lines[lines.index("to fill in") :])
+
+
+def test_mattes_without_names_are_said_to_be_objects(veldt, folder):
+    _write_mattes(folder, "names.json")
+    done = veldt("inspect", "r", "--starter-manifest", "m.json", "--quiet")
+    why = 'cryptomatte ViewLayer.CryptoObject: manif_file = "names.json": cannot read r/names.json: no such file'
+    rule = "expected their names in it, or in objects of a manifest.json of your own"
+    assert (done.code, done.err) == (1, f"veldt: r/1.exr: 2 objects without names; {why}; {rule}\n")
+    assert not (veldt.folder / "m.json").exists()
+
+
+def test_an_index_that_was_written_as_a_picture_is_taken(veldt, folder):
+    write_exr(folder / "1.exr", {name: INDEX for name in "RGB"})
+    document, lines = _begin(veldt)
+    assert document["channels"] == {"object_index": "R"}
+    assert '  channels.object_index = "R" (it holds whole numbers)' in lines
 
 
 def test_more_than_twenty_copies_are_one_object(veldt, folder):

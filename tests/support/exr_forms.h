@@ -60,6 +60,8 @@ struct Part {
   Imf::Compression compression = Imf::ZIP_COMPRESSION;
   Imf::LineOrder order = Imf::INCREASING_Y;
   std::optional<Imf::TileDescription> tiles = {};
+  float pixel_aspect = 1;
+  std::optional<Imf::Envmap> environment = {};
   int lines = -1;  ///< that get written, of scanlines; -1: all
 
   [[nodiscard]] Imath::Box2i window() const { return data.value_or(display); }
@@ -81,6 +83,8 @@ inline Imf::Header header_of(const Part& part) {
   header.setType(part.tiles ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
   if (!part.name.empty()) header.setName(part.name);
   if (!part.view.empty()) header.setView(part.view);
+  header.pixelAspectRatio() = part.pixel_aspect;
+  if (part.environment) Imf::addEnvmap(header, *part.environment);
   if (part.tiles) header.setTileDescription(*part.tiles);
   for (const auto& [name, plane] : part.channels) header.channels().insert(name, Imf::Channel(plane.type));
   return header;

@@ -54,13 +54,14 @@ def object_index(frame: int) -> np.ndarray:
     return plane
 
 
-def write_clip(folder: Path, clip: str = "one", frames: int = FRAMES) -> Path:
+def write_clip(folder: Path, clip: str = "one", frames: int = FRAMES, has_depth: bool = True) -> Path:
     """Write a clip's passes and manifest into a new folder."""
     folder.mkdir()
     for frame in range(frames):
         depth = np.full((HEIGHT, WIDTH), 40.0 + frame)
         depth[:2] = 1e10  # what Blender writes for the sky
-        write_exr(folder / f"{frame:06d}.exr", {OBJECTS: object_index(frame), DEPTH: depth})
+        planes = {OBJECTS: object_index(frame)} | ({DEPTH: depth} if has_depth else {})
+        write_exr(folder / f"{frame:06d}.exr", planes)
     write_manifest(folder, manifest(clip, frames))
     return folder
 

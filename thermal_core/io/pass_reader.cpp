@@ -20,6 +20,7 @@ ExrLayout layout_of(const Manifest& manifest, const ReadLimits& limits) {
           .supersample = manifest.supersample,
           .width_px = camera.width_px,
           .height_px = camera.height_px,
+          .pixel_aspect = camera.fy_px / camera.fx_px,
           .limits = {.pixels = limits.pixels}};
 }
 

@@ -18,8 +18,9 @@ inline constexpr float kSkyDepthM = 1e10F;
 struct PassNeeds {
   bool depth = false;
   bool normals = false;
-  bool actors = false;    ///< the manifest's actor_layer
-  bool mirrored = false;  ///< what water mirrors
+  bool actors = false;          ///< the manifest's actor_layer
+  bool mirrored = false;        ///< what water mirrors
+  bool depth_if_there = false;  ///< depth for labels, where passes have it
 };
 
 /// What level water mirrors, at the pixels or samples of the water: what the camera would see there from below the water,

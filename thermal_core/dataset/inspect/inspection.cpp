@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/exr/header.h"
+#include "io/exr/planes.h"
 #include "io/manifest_file.h"
 #include "scene/camera_geometry.h"
 
@@ -64,6 +65,7 @@ ExrLayout layout_of(const std::optional<Manifest>& manifest, const InspectOption
     layout.channels = manifest->channels;
     layout.width_px = camera.width_px;
     layout.height_px = camera.height_px;
+    layout.pixel_aspect = camera.fy_px / camera.fx_px;
   }
   if (!options.layer.empty()) layout.layer = options.layer;
   layout.limits.pixels = options.limits.pixels;
@@ -121,15 +123,11 @@ class Choice {
       if (!one.names_fault.empty())
         faults.push_back(fmt::format("cryptomatte {}: {}", one.name, one.names_fault));
     }
+    choose();
     try {
-      take_what_is_named();
+      check_projection(inspection_.header, inspection_.layout);
     } catch (const DataError& error) {
       inspection_.obstacle = error.what();
-      const ExrLayout& layout = inspection_.layout;
-      if (!layout.channels.object_index.empty()) return;
-      const std::vector<std::string> layers = index_layers(inspection_.header);
-      if (layers.empty()) take_what_there_is();
-      if (layers.size() > 1 && layout.layer.empty()) inspection_.layers = layers;
     }
   }
 
@@ -142,6 +140,19 @@ class Choice {
   }
 
  private:
+  void choose() {
+    try {
+      take_what_is_named();
+    } catch (const DataError& error) {
+      inspection_.obstacle = error.what();
+      const ExrLayout& layout = inspection_.layout;
+      if (!layout.channels.object_index.empty()) return;
+      const std::vector<std::string> layers = index_layers(inspection_.header);
+      if (layers.empty()) take_what_there_is();
+      if (layers.size() > 1 && layout.layer.empty()) inspection_.layers = layers;
+    }
+  }
+
   void take_what_is_named() {
     const std::string wanted = inspection_.manifest ? inspection_.manifest->cryptomatte : "";
     if (wanted.empty()) {

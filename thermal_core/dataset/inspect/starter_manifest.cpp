@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "dataset/inspect/filled_in.h"
 
 namespace thermal {
@@ -173,6 +174,7 @@ class Writer {
     add_files();
     json["objects"] = Json::array();
     for (const StarterObject& object : starter_objects(inspection_, known_)) add_object(object);
+    check_names();
     check_objects();
     add_materials();
     return std::move(made_);
@@ -194,12 +196,16 @@ class Writer {
     const int height_px = inspection_.header.height_px;
     const double exact_px = kLensMm / kSensorMm * std::max(width_px, height_px);
     const double focal_px = std::round(exact_px * 1000) / 1000;
+    const double high_px = focal_px * inspection_.header.pixel_aspect;
     made_.document["camera"] = {{"width_px", width_px},    {"height_px", height_px},
-                                {"fx_px", focal_px},       {"fy_px", focal_px},
+                                {"fx_px", focal_px},       {"fy_px", high_px},
                                 {"cx_px", width_px / 2.0}, {"cy_px", height_px / 2.0}};
-    made_.guesses.push_back(
-        fmt::format("camera.fx_px = camera.fy_px = {} ({} mm before {} mm, Blender's usual lens)", focal_px,
-                    kLensMm, kSensorMm));
+    made_.guesses.push_back(fmt::format("camera.fx_px = {}{} ({} mm before {} mm, Blender's usual lens)",
+                                        high_px == focal_px ? "camera.fy_px = " : "", focal_px, kLensMm,
+                                        kSensorMm));
+    if (high_px != focal_px)
+      made_.guesses.push_back(fmt::format("camera.fy_px = {} (its pixelAspectRatio is {:.6g})", high_px,
+                                          inspection_.header.pixel_aspect));
   }
 
   void add_files() {
@@ -249,6 +255,37 @@ class Writer {
                                              materials.size(), index, pixels));
       materials.push_back({{"index", index}, {"material", kFillIn}});
     }
+  }
+
+  /// Hashes that the file does not name, most pixels first.
+  [[nodiscard]] std::vector<std::string> unnamed_mattes() const {
+    std::vector<std::pair<std::int64_t, std::string>> by_pixels;
+    const auto mattes = inspection_.survey.cryptomattes.find(inspection_.cryptomatte);
+    if (mattes == inspection_.survey.cryptomattes.end()) return {};
+    for (const auto& [hash, matte] : mattes->second)
+      if (hash != 0 && matte.name.empty()) by_pixels.emplace_back(-matte.pixels, fmt::format("{:08x}", hash));
+    std::sort(by_pixels.begin(), by_pixels.end());
+    std::vector<std::string> hashes;
+    for (auto& [less, hash] : by_pixels) hashes.push_back(std::move(hash));
+    return hashes;
+  }
+
+  /// Names cannot be found from hashes, only hashes from names.
+  void check_names() {
+    const std::vector<std::string> unnamed = unnamed_mattes();
+    if (unnamed.empty()) return;
+    const std::string why =
+        inspection_.cryptomatte_faults.empty()
+            ? fmt::format("cryptomatte {} has no manifest that names them", inspection_.cryptomatte)
+            : fmt::format("{}", fmt::join(inspection_.cryptomatte_faults, "; "));
+    if (made_.document["objects"].empty())
+      throw DataError(
+          fmt::format("{}: {} objects without names; {}; expected their names in it, or in objects of a "
+                      "manifest.json of your own",
+                      inspection_.file.string(), unnamed.size(), why));
+    made_.to_fill_in.push_back(
+        fmt::format("objects: add those whose names the file does not tell, by their hashes: {} ({})",
+                    list_names(unnamed), why));
   }
 
   void check_objects() const {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/plausible.h"
 #include "dataset/clip/frame_faults.h"
 #include "io/exr/header.h"
 #include "io/exr/planes.h"
@@ -34,14 +35,19 @@ bool is_candidate(const ExrChannel& channel) {
   return !colour && !pass_kind_of(channel.pass).has_value();
 }
 
-/// False also for a channel that cannot be read.
-bool holds_indices(const Path& file, const ExrHeader& header, const ExrChannel& channel,
-                   const ReadLimits& limits) {
+bool could_be_indices(const Plane<float>& plane) {
+  const auto pixels = plane.pixels();
+  const auto [least, most] = std::minmax_element(pixels.begin(), pixels.end());
+  return *least != *most && std::all_of(pixels.begin(), pixels.end(), could_be_index);
+}
+
+/// Whether these channels all hold the same indices. False also for channels that cannot be read.
+bool hold_indices(const Path& file, const ExrHeader& header, const std::vector<const ExrChannel*>& channels,
+                  const ReadLimits& limits) {
   try {
-    const Plane<float> plane = read_exr_channel(file, header, channel, 0, {.pixels = limits.pixels});
-    const auto pixels = plane.pixels();
-    const auto [least, most] = std::minmax_element(pixels.begin(), pixels.end());
-    return *least != *most && std::all_of(pixels.begin(), pixels.end(), could_be_index);
+    const auto planes = read_exr_channels(file, header, channels, 0, {.pixels = limits.pixels});
+    return could_be_indices(planes.front()) &&
+           std::ranges::all_of(planes, [&](const Plane<float>& plane) { return plane == planes.front(); });
   } catch (const Error&) {  // faults of the file are reported by the survey
     return false;
   }
@@ -130,7 +136,7 @@ void PassSurveyor::add_lower_ranks(const Path& file, const ExrHeader& header,
 
 void PassSurveyor::add_depth(const Plane<float>& depth_m) {
   for (const float value : depth_m.pixels()) {
-    if (!(value >= 0 && value < kSkyFromM)) continue;  // NaN is not a depth either
+    if (!kDistanceM.holds(static_cast<double>(value))) continue;
     if (!survey_.depth) survey_.depth = {.nearest_m = value, .farthest_m = value};
     survey_.depth->nearest_m = std::min(survey_.depth->nearest_m, value);
     survey_.depth->farthest_m = std::max(survey_.depth->farthest_m, value);
@@ -148,8 +154,11 @@ ChosenPlanes choose_planes(const ExrHeader& header, const ExrLayout& layout) {
 std::vector<std::string> likely_indices(const Path& file, const ExrHeader& header, const ReadLimits& limits) {
   std::vector<std::string> names;
   for (const ExrChannel& channel : header.channels)
-    if (is_candidate(channel) && holds_indices(file, header, channel, limits))
+    if (is_candidate(channel) && hold_indices(file, header, {&channel}, limits))
       names.push_back(channel.full_name());
+  for (const auto& picture : pictures_in(header))
+    if (hold_indices(file, header, {picture.begin(), picture.end()}, limits))
+      names.push_back(picture.front()->full_name());
   return names;
 }
 

@@ -75,8 +75,8 @@ class PassSurveyor {
 /// Chooses the channels of a file. DataError if it has no object index, or several and none is chosen.
 [[nodiscard]] ChosenPlanes choose_planes(const ExrHeader& header, const ExrLayout& layout);
 
-/// Channels of one component, neither a colour nor a known pass, in which every pixel could be an index and not all
-/// are equal: full names, in the file's order.
+/// Channels in which every pixel could be an index and not all are equal: those that are neither a colour nor a known pass,
+/// then the reds of pictures with three equal colours, as some renderers write an index. Full names, in the file's order.
 [[nodiscard]] std::vector<std::string> likely_indices(const Path& file, const ExrHeader& header,
                                                       const ReadLimits& limits);
 

@@ -13,11 +13,14 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/printable.h"
+#include "base/relative_name.h"
 #include "base/text.h"
 #include "io/exr/file.h"
 #include "io/exr/indices.h"
 #include "io/exr/mattes.h"
 #include "io/exr/planes.h"
+#include "io/system/text_file.h"
 
 namespace thermal {
 namespace {
@@ -138,9 +141,29 @@ void check_exact(const ExrChannel& hash) {
   }
 }
 
-void fill_names(Cryptomatte& cryptomatte, const std::string& manifest) {
+/// The file that a header's manif_file names.
+Path sidecar_of(const Path& folder, const std::string& named) {
+  const auto name = RelativeName::of(named);
+  if (!name) throw DataError(fmt::format("expected {}", RelativeName::kRule));
+  Path file = folder;
+  for (const std::string_view part : split(name->text(), '/')) check_is_no_link(file /= part);
+  return file;
+}
+
+std::map<std::uint32_t, std::string> names_beside(const Path& folder, const std::string& named) {
   try {
-    cryptomatte.names = names_in(manifest);
+    return names_in(read_text_file(sidecar_of(folder, named), kMostSidecarBytes));
+  } catch (const Error& error) {
+    throw DataError(fmt::format("manif_file = \"{}\": {}", printable(named), error.what()));
+  }
+}
+
+void fill_names(Cryptomatte& cryptomatte, const Fields& fields, const Path& folder) {
+  const std::string manifest = field(fields, "manifest");
+  const std::string sidecar = field(fields, "manif_file");
+  try {
+    cryptomatte.names =
+        manifest.empty() && !sidecar.empty() ? names_beside(folder, sidecar) : names_in(manifest);
   } catch (const DataError& error) {
     cryptomatte.names_fault = error.what();
   }
@@ -163,7 +186,7 @@ Cryptomatte cryptomatte_of(const std::string& key, const Fields& fields, const E
     return cryptomatte;
   }
   try {
-    fill_names(cryptomatte, field(fields, "manifest"));
+    fill_names(cryptomatte, fields, header.folder);
     fill(cryptomatte, fields, header);
   } catch (const DataError& error) {
     cryptomatte.fault = fmt::format("cryptomatte {}: {}", cryptomatte.name, error.what());
@@ -205,6 +228,19 @@ std::vector<Cryptomatte> cryptomattes_in(const ExrHeader& header) {
   return cryptomattes;
 }
 
+std::vector<Path> sidecars_of(const ExrHeader& header) {
+  std::vector<Path> files;
+  for (const auto& [key, fields] : fields_in(header)) {
+    const std::string name = field(fields, "manif_file");
+    try {
+      if (!name.empty()) files.push_back(sidecar_of(header.folder, name));
+    } catch (const Error&) {
+      continue;  // never read, and said to be refused by cryptomattes_in()
+    }
+  }
+  return files;
+}
+
 const Cryptomatte& choose_cryptomatte(std::span<const Cryptomatte> cryptomattes, const std::string& wanted,
                                       const std::string& layer) {
   std::vector<const Cryptomatte*> alike;
@@ -228,6 +264,7 @@ struct Chosen {
   Chosen(const ExrFile& opened, const std::string& wanted, const ExrLayout& layout)
       : header(opened.header()) {
     check_size(header, layout);
+    check_projection(header, layout);
     header.texts = opened.texts();
     all = cryptomattes_in(header);
     cryptomatte = &choose_cryptomatte(all, wanted, layout.layer);

@@ -18,17 +18,26 @@ namespace thermal {
 /// A cryptomatte declared in the headers of an EXR file.
 struct Cryptomatte {
   std::string name;                            ///< as in its metadata, such as "ViewLayer.CryptoObject"
-  std::map<std::uint32_t, std::string> names;  ///< from its manifest, by hash; empty: the file has none
+  std::map<std::uint32_t, std::string> names;  ///< from its manifest, by hash; empty: it has none
   std::vector<const ExrChannel*> channels;     ///< hash, coverage, hash, coverage, …: two per rank
-  std::string names_fault;  ///< why `names` is empty although the file has a manifest; or empty
-  std::string fault;        ///< why it cannot be read, without the file's name; empty if it can
+  std::string names_fault;                     ///< why `names` is empty although it has a manifest; or empty
+  std::string fault;  ///< why it cannot be read, without the file's name; empty if it can
 };
 
 /// All cryptomattes of a file, by name; their channels point into `header`. Reads no pixels and never fails: faults
 /// are in `fault`. An invalid JSON manifest does not prevent reading, because names can be hashed: Blender 3.4 writes
-/// invalid ones for names with quotes. Sidecar manifests (manif_file) are ignored.
+/// invalid ones for names with quotes.
+/// Of the metadata, name, hash, conversion, manifest and manif_file are used, and others ignored. A manifest in the header
+/// comes before the side-car file that manif_file names: a relative name below the EXR file's folder, of a regular file of at
+/// most kMostSidecarBytes, not through links.
 /// Source: Cryptomatte specification 1.2.0, "EXR File".
 [[nodiscard]] std::vector<Cryptomatte> cryptomattes_in(const ExrHeader& header);
+
+/// Largest side-car manifest that is read: half a million names.
+inline constexpr std::size_t kMostSidecarBytes = std::size_t{16} << 20;
+
+/// The side-car files that the cryptomattes of a file name, by key; without those whose names are refused.
+[[nodiscard]] std::vector<Path> sidecars_of(const ExrHeader& header);
 
 /// Selects by whole name, or by the part after the layer's name ("CryptoObject"); among several, that of `layer`.
 /// DataError with the available ones if there is none or several, and with its fault if it cannot be read.

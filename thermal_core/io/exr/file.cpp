@@ -62,12 +62,21 @@ ExrWindow window_of(const Imf::Header& header) {
           .height_px = data.max.y - data.min.y + 1};
 }
 
+std::string environment_in(const Imf::MultiPartInputFile& opened) {
+  for (int number = 0; number < opened.parts(); ++number)
+    if (Imf::hasEnvmap(opened.header(number)))
+      return Imf::envmap(opened.header(number)) == Imf::ENVMAP_CUBE ? "cube" : "latlong";
+  return "";
+}
+
 ExrHeader header_of(const Imf::MultiPartInputFile& opened) {
   const Imath::Box2i& picture = opened.header(0).displayWindow();
   ExrHeader header;
   header.width_px = picture.max.x - picture.min.x + 1;
   header.height_px = picture.max.y - picture.min.y + 1;
   header.data_window = window_of(opened.header(0));
+  header.pixel_aspect = static_cast<double>(opened.header(0).pixelAspectRatio());
+  header.environment = environment_in(opened);
   header.compression = compression_name(opened.header(0).compression());
   header.channels = channels_of(opened);
   return header;
@@ -88,7 +97,9 @@ std::string checked(const Path& file, const ExrLimits& limits) {
 }  // namespace
 
 ExrFile::ExrFile(const Path& file, const ExrLimits& limits)
-    : name_(file), opened_(checked(file, limits).c_str(), 1), header_(header_of(opened_)) {}
+    : name_(file), opened_(checked(file, limits).c_str(), 1), header_(header_of(opened_)) {
+  header_.folder = file.parent_path();
+}
 
 std::map<std::string, std::string> ExrFile::texts() const {
   std::map<std::string, std::string> texts;

@@ -313,6 +313,26 @@ void name_channels(std::vector<ExrChannel>& channels, const ExrParts& file) {
   separate_parts(channels, file_parts);
 }
 
+std::vector<std::array<const ExrChannel*, 3>> pictures_in(const ExrHeader& header) {
+  const auto colour_of = [](const ExrChannel& channel) {
+    return upper_case(channel.component.empty() ? channel.pass : channel.component);
+  };
+  const auto beside = [&](const ExrChannel& red, const char* colour) {
+    const auto found = std::ranges::find_if(header.channels, [&](const ExrChannel& channel) {
+      const bool same_pass = channel.component.empty() ? red.component.empty() : channel.pass == red.pass;
+      return same_pass && channel.layer == red.layer && colour_of(channel) == colour;
+    });
+    return found == header.channels.end() ? nullptr : &*found;
+  };
+  std::vector<std::array<const ExrChannel*, 3>> pictures;
+  for (const ExrChannel& red : header.channels) {
+    if (colour_of(red) != "R") continue;
+    const std::array picture = {&red, beside(red, "G"), beside(red, "B")};
+    if (picture[1] != nullptr && picture[2] != nullptr) pictures.push_back(picture);
+  }
+  return pictures;
+}
+
 bool has_bare_name(const ExrChannel& channel) {
   Words words = words_of(channel.name);
   (void)take_component(words);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -71,9 +72,12 @@ struct ExrWindow {
 
 /// Contents of an EXR file's headers.
 struct ExrHeader {
+  Path folder;       ///< of the file, where other files that it names are
   int width_px = 0;  ///< of the display window: the intended picture
   int height_px = 0;
   ExrWindow data_window;  ///< of the first part: pixels outside it are not in the file, or not in the picture
+  double pixel_aspect = 1;  ///< width of a pixel / its height
+  std::string environment;  ///< of an environment map, what it is: "latlong" or "cube"; otherwise empty
   std::string compression;  ///< of the first part
   std::vector<ExrChannel> channels;
   std::map<std::string, std::string> texts;  ///< string attributes of all parts; the first of each name
@@ -122,6 +126,9 @@ struct ExrParts {
 ///   ("Scene.left.Depth.Z"), or attributes of parts; several views make one layer each ("Scene.left").
 /// Source: OpenEXR, Storing Multi-View Images in OpenEXR Files; files that Blender 3.4.1 and 5.0.1 wrote.
 void name_channels(std::vector<ExrChannel>& channels, const ExrParts& file);
+
+/// Red, green and blue of each picture in a file, such as Combined.R, .G and .B, or R, G and B; in the order of the reds.
+[[nodiscard]] std::vector<std::array<const ExrChannel*, 3>> pictures_in(const ExrHeader& header);
 
 /// Whether the name of this channel in the file has no layer.
 [[nodiscard]] bool has_bare_name(const ExrChannel& channel);

@@ -16,6 +16,7 @@ struct ExrLayout {
   int supersample = 1;            ///< samples along each side of a pixel of the camera
   int width_px = 0;               ///< 0: any size
   int height_px = 0;
+  double pixel_aspect = 0;  ///< width of a pixel / its height; 0: any
   ExrLimits limits = {};
 };
 

@@ -47,6 +47,7 @@ void take(const std::optional<ExrIndexPlane>& plane, Plane<std::uint16_t>& out) 
 
 void read(ExrFile& opened, const ExrLayout& layout, const PassNeeds& needs, PassBuffer& out) {
   check_size(opened.header(), layout);
+  check_projection(opened.header(), layout);
   const ExrPlanes planes(opened.header(), layout);
   const ExrLayout mirror_layout = mirror_of(layout);
   std::optional<ExrPlanes> mirror;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,16 @@ namespace {
 constexpr std::array<std::string_view, 3> kAxes = {"X", "Y", "Z"};
 
 std::string quoted(const std::string& text) { return fmt::format("\"{}\"", text); }
+
+/// Blender's File Output node and others write an index as a picture, with the same numbers in each colour.
+std::string how_to_name_a_picture(const ExrHeader& header) {
+  const auto pictures = pictures_in(header);
+  if (pictures.empty()) return "";
+  return fmt::format(
+      "; an index that was written as a picture is named by \"channels\": {{\"object_index\": \"{}\"}} in "
+      "the manifest",
+      pictures.front().front()->full_name());
+}
 
 std::string names_of(const ExrHeader& header) { return list_names(full_names(header.channels)); }
 
@@ -125,8 +136,8 @@ const ExrChannel& ExrPlanes::find_objects() const {
   const std::vector<std::string> layers = index_layers();
   if (layers.empty())
     throw DataError(
-        fmt::format("no object index channel; expected one such as Scene.IndexOB.X; the file has: {}",
-                    names_of(header_)));
+        fmt::format("no object index channel; expected one such as Scene.IndexOB.X; the file has: {}{}",
+                    names_of(header_), how_to_name_a_picture(header_)));
   throw DataError(wrong_layer("layer", layout_.layer, layers));
 }
 
@@ -202,11 +213,25 @@ void check_size(const ExrHeader& header, const ExrLayout& layout) {
                         fmt::format("the manifest's {} x {} px", layout.width_px, layout.height_px)));
 }
 
+void check_projection(const ExrHeader& header, const ExrLayout& layout) {
+  constexpr double kTolerance = 0.01;
+  if (!header.environment.empty())
+    throw DataError(fault("envmap", header.environment, "", "none: the picture of a pinhole camera"));
+  if (header.pixel_aspect == 1 || layout.pixel_aspect == 0) return;
+  if (std::abs(header.pixel_aspect / layout.pixel_aspect - 1) <= kTolerance) return;
+  throw DataError(
+      fault("pixelAspectRatio", fmt::format("{:.6g}", header.pixel_aspect), "",
+            fmt::format("{:.6g}, the manifest's camera.fy_px / camera.fx_px", layout.pixel_aspect)));
+}
+
 std::vector<ExrTarget> shape_targets(const ExrPlanes& planes, const PassNeeds& needs, Plane<float>& depth_m,
                                      std::array<Plane<float>, 3>& normal) {
   std::vector<ExrTarget> targets;
-  if (needs.depth) {
-    targets.push_back({.channel = &planes.required_depth(), .plane = &depth_m, .outside = kSkyDepthM});
+  const ExrChannel* const depth = needs.depth            ? &planes.required_depth()
+                                  : needs.depth_if_there ? planes.depth()
+                                                         : nullptr;
+  if (depth != nullptr) {
+    targets.push_back({.channel = depth, .plane = &depth_m, .outside = kSkyDepthM});
   } else {
     depth_m = {};
   }

@@ -56,6 +56,10 @@ class ExrPlanes {
 /// DataError (without the file's name) if the picture's size differs from the layout's, if that has one.
 void check_size(const ExrHeader& header, const ExrLayout& layout);
 
+/// DataError (without the file's name) if the picture is not a pinhole's, but an environment map, or if its pixels have another
+/// shape than the layout's, if that has one. Files that state square pixels pass: many writers state nothing else.
+void check_projection(const ExrHeader& header, const ExrLayout& layout);
+
 /// Adds depth and normals to be decoded, if needed; planes that are not needed are emptied.
 [[nodiscard]] std::vector<ExrTarget> shape_targets(const ExrPlanes& planes, const PassNeeds& needs,
                                                    Plane<float>& depth_m,

@@ -1,9 +1,13 @@
 #include "io/exr/cryptomatte.h"
 
+#include <filesystem>
+
 #include "base/error.h"
+#include "base/relative_name.h"
 #include "support/catch.h"
 #include "support/mattes.h"
 #include "support/message_of.h"
+#include "support/temporary_folder.h"
 
 namespace cryptomatte_test {
 
@@ -145,6 +149,54 @@ TEST_CASE("A cryptomatte may come without names") {
   header.texts["cryptomatte/0000000/manif_file"] = "../../etc/names.json";
   CHECK(cryptomattes_in(header).front().fault.empty());
   CHECK(cryptomattes_in(header).front().names.empty());
+}
+
+TEST_CASE("Names may be in a side-car file below the folder, and those of the header come first") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "names");
+  (void)folder.file("names/f.json", R"({"cow": "2b4855d1"})");
+  ExrHeader header = header_of({kName});
+  header.folder = folder.path();
+  header.texts["cryptomatte/0000000/manif_file"] = "names/f.json";
+  CHECK(cryptomattes_in(header).front().names.begin()->second == "anna");
+  header.texts.erase("cryptomatte/0000000/manifest");
+  const Cryptomatte cryptomatte = cryptomattes_in(header).front();
+  CHECK(cryptomatte.names == std::map<std::uint32_t, std::string>{{0x2B4855D1, "cow"}});
+  CHECK(cryptomatte.names_fault.empty());
+}
+
+TEST_CASE("A side-car file that cannot be read, or is elsewhere, leaves a cryptomatte without names") {
+  const TemporaryFolder folder;
+  const std::string place = folder.path().string();
+  (void)folder.file("list.json", R"(["cow"])");
+  std::filesystem::resize_file(folder.file("long.json", ""), kMostSidecarBytes + 1);
+  std::filesystem::create_symlink("/etc", folder.path() / "elsewhere");
+  std::filesystem::create_symlink("list.json", folder.path() / "link.json");
+  const auto fault_of_sidecar = [&folder](const std::string& name) {
+    ExrHeader header = header_of({kName});
+    header.folder = folder.path();
+    header.texts.erase("cryptomatte/0000000/manifest");
+    header.texts["cryptomatte/0000000/manif_file"] = name;
+    const Cryptomatte cryptomatte = cryptomattes_in(header).front();
+    CHECK(cryptomatte.fault.empty());
+    CHECK(cryptomatte.names.empty());
+    return cryptomatte.names_fault;
+  };
+  CHECK(fault_of_sidecar("none.json") ==
+        "manif_file = \"none.json\": cannot read " + place + "/none.json: no such file");
+  CHECK(fault_of_sidecar("list.json") ==
+        "manif_file = \"list.json\": manifest = 7 characters; expected a JSON object of names and their "
+        "hashes");
+  CHECK(fault_of_sidecar("long.json") ==
+        "manif_file = \"long.json\": " + place +
+            "/long.json = 16777217 bytes; expected at most 16777216 bytes (16 MiB)");
+  CHECK(fault_of_sidecar("elsewhere/passwd")
+            .starts_with("manif_file = \"elsewhere/passwd\": " + place + "/elsewhere = a link to /etc; "));
+  CHECK(fault_of_sidecar("link.json")
+            .starts_with("manif_file = \"link.json\": " + place + "/link.json = a link to list.json; "));
+  for (const char* name : {"../names.json", "/etc/passwd", "a/../../b", "~/\x1b[2J"})
+    CHECK(fault_of_sidecar(name).ends_with(std::string(": expected ") + RelativeName::kRule));
+  CHECK(fault_of_sidecar("\x1b[2J").starts_with("manif_file = \"\\x1b[2J\": "));
 }
 
 TEST_CASE("The fault of a cryptomatte is reported with it") {

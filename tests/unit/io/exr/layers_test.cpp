@@ -251,6 +251,46 @@ TEST_CASE("Actors alone are in their layer, also in parts and with named channel
         Read{3, kNone, kNone, kNone, kNone, kNone, 3});
 }
 
+TEST_CASE("Depth for labels is read where a file has it, and missed nowhere") {
+  const PassNeeds needs = {.depth_if_there = true};
+  CHECK(Exr({{"A.IndexOB.X", 1}, {"A.Depth.Z", 7}}).read({}, needs)[2] == 7);
+  CHECK(Exr({{"A.IndexOB.X", 1}, {"A.Depth.Z", 7}}).read()[2] == kNone);
+  CHECK(Exr({{"A.IndexOB.X", 1}}).read({}, needs)[2] == kNone);
+}
+
+TEST_CASE("An index that was written as a picture is named by its red") {
+  const std::string rule = "no object index channel; expected one such as Scene.IndexOB.X; the file has: ";
+  const std::string hint =
+      "; an index that was written as a picture is named by \"channels\": {\"object_index\": ";
+  CHECK(Exr({{"R", 1}, {"G", 1}, {"B", 1}}).fault() == rule + "B, G, R" + hint + "\"R\"} in the manifest");
+  CHECK(Exr({{"Mask.R", 1}, {"Mask.G", 1}, {"Mask.B", 1}}).fault() ==
+        rule + "Mask.B, Mask.G, Mask.R" + hint + "\"Mask.R\"} in the manifest");
+  CHECK(Exr({{"R", 1}, {"G", 1}, {"Mask.B", 1}}).fault() == rule + "G, Mask.B, R");
+  CHECK(Exr({{"R", 1}, {"G", 1}, {"B", 1}}).read(naming_objects("R"))[0] == 1);
+}
+
+TEST_CASE("Pictures that no pinhole camera with the manifest's pixels makes are refused") {
+  exr_forms::Part part = {.display = window(0, 0, 1, 1), .channels = {{"IndexOB.X", floats({1})}}};
+  const TemporaryFolder folder;
+  const Path file = folder / "f.exr";
+  const auto fault_of = [&](const ExrLayout& layout) {
+    exr_forms::write(file, {part});
+    return message_of<DataError>([&] { (void)read_passes(file, layout); }).substr(file.string().size());
+  };
+  part.pixel_aspect = 2;
+  CHECK(fault_of({.pixel_aspect = 1}) ==
+        ": pixelAspectRatio = 2; expected 1, the manifest's camera.fy_px / camera.fx_px");
+  CHECK(read_passes(file, {.pixel_aspect = 2.01}).object_index.at(0, 0) == 1);
+  CHECK(read_passes(file, {}).object_index.at(0, 0) == 1);
+  part.pixel_aspect = 1;  // what writers state who know nothing of it
+  exr_forms::write(file, {part});
+  CHECK(read_passes(file, {.pixel_aspect = 2}).object_index.at(0, 0) == 1);
+  part.environment = Imf::ENVMAP_LATLONG;
+  CHECK(fault_of({}) == ": envmap = latlong; expected none: the picture of a pinhole camera");
+  part.environment = Imf::ENVMAP_CUBE;
+  CHECK(fault_of({}) == ": envmap = cube; expected none: the picture of a pinhole camera");
+}
+
 TEST_CASE("Available planes are found without reading them") {
   const auto has_passes = [](const Exr& exr, const ExrLayout& layout = {}) {
     const PassNeeds planes = planes_in_exr(exr.file, layout);
