@@ -73,7 +73,7 @@ def test_pictures_make_the_dataset_of_an_index_plane(veldt, kind):
     done = veldt("convert", "one", "--out", "out", "--quiet")
     assert (done.code, done.out, done.err) == (0, "", "")
     (veldt.folder / "index").mkdir()
-    passes.write_clip(veldt.folder / "index" / "one")
+    passes.write_clip(veldt.folder / "index" / "one", has_depth=False)
     assert veldt("convert", "index/one", "--out", "by_index", "--quiet").code == 0
     assert veldt.pixels("out") == veldt.pixels("by_index")
     assert content_of(veldt.folder / "out") == content_of(veldt.folder / "by_index")

@@ -86,12 +86,12 @@ def test_a_pixel_is_warned_of(veldt):
 
 
 def test_what_is_unusable(veldt):
-    """Unusable: sky's depth on a surface, none, behind the camera; normals of no length. Short means are usable."""
-    depth_m = [math.nan, math.inf, -math.inf, 0, -3, 1e10, 1e-3, 9e8]
+    """Unusable: sky's depth on a surface, none, behind the camera, past any horizon; normals of no length. Short means are usable."""
+    depth_m = [math.nan, math.inf, -math.inf, 0, -3, 1e10, 1e-3, 9e4, 9e8]
     normal = [(0, 0, 0), (math.inf, 0, 0), (0, math.nan, 1), (0.1, 0, 0), (0, 0, -1)]
     _write_clip(veldt.folder / "one", depth_m, normal)
     assert _convert(veldt).code == 3
-    assert _shares(veldt) == (6 / SURFACES, 3 / SURFACES)
+    assert _shares(veldt) == (7 / SURFACES, 3 / SURFACES)
 
 
 def test_planes_that_no_term_reads_are_not_counted(veldt):

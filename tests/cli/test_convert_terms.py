@@ -99,6 +99,21 @@ def test_the_published_model_asks_for_nothing(veldt):
     assert (done.code, done.out) == (0, "out: 1 clip made, 3 frames\n")
 
 
+def test_labels_have_the_same_keys_whatever_the_terms(veldt):
+    """Depth is there, poses of the actors are not: their range is that of their pixels."""
+    _write_clip(veldt.folder / "one")
+    off = [word for term in sorted(LOOKING) for word in ("--set", f"terms.{term}=off")]
+    keys = {}
+    for name, options in {"published": [], "physical": PHYSICAL, "off": PHYSICAL + off}.items():
+        done = veldt("convert", "one", "--out", name, "--quiet", *options)
+        assert (done.code, done.err) == (0, "")
+        labels = veldt.read(f"{name}/annotations.json")["annotations"]
+        assert all(label["range_m"] > 50 for label in labels)
+        frames = (veldt.folder / name / "clips" / "one" / "frames.jsonl").read_text(encoding="utf-8")
+        keys[name] = [set(label) for label in labels], [set(json.loads(line)) for line in frames.splitlines()]
+    assert keys["published"] == keys["physical"] == keys["off"]
+
+
 def test_of_several_clips_the_one_that_lacks_it_is_named(veldt):
     _write_clip(veldt.folder / "one")
     _write_clip(veldt.folder / "two", depth=False)

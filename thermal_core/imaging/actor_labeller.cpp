@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "base/error.h"
+#include "base/plausible.h"
 #include "base/text.h"
 #include "imaging/actor_box.h"
 #include "imaging/supersample.h"
@@ -30,6 +31,20 @@ std::vector<std::uint16_t> indices_of(const std::vector<ManifestObject>& actors)
   std::vector<std::uint16_t> indices;
   for (const ManifestObject& actor : actors) indices.push_back(actor.index);
   return indices;
+}
+
+/// Whether each frame says where the camera and each actor's box are.
+bool has_all_places(const Manifest& manifest) {
+  const auto is_placed = [](const ManifestObject& object, const ManifestFrame& frame) {
+    return object.object_class != ObjectClass::actor ||
+           (object.bounds_m &&
+            std::ranges::find(frame.actors, object.index, &ActorPose::index) != frame.actors.end());
+  };
+  return std::ranges::all_of(manifest.frames, [&](const ManifestFrame& frame) {
+    return frame.camera_to_world && std::ranges::all_of(manifest.objects, [&](const ManifestObject& object) {
+             return is_placed(object, frame);
+           });
+  });
 }
 
 /// Looks up an ascending list; null if absent.
@@ -72,12 +87,12 @@ struct ActorLabeller::Layer {
 };
 
 ActorLabeller::ActorLabeller(const Manifest& manifest, const LensDistortion& lens,
-                             std::shared_ptr<const ResampleMap> map, bool uses_depth)
+                             std::shared_ptr<const ResampleMap> map)
     : camera_(manifest.camera),
       passes_camera_(passes_camera(manifest)),
       lens_(lens),
       passes_lens_(manifest.lens),
-      uses_depth_(uses_depth),
+      wants_depth_(!has_all_places(manifest)),
       supersample_(manifest.supersample),
       map_(std::move(map)),
       times_shown_(map_ && supersample_ > 1 ? map_->times_shown() : Plane<std::uint16_t>()),
@@ -179,13 +194,13 @@ void ActorLabeller::set_places(const ManifestFrame& frame, std::vector<Instance>
 
 /// Mean over the pixels of the passes; depth is along the camera's axis.
 std::optional<double> ActorLabeller::mean_range_m(const Passes& passes, const IndexUse& use) const {
-  if (!uses_depth_) return std::nullopt;
+  if (passes.depth_m.empty()) return std::nullopt;
   double sum_m = 0;
   int pixels = 0;
   for (int y = use.box.y_px; y < use.box.y_px + use.box.height_px; ++y) {
     for (int x = use.box.x_px; x < use.box.x_px + use.box.width_px; ++x) {
       const auto depth_m = static_cast<double>(passes.depth_m.at(x, y));
-      if (passes.object_index.at(x, y) != use.index || !std::isfinite(depth_m)) continue;
+      if (passes.object_index.at(x, y) != use.index || !kDistanceM.holds(depth_m)) continue;
       const LensPoint ray = unproject(passes_camera_, passes_lens_, {x + 0.5, y + 0.5});
       sum_m += depth_m * std::hypot(ray.x, ray.y, 1);
       ++pixels;

@@ -15,11 +15,12 @@ namespace thermal {
 /// Labels the actors of a clip's frames with everything that does not need the sensor.
 class ActorLabeller {
  public:
-  /// `map`: from passes at the camera's resolution to its picture; null where they are the same. `uses_depth`:
-  /// whether passes are certain to have depth. Depth is read only then, so that labels do not depend on which planes
-  /// others have requested.
-  ActorLabeller(const Manifest& manifest, const LensDistortion& lens, std::shared_ptr<const ResampleMap> map,
-                bool uses_depth = false);
+  /// `map`: from passes at the camera's resolution to its picture; null where they are the same.
+  ActorLabeller(const Manifest& manifest, const LensDistortion& lens, std::shared_ptr<const ResampleMap> map);
+
+  /// Whether label() finds some range only by depth: of an actor without a pose or bounds, or in a frame without a pose of
+  /// the camera. Passes must then have their depth, if there is any, whatever else needs it.
+  [[nodiscard]] bool wants_depth() const noexcept { return wants_depth_; }
 
   /// The actors with at least one pixel in the camera's picture, in ascending order of index. `uses` is a survey of
   /// the object index.
@@ -33,7 +34,8 @@ class ActorLabeller {
   /// estimate: over the demo's actors, an end found so is off by 7 % of an elephant's side, 11 % of a zebra's, 13 %
   /// of a human's (rms); the box in the world alone would be too large by 19 to 41 %. Empty, like truncated_fraction,
   /// if it touches a border and poses or bounds are not given.
-  /// range_m: to the centre of the box in the world; otherwise the mean over its pixels, if depth is used.
+  /// range_m: to the centre of the box in the world; otherwise the mean over its pixels with a depth in kDistanceM, if passes
+  /// have depth.
   /// DataError if the actor layer holds an index that is not an actor's. Safe to call from several threads.
   [[nodiscard]] std::vector<Instance> label(const Passes& passes, std::span<const IndexUse> uses,
                                             const ManifestFrame& frame) const;
@@ -53,7 +55,7 @@ class ActorLabeller {
   CameraIntrinsics passes_camera_;
   LensDistortion lens_;         ///< of the picture
   LensDistortion passes_lens_;  ///< of the passes
-  bool uses_depth_;
+  bool wants_depth_;
   int supersample_;
   std::shared_ptr<const ResampleMap> map_;
   Plane<std::uint16_t> times_shown_;    ///< in pixels of the camera's size; where finer ones are counted

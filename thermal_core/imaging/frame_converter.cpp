@@ -67,7 +67,7 @@ FrameConverter::FrameConverter(const Manifest& manifest, const MaterialLibrary& 
                              ? brightest_of_table_1(materials, settings.season,
                                                     radiance_of(settings.radiance, settings.response))
                              : scene_radiance_.brightest_w_m2_sr()),
-      labeller_(manifest, settings.lens, map_, scene_radiance_.needs().depth),
+      labeller_(manifest, settings.lens, map_),
       has_actor_layer_(!manifest.actor_layer.empty()) {}
 
 FrameConverter::FrameConverter(const Manifest& manifest, const MaterialLibrary& materials, Season season,
@@ -78,6 +78,7 @@ FrameConverter::FrameConverter(const Manifest& manifest, const MaterialLibrary& 
 PassNeeds FrameConverter::needs() const noexcept {
   PassNeeds needs = scene_radiance_.needs();
   needs.actors = has_actor_layer_;
+  needs.depth_if_there = labeller_.wants_depth();
   return needs;
 }
 
@@ -118,7 +119,7 @@ void FrameConverter::convert_samples(const Passes& passes, const ManifestFrame& 
   Passes labelled;
   labelled.object_index = filled_in(passes.object_index, fine.object_index, fine);
   labelled.actor_index = filled_in(passes.actor_index, fine.actor_index, fine);
-  if (scene_radiance_.needs().depth) labelled.depth_m = filled_in(passes.depth_m, fine.depth_m, fine);
+  if (labeller_.wants_depth()) labelled.depth_m = filled_in(passes.depth_m, fine.depth_m, fine);
   const std::vector<IndexUse> uses = survey_indices(labelled.object_index);
   scene_radiance_.surfaces().check_objects(uses);
   scene_radiance_.surfaces().check_materials(survey_indices(passes.material_index));

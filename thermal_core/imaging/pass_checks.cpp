@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/clones.h"
-#include "scene/passes.h"
+#include "base/plausible.h"
 
 namespace thermal {
 namespace {
@@ -18,9 +18,12 @@ VELDT_CLONES std::int32_t count_surfaces(const std::uint16_t* surface, std::size
 
 VELDT_CLONES std::int32_t count_unusable_depth(const std::uint16_t* surface, const float* depth_m,
                                                std::size_t count) noexcept {
+  constexpr auto kNearest = static_cast<float>(kDistanceM.least);
+  constexpr auto kFarthest = static_cast<float>(kDistanceM.most);
   std::int32_t sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const int usable = (depth_m[i] > 0 ? 1 : 0) & (depth_m[i] < kSkyFromM ? 1 : 0);  // NaN is neither
+    const int usable =
+        (depth_m[i] >= kNearest ? 1 : 0) & (depth_m[i] <= kFarthest ? 1 : 0);  // NaN is neither
     sum += (surface[i] != 0 ? 1 : 0) & (1 - usable);
   }
   return sum;

@@ -21,7 +21,7 @@ struct PlaneCheck {
 
 /// What the planes held that the terms read. Sky is not counted: renderers write anything there.
 struct PassChecks {
-  PlaneCheck depth;  ///< unusable: NaN, at most 0, infinite, or kSkyFromM and more
+  PlaneCheck depth;  ///< unusable: NaN, or outside of kDistanceM
   PlaneCheck
       normal;  ///< unusable: NaN, infinite, or of length 0. Means of several normals, which are short, are usable
 

@@ -61,6 +61,7 @@ void CameraTracer::trace(const BakedMoment& now, const PassNeeds& needs, Passes&
   const Plane<std::uint8_t> near_actors = pixels_near(actors.pieces, place_, shot.view, *pixel_rays_);
   const bool sees_water = may_see(place_.waters(), place_, shot.view, *pixel_rays_);
   PassNeeds of_samples = needs;
+  of_samples.depth |= needs.depth_if_there;
   of_samples.mirrored &= sees_water;
   PassNeeds of_pixels = of_samples;
   of_pixels.depth |= sample_rays_ != nullptr;

@@ -47,9 +47,7 @@ Passes passes_of(const IndexPlane& all, const IndexPlane& alone = {}) {
 
 std::vector<Instance> labels_of(const Manifest& manifest, const Passes& passes,
                                 const ManifestFrame& frame = {}) {
-  const bool has_depth = !passes.depth_m.empty();
-  return ActorLabeller(manifest, {}, nullptr, has_depth)
-      .label(passes, survey_indices(passes.object_index), frame);
+  return ActorLabeller(manifest, {}, nullptr).label(passes, survey_indices(passes.object_index), frame);
 }
 
 std::vector<Instance> labels_of(const IndexPlane& all, const IndexPlane& alone = {}) {
@@ -246,13 +244,37 @@ TEST_CASE("Without poses, range is the mean over the pixels, along their rays") 
   CHECK_FALSE(labels_of(manifest_for(plane), passes).at(0).range_m);
 }
 
-TEST_CASE("Depth that only others requested is not read") {
+TEST_CASE("Depths that no distance can have do not count") {
   const IndexPlane plane = drawn({"....", ".33.", "...."});
   Passes passes = passes_of(plane);
   passes.depth_m = Plane<float>(4, 3, 20);
-  const std::vector<Instance> labels =
-      ActorLabeller(manifest_for(plane), {}, nullptr).label(passes, survey_indices(plane), {});
-  CHECK_FALSE(labels.at(0).range_m);
+  for (const float value : {-9999.0F, 0.0F, 1e10F, 3.4e38F}) {
+    passes.depth_m.at(2, 1) = value;
+    CHECK_THAT(labels_of(manifest_for(plane), passes).at(0).range_m.value(),
+               WithinAbs(20 * std::hypot(0.05, 1), 1e-12));
+  }
+}
+
+TEST_CASE("Depth is wanted unless every frame places the camera and all actors, whatever the terms") {
+  const IndexPlane plane = drawn({"....", ".33.", "...."});
+  Manifest manifest = manifest_for(plane);
+  const auto wants_depth = [&manifest] { return ActorLabeller(manifest, {}, nullptr).wants_depth(); };
+  manifest.frames = {cube_at(0, 0), cube_at(1, 0)};
+  for (ManifestObject& object : manifest.objects) object.bounds_m = {{{-1, -1, 0}, {1, 1, 2}}};
+  for (ManifestFrame& frame : manifest.frames) {
+    frame.actors.clear();
+    for (const ManifestObject& object : manifest.objects) frame.actors.push_back({.index = object.index});
+  }
+  CHECK_FALSE(wants_depth());
+  manifest.frames[1].actors.pop_back();
+  CHECK(wants_depth());
+  manifest.frames[1] = manifest.frames[0];
+  CHECK_FALSE(wants_depth());
+  manifest.frames[1].camera_to_world.reset();
+  CHECK(wants_depth());
+  manifest.frames[1] = manifest.frames[0];
+  manifest.objects.back().bounds_m.reset();
+  CHECK(wants_depth());
 }
 
 TEST_CASE(

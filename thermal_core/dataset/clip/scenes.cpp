@@ -27,7 +27,8 @@ PassNeeds ClipScenes::needs() const {
     all = {.depth = all.depth || needs.depth || scene.motion,
            .normals = all.normals || needs.normals,
            .actors = all.actors || needs.actors,
-           .mirrored = all.mirrored || needs.mirrored};
+           .mirrored = all.mirrored || needs.mirrored,
+           .depth_if_there = all.depth_if_there || needs.depth_if_there};
   }
   return all;
 }
