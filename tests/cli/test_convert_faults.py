@@ -148,6 +148,33 @@ def test_a_frame_that_cannot_be_read(veldt, name):
     assert not list((veldt.folder / "strict" / "clips").iterdir())
 
 
+WITHOUT_INDEX = (
+    "no object index channel; expected one such as Scene.IndexOB.X; the file has: B, G, R; an index that was written as"
+    ' a picture is named by "channels": {"object_index": "R"} in the manifest'
+)
+
+
+@pytest.mark.parametrize("options", [[], ["--set", "sensor.model=physical"]])
+def test_passes_without_an_index_leave_nothing(veldt, options):
+    """The same message whatever the model, and a folder only if there is something to put into it."""
+    for clip in ("one", "two"):
+        folder = passes.write_clip(veldt.folder / clip, clip)
+        for frame in range(passes.FRAMES):
+            write_exr(folder / f"{frame:06d}.exr", {name: passes.object_index(frame) for name in "RGB"})
+    done = veldt("convert", "one", "two", "--out", "out", "--quiet", *options)
+    message = "veldt: clip {0} rejected: {0}/000000.exr: {1}; its 2 other frames cannot be converted either\n"
+    assert (done.code, done.out) == (1, "")
+    assert done.err == "".join(message.format(clip, WITHOUT_INDEX) for clip in ("one", "two"))
+    assert not (veldt.folder / "out").exists()
+    document = passes.manifest("one") | {"channels": {"object_index": "R"}}
+    passes.write_manifest(
+        veldt.folder / "one", document
+    )  # the other is named, and keeps no clip from being made
+    done = veldt("convert", "one", "two", "--out", "out", "--quiet", *options)
+    assert (done.code, done.err) == (3, message.format("two", WITHOUT_INDEX))
+    assert veldt.read("out/dataset.json")["clips"][0]["status"] == "done"
+
+
 # --- manifests --------------------------------------------------------------------------------------------------------
 
 

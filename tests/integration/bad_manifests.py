@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import passes
-from bad_input import NO_CLIP, NOTHING, OTHERS, BadInput
+from bad_input import NOTHING, OTHERS, BadInput
 
 
 def _text(name: str, content: bytes, message: str, code: int = 1) -> BadInput:
@@ -147,7 +147,6 @@ MANIFESTS = [
         "a camera of 10^10 pixels",
         lambda m: m["camera"].update(width_px=100000, height_px=100000),
         "clip one rejected: one: size of the passes = 100000 x 100000 px; expected at most 256000000 pixels (--max-megapixels)",
-        made=NO_CLIP,
     ),
     _manifest(
         "a camera without pixels",

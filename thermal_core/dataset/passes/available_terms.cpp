@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/plausible.h"
 #include "dataset/clip/frame_faults.h"
 #include "dataset/passes/outline.h"
 #include "io/pass_reader.h"
@@ -13,16 +14,19 @@
 namespace thermal {
 namespace {
 
-/// Adds what the first readable frame provides: other frames of a clip are like it, and unreadable ones are reported
-/// when they are converted.
+/// What the first readable frame provides: other frames of a clip are like it, and unreadable ones are reported when they
+/// are converted. `fault` gets the first fault.
 template <typename Look>
-auto of_a_frame(const ClipPasses& source, const Look& look) -> std::optional<decltype(look(0))> {
+auto of_a_frame(const ClipPasses& source, std::string& fault, const Look& look)
+    -> std::optional<decltype(look(0))> {
   const auto frames = static_cast<int>(source.manifest.frames.size());
   for (int frame = 0; frame < frames; ++frame) {
     try {
       return look(frame);
-    } catch (const DataError&) {
-    } catch (const IoError&) {
+    } catch (const DataError& error) {
+      if (fault.empty()) fault = error.what();
+    } catch (const IoError& error) {
+      if (fault.empty()) fault = error.what();
     }
   }
   return std::nullopt;
@@ -84,7 +88,7 @@ std::vector<SceneOutline::Look> looks_in(const Plane<float>& depth_m, const Mani
       const int x = (depth_m.width_px() - 1) * column / (kRays - 1);
       const int y = (depth_m.height_px() - 1) * row / (kRays - 1);
       const float depth = depth_m.at(x, y);
-      if (!(depth > 0 && depth < kSkyFromM)) continue;
+      if (!kDistanceM.holds(static_cast<double>(depth))) continue;
       const LensPoint ray = unproject(camera, manifest.lens, {x + 0.5, y + 0.5});
       const double length = std::hypot(ray.x, ray.y, 1);
       const double cosine = ground_cosine(frame, ray, length);
@@ -120,7 +124,8 @@ std::vector<SceneOutline::Look> looks_of(const ClipPasses& source, const PassRea
     return looks_in(passes.depth_m, source.manifest,
                     source.manifest.frames[static_cast<std::size_t>(number)]);
   };
-  return of_a_frame(source, look).value_or(std::vector<SceneOutline::Look>());
+  std::string ignored;
+  return of_a_frame(source, ignored, look).value_or(std::vector<SceneOutline::Look>());
 }
 
 /// The longest step of an actor between two frames [m].
@@ -160,17 +165,6 @@ bool tells_height(const Manifest& manifest) {
                              [](const ManifestFrame& frame) { return frame.agl_m.has_value(); });
 }
 
-PassesView view_of(const ClipPasses& source) {
-  const PassReader reader = reader_for(source);
-  const auto planes_in = [&](int frame) { return reader.planes_in(file_of(source, frame)); };
-  PassesView view = {.planes = of_a_frame(source, planes_in),
-                     .looks = {},
-                     .has_ground_maps = has_ground_beside(source.folder)};
-  if (view.planes && view.planes->depth && !tells_height(source.manifest))
-    view.looks = looks_of(source, reader);
-  return view;
-}
-
 void add_ground(const std::set<std::string>& names, const MaterialLibrary& materials, SceneOutline& outline) {
   for (const std::string& name : names) {
     outline.covers.push_back({.material = &materials.find(name, "manifest: material"),
@@ -180,10 +174,20 @@ void add_ground(const std::set<std::string>& names, const MaterialLibrary& mater
 
 }  // namespace
 
-std::vector<PassesView> view_passes(const std::vector<ClipPasses>& sources) {
-  std::vector<PassesView> views;
-  for (const ClipPasses& source : sources) views.push_back(view_of(source));
-  return views;
+PassesView view_passes(const ClipPasses& source, bool looks) {
+  PassesView view = {.planes = {}, .looks = {}, .has_ground_maps = has_ground_beside(source.folder)};
+  try {
+    const PassReader reader = reader_for(source);
+    view.planes =
+        of_a_frame(source, view.fault, [&](int frame) { return reader.planes_in(file_of(source, frame)); });
+    if (!view.planes && source.bad_frames == BadFrames::skip)
+      view.fault = no_frame_left(view.fault, static_cast<int>(source.manifest.frames.size()));
+    if (looks && view.planes && view.planes->depth && !tells_height(source.manifest))
+      view.looks = looks_of(source, reader);
+  } catch (const DataError& error) {  // no frame of such a manifest can be read
+    view.fault = error.what();
+  }
+  return view;
 }
 
 PassesView view_planes(const Manifest& manifest, const Passes& first) {

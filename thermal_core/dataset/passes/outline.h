@@ -68,12 +68,13 @@ class Nights {
 /// Information from the files of a clip besides its manifest.
 struct PassesView {
   std::optional<PassNeeds> planes;        ///< of its first readable frame; empty: none is readable
+  std::string fault = {};                 ///< why none is readable; or empty
   std::vector<SceneOutline::Look> looks;  ///< from that frame's depths, if the manifest has no height
   bool has_ground_maps = false;           ///< beside the passes
 };
 
-/// Inspects the first readable frame of each clip.
-[[nodiscard]] std::vector<PassesView> view_passes(const std::vector<ClipPasses>& sources);
+/// Inspects the first readable frame of a clip; its pixels only for `looks`.
+[[nodiscard]] PassesView view_passes(const ClipPasses& source, bool looks);
 
 /// The same of a clip whose first frame is in memory.
 [[nodiscard]] PassesView view_planes(const Manifest& manifest, const Passes& first);

@@ -6,6 +6,9 @@
 #include <set>
 #include <utility>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/printable.h"
@@ -29,13 +32,43 @@ Layout own_layout(const ConvertRequest& request) {
   return layout;
 }
 
-/// Decides which terms each dataset keeps. Passes are inspected once for all.
-std::vector<KeptTerms> terms_of(const std::vector<ConvertRequest>& requests, const MaterialLibrary& materials,
-                                const std::vector<ClipPasses>& sources) {
+/// DataError if no frame of any clip can be converted. Looks at clips that nobody has looked at.
+void check_any_readable(const std::vector<ClipPasses>& sources, std::vector<PassesView>& views) {
+  std::vector<std::string> faults;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    PassesView& view = views[i];
+    if (!view.planes && view.fault.empty()) view = view_passes(sources[i], false);
+    if (view.planes) return;
+    if (sources[i].bad_frames == BadFrames::fail) throw DataError(view.fault);
+    faults.push_back(fmt::format("clip {} rejected: {}", sources[i].manifest.clip, view.fault));
+  }
+  throw DataError(fmt::format("{}", fmt::join(faults, "\n")));
+}
+
+/// What the clips' first readable frames have, as far as a dataset needs it: inspected once for all.
+std::vector<PassesView> views_of(const std::vector<ConvertRequest>& requests,
+                                 const std::vector<ClipPasses>& sources) {
   const bool looks =
       std::ranges::any_of(requests, [](const auto& request) { return request.config.physical; });
-  const std::vector<PassesView> views =
-      looks ? view_passes(sources) : std::vector<PassesView>(sources.size());
+  std::vector<PassesView> views;
+  for (const ClipPasses& source : sources) views.push_back(looks ? view_passes(source, true) : PassesView());
+  return views;
+}
+
+/// New datasets are begun only if there is something to put into one.
+std::vector<PassesView> views_to_make(const std::vector<ConvertRequest>& requests,
+                                      const std::vector<ClipPasses>& sources) {
+  std::vector<PassesView> views = views_of(requests, sources);
+  const bool is_new = std::ranges::none_of(
+      requests, [](const ConvertRequest& request) { return Layout{request.out}.is_begun(); });
+  if (is_new) check_any_readable(sources, views);
+  return views;
+}
+
+/// Decides which terms each dataset keeps.
+std::vector<KeptTerms> terms_of(const std::vector<ConvertRequest>& requests, const MaterialLibrary& materials,
+                                const std::vector<ClipPasses>& sources,
+                                const std::vector<PassesView>& views) {
   std::vector<KeptTerms> kept;
   for (const ConvertRequest& request : requests)
     kept.emplace_back(request.config, outline_of(request.config, materials, sources, views));
@@ -214,9 +247,10 @@ void check_codec(const ConvertRequest& request, const Manifest& manifest) {
 }
 
 std::vector<std::unique_ptr<Dataset>> open_datasets(const std::vector<ConvertRequest>& requests,
-                                                    const std::vector<ClipPasses>& sources, HeatDays& heat) {
+                                                    const std::vector<ClipPasses>& sources,
+                                                    const std::vector<PassesView>& views, HeatDays& heat) {
   // First, because a required term that is impossible, or a missing codec, is a fault: then no folder is touched.
-  const std::vector<KeptTerms> kept = terms_of(requests, heat.materials(), sources);
+  const std::vector<KeptTerms> kept = terms_of(requests, heat.materials(), sources, views);
   for (const ConvertRequest& request : requests)
     for (const ClipPasses& source : sources) check_codec(request, source.manifest);
   std::vector<std::unique_ptr<Dataset>> datasets;
@@ -231,9 +265,10 @@ class Converter {
   Converter(const std::vector<ConvertRequest>& requests, const std::vector<ClipPasses>& sources,
             const MaterialLibrary& materials, const Assets& assets, const RunHooks& hooks)
       : sources_(sources),
+        views_(views_to_make(requests, sources)),
         heat_(materials, assets),
         hooks_(hooks),
-        datasets_(open_datasets(requests, sources, heat_)) {}
+        datasets_(open_datasets(requests, sources, views_, heat_)) {}
 
   std::vector<ConvertOutcome> run() {
     make_all();
@@ -289,7 +324,10 @@ class Converter {
     if (source.bad_frames == BadFrames::fail) throw;
   }
 
+  /// A clip without a readable frame has no terms that fit it.
   std::vector<ClipRecord> make(const ClipPasses& source, const std::vector<Dataset*>& wanted) {
+    const PassesView& view = views_[static_cast<std::size_t>(&source - sources_.data())];
+    if (!view.fault.empty()) throw DataError(view.fault);
     std::vector<ClipTask> tasks;
     for (const Dataset* dataset : wanted) tasks.push_back(dataset->task_for_clip(source));
     const ClipHooks hooks = {.wait_for_frame = {},
@@ -307,6 +345,7 @@ class Converter {
   }
 
   const std::vector<ClipPasses>& sources_;
+  std::vector<PassesView> views_;
   HeatDays heat_;
   const RunHooks& hooks_;
   std::vector<std::unique_ptr<Dataset>> datasets_;
@@ -329,7 +368,7 @@ std::vector<ConvertForecast> forecast_convert(const ConvertOptions& options) {
     const MaterialLibrary materials = read_materials(options.assets);
     const std::vector<ClipPasses> sources = read_sources(options, materials);
     const std::vector<ConvertRequest> requests = convert_requests(options, sources);
-    const std::vector<KeptTerms> kept = terms_of(requests, materials, sources);
+    const std::vector<KeptTerms> kept = terms_of(requests, materials, sources, views_of(requests, sources));
     HeatDays heat(materials, options.assets);
     std::vector<ConvertForecast> forecasts;
     for (std::size_t i = 0; i < requests.size(); ++i)
