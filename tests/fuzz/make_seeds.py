@@ -162,9 +162,19 @@ WORDS = {
     "exr_passes": "channels chlist compression dataWindow displayWindow box2i lineOrder pixelAspectRatio float v2f name"
     " screenWindowCenter screenWindowWidth string tiles tiledesc type scanlineimage tiledimage chunkCount int version"
     " cryptomatte/ /manifest /name /hash /conversion IndexOB.X IndexMA.X Depth.Z Normal.X Scene. Actors. .R .G .B .A"
-    " CryptoObject00".split(),
+    " CryptoObject00 /manif_file envmap".split(),
     "index_picture": ["IHDR", "PLTE", "IDAT", "IEND", "tRNS", "gAMA", "sRGB", "iCCP", "zTXt", "eXIf"],
-    "picture": ["II*\0", "MM\0*", 'role="scale">', 'role="offset">', "nan", "1e308", "IHDR", "JFIF"],
+    "picture": [
+        "II*\0",
+        "MM\0*",
+        'role="scale">',
+        'role="offset">',
+        'role="unittype">',
+        "nan",
+        "1e308",
+        "IHDR",
+        "JFIF",
+    ],
     "plan": [],
     "log": ["time_s", "x_m", "y_m", "z_m", "agl_m", "altitude_m", "yaw_deg", "nan", "inf", "1e308"],
 }

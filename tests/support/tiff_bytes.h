@@ -12,11 +12,12 @@ struct TiffPage {
   std::uint32_t width_px = 0;
   std::uint32_t height_px = 0;
   std::uint32_t bits = 32;
-  std::uint32_t format = 3;   ///< TIFF's SampleFormat: 1 unsigned, 2 signed, 3 floats
-  std::string pixels = {};    ///< little-endian
-  std::uint32_t kind = 0;     ///< TIFF's NewSubfileType: 1 a smaller copy, 4 a mask
-  std::string metadata = {};  ///< GDAL_METADATA; empty: none
-  std::string no_data = {};   ///< GDAL_NODATA; empty: none
+  std::uint32_t format = 3;       ///< TIFF's SampleFormat: 1 unsigned, 2 signed, 3 floats
+  std::string pixels = {};        ///< little-endian
+  std::uint32_t photometric = 1;  ///< 0: white is zero
+  std::uint32_t kind = 0;         ///< TIFF's NewSubfileType: 1 a smaller copy, 4 a mask
+  std::string metadata = {};      ///< GDAL_METADATA; empty: none
+  std::string no_data = {};       ///< GDAL_NODATA; empty: none
 };
 
 /// A page of numbers of any type.
@@ -41,7 +42,7 @@ class TiffBytes {
     add_number(257, page.height_px);
     add_number(258, page.bits);
     add_number(259, 1);
-    add_number(262, 1);
+    add_number(262, page.photometric);
     add_number(273, append(page.pixels));
     add_number(277, 1);
     add_number(278, page.height_px);

@@ -22,7 +22,8 @@ struct StoredScale {
 /// counts, in kelvin or degrees Celsius. The scale of counts is `kelvin_per_count`, or that of a TIFF's tags, as GDAL and
 /// `veldt export --format tiff` write it; kelvin are rounded once, so that these are the ones that were exported, bit for
 /// bit.
-/// Of GDAL's metadata, SCALE, OFFSET, UNITTYPE and GDAL_NODATA are used, the first of each; other tags are ignored.
+/// Of GDAL's metadata, SCALE, OFFSET, UNITTYPE and GDAL_NODATA are used, the first of each; other tags that
+/// say nothing of the values are ignored.
 /// DataError with the file for other pixels, further pages or a mask; counts without a scale; a unit that is neither; pixels
 /// that are GDAL_NODATA, because every pixel is measured; a median outside of kSceneMedianK, as of another unit or scale;
 /// pixels outside of kTemperatureK, as of NaN or another fill value, with their number; those of read_grey_picture() too.

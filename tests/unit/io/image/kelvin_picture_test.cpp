@@ -240,6 +240,16 @@ TEST_CASE("Pixels without a value by GDAL's tag, a mask or pages are refused, sm
         ": has several pages; expected one picture in each file");
 }
 
+TEST_CASE("Temperatures whose largest is black are refused") {
+  const TemporaryFolder folder;
+  TiffPage page = tiff_page<std::uint16_t>(2, 1, {30000, 30001});
+  page.photometric = 0;
+  const Path file = folder.file("a.tif", TiffBytes().add(page).bytes());
+  CHECK(message_of<DataError>([&] { (void)read_kelvin_picture(file, {.kelvin_per_count = 0.01}); }) ==
+        file.string() +
+            ": PhotometricInterpretation = 0 (white is zero); expected 1: larger values are warmer");
+}
+
 TEST_CASE("A file that claims more than it can hold takes no memory for it") {
   const TemporaryFolder folder;
   const std::string tiff = encode_tiff(Plane<float>(8, 8, 300.0F), {});

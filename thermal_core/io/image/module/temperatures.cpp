@@ -87,6 +87,10 @@ StoredTemperatures read_temperatures(const Path& file) {
     throw DataError(
         fmt::format("pixels = {} x {}; expected one channel of floats of 32 or 64 bits, or of 16-bit counts",
                     spec.nchannels, spec.format.c_str()));
+  constexpr int kWhiteIsZero =
+      0;  // for which OpenImageIO turns values round, as is right for grey levels alone
+  if (spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == kWhiteIsZero)
+    throw DataError("PhotometricInterpretation = 0 (white is zero); expected 1: larger values are warmer");
   check_is_single(file);
   StoredTemperatures stored = {.values = Plane<float>(spec.width, spec.height), .counts = counts};
   read_values(*in, file, spec.format, stored);
