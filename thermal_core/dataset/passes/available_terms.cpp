@@ -178,10 +178,13 @@ PassesView view_passes(const ClipPasses& source, bool looks) {
   PassesView view = {.planes = {}, .looks = {}, .has_ground_maps = has_ground_beside(source.folder)};
   try {
     const PassReader reader = reader_for(source);
+    std::string fault;
     view.planes =
-        of_a_frame(source, view.fault, [&](int frame) { return reader.planes_in(file_of(source, frame)); });
-    if (!view.planes && source.bad_frames == BadFrames::skip)
-      view.fault = no_frame_left(view.fault, static_cast<int>(source.manifest.frames.size()));
+        of_a_frame(source, fault, [&](int frame) { return reader.planes_in(file_of(source, frame)); });
+    if (!view.planes)
+      view.fault = source.bad_frames == BadFrames::fail
+                       ? fault
+                       : no_frame_left(fault, static_cast<int>(source.manifest.frames.size()));
     if (looks && view.planes && view.planes->depth && !tells_height(source.manifest))
       view.looks = looks_of(source, reader);
   } catch (const DataError& error) {  // no frame of such a manifest can be read
