@@ -104,7 +104,7 @@ FAULTS = {
     ),
     "fisheye": (
         CALIBRATION.replace("plumb_bob", "equidistant"),
-        " distortion_model = equidistant; expected plumb_bob, or rational_polynomial whose k4 to k6 are 0",
+        " distortion_model = equidistant; expected plumb_bob, radtan, or rational_polynomial whose k4 to k6 are 0",
     ),
     "malformed": (
         CALIBRATION.replace("0, 1]", "0, 1"),

@@ -153,7 +153,8 @@ WORDS = {
     "birdsai": ["-1", "2147483647", ",", "\r\n", " "],
     "calibration": "%YAML:1.0 --- !!opencv-matrix camera_matrix cameraMatrix Camera_Matrix distortion_coefficients"
     " dist_coeffs image_width image_height cameraResolution rows cols dt data fisheye_model distortion_model plumb_bob"
-    " rectification_matrix M1 type_id opencv-matrix .Nan .Inf opencv_storage <data> </data> !!binary $base64$".split(),
+    " rectification_matrix M1 type_id opencv-matrix .Nan .Inf opencv_storage <data> </data> !!binary $base64$ cam0:"
+    " intrinsics resolution camera_model pinhole radtan binning_x roi: xi { } - ... # & * | <<".split(),
     "coco": "images annotations categories videos image_id category_id bbox file_name seq_id frame_id frame_index"
     " frame_num empty segmentation counts size instance_id score bbox_mode".split(),
     "dataset": "../ ../../secret ../secret/key.png /dev/zero /etc/passwd @sum clips/one ir8/000000.png links files id"

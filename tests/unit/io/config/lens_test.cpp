@@ -209,7 +209,7 @@ TEST_CASE("A calibration that a config must not hold is a fault with its name") 
         "one "
         "to one as far as the corners of the picture");
   CHECK(fault_with("camera_matrix:", "matrix:") ==
-        "camera_matrix is missing; expected one of camera_matrix, cameraMatrix, Camera_Matrix");
+        "camera_matrix is missing; expected one of camera_matrix, cameraMatrix, Camera_Matrix, K, k");
 }
 
 TEST_CASE("What a calibration gives is not given besides") {
