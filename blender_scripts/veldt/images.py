@@ -10,34 +10,79 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
-_SIGNATURES = (b"\x89PNG\r\n\x1a\n", b"\x76\x2f\x31\x01")  # PNG; OpenEXR
+from .faults import listing
+
+_DECODERS = {b"\x89PNG\r\n\x1a\n": "png", b"\x76\x2f\x31\x01": "exr"}  # by the first bytes
 _MOST_PIXELS = 20_000 * 20_000
 
 
-def read_values(path: Path) -> np.ndarray:
-    """Values [row from the top, column] of a grey PNG, 0 to 1, or of an EXR's first channel, unchanged; float64.
+def read_values(path: Path, channel: str | None = None) -> np.ndarray:
+    """Values [row from the top, column] of a grey PNG, 0 to 1, or of an EXR's channel, unchanged; float64.
 
-    ValueError if the file is neither, has more than 4e8 pixels or is damaged.
+    `channel` names one of an EXR that has several; PART.CHANNEL, if it has several parts. ValueError if the file is
+    neither, has no such channel, several and none is named, more than 4e8 pixels, or is damaged.
     """
     with open(path, "rb") as file:
-        if not file.read(8).startswith(_SIGNATURES):
-            raise ValueError("it is neither")
+        begin = file.read(8)
+    kind = next((kind for signature, kind in _DECODERS.items() if begin.startswith(signature)), None)
+    if kind is None:
+        raise ValueError("it is neither")
     oiio = _oiio()
-    with _silent_stderr():
-        image = oiio.ImageInput.open(str(path))
+    with _silent_stderr(), TemporaryDirectory() as folder:
+        # OpenImageIO 2.4 chooses the decoder by the file's name, from Python.
+        link = Path(folder) / f"map.{kind}"
+        link.symlink_to(path.absolute())
+        image = oiio.ImageInput.open(str(link))
         if image is None:
             raise ValueError(_one_line(oiio.geterror()) or "OpenImageIO cannot read it")
-        _check(image)
-        is_png = image.format_name() == "png"
-        pixels = image.read_image(0, 0, 0, 1, image.spec().format if is_png else oiio.FLOAT)
-        fault = image.geterror()
-        image.close()
+        try:
+            return _values(oiio, image, kind == "png", channel)
+        finally:
+            image.close()
+
+
+def _values(oiio, image, is_png: bool, channel: str | None) -> np.ndarray:
+    part, number = _chosen(_channels(image), is_png, channel)
+    image.seek_subimage(part, 0)
+    spec = image.spec()
+    if spec.width * spec.height > _MOST_PIXELS:
+        raise ValueError(f"{spec.width} x {spec.height} pixels are more than {_MOST_PIXELS}")
+    if spec.deep:
+        raise ValueError("its pixels are deep")
+    pixels = image.read_image(part, 0, number, number + 1, spec.format if is_png else oiio.FLOAT)
+    fault = image.geterror()
     if pixels is None or fault:
         raise ValueError(_one_line(fault) or "OpenImageIO cannot read its pixels")
     return pixels[..., 0].astype(float) / (np.iinfo(pixels.dtype).max if is_png else 1.0)
+
+
+def _channels(image) -> dict[str, tuple[int, int]]:
+    """The part and number of each channel, by name."""
+    parts = []
+    while image.seek_subimage(len(parts), 0):
+        spec = image.spec()
+        parts.append((spec.getattribute("oiio:subimagename") or str(len(parts)), spec.channelnames))
+    return {
+        name if len(parts) == 1 else f"{part}.{name}": (p, k)
+        for p, (part, names) in enumerate(parts)
+        for k, name in enumerate(names)
+    }
+
+
+def _chosen(channels: dict[str, tuple[int, int]], is_png: bool, channel: str | None) -> tuple[int, int]:
+    if is_png and channel is not None:
+        raise ValueError(f'a PNG has no channel "{channel}"')
+    if is_png and len(channels) != 1:
+        raise ValueError("its pixels are not grey")
+    if channel is None and len(channels) != 1:
+        raise ValueError(f"it has {len(channels)} channels, {listing(channels)}; `channel` chooses one")
+    if channel is not None and channel not in channels:
+        raise ValueError(f'it has no channel "{channel}", but {listing(channels)}')
+    return next(iter(channels.values())) if channel is None else channels[channel]
 
 
 def write_rgb(path: Path, colours: np.ndarray) -> None:
@@ -50,20 +95,13 @@ def write_rgb(path: Path, colours: np.ndarray) -> None:
         raise OSError(f"{path}: {_one_line(image.geterror() if image else oiio.geterror())}")
 
 
-def _check(image) -> None:
-    spec = image.spec()
-    if image.format_name() == "png" and spec.nchannels != 1:
-        raise ValueError("its pixels are not grey")
-    if spec.width * spec.height > _MOST_PIXELS:
-        raise ValueError(f"{spec.width} x {spec.height} pixels are more than {_MOST_PIXELS}")
-
-
 def _oiio():
     import OpenImageIO  # pylint: disable=import-outside-toplevel
 
     # One thread: this process may fork later, and a fork has no threads but its own.
     OpenImageIO.attribute("threads", 1)
     OpenImageIO.attribute("exr_threads", -1)
+    OpenImageIO.attribute("try_all_readers", 0)  # untrusted bytes reach the decoder of their own kind alone
     return OpenImageIO
 
 

@@ -14,7 +14,7 @@ from scenes import tiny
 from veldt.plants.density import plan_density
 from veldt.failures import failure_of
 from veldt.faults import ConfigError
-from veldt.land.grey_images import read_grey, sample
+from veldt.land.grey_images import read_density, read_grey, read_height_shares, sample
 from veldt.land.terrain import build_terrain
 
 
@@ -47,6 +47,95 @@ def test_png_files_are_read_to_the_last_bit(tmp_path, form, step):
 def test_exr_files_are_read_as_they_are(tmp_path):
     values = 300.0 * _smooth()
     assert read_grey(_write(tmp_path / "a.exr", values, "float"), "here") == pytest.approx(values, rel=1e-6)
+
+
+def _write_channels(path, planes, parts=1):
+    """An EXR of planes [row, column] by the names of their channels; the same in each of its parts."""
+    pixels = np.stack(list(planes.values()), axis=-1).astype(np.float32)
+    specs = []
+    for part in range(parts):
+        spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], "float")
+        spec.channelnames = tuple(planes)
+        spec["oiio:subimagename"] = f"part{part}"
+        specs.append(spec)
+    image = oiio.ImageOutput.create(str(path))
+    assert image.open(str(path), specs) if parts > 1 else image.open(str(path), specs[0])
+    for part, spec in enumerate(specs):
+        assert part == 0 or image.open(str(path), spec, "AppendSubimage")
+        assert image.write_image(pixels)
+    assert image.close()
+    return path
+
+
+def test_one_of_an_exr_s_channels_is_chosen_by_name(tmp_path):
+    flat, hill = np.full((4, 5), 0.9), np.arange(20.0).reshape(4, 5)
+    path = _write_channels(tmp_path / "a.exr", {"Layer.Combined.R": flat, "Layer.Depth.Z": hill})
+    assert (read_grey(path, "here", "Layer.Depth.Z") == hill).all()
+    odd = {
+        None: "it has 2 channels, Layer.Combined.R, Layer.Depth.Z; `channel` chooses one",
+        "Z": 'it has no channel "Z", but Layer.Combined.R, Layer.Depth.Z',
+    }
+    for channel, reason in odd.items():
+        with pytest.raises(ConfigError) as raised:
+            read_grey(path, "here", channel)
+        assert str(raised.value) == f"here = {path}; expected a grey PNG or an EXR file ({reason})"
+    alone = _write_channels(tmp_path / "b.exr", {"Layer.Depth.Z": hill})
+    assert (read_grey(alone, "here") == hill).all()
+    parts = _write_channels(tmp_path / "c.exr", {"Z": hill}, parts=2)
+    assert (read_grey(parts, "here", "part1.Z") == hill).all()
+    with pytest.raises(ConfigError, match=r"it has 2 channels, part0.Z, part1.Z;"):
+        read_grey(parts, "here")
+    with pytest.raises(ConfigError, match='a PNG has no channel "Z"'):
+        read_grey(_write(tmp_path / "a.png", _smooth(), "uint8"), "here", "Z")
+
+
+@pytest.mark.parametrize("value", [-9999, -32768, 3.4028235e38, -3.4028235e38, np.nan, np.inf, -1e6, 1e5])
+def test_pixels_without_a_height_are_counted(tmp_path, value):
+    values = _smooth()
+    values[3:5, 7:10] = value
+    path = _write(tmp_path / "dem.exr", values, "float")
+    for height_m in ([0, 10], [-400, 1600]):
+        with pytest.raises(ConfigError) as raised:
+            read_height_shares({"file": str(path), "height_m": height_m}, "map")
+        assert str(raised.value) == (
+            f"map.file = {path}, 6 of 3500 pixels with values such as {np.float32(value):g}; expected heights of"
+            " -500 to 9000 m in every pixel, none without data"
+        )
+    with pytest.raises(ConfigError) as raised:
+        read_density({"file": str(path)}, "map")
+    assert str(raised.value) == (
+        f"map.file = {path}, 6 of 3500 pixels with values such as {np.float32(value):g}; expected 0 to 1 in every"
+        " pixel, none without data"
+    )
+
+
+def test_marks_of_missing_data_are_no_heights_however_small_the_scale(tmp_path):
+    values = _smooth()
+    values[0, 0] = -9999
+    path = _write(tmp_path / "dem.exr", values, "float")
+    with pytest.raises(ConfigError, match="1 of 3500 pixels with values such as -9999;"):
+        read_height_shares({"file": str(path), "height_m": [0, 0.01]}, "map")
+
+
+def test_heights_in_metres_and_beyond_those_of_0_and_1_are_read(tmp_path):
+    path = _write(tmp_path / "dem.exr", np.array([[-400.0, 8848.0], [0.0, 2.0]]), "float")
+    shares = read_height_shares({"file": str(path), "height_m": [0, 1]}, "map")
+    assert shares.tolist() == [[-400, 8848], [0, 2]]
+
+
+def test_a_decoder_is_chosen_by_the_first_bytes_alone(tmp_path):
+    values = _smooth()
+    for kind, other in (("exr", "png"), ("png", "dpx")):
+        path = _write(tmp_path / f"map.{kind}", values, "float" if kind == "exr" else "uint16")
+        renamed = path.rename(tmp_path / f"renamed.{other}")
+        assert read_grey(renamed, "here") == pytest.approx(values, abs=1e-5)
+    read_grey(renamed, "here")
+    bitmap = b"BM" + (70).to_bytes(4, "little") + bytes(4) + (54).to_bytes(4, "little")
+    bitmap += (
+        (40).to_bytes(4, "little") + bytes([2, 0, 0, 0, 2, 0, 0, 0, 1, 0, 24, 0]) + bytes(24) + bytes(16)
+    )
+    (tmp_path / "map.png").write_bytes(bitmap)
+    assert oiio.ImageInput.open(str(tmp_path / "map.png")) is None  # OpenImageIO tries no other decoder
 
 
 _GREY = png_bytes(np.arange(4000, dtype=np.uint16).reshape(50, 80))

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from .drainage import carve, plan_drainage
-from .grey_images import read_grey, sample
+from .grey_images import read_height_shares, sample
 from .relief import Crag, hills_m, hollows_m, plan_crag
 from .roads import Road
 from .waters import REACH, Basin, Water, lay_water, nearest_shore_m, surface_m
@@ -129,9 +129,8 @@ def _cell(along_m: np.ndarray, size_m: float, cells: int) -> tuple[np.ndarray, n
 def _land(settings: dict, seed: int, x_m, y_m) -> tuple[Crag | None, np.ndarray]:
     """The crag, and the land's heights before water is added: from the user's map or from the seed."""
     if "heightmap" in settings:
-        given = settings["heightmap"]
-        share = read_grey(given["file"], "scene.terrain.heightmap.file")
-        low_m, high_m = given["height_m"]
+        share = read_height_shares(settings["heightmap"], "scene.terrain.heightmap")
+        low_m, high_m = settings["heightmap"]["height_m"]
         return None, low_m + (high_m - low_m) * sample(share, settings["size_m"], x_m, y_m)
     crag = plan_crag(settings, seed, x_m, y_m)
     land_m = hills_m(settings, seed, x_m, y_m) + hollows_m(settings["hollow_depth_m"], seed, x_m, y_m)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry.easing import smooth
-from ..land.grey_images import read_grey, sample
+from ..land.grey_images import read_density, sample
 from ..land.terrain import Terrain
 from ..noise import fractal_noise
 
@@ -44,7 +44,7 @@ class DensityMap:
 def plan_density(terrain: Terrain, settings: dict, seed: int) -> DensityMap:
     """The areas of a place: from the user's map, or a third of the place each, from its seed and its hills."""
     if "density_map" in settings:
-        values = read_grey(settings["density_map"]["file"], "scene.terrain.density_map.file")
+        values = read_density(settings["density_map"], "scene.terrain.density_map")
         return DensityMap(lambda x_m, y_m: sample(values, terrain.size_m, x_m, y_m), *_MAP_BORDERS)
     wavelength_m = settings["area_wavelength_m"]
 
