@@ -43,7 +43,8 @@ ITEM = ("mission", "items", WAYPOINT_ITEM)
 INNER = ("mission", "items", SURVEY_ITEM, "TransectStyleComplexItem")
 KNOWN = (
     "16 (waypoint), 17 (loiter), 18 (loiter turns), 19 (loiter time), 20 (return to launch), 21 (land), 22 (take-off),"
-    " 82 (spline waypoint), 84 (VTOL take-off), 85 (VTOL land), 178 (change speed) or of a camera"
+    " 31 (loiter to altitude), 82 (spline waypoint), 84 (VTOL take-off), 85 (VTOL land), 93 (delay), 178 (change speed)"
+    " or of a camera"
 )
 FAULTS = {
     "a list": (lambda plan: [plan], "{where} = {file}; expected a plan of QGroundControl, an object"),
@@ -99,7 +100,60 @@ FAULTS = {
     ),
     "an unknown command": (
         _set(*ITEM, "command", 300),
-        "survey.plan: mission.items[2].command = 300; expected one of " + KNOWN,
+        "survey.plan: mission.items[2].command = 300 (mission start); expected one of " + KNOWN,
+    ),
+    "a jump": (
+        _set(*ITEM, "command", 177),
+        "survey.plan: mission.items[2].command = 177 (do jump); expected one of " + KNOWN,
+    ),
+    "a command without a name": (
+        _set(*ITEM, "command", 31999),
+        "survey.plan: mission.items[2].command = 31999; expected one of " + KNOWN,
+    ),
+    "another version of plans": (_set("version", 2), "survey.plan: version = 2; expected 1"),
+    "another version of missions": (
+        _set("mission", "version", 999),
+        "survey.plan: mission.version = 999; expected 2",
+    ),
+    "an item that waits": (
+        _set(*ITEM, "autoContinue", False),
+        "survey.plan: mission.items[2].autoContinue = false; expected true",
+    ),
+    "an altitude off the Earth": (
+        _set(*ITEM, "params", 6, 1e300),
+        "survey.plan: mission.items[2].params[6] = 1e+300 m; expected an altitude, -1000 to 10000 m",
+    ),
+    "an altitude of home off the Earth": (
+        _set("mission", "plannedHomePosition", 2, 1e300),
+        "survey.plan: mission.plannedHomePosition[2] = 1e+300 m; expected its altitude, -1000 to 10000 m",
+    ),
+    "a latitude of home off the Earth": (
+        _set("mission", "plannedHomePosition", 0, 214),
+        "survey.plan: mission.plannedHomePosition[0] = 214 deg; expected a latitude, -89 to 89 deg",
+    ),
+    "a speed below nothing": (
+        _set("mission", "items", 1, "params", 1, -7),
+        "survey.plan: mission.items[1].params[1] = -7 m/s; expected a speed, 0.1 to 100 m/s",
+    ),
+    "a speed of no kind": (
+        _set("mission", "items", 1, "params", 0, 9),
+        "survey.plan: mission.items[1].params[0] = 9; expected 0 or 1 (speed of flight), 2 (climb) or 3 (descent)",
+    ),
+    "a speed to hover at below nothing": (
+        _set("mission", "hoverSpeed", -5),
+        "survey.plan: mission.hoverSpeed = -5 m/s; expected a speed, 0 to 1000 m/s",
+    ),
+    "a speed to cruise at that is not a number": (
+        _set("mission", "cruiseSpeed", math.nan),
+        "survey.plan: mission.cruiseSpeed = NaN m/s; expected a speed, 0 to 1000 m/s",
+    ),
+    "a delay until a time of day": (
+        _set("mission", "items", [mission_item(22, place_params(0, 0, 9)), mission_item(93, [-1, 12, 0, 0])]),
+        "survey.plan: mission.items[1].params[0] = -1 s; expected a time to hold, 0 to 86400 s",
+    ),
+    "loitering nowhere": (
+        _set("mission", "items", [mission_item(19, [20])]),
+        "survey.plan: mission.items[0].command = 19 (loiter time); expected a take-off or a waypoint before it",
     ),
     "a command of a survey": (
         _set(*INNER, "Items", 1, "command", "16"),

@@ -96,6 +96,36 @@ def test_loitering_holds_still(tmp_path):
     assert _near(waypoints[-1], 40, 0)
 
 
+@pytest.mark.parametrize("here", [[0, 0], [None, None]])
+def test_loitering_without_a_place_is_where_the_aircraft_is(tmp_path, here):
+    items = [
+        mission_item(16, place_params(10, 0, 50)),
+        mission_item(19, [20, 0, 0, None, *here, 60]),
+        mission_item(18, [2, 0, -30, None, *here, 0]),
+        mission_item(31, [1, 30, 0, 1, *here, 70], 10),
+        mission_item(17, [0, 0, 0, None, *here, None]),
+    ]
+    waypoints = read_mission(tmp_path, mission_of(*items))
+    assert all(_near(waypoint, 10, 0) for waypoint in waypoints)
+    assert [waypoint.hold_s for waypoint in waypoints] == [0, 20, 2 * 2 * math.pi * 30 / 5, 0, 86400]
+    heights = [(waypoint.height_m, waypoint.is_agl) for waypoint in waypoints]
+    high = (60 + GROUND_M, False)
+    assert heights == [(50 + GROUND_M, False), high, high, (70, True), (70, True)]
+
+
+def test_a_delay_holds_and_what_does_not_move_the_aircraft_is_ignored(tmp_path):
+    still = [mission_item(number, [9, 9, 9], 2) for number in (115, 181, 182, 183, 184, 201, 207, 211)]
+    items = [
+        mission_item(93, [7, -1, -1, -1], 2),  # before the flight
+        mission_item(16, place_params(10, 0, 50, hold_s=3)),
+        mission_item(93, [10, -1, -1, -1], 2),
+        *still,
+        mission_item(16, place_params(20, 0, 50)),
+    ]
+    waypoints = read_mission(tmp_path, mission_of(*items))
+    assert [waypoint.hold_s for waypoint in waypoints] == [13, 0]
+
+
 def test_a_flight_ends_where_it_returns_or_lands_at_the_height_it_had(tmp_path):
     last = Waypoint((10.0, -5.0), 30 + GROUND_M, False)
     beyond = mission_item(16, place_params(50, 0, 50))

@@ -64,6 +64,8 @@ def _simple(item: dict, place: str, agl_m: float | None) -> Command:
     for key in ("command", "frame"):
         if key not in item:
             raise ConfigError(f"{place}.{key} is missing; expected a number")
+    if not item.get("autoContinue", True):
+        raise ConfigError(f"{place}.autoContinue = {shown(item['autoContinue'])}; expected true")
     return Command(place, item["command"], item["frame"], params, agl_m)
 
 
