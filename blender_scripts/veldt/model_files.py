@@ -13,6 +13,15 @@ from .regular_files import read_regular
 
 _MOST_BYTES = 1 << 30
 _BLEND_STARTS = (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # uncompressed, zstd, gzip
+_LARGEST = {
+    5120: 127.0,
+    5121: 255.0,
+    5122: 32767.0,
+    5123: 65535.0,
+}  # of normalized integers, by component type
+_SHAPES = ("KHR_mesh_quantization", "KHR_draco_mesh_compression")
+_LOOKS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_")
+_INSTANCES = "EXT_mesh_gpu_instancing"
 _UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])  # y up to z up: (x, -z, y)
 
 
@@ -75,8 +84,13 @@ def _numbers(text: str) -> list[float]:
 
 
 def _survey_glb(data: bytes) -> Survey:
+    """Uses nodes, meshes, the bounds of their positions, names of materials and extensions.
+
+    Refuses extensions that it requires and that may change shapes, unless Blender reads them.
+    """
     gltf = _gltf(data)
     try:
+        _check_extensions(gltf)
         used, boxes = _walk(gltf)
     except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
         raise Unreadable("its description of meshes is inconsistent") from error
@@ -106,6 +120,14 @@ def _gltf(data: bytes) -> dict:
     return gltf
 
 
+def _check_extensions(gltf: dict) -> None:
+    for name in gltf.get("extensionsRequired", []):
+        if name not in _SHAPES and not name.startswith(_LOOKS):
+            raise Unreadable(f"it requires {name}, and of shapes only {' and '.join(_SHAPES)} are supported")
+    if any(_INSTANCES in node.get("extensions", {}) for node in gltf.get("nodes", [])):
+        raise Unreadable(f"it has instances of {_INSTANCES}, which are not supported")
+
+
 def _walk(gltf: dict) -> tuple[list[int | None], list[np.ndarray] | None]:
     """Material indices of all primitives, and the corners (8, 3) of their boxes; None if one has no box."""
     nodes, used, boxes = gltf.get("nodes", []), [], []
@@ -128,6 +150,8 @@ def _corners(accessor: dict, placed: np.ndarray) -> np.ndarray | None:
     if "min" not in accessor or "max" not in accessor:
         return None
     sides = np.array([accessor["min"], accessor["max"]], float)
+    if accessor.get("normalized", False):  # the bounds are not, unlike the positions
+        sides = np.maximum(sides / _LARGEST[accessor["componentType"]], -1.0)
     corners = [[sides[i, 0], sides[j, 1], sides[k, 2], 1.0] for i in (0, 1) for j in (0, 1) for k in (0, 1)]
     return (np.array(corners) @ placed.T)[:, :3]
 

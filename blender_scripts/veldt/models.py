@@ -17,6 +17,7 @@ from .model_files import SUFFIXES, Unreadable, survey
 # Rotation of a model, deg, that turns its forward axis to +x.
 FORWARD = {"x": 0.0, "-x": 180.0, "y": -90.0, "-y": 90.0}
 _KEYS = {"file", "scale", "forward", "parts", "size_m"}
+_MOST_M = 200.0  # of a side; the tallest tree is 116 m high
 _CORNERS = np.array([[i, j, k] for i in (-0.5, 0.5) for j in (-0.5, 0.5) for k in (0.0, 1.0)])
 _SIDES = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
 
@@ -63,6 +64,12 @@ def checked(where: str, folder: Path, entry, parts: Mapping) -> dict:
                 f' measure "{model["file"]}"'
             )
         model["size_m"] = np.ptp(in_body_axes(found.box_m, model), axis=0).tolist()
+    if max(model["size_m"]) > _MOST_M:
+        size = " x ".join(f"{side:g}" for side in model["size_m"])
+        raise ConfigError(
+            f'{where}: model.file = "{model["file"]}", {size} m large; expected at most {_MOST_M:g} m each way, with'
+            " model.scale in metres per unit of the file"
+        )
     return model | {"path": str(path)}
 
 

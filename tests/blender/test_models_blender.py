@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import struct
 import subprocess
 import sys
 from pathlib import Path
@@ -16,7 +17,7 @@ from processes import PATIENCE_S
 from program import Veldt
 from rendering import BLENDER
 from scenes import tiny
-from test_models import bush, okapi
+from test_models import bush, glb, okapi
 from veldt.config import ROOT
 
 pytestmark = pytest.mark.blender
@@ -126,6 +127,48 @@ def test_a_glb_and_an_obj_are_measured_alike_without_blender(made):
         found = survey(made / f"okapi{suffix}")
         np.testing.assert_allclose(np.ptp(found.box_m, axis=0), [0.5, 2.0, 1.5], atol=1e-5)
         assert sorted(found.materials) == ["hide", "horn"]
+
+
+def _quantized_glb() -> bytes:
+    """A box of SIZE_M whose positions are 16-bit integers, normalized, scaled by its node."""
+    signs = np.array([[i, j, k, 0] for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)])
+    sides = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1]]
+    sides += [[2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+    points, faces = (32767 * signs).astype("<i2").tobytes(), np.array(sides, "<u2").tobytes()
+    position = {"bufferView": 0, "componentType": 5122, "normalized": True, "count": 8, "type": "VEC3"}
+    length, width, height = SIZE_M
+    more = {
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+        "accessors": [
+            position | {"min": [-32767] * 3, "max": [32767] * 3},
+            {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteLength": 64, "byteStride": 8},
+            {"buffer": 0, "byteOffset": 64, "byteLength": 72},
+        ],
+        "buffers": [{"byteLength": 136}],
+        "extensionsUsed": ["KHR_mesh_quantization"],
+        "extensionsRequired": ["KHR_mesh_quantization"],
+    }
+    text = glb([{"mesh": 0, "scale": [width / 2, height / 2, length / 2]}], **more)
+    chunk = struct.pack("<I4s", 136, b"BIN\0") + points + faces
+    return text[:8] + struct.pack("<I", len(text) + len(chunk)) + text[12:] + chunk
+
+
+def test_a_quantized_glb_is_as_large_as_it_was(made, tmp_path):
+    # pylint: disable=import-outside-toplevel
+    from veldt.model_files import survey
+
+    file = tmp_path / "species" / "okapi.glb"
+    file.parent.mkdir()
+    file.write_bytes(_quantized_glb())
+    np.testing.assert_allclose(np.ptp(survey(file).box_m, axis=0), [0.5, 2.0, 1.5], atol=1e-12)
+    result = _load(made, tmp_path, ".glb")
+    assert "error" not in result, result
+    np.testing.assert_allclose(np.ptp(result["points"], axis=0), SIZE_M, atol=1e-5)
 
 
 def test_faults_that_only_blender_can_find(made, tmp_path):
