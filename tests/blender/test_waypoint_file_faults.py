@@ -186,15 +186,15 @@ FAULTS = {
     ),
     "no latitude": (
         _set(*ITEM, "params", 4, None),
-        "survey.plan: mission.items[2].params[4] = null; expected a latitude, -90 to 90 deg",
+        "survey.plan: mission.items[2].params[4] = null; expected a latitude, -89 to 89 deg",
     ),
     "a latitude off the Earth": (
         _set(*ITEM, "params", 4, 90.5),
-        "survey.plan: mission.items[2].params[4] = 90.5 deg; expected a latitude, -90 to 90 deg",
+        "survey.plan: mission.items[2].params[4] = 90.5 deg; expected a latitude, -89 to 89 deg",
     ),
     "a latitude that is not a number": (
         _set(*ITEM, "params", 4, math.nan),
-        "survey.plan: mission.items[2].params[4] = NaN deg; expected a latitude, -90 to 90 deg",
+        "survey.plan: mission.items[2].params[4] = NaN deg; expected a latitude, -89 to 89 deg",
     ),
     "no altitude": (
         _set(*ITEM, "params", 6, None),

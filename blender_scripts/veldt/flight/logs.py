@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from ..faults import ConfigError, check_known
+from ..plausible import ALTITUDE_M, LATITUDE_DEG, LONGITUDE_DEG
 from .geodesy import MOST_AWAY_M, east_north_m
 from .texts import read_text
 from .waypoints import SurfaceAt
@@ -25,11 +26,11 @@ _RANGES = {  # by column: minimum, maximum
     "time_s": (-1e11, 1e11),
     "x_m": (-100_000.0, 100_000.0),
     "y_m": (-100_000.0, 100_000.0),
-    "latitude_deg": (-89.0, 89.0),
-    "longitude_deg": (-180.0, 180.0),
-    "z_m": (-1000.0, 10_000.0),
-    "agl_m": (-1000.0, 10_000.0),
-    "altitude_m": (-1000.0, 10_000.0),
+    "latitude_deg": LATITUDE_DEG,
+    "longitude_deg": LONGITUDE_DEG,
+    "z_m": ALTITUDE_M,
+    "agl_m": ALTITUDE_M,
+    "altitude_m": ALTITUDE_M,
     "yaw_deg": (-360.0, 360.0),
     "pitch_deg": (-90.0, 90.0),
     "roll_deg": (-180.0, 180.0),

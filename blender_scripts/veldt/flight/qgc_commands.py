@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..faults import ConfigError
+from ..plausible import ALTITUDE_M, LATITUDE_DEG, LONGITUDE_DEG, SPEED_M_S
 from .geodesy import MOST_AWAY_M, east_north_m
 from .qgc_items import LAND, Command
 from .texts import checked_number, is_number, shown
@@ -143,7 +144,7 @@ def changed_speed(command: Command, before_m_s: float | None) -> float | None:
         )
     if speed_m_s == -1:
         return before_m_s
-    given_m_s = _param(command, 1, "a speed", 0.1, 100, "m/s")
+    given_m_s = _param(command, 1, "a speed", *SPEED_M_S, "m/s")
     return before_m_s if kind in (2, 3) else given_m_s
 
 
@@ -187,7 +188,7 @@ def _turning_s(command: Command, home: Home, speed_m_s: float | None) -> float:
     turns = _param(command, 0, "a number of turns", 0, 1000, "in all")
     radius_m = _param(command, 2, "a radius", -10_000, 10_000, "m")
     if speed_m_s is None:
-        speed_m_s = checked_number(home.hover_speed, f"{home.where}.hoverSpeed", "a speed", 0.1, 100, "m/s")
+        speed_m_s = checked_number(home.hover_speed, f"{home.where}.hoverSpeed", "a speed", *SPEED_M_S, "m/s")
     return turns * 2.0 * math.pi * abs(radius_m) / speed_m_s
 
 
@@ -218,8 +219,8 @@ def _is_here(command: Command) -> bool:
 
 
 def _point(command: Command, home: Home) -> tuple[float, float]:
-    latitude_deg = _param(command, 4, "a latitude", -90, 90, "deg")
-    longitude_deg = _param(command, 5, "a longitude", -180, 180, "deg")
+    latitude_deg = _param(command, 4, "a latitude", *LATITUDE_DEG, "deg")
+    longitude_deg = _param(command, 5, "a longitude", *LONGITUDE_DEG, "deg")
     east_m, north_m = map(float, east_north_m(latitude_deg, longitude_deg, home.origin_deg))
     away_m = math.hypot(east_m, north_m)
     if away_m > MOST_AWAY_M:
@@ -238,10 +239,10 @@ def _height(command: Command, home: Home) -> tuple[float, bool]:
             f"{command.where}.frame = {shown(command.frame)};"
             " expected 0 or 5 (above sea level), 3 or 6 (above home), or 10 or 11 (above terrain)"
         )
-    height_m = _param(command, 6, "an altitude", -1000, 10_000, "m")
+    height_m = _param(command, 6, "an altitude", *ALTITUDE_M, "m")
     if command.frame in _TERRAIN:
         return height_m, True
     if command.frame in _SEA:
         where = f"{home.where}.plannedHomePosition[2]"
-        height_m -= checked_number(home.amsl, where, "its altitude", -1000, 10_000, "m")
+        height_m -= checked_number(home.amsl, where, "its altitude", *ALTITUDE_M, "m")
     return height_m + home.ground_m, False

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ..faults import ConfigError, check_known
+from ..plausible import ALTITUDE_M
 from .texts import checked_number, shown
 
 LAND = 21
@@ -106,7 +107,7 @@ def _agl_m(item: dict, mode: str, height: str, place: str) -> float | None:
     """The height above ground of an item that has one; its params are then heights above sea level."""
     if item.get(mode) != _ABOVE_TERRAIN:
         return None
-    return checked_number(item.get(height), f"{place}.{height}", "a height above terrain", -1000, 10_000, "m")
+    return checked_number(item.get(height), f"{place}.{height}", "a height above terrain", *ALTITUDE_M, "m")
 
 
 def _object(item, place: str) -> dict:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ..faults import ConfigError
+from ..plausible import ALTITUDE_M, LATITUDE_DEG, LONGITUDE_DEG
 from .qgc_commands import (
     DELAY,
     ENDS,
@@ -36,10 +37,10 @@ def read_plan(file: str, home_m, ground_m: SurfaceAt, where: str) -> list[Waypoi
     straight lines. Loiters and landings at latitude and longitude 0 or null are where the aircraft is; a delay holds
     there. cruiseSpeed and hoverSpeed, from which QGroundControl estimates durations, do not set a speed.
     Used: fileType, version, mission with its version, items, plannedHomePosition and hoverSpeed; of an item, command,
-    frame, params, autoContinue, AltitudeMode, Altitude and the waypoints of surveys. Ignored: geoFence, rallyPoints, the
-    kind of vehicle, and commands of cameras, headings, relays and servos, which do not move the aircraft.
-    ConfigError if the file is not a plan, is of another version, or has a command that cannot be flown, such as a jump,
-    or a value that cannot be; `where` is its place in the config.
+    frame, params, autoContinue, AltitudeMode, Altitude and the waypoints of surveys. Ignored: geoFence, rallyPoints,
+    the kind of vehicle, and commands of cameras, headings, relays and servos, which do not move the aircraft.
+    ConfigError if the file is not a plan, is of another version, or has a command that cannot be flown, such as a
+    jump, or a value that cannot be; `where` is its place in the config.
     """
     mission, name = _mission(file, where), f"{Path(file).name}: "
     home = _home(mission, f"{name}mission", home_m, ground_m)
@@ -91,13 +92,12 @@ def _home(mission: dict, where: str, home_m, ground_m: SurfaceAt) -> Home:
     given = part(mission, "plannedHomePosition", list, f"{where}.")
     if len(given) != 3:
         raise ConfigError(f"{place} = {len(given)} values; expected 3: latitude, longitude, altitude")
-    # East is undefined at a pole.
-    latitude_deg = checked_number(given[0], f"{place}[0]", "a latitude", -89, 89, "deg")
-    longitude_deg = checked_number(given[1], f"{place}[1]", "a longitude", -180, 180, "deg")
+    latitude_deg = checked_number(given[0], f"{place}[0]", "a latitude", *LATITUDE_DEG, "deg")
+    longitude_deg = checked_number(given[1], f"{place}[1]", "a longitude", *LONGITUDE_DEG, "deg")
     x_m, y_m = map(float, home_m)
     height_m = float(ground_m(np.array([x_m]), np.array([y_m]))[0])
     if given[2] is not None:
-        checked_number(given[2], f"{place}[2]", "its altitude", -1000, 10_000, "m")
+        checked_number(given[2], f"{place}[2]", "its altitude", *ALTITUDE_M, "m")
     hover_speed = mission.get("hoverSpeed")
     for key in ("cruiseSpeed", "hoverSpeed"):
         if mission.get(key) is not None:

@@ -8,10 +8,10 @@ import numpy as np
 
 from ..faults import ConfigError
 from ..images import read_values
+from ..plausible import LAND_M
 from ..regular_files import read_regular
 
 _MOST_BYTES = 2 << 30  # more than an EXR of so many pixels has
-_LAND_M = (-500.0, 9000.0)  # from the shore of the Dead Sea to the top of Mount Everest
 _MISSING = np.array(
     [-9999.0, -32767.0, -32768.0, -99999.0]
 )  # how elevation models mark cells without a height
@@ -29,7 +29,7 @@ def read_height_shares(given: dict, where: str) -> np.ndarray:
     low_m, high_m = given["height_m"]
     with np.errstate(over="ignore", invalid="ignore"):
         heights_m = low_m + (high_m - low_m) * shares
-    least_m, most_m = min(low_m, high_m, _LAND_M[0]), max(low_m, high_m, _LAND_M[1])
+    least_m, most_m = min(low_m, high_m, LAND_M[0]), max(low_m, high_m, LAND_M[1])
     is_height = (heights_m >= least_m) & (heights_m <= most_m) & ~np.isin(shares, _MISSING)
     _check_all(
         is_height, shares, f"{where}.file = {given['file']}", f"heights of {least_m:g} to {most_m:g} m"
