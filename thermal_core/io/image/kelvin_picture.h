@@ -8,6 +8,7 @@
 
 namespace thermal {
 
+/// Of temperatures as they are stored.
 enum class TemperatureUnit { kelvin, celsius };
 
 /// What a user says about temperatures as they are stored.
