@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
+#include "base/printable.h"
 #include "base/text.h"
 #include "io/config/calibration_tree.h"
 
@@ -53,7 +55,7 @@ class Reader {
     Calibration found;
     if (prefix_.empty()) {
       if (const std::string camera = only_camera(); !camera.empty())
-        return Reader(root_[camera], name_, camera + ".").read();
+        return Reader(at(camera), name_, camera + ".").read();
     }
     check_kind();
     if (prefix_.empty()) {
@@ -101,7 +103,8 @@ class Reader {
   [[nodiscard]] std::string only_camera() const {
     std::vector<std::string> cameras;
     for (const auto& [key, value] : root_.items()) {
-      if (key.starts_with("cam") && value.is_object() && value.contains("intrinsics")) cameras.push_back(key);
+      const bool is_camera = key.starts_with("cam") && number_in<int>(std::string_view(key).substr(3));
+      if (is_camera && value.is_object()) cameras.push_back(key);
     }
     if (cameras.size() > 1) {
       throw ConfigError(
@@ -121,7 +124,7 @@ class Reader {
     for (const auto& [key, value] : root_.items()) {
       if (lower_case(key).find("fisheye") == std::string::npos) continue;
       if (value != 0 && lower_case(text_of(value)) != "false")
-        throw fault_of(key, text_of(value), "", "0: fisheye lenses are not supported");
+        throw fault_of(text_of(key), text_of(value), "", "0: fisheye lenses are not supported");
     }
     if (!at("xi").is_null())
       throw fault_of("xi", text_of(at("xi")), "", "none: omnidirectional lenses are not supported");
@@ -307,7 +310,7 @@ class Reader {
       return std::isnan(value) ? "nan" : fmt::format("{}", value);
     }
     constexpr std::size_t kMost = 60;
-    if (node.is_string()) return node.get<std::string>().substr(0, kMost);
+    if (node.is_string()) return printable(node.get<std::string>().substr(0, kMost));
     if (node.is_array()) return fmt::format("a list of {}", node.size());
     return node.is_object() ? "keys" : node.dump();
   }

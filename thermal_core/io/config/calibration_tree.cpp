@@ -9,12 +9,14 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "base/text.h"
 
 namespace thermal {
 namespace {
 
 constexpr int kMostNested = 16;
+constexpr std::size_t kMostShown = 60;  // of a key in a message
 
 bool is_space(char letter) noexcept { return letter == ' ' || letter == '\n' || letter == '\r'; }
 
@@ -363,7 +365,7 @@ class Yaml {
 
   void add_key(const Json& map, const std::string& key) const {
     if (key == "<<") fail("no merged keys (<<)");
-    if (map.contains(key)) fail(fmt::format("{} once", key));
+    if (map.contains(key)) fail(fmt::format("{} once", printable(key.substr(0, kMostShown))));
   }
 
   /// Up to the end of the line, a comment, a colon behind a key, or one of `ends`.

@@ -145,6 +145,13 @@ TEST_CASE("A camera_info message is read, of ROS 2 or 1, and is of the whole pic
             .starts_with("cal.yml: r[4] = 0.5; expected 1: of a stereo pair's camera"));
 }
 
+TEST_CASE("Names in other letters are read, and shown where they are wrong") {
+  check_is_the_one(parse_calibration(ros_of("camera_maker: W\xC3\xA4rme \xFF\n"), "ost.yaml"));
+  CHECK(fault_in(ros_of("camera_model: \xFF\n")) ==
+        "cal.yml: camera_model = \\xff; expected pinhole: no other is supported");
+  CHECK(fault_in("\xFF: 1\n\xFF: 2\n") == "cal.yml:2: expected \\xff once");
+}
+
 TEST_CASE("Kalibr's camchain is read if it is of one pinhole camera") {
   const auto chain = [](const std::string& camera, const std::string& model = "pinhole",
                         const std::string& distortion = "radtan", const std::string& k = "-0.3") {
