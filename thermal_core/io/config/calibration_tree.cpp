@@ -387,7 +387,7 @@ class Yaml {
     const std::size_t end = text_.find_first_of("\"'\\\n", at_ + 1);
     if (end == std::string_view::npos || text_[end] != quote || letter(end + 1) == quote)
       fail("a string in quotes, without others in it");
-    const std::string found(text_.substr(at_ + 1, end - at_ - 1));
+    std::string found(text_.substr(at_ + 1, end - at_ - 1));
     at_ = end + 1;
     return found;
   }
