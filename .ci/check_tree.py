@@ -1,6 +1,6 @@
 """Checks on the repository's files that no compiler makes: JSON that parses, configs that match the schema,
-no paths of a developer's machine, no path that a document leads astray, no number that a locale changes. Standard input names the files, one a line,
-relative to the root.
+no paths of a developer's machine, no path that a document leads astray, no number that a locale changes. Standard input
+names the files, one a line, relative to the root.
 
 Exit 0 when all is well; 1 with one line a fault, `<file>[:<line>]: <what>; expected <rule>`.
 """
@@ -22,7 +22,7 @@ DOCUMENT_VALUE = r"[\w.>-]+(?:\[\"|\.at\(\"|\.value\(\"|\.get<std::string>)"
 DOCUMENT_PATH = re.compile(rf"(?:(?<!/)/=? |\bPath[({{])(?:std::string\()?{DOCUMENT_VALUE}")
 
 
-# Numbers that follow the locale of the process, which may be a host program with a comma, and the streams that format them.
+# Numbers that follow the locale of the process, which may be a host program, and the streams that format them.
 LOCALE = re.compile(
     r"\b(?:strto[dfl]+|ato[fil]|std::sto[dfl]+|setlocale|std::to_string\(\d*\.)\b|std::locale::global"
     r"|<iomanip>|<< *(?:std::setprecision|std::fixed)"

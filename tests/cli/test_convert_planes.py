@@ -86,7 +86,7 @@ def test_a_pixel_is_warned_of(veldt):
 
 
 def test_what_is_unusable(veldt):
-    """Unusable: sky's depth on a surface, none, behind the camera, past any horizon; normals of no length. Short means are usable."""
+    """Sky's depth on a surface, none, behind the camera, past any horizon; normals of no length, but not short ones."""
     depth_m = [math.nan, math.inf, -math.inf, 0, -3, 1e10, 1e-3, 9e4, 9e8]
     normal = [(0, 0, 0), (math.inf, 0, 0), (0, math.nan, 1), (0.1, 0, 0), (0, 0, -1)]
     _write_clip(veldt.folder / "one", depth_m, normal)

@@ -1,4 +1,4 @@
-"""Datasets that somebody else made or changed: nothing is read or copied from elsewhere, and faults have their place."""
+"""Datasets that somebody else made or changed: nothing is read from elsewhere, and faults have their place."""
 
 import json
 import os

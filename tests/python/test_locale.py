@@ -1,6 +1,7 @@
 """A host program, or the user, may write numbers with a comma: every byte stays as it is."""
 
 import hashlib
+import json
 import os
 import struct
 import subprocess
@@ -9,6 +10,7 @@ import sys
 import pytest
 
 import passes
+from configs import tiny
 
 # What a host program does that knows its user's language, and then works with Veldt.
 HOST = """
@@ -60,7 +62,8 @@ def _sums(folder) -> dict:
 
 
 @pytest.fixture(name="plan", scope="module")
-def _plan(veldt, generated):
+def _plan(veldt):
+    (veldt.folder / "tiny.json").write_text(json.dumps(tiny()), encoding="utf-8")
     done = veldt(
         "plan",
         "tiny.json",

@@ -6,6 +6,7 @@ import atexit
 import functools
 import json
 import os
+import re
 import resource
 import select
 import subprocess
@@ -20,6 +21,8 @@ ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("VELDT_PROGRAM") or ROOT / "build" / "release" / "bin" / "veldt")
 # The end of each fault about a link.
 NO_LINKS = "expected a path that is not a link; nothing elsewhere is read or written"
+# Such lines come when a run takes longer than some seconds: how many depends on the machine.
+_PROGRESS = re.compile(r"^\d+/\d+ (\w+), \d+\.\d \1/s, .*, clip .*\n", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -38,6 +41,11 @@ class Ended:
 def check_fault(done: Ended, code: int, message: str) -> None:
     """Check that a run printed one message, on standard error, and nothing else."""
     assert (done.code, done.out, done.err) == (code, "", f"veldt: {message}\n")
+
+
+def _without_progress(words: Sequence[str], done: Ended) -> Ended:
+    asked = any(word.startswith("--progress") for word in words)
+    return done if asked else Ended(done.code, done.out, _PROGRESS.sub("", done.err))
 
 
 class _CommandServer:
@@ -107,14 +115,15 @@ class Veldt:
         self.program = program
 
     def __call__(self, *arguments, env: dict | None = None, under: Sequence[str] = ()) -> Ended:
-        """Run to the end. `env` changes the environment; `under` is a command that runs the program.
+        """Run to the end. `env` changes the environment; `under` is a command that runs the program. `err` has no
+        lines of progress, unless --progress asks for them.
 
         Without either, a process that has loaded the program's libraries runs the command (command_server.cpp).
         """
         words, environment = list(map(str, arguments)), _environment(env)
         server = _server(self.program)
         if server and not under and not env and all(map(_is_text, [*words, *environment.values()])):
-            return server.run(words, environment, self.folder)
+            return _without_progress(words, server.run(words, environment, self.folder))
         done = subprocess.run(
             [*under, self.program, *words],
             cwd=self.folder,
@@ -124,7 +133,7 @@ class Veldt:
             timeout=PATIENCE_S,
             check=False,
         )
-        return Ended(done.returncode, done.stdout, done.stderr)
+        return _without_progress(words, Ended(done.returncode, done.stdout, done.stderr))
 
     def start(self, *arguments, env: dict | None = None) -> subprocess.Popen:
         """Start a run in the background; its progress can be read from `stderr`, line by line."""

@@ -20,8 +20,10 @@ struct Corner {
   std::int64_t y = 0;
 };
 
-/// Cut to whole numbers towards 0.
-std::int64_t nearest(double value) { return static_cast<std::int64_t>(value + 0.5); }
+/// Cut to whole numbers towards 0, as pycocotools does.
+std::int64_t nearest(double value) {
+  return static_cast<std::int64_t>(value + 0.5);  // NOLINT(bugprone-incorrect-roundings)
+}
 
 /// One edge of a polygon as a line of points, in the direction of its longer axis.
 class Edge {

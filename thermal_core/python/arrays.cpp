@@ -34,7 +34,7 @@ Plane<std::uint16_t> to_indices_of(const py::array& given, const char* what) {
 
 py::array numbers_in(const py::handle& given, const char* what) {
   try {
-    const py::array array = py::module_::import("numpy").attr("asarray")(given);
+    py::array array = py::module_::import("numpy").attr("asarray")(given);
     constexpr std::string_view kNumbers = "biuf";
     if (kNumbers.find(array.dtype().kind()) == std::string_view::npos)
       throw ConfigError(fault(what, "an array of " + text_of(array.dtype()), "", "numbers"));

@@ -24,7 +24,7 @@ double within(double least, double most, double value, const char* what, const c
 class Camera {
  public:
   Camera(const std::string& sections, const std::string& home, const std::string& clip, std::uint32_t seed,
-         double frame_rate_hz, double air_k, float brightest_w_m2_sr)
+         double frame_rate_hz, double air_k, double brightest_w_m2_sr)
       : config_(config_of_sections(sections, "camera", Assets(home))),
         camera_(
             config_.sensor,
@@ -82,7 +82,7 @@ class Camera {
 void add_camera(py::module_& module) {
   py::class_<Camera>(module, "Camera")
       .def(py::init<const std::string&, const std::string&, const std::string&, std::uint32_t, double, double,
-                    float>(),
+                    double>(),
            py::arg("sections"), py::arg("home"), py::arg("clip"), py::arg("seed"), py::arg("frame_rate_hz"),
            py::arg("air_k"), py::arg("brightest_w_m2_sr"))
       .def("expose", &Camera::expose, py::arg("radiance_w_m2_sr"))

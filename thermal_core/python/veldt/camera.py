@@ -66,8 +66,8 @@ class Camera:
         once, as single precision. NaN and negative radiance count as 0.
 
         time_s: of the frame, from the first one at 0. Frames in between pass unseen: noise and shutter go on, lag and
-        gain control rest. ConfigError unless it is the next frame's time or later, by a day at most, on the clock of the
-        frame rate.
+        gain control rest. ConfigError unless it is the next frame's time or later, by a day at most, on the clock of
+        the frame rate.
         """
         if time_s is not None:
             self._skip_to(time_s)

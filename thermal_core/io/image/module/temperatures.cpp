@@ -81,8 +81,11 @@ void read_values(OIIO::ImageInput& in, const Path& file, OIIO::TypeDesc type, St
 StoredTemperatures read_temperatures(const Path& file) {
   const auto in = open_picture(file);
   const OIIO::ImageSpec spec = in->spec();
-  const bool counts = spec.format == OIIO::TypeDesc::UINT16 || spec.format == OIIO::TypeDesc::INT16;
-  const bool floats = spec.format == OIIO::TypeDesc::FLOAT || spec.format == OIIO::TypeDesc::DOUBLE;
+  const auto is_one_of = [&spec](OIIO::TypeDesc::BASETYPE one, OIIO::TypeDesc::BASETYPE other) {
+    return spec.format == one || spec.format == other;
+  };
+  const bool counts = is_one_of(OIIO::TypeDesc::UINT16, OIIO::TypeDesc::INT16);
+  const bool floats = is_one_of(OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::DOUBLE);
   if ((!counts && !floats) || spec.nchannels != 1)
     throw DataError(
         fmt::format("pixels = {} x {}; expected one channel of floats of 32 or 64 bits, or of 16-bit counts",
