@@ -335,7 +335,8 @@ def test_a_damaged_frame_is_a_fault(veldt, dataset):
     picture.write_bytes(b"not a picture")
     done = veldt("report", "out")
     assert (done.code, done.out) == (1, "")
-    assert done.err.startswith("veldt: out/clips/down/ir8/000000.png: damaged: ")
+    begins = "it begins as no PNG, JPEG or TIFF does"
+    assert done.err == f"veldt: out/clips/down/ir8/000000.png: {begins}\n"
     picture.unlink()
     done = veldt("report", "out")
     assert done.err == "veldt: cannot read out/clips/down/ir8/000000.png: no such file\n"

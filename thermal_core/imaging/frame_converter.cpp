@@ -119,7 +119,8 @@ void FrameConverter::convert_samples(const Passes& passes, const ManifestFrame& 
   Passes labelled;
   labelled.object_index = filled_in(passes.object_index, fine.object_index, fine);
   labelled.actor_index = filled_in(passes.actor_index, fine.actor_index, fine);
-  if (labeller_.wants_depth()) labelled.depth_m = filled_in(passes.depth_m, fine.depth_m, fine);
+  if (labeller_.wants_depth() && !fine.depth_m.empty())
+    labelled.depth_m = filled_in(passes.depth_m, fine.depth_m, fine);
   const std::vector<IndexUse> uses = survey_indices(labelled.object_index);
   scene_radiance_.surfaces().check_objects(uses);
   scene_radiance_.surfaces().check_materials(survey_indices(passes.material_index));

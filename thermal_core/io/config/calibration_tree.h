@@ -8,6 +8,7 @@
 
 namespace thermal {
 
+/// Of a calibration's text.
 inline constexpr std::size_t kMostCalibrationBytes = std::size_t{1} << 20;
 
 /// The tree of a calibration's text: maps, lists, numbers and strings. Numbers do not depend on the locale; what is no
