@@ -71,9 +71,10 @@ class Converter:
 
         All planes are (height, width) as the manifest's renderer has them, indices whole from 0 to 32767, of any type
         of numbers; normal is (height, width, 3), in world axes; depth_m is along the camera's axis, 1e9 or more for
-        sky. They are copied once. The first frame's planes decide which physical terms are kept: a plane that they need must not be missing later.
-        DataError for planes of another size, missing planes, and indices that the manifest lacks; the camera has then
-        not moved on, and the frame can be converted again. ConfigError for a number that has passed.
+        sky. They are copied once. The first frame's planes decide which physical terms are kept: a plane that they
+        need must not be missing later. DataError for planes of another size, missing planes, and indices that the
+        manifest lacks; the camera has then not moved on, and the frame can be converted again. ConfigError for a
+        number that has passed.
         """
         given = {
             "object_index": object_index,
