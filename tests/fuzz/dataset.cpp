@@ -123,7 +123,8 @@ void make_links(const Json& links, const Path& root) {
 
 /// What the Python package reads of a dataset.
 void read_clips(const Path& set) {
-  for (const Json& clip : thermal::read_dataset_file(set)["clips"]) {
+  const Json dataset = thermal::read_dataset_file(set);
+  for (const Json& clip : dataset.at("clips")) {
     const Path folder = thermal::Layout{set}.clip(clip["id"]);
     tolerate([&] { (void)thermal::read_clip_file(folder); });
     tolerate([&] { thermal::for_clip_frames(folder, [](int, const Json&) {}); });
