@@ -7,6 +7,7 @@
 
 #include "base/relative_name.h"
 #include "base/version.h"
+#include "dataset/clip/record.h"
 #include "dataset/clip_files.h"
 #include "dataset/dataset_file.h"
 #include "dataset/exports/export.h"
@@ -126,7 +127,7 @@ void read_clips(const Path& set) {
   const Json dataset = thermal::read_dataset_file(set);
   for (const Json& clip : dataset.at("clips")) {
     const Path folder = thermal::Layout{set}.clip(clip["id"]);
-    tolerate([&] { (void)thermal::read_clip_file(folder); });
+    tolerate([&] { (void)thermal::read_clip_record(folder / "clip.json"); });
     tolerate([&] { thermal::for_clip_frames(folder, [](int, const Json&) {}); });
     tolerate([&] {
       thermal::for_clip_labels(folder, [](int, const std::string&, const std::string& text) {

@@ -52,7 +52,8 @@ def _comma(tmp_path_factory) -> dict:
     )
     library = folder / "set.so"
     subprocess.run(["cc", "-shared", "-fPIC", "-o", library, folder / "set.c"], check=True)
-    return {"LOCPATH": str(folder), "LD_PRELOAD": str(library)}
+    loaded = os.environ.get("LD_PRELOAD", "").split()  # a sanitizer's runtime comes first
+    return {"LOCPATH": str(folder), "LD_PRELOAD": " ".join([*loaded, str(library)])}
 
 
 def _sums(folder) -> dict:

@@ -94,12 +94,6 @@ class LabelsReader {
 
 }  // namespace
 
-Json read_clip_file(const Path& folder) {
-  const Path file = folder / "clip.json";
-  (void)read_clip_record(file);
-  return read_json(file);
-}
-
 void for_clip_frames(const Path& folder, const std::function<void(int, const Json&)>& take) {
   check_has_no_links(folder);
   const Path file = folder / "frames.jsonl";
@@ -123,10 +117,8 @@ void for_clip_frames(const Path& folder, const std::function<void(int, const Jso
 
 void for_clip_labels(const Path& folder,
                      const std::function<void(int, const std::string&, const std::string&)>& take) {
-  check_is_no_link(folder);
   const Path file = folder / "labels.json";
-  check_is_no_link(file);
-  check_is_file(file);
+  check_is_own_file(file);
   LabelsReader reader(file);
   try {
     reader.check_lists(read_json_elements(file, [&](const std::string& list, std::size_t place,

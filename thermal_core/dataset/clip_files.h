@@ -10,9 +10,6 @@ namespace thermal {
 /// A clip's folder in a dataset that anyone may have made or changed. All functions: DataError with file, place and value for
 /// what is not as DATASET.md says, IoError if a file cannot be read, is no regular one, or is a link.
 
-/// clip.json, as read_clip_record() checks it. No link is in the folder then.
-[[nodiscard]] Json read_clip_file(const Path& folder);
-
 /// Calls `take` with each line of frames.jsonl. No link is in the folder then. Checked: frame_index, which rises, time_s,
 /// ffc, and camera_to_world where it is not null.
 void for_clip_frames(const Path& folder,

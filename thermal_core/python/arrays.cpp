@@ -55,6 +55,12 @@ ArrayOf<double> finite_numbers_of(const py::handle& given, const char* what) {
   return array;
 }
 
+double finite_number_of(const py::handle& given, const char* what) {
+  const ArrayOf<double> numbers = finite_numbers_of(given, what);
+  if (numbers.ndim() > 0) throw ConfigError(fault(what, shape_of(numbers), "", "one number"));
+  return *numbers.data();
+}
+
 py::array plane_in(const py::handle& given, const char* what) {
   py::array array = numbers_in(given, what);
   if (array.ndim() == 2 && array.size() > 0 && array.size() <= kMostPixels) return array;

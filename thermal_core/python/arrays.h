@@ -34,6 +34,9 @@ template <typename T>
 /// The same, with ConfigError naming the first that is not finite.
 [[nodiscard]] ArrayOf<double> finite_numbers_of(const py::handle& given, const char* what);
 
+/// The same for one number.
+[[nodiscard]] double finite_number_of(const py::handle& given, const char* what);
+
 /// The same with two axes, of 1 to 256 million elements in all.
 [[nodiscard]] py::array plane_in(const py::handle& given, const char* what);
 

@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include "dataset/clip/record.h"
 #include "dataset/clip_files.h"
 #include "dataset/dataset_file.h"
 #include "io/image/png.h"
@@ -19,7 +20,7 @@ py::array_t<T> array_of_png(const std::string& file, Plane<T> (*read)(const Path
   Plane<T> plane;
   {
     const py::gil_scoped_release others_run;
-    check_is_no_link(file);
+    check_is_own_file(file);
     plane = read(file);
   }
   return array_of(std::move(plane));
@@ -46,8 +47,7 @@ py::list labels_of(const std::string& folder) {
 
 /// Gives a file of a dataset a second name, or copies it where that is impossible.
 void link_to(const std::string& file, const std::string& as) {
-  check_is_no_link(file);
-  check_is_file(file);
+  check_is_own_file(file);
   (void)link_file(file, as, Linking::hard);
 }
 
@@ -58,7 +58,8 @@ void add_files(py::module_& module) {
   module.def("read_png16", [](const std::string& file) { return array_of_png(file, &read_png16); });
   module.def("read_json", [](const std::string& file) { return read_json(file).dump(); });
   module.def("read_dataset_file", [](const std::string& folder) { return read_dataset_file(folder).dump(); });
-  module.def("read_clip_file", [](const std::string& folder) { return read_clip_file(folder).dump(); });
+  module.def("read_clip_record",
+             [](const std::string& file) { return to_json(read_clip_record(file)).dump(); });
   module.def("read_clip_frames", &frames_of);
   module.def("read_clip_labels", &labels_of);
   module.def("read_coco_head", [](const std::string& file) {
@@ -67,6 +68,7 @@ void add_files(py::module_& module) {
   });
   module.def("link_file", &link_to);
   module.def("numbers", &numbers_of<double>, py::arg("given"), py::arg("what"));
+  module.def("finite_number", &finite_number_of, py::arg("given"), py::arg("what"));
   module.def("finite_numbers", &finite_numbers_of, py::arg("given"), py::arg("what"));
 }
 

@@ -59,8 +59,9 @@ class PythonWorld {
       : world_(std::make_unique<World>(plan, clip, Assets(home),
                                        WorldOptions{.frame_rate_hz = frame_rate_hz, .roam = roam})) {}
 
-  [[nodiscard]] py::tuple capture(const py::object& camera_to_world, double time_s) {
+  [[nodiscard]] py::tuple capture(const py::object& camera_to_world, const py::object& time) {
     const std::array<double, 16> pose = pose_of(camera_to_world);
+    const double time_s = finite_number_of(time, "time_s");
     const py::gil_scoped_release others_run;
     const std::lock_guard turn(mutex_);
     const ClipImager::Frame& frame = world_->capture(pose, time_s);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "dataset/clip/record.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
@@ -102,7 +103,8 @@ TEST_CASE("Links in a clip are not followed") {
   CHECK_THAT(message_of<IoError>([&] { for_clip_labels(clip, ignore); }), ContainsSubstring("labels.json"));
   CHECK_THAT(message_of<IoError>([&] { for_clip_frames(clip, [](int, const Json&) {}); }),
              ContainsSubstring("frames.jsonl"));
-  CHECK_THAT(message_of<IoError>([&] { (void)read_clip_file(clip); }), ContainsSubstring("link"));
+  CHECK_THAT(message_of<IoError>([&] { (void)read_clip_record(clip / "clip.json"); }),
+             ContainsSubstring("link"));
 }
 
 }  // namespace clip_files_test

@@ -22,9 +22,7 @@ void take(const std::string& file, const std::string& list, std::size_t place, c
 }  // namespace
 
 CocoHead read_coco_head(const Path& file) {
-  check_is_no_link(file.parent_path());
-  check_is_no_link(file);
-  check_is_file(file);
+  check_is_own_file(file);
   CocoHead head;
   const std::string name = file.string();
   try {

@@ -133,6 +133,12 @@ void check_is_no_link(const Path& place) {
                       "a path that is not a link; nothing elsewhere is read or written"));
 }
 
+void check_is_own_file(const Path& file) {
+  check_is_no_link(file.parent_path());
+  check_is_no_link(file);
+  check_is_file(file);
+}
+
 void check_has_no_links(const Path& folder) {
   check_is_no_link(folder);
   if (!std::filesystem::is_directory(folder)) return;

@@ -40,7 +40,11 @@ void check_is_file(const Path& file);
 /// Refuses a symbolic link: reading or writing would follow it elsewhere. IoError with link and target.
 void check_is_no_link(const Path& place);
 
-/// The same for a folder with all that is in it and in the folders in it. What does not exist is no link.
+/// For a file that belongs to a dataset: neither it nor its folder is a link, and it is a regular file. IoError as both
+/// checks above.
+void check_is_own_file(const Path& file);
+
+/// check_is_no_link() for a folder with all that is in it and in the folders in it. What does not exist is no link.
 void check_has_no_links(const Path& folder);
 
 /// Writes under a temporary name beside `file`, syncs, renames: the file is complete or unchanged. Links of either

@@ -100,9 +100,7 @@ class Camera:
         return self._camera.kelvin_per_count
 
     def _skip_to(self, time_s: float) -> None:
-        if _core.finite_numbers(time_s, "time_s").ndim:
-            raise _core.ConfigError(f"time_s = {np.size(time_s)} numbers; expected one")
-        time_s = float(time_s)
+        time_s = _core.finite_number(time_s, "time_s")
         frame = round(time_s * self._frame_rate_hz)
         on_clock = abs(frame - time_s * self._frame_rate_hz) < 1e-3
         if not on_clock or not 0 <= frame - self._next <= _LONGEST_REST_S * self._frame_rate_hz:

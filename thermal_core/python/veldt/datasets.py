@@ -110,7 +110,7 @@ class Clip(Sequence[Frame]):
     @cached_property
     def record(self) -> dict[str, Any]:
         """clip.json: season, seed, checksums."""
-        return json.loads(_core.read_clip_file(str(self.folder)))
+        return json.loads(_core.read_clip_record(str(self.folder / "clip.json")))
 
     @property
     def frame_rate_hz(self) -> float:

@@ -94,18 +94,19 @@ def _features(categories: list[str]) -> Features:
 def _write_split(dataset: Dataset, clips: list[Clip], folder: Path) -> None:
     for pixels in _PIXELS:
         (folder / pixels).mkdir(parents=True)
-    categories = list(dataset.categories)
-    schema = _features(categories).arrow_schema
+    schema = _features(list(dataset.categories)).arrow_schema
     with pyarrow.parquet.ParquetWriter(folder / "metadata.parquet", schema) as writer:
         for clip in clips:
-            rows = [_row(frame, categories) for frame in clip]
+            rows = [_row(frame) for frame in clip]
             writer.write_table(pyarrow.Table.from_pylist(rows, schema))
             for frame, row in zip(clip, rows):
                 for pixels, key in zip(_PIXELS, ("file_name", "ir16_file_name")):
                     _core.link_file(str(frame.file(pixels)), str(folder / row[key]))
 
 
-def _row(frame: Frame, categories: list[str]) -> dict[str, Any]:
+def _row(frame: Frame) -> dict[str, Any]:
+    dataset = frame.clip.dataset
+    places = {of: place for place, of in enumerate(dataset.categories.values())}
     name = f"{frame.clip.id}_{frame.index:06d}.png"
     labels = [label for label in frame.labels if not label.values["ignore"]]
     return {
@@ -115,20 +116,12 @@ def _row(frame: Frame, categories: list[str]) -> dict[str, Any]:
         "clip": frame.clip.id,
         "frame_index": frame.index,
         "time_s": frame.time_s,
-        "kelvin_per_count": frame.clip.dataset.kelvin_per_count,
+        "kelvin_per_count": dataset.kelvin_per_count,
         "objects": {
             "bbox": [list(label.box_px) for label in labels],
-            "category": [_place_of(label.category, categories) for label in labels],
+            "category": [places[dataset.category_id(label.category)] for label in labels],
             "area": [label.values["area"] for label in labels],
             "track_id": [label.track_id for label in labels],
             "rle": [label.values["segmentation"]["counts"] for label in labels],
         },
     }
-
-
-def _place_of(category: str, categories: list[str]) -> int:
-    if category in categories:
-        return categories.index(category)
-    raise _core.DataError(
-        f'category = "{category}"; expected one of annotations.json: {", ".join(categories)}'
-    )
