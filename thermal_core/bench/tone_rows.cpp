@@ -98,7 +98,7 @@ StageRow detail_row() {
   const double worst = worst_detail_counts(ir16, parameters.radius_px, parameters.edge_netd * kCountsPerNetd);
   const StageRow row = {
       .group = "sharpening", .name = "detail, radius 3 px", .figures = {{"worst_counts", worst}}};
-  DetailEnhancer enhancer(parameters, kCountsPerNetd, Polarity::white_hot);
+  DetailEnhancer enhancer({.detail = parameters}, kCountsPerNetd);
   Plane<std::uint8_t> ir8(kSceneWidthPx, kSceneHeightPx, 128);
   return timed(row, sizeof(std::uint16_t) + 2 * sizeof(std::uint8_t), [&] { enhancer.sharpen(ir16, ir8); });
 }

@@ -66,6 +66,7 @@ void Agc::make_radiance_curve(double rounding) {
     curve_.thresholds[level - 1] = threshold(std::floor(temperature_k / scene_.kelvin_per_count + 0.5));
   }
   curve_.high_k = scene_.temperature_of(scene_.brightest_w_m2_sr);
+  keep_headroom();
 }
 
 void Agc::make_linear_curve(double low_count, double high_count) {
@@ -75,6 +76,25 @@ void Agc::make_linear_curve(double low_count, double high_count) {
   }
   curve_.low_k = low_count * scene_.kelvin_per_count;
   curve_.high_k = high_count * scene_.kelvin_per_count;
+  keep_headroom();
+}
+
+/// From levels 0 to 255 to those from black to white: each becomes the nearest.
+void Agc::keep_headroom() {
+  if (parameters_.mode == AgcMode::table_max ||
+      (parameters_.black_level == 0 && parameters_.white_level == 255))
+    return;
+  const auto full = curve_.thresholds;
+  const auto level_of = [this](std::size_t level) {
+    return level_within(static_cast<std::uint8_t>(level), parameters_.black_level, parameters_.white_level);
+  };
+  std::size_t level = 0;
+  for (std::size_t shown = 1; shown < kLevels; ++shown) {
+    while (level < kLevels && level_of(level) < shown) ++level;
+    curve_.thresholds[shown - 1] = level == 0        ? std::uint16_t{1}
+                                   : level < kLevels ? full[level - 1]
+                                                     : static_cast<std::uint16_t>(kClipped);
+  }
 }
 
 const ToneCurve& Agc::next(const Plane<std::uint16_t>& ir16) {
@@ -183,6 +203,7 @@ void Agc::make_thresholds_of_levels() {
     curve_.thresholds[level - 1] =
         threshold((static_cast<double>(bin) + share) * static_cast<double>(bins_.counts));
   }
+  keep_headroom();
 }
 
 void truncate_to_levels(const Plane<float>& radiance_w_m2_sr, double brightest_w_m2_sr, Polarity polarity,

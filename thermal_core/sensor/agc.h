@@ -45,7 +45,8 @@ struct AgcScene {
 
 /// Automatic gain control of one clip: makes each frame's 8-bit picture from its 16-bit counts and earlier frames.
 ///
-/// Counts 0 (nothing measured: NaN, no light) and 65535 (clipped) are shown, but the adaptive modes ignore them. A
+/// Counts 0 (nothing measured: NaN, no light) and 65535 (clipped) are shown as levels 0 and 255, but the adaptive modes ignore
+/// them. All others are shown from black_level to white_level. A
 /// frame without any other count keeps the previous frame's curve; a first frame of that kind is black. The adaptive
 /// modes never spread one NETD over more than max_gain_dn_per_netd levels, so that a scene of low contrast stays near
 /// middle grey instead of showing its noise.
@@ -72,6 +73,7 @@ class Agc {
   [[nodiscard]] double weight_of(std::size_t begin, std::size_t end) const;
   [[nodiscard]] std::vector<double> equalised(std::size_t low, std::size_t high, std::size_t measured) const;
   void make_thresholds_of_levels();
+  void keep_headroom();
 
   AgcParameters parameters_;
   AgcScene scene_;

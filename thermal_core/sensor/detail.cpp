@@ -112,14 +112,14 @@ void for_each_row(int height_px, const std::function<void(int y)>& work) {
 }
 
 VELDT_CLONES void add_detail(const float* detail, std::size_t size, float levels_per_count,
-                             float noise_counts, std::uint8_t* levels) {
+                             float noise_counts, float darkest, float brightest, std::uint8_t* levels) {
   for (std::size_t i = 0; i < size; ++i) {
     const float amount = detail[i] < 0 ? -detail[i] : detail[i];
     const float beyond = amount > noise_counts ? amount - noise_counts : 0;
     const float change = levels_per_count * (detail[i] < 0 ? -beyond : beyond);
     const float level = static_cast<float>(static_cast<std::int32_t>(levels[i])) + change + 0.5F;
-    const float positive = level > 0 ? level : 0;
-    levels[i] = static_cast<std::uint8_t>(static_cast<std::int32_t>(positive < 255 ? positive : 255));
+    const float above = level > darkest ? level : darkest;
+    levels[i] = static_cast<std::uint8_t>(static_cast<std::int32_t>(above < brightest ? above : brightest));
   }
 }
 
@@ -145,19 +145,22 @@ void find_detail(const Plane<std::uint16_t>& ir16, int radius_px, double edge_co
   });
 }
 
-DetailEnhancer::DetailEnhancer(const DetailParameters& parameters, double counts_per_netd, Polarity polarity)
-    : parameters_(parameters),
-      counts_per_netd_(counts_per_netd),
-      sign_(polarity == Polarity::black_hot ? -1.0F : 1.0F) {}
+DetailEnhancer::DetailEnhancer(const AgcParameters& parameters, double counts_per_netd)
+    : parameters_(parameters.detail),
+      is_inverted_(parameters.polarity == Polarity::black_hot),
+      darkest_(static_cast<float>(is_inverted_ ? 255 - parameters.white_level : parameters.black_level)),
+      brightest_(static_cast<float>(is_inverted_ ? 255 - parameters.black_level : parameters.white_level)),
+      counts_per_netd_(counts_per_netd) {}
 
 void DetailEnhancer::sharpen(const Plane<std::uint16_t>& ir16, Plane<std::uint8_t>& ir8) {
   if (parameters_.gain_dn_per_netd <= 0) return;
   find_detail(ir16, parameters_.radius_px, parameters_.edge_netd * counts_per_netd_, detail_counts_);
-  const float levels_per_count = sign_ * static_cast<float>(parameters_.gain_dn_per_netd / counts_per_netd_);
+  const double sign = is_inverted_ ? -1 : 1;
+  const auto levels_per_count = static_cast<float>(sign * parameters_.gain_dn_per_netd / counts_per_netd_);
   const auto noise_counts = static_cast<float>(parameters_.noise_netd * counts_per_netd_);
   for_each_row(ir16.height_px(), [&](int y) {
-    add_detail(detail_counts_.row(y).data(), ir8.row(y).size(), levels_per_count, noise_counts,
-               ir8.row(y).data());
+    add_detail(detail_counts_.row(y).data(), ir8.row(y).size(), levels_per_count, noise_counts, darkest_,
+               brightest_, ir8.row(y).data());
   });
 }
 

@@ -18,16 +18,18 @@ void find_detail(const Plane<std::uint16_t>& ir16, int radius_px, double edge_co
 /// detail of their 16-bit frames, less the part that noise explains, times a gain.
 class DetailEnhancer {
  public:
-  DetailEnhancer(const DetailParameters& parameters, double counts_per_netd, Polarity polarity);
+  DetailEnhancer(const AgcParameters& parameters, double counts_per_netd);
 
   /// A pixel of detail d, in NETDs, becomes gain x (|d| - noise) levels warmer, or colder if d < 0; nothing if |d| is
-  /// at most `noise`. Nothing at all without a gain.
+  /// at most `noise`; within black_level and white_level, as they are shown. Nothing at all without a gain.
   void sharpen(const Plane<std::uint16_t>& ir16, Plane<std::uint8_t>& ir8);
 
  private:
   DetailParameters parameters_;
+  bool is_inverted_;
+  float darkest_;
+  float brightest_;
   double counts_per_netd_;
-  float sign_;  ///< of a warmer level
   Plane<float> detail_counts_;
 };
 

@@ -17,6 +17,12 @@ struct LevelBins {
   [[nodiscard]] std::size_t size() const noexcept { return (65536 + counts - 1) / counts; }
 };
 
+/// A level from 0 to 255 within the range from black to white, to the nearest.
+[[nodiscard]] constexpr std::uint8_t level_within(std::uint8_t level, int black_level,
+                                                  int white_level) noexcept {
+  return static_cast<std::uint8_t>(black_level + (level * (white_level - black_level) + 127) / 255);
+}
+
 /// First and last bin outside the tails of a histogram: a tail is as many bins as hold no more than `tail_pixels`, less
 /// than half of all pixels. The histogram is not empty.
 [[nodiscard]] std::pair<std::size_t, std::size_t> between_tails(std::span<const std::uint32_t> histogram,

@@ -138,8 +138,9 @@ void LocalTone::show_row(const Plane<std::uint16_t>& ir16, int y, const std::vec
     const float above = mixed(level_at(upper + left, share), level_at(upper + right, share), column.share);
     const float below = mixed(level_at(lower + left, share), level_at(lower + right, share), column.share);
     const float rounded = 0.5F + mixed(above, below, rows.share);
-    const auto level = static_cast<std::int32_t>(rounded);
-    out[x] = in[x] == 0 ? 0 : in[x] == kSaturatedCount ? 255 : static_cast<std::uint8_t>(level);
+    const auto level = level_within(static_cast<std::uint8_t>(static_cast<std::int32_t>(rounded)),
+                                    parameters_.black_level, parameters_.white_level);
+    out[x] = in[x] == 0 ? 0 : in[x] == kSaturatedCount ? 255 : level;
   }
 }
 

@@ -112,6 +112,15 @@ struct DenoiseParameters {
   [[nodiscard]] bool operator==(const DenoiseParameters&) const = default;
 };
 
+/// Filters of the 8-bit frames alone, ahead of gain control; see Processing.
+struct ProcessingParameters {
+  double noise_filter_sigma_px = 0;  ///< of a Gaussian; 0: none
+  double unsharp_amount = 0;         ///< of the unsharp mask: how much of what it finds is added; 0: none
+  double unsharp_sigma_px = 2;       ///< of its Gaussian
+
+  [[nodiscard]] bool operator==(const ProcessingParameters&) const = default;
+};
+
 /// Gain control: how 16-bit frames become 8-bit frames.
 struct AgcParameters {
   AgcMode mode = AgcMode::scene_max;
@@ -129,6 +138,8 @@ struct AgcParameters {
   double clip_limit = 2;                  ///< clahe: largest bin / mean bin of a tile
   int tiles_across = 8;                   ///< clahe
   int tiles_down = 8;                     ///< clahe
+  int black_level = 0;                    ///< of the coldest pixels; not in table_max
+  int white_level = 255;                  ///< of the warmest
   DetailParameters detail = {};           ///< in all modes
 
   [[nodiscard]] bool operator==(const AgcParameters&) const = default;
@@ -150,6 +161,7 @@ struct SensorParameters {
   BadPixelParameters bad_pixels;
   double accuracy_k = 0;  ///< error of all apparent temperatures, see RadiometricError; 0: none
   DenoiseParameters denoise;
+  ProcessingParameters processing;
   double kelvin_per_count = 0.01;  ///< step of the 16-bit frames
   AgcParameters agc;
 

@@ -189,9 +189,9 @@ ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, floa
       housing_(housing_of(parameters, clip_)),
       bad_pixels_(parameters.bad_pixels, clip_.seed, clip_.id, native_.rate_hz, clip_.width_px,
                   clip_.height_px),
+      processing_(parameters.processing),
       agc_(parameters.agc, agc_scene(parameters, clip_.frame_rate_hz, brightest_w_m2_sr)),
-      sharpener_(parameters.agc.detail, parameters.netd_k() / parameters.kelvin_per_count,
-                 parameters.agc.polarity),
+      sharpener_(parameters.agc, parameters.netd_k() / parameters.kelvin_per_count),
       signal_(clip_.width_px, clip_.height_px),
       noise_w_m2_sr_(static_cast<double>(white_w_m2_sr_) *
                      std::sqrt(noise_variance(parameters, native_.rate_hz))) {
@@ -280,18 +280,19 @@ void ThermalCamera::make_picture(std::uint32_t native, SensorFrame& out) {
   bad_pixels_.apply(native, white_w_m2_sr_, signal_);
   if (denoise_) denoise_->apply(signal_);
   count(radiometric_error_.at_k(shutter), out.ir16);
-  out.curve = agc_.next(out.ir16);
   show(out);
 }
 
 void ThermalCamera::show(SensorFrame& frame) {
   const AgcParameters& agc = parameters_.agc;
+  const Plane<std::uint16_t>& filtered = processing_.filter(frame.ir16);
+  frame.curve = agc_.next(filtered);
   if (agc.mode == AgcMode::table_max) {
     truncate_to_levels(signal_, brightest_w_m2_sr_, agc.polarity, frame.ir8);
   } else {
-    agc_.show(frame.ir16, frame.ir8);
+    agc_.show(filtered, frame.ir8);
   }
-  sharpener_.sharpen(frame.ir16, frame.ir8);
+  sharpener_.sharpen(filtered, frame.ir8);
 }
 
 /// Radiance at the detector.

@@ -17,6 +17,7 @@
 #include "sensor/native_rate.h"
 #include "sensor/optics.h"
 #include "sensor/pattern_noise.h"
+#include "sensor/processing.h"
 #include "sensor/radiometric_error.h"
 #include "sensor/sensor_parameters.h"
 #include "sensor/shutter.h"
@@ -147,6 +148,7 @@ class ThermalCamera {
   std::optional<std::uint32_t> event_;  ///< of the shutter, in the frame before
   BadPixels bad_pixels_;
   std::optional<TemporalFilter> denoise_;  ///< none without noise reduction
+  Processing processing_;
   Agc agc_;
   DetailEnhancer sharpener_;
   Plane<float> signal_;                ///< radiance as measured by the detector

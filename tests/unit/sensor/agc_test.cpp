@@ -259,4 +259,27 @@ TEST_CASE("information gives flat ground fewer levels than plateau, and a textur
   CHECK(levels_over(AgcMode::plateau, 27990, 28010) > 2 * flat);
 }
 
+TEST_CASE("Levels keep the headroom that is asked for, in all modes but the published script's") {
+  const AgcMode mode = GENERATE(AgcMode::scene_max, AgcMode::linear, AgcMode::percentile, AgcMode::plateau,
+                                AgcMode::information, AgcMode::clahe);
+  CAPTURE(static_cast<int>(mode));
+  const Counts counts = random_counts(3, 28000, 300);
+  const auto levels = [&](int black, int white) {
+    Agc agc({.mode = mode, .black_level = black, .white_level = white}, scene_of());
+    agc.next(counts);
+    Plane<std::uint8_t> ir8;
+    agc.show(counts, ir8);
+    return ir8;
+  };
+  const Plane<std::uint8_t> full = levels(0, 255);
+  const Plane<std::uint8_t> less = levels(12, 244);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const std::uint16_t count = counts.pixels()[i];
+    const double scaled = 12 + full.pixels()[i] * 232.0 / 255;
+    if (count == 0) REQUIRE(less.pixels()[i] == 0);
+    if (count == 65535) REQUIRE(less.pixels()[i] == 255);
+    if (count != 0 && count != 65535) REQUIRE(std::abs(less.pixels()[i] - scaled) <= 0.5);
+  }
+}
+
 }  // namespace agc_test

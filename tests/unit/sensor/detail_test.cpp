@@ -82,9 +82,11 @@ TEST_CASE("A faint edge overshoots by the gain times its detail, on both sides")
   const double gain = GENERATE(1.0, 4.0);
   const double noise_netd = GENERATE(0.0, 2.5);
   CAPTURE(radius_px, gain, noise_netd);
-  DetailEnhancer enhancer(
-      {.gain_dn_per_netd = gain, .radius_px = radius_px, .edge_netd = 1000, .noise_netd = noise_netd},
-      kCountsPerNetd, Polarity::white_hot);
+  DetailEnhancer enhancer({.detail = {.gain_dn_per_netd = gain,
+                                      .radius_px = radius_px,
+                                      .edge_netd = 1000,
+                                      .noise_netd = noise_netd}},
+                          kCountsPerNetd);
   Plane<std::uint8_t> ir8(41, 9, 128);
   enhancer.sharpen(step(41, 9, 20, kHeight), ir8);
   // The base is the mean of means, a triangle of 2 w - 1 pixels for windows of w: beside the edge, (w - 1) / 2 w of its
@@ -99,8 +101,8 @@ TEST_CASE("A faint edge overshoots by the gain times its detail, on both sides")
 }
 
 TEST_CASE("A strong edge has no halo") {
-  DetailEnhancer enhancer({.gain_dn_per_netd = 4, .edge_netd = 10, .noise_netd = 2.5}, kCountsPerNetd,
-                          Polarity::white_hot);
+  DetailEnhancer enhancer({.detail = {.gain_dn_per_netd = 4, .edge_netd = 10, .noise_netd = 2.5}},
+                          kCountsPerNetd);
   Plane<std::uint8_t> ir8(41, 9, 128);
   enhancer.sharpen(step(41, 9, 20, 4000), ir8);  // 1000 NETDs
   CHECK(std::ranges::all_of(ir8.pixels(), [](std::uint8_t level) { return level == 128; }));
@@ -108,10 +110,11 @@ TEST_CASE("A strong edge has no halo") {
 
 TEST_CASE("Detail of black_hot is darker where it is warmer, and levels stay in range") {
   const Counts counts = random_counts(50, 40);
-  const DetailParameters parameters = {.gain_dn_per_netd = 3, .noise_netd = 2.5};
+  AgcParameters parameters = {.detail = {.gain_dn_per_netd = 3, .noise_netd = 2.5}};
   const auto sharpened = [&](Polarity polarity, std::uint8_t level) {
     Plane<std::uint8_t> ir8(50, 40, level);
-    DetailEnhancer(parameters, kCountsPerNetd, polarity).sharpen(counts, ir8);
+    parameters.polarity = polarity;
+    DetailEnhancer(parameters, kCountsPerNetd).sharpen(counts, ir8);
     return ir8;
   };
   const Plane<std::uint8_t> white = sharpened(Polarity::white_hot, 100);
@@ -120,6 +123,12 @@ TEST_CASE("Detail of black_hot is darker where it is warmer, and levels stay in 
     REQUIRE(std::abs(white.pixels()[i] + black.pixels()[i] - 255) <= 1);  // halves round up in both
   CHECK(std::ranges::max(sharpened(Polarity::white_hot, 250).pixels()) == 255);
   CHECK(std::ranges::min(sharpened(Polarity::white_hot, 5).pixels()) == 0);
+  parameters.black_level = 12;
+  parameters.white_level = 244;
+  CHECK(std::ranges::max(sharpened(Polarity::white_hot, 240).pixels()) == 244);
+  CHECK(std::ranges::min(sharpened(Polarity::white_hot, 15).pixels()) == 12);
+  CHECK(std::ranges::max(sharpened(Polarity::black_hot, 240).pixels()) == 243);
+  CHECK(std::ranges::min(sharpened(Polarity::black_hot, 15).pixels()) == 11);
 }
 
 TEST_CASE("Noise alone is hardly sharpened at the defaults") {

@@ -114,6 +114,8 @@ AgcParameters read_agc(const Json& json) {
           .clip_limit = json["clip_limit"],
           .tiles_across = json["tiles_across"],
           .tiles_down = json["tiles_down"],
+          .black_level = json["black_level"],
+          .white_level = json["white_level"],
           .detail = {.gain_dn_per_netd = json["detail"]["gain_dn_per_netd"],
                      .radius_px = json["detail"]["radius_px"],
                      .edge_netd = json["detail"]["edge_netd"],
@@ -158,6 +160,9 @@ SensorParameters read_sensor(const Json& document, const std::string& where, con
           .accuracy_k = json["accuracy_k"],
           .denoise = {.share_of_new = json["denoise"]["share_of_new"],
                       .motion_sigma = json["denoise"]["motion_sigma"]},
+          .processing = {.noise_filter_sigma_px = json["processing"]["noise_filter_sigma_px"],
+                         .unsharp_amount = json["processing"]["unsharp_amount"],
+                         .unsharp_sigma_px = json["processing"]["unsharp_sigma_px"]},
           .kelvin_per_count = json["kelvin_per_count"],
           .agc = read_agc(json["agc"])};
 }

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "base/image.h"
+#include "sensor/convolution.h"
+#include "sensor/sensor_parameters.h"
+
+namespace thermal {
+
+/// What a camera's processor does to a picture on its way to the gain control: a Gaussian noise filter, then an unsharp
+/// mask, which leaves halos. Modulation transfer along rows or columns, with N and U those of gaussian_psf():
+///   H(f) = N(f) (1 + amount (1 - U(f))),
+/// within 0.03 (1 + amount) of exp(-2 pi^2 sigma^2 f^2) in place of N and U. White noise comes out with a correlation of
+/// exp(-d^2 / (4 sigma^2)) between pixels at a distance d, without an unsharp mask. Beyond the border, the picture is mirrored.
+class Processing {
+ public:
+  explicit Processing(const ProcessingParameters& parameters);
+
+  /// The filtered counts, valid until the next call; `ir16` itself if nothing is filtered. Counts 0 (nothing measured) and
+  /// 65535 (clipped) stay, and no other becomes one of them.
+  [[nodiscard]] const Plane<std::uint16_t>& filter(const Plane<std::uint16_t>& ir16);
+
+ private:
+  float unsharp_amount_;
+  Convolution noise_filter_;
+  Convolution unsharp_;
+  Plane<float> sharp_;
+  Plane<float> blurred_;
+  Plane<std::uint16_t> filtered_;
+};
+
+}  // namespace thermal
