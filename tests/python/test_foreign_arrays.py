@@ -8,7 +8,19 @@ import pytest
 
 import passes
 from configs import tiny
-from veldt import Band, Camera, ConfigError, Converter, DataError, Error, HeatOfDay, World, instances, plan
+from veldt import (
+    Band,
+    Camera,
+    ConfigError,
+    Converter,
+    DataError,
+    Error,
+    HeatOfDay,
+    VideoChain,
+    World,
+    instances,
+    plan,
+)
 
 ROUNDS = int(os.environ.get("VELDT_ARRAY_ROUNDS", "60"))
 WHOLE = "expected a whole number from 0 to 32767"
@@ -105,6 +117,7 @@ def _functions(veldt):
     converter = Converter(passes.manifest(frames=2))
     camera = Camera(settings={"camera": {"width_px": 4, "height_px": 3}})
     material = heat.materials[0]
+    chain = VideoChain({"link": {"standard": "ntsc"}})
     plan(tiny(), veldt.folder / "arrays", settings=["render.engine=embree", "render.posed_actors=all"])
     world = World(veldt.folder / "arrays", "down")
     return [
@@ -117,6 +130,7 @@ def _functions(veldt):
         lambda a, b: (band.radiance(a), band.derivative(a), band.temperature(b), band.table_radiance(b)),
         lambda a, b: (world.restart(), world.capture(np.eye(4), b)),
         lambda a, b: (world.restart(), world.capture(a, world.flight_s[0])),
+        lambda a, b: chain(a),
         lambda a, b: band.relative_error_bound(a),
         lambda a, b: heat.air_k(a),
         lambda a, b: heat.temperature_k(material, a, sky_view=b),

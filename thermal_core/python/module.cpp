@@ -10,6 +10,7 @@ PYBIND11_MODULE(_core, module) {
   thermal::python::add_labels(module);
   thermal::python::add_runs(module);
   thermal::python::add_stream(module);
+  thermal::python::add_video_chain(module);
   thermal::python::add_world(module);
   thermal::python::add_files(module);
 }

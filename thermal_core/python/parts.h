@@ -15,6 +15,7 @@ void add_heat(pybind11::module_& module);
 void add_labels(pybind11::module_& module);
 void add_runs(pybind11::module_& module);
 void add_stream(pybind11::module_& module);
+void add_video_chain(pybind11::module_& module);
 void add_world(pybind11::module_& module);
 void add_files(pybind11::module_& module);
 

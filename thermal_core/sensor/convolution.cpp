@@ -25,18 +25,6 @@ void pad_row(std::span<const float> row, std::size_t radius, std::vector<float>&
   }
 }
 
-void convolve_row(std::span<const float> row, const HalfKernel& kernel, std::vector<float>& padded,
-                  std::span<float> out) {
-  const std::size_t radius = kernel.size() - 1;
-  pad_row(row, radius, padded);
-  const auto from = [&](std::size_t first) {
-    return std::span<const float>(padded).subspan(first, row.size());
-  };
-  set_scaled(from(radius), kernel[0], out);
-  for (std::size_t offset = 1; offset <= radius; ++offset)
-    add_sum(from(radius - offset), from(radius + offset), kernel[offset], out);
-}
-
 void convolve_column(const Plane<float>& picture, int y, const HalfKernel& kernel, std::span<float> out) {
   set_scaled(picture.row(y), kernel[0], out);
   for (int offset = 1; offset < static_cast<int>(kernel.size()); ++offset) {
@@ -76,6 +64,18 @@ HalfKernel gaussian_kernel(double sigma_px) {
   }
   for (double& weight : weights) weight /= sum;
   return rounded_kernel(weights);
+}
+
+void convolve_row(std::span<const float> row, const HalfKernel& kernel, std::vector<float>& padded,
+                  std::span<float> out) {
+  const std::size_t radius = kernel.size() - 1;
+  pad_row(row, radius, padded);
+  const auto from = [&](std::size_t first) {
+    return std::span<const float>(padded).subspan(first, row.size());
+  };
+  set_scaled(from(radius), kernel[0], out);
+  for (std::size_t offset = 1; offset <= radius; ++offset)
+    add_sum(from(radius - offset), from(radius + offset), kernel[offset], out);
 }
 
 void Convolution::apply(Plane<float>& picture) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/image.h"
@@ -18,6 +19,10 @@ using HalfKernel = std::vector<float>;
 
 /// Rounds weights to float so that their sum stays 1 within 6e-8: the centre weight absorbs the rounding.
 [[nodiscard]] HalfKernel rounded_kernel(const std::vector<double>& half_weights);
+
+/// A row convolved with a kernel, mirrored at its ends. `padded` is a buffer for reuse.
+void convolve_row(std::span<const float> row, const HalfKernel& kernel, std::vector<float>& padded,
+                  std::span<float> out);
 
 /// Convolves pictures with the same kernel along rows and columns. Pictures are mirrored at the border (edge pixel
 /// repeated), which preserves the sum of all pixels up to rounding. Keeps its buffers for reuse.

@@ -30,6 +30,13 @@ enum SensorStream : std::uint32_t {
   kLateDeadMomentStream = 53,
   kAccuracyStream = 54,
   kAccuracyDriftStream = 55,
+  kLinkNoiseStream = 56,
+  kLinkRowStream = 57,
+  kLinkDriftStream = 58,
+  kLinkJitterStream = 59,
+  kLinkHumStream = 60,
+  kLinkDropoutStream = 61,
+  kLinkStreakStream = 62,
   kFlickerStream = 64,  ///< and the 31 numbers after it, one for each process
 };
 

@@ -22,6 +22,15 @@ ThermalCamera::Clip sensor_clip(const ClipTask& task, const Manifest& manifest) 
           .air_k = task.physics ? air_at_camera_k(task.physics->weather.air) : ThermalCamera::Clip().air_k};
 }
 
+std::optional<AnalogueLink> link_of(const ClipTask& task, const Manifest& manifest) {
+  if (!task.link) return std::nullopt;
+  return AnalogueLink(*task.link, {.seed = task.seed,
+                                   .id = task.clip.id,
+                                   .frame_rate_hz = manifest.frame_rate_hz,
+                                   .width_px = manifest.camera.width_px,
+                                   .height_px = manifest.camera.height_px});
+}
+
 std::optional<VideoCodec> codec_of(const ClipTask& task, const Manifest& manifest) {
   if (!task.codec) return std::nullopt;
   return VideoCodec(*task.codec, manifest.frame_rate_hz, manifest.camera.width_px, manifest.camera.height_px);
@@ -32,6 +41,7 @@ std::optional<VideoCodec> codec_of(const ClipTask& task, const Manifest& manifes
 ClipImager::ClipImager(const ClipTask& task, const Manifest& manifest, float brightest_w_m2_sr,
                        std::shared_ptr<const TemperatureTable> temperatures)
     : camera_(task.sensor, sensor_clip(task, manifest), brightest_w_m2_sr, std::move(temperatures)),
+      link_(link_of(task, manifest)),
       codec_(codec_of(task, manifest)) {}
 
 void ClipImager::expose(const SceneFrame& scene, Frame& frame) {
@@ -41,6 +51,13 @@ void ClipImager::expose(const SceneFrame& scene, Frame& frame) {
                  [&](const Plane<float>& radiance_w_m2_sr) {
                    set_contrast(camera_, radiance_w_m2_sr, frame.instances);
                  });
+  const ImageMotion frozen;
+  if (link_) link_->pass(frame.pictures.shutter_closed ? frozen : scene.motion, frame.pictures.ir8);
+}
+
+void ClipImager::skip() {
+  camera_.skip();
+  if (link_) link_->skip();
 }
 
 void ClipImager::encode(Frame& frame) {

@@ -10,11 +10,12 @@
 #include "io/video/video_codec.h"
 #include "labels/instances.h"
 #include "scene/manifest.h"
+#include "sensor/analogue_link.h"
 #include "sensor/thermal_camera.h"
 
 namespace thermal {
 
-/// One task's clip in memory: its camera and its codec, from frame to frame. Frames must come in order, one by one.
+/// One task's clip in memory: its camera, its link and its codec, from frame to frame. Frames must come in order, one by one.
 class ClipImager {
  public:
   /// A frame in flight. Its memory is reused.
@@ -37,12 +38,13 @@ class ClipImager {
   void encode(Frame& frame);
 
   /// Replaces both for a frame that is unknown.
-  void skip() { camera_.skip(); }
+  void skip();
 
   [[nodiscard]] bool has_codec() const noexcept { return codec_.has_value(); }
 
  private:
   ThermalCamera camera_;
+  std::optional<AnalogueLink> link_;
   std::optional<VideoCodec> codec_;
 };
 

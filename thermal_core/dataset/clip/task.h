@@ -37,10 +37,11 @@ struct ClipTask {
   SensorParameters sensor;
   LensDistortion distortion;
   LabelParameters labels;
-  std::optional<VideoCodecSettings> codec = {};  ///< that 8-bit frames pass through; empty: none
-  std::optional<PhysicsSettings> physics;        ///< empty: the published model
-  Path folder;                                   ///< to make the clip in; emptied first
-  std::string made_from_sha256 = {};             ///< for the clip's record
+  std::optional<AnalogueLinkParameters> link = {};  ///< ahead of the codec; empty: none
+  std::optional<VideoCodecSettings> codec = {};     ///< that 8-bit frames pass through; empty: none
+  std::optional<PhysicsSettings> physics;           ///< empty: the published model
+  Path folder;                                      ///< to make the clip in; emptied first
+  std::string made_from_sha256 = {};                ///< for the clip's record
 };
 
 }  // namespace thermal

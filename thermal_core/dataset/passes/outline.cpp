@@ -145,6 +145,7 @@ ClipTask task_of(const Config& config, const ClipConfig& clip, const Terms& term
           .sensor = settings.sensor,
           .distortion = settings.distortion,
           .labels = settings.labels,
+          .link = settings.link,
           .codec = settings.codec,
           .physics = physics_of(config, clip, terms, heat, std::move(ground)),
           .folder = {}};

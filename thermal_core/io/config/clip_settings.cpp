@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "io/config/lens.h"
 #include "io/config/sensor.h"
+#include "io/config/video.h"
 #include "io/config/weather.h"
 #include "io/json/camera.h"
 #include "io/json/schema.h"
@@ -73,6 +74,8 @@ ClipSettings read_settings(const Json& document, const std::string& where, const
   settings.distortion = distortion_of(document["camera"]["distortion"]);
   settings.sensor = read_sensor(document, where, assets);
   settings.labels = read_label_parameters(document["labels"]);
+  if (document.contains("output") && document["output"].contains("link"))
+    settings.link = read_link(document["output"]["link"]);
   settings.codec = read_codec(document);
   settings.terms = read_terms(document["terms"], physical ? TermChoice::automatic : TermChoice::off);
   settings.netd_k = settings.sensor.netd_k();

@@ -16,6 +16,7 @@
 #include "scene/season.h"
 #include "scene/terms.h"
 #include "scene/weather.h"
+#include "sensor/analogue_link.h"
 #include "sensor/sensor_parameters.h"
 
 namespace thermal {
@@ -35,7 +36,8 @@ struct ClipSettings {
   LensDistortion distortion;
   SensorParameters sensor;
   LabelParameters labels;
-  std::optional<VideoCodecSettings> codec;  ///< that 8-bit frames pass through; empty: none
+  std::optional<AnalogueLinkParameters> link;  ///< ahead of the codec; empty: none
+  std::optional<VideoCodecSettings> codec;     ///< that 8-bit frames pass through; empty: none
   TermChoices terms;
   double netd_k = 0.04;
   std::array<Weather, 2> weather;  ///< by season; see weather_of()

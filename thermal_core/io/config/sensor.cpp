@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "io/assets.h"
 #include "io/config/spectra.h"
+#include "io/config/video.h"
 #include "io/json/schema.h"
 
 namespace thermal {
@@ -160,9 +161,7 @@ SensorParameters read_sensor(const Json& document, const std::string& where, con
           .accuracy_k = json["accuracy_k"],
           .denoise = {.share_of_new = json["denoise"]["share_of_new"],
                       .motion_sigma = json["denoise"]["motion_sigma"]},
-          .processing = {.noise_filter_sigma_px = json["processing"]["noise_filter_sigma_px"],
-                         .unsharp_amount = json["processing"]["unsharp_amount"],
-                         .unsharp_sigma_px = json["processing"]["unsharp_sigma_px"]},
+          .processing = read_processing(json["processing"]),
           .kelvin_per_count = json["kelvin_per_count"],
           .agc = read_agc(json["agc"])};
 }

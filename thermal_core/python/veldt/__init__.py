@@ -16,6 +16,7 @@ from .heat import HeatOfDay
 from .labels import Instance, instances
 from .runs import Outcome, Progress, generate, plan
 from .stream import Stream, StreamCounts
+from .video import VideoChain
 from .world import Actor, Capture, Intrinsics, World
 
 __all__ = [
@@ -43,6 +44,7 @@ __all__ = [
     "Stream",
     "StreamCounts",
     "TryAgainError",
+    "VideoChain",
     "World",
     "generate",
     "instances",

@@ -1,0 +1,107 @@
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "io/assets.h"
+#include "io/config/distribution.h"
+#include "io/config/video.h"
+#include "io/json/schema.h"
+#include "python/arrays.h"
+#include "python/parts.h"
+#include "sensor/analogue_link.h"
+#include "sensor/processing.h"
+
+namespace thermal::python {
+namespace {
+
+constexpr int kCountsPerLevel = 256;
+constexpr const char* kFieldMotion = "field_motion_px";
+
+/// The schema of a chain's settings, from that of configs.
+Json rules_of_chain(const Json& config) {
+  return {{"type", "object"},
+          {"additionalProperties", false},
+          {"properties",
+           {{"processing", config["properties"]["sensor"]["properties"]["processing"]},
+            {"link", config["properties"]["output"]["properties"]["link"]},
+            {kFieldMotion, {{"type", "number"}, {"minimum", -100}, {"maximum", 100}, {"default", 0}}}}}};
+}
+
+void process(const ProcessingParameters& parameters, Plane<std::uint8_t>& picture) {
+  Plane<std::uint16_t> counts(picture.width_px(), picture.height_px());
+  const auto levels = picture.pixels();
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    counts.pixels()[i] = static_cast<std::uint16_t>(kCountsPerLevel * levels[i] + kCountsPerLevel / 2);
+  Processing processing(parameters);
+  const auto filtered = processing.filter(counts).pixels();
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    levels[i] = static_cast<std::uint8_t>(filtered[i] / kCountsPerLevel);
+}
+
+/// Passes pictures through what is drawn for each of them.
+class VideoChain {
+ public:
+  VideoChain(const std::string& settings, const std::string& home, std::uint32_t seed)
+      : settings_(parse_json(settings, "settings")),
+        rules_(rules_of_chain(Assets(home).schema("config"))),
+        seed_(seed) {
+    (void)drawn(0);
+  }
+
+  [[nodiscard]] py::array_t<std::uint8_t> pass(const py::object& given, std::uint32_t number) const {
+    Plane<std::uint8_t> picture = levels_of(given, "picture");
+    {
+      const py::gil_scoped_release others_run;
+      const Json settings = drawn(number);
+      process(read_processing(settings["processing"]), picture);
+      if (settings.contains("link") && !settings["link"].is_null()) send(settings, number, picture);
+    }
+    return array_of(std::move(picture));
+  }
+
+ private:
+  [[nodiscard]] Json drawn(std::uint32_t number) const {
+    Json settings = settings_;
+    std::vector<std::string> faults;
+    (void)draw_within(settings, rules_, {.seed = seed_, .owner = std::to_string(number)}, "", faults);
+    if (settings.is_object() && settings.contains("link") && settings["link"].is_null())
+      settings.erase("link");
+    if (faults.empty()) faults = check_and_fill(settings, rules_);
+    if (!faults.empty()) throw ConfigError(fmt::format("settings: {}", fmt::join(faults, "\nsettings: ")));
+    return settings;
+  }
+
+  void send(const Json& settings, std::uint32_t number, Plane<std::uint8_t>& picture) const {
+    const AnalogueLinkParameters parameters = read_link(settings["link"]);
+    const auto motion_px = settings[kFieldMotion].get<float>();
+    ImageMotion motion;
+    if (motion_px != 0) {
+      motion.x_px = Plane<float>(picture.width_px(), picture.height_px(), motion_px);
+      motion.y_px = Plane<float>(picture.width_px(), picture.height_px(), 0.0F);
+    }
+    AnalogueLink link(parameters, {.seed = seed_,
+                                   .id = std::to_string(number),
+                                   .frame_rate_hz = parameters.field_rate_hz,
+                                   .width_px = picture.width_px(),
+                                   .height_px = picture.height_px()});
+    link.pass(motion, picture);
+  }
+
+  Json settings_;
+  Json rules_;
+  std::uint32_t seed_;
+};
+
+}  // namespace
+
+void add_video_chain(py::module_& module) {
+  py::class_<VideoChain>(module, "VideoChain")
+      .def(py::init<const std::string&, const std::string&, std::uint32_t>(), py::arg("settings"),
+           py::arg("home"), py::arg("seed"))
+      .def("pass_through", &VideoChain::pass, py::arg("picture"), py::arg("number"));
+}
+
+}  // namespace thermal::python
