@@ -13,9 +13,17 @@ CONFIGS = [
 ]
 
 
+# Planning 90 clips takes long, and they are drawn alike.
+def fewer_clips(config):
+    clips = json.loads(config.read_text())["clips"]
+    counts = [(i, clip.get("count", 1)) for i, clip in enumerate(clips)]
+    return [f"clips[{i}].count=8" for i, count in counts if count > 8]
+
+
 @pytest.mark.parametrize("config", CONFIGS, ids=lambda file: file.stem)
 def test_it_is_valid(veldt, config):
-    done = veldt("validate", config, "--progress", "none")  # the savanna takes long
+    settings = [f"--set={setting}" for setting in fewer_clips(config)]
+    done = veldt("validate", config, *settings, "--progress", "none")
     assert (done.code, done.err) == (0, "")
     assert done.out.startswith(f"{config}: ")
 
