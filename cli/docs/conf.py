@@ -24,6 +24,7 @@ include_patterns = [
     "assets/**.md",
     "blender_scripts/**.md",
     "cli/docs/*.md",
+    "cli/README.md",
     "cli/docs/*.rst",
     "configs/*.ipynb",
     "configs/*.md",
@@ -31,6 +32,7 @@ include_patterns = [
     "tests/THREATS.md",
     "tests/fuzz/found/ORIGIN.md",
     "thermal_core/*.md",
+    "thermal_core/python/README.md",
 ]
 exclude_patterns = ["build", ".git"]
 myst_heading_anchors = 4
