@@ -15,7 +15,7 @@ CONFIGS = [
 
 # Planning 90 clips takes long, and they are drawn alike.
 def fewer_clips(config):
-    clips = json.loads(config.read_text())["clips"]
+    clips = json.loads(config.read_text()).get("clips", [])
     counts = [(i, clip.get("count", 1)) for i, clip in enumerate(clips)]
     return [f"clips[{i}].count=8" for i, count in counts if count > 8]
 
