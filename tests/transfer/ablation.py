@@ -14,8 +14,7 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
-from frames import read_frames
-from ladder import KEYS, Ladder, Training, made_frames, parser_of, train_all
+from ladder import KEYS, Ladder, Training, draws_of, judges_of, made_frames, parser_of, train_all
 
 _CLUTTER = ("stone", "stump", "chimney", "dung_pile", "hare", "francolin", "milestone")
 _TIGHT = ("formation", "behaviours", "behaviour", "spacing_m")
@@ -80,6 +79,20 @@ def _without_codec(config: dict) -> None:
     config["output"].pop("codec", None)
 
 
+def _without_processing(config: dict) -> None:
+    config["sensor"].pop("processing", None)
+
+
+def _without_headroom(config: dict) -> None:
+    for agc in config["sensor"]["agc"]["choice"]:
+        agc.pop("black_level", None)
+        agc.pop("white_level", None)
+
+
+def _without_link(config: dict) -> None:
+    config["output"].pop("link", None)
+
+
 def _all_parts(_config: dict) -> None:
     pass
 
@@ -93,6 +106,9 @@ PARTS: dict[str, Callable[[dict], None]] = {
     "camps": _without_camps,
     "variety": _without_variety,
     "motion_and_psf": _without_blur,
+    "processing": _without_processing,
+    "headroom": _without_headroom,
+    "link": _without_link,
     "codec": _without_codec,
     "box_style": _all_parts,
 }
@@ -131,7 +147,7 @@ def _ladder_without(part: str, options: argparse.Namespace) -> Ladder:
     made = made_frames(
         argparse.Namespace(**vars(options) | {"config": config, "out": out, "box_style": style})
     )
-    return Ladder(out, options.steps, made, [], read_frames(*options.real)[1::2])
+    return Ladder(out, options.steps, made, [], judges_of(options), draws_of(options))
 
 
 def main() -> None:
@@ -144,10 +160,12 @@ def main() -> None:
     training = Training(0, options.seed, True)
     ladders = {part: _ladder_without(part, options) for part in options.without}
     train_all([(ladder, training) for ladder in ladders.values()], options.at_once)
-    print("| without | AP50 | AP30 | found at one false alarm a frame |\n|---|---|---|---|")
+    print("| without | judged by | AP50 | AP30 | found at one false alarm a frame |\n|---|---|---|---|---|")
     for part, ladder in ladders.items():
-        scores = ladder.scores(training)
-        print(f"| {part.replace('_', ' ')} | {' | '.join(f'{scores[key]:.3f}' for key in KEYS)} |")
+        for judge in ladder.judges:
+            scores = ladder.scores(training, judge)
+            cells = " | ".join(f"{scores[key]:.3f}" for key in KEYS)
+            print(f"| {part.replace('_', ' ')} | {judge.name} | {cells} |")
 
 
 if __name__ == "__main__":

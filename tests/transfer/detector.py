@@ -12,7 +12,7 @@ import torch
 from torch import nn
 from torch.nn import functional
 
-from frames import STRIDE, Crops, Frame, normalised, targets_of
+from frames import STRIDE, Crops, normalised, targets_of
 
 _CHANNELS = 32
 _DILATIONS = (1, 2, 4, 1)
@@ -46,10 +46,10 @@ class Detector(nn.Module):
         return self.head(features)
 
 
-def train(frames: list[Frame], steps: int, seed: int, rate: float, start: Path | None = None) -> Detector:
-    """A detector trained on random crops of frames, from `start` or from nothing."""
+def train(crops: Crops, steps: int, seed: int, rate: float, start: Path | None = None) -> Detector:
+    """A detector trained on random crops, from `start` or from nothing."""
     torch.manual_seed(seed)
-    detector, crops = Detector(), Crops(frames, seed)
+    detector = Detector()
     if start is not None:
         detector.load_state_dict(torch.load(start))
     optimiser = torch.optim.AdamW(detector.parameters(), rate, weight_decay=1e-4)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -50,11 +51,19 @@ def normalised(grey: np.ndarray) -> np.ndarray:
     return (values - values.mean()) / (values.std() + _FLOOR_DN)
 
 
-class Crops:
-    """Random crops of frames, each of another size, brightness and side."""
+Chain = Callable[[np.ndarray, int], np.ndarray]
 
-    def __init__(self, frames: list[Frame], seed: int):
+
+class Crops:
+    """Random crops of frames, each of another size, brightness and side.
+
+    chain: what each frame passes through ahead of its crop, drawn by a number; draws: how many numbers a frame has, or
+    0 for another one each time.
+    """
+
+    def __init__(self, frames: list[Frame], seed: int, chain: Chain | None = None, draws: int = 0):
         self._frames, self._rng = frames, np.random.default_rng(seed)
+        self._chain, self._draws = chain, draws
         self._pictures: dict[Path, np.ndarray] = {}
 
     def draw(self, count: int) -> tuple[np.ndarray, list[np.ndarray]]:
@@ -62,17 +71,23 @@ class Crops:
         crops, boxes = zip(*(self._crop() for _ in range(count)))
         return np.stack(crops), list(boxes)
 
-    def _picture(self, file: Path) -> np.ndarray:
+    def _picture(self, k: int) -> np.ndarray:
+        file = self._frames[k].file
         if file not in self._pictures:
             grey = cv2.imread(str(file), cv2.IMREAD_GRAYSCALE)
             if grey is None:
                 raise SystemExit(f"{file}: expected a picture")
             self._pictures[file] = grey
-        return normalised(self._pictures[file])
+        if self._chain is None:
+            return normalised(self._pictures[file])
+        draw = (
+            self._rng.integers(self._draws) + k * self._draws if self._draws else self._rng.integers(2**32)
+        )
+        return normalised(self._chain(self._pictures[file], int(draw)))
 
     def _crop(self) -> tuple[np.ndarray, np.ndarray]:
-        rng, frame = self._rng, self._frames[self._rng.integers(len(self._frames))]
-        picture, boxes_px = self._picture(frame.file), frame.boxes_px
+        rng, k = self._rng, int(self._rng.integers(len(self._frames)))
+        picture, boxes_px = self._picture(k), self._frames[k].boxes_px
         high, wide = picture.shape
         side = min(int(CROP_PX / rng.uniform(*_ZOOM)), high, wide)
         middle = rng.uniform([0, 0], [wide, high])

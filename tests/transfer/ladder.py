@@ -5,9 +5,10 @@
 
 Generates the dataset, exports its labels as people draw them, trains a small detector on it from several seeds, with no
 real frames, a few, and many, and beside it on those real frames alone. Real frames are split by the order of their
-names: every other one is for training, the rest judges. Everything that exists in OUT already is kept. Needs
-python3-torch and python3-opencv; each training takes minutes on two cores. Results and how to read them:
-thermal_core/TRANSFER.md.
+names: every other one is for training, the rest judges. --also judges by other frames, too; --chain draws what cameras
+and links do after the sensor while it trains, with the package `veldt` (PYTHONPATH=build/release/python). Everything that
+exists in OUT already is kept. Needs python3-torch and python3-opencv; each training takes minutes on two cores. Results
+and how to read them: thermal_core/TRANSFER.md.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ import numpy as np
 import torch
 
 from detector import Detector, detect, train
-from frames import Frame, read_frames
-from scores import scores_of
+from frames import Chain, Crops, Frame, read_frames
+from scores import enlarged, scores_of
 
 _VELDT = Path(__file__).resolve().parents[2] / "build" / "release" / "bin" / "veldt"
 _RATE, _FINE_RATE = 3e-3, 1e-3
@@ -54,6 +55,37 @@ class Training:
 
 
 @dataclass(frozen=True)
+class Judge:
+    """Real frames that judge, and how much larger people drew their boxes than those of the real frames above."""
+
+    name: str
+    frames: list[Frame]
+    box_scale: float = 1.0
+
+    def scores(self, detector: Detector) -> dict[str, float]:
+        """The figures of a detector."""
+        found = [enlarged(detect(detector, frame.file), self.box_scale) for frame in self.frames]
+        truth_px = [frame.boxes_px for frame in self.frames]
+        ap50, recall = scores_of(found, truth_px, 0.5)
+        ap30, _ = scores_of(found, truth_px, 0.3)
+        return {"ap50": ap50, "ap30": ap30, "recall50": recall}
+
+
+@dataclass(frozen=True)
+class Draws:
+    """What cameras and links do after the sensor, drawn `per_frame` times for each frame made, or 0: for each crop."""
+
+    settings: Path
+    per_frame: int
+
+    def chain(self, seed: int) -> Chain:
+        """Of a training. The package is needed only here."""
+        import veldt  # pylint: disable=import-outside-toplevel
+
+        return veldt.VideoChain(json.loads(self.settings.read_text(encoding="utf-8")), seed=seed)
+
+
+@dataclass(frozen=True)
 class Ladder:
     """What is trained and judged, and where it is kept."""
 
@@ -61,7 +93,8 @@ class Ladder:
     steps: int
     made: list[Frame]
     real: list[Frame]
-    judged: list[Frame]
+    judges: list[Judge]
+    draws: Draws | None = None
 
     def train(self, training: Training) -> None:
         """Keep the weights of a training, whose start is kept already."""
@@ -70,30 +103,34 @@ class Ladder:
             return
         if training.start is not None:
             steps = round(_FINE_STEPS * self.steps)
-            detector = train(
-                self._some_real(training), steps, training.seed, _FINE_RATE, self._weights(training.start)
-            )
+            crops = Crops(self._some_real(training), training.seed)
+            detector = train(crops, steps, training.seed, _FINE_RATE, self._weights(training.start))
         else:
-            frames = self.made if training.with_made else self._some_real(training)
-            detector = train(frames, self.steps, training.seed, _RATE)
+            crops = (
+                self._made(training.seed)
+                if training.with_made
+                else Crops(self._some_real(training), training.seed)
+            )
+            detector = train(crops, self.steps, training.seed, _RATE)
         weights.parent.mkdir(parents=True, exist_ok=True)
         part = weights.with_suffix(".part")
         torch.save(detector.state_dict(), part)
         part.replace(weights)
 
-    def scores(self, training: Training) -> dict[str, float]:
-        """The figures of a training."""
-        file = self.out / "scores" / f"{training.name}.json"
+    def scores(self, training: Training, judge: Judge) -> dict[str, float]:
+        """The figures of a training by one judge."""
+        file = self.out / "scores" / f"{training.name}_{judge.name}.json"
         if not file.exists():
             detector = Detector()
             detector.load_state_dict(torch.load(self._weights(training)))
-            found = [detect(detector.eval(), frame.file) for frame in self.judged]
-            truth_px = [frame.boxes_px for frame in self.judged]
-            ap50, recall = scores_of(found, truth_px, 0.5)
-            ap30, _ = scores_of(found, truth_px, 0.3)
             file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(json.dumps({"ap50": ap50, "ap30": ap30, "recall50": recall}), encoding="utf-8")
+            file.write_text(json.dumps(judge.scores(detector.eval())), encoding="utf-8")
         return json.loads(file.read_text(encoding="utf-8"))
+
+    def _made(self, seed: int) -> Crops:
+        if self.draws is None:
+            return Crops(self.made, seed)
+        return Crops(self.made, seed, self.draws.chain(seed), self.draws.per_frame)
 
     def _weights(self, training: Training) -> Path:
         return self.out / "weights" / f"{training.name}.pt"
@@ -146,21 +183,40 @@ def _rows(counts: list[int]) -> list[tuple[int, bool]]:
 
 
 def _print_table(ladder: Ladder, counts: list[int], seeds: list[int]) -> None:
+    print(f"{len(ladder.made)} frames made, {len(ladder.real)} real ones to train with")
     print(
-        f"{len(ladder.made)} frames made, {len(ladder.real)} real ones to train with, {len(ladder.judged)} judge"
+        "| judged by | real frames | made | AP50 | AP30 | found at one false alarm a frame | seeds |\n"
+        "|---|---|---|---|---|---|---|"
     )
-    print(
-        "| real frames | made | AP50 | AP30 | found at one false alarm a frame | seeds |\n|---|---|---|---|---|---|"
-    )
-    for count, with_made in _rows(counts):
-        scores = [ladder.scores(Training(count, seed, with_made)) for seed in seeds]
-        cells = []
-        for key in KEYS:
-            values = np.array([each[key] for each in scores])
-            cells.append(f"{values.mean():.3f} ± {values.std(ddof=1) if len(values) > 1 else 0:.3f}")
-        print(
-            f"| {count} | {'yes' if with_made else 'no'} | {' | '.join(cells)} | {len(seeds)} |", flush=True
-        )
+    for judge in ladder.judges:
+        for count, with_made in _rows(counts):
+            scores = [ladder.scores(Training(count, seed, with_made), judge) for seed in seeds]
+            cells = []
+            for key in KEYS:
+                values = np.array([each[key] for each in scores])
+                cells.append(f"{values.mean():.3f} ± {values.std(ddof=1) if len(values) > 1 else 0:.3f}")
+            row = (
+                f"{len(judge.frames)} {judge.name}",
+                count,
+                "yes" if with_made else "no",
+                *cells,
+                len(seeds),
+            )
+            print(f"| {' | '.join(map(str, row))} |", flush=True)
+
+
+def judges_of(options: argparse.Namespace) -> list[Judge]:
+    """The odd half of --real, and the frames of each --also."""
+    also = [
+        Judge(name, read_frames(Path(labels), Path(folder)), float(scale))
+        for name, labels, folder, scale in options.also
+    ]
+    return [Judge("real", read_frames(*options.real)[1::2]), *also]
+
+
+def draws_of(options: argparse.Namespace) -> Draws | None:
+    """Of --chain."""
+    return Draws(options.chain, options.draws) if options.chain else None
 
 
 def parser_of(description: str) -> argparse.ArgumentParser:
@@ -170,6 +226,20 @@ def parser_of(description: str) -> argparse.ArgumentParser:
     )
     parser.add_argument("config", type=Path)
     parser.add_argument("--real", nargs=2, type=Path, required=True, metavar=("LABELS", "FOLDER"))
+    parser.add_argument(
+        "--also",
+        nargs=4,
+        action="append",
+        default=[],
+        metavar=("NAME", "LABELS", "FOLDER", "SCALE"),
+        help="judge by these frames, too, with detections SCALE times as large",
+    )
+    parser.add_argument(
+        "--chain", type=Path, metavar="FILE", help="settings of veldt.VideoChain, drawn while it trains"
+    )
+    parser.add_argument(
+        "--draws", type=int, default=0, help="of --chain for each frame made; 0: for each crop (default)"
+    )
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--steps", type=int, default=2500)
     parser.add_argument("--places", type=int, default=1, help="of the config, each with another seed")
@@ -187,8 +257,10 @@ def main() -> None:
     parser.add_argument("--ladder", type=int, nargs="+", default=[0, 14, 80], help="numbers of real frames")
     parser.add_argument("--box-style", choices=("drawn", "visible"), default="drawn")
     options = parser.parse_args()
-    frames = read_frames(*options.real)
-    ladder = Ladder(options.out, options.steps, made_frames(options), frames[0::2], frames[1::2])
+    real = read_frames(*options.real)[0::2]
+    ladder = Ladder(
+        options.out, options.steps, made_frames(options), real, judges_of(options), draws_of(options)
+    )
     rows = _rows(options.ladder)
     work = [(ladder, Training(n, seed, made)) for n, made in rows for seed in options.seeds]
     train_all(work, options.at_once)

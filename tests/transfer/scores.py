@@ -28,6 +28,14 @@ def scores_of(
     return float(precisions.mean()), float(recall[alarm])
 
 
+def enlarged(boxes: np.ndarray, scale: float) -> np.ndarray:
+    """Boxes or detections (n, 4 or more) about the same middles, `scale` times as wide and as high."""
+    grown = boxes.copy()
+    grown[:, 2:4] = boxes[:, 2:4] * scale
+    grown[:, :2] = boxes[:, :2] + (boxes[:, 2:4] - grown[:, 2:4]) / 2
+    return grown
+
+
 def _is_right(found: np.ndarray, boxes_px: np.ndarray, iou: float) -> np.ndarray:
     """Which detections (n,) match a person that none of higher score has matched."""
     right, free = np.zeros(len(found), bool), np.ones(len(boxes_px), bool)
