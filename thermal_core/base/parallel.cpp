@@ -38,4 +38,10 @@ void parallel_for(std::size_t count, std::size_t grain,
   });
 }
 
+void parallel_rows(int rows, std::size_t grain, const std::function<void(int y)>& work) {
+  parallel_for(static_cast<std::size_t>(rows), grain, [&](std::size_t begin, std::size_t end) {
+    for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) work(y);
+  });
+}
+
 }  // namespace thermal

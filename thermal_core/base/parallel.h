@@ -41,4 +41,7 @@ void run_apart(const std::function<void()>& work);
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// Calls work(y) once for each of `rows` rows, likewise; `grain` rows are a chunk.
+void parallel_rows(int rows, std::size_t grain, const std::function<void(int y)>& work);
+
 }  // namespace thermal

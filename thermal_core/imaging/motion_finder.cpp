@@ -245,11 +245,7 @@ void MotionFinder::find(const Passes& passes, const Step& step, ImageMotion& out
   }
   out.x_px.resize(camera_.width_px, camera_.height_px);
   out.y_px.resize(camera_.width_px, camera_.height_px);
-  parallel_for(static_cast<std::size_t>(camera_.height_px), kMotionRowsAChunk,
-               [&](std::size_t begin, std::size_t end) {
-                 for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-                   find_row(passes.depth_m, step, y, out);
-               });
+  parallel_rows(camera_.height_px, kMotionRowsAChunk, [&](int y) { find_row(passes.depth_m, step, y, out); });
   if (!step.actors.empty()) move_actors(passes, step, out);
 }
 

@@ -36,14 +36,6 @@ VELDT_CLONES void interpolate(const float* __restrict in, Steps steps, const std
   }
 }
 
-/// Calls work(begin, end) on pixel ranges of whole rows.
-template <typename Work>
-void for_rows(int width_px, int height_px, const Work& work) {
-  const auto width = static_cast<std::size_t>(width_px);
-  parallel_for(static_cast<std::size_t>(height_px), kRowsAChunk,
-               [&](std::size_t begin, std::size_t end) { work(begin * width, end * width); });
-}
-
 /// The last pixel at or before a position that has a next one, and the fraction beyond it.
 std::pair<int, float> split(double place_px, int size_px) noexcept {
   const double inside_px = std::clamp(place_px, 0.0, size_px - 1.0);
@@ -61,9 +53,7 @@ ResampleMap::ResampleMap(const CameraIntrinsics& camera, int overscan_px, const 
   corner_.resize(pixels);
   x_share_.resize(pixels);
   y_share_.resize(pixels);
-  parallel_for(static_cast<std::size_t>(height_px_), kRowsAChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) place_row(camera, lens, static_cast<int>(y));
-  });
+  parallel_rows(height_px_, kRowsAChunk, [&](int y) { place_row(camera, lens, y); });
 }
 
 void ResampleMap::place_row(const CameraIntrinsics& camera, const LensDistortion& lens, int y) {
@@ -96,9 +86,11 @@ void ResampleMap::resample_linear(const Plane<float>& in, Plane<float>& out) con
   out.resize(width_px_, height_px_);
   if (corner_.empty()) return crop(in, out);
   const Steps steps = steps_of(in);
-  for_rows(width_px_, height_px_, [&](std::size_t begin, std::size_t end) {
+  const auto width = static_cast<std::size_t>(width_px_);
+  parallel_rows(height_px_, kRowsAChunk, [&](int y) {
+    const std::size_t begin = static_cast<std::size_t>(y) * width;
     interpolate(in.pixels().data(), steps, &corner_[begin], &x_share_[begin], &y_share_[begin],
-                &out.pixels()[begin], end - begin);
+                out.row(y).data(), width);
   });
 }
 
@@ -109,8 +101,11 @@ Plane<std::uint16_t> ResampleMap::resample_nearest(const Plane<std::uint16_t>& i
     crop(in, out);
     return out;
   }
-  for_rows(width_px_, height_px_, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) out.pixels()[i] = in.pixels()[nearest(i, in)];
+  const auto width = static_cast<std::size_t>(width_px_);
+  parallel_rows(height_px_, kRowsAChunk, [&](int y) {
+    const std::size_t begin = static_cast<std::size_t>(y) * width;
+    for (std::size_t x = 0; x < width; ++x)
+      out.at(static_cast<int>(x), y) = in.pixels()[nearest(begin + x, in)];
   });
   return out;
 }

@@ -80,19 +80,13 @@ void convolve_row(std::span<const float> row, const HalfKernel& kernel, std::vec
 
 void Convolution::apply(Plane<float>& picture) {
   if (kernel_.size() == 1 || picture.empty()) return;
-  const auto rows = static_cast<std::size_t>(picture.height_px());
   across_.resize(picture.width_px(), picture.height_px());
-  parallel_for(rows, kRowsAChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_rows(picture.height_px(), kRowsAChunk, [&](int y) {
     std::vector<float> padded;
-    for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      convolve_row(picture.row(y), kernel_, padded, across_.row(y));
-    }
+    convolve_row(picture.row(y), kernel_, padded, across_.row(y));
   });
-  parallel_for(rows, kRowsAChunk, [&](std::size_t begin, std::size_t end) {
-    for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      convolve_column(across_, y, kernel_, picture.row(y));
-    }
-  });
+  parallel_rows(picture.height_px(), kRowsAChunk,
+                [&](int y) { convolve_column(across_, y, kernel_, picture.row(y)); });
 }
 
 }  // namespace thermal

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "base/clones.h"
@@ -104,13 +103,6 @@ void sum_row(const Plane<float>& plane, const Window& window, int y, std::vector
   sum_along(sum, window.radius_px, add_values, out);
 }
 
-void for_each_row(int height_px, const std::function<void(int y)>& work) {
-  parallel_for(static_cast<std::size_t>(height_px), kDetailRowsAChunk,
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t y = begin; y < end; ++y) work(static_cast<int>(y));
-               });
-}
-
 VELDT_CLONES void add_detail(const float* detail, std::size_t size, float levels_per_count,
                              float noise_counts, float darkest, float brightest, std::uint8_t* levels) {
   for (std::size_t i = 0; i < size; ++i) {
@@ -130,12 +122,12 @@ void find_detail(const Plane<std::uint16_t>& ir16, int radius_px, double edge_co
   const Window window = {.width_px = ir16.width_px(), .height_px = ir16.height_px(), .radius_px = radius_px};
   Plane<float> gain(window.width_px, window.height_px);
   Plane<float> offset(window.width_px, window.height_px);
-  for_each_row(window.height_px, [&](int y) {
+  parallel_rows(window.height_px, kDetailRowsAChunk, [&](int y) {
     fit_row(ir16, window, y, edge_counts * edge_counts, gain.row(y).data(), offset.row(y).data());
   });
   detail_counts.resize(window.width_px, window.height_px);
   const auto per_pixel = static_cast<float>(1 / window.pixels());
-  for_each_row(window.height_px, [&](int y) {
+  parallel_rows(window.height_px, kDetailRowsAChunk, [&](int y) {
     std::vector<float> gains(static_cast<std::size_t>(window.width_px));
     std::vector<float> offsets(gains.size());
     sum_row(gain, window, y, gains);
@@ -158,7 +150,7 @@ void DetailEnhancer::sharpen(const Plane<std::uint16_t>& ir16, Plane<std::uint8_
   const double sign = is_inverted_ ? -1 : 1;
   const auto levels_per_count = static_cast<float>(sign * parameters_.gain_dn_per_netd / counts_per_netd_);
   const auto noise_counts = static_cast<float>(parameters_.noise_netd * counts_per_netd_);
-  for_each_row(ir16.height_px(), [&](int y) {
+  parallel_rows(ir16.height_px(), kDetailRowsAChunk, [&](int y) {
     add_detail(detail_counts_.row(y).data(), ir8.row(y).size(), levels_per_count, noise_counts, darkest_,
                brightest_, ir8.row(y).data());
   });

@@ -48,11 +48,8 @@ void mark_information(const Plane<std::uint16_t>& ir16, double threshold_counts,
   marks.resize(ir16.width_px(), ir16.height_px());
   constexpr double kLargestSum = 3 * 65535;
   const auto threshold = static_cast<std::int32_t>(std::min(kLargestSum, std::floor(3 * threshold_counts)));
-  parallel_for(static_cast<std::size_t>(ir16.height_px()), kMarkedRowsAChunk,
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t y = begin; y < end; ++y)
-                   mark_row(ir16, static_cast<int>(y), threshold, marks.row(static_cast<int>(y)).data());
-               });
+  parallel_rows(ir16.height_px(), kMarkedRowsAChunk,
+                [&](int y) { mark_row(ir16, y, threshold, marks.row(y).data()); });
 }
 
 }  // namespace thermal

@@ -114,10 +114,7 @@ LocalTone::Between LocalTone::between(int at_px, int size_px, std::size_t tiles)
 void LocalTone::show(const Plane<std::uint16_t>& ir16, Plane<std::uint8_t>& ir8) const {
   std::vector<Between> columns;
   for (int x = 0; x < ir16.width_px(); ++x) columns.push_back(between(x, ir16.width_px(), across_));
-  parallel_for(static_cast<std::size_t>(ir16.height_px()), kToneRowsAChunk,
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t y = begin; y < end; ++y) show_row(ir16, static_cast<int>(y), columns, ir8);
-               });
+  parallel_rows(ir16.height_px(), kToneRowsAChunk, [&](int y) { show_row(ir16, y, columns, ir8); });
 }
 
 void LocalTone::show_row(const Plane<std::uint16_t>& ir16, int y, const std::vector<Between>& columns,

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kTileWidth = 32;
 constexpr int kTileHeight = 16;
+constexpr std::size_t kTileRowsAChunk = 4;
 // Of motion within Smear's reach:
 constexpr float kStillPx = 1.0F / 64;  // that is not worth mixing
 constexpr float kAlikePx = 1.0F / 8;   // difference within a tile that has one motion
@@ -225,24 +226,22 @@ void Smear::apply_to_first(const ImageMotion& motion, Plane<float>& picture) {
 void Smear::apply(const ImageMotion& motion, Plane<float>& picture, double ages, double intervals) {
   if (motion.empty() || picture.empty()) return;
   assert(motion.x_px.size() == picture.size() && motion.y_px.size() == picture.size());
-  const auto rows = static_cast<std::size_t>((picture.height_px() + kTileHeight - 1) / kTileHeight);
-  pieces_.resize(rows);
-  parallel_for(rows, 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      pieces_[row].clear();
-      Cutter cutter(motion, reach_, readout_, pieces_[row]);
-      const int y = static_cast<int>(row) * kTileHeight;
-      const int height = std::min(kTileHeight, picture.height_px() - y);
-      for (int x = 0; x < picture.width_px(); x += kTileWidth)
-        cutter.cut(x, y, std::min(kTileWidth, picture.width_px() - x), height);
-    }
+  const int rows = (picture.height_px() + kTileHeight - 1) / kTileHeight;
+  pieces_.resize(static_cast<std::size_t>(rows));
+  parallel_rows(rows, kTileRowsAChunk, [&](int row) {
+    std::vector<Piece>& pieces = pieces_[static_cast<std::size_t>(row)];
+    pieces.clear();
+    Cutter cutter(motion, reach_, readout_, pieces);
+    const int y = row * kTileHeight;
+    const int height = std::min(kTileHeight, picture.height_px() - y);
+    for (int x = 0; x < picture.width_px(); x += kTileWidth)
+      cutter.cut(x, y, std::min(kTileWidth, picture.width_px() - x), height);
   });
   if (std::ranges::all_of(pieces_, [](const auto& row) { return row.empty(); })) return;
   copy_with_margin(picture, sharp_);
   find_samples(ages, intervals);
-  parallel_for(rows, 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row)
-      for (const Piece& piece : pieces_[row]) mix(piece, picture);
+  parallel_rows(rows, kTileRowsAChunk, [&](int row) {
+    for (const Piece& piece : pieces_[static_cast<std::size_t>(row)]) mix(piece, picture);
   });
 }
 

@@ -51,10 +51,8 @@ void TemporalFilter::apply(Plane<float>& signal_w_m2_sr) {
   const auto signal = signal_w_m2_sr.pixels();
   if (mean_.empty()) mean_.assign(signal.begin(), signal.end());
   take_changes(signal_w_m2_sr);
-  parallel_for(static_cast<std::size_t>(signal_w_m2_sr.height_px()), kFilteredRowsAChunk,
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t y = begin; y < end; ++y) follow_row(static_cast<int>(y), signal_w_m2_sr);
-               });
+  parallel_rows(signal_w_m2_sr.height_px(), kFilteredRowsAChunk,
+                [&](int y) { follow_row(y, signal_w_m2_sr); });
 }
 
 void TemporalFilter::take_changes(const Plane<float>& signal_w_m2_sr) {

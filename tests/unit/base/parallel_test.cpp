@@ -49,6 +49,14 @@ TEST_CASE("Chunks cover every index exactly once") {
   CHECK(std::all_of(visits.begin(), visits.end(), [](const auto& n) { return n == 1; }));
 }
 
+TEST_CASE("Rows are visited exactly once") {
+  const int rows = GENERATE(0, 1, 7, 64);
+  const auto grain = GENERATE(as<std::size_t>{}, 1, 5, 100);
+  std::vector<std::atomic<int>> visits(static_cast<std::size_t>(rows));
+  parallel_rows(rows, grain, [&](int y) { ++visits[static_cast<std::size_t>(y)]; });
+  CHECK(std::all_of(visits.begin(), visits.end(), [](const auto& n) { return n == 1; }));
+}
+
 TEST_CASE("Chunks are the same whatever the number of threads") {
   const auto chunks = [] {
     std::set<std::pair<std::size_t, std::size_t>> found;
