@@ -192,4 +192,10 @@ void fill_normal(const RandomField& field, std::size_t first, std::span<float> o
   });
 }
 
+std::vector<float> normal_values(const RandomField& field, int count) {
+  std::vector<float> values(static_cast<std::size_t>(count));
+  fill_normal(field, 0, values);
+  return values;
+}
+
 }  // namespace thermal

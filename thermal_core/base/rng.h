@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace thermal {
 
@@ -60,5 +61,8 @@ void fill_uniform(const RandomField& field, std::size_t first, std::span<float> 
 /// own polynomials (absolute error below 3e-7 of the value's scale), so that the bits do not depend on the C library.
 /// `first` is a multiple of kRandomBatch.
 void fill_normal(const RandomField& field, std::size_t first, std::span<float> out) noexcept;
+
+/// The first `count` of these.
+[[nodiscard]] std::vector<float> normal_values(const RandomField& field, int count);
 
 }  // namespace thermal

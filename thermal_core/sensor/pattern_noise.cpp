@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "base/clones.h"
-#include "base/rng.h"
 #include "sensor/streams.h"
 #include "sensor/vector_math.h"
 
@@ -32,27 +31,24 @@ PatternNoise::PatternNoise(const NoiseParameters& parameters, std::uint32_t seed
       width_px_(width_px),
       height_px_(height_px) {
   float phase = 0;
-  fill_uniform({.seed = seed_, .stream = kBandingPhaseStream, .clip = clip_, .frame = 0}, 0,
-               std::span(&phase, 1));
+  fill_uniform(field(kBandingPhaseStream, 0), 0, std::span(&phase, 1));
   banding_phase_ = static_cast<double>(phase);
 }
 
-std::vector<float> PatternNoise::normals(std::uint32_t stream, std::uint32_t frame, int count) const {
-  std::vector<float> values(static_cast<std::size_t>(count));
-  fill_normal({.seed = seed_, .stream = stream, .clip = clip_, .frame = frame}, 0, values);
-  return values;
+RandomField PatternNoise::field(std::uint32_t stream, std::uint32_t frame) const noexcept {
+  return {.seed = seed_, .stream = stream, .clip = clip_, .frame = frame};
 }
 
 void PatternNoise::draw_fixed(std::uint32_t event) {
   const int pixels = width_px_ * height_px_;
   const NoiseParameters& ratios = parameters_;
-  if (ratios.drift_ratio > 0) drift_ = normals(kDriftStream, event, pixels);
+  if (ratios.drift_ratio > 0) drift_ = normal_values(field(kDriftStream, event), pixels);
   if (ratios.fixed_pattern_ratio == 0 && ratios.row_ratio == 0 && ratios.column_ratio == 0) return;
-  fixed_ = normals(kFixedPatternStream, event, pixels);
+  fixed_ = normal_values(field(kFixedPatternStream, event), pixels);
   for (float& value : fixed_) value *= static_cast<float>(ratios.fixed_pattern_ratio);
-  std::vector<float> columns = normals(kFixedColumnStream, event, width_px_);
+  std::vector<float> columns = normal_values(field(kFixedColumnStream, event), width_px_);
   for (float& value : columns) value *= static_cast<float>(ratios.column_ratio);
-  const std::vector<float> rows = normals(kFixedRowStream, event, height_px_);
+  const std::vector<float> rows = normal_values(field(kFixedRowStream, event), height_px_);
   for (std::size_t y = 0; y < rows.size(); ++y) {
     add_row(columns.data(), columns.size(), static_cast<float>(ratios.row_ratio) * rows[y], 1,
             &fixed_[y * columns.size()]);
@@ -63,10 +59,11 @@ void PatternNoise::begin_frame(std::uint32_t frame, double time_s, const Shutter
   if (event_ != shutter.event) draw_fixed(shutter.event);
   event_ = shutter.event;
   drifted_ = static_cast<float>(parameters_.drift_ratio * shutter.growth());
-  columns_ = normals(kTemporalColumnStream, frame, width_px_);
+  columns_ = normal_values(field(kTemporalColumnStream, frame), width_px_);
   for (float& value : columns_) value *= static_cast<float>(parameters_.temporal_column_ratio);
-  rows_ = normals(kTemporalRowStream, frame, height_px_);
-  const double whole = parameters_.frame_ratio * static_cast<double>(normals(kFrameStream, frame, 1).front());
+  rows_ = normal_values(field(kTemporalRowStream, frame), height_px_);
+  const double whole =
+      parameters_.frame_ratio * static_cast<double>(normal_values(field(kFrameStream, frame), 1).front());
   for (std::size_t y = 0; y < rows_.size(); ++y) {
     const double turns = static_cast<double>(y) / parameters_.banding_period_px +
                          parameters_.banding_hz * time_s + banding_phase_;

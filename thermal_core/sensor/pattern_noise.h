@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/rng.h"
 #include "sensor/sensor_parameters.h"
 #include "sensor/shutter.h"
 
@@ -31,7 +32,7 @@ class PatternNoise {
 
  private:
   void draw_fixed(std::uint32_t event);
-  [[nodiscard]] std::vector<float> normals(std::uint32_t stream, std::uint32_t frame, int count) const;
+  [[nodiscard]] RandomField field(std::uint32_t stream, std::uint32_t frame) const noexcept;
 
   NoiseParameters parameters_;
   std::uint32_t seed_;
