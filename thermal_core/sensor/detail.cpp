@@ -103,15 +103,19 @@ void sum_row(const Plane<float>& plane, const Window& window, int y, std::vector
   sum_along(sum, window.radius_px, add_values, out);
 }
 
-VELDT_CLONES void add_detail(const float* detail, std::size_t size, float levels_per_count,
-                             float noise_counts, float darkest, float brightest, std::uint8_t* levels) {
+VELDT_CLONES void add_detail(const std::uint16_t* counts, const float* detail, std::size_t size,
+                             float levels_per_count, float noise_counts, float darkest, float brightest,
+                             std::uint8_t* levels) {
   for (std::size_t i = 0; i < size; ++i) {
     const float amount = detail[i] < 0 ? -detail[i] : detail[i];
     const float beyond = amount > noise_counts ? amount - noise_counts : 0;
     const float change = levels_per_count * (detail[i] < 0 ? -beyond : beyond);
-    const float level = static_cast<float>(static_cast<std::int32_t>(levels[i])) + change + 0.5F;
+    const auto before = static_cast<std::int32_t>(levels[i]);
+    const float level = static_cast<float>(before) + change + 0.5F;
     const float above = level > darkest ? level : darkest;
-    levels[i] = static_cast<std::uint8_t>(static_cast<std::int32_t>(above < brightest ? above : brightest));
+    const auto within = static_cast<std::int32_t>(above < brightest ? above : brightest);
+    const bool is_measured = counts[i] != 0 && counts[i] != 65535;
+    levels[i] = static_cast<std::uint8_t>(is_measured ? within : before);
   }
 }
 
@@ -151,8 +155,8 @@ void DetailEnhancer::sharpen(const Plane<std::uint16_t>& ir16, Plane<std::uint8_
   const auto levels_per_count = static_cast<float>(sign * parameters_.gain_dn_per_netd / counts_per_netd_);
   const auto noise_counts = static_cast<float>(parameters_.noise_netd * counts_per_netd_);
   parallel_rows(ir16.height_px(), kDetailRowsAChunk, [&](int y) {
-    add_detail(detail_counts_.row(y).data(), ir8.row(y).size(), levels_per_count, noise_counts, darkest_,
-               brightest_, ir8.row(y).data());
+    add_detail(ir16.row(y).data(), detail_counts_.row(y).data(), ir8.row(y).size(), levels_per_count,
+               noise_counts, darkest_, brightest_, ir8.row(y).data());
   });
 }
 

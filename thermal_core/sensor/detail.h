@@ -21,7 +21,8 @@ class DetailEnhancer {
   DetailEnhancer(const AgcParameters& parameters, double counts_per_netd);
 
   /// A pixel of detail d, in NETDs, becomes gain x (|d| - noise) levels warmer, or colder if d < 0; nothing if |d| is
-  /// at most `noise`; within black_level and white_level, as they are shown. Nothing at all without a gain.
+  /// at most `noise`; within black_level and white_level, as they are shown. Counts 0 (nothing measured) and 65535
+  /// (clipped) stay as they are. Nothing at all without a gain.
   void sharpen(const Plane<std::uint16_t>& ir16, Plane<std::uint8_t>& ir8);
 
  private:

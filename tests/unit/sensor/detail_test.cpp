@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include "base/parallel.h"
 #include "support/cameras.h"
 #include "support/catch.h"
+#include "support/planes.h"
 
 namespace detail_test {
 
@@ -20,10 +20,7 @@ using Counts = Plane<std::uint16_t>;
 constexpr double kCountsPerNetd = 4;
 
 Counts random_counts(int width_px, int height_px) {
-  std::mt19937 random(1);
-  Counts counts(width_px, height_px);
-  for (std::uint16_t& count : counts.pixels()) count = static_cast<std::uint16_t>(29000 + random() % 400);
-  return counts;
+  return planes::random_counts(width_px, height_px, 29000, 400);
 }
 
 /// Cold on the left, `height` counts warmer from column `edge` on.
@@ -171,6 +168,28 @@ TEST_CASE("Without a gain a camera's picture is the same as before, and sharpeni
   Plane<std::uint8_t> again;
   apply_tone_curve(plain.curve, Polarity::white_hot, plain.ir16, again);
   CHECK(again == plain.ir8);
+}
+
+TEST_CASE("What is not measured and what is clipped keeps its level beyond the headroom") {
+  const Polarity polarity = GENERATE(Polarity::white_hot, Polarity::black_hot);
+  Counts counts = random_counts(20, 20);
+  counts.at(5, 5) = 0;
+  counts.at(9, 9) = 65535;
+  const std::uint8_t unmeasured = polarity == Polarity::black_hot ? 255 : 0;
+  const auto clipped = static_cast<std::uint8_t>(255 - unmeasured);
+  Plane<std::uint8_t> ir8(20, 20, 128);
+  ir8.at(5, 5) = unmeasured;
+  ir8.at(9, 9) = clipped;
+  DetailEnhancer enhancer({.polarity = polarity,
+                           .black_level = 12,
+                           .white_level = 244,
+                           .detail = {.gain_dn_per_netd = 4, .noise_netd = 0}},
+                          kCountsPerNetd);
+  enhancer.sharpen(counts, ir8);
+  CHECK(ir8.at(5, 5) == unmeasured);
+  CHECK(ir8.at(9, 9) == clipped);
+  const auto [low, high] = std::ranges::minmax(ir8.row(15));
+  CHECK((low >= 11 && high <= 244));
 }
 
 }  // namespace detail_test
