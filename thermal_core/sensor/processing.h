@@ -23,10 +23,8 @@ class Processing {
 
  private:
   float unsharp_amount_;
-  Convolution noise_filter_;
-  Convolution unsharp_;
-  Plane<float> sharp_;
-  Plane<float> blurred_;
+  HalfKernel noise_filter_;
+  HalfKernel blur_;  ///< noise filter and the unsharp mask's
   Plane<std::uint16_t> filtered_;
 };
 

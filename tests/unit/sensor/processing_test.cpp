@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "sensor/psf.h"
 #include "support/catch.h"
+#include "support/planes.h"
 
 namespace processing_test {
 
@@ -16,6 +16,7 @@ namespace {
 using Counts = Plane<std::uint16_t>;
 
 constexpr double kMiddle = 28000;
+constexpr unsigned kLowest = 28000;
 
 double gaussian_mtf(double sigma_px, double cycles_per_px) {
   return std::exp(-2 * std::pow(std::numbers::pi * sigma_px * cycles_per_px, 2));
@@ -37,34 +38,10 @@ double transfer(const ProcessingParameters& parameters, int period_px) {
   return 2 * sum / (20 * period_px) / kAmplitude;
 }
 
-Counts noise(int width_px, int height_px) {
-  std::mt19937 random(7);
-  Counts counts(width_px, height_px);
-  for (std::uint16_t& count : counts.pixels())
-    count = static_cast<std::uint16_t>(kMiddle + static_cast<double>(random() % 1000));
-  return counts;
-}
-
-double correlation(const Counts& counts, int x_px, int y_px) {
-  double mean = 0;
-  for (const std::uint16_t count : counts.pixels()) mean += count;
-  mean /= static_cast<double>(counts.size());
-  double product = 0;
-  double variance = 0;
-  for (int y = 0; y + y_px < counts.height_px(); ++y) {
-    for (int x = 0; x + x_px < counts.width_px(); ++x) {
-      const double here = counts.at(x, y) - mean;
-      product += here * (counts.at(x + x_px, y + y_px) - mean);
-      variance += here * here;
-    }
-  }
-  return product / variance;
-}
-
 }  // namespace
 
 TEST_CASE("Nothing is filtered unless it is asked for") {
-  const Counts counts = noise(20, 10);
+  const Counts counts = planes::random_counts(20, 10, kLowest, 1000);
   Processing processing({});
   CHECK(&processing.filter(counts) == &counts);
 }
@@ -89,11 +66,11 @@ TEST_CASE("A noise filter colours noise") {
   const double sigma_px = GENERATE(0.7, 0.8, 0.9);
   CAPTURE(sigma_px);
   Processing processing({.noise_filter_sigma_px = sigma_px});
-  const Counts& filtered = processing.filter(noise(300, 300));
+  const Counts& filtered = processing.filter(planes::random_counts(300, 300, kLowest, 1000));
   // Standard error of a correlation over 90,000 pixels, some 5 of which are one: 0.0075; the kernel's: 0.015.
   for (const auto& [x, y] : {std::pair{1, 0}, {0, 1}, {1, 1}, {2, 0}}) {
     const double expected = std::exp(-(x * x + y * y) / (4 * sigma_px * sigma_px));
-    CHECK_THAT(correlation(filtered, x, y), WithinAbs(expected, 0.04));
+    CHECK_THAT(planes::correlation(filtered, x, y), WithinAbs(expected, 0.04));
   }
 }
 
