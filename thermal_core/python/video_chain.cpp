@@ -57,7 +57,7 @@ class VideoChain {
       const py::gil_scoped_release others_run;
       const Json settings = drawn(number);
       process(read_processing(settings["processing"]), picture);
-      if (settings.contains("link") && !settings["link"].is_null()) send(settings, number, picture);
+      if (settings.contains("link")) send(settings, number, picture);
     }
     return array_of(std::move(picture));
   }
@@ -76,18 +76,11 @@ class VideoChain {
 
   void send(const Json& settings, std::uint32_t number, Plane<std::uint8_t>& picture) const {
     const AnalogueLinkParameters parameters = read_link(settings["link"]);
-    const auto motion_px = settings[kFieldMotion].get<float>();
-    ImageMotion motion;
-    if (motion_px != 0) {
-      motion.x_px = Plane<float>(picture.width_px(), picture.height_px(), motion_px);
-      motion.y_px = Plane<float>(picture.width_px(), picture.height_px(), 0.0F);
-    }
     AnalogueLink link(parameters, {.seed = seed_,
                                    .id = std::to_string(number),
-                                   .frame_rate_hz = parameters.field_rate_hz,
                                    .width_px = picture.width_px(),
                                    .height_px = picture.height_px()});
-    link.pass(motion, picture);
+    link.pass(settings[kFieldMotion].get<float>(), picture);
   }
 
   Json settings_;

@@ -1,49 +1,54 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "base/image.h"
+#include "base/rng.h"
 #include "sensor/convolution.h"
 #include "sensor/smear.h"
 
 namespace thermal {
 
-/// How a recorder makes frames of two fields, the even and the odd rows.
+/// How a recorder makes frames of two fields, the even and the odd lines.
 enum class Deinterlace {
   weave,  ///< as they come: what moves is combed
-  bob,    ///< the even rows, and means of two of them between
-  blend   ///< each row averaged with its neighbours, 1 : 2 : 1
+  bob,    ///< the even lines, and means of two of them between
+  blend   ///< each line averaged with its neighbours, 1 : 2 : 1
 };
 
 /// See AnalogueLink. Levels are those of 8-bit frames; all standard deviations.
 struct AnalogueLinkParameters {
   double field_rate_hz = 50;   ///< PAL: 50, NTSC: 60 / 1.001
-  double active_line_us = 52;  ///< what a row of the picture takes. PAL: 52, NTSC: 52.66
+  double active_line_us = 52;  ///< what a line of the picture takes. PAL: 52, NTSC: 52.66
+  int lines = 0;               ///< of the picture. PAL: 576, NTSC: 480; 0: as many as the frame has rows
   double bandwidth_mhz = 5;    ///< at which half of the amplitude is left
   Deinterlace deinterlace = Deinterlace::weave;
-  double noise_levels = 0;    ///< of a pixel, white, ahead of the bandwidth
-  double streak_levels = 0;   ///< of noise that is correlated along a row by exp(-t / streak_us)
-  double streak_us = 1;       ///< > 0
-  double row_levels = 0;      ///< of each row by itself
-  double drift_levels = 0;    ///< of rows, from one to the next of a field correlated by exp(-1 / drift_rows)
-  double drift_rows = 40;     ///< > 0
-  double hum_levels = 0;      ///< of a sine of the mains
-  double hum_hz = 50;         ///< of the mains
-  double jitter_px = 0;       ///< of each row's place
-  double dropouts_per_s = 0;  ///< pieces of rows that are black or white, at most 1000
+  double noise_levels = 0;   ///< of a pixel, white, ahead of the bandwidth
+  double streak_levels = 0;  ///< of noise that is correlated along a line by exp(-t / streak_us)
+  double streak_us = 1;      ///< > 0
+  double row_levels = 0;     ///< of each line by itself
+  double drift_levels = 0;   ///< of lines, from one to the next of a field correlated by exp(-1 / drift_rows)
+  double drift_rows = 40;    ///< > 0
+  double hum_levels = 0;     ///< of a sine of the mains
+  double hum_hz = 50;        ///< of the mains
+  double jitter_px = 0;      ///< of each line's place
+  double dropouts_per_s = 0;  ///< pieces of lines that are black or white, at most 1000
   double dropout_us = 4;      ///< their mean length; exponentially distributed
 
   [[nodiscard]] bool operator==(const AnalogueLinkParameters&) const = default;
 };
 
-/// An analogue video link from the camera to a recorder, interlaced: what night footage of the 2010s passed through. A
-/// frame's rows are the lines of the picture (no raster of 576 or 480 lines lies between), its two fields are half a field
-/// ahead of the frame's time and half a field behind: what moves by v pixels a frame interval T is combed by v / (T x
-/// field rate). In this order: fields, noise and streaks, bandwidth, level errors, jitter, dropouts, frames of fields. Bandwidth is a
-/// Gaussian along rows, exp(-ln 2 (f / bandwidth)^2), within 0.015. Pixels are a function of the parameters, the clip,
-/// the number of the frame and its picture.
+/// An analogue video link from the camera to a recorder, interlaced: what night footage of the 2010s passed through. Its
+/// two fields are half a field ahead of the frame's time and half a field behind: what moves by v pixels a frame interval
+/// T is combed by v / (T x field rate). In this order: lines of the frame's rows, in two fields; noise and streaks;
+/// bandwidth; level errors; jitter; 8 bits; dropouts; frames of fields, with the rows and columns of before. Bandwidth is
+/// a Gaussian along lines, exp(-ln 2 (f / bandwidth)^2), within 0.015. Rows become lines by linear interpolation, and lines
+/// rows, which is without loss if there are as many. Pixels are a function of the parameters, the clip, the number of the
+/// frame and its picture.
 class AnalogueLink {
  public:
   /// What a link's errors depend on.
@@ -60,18 +65,33 @@ class AnalogueLink {
   /// Replaces the next frame by what the recorder has. `motion` may be empty: then nothing is combed.
   void pass(const ImageMotion& motion, Plane<std::uint8_t>& picture);
 
+  /// The same where everything moves this far to the right from even lines to odd ones.
+  void pass(float field_motion_px, Plane<std::uint8_t>& picture);
+
   /// Advances the clock past a frame that is unknown.
   void skip() noexcept { ++frame_; }
 
  private:
-  [[nodiscard]] std::vector<float> normals(std::uint32_t stream, std::uint32_t frame, std::size_t first,
-                                           std::size_t count) const;
-  void draw_rows(std::uint32_t frame);
-  void scan(const ImageMotion& motion, const Plane<std::uint8_t>& picture, int y,
-            std::vector<float>& row) const;
-  void send(std::uint32_t frame, int y, std::vector<float>& row, std::vector<float>& buffer);
+  using Scan = std::function<void(int line, std::vector<float>& levels)>;
+
+  /// Noise and streaks, see add_noise().
+  struct Noise {
+    float fresh = 0;
+    float carried = 0;
+    float follows = 0;
+    float first = 0;
+  };
+
+  [[nodiscard]] static Noise noise_of(const AnalogueLinkParameters& link, double px_us);
+  [[nodiscard]] RandomField field(std::uint32_t stream, std::uint32_t frame) const noexcept;
+  [[nodiscard]] std::vector<float> drawn(double deviation, std::uint32_t stream, std::uint32_t frame) const;
+  void transmit(const Scan& scan, Plane<std::uint8_t>& picture);
+  void draw_lines(std::uint32_t frame);
+  void add_noise(std::uint32_t frame, int line, std::vector<float>& levels) const;
+  void send(std::uint32_t frame, int line, std::vector<float>& levels);
   void drop(std::uint32_t frame);
-  [[nodiscard]] float received(int x, int y) const;
+  void record(int y, std::span<std::uint8_t> row) const;
+  void add_recorded(int line, float weight, std::vector<float>& levels) const;
 
   AnalogueLinkParameters parameters_;
   std::uint32_t seed_;
@@ -79,12 +99,15 @@ class AnalogueLink {
   double frame_rate_hz_;
   int width_px_;
   int height_px_;
+  int lines_;
   HalfKernel bandwidth_;
+  Noise noise_;
   double hum_turns_;  ///< at the clip's beginning
   std::uint32_t frame_ = 0;
-  std::vector<float> row_levels_;  ///< errors of this frame's rows …
-  std::vector<float> row_px_;      ///< … and how far they are to the right
-  Plane<float> signal_;
+  std::vector<float> line_levels_;   ///< errors of this frame's lines,
+  std::vector<float> line_streaks_;  ///< what streaks have of a standard deviation ahead of them
+  std::vector<float> line_px_;       ///< and how far they are to the right
+  Plane<std::uint8_t> received_;     ///< lines
 };
 
 }  // namespace thermal

@@ -13,6 +13,9 @@ AnalogueLinkParameters read_link(const Json& link) {
   const Json& deinterlace = link["deinterlace"];
   return {.field_rate_hz = is_pal ? 50 : 60 / 1.001,
           .active_line_us = is_pal ? 52 : 52.66,
+          .lines = link["lines"] == "frame" ? 0
+                   : is_pal                 ? 576
+                                            : 480,
           .bandwidth_mhz = link["bandwidth_mhz"],
           .deinterlace = deinterlace == "bob"     ? Deinterlace::bob
                          : deinterlace == "blend" ? Deinterlace::blend
