@@ -31,13 +31,19 @@ def plant_triangles(world, name: str) -> np.ndarray:
 
 def covered_m2(triangles_m: np.ndarray, step_m: float = 0.04) -> float:
     """Ground that triangles (m, 3, 3) hide from straight above, counted in squares of step_m."""
-    flat_m = triangles_m[..., :2]
-    low_m = flat_m.min(axis=(0, 1))
-    squares = np.zeros(np.ceil((flat_m.max(axis=(0, 1)) - low_m) / step_m).astype(int)[::-1] + 1, int)
-    nearness = np.zeros(squares.shape)
-    for corners in (flat_m - low_m) / step_m:
-        _draw_triangle(squares, nearness, 1, corners, np.ones(3))
-    return squares.sum() * step_m**2
+    flat = triangles_m[..., :2] / step_m
+    flat = flat - np.floor(flat.min(axis=(0, 1)))
+    covered = np.zeros(np.ceil(flat.max(axis=(0, 1))).astype(int) + 1, bool)
+    first = np.ceil(flat.min(axis=1) - 0.5).astype(int)
+    spans = np.floor(flat.max(axis=1) - 0.5).astype(int) + 1 - first
+    for steps in np.ndindex(*spans.max(axis=0)):  # of all triangles at once, the largest ones last
+        here = np.nonzero((spans > steps).all(axis=1))[0]
+        cell = first[here] + steps
+        a, b, c = (flat[here] - (cell + 0.5)[:, None]).transpose(1, 0, 2)
+        turns = np.stack([p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] for p, q in ((a, b), (b, c), (c, a))])
+        inside = (turns >= 0).all(axis=0) | (turns <= 0).all(axis=0)
+        covered[tuple(cell[inside].T)] = True
+    return covered.sum() * step_m**2
 
 
 def draw(world, pose: np.ndarray, triangles: dict[int, np.ndarray], ground_index: int) -> np.ndarray:

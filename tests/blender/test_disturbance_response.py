@@ -157,7 +157,14 @@ def test_a_gimbal_lets_through_what_is_faster_than_it():
         omega = 2.0 * np.pi * hz
         leaning = np.tile(np.sin(omega * time_s)[:, None], 3)
         gain = np.abs(unsteadiness_rad(leaning, lag_s, STEP_S)[2_500:]).max()
-        assert gain == pytest.approx(omega * lag_s / np.hypot(1.0, omega * lag_s), rel=0.02)
+        assert gain == pytest.approx((omega * lag_s) ** 2 / (1.0 + (omega * lag_s) ** 2), rel=0.02)
+
+
+def test_a_gimbal_holds_its_direction_on_what_tilts_evenly():
+    leaning = 0.4 * STEP_S * np.arange(500)[:, None] * np.ones(3)  # 23 deg/s
+    left = unsteadiness_rad(leaning, 0.05, STEP_S)
+    assert np.degrees(np.abs(left).max()) == pytest.approx(np.degrees(0.4 * 0.05 / np.e), rel=0.05)
+    assert np.abs(left[100:]).max() < 1e-12
 
 
 def test_lags_treat_each_column_alone():

@@ -95,6 +95,13 @@ def test_look_angle_is_kept():
     assert -flight.camera_to_world[:, 2, 2] == pytest.approx(np.sin(np.radians(35)))
 
 
+@pytest.mark.parametrize("aircraft, least_deg", [("multirotor", 89.5), ("fixed_wing", 88)])
+def test_a_gimbal_holds_nadir_through_the_turns(aircraft, least_deg):
+    """Leaning by 17 degrees to brake, or over from 30 to the left to 30 to the right, takes three quarters of a second."""
+    _, flight = _fly(frames=900, speed_m_s=6, aircraft=aircraft, gimbal={"lag_s": 0.05})
+    assert least_deg < flight.look_angle_deg.min() < 89.9
+
+
 def test_a_locked_gimbal_looks_one_way():
     _, flight = _fly(look_angle_deg=45, gimbal={"heading": "lock", "heading_deg": 30, "lag_s": 0})
     bearing = np.degrees(np.arctan2(*flight.camera_to_world[:, 1::-1, 2].T))

@@ -14,8 +14,14 @@ from veldt.plants.plant_shapes import build_variants, slots_of
 
 SEED = 7
 NAMES = [name for name in assets.names("plants") if "form" in assets.load("plants", name)]
-TREES = ("acacia", "hookthorn", "baobab")
-MOST_TRIANGLES = dict.fromkeys(NAMES, 260) | dict.fromkeys(TREES, 900) | {"shrub": 250, "elephant_grass": 120}
+MOST_TRIANGLES = dict.fromkeys(NAMES, 260) | {
+    "acacia": 17_500,
+    "hookthorn": 9_000,
+    "baobab": 900,
+    "shrub": 1_500,
+    "elephant_grass": 120,
+}
+LEAFY = ("acacia", "hookthorn", "shrub")
 
 # Smallest and largest height over all sizes in m, and, where it identifies the species, width of crown or foot.
 HEIGHTS_M = {
@@ -48,6 +54,16 @@ def _slice(triangles_m, height_m):
 def _within(sizes_m, drawn_m, scale_range):
     """Sizes from smallest to largest plant span the range given, to 10 %, and do not leave it by more than that."""
     return np.multiply(drawn_m, scale_range) == pytest.approx(sizes_m, rel=0.1)
+
+
+def _disc_m2(points_m):
+    """The ellipse that a crown spans, seen from above."""
+    return np.pi / 4 * np.prod(np.ptp(points_m[:, :2], axis=0))
+
+
+def _area_m2(triangles_m):
+    a, b, c = triangles_m.transpose(1, 0, 2)
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
 
 
 @pytest.mark.parametrize("name", HEIGHTS_M)
@@ -83,8 +99,8 @@ def _stems(cut_m):
 
 
 def test_a_hookthorn_has_several_stems():
-    for _, triangles_m in _variants("hookthorn"):
-        assert _stems(_slice(triangles_m, 0.35)) >= 4
+    for mesh in _meshes("hookthorn"):
+        assert _stems(_slice(mesh.points_m[mesh.triangles[mesh.slot == tree_shapes.WOOD]], 0.35)) >= 4
 
 
 def test_a_baobab_is_a_barrel_with_a_bare_crown():
@@ -108,11 +124,36 @@ def test_files_say_how_much_ground_is_hidden_from_above(name):
     assert hidden_m2 * mean_square == pytest.approx(data["cover_m2"], rel=0.15)
 
 
-@pytest.mark.parametrize("name", ("acacia", "hookthorn", "shrub"))
+@pytest.mark.parametrize("name", LEAFY)
 def test_crowns_have_gaps(name):
     for points_m, triangles_m in _variants(name):
-        disc_m2 = np.pi / 4 * np.prod(np.ptp(points_m[:, :2], axis=0))
-        assert 0.45 < covered_m2(triangles_m) / disc_m2 < 0.85
+        assert 0.45 < covered_m2(triangles_m) / _disc_m2(points_m) < 0.85
+
+
+@pytest.mark.parametrize("name", LEAFY)
+def test_crowns_have_the_leaves_and_the_gaps_of_the_heat_balance(name):
+    """Of the wet season: their area, and 1 - exp(-LAI / 2) of the ground, which they hide there (CanopyProperties)."""
+    index = assets.load("materials", assets.load("plants", name)["material"])["heat"]["leaves"][
+        "leaf_area_index"
+    ]
+    drawn = []
+    for mesh in _meshes(name):
+        disc_m2 = _disc_m2(mesh.points_m)
+        leaves_m = mesh.points_m[mesh.triangles[mesh.slot == tree_shapes.LEAVES]]
+        drawn.append([_area_m2(leaves_m).sum() / disc_m2, covered_m2(leaves_m) / disc_m2])
+    area, hidden = np.mean(drawn, axis=0)
+    assert area == pytest.approx(index[-1], rel=0.35)  # it stands for a range from 0.5 to 3.7
+    assert hidden == pytest.approx(1 - np.exp(-index[-1] / 2), rel=0.15)
+
+
+@pytest.mark.parametrize("name", LEAFY)
+def test_leaves_are_clusters_of_their_true_size(name):
+    data = assets.load("plants", name)
+    for mesh in _meshes(name):
+        leaves_m = mesh.points_m[mesh.triangles[-data["leaves"] :]]
+        edges_m = np.linalg.norm(leaves_m - np.roll(leaves_m, 1, axis=1), axis=2)
+        assert 0.05 < edges_m.mean() < 0.2
+        assert edges_m.max() * data["scale_range"][1] < 0.35
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -134,8 +175,8 @@ def test_ten_thousands_are_light_enough(name):
 @pytest.mark.parametrize("name", ("acacia", "hookthorn"))
 def test_stems_and_limbs_are_wood_and_crowns_are_leaves(name):
     data = assets.load("plants", name)
-    assert slots_of(data) == [(name, ""), (name, "wood")]
-    assert "wood" in assets.load("materials", data["material"])["parts"]
+    assert slots_of(data) == [(name, ""), (name, "wood"), (name, "branch")]
+    assert {"wood", "branch"} <= set(assets.load("materials", data["material"])["parts"])
     for mesh in _meshes(name):
         wood, leaves = (
             mesh.points_m[mesh.triangles[mesh.slot == slot]]
@@ -143,10 +184,9 @@ def test_stems_and_limbs_are_wood_and_crowns_are_leaves(name):
         )
         assert wood[..., 2].min() < 0 < leaves[..., 2].min()
         assert leaves[..., 2].max() == pytest.approx(data["height_m"])
-        # From above, leaves and twigs hide most of what there is.
+        # From above, leaves hide most of what there is.
         assert covered_m2(wood) < 0.3 * covered_m2(leaves)
-        corners = mesh.points_m[mesh.triangles]
-        area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        area = _area_m2(mesh.points_m[mesh.triangles])
         assert np.isfinite(area).all() and (area > 1e-9).mean() > 0.99
 
 

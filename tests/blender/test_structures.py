@@ -56,6 +56,15 @@ def test_heights_are_those_of_their_sources(name, height_m):
     assert _mesh(name).points_m[:, 2].max() == pytest.approx(height_m, abs=0.03)
 
 
+@pytest.mark.parametrize("name", [name for name in assets.names("structures") if "lamp" in name])
+def test_lamps_look_round(name):
+    """Sides of their tubes are within 1 cm of the circle: a fifth of a pixel from 61 m with 14 mm."""
+    for shape in assets.standing(name)["shapes"]:
+        if "tube_m" in shape:
+            radius_m = np.max(np.array(shape["tube_m"])[:, 3:])
+            assert radius_m * (1 - np.cos(np.pi / shape["sides"])) < 0.01
+
+
 @pytest.mark.parametrize("name", assets.names("structures"))
 def test_covers_are_those_of_their_shapes(name):
     """The area hidden from above, by the triangles that face up: an upper bound, as they may hide each other."""

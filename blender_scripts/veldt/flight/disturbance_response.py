@@ -68,8 +68,12 @@ def tilt_rad(acceleration_m_s2: np.ndarray) -> np.ndarray:
 
 
 def unsteadiness_rad(leaning_rad: np.ndarray, lag_s: float, step_s: float) -> np.ndarray:
-    """The tilt (n, 3) that remains after a gimbal with a lag compensates for tilt (n, 3); zero without a lag."""
-    return lag_error(leaning_rad, lag_s, step_s)
+    """The tilt (n, 3) that remains after a gimbal with a lag compensates for tilt (n, 3); zero without a lag.
+
+    Its gyroscopes measure rates and its loop integrates them, so that none remains of a tilt at a constant rate: a
+    second-order high pass, critically damped, s^2 / (s + 1 / lag)^2.
+    """
+    return lag_error(lag_error(leaning_rad, lag_s, step_s), lag_s, step_s)
 
 
 def lagged_angles(commanded_rad: np.ndarray, lag_s: float, step_s: float) -> np.ndarray:

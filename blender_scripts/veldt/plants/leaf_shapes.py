@@ -1,4 +1,4 @@
-"""Leaves as separate facets with gaps between them: sprays of small leaves, and blades of grass. Lengths in m."""
+"""Leaves as separate facets with gaps between them: clusters of small leaves, and blades of grass. Lengths in m."""
 
 from __future__ import annotations
 
@@ -7,19 +7,28 @@ import numpy as np
 from ..geometry.shapes import Mesh, facets
 from .branch_shapes import directions
 
-_SPRAY_CORNERS = 3
+_CLUSTER_CORNERS = 3
+_BESIDE_TWIG = 3.0  # farthest middle of a cluster from its twig, in radii of a cluster
+_LEAFINESS = 0.3, 1.7  # of clumps, of which the barest show their branches
 
 
-def clumped_sprays(
-    clumps_m: np.ndarray, reach_m: np.ndarray, count: int, leaf_m: float, rng: np.random.Generator
+def leafy_twigs(
+    clumps_m: np.ndarray, tips_m: np.ndarray, count: int, leaf_m: float, rng: np.random.Generator
 ) -> Mesh:
-    """`count` sprays, each of radius about leaf_m, scattered in flattened balls with half axes reach_m (3,)."""
-    clump = np.arange(count) % len(clumps_m)
-    out = rng.uniform(0.2, 1.0, count)[:, None] ** 0.6
-    centres = clumps_m[clump] + directions(rng, count) * out * reach_m
+    """`count` clusters of leaves, each of radius about leaf_m, along twigs that are too thin to draw.
+
+    clumps_m (n, 3): where twigs part; tips_m (n, m, 3): their ends. The clusters of a crown have the area of leaves, and
+    leave the gaps, of `heat.leaves` of its material.
+    """
+    clumps, twigs = tips_m.shape[:2]
+    leafy = np.cumsum(rng.uniform(*_LEAFINESS, clumps))
+    clump = np.searchsorted(leafy / leafy[-1], (np.arange(count) + 0.5) / count)
+    along = rng.uniform(0.0, 1.0, (count, 1)) ** 0.5
+    aside_m = directions(rng, count) * (_BESIDE_TWIG * leaf_m * rng.uniform(0.0, 1.0, (count, 1)))
+    centres = clumps_m[clump] + along * (tips_m[clump, np.arange(count) % twigs] - clumps_m[clump]) + aside_m
     centres[:, 2] = np.maximum(centres[:, 2], leaf_m)
     skyward = directions(rng, count) * 0.8 + np.array([0.0, 0.0, 1.0])
-    return _sprays(centres, skyward, leaf_m * rng.uniform(0.6, 1.4, count), rng)
+    return _clusters(centres, skyward, leaf_m * rng.uniform(0.7, 1.3, count), rng)
 
 
 def blades(roots_m: np.ndarray, tips_m: np.ndarray, widths_m: np.ndarray, rng: np.random.Generator) -> Mesh:
@@ -33,9 +42,11 @@ def blades(roots_m: np.ndarray, tips_m: np.ndarray, widths_m: np.ndarray, rng: n
     return facets(corners.reshape(-1, 3), triangles.reshape(-1, 3))
 
 
-def _sprays(centres: np.ndarray, normals: np.ndarray, radii_m: np.ndarray, rng: np.random.Generator) -> Mesh:
+def _clusters(
+    centres: np.ndarray, normals: np.ndarray, radii_m: np.ndarray, rng: np.random.Generator
+) -> Mesh:
     """Irregular flat polygons as triangle fans."""
-    count, corners = len(centres), _SPRAY_CORNERS
+    count, corners = len(centres), _CLUSTER_CORNERS
     normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
     u = np.cross(normals, directions(rng, count))
     u /= np.maximum(np.linalg.norm(u, axis=1, keepdims=True), 1e-9)

@@ -5,14 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry.shapes import Mesh, facets, joined
-from .branch_shapes import GOLDEN_ANGLE_RAD, curve, directions, limb, loft_triangles, twigs
-from .leaf_shapes import blades, clumped_sprays
+from .branch_shapes import GOLDEN_ANGLE_RAD, branches, curve, directions, limb, loft_triangles, twig_tips
+from .leaf_shapes import blades, leafy_twigs
 
 _ROOT_M = -0.3  # depth of trunks below the ground, which may slope
-LEAVES, WOOD = (
-    0,
-    1,
-)  # material slots; twigs and thin stems, which follow the air as leaves do, are in the leaves'
+# Material slots; stems of bushes, which follow the air as leaves do, are in the leaves'.
+LEAVES, WOOD, BRANCHES = range(3)
 
 
 def umbrella(data: dict, rng: np.random.Generator) -> Mesh:
@@ -25,8 +23,10 @@ def umbrella(data: dict, rng: np.random.Generator) -> Mesh:
     limbs = [_spreading(fork, pads[k :: data["limbs"]].mean(axis=0), thick) for k in range(data["limbs"])]
     wood = [limb(path, radius * np.array([0.62, 0.5, 0.34]), 4) for path in limbs]
     reach = _clump_reach(data) * np.array([1.0, 1.0, 0.0]) + [0.0, 0.0, 0.32 * thick]
-    leaves = clumped_sprays(pads, reach, data["leaves"], data["leaf_m"], rng)
-    return joined([joined([trunk, *wood]).with_slot(WOOD), *twigs(pads, limbs, 0.24 * radius), leaves])
+    tips = twig_tips(pads, reach, rng)
+    thin = branches(limbs, pads, tips, 0.24 * radius)
+    leaves = leafy_twigs(pads, tips, data["leaves"], data["leaf_m"], rng)
+    return joined([joined([trunk, *wood]).with_slot(WOOD), thin.with_slot(BRANCHES), leaves])
 
 
 def many_stemmed(data: dict, rng: np.random.Generator) -> Mesh:
@@ -40,8 +40,10 @@ def many_stemmed(data: dict, rng: np.random.Generator) -> Mesh:
         top = out + [0.0, 0.0, data["height_m"] * rng.uniform(0.6, 0.75)]
         paths.append(curve(0.18 * out + [0.0, 0.0, _ROOT_M], 0.8 * out + 0.45 * (top - out), top, 3))
     wood = [limb(path, radius * np.array([1.0, 0.85, 0.65, 0.4]), 4) for path in paths]
-    leaves = clumped_sprays(clumps, np.full(3, _clump_reach(data)), data["leaves"], data["leaf_m"], rng)
-    return joined([joined(wood).with_slot(WOOD), *twigs(clumps, paths, 0.35 * radius), leaves])
+    tips = twig_tips(clumps, np.full(3, _clump_reach(data)), rng)
+    thin = branches(paths, clumps, tips, 0.35 * radius)
+    leaves = leafy_twigs(clumps, tips, data["leaves"], data["leaf_m"], rng)
+    return joined([joined(wood).with_slot(WOOD), thin.with_slot(BRANCHES), leaves])
 
 
 def bush(data: dict, rng: np.random.Generator) -> Mesh:
@@ -49,8 +51,8 @@ def bush(data: dict, rng: np.random.Generator) -> Mesh:
     clumps = _on_dome(data, rng)
     radius = data["trunk_radius_m"]
     wood = [limb([[*0.1 * tip[:2], -0.1], tip], [radius, 0.4 * radius], 3) for tip in clumps]
-    leaves = clumped_sprays(clumps, np.full(3, _clump_reach(data)), data["leaves"], data["leaf_m"], rng)
-    return joined([*wood, leaves])
+    tips = twig_tips(clumps, np.full(3, _clump_reach(data)), rng)
+    return joined([*wood, leafy_twigs(clumps, tips, data["leaves"], data["leaf_m"], rng)])
 
 
 def bottle(data: dict, rng: np.random.Generator) -> Mesh:
@@ -108,7 +110,7 @@ def _on_dome(data: dict, rng: np.random.Generator) -> np.ndarray:
 
 def _clump_reach(data: dict) -> float:
     """Radius of clumps: they overlap by about half and still leave gaps."""
-    return 0.6 * data["crown_diameter_m"] / np.sqrt(data["clumps"])
+    return 0.68 * data["crown_diameter_m"] / np.sqrt(data["clumps"])
 
 
 def _spreading(fork: np.ndarray, end: np.ndarray, crown_thickness_m: float) -> np.ndarray:
