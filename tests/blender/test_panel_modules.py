@@ -129,7 +129,7 @@ def test_what_the_assets_know():
     assert known.things["pickup"] == Thing("actor", "truck", "vehicle", "pickup")
     assert known.things["water"] == Thing("water", "water")
     assert "soil" in known.materials and "pickup" not in known.materials
-    assert known.presets["boson_640_14mm"] == Preset(640, 512, pytest.approx(0.014 / 12e-6))
+    assert known.presets["boson_640_14mm"] == Preset(640, 512, pytest.approx(0.01345 / 12e-6))
 
 
 def test_guesses_by_names():

@@ -23,6 +23,7 @@ HUMAN, CUBES = BLENDS / "HUMAN.blend", BLENDS / "CubeHierarchy_248.blend"
 # centres of the next column lie within a pixel of the end; a corner of 53 degrees and more is a pixel wide a pixel
 # further in, and contains one there.
 OUTSIDE_PX, INSIDE_PX = 0.5, 2.0
+PRESETS = ", ".join(sorted(file.stem for file in (ROOT / "assets" / "sensors").glob("*.json")))
 
 
 @pytest.fixture(scope="module", name="recent")
@@ -170,8 +171,7 @@ def test_what_goes_wrong_is_said_and_nothing_is_lost(session):
         "no passes": f"{folder}/passes/clip: no passes; expected those that Render Passes makes",
         "no frames": f"{folder}: no frames; expected a dataset, which Make Dataset makes",
         "no config": "config is missing; expected a file",
-        "preset": 'camera preset = "boson"; expected one of airsim_w, airsim_w_256x144, boson_640_14mm, '
-        "boson_640_18mm, flir_vue_pro_640_13mm, flir_vue_pro_640_19mm",
+        "preset": f'camera preset = "boson"; expected one of {PRESETS}',
         "time": 'time of day = "3 am"; expected HH:MM, such as 03:00',
         "range": "frames = 3 to 2; expected the last at or after the first",
         "camera": "scene.camera is missing; expected a camera",

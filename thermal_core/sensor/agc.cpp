@@ -165,8 +165,8 @@ double Agc::weight_of(std::size_t begin, std::size_t end) const {
   return informed + parameters_.flat_weight * (all - informed);
 }
 
-/// Level at the lower edge of every bin: levels rise in proportion to a bin's pixels, limited by the plateau and by
-/// the largest gain.
+/// Level at the lower edge of every bin: levels rise in proportion to a bin's pixels, limited by the plateau, mixed with a
+/// straight line, and limited by the largest gain.
 std::vector<double> Agc::equalised(std::size_t low, std::size_t high, std::size_t measured) const {
   const std::size_t width = bins_.counts;
   const bool weighted = parameters_.mode == AgcMode::information;
@@ -177,6 +177,12 @@ std::vector<double> Agc::equalised(std::size_t low, std::size_t high, std::size_
     const std::size_t begin = std::max(low, bin * width);
     const std::size_t end = std::min(high, bin * width + width - 1) + 1;
     shares.push_back(std::min(plateau, weight_of(begin, end)));
+  }
+  if (parameters_.linear_percent > 0) {
+    const double straight = parameters_.linear_percent / 100;
+    const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+    for (double& share : shares)
+      share = (1 - straight) * share / sum + straight / static_cast<double>(shares.size());
   }
   return equalised_levels(bins_, low / width, shares);
 }

@@ -130,7 +130,8 @@ struct AgcParameters {
   // Of the adaptive modes, which are those below linear:
   double tail_percent = 0.05;  ///< fraction of the pixels dropped at either end
   double plateau_percent =
-      0.07;  ///< plateau, information: fraction of the pixels; larger bins are clipped to it
+      0.07;                   ///< plateau, information: fraction of the pixels; larger bins are clipped to it
+  double linear_percent = 0;  ///< plateau, information: of a straight line in their curve
   double max_gain_dn_per_netd = 8;        ///< largest number of 8-bit counts per NETD
   double damping_s = 0.5;                 ///< time constant
   double information_threshold_netd = 3;  ///< information: change across a pixel that is more than noise
@@ -163,6 +164,7 @@ struct SensorParameters {
   DenoiseParameters denoise;
   ProcessingParameters processing;
   double kelvin_per_count = 0.01;  ///< step of the 16-bit frames
+  double saturation_k = 0;         ///< apparent temperature of the hottest pixels; 0: where those frames end
   AgcParameters agc;
 
   /// NETD [K] with the camera's own lens: a pixel gets the light of a cone whose sine, squared, is 1 / (4 F^2 + 1).

@@ -127,6 +127,12 @@ double noise_variance(const SensorParameters& parameters, double native_rate_hz)
   return variance;
 }
 
+/// Apparent temperature [K] above which all pixels are alike.
+double saturation_of(const SensorParameters& parameters) {
+  const double end_k = (static_cast<double>(kLargestCount) + 1) * parameters.kelvin_per_count;
+  return parameters.saturation_k > 0 ? std::min(parameters.saturation_k, end_k) : end_k;
+}
+
 Housing housing_of(const SensorParameters& parameters, const ThermalCamera::Clip& clip) {
   const BandRadiance band(parameters.response);
   const HousingParameters& housing = parameters.housing;
@@ -176,9 +182,8 @@ ThermalCamera::ThermalCamera(const SensorParameters& parameters, Clip clip, floa
       flicker_w_m2_sr_(white_w_m2_sr_ * static_cast<float>(std::sqrt(parameters.noise.flicker_knee_hz))),
       brightest_taken_w_m2_sr_(
           static_cast<float>(BandRadiance(parameters.response).radiance(kHottestSceneK))),
-      saturation_w_m2_sr_(static_cast<float>(
-          BandRadiance(parameters.response)
-              .radiance((static_cast<double>(kLargestCount) + 1) * parameters.kelvin_per_count))),
+      saturation_w_m2_sr_(
+          static_cast<float>(BandRadiance(parameters.response).radiance(saturation_of(parameters)))),
       follow_(parameters.time_constant_s > 0
                   ? static_cast<float>(-std::expm1(-1 / (clip_.frame_rate_hz * parameters.time_constant_s)))
                   : 1),

@@ -42,8 +42,8 @@ namespace thermal {
 struct SensorFrame {
   Plane<std::uint8_t>
       ir8;  ///< `curve` applied to ir16; in mode table_max, to radiance; in clahe, a curve by place
-  /// Apparent temperature, with the camera's radiometric error, / kelvin_per_count, rounded; clipped to 0..65535. 65535
-  /// is the camera's saturation: 655.35 K and more at the default of 0.01 K.
+  /// Apparent temperature, with the camera's radiometric error, / kelvin_per_count, rounded; clipped to 0..65535, which is
+  /// 655.35 K and more at the default of 0.01 K. Pixels that saturate have saturation_k, if there is one.
   Plane<std::uint16_t> ir16;
   ToneCurve curve;
   bool shutter_closed = false;  ///< the picture is the last one before the shutter closed

@@ -168,6 +168,36 @@ TEST_CASE("plateau equalises the histogram up to its plateau and its largest gai
   }
 }
 
+TEST_CASE("A share of a straight line is mixed into an equalised curve, and levels of gaps are kept") {
+  const AgcMode mode = GENERATE(AgcMode::plateau, AgcMode::information);
+  Counts counts(100, 100, 28000);  // two temperatures, 20 K apart, and one pixel between
+  for (int y = 50; y < 100; ++y)
+    for (int x = 0; x < 100; ++x) counts.at(x, y) = 30000;
+  counts.at(0, 50) = 29000;
+  const auto curve_of = [&](double linear_percent) {
+    const AgcParameters parameters = {.mode = mode,
+                                      .tail_percent = 0,
+                                      .plateau_percent = 100,
+                                      .linear_percent = linear_percent,
+                                      .max_gain_dn_per_netd = 255};
+    Agc agc(parameters, scene_of());
+    return levels_of(agc.next(counts));
+  };
+  const std::vector<int> equalised = curve_of(0);
+  const std::vector<int> mixed = curve_of(20);
+  const std::vector<int> straight = curve_of(100);
+  int wrong = 0;
+  for (std::size_t count = 28000; count <= 30000; ++count) {
+    // Bins of 4 counts, 501 of them; each of the three levels is rounded.
+    const double line = 255 * (static_cast<double>(count) + 1 - 28000) / 2004;
+    wrong += std::abs(straight[count] - line) <= 1 ? 0 : 1;
+    wrong += std::abs(mixed[count] - (0.8 * equalised[count] + 0.2 * straight[count])) <= 1.1 ? 0 : 1;
+  }
+  CHECK(wrong == 0);
+  CHECK(equalised[29900] - equalised[29100] == 0);
+  CHECK(mixed[29900] - mixed[29100] >= 19);  // 0.2 x 255 x 800 / 2004 = 20.4
+}
+
 TEST_CASE("No adaptive mode spreads one NETD over more than the largest gain") {
   const AgcMode mode = GENERATE(AgcMode::percentile, AgcMode::plateau, AgcMode::information);
   const double spread = GENERATE(0.0, 1.0, 5.0, 60.0, 2000.0);

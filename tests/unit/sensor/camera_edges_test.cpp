@@ -66,6 +66,18 @@ TEST_CASE("16-bit counts are clipped where 16 bits end") {
   CHECK(frame.ir16.at(2, 0) == 65535);
 }
 
+TEST_CASE("Pixels saturate at the camera's temperature, where it states one") {
+  Plane<float> scene(3, 1, cameras::radiance_at(413.0));
+  scene.at(1, 0) = cameras::radiance_at(414.0);
+  scene.at(2, 0) = cameras::radiance_at(1000);
+  SensorParameters parameters = perfect_sensor();
+  parameters.saturation_k = 413.15;
+  const SensorFrame frame = frame_of(parameters, scene);
+  CHECK(frame.ir16.at(0, 0) == 41300);
+  CHECK(frame.ir16.at(1, 0) == 41315);
+  CHECK(frame.ir16.at(2, 0) == 41315);
+}
+
 TEST_CASE("A pixel that is NaN counts as dark, in sharp and in blurred pictures") {
   SensorParameters parameters = perfect_sensor();
   parameters.optics.blur_sigma_px = GENERATE(0.0, 1.0);

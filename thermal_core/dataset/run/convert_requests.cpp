@@ -103,7 +103,7 @@ void check_cameras(const Config& config, const std::vector<ClipPasses>& sources,
 /// ConfigError if a setting changes the pinhole of a camera that the passes have already: only the lens is applied to
 /// passes.
 void check_settings(const ConvertOptions& options, const std::vector<ClipPasses>& sources) {
-  constexpr std::array kPinhole = {"width_px", "height_px", "focal_length_m", "pixel_pitch_um"};
+  constexpr std::array kPinhole = {"width_px", "height_px", "focal_length_m", "lens_mm", "pixel_pitch_um"};
   for (const std::string& setting : options.settings) {
     const std::string key = setting.substr(0, setting.find('='));
     if (std::ranges::none_of(kPinhole, [&](const char* one) { return key == std::string("camera.") + one; }))

@@ -141,7 +141,7 @@ SectionResolver::Own SectionResolver::resolve(const Json& sections, Season seaso
   apply_preset(own, schema_, where, assets_);
   faults = check_and_fill(own, section_rules(schema_));
   throw_if_any();
-  apply_calibration(own, schema_, faults);
+  apply_lens(own, schema_, faults);
   throw_if_any();
   check_once_per_dataset(own, dataset, faults);
   check_weather(own["weather"], {season}, faults);

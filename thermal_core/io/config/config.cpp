@@ -269,7 +269,7 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   apply_preset(document, schema, name + ": ", assets);
   std::vector<std::string> faults = check_and_fill(document, schema);
   throw_faults(faults, name);
-  apply_calibration(document, schema, faults);
+  apply_lens(document, schema, faults);
   throw_faults(faults, name);
   check_weather(document["weather"], {Season::winter, Season::summer}, faults);
   throw_faults(faults, name);

@@ -86,8 +86,12 @@ bool gives_intrinsics(const Json& camera) {
   return std::ranges::any_of(kIntrinsics, [&](const char* key) { return camera.contains(key); });
 }
 
-void apply_calibration(Json& document, const Json& schema, std::vector<std::string>& faults) {
+void apply_lens(Json& document, const Json& schema, std::vector<std::string>& faults) {
   Json& camera = document["camera"];
+  if (const auto lens = camera.find("lens_mm"); lens != camera.end()) {
+    camera["focal_length_m"] = lens->get<double>() / 1000;
+    camera.erase("lens_mm");
+  }
   if (!camera.contains("calibration")) return;
   check_given_once(camera, faults);
   if (!faults.empty()) return;

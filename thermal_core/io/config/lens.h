@@ -15,10 +15,10 @@ namespace thermal {
 /// Whether a config's `camera` gives any of fx_px, fy_px, cx_px and cy_px.
 [[nodiscard]] bool gives_intrinsics(const Json& camera);
 
-/// Puts the numbers of the file that `camera.calibration` names in its place, so that the document speaks for itself.
-/// `schema`: that of configs. Adds faults, with the file's name, if it cannot be read, is of another size of picture, or
+/// Puts focal_length_m in the place of `camera.lens_mm`, and the numbers of the file that `camera.calibration` names in the
+/// place of that, so that the document speaks for itself. `schema`: that of configs. Adds faults, with the file's name, if it cannot be read, is of another size of picture, or
 /// holds what a config must not; and if the document gives one of the numbers, too.
-void apply_calibration(Json& document, const Json& schema, std::vector<std::string>& faults);
+void apply_lens(Json& document, const Json& schema, std::vector<std::string>& faults);
 
 /// Adds a fault if the principal point is outside the picture, or one focal length more than ten times the other.
 void check_intrinsics(const CameraIntrinsics& camera, std::vector<std::string>& faults);

@@ -26,8 +26,9 @@ Path find_asset(const Path& folder, const std::string& extension, const std::str
   }
   std::sort(known.begin(), known.end());
   if (std::binary_search(known.begin(), known.end(), asset)) return folder / (asset + extension);
-  throw ConfigError(fault(where, fmt::format("\"{}\"", asset), "", "one of " + list_names(known)) +
-                    did_you_mean(asset, known));
+  throw ConfigError(
+      fault(where, fmt::format("\"{}\"", asset), "", "one of " + list_names(known, known.size())) +
+      did_you_mean(asset, known));
 }
 
 /// Adds missing members from another object, at every depth.
@@ -43,19 +44,42 @@ void fill_missing(Json& object, const Json& from) {
 
 /// Checks a preset as part of an otherwise empty config.
 Json read_preset(const Path& file, const Json& schema) {
-  const Json& keys = schema["properties"];
+  Json keys = schema["properties"];
+  keys["camera"]["properties"].erase("lens_mm");  // of configs, where it stands for a preset's focal_length_m
   const Json rules = {{"type", "object"},
                       {"additionalProperties", false},
                       {"properties",
                        {{"description", {{"type", "string"}}},
                         {"camera", keys["camera"]},
                         {"sensor", keys["sensor"]},
+                        {"models", {{"type", "array"}, {"items", {{"type", "string"}}}}},
                         {"sources", {{"type", "object"}}}}}};
   Json preset = read_json(file);
   Json filled = preset;
   const std::vector<std::string> faults = check_and_fill(filled, rules);
   if (faults.empty()) return preset;
   throw ConfigError(fmt::format("{}: {}", file.string(), fmt::join(faults, "\n" + file.string() + ": ")));
+}
+
+/// A preset, with the values of those that it builds on wherever it gives none. `where` is the key that names it.
+Json read_whole_preset(const std::string& name, const std::string& where, const Json& schema,
+                       const Assets& assets) {
+  Json whole = Json::object();
+  std::vector<std::string> built_on;
+  std::string next = name;
+  std::string place = where;
+  while (!next.empty()) {
+    if (std::ranges::find(built_on, next) != built_on.end())
+      throw ConfigError(
+          fault(place, fmt::format("\"{}\"", next), "", "a preset that does not build on this one"));
+    built_on.push_back(next);
+    const Path file = find_asset(assets.folder("sensors"), ".json", next, place);
+    const Json preset = read_preset(file, schema);
+    fill_missing(whole, preset);
+    next = preset.value(Json::json_pointer("/sensor/preset"), "");
+    place = file.string() + ": sensor.preset";
+  }
+  return whole;
 }
 
 OpticsParameters read_optics(const Json& json, const Json& camera) {
@@ -108,6 +132,7 @@ AgcParameters read_agc(const Json& json) {
           .high_k = json["high_k"],
           .tail_percent = json["tail_percent"],
           .plateau_percent = json["plateau_percent"],
+          .linear_percent = json["linear_percent"],
           .max_gain_dn_per_netd = json["max_gain_dn_per_netd"],
           .damping_s = json["damping_s"],
           .information_threshold_netd = json["information_threshold_netd"],
@@ -131,13 +156,24 @@ void apply_preset(Json& document, const Json& schema, const std::string& where, 
     if (!document.contains(key)) document[key] = Json::object();
     if (!document[key].is_object()) return;
   }
+  const Json& camera = document["camera"];
+  if (camera.contains("lens_mm") && camera.contains("focal_length_m"))
+    throw ConfigError(fault(where + "camera.focal_length_m", brief(camera["focal_length_m"]), "m",
+                            "none beside camera.lens_mm, which is the same in mm"));
   Json& sensor = document["sensor"];
   if (!sensor.contains("preset")) sensor["preset"] = kDefaultPreset;
   if (!sensor["preset"].is_string()) return;
-  const Path file = find_asset(assets.folder("sensors"), ".json", sensor["preset"], where + "sensor.preset");
-  const Json preset = read_preset(file, schema);
+  const Json preset = read_whole_preset(sensor["preset"], where + "sensor.preset", schema, assets);
   fill_missing(sensor, preset.value("sensor", Json::object()));
   fill_missing(document["camera"], preset.value("camera", Json::object()));
+}
+
+std::map<std::string, Json> sensor_presets(const Json& schema, const Assets& assets) {
+  std::map<std::string, Json> presets;
+  for (const auto& entry : std::filesystem::directory_iterator(assets.folder("sensors")))
+    if (entry.path().extension() == ".json")
+      presets[entry.path().stem().string()] = read_preset(entry.path(), schema);
+  return presets;
 }
 
 SensorParameters read_sensor(const Json& document, const std::string& where, const Assets& assets) {
@@ -163,6 +199,7 @@ SensorParameters read_sensor(const Json& document, const std::string& where, con
                       .motion_sigma = json["denoise"]["motion_sigma"]},
           .processing = read_processing(json["processing"]),
           .kelvin_per_count = json["kelvin_per_count"],
+          .saturation_k = json["saturation_k"],
           .agc = read_agc(json["agc"])};
 }
 

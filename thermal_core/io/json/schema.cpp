@@ -18,12 +18,13 @@ namespace thermal {
 namespace {
 
 /// Longest suffixes first.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kUnits = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits = {
     {{"_w_m2_sr", "W m^-2 sr^-1"},
      {"_m_s", "m/s"},
      {"per_ha", "per hectare"},
      {"_kelvin", "K"},
      {"_um", "um"},
+     {"_mm", "mm"},
      {"_hz", "Hz"},
      {"_mk", "mK"},
      {"_deg", "deg"},

@@ -38,6 +38,27 @@ TEST_CASE("A config without distortion has a pinhole, and needs no overscan") {
   CHECK(config.resolved["render"]["overscan_px"] == 0);
 }
 
+TEST_CASE("A lens in mm takes the place of the focal length, whatever the preset's is") {
+  Json document =
+      parse_json(R"({"name": "night", "camera": {"lens_mm": 19}, "sensor": {"preset": "boson_640_14mm"},
+      "clips": [{"id": "a", "season": "winter", "frames": 3},
+                {"id": "b", "season": "winter", "frames": 3, "camera": {"lens_mm": 25}}]})",
+                 "");
+  const Config config = resolved(document);
+  CHECK(config.resolved["camera"]["focal_length_m"] == 0.019);
+  CHECK_FALSE(config.resolved["camera"].contains("lens_mm"));
+  CHECK_THAT(config.camera.fx_px, WithinRel(0.019 / 12e-6, 1e-12));
+  CHECK_THAT(settings_of(config, config.clip("b", "")).camera.fx_px, WithinRel(0.025 / 12e-6, 1e-12));
+  CHECK(resolved(config.resolved).resolved == config.resolved);
+  document["camera"]["focal_length_m"] = 0.019;
+  CHECK(fault_in(document) ==
+        "night.json: camera.focal_length_m = 0.019 m; expected none beside camera.lens_mm, which is the same "
+        "in mm");
+  document["camera"] = {{"lens_mm", 0.019}};
+  CHECK(fault_in(document) ==
+        "night.json: camera.lens_mm = 0.019 mm; expected at least 1 and at most 1000 mm");
+}
+
 TEST_CASE("Each coefficient is read into its own") {
   const Config config =
       resolved(config_with(R"({"k1": -0.1, "k2": 0.02, "p1": 0.003, "p2": -0.004, "k3": 0.05})"));

@@ -201,6 +201,7 @@ TEST_CASE("The unit is that of the longest matching suffix") {
   CHECK(unit_of_key("start_s") == "s");
   CHECK(unit_of_key("size_m") == "m");
   CHECK(unit_of_key("pixel_pitch_um") == "um");
+  CHECK(unit_of_key("lens_mm") == "mm");
   CHECK(unit_of_key("netd_mk") == "mK");
   CHECK(unit_of_key("radiance_w_m2_sr") == "W m^-2 sr^-1");
   CHECK(unit_of_key("per_ha") == "per hectare");
