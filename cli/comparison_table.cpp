@@ -82,9 +82,12 @@ void print_told(const char* what, const std::optional<thermal::Told>& told,
   if (told->real_halves)
     print("; real against real {:.3f} +- {:.3f}", told->real_halves->auc, told->real_halves->error);
   print("\n");
-  print("  {:<40} {:>9} {:>9}\n", "feature", "AUC falls", "AUC alone");
-  for (const thermal::Importance& one : told->sets.importances)
-    print("  {:<40} {:>9.3f} {:>9.3f}\n", features[one.feature], one.fall, one.alone);
+  print("  {:<40} {:>9} {:>9} {:>9}\n", "feature", "AUC falls", "AUC alone", "real-real");
+  for (const thermal::Importance& one : told->sets.importances) {
+    const auto halves =
+        told->halves_alone.empty() ? std::nullopt : std::optional(told->halves_alone[one.feature]);
+    print("  {:<40} {:>9.3f} {:>9.3f} {:>9}\n", features[one.feature], one.fall, one.alone, number(halves));
+  }
 }
 
 void print_altitudes(const char* what, const SetFigures& set) {

@@ -99,8 +99,8 @@ function toldTable(what, told) {
   if (!told) return element("p", {}, `Too few ${what} for a classifier.`);
   const halves = told.real_halves ? ` Halves of the real ones: ${told.real_halves.auc.toFixed(3)} \u00b1 ${told.real_halves.error.toFixed(3)}.` : "";
   return element("div", { class: "card" }, element("h3", {}, `${what}: AUC ${told.auc.toFixed(3)} \u00b1 ${told.error.toFixed(3)}`), element("p", { class: "soft" }, halves),
-    table(`What tells ${what} apart`, [{ name: "feature", text: true }, { name: "AUC falls by" }, { name: "AUC alone" }],
-      told.importances.map(({ feature, fall, alone }) => [feature, fall.toFixed(3), alone.toFixed(3)])));
+    table(`What tells ${what} apart`, [{ name: "feature", text: true }, { name: "AUC falls by" }, { name: "AUC alone" }, { name: "real against real" }],
+      told.importances.map(({ feature, fall, alone, real_alone: halves }) => [feature, fall.toFixed(3), alone.toFixed(3), known(halves) ? halves.toFixed(3) : "-"])));
 }
 
 function toldSection(figures) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 
@@ -60,24 +61,23 @@ std::vector<ComparedMeasure> compared(const SetFigures& real, const SetFigures& 
 
 using TableOf = FeatureTable (*)(const MeasuredFrames&);
 
-bool has_two_units(const FeatureTable& table) {
-  return std::any_of(table.units.begin(), table.units.end(), [](std::size_t unit) { return unit > 0; });
-}
-
-/// Averages over halvings; importances are those of no one forest, and are left out.
-std::optional<Discrimination> told_of_halves(const SetFigures& real, TableOf table_of, std::size_t features,
-                                             std::uint32_t seed) {
+/// Fills in averages over halvings; importances are those of no one forest, and are left out.
+void tell_halves(const SetFigures& real, TableOf table_of, std::size_t features, std::uint32_t seed,
+                 Told& told) {
   Discrimination mean = {.auc = 0, .error = 0};
+  std::vector<double> alone(features);
   for (std::uint32_t draw = 0; draw < kToldHalvings; ++draw) {
     const Halves halves = halves_of(real.frames, seed, kFirstHalving + draw);
     const FeatureTable first = table_of(halves.first);
     const FeatureTable second = table_of(halves.second);
-    if (!has_two_units(first) || !has_two_units(second)) return {};
-    const Discrimination told = discriminate(first, second, features, seed);
-    mean.auc += told.auc / kToldHalvings;
-    mean.error += told.error / kToldHalvings;
+    if (!has_two_units(first) || !has_two_units(second)) return;
+    const Discrimination one = discriminate(first, second, features, seed);
+    mean.auc += one.auc / kToldHalvings;
+    mean.error += one.error / kToldHalvings;
+    for (const Importance& feature : one.importances) alone[feature.feature] += feature.alone / kToldHalvings;
   }
-  return mean;
+  told.real_halves = mean;
+  told.halves_alone = std::move(alone);
 }
 
 std::optional<Told> told_by(const SetFigures& real, const SetFigures& other, TableOf table_of,
@@ -85,7 +85,9 @@ std::optional<Told> told_by(const SetFigures& real, const SetFigures& other, Tab
   const FeatureTable first = table_of(all_of(real));
   const FeatureTable second = table_of(all_of(other));
   if (!has_two_units(first) || !has_two_units(second)) return {};
-  return Told{discriminate(first, second, features, seed), told_of_halves(real, table_of, features, seed)};
+  Told told = {.sets = discriminate(first, second, features, seed), .real_halves = {}};
+  tell_halves(real, table_of, features, seed, told);
+  return told;
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ struct ComparedMeasure {
 struct Told {
   Discrimination sets;  ///< real against other
   std::optional<Discrimination>
-      real_halves;  ///< real against real, averaged over halvings; empty: too few units
+      real_halves;                        ///< real against real, averaged over halvings; empty: too few units
+  std::vector<double> halves_alone = {};  ///< what each feature alone tells of the same; empty likewise
 };
 
 /// How far one set of frames is from another.

@@ -35,8 +35,13 @@ Json measures_json(const Comparison& comparison) {
 Json told_json(const std::optional<Told>& told, const std::vector<std::string>& features) {
   if (!told) return {};
   Json importances = Json::array();
-  for (const Importance& one : told->sets.importances)
-    importances.push_back({{"feature", features[one.feature]}, {"fall", one.fall}, {"alone", one.alone}});
+  for (const Importance& one : told->sets.importances) {
+    importances.push_back(
+        {{"feature", features[one.feature]},
+         {"fall", one.fall},
+         {"alone", one.alone},
+         {"real_alone", told->halves_alone.empty() ? Json() : Json(told->halves_alone[one.feature])}});
+  }
   Json halves;
   if (told->real_halves) halves = {{"auc", told->real_halves->auc}, {"error", told->real_halves->error}};
   return {{"auc", told->sets.auc},
@@ -137,6 +142,12 @@ Json frame_crops_json(const FrameFigures& frame) {
   return crops;
 }
 
+std::vector<double> edge_widths_px(const FrameFigures& frame) {
+  std::vector<double> widths;
+  for (const Edge& edge : frame.edges) widths.push_back(edge.width_px);
+  return widths;
+}
+
 Json each_json(const SetFigures& set) {
   Json frames = Json::array();
   for (const FrameFigures& frame : set.frames) {
@@ -145,7 +156,7 @@ Json each_json(const SetFigures& set) {
                       {"unit", frame.unit},
                       {"altitude_m", value_or_null(source.altitude_m)},
                       {"features", row_json(frame_table({&frame}).rows[0])},
-                      {"edge_widths_px", frame.edges_px},
+                      {"edge_widths_px", edge_widths_px(frame)},
                       {"targets", frame_crops_json(frame)}});
   }
   return frames;

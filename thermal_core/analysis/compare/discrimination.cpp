@@ -36,12 +36,8 @@ std::size_t units_in(const FeatureTable& table) {
 
 /// The median of what is known of a feature in both tables.
 float typical_of(const FeatureTable& first, const FeatureTable& second, std::size_t feature) {
-  std::vector<double> known;
-  for (const FeatureTable* table : {&first, &second}) {
-    for (const auto& row : table->rows) {
-      if (row[feature]) known.push_back(*row[feature]);
-    }
-  }
+  std::vector<double> known = known_values(first, feature);
+  for (const double value : known_values(second, feature)) known.push_back(value);
   return static_cast<float>(median_of(std::move(known)));
 }
 
@@ -147,19 +143,6 @@ Discrimination summed_up(const std::vector<PartResult>& results) {
   return found;
 }
 
-/// Area under the curve of one feature, .5 or more.
-double told_alone(const FeatureTable& first, const FeatureTable& second, std::size_t feature) {
-  const auto known = [feature](const FeatureTable& table) {
-    std::vector<double> values;
-    for (const auto& row : table.rows) {
-      if (row[feature]) values.push_back(*row[feature]);
-    }
-    return values;
-  };
-  const WonPairs pairs = won_pairs(known(first), known(second));
-  return pairs.pairs > 0 ? 0.5 + std::abs(pairs.won / pairs.pairs - 0.5) : 0.5;
-}
-
 /// Falls below the shuffles' own scatter count as equal.
 void sort_importances(std::vector<Importance>& importances) {
   const auto rank = [](const Importance& one) { return std::pair(std::lround(1000 * one.fall), one.alone); };
@@ -168,6 +151,23 @@ void sort_importances(std::vector<Importance>& importances) {
 }
 
 }  // namespace
+
+bool has_two_units(const FeatureTable& table) {
+  return std::any_of(table.units.begin(), table.units.end(), [](std::size_t unit) { return unit > 0; });
+}
+
+std::vector<double> known_values(const FeatureTable& table, std::size_t feature) {
+  std::vector<double> values;
+  for (const auto& row : table.rows) {
+    if (row[feature]) values.push_back(*row[feature]);
+  }
+  return values;
+}
+
+double told_alone(const FeatureTable& first, const FeatureTable& second, std::size_t feature) {
+  const WonPairs pairs = won_pairs(known_values(first, feature), known_values(second, feature));
+  return pairs.pairs > 0 ? 0.5 + std::abs(pairs.won / pairs.pairs - 0.5) : 0.5;
+}
 
 WonPairs won_pairs(const std::vector<double>& negative, const std::vector<double>& positive) {
   std::vector<double> sorted = negative;

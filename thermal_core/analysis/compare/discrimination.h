@@ -14,13 +14,21 @@ struct FeatureTable {
   std::vector<std::size_t> units;  ///< of the rows; numbers from 0
 };
 
+/// Whether its rows are of two units or more.
+[[nodiscard]] bool has_two_units(const FeatureTable& table);
+
+/// Those values of a feature that are known.
+[[nodiscard]] std::vector<double> known_values(const FeatureTable& table, std::size_t feature);
+
+/// Area under the curve of one feature alone, whichever way its known values differ: .5 or more.
+[[nodiscard]] double told_alone(const FeatureTable& first, const FeatureTable& second, std::size_t feature);
+
 /// What a feature contributes.
 struct Importance {
   std::size_t feature = 0;
   double fall =
       0;  ///< of the area under the curve when its values are shuffled among the rows that are tested
-  double alone =
-      0.5;  ///< area under the curve of its values alone, whichever way they differ; rows with known ones
+  double alone = 0.5;  ///< told_alone()
 };
 
 /// How well a classifier tells two sets apart.

@@ -37,6 +37,48 @@ constexpr std::array<Figure<FrameFigures>, 7> kGrey = {{
     {"roughness of histogram", "", [](const FrameFigures& f) { return std::optional(f.grey.roughness); }},
 }};
 
+template <double Edge::*halo>
+std::optional<double> median_halo(const FrameFigures& frame) {
+  std::vector<double> halos;
+  for (const Edge& edge : frame.edges) halos.push_back(edge.*halo);
+  return halos.empty() ? std::nullopt : std::optional(median_of(std::move(halos)));
+}
+
+/// Power where people are seen against that of larger things.
+std::optional<double> fine_over_coarse(const FrameFigures& frame) {
+  const double fine = frame.power.bands[4];  // of kBandEdges: .08 to .16, and .02 to .04
+  const double coarse = frame.power.bands[2];
+  return coarse > 0 ? logarithm(fine / coarse) : std::nullopt;
+}
+
+std::optional<double> noise_deviation(const FrameFigures& frame) {
+  return frame.noise ? std::optional(frame.noise->deviation) : std::nullopt;
+}
+
+template <std::optional<double> FlatNoise::*correlation>
+std::optional<double> noise_correlation(const FrameFigures& frame) {
+  return frame.noise ? (*frame.noise).*correlation : std::nullopt;
+}
+
+constexpr std::array<Figure<FrameFigures>, 2> kHalos = {{
+    {"undershoot before edges", "of the step", median_halo<&Edge::undershoot>},
+    {"overshoot after edges", "of the step", median_halo<&Edge::overshoot>},
+}};
+
+constexpr std::array<Figure<FrameFigures>, 3> kNoise = {{
+    {"in flat blocks", "levels", noise_deviation},
+    {"correlation along rows", "", noise_correlation<&FlatNoise::along_rows>},
+    {"correlation diagonally", "", noise_correlation<&FlatNoise::diagonal>},
+}};
+
+constexpr std::array<Figure<FrameFigures>, 5> kStructure = {{
+    {"power at .08-.16 over .02-.04 /px", "log10", fine_over_coarse},
+    {"stripes of rows", "log10", [](const FrameFigures& f) { return f.structure.stripes; }},
+    {"warm over dark spots", "log10", [](const FrameFigures& f) { return std::optional(f.structure.spots); }},
+    {"wavelet kurtosis", "", [](const FrameFigures& f) { return f.structure.tails; }},
+    {"longest straight line", "px", [](const FrameFigures& f) { return std::optional(f.structure.line_px); }},
+}};
+
 std::optional<double> width_ratio(const TargetCrop& crop) {
   return crop.margins ? std::optional(crop.margins->blob_width_px / crop.box.width_px) : std::nullopt;
 }
@@ -45,13 +87,14 @@ std::optional<double> height_ratio(const TargetCrop& crop) {
   return crop.margins ? std::optional(crop.margins->blob_height_px / crop.box.height_px) : std::nullopt;
 }
 
-constexpr std::array<Figure<TargetCrop>, 8> kCrop = {{
+constexpr std::array<Figure<TargetCrop>, 9> kCrop = {{
     {"box width", "px", [](const TargetCrop& c) { return std::optional(c.box.width_px); }},
     {"box height", "px", [](const TargetCrop& c) { return std::optional(c.box.height_px); }},
     {"contrast", "levels", [](const TargetCrop& c) { return std::optional(c.contrast); }},
     {"ring deviation", "levels", [](const TargetCrop& c) { return std::optional(c.ring_deviation); }},
     {"gradient variance", "", [](const TargetCrop& c) { return std::optional(c.gradient_variance); }},
     {"entropy", "bits", [](const TargetCrop& c) { return std::optional(c.entropy_bits); }},
+    {"level 252 and above", "", [](const TargetCrop& c) { return std::optional(c.white_share); }},
     {"blob width / box width", "", width_ratio},
     {"blob height / box height", "", height_ratio},
 }};
@@ -65,7 +108,9 @@ std::vector<Measure> all_measures() {
   for (const char* name :
        {"width 10-90 %, lower quartile", "width 10-90 %, median", "width 10-90 %, upper quartile"})
     all.push_back({"edges", name, "px"});
-  all.push_back({"noise", "in flat blocks", "levels"});
+  for (const auto& figure : kHalos) all.push_back({"edges", figure.name, figure.unit});
+  for (const auto& figure : kNoise) all.push_back({"noise", figure.name, figure.unit});
+  for (const auto& figure : kStructure) all.push_back({"structure", figure.name, figure.unit});
   for (const auto& figure : kCrop) all.push_back({"targets", figure.name, figure.unit});
   return all;
 }
@@ -80,6 +125,12 @@ std::optional<double> band_of(const MeasuredFrames& frames, std::size_t band) {
 
 std::optional<double> quantile_if_any(const std::vector<double>& values, double share) {
   return values.empty() ? std::nullopt : std::optional(quantile_of(values, share));
+}
+
+std::vector<double> widths_of(const FrameFigures& frame) {
+  std::vector<double> widths;
+  for (const Edge& edge : frame.edges) widths.push_back(edge.width_px);
+  return widths;
 }
 
 template <typename Value>
@@ -111,8 +162,10 @@ KnownValues features_of(const FrameFigures& frame) {
   KnownValues row;
   for (const double power : frame.power.bands) row.push_back(logarithm(power));
   for (const auto& figure : kGrey) row.push_back(figure.value(frame));
-  row.push_back(quantile_if_any(frame.edges_px, 0.5));
-  row.push_back(frame.noise);
+  row.push_back(quantile_if_any(widths_of(frame), 0.5));
+  for (const auto& figure : kHalos) row.push_back(figure.value(frame));
+  for (const auto& figure : kNoise) row.push_back(figure.value(frame));
+  for (const auto& figure : kStructure) row.push_back(figure.value(frame));
   return row;
 }
 
@@ -127,11 +180,13 @@ KnownValues values_of(const MeasuredFrames& frames) {
   KnownValues values;
   for (std::size_t band = 0; band < kBands; ++band) values.push_back(band_of(frames, band));
   for (const auto& figure : kGrey) values.push_back(median_over(frames, figure.value));
-  std::vector<double> edges;
+  std::vector<double> widths;
   for (const FrameFigures* frame : frames)
-    edges.insert(edges.end(), frame->edges_px.begin(), frame->edges_px.end());
-  for (const double share : kQuartiles) values.push_back(quantile_if_any(edges, share));
-  values.push_back(median_over(frames, [](const FrameFigures& frame) { return frame.noise; }));
+    for (const double width : widths_of(*frame)) widths.push_back(width);
+  for (const double share : kQuartiles) values.push_back(quantile_if_any(widths, share));
+  for (const auto& figure : kHalos) values.push_back(median_over(frames, figure.value));
+  for (const auto& figure : kNoise) values.push_back(median_over(frames, figure.value));
+  for (const auto& figure : kStructure) values.push_back(median_over(frames, figure.value));
   for (const auto& figure : kCrop) values.push_back(crop_median(frames, figure));
   return values;
 }
@@ -142,7 +197,9 @@ const std::vector<std::string>& frame_features() {
     for (std::size_t band = 0; band < kBands; ++band) made.push_back(band_name(band));
     for (const auto& figure : kGrey) made.emplace_back(figure.name);
     made.emplace_back("edge width");
-    made.emplace_back("noise in flat blocks");
+    for (const auto& figure : kHalos) made.emplace_back(figure.name);
+    for (const auto& figure : kNoise) made.push_back(fmt::format("noise {}", figure.name));
+    for (const auto& figure : kStructure) made.emplace_back(figure.name);
     return made;
   }();
   return kNames;

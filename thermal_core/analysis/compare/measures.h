@@ -17,7 +17,7 @@ using KnownValues = std::vector<std::optional<double>>;
 
 /// A figure of a set of frames.
 struct Measure {
-  std::string group;  ///< spectrum, grey levels, edges, noise, targets
+  std::string group;  ///< spectrum, grey levels, edges, noise, structure, targets
   std::string name;
   std::string unit;  ///< empty: none
 };
@@ -25,8 +25,8 @@ struct Measure {
 /// All measures, in the order of values_of().
 [[nodiscard]] const std::vector<Measure>& measures();
 
-/// Values of the measures of some frames: power averaged over frames, then its logarithm; of grey levels and noise, the
-/// median over frames; of edges and targets, quantiles over all of them. Empty where nothing is known.
+/// Values of the measures of some frames: power averaged over frames, then its logarithm; of edges' widths and of targets,
+/// quantiles over all of them; of all others, the median over frames. Empty where nothing is known.
 [[nodiscard]] KnownValues values_of(const MeasuredFrames& frames);
 
 /// Names of the features by which a classifier tells frames, or crops of targets, apart.

@@ -1,7 +1,9 @@
 #include "analysis/compare/noise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -13,28 +15,53 @@ namespace {
 
 constexpr int kBlockPx = 16;
 
-/// Deviation of a block from the plane that fits it best; empty if it holds black or white.
-std::optional<double> roughness_of(const Plane<float>& frame, int left, int top) {
+/// A block less the plane that fits it best; empty if it holds black or white.
+using Block = std::array<double, std::size_t{kBlockPx} * kBlockPx>;
+std::optional<Block> flattened(const Plane<float>& frame, int left, int top) {
   constexpr double kMiddle = 0.5 * (kBlockPx - 1);
   constexpr double kCount = kBlockPx * kBlockPx;
   constexpr double kMoment =
       kCount * (kBlockPx * kBlockPx - 1) / 12.0;  // sum of squared distances from the middle
+  Block block{};
   double sum = 0;
   double across = 0;
   double down = 0;
-  double squares = 0;
-  for (int y = 0; y < kBlockPx; ++y) {
-    for (int x = 0; x < kBlockPx; ++x) {
-      const auto level = static_cast<double>(frame.at(left + x, top + y));
-      if (level <= 0 || level >= 255) return {};
-      sum += level;
-      across += level * (x - kMiddle);
-      down += level * (y - kMiddle);
-      squares += level * level;
-    }
+  for (std::size_t k = 0; k < block.size(); ++k) {
+    const int x = static_cast<int>(k) % kBlockPx;
+    const int y = static_cast<int>(k) / kBlockPx;
+    const auto level = static_cast<double>(frame.at(left + x, top + y));
+    if (level <= 0 || level >= 255) return {};
+    block[k] = level;
+    sum += level;
+    across += level * (x - kMiddle);
+    down += level * (y - kMiddle);
   }
-  const double fitted = sum * sum / kCount + (across * across + down * down) / kMoment;
-  return std::sqrt(std::max(0.0, squares - fitted) / (kCount - 3));
+  for (std::size_t k = 0; k < block.size(); ++k) {
+    const double x = static_cast<double>(k % kBlockPx) - kMiddle;
+    const double y = static_cast<double>(k / kBlockPx) - kMiddle;
+    block[k] -= sum / kCount + (across * x + down * y) / kMoment;
+  }
+  return block;
+}
+
+FlatNoise noise_of(const Block& block) {
+  constexpr std::size_t kRow = kBlockPx;
+  double squares = 0;
+  double along = 0;
+  double diagonal = 0;
+  for (std::size_t k = 0; k < block.size(); ++k) {
+    squares += block[k] * block[k];
+    if (k % kRow + 1 == kRow) continue;
+    along += block[k] * block[k + 1];
+    if (k + kRow + 1 < block.size()) diagonal += block[k] * block[k + kRow + 1];
+  }
+  const auto count = static_cast<double>(block.size());
+  FlatNoise noise = {.deviation = std::sqrt(squares / (count - 3))};
+  if (squares <= 0) return noise;
+  const auto mean = [](double sum, std::size_t pairs) { return sum / static_cast<double>(pairs); };
+  noise.along_rows = mean(along, kRow * (kRow - 1)) * count / squares;
+  noise.diagonal = mean(diagonal, (kRow - 1) * (kRow - 1)) * count / squares;
+  return noise;
 }
 
 /// Means of a video over its frames, rows and columns.
@@ -161,17 +188,32 @@ double shift_px(const cv::Mat& first, const cv::Mat& second) {
 
 }  // namespace
 
-std::optional<double> flat_noise(const Plane<float>& frame) {
+std::optional<FlatNoise> flat_noise(const Plane<float>& frame) {
   constexpr std::size_t kLeastBlocks = 10;
   constexpr double kFlattest = 0.1;
-  std::vector<double> found;
+  std::vector<FlatNoise> blocks;
+  std::vector<double> deviations;
   for (int top = 0; top + kBlockPx <= frame.height_px(); top += kBlockPx) {
     for (int left = 0; left + kBlockPx <= frame.width_px(); left += kBlockPx) {
-      if (const auto roughness = roughness_of(frame, left, top)) found.push_back(*roughness);
+      const auto block = flattened(frame, left, top);
+      if (!block) continue;
+      blocks.push_back(noise_of(*block));
+      deviations.push_back(blocks.back().deviation);
     }
   }
-  if (found.size() < kLeastBlocks) return {};
-  return quantile_of(std::move(found), kFlattest);
+  if (blocks.size() < kLeastBlocks) return {};
+  FlatNoise found = {.deviation = quantile_of(std::move(deviations), kFlattest)};
+  std::vector<double> along;
+  std::vector<double> diagonal;
+  for (const FlatNoise& block : blocks) {
+    if (block.deviation > found.deviation || !block.along_rows) continue;
+    along.push_back(*block.along_rows);
+    diagonal.push_back(*block.diagonal);
+  }
+  if (along.empty()) return found;
+  found.along_rows = median_of(std::move(along));
+  found.diagonal = median_of(std::move(diagonal));
+  return found;
 }
 
 VideoNoise video_noise(const std::vector<Plane<float>>& frames) {

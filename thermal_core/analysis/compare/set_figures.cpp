@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/compare/edge_widths.h"
 #include "analysis/compare/order_statistics.h"
 #include "base/error.h"
 #include "base/parallel.h"
@@ -19,18 +18,8 @@ namespace {
 constexpr std::size_t kLeastFrames = 4;
 
 FrameFigures measured(const FrameSource& source, std::size_t frame) {
-  const Plane<float> levels = read_levels(source, frame);
-  FrameFigures figures = {.frame = frame,
-                          .width_px = levels.width_px(),
-                          .height_px = levels.height_px(),
-                          .power = radial_power(levels),
-                          .grey = grey_levels(levels),
-                          .edges_px = edge_widths_px(levels),
-                          .noise = flat_noise(levels),
-                          .crops = {}};
-  for (const LabelBox& box : source.frames[frame].boxes) {
-    if (const auto crop = target_crop(levels, box)) figures.crops.push_back(*crop);
-  }
+  FrameFigures figures = measure_frame(read_levels(source, frame), source.frames[frame].boxes);
+  figures.frame = frame;
   return figures;
 }
 
@@ -143,6 +132,21 @@ void widen_range(const FrameSource& source, double& lowest_k, double& highest_k)
 }
 
 }  // namespace
+
+FrameFigures measure_frame(const Plane<float>& levels, const std::vector<LabelBox>& boxes) {
+  FrameFigures figures = {.width_px = levels.width_px(),
+                          .height_px = levels.height_px(),
+                          .power = radial_power(levels),
+                          .grey = grey_levels(levels),
+                          .edges = straight_edges(levels),
+                          .noise = flat_noise(levels),
+                          .structure = structure_of(levels),
+                          .crops = {}};
+  for (const LabelBox& box : boxes) {
+    if (const auto crop = target_crop(levels, box)) figures.crops.push_back(*crop);
+  }
+  return figures;
+}
 
 Plane<float> read_levels(const FrameSource& source, std::size_t frame) {
   constexpr int kLeastPx = 16;

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "analysis/compare/edges.h"
 #include "analysis/compare/grey_levels.h"
 #include "analysis/compare/noise.h"
 #include "analysis/compare/radial_power.h"
+#include "analysis/compare/structure.h"
 #include "analysis/compare/target_crop.h"
 #include "base/image.h"
 #include "dataset/frame_source.h"
@@ -23,10 +25,14 @@ struct FrameFigures {
   int height_px = 0;
   RadialPower power;
   GreyLevels grey;
-  std::vector<double> edges_px;
-  std::optional<double> noise;
+  std::vector<Edge> edges;
+  std::optional<FlatNoise> noise;
+  Structure structure;
   std::vector<TargetCrop> crops;
 };
+
+/// Measures a frame of levels from 0 to 255; `frame` and `unit` stay 0.
+[[nodiscard]] FrameFigures measure_frame(const Plane<float>& levels, const std::vector<LabelBox>& boxes);
 
 /// Noise of footage of a still scene.
 struct StillFootage {

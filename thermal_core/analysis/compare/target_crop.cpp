@@ -56,6 +56,12 @@ double entropy_of(const std::vector<double>& levels) {
   return bits;
 }
 
+double white_share_of(const std::vector<double>& levels) {
+  constexpr double kWhite = 251.5;
+  const auto white = std::ranges::count_if(levels, [](double level) { return level >= kWhite; });
+  return static_cast<double>(white) / static_cast<double>(levels.size());
+}
+
 double gradient_variance_of(const Plane<float>& frame, const Window& window) {
   const auto at = [&frame](int x, int y) {
     return static_cast<double>(
@@ -128,7 +134,8 @@ std::optional<TargetCrop> target_crop(const Plane<float>& frame, const LabelBox&
                      .contrast = quantile_of(within, 0.95) - mean_of(ring),
                      .ring_deviation = deviation_of(ring),
                      .gradient_variance = gradient_variance_of(frame, inner),
-                     .entropy_bits = entropy_of(within)};
+                     .entropy_bits = entropy_of(within),
+                     .white_share = white_share_of(within)};
   if (crop.contrast > 0 && crop.contrast >= kLeastContrast * crop.ring_deviation)
     crop.margins = margins_of(frame, box, mean_of(ring) + 0.5 * crop.contrast);
   return crop;

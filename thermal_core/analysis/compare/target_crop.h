@@ -27,6 +27,7 @@ struct TargetCrop {
   double ring_deviation = 0;     ///< texture of the surroundings
   double gradient_variance = 0;  ///< of the gradients' magnitude within the box, levels a pixel squared
   double entropy_bits = 0;       ///< of the levels within the box, in 32 bins of 8
+  double white_share = 0;        ///< of the pixels within the box, those of level 252 and above
   std::optional<BoxMargins> margins = {};
 };
 

@@ -76,6 +76,16 @@ TEST_CASE("The ring's texture is its deviation, and hides targets without contra
   CHECK_FALSE(weak->margins);
 }
 
+TEST_CASE("Pixels that are white, or nearly, are counted within the box") {
+  const auto crop = target_crop(frame_of(80, 60,
+                                         [](int x, int y) {
+                                           if (x < 30 || x >= 40 || y < 20 || y >= 34) return 255;
+                                           return x == 31 ? 255 : y == 22 ? 252 : 251;
+                                         }),
+                                {30, 20, 10, 14});
+  CHECK(crop.value().white_share == 23.0 / 140);  // a column, a row, and the pixel of both once
+}
+
 TEST_CASE("Gradients within a slope are equal, at the border of a block they are not") {
   CHECK(
       target_crop(frame_of(80, 60, [](int x, int) { return 2 * x; }), {30, 20, 10, 14})->gradient_variance ==

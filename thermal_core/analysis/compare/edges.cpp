@@ -1,4 +1,4 @@
-#include "analysis/compare/edge_widths.h"
+#include "analysis/compare/edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,7 +177,17 @@ std::optional<double> crossing_px(const std::vector<Sample>& profile, std::size_
   return {};
 }
 
-std::optional<double> width_px(const std::vector<Sample>& profile) {
+/// How far a profile leaves its sides between them and the middle of its rise, as a share of the step.
+void find_halos(const std::vector<Sample>& profile, double low, double step, std::size_t rise, Edge& edge) {
+  for (std::size_t k = 0; k < profile.size(); ++k) {
+    if (std::abs(profile[k].place_px) >= kPlateauPx) continue;
+    const double share = (profile[k].level - low) / step;
+    if (k <= rise) edge.undershoot = std::max(edge.undershoot, -share);
+    if (k > rise) edge.overshoot = std::max(edge.overshoot, share - 1);
+  }
+}
+
+std::optional<Edge> edge_of(const std::vector<Sample>& profile) {
   const Side low = side_of(profile, -1);
   const Side high = side_of(profile, 1);
   const double step = high.level - low.level;
@@ -188,20 +198,23 @@ std::optional<double> width_px(const std::vector<Sample>& profile) {
   const double nine_to_one = std::log(9.0);  // 10 and 90 %
   const auto begin = crossing_px(odds, *rise + 1, -nine_to_one, -1);
   const auto end = crossing_px(odds, *rise, nine_to_one, 1);
-  return begin && end && *end > *begin ? std::optional(*end - *begin) : std::nullopt;
+  if (!begin || !end || *end <= *begin) return {};
+  Edge edge = {.width_px = *end - *begin};
+  find_halos(profile, low.level, step, *rise, edge);
+  return edge;
 }
 
 }  // namespace
 
-std::vector<double> edge_widths_px(const Plane<float>& frame) {
-  std::vector<double> widths;
+std::vector<Edge> straight_edges(const Plane<float>& frame) {
+  std::vector<Edge> edges;
   for (const Steepest& place : candidates_of(frame)) {
-    if (widths.size() == kMostEdges) break;
+    if (edges.size() == kMostEdges) break;
     const auto normal = normal_at(frame, place);
     if (!normal) continue;
-    if (const auto width = width_px(profile_of(frame, place, *normal))) widths.push_back(*width);
+    if (const auto edge = edge_of(profile_of(frame, place, *normal))) edges.push_back(*edge);
   }
-  return widths;
+  return edges;
 }
 
 }  // namespace thermal
