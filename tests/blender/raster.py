@@ -7,6 +7,8 @@ from veldt.groups.actors import poses
 from veldt.camera import project
 from veldt.plants.plant_shapes import build_variants
 
+_SMALL_PX = 8  # side of boxes around triangles that are drawn together
+
 
 def world_triangles(actor, time_s: float) -> np.ndarray:
     """Corners (m, 3, 3) of an actor's posed body in the world."""
@@ -33,16 +35,9 @@ def covered_m2(triangles_m: np.ndarray, step_m: float = 0.04) -> float:
     """Ground that triangles (m, 3, 3) hide from straight above, counted in squares of step_m."""
     flat = triangles_m[..., :2] / step_m
     flat = flat - np.floor(flat.min(axis=(0, 1)))
-    covered = np.zeros(np.ceil(flat.max(axis=(0, 1))).astype(int) + 1, bool)
-    first = np.ceil(flat.min(axis=1) - 0.5).astype(int)
-    spans = np.floor(flat.max(axis=1) - 0.5).astype(int) + 1 - first
-    for steps in np.ndindex(*spans.max(axis=0)):  # of all triangles at once, the largest ones last
-        here = np.nonzero((spans > steps).all(axis=1))[0]
-        cell = first[here] + steps
-        a, b, c = (flat[here] - (cell + 0.5)[:, None]).transpose(1, 0, 2)
-        turns = np.stack([p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] for p, q in ((a, b), (b, c), (c, a))])
-        inside = (turns >= 0).all(axis=0) | (turns <= 0).all(axis=0)
-        covered[tuple(cell[inside].T)] = True
+    covered = np.zeros(np.ceil(flat.max(axis=(0, 1))).astype(int)[::-1] + 1, bool)
+    for _, row, column, *_ in _fragments(flat, covered.shape):
+        covered[row, column] = True
     return covered.sum() * step_m**2
 
 
@@ -52,8 +47,15 @@ def draw(world, pose: np.ndarray, triangles: dict[int, np.ndarray], ground_index
     index = np.full((lens.height_px, lens.width_px), ground_index)
     nearness = 1.0 / _ground_depth(lens, pose)
     for number, corners_m in triangles.items():
-        for corners_px, depth_m in zip(*project(lens, pose, corners_m)):
-            _draw_triangle(index, nearness, number, corners_px, depth_m)
+        corners_px, depth_m = project(lens, pose, corners_m)
+        for triangle, row, column, b, c in _fragments(corners_px, index.shape):
+            depths_m = depth_m[triangle].T
+            near = (1 - b - c) / depths_m[0] + b / depths_m[1] + c / depths_m[2]
+            farthest_first = np.argsort(near, kind="stable")
+            row, column, near = row[farthest_first], column[farthest_first], near[farthest_first]
+            shown = near > nearness[row, column]
+            index[row[shown], column[shown]] = number
+            nearness[row[shown], column[shown]] = near[shown]
     return index
 
 
@@ -78,22 +80,28 @@ def _ground_depth(lens, pose: np.ndarray) -> np.ndarray:
     return np.where(falling > 0, pose[2, 3] / np.maximum(falling, 1e-30), np.inf)
 
 
-def _draw_triangle(index, nearness, number, corners_px, depth_m) -> None:
-    """Fill the pixels whose centres the triangle covers and is nearest in; 1 / depth is linear in the picture."""
-    height, width = index.shape
-    low = np.clip(np.ceil(corners_px.min(axis=0) - 0.5).astype(int), 0, [width, height])
-    high = np.clip(np.floor(corners_px.max(axis=0) - 0.5).astype(int) + 1, 0, [width, height])
-    if (low >= high).any():
-        return
-    column, row = np.meshgrid(np.arange(low[0], high[0]) + 0.5, np.arange(low[1], high[1]) + 0.5)
-    (ax, ay), (bx, by), (cx, cy) = corners_px
+def _fragments(corners_px: np.ndarray, shape: tuple[int, int]):
+    """Pixels whose centres triangles (m, 3, 2) cover, in batches: the triangle, row and column of each (n,), and the
+    weights b, c (n,) of its second and third corner there."""
+    low = np.clip(np.ceil(corners_px.min(axis=1) - 0.5).astype(int), 0, shape[::-1])
+    spans = np.clip(np.floor(corners_px.max(axis=1) - 0.5).astype(int) + 1, 0, shape[::-1]) - low
+    (ax, ay), (bx, by), (cx, cy) = corners_px.transpose(1, 2, 0)
     area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-    if area == 0:
-        return
-    b = ((column - ax) * (cy - ay) - (row - ay) * (cx - ax)) / area
-    c = ((bx - ax) * (row - ay) - (by - ay) * (column - ax)) / area
-    near = (1 - b - c) / depth_m[0] + b / depth_m[1] + c / depth_m[2]
-    window = np.s_[low[1] : high[1], low[0] : high[0]]
-    shown = (b >= 0) & (c >= 0) & (b + c <= 1) & (near > nearness[window])
-    index[window][shown] = number
-    nearness[window][shown] = near[shown]
+    seen = np.nonzero((spans > 0).all(axis=1) & (area != 0))[0]
+    small = seen[(spans[seen] <= _SMALL_PX).all(axis=1)]
+    for triangle, column, row in _places(low, spans, small, np.setdiff1d(seen, small)):
+        x, y = column + 0.5 - ax[triangle], row + 0.5 - ay[triangle]
+        b = (x * (cy - ay)[triangle] - y * (cx - ax)[triangle]) / area[triangle]
+        c = ((bx - ax)[triangle] * y - (by - ay)[triangle] * x) / area[triangle]
+        inside = (b >= 0) & (c >= 0) & (b + c <= 1)
+        yield triangle[inside], row[inside], column[inside], b[inside], c[inside]
+
+
+def _places(low: np.ndarray, spans: np.ndarray, small: np.ndarray, large: np.ndarray):
+    """All pixels of the boxes around triangles: the same one of all small boxes at once, then box by box."""
+    for step in np.ndindex(_SMALL_PX, _SMALL_PX):
+        some = small[(spans[small] > step).all(axis=1)]
+        yield some, *(low[some] + step).T
+    for triangle in large:
+        column, row = np.indices(spans[triangle]).reshape(2, -1) + low[triangle][:, None]
+        yield np.full(len(column), triangle), column, row

@@ -134,8 +134,8 @@ def _ordered(plan: dict, course: Course, around: Surroundings, time_s: np.ndarra
 def _eased(point_m: np.ndarray) -> np.ndarray:
     """Points (n, 2) of a course as means over _EASED_STEPS: no aircraft leans from one moment to the next.
 
-    What moves evenly or stands still is kept; a multirotor that brakes is 7 cm off, a wing in a turn 13 cm. Before the first
-    point and after the last one it flies on.
+    What moves evenly or stands still is kept; a multirotor that brakes is 7 cm off, a wing in a turn 13 cm. Before the
+    first point and after the last one it flies on.
     """
     half = _EASED_STEPS // 2
     beyond = np.arange(1, half + 1)[:, None]

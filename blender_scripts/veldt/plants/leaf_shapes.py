@@ -17,8 +17,8 @@ def leafy_twigs(
 ) -> Mesh:
     """`count` clusters of leaves, each of radius about leaf_m, along twigs that are too thin to draw.
 
-    clumps_m (n, 3): where twigs part; tips_m (n, m, 3): their ends. The clusters of a crown have the area of leaves, and
-    leave the gaps, of `heat.leaves` of its material.
+    clumps_m (n, 3): where twigs part; tips_m (n, m, 3): their ends. The clusters of a crown have the area of leaves,
+    and leave the gaps, of `heat.leaves` of its material.
     """
     clumps, twigs = tips_m.shape[:2]
     leafy = np.cumsum(rng.uniform(*_LEAFINESS, clumps))
