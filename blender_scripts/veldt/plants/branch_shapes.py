@@ -9,8 +9,6 @@ import numpy as np
 from ..geometry.shapes import Mesh, facets, joined
 
 GOLDEN_ANGLE_RAD = 2.399963  # successive directions are never above each other
-_TWIGS = 36  # of a clump
-_THICK_TWIGS = 4  # that are drawn
 
 
 def limb(path_m: np.ndarray, radii_m: Sequence[float], sides: int, closed: bool = False) -> Mesh:
@@ -41,27 +39,15 @@ def curve(start, knee, end, steps: int) -> np.ndarray:
     return (1 - t) ** 2 * np.asarray(start) + 2 * t * (1 - t) * np.asarray(knee) + t**2 * np.asarray(end)
 
 
-def branches(
-    limbs_m: Sequence[np.ndarray], clumps_m: np.ndarray, tips_m: np.ndarray, radius_m: float
-) -> Mesh:
-    """A thin branch to each clump (n, 3), from the middle or the end of the limb with the nearest end, and thinner ones
-    from there along some of the twigs, which end at tips (n, m, 3)."""
+def branches(limbs_m: Sequence[np.ndarray], clumps_m: np.ndarray, radius_m: float) -> Mesh:
+    """A thin branch to each clump (n, 3), from the middle or the end of the limb with the nearest end."""
     ends = np.array([path[-1] for path in limbs_m])
     meshes = []
-    for k, (clump, tips) in enumerate(zip(clumps_m, tips_m)):
+    for k, clump in enumerate(clumps_m):
         path = limbs_m[int(np.argmin(((ends - clump) ** 2).sum(axis=1)))]
         start = path[-1] if k % 2 else path[len(path) // 2]
         meshes.append(limb([start, clump], [radius_m, 0.4 * radius_m], 3))
-        meshes += [limb([clump, tip], [0.4 * radius_m, 0.15 * radius_m], 3) for tip in tips[:_THICK_TWIGS]]
     return joined(meshes)
-
-
-def twig_tips(clumps_m: np.ndarray, reach_m: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """Ends (n, m, 3) of the twigs that part in the middle of each clump (n, 3), in flattened balls with half axes
-    reach_m (3,)."""
-    count = len(clumps_m) * _TWIGS
-    out = directions(rng, count) * rng.uniform(0.6, 1.1, (count, 1)) * reach_m
-    return clumps_m[:, None] + out.reshape(-1, _TWIGS, 3)
 
 
 def directions(rng: np.random.Generator, count: int) -> np.ndarray:

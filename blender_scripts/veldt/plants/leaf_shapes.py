@@ -8,24 +8,26 @@ from ..geometry.shapes import Mesh, facets
 from .branch_shapes import directions
 
 _CLUSTER_CORNERS = 3
+_TWIGS = 36  # of a clump
 _BESIDE_TWIG = 3.0  # farthest middle of a cluster from its twig, in radii of a cluster
 _LEAFINESS = 0.3, 1.7  # of clumps, of which the barest show their branches
 
 
 def leafy_twigs(
-    clumps_m: np.ndarray, tips_m: np.ndarray, count: int, leaf_m: float, rng: np.random.Generator
+    clumps_m: np.ndarray, reach_m: np.ndarray, count: int, leaf_m: float, rng: np.random.Generator
 ) -> Mesh:
     """`count` clusters of leaves, each of radius about leaf_m, along twigs that are too thin to draw.
 
-    clumps_m (n, 3): where twigs part; tips_m (n, m, 3): their ends. The clusters of a crown have the area of leaves,
-    and leave the gaps, of `heat.leaves` of its material.
+    Twigs part in the middle of each clump (n, 3) and end in a flattened ball with half axes reach_m (3,). The clusters of
+    a crown have the area of leaves, and leave the gaps, of `heat.leaves` of its material.
     """
-    clumps, twigs = tips_m.shape[:2]
-    leafy = np.cumsum(rng.uniform(*_LEAFINESS, clumps))
+    twigs = len(clumps_m) * _TWIGS
+    out_m = directions(rng, twigs) * rng.uniform(0.6, 1.1, (twigs, 1)) * reach_m
+    leafy = np.cumsum(rng.uniform(*_LEAFINESS, len(clumps_m)))
     clump = np.searchsorted(leafy / leafy[-1], (np.arange(count) + 0.5) / count)
     along = rng.uniform(0.0, 1.0, (count, 1)) ** 0.5
     aside_m = directions(rng, count) * (_BESIDE_TWIG * leaf_m * rng.uniform(0.0, 1.0, (count, 1)))
-    centres = clumps_m[clump] + along * (tips_m[clump, np.arange(count) % twigs] - clumps_m[clump]) + aside_m
+    centres = clumps_m[clump] + along * out_m[clump * _TWIGS + np.arange(count) % _TWIGS] + aside_m
     centres[:, 2] = np.maximum(centres[:, 2], leaf_m)
     skyward = directions(rng, count) * 0.8 + np.array([0.0, 0.0, 1.0])
     return _clusters(centres, skyward, leaf_m * rng.uniform(0.7, 1.3, count), rng)

@@ -24,19 +24,17 @@ FORMS = {
 }
 
 
-_WOODY = ("umbrella", "many_stemmed")  # forms whose stems and branches are parts beside the leaves
+_WOODY = ("umbrella", "many_stemmed")  # forms with stems that have a slot of their own beside the leaves
 
 
 def slots_of(data: dict) -> list[tuple[str, str]]:
     """(material, part) of a plant's or structure's meshes by slot: those of its shapes or its model, or its material
-    as a whole and, of trees in leaf, their wood and branches."""
+    as a whole and, of trees in leaf, their wood."""
     if "shapes" in data:
         return [(slot, "") if isinstance(slot, str) else tuple(slot) for slot in data["materials"].values()]
     if "model" in data:
         return [(data["material"], part) for part in models.part_names(data)]
-    return [
-        (data["material"], part) for part in (("", "wood", "branch") if data["form"] in _WOODY else ("",))
-    ]
+    return [(data["material"], part) for part in (("", "wood") if data["form"] in _WOODY else ("",))]
 
 
 def build_variants(name: str, data: dict, seed: int) -> list[Mesh]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry.shapes import Mesh, facets, joined
-from .branch_shapes import GOLDEN_ANGLE_RAD, branches, curve, directions, limb, loft_triangles, twig_tips
+from .branch_shapes import GOLDEN_ANGLE_RAD, branches, curve, directions, limb, loft_triangles
 from .leaf_shapes import blades, leafy_twigs
 
 _ROOT_M = -0.3  # depth of trunks below the ground, which may slope
-# Material slots; stems of bushes, which follow the air as leaves do, are in the leaves'.
-LEAVES, WOOD, BRANCHES = range(3)
+# Material slots; branches and the stems of bushes, which follow the air as leaves do, are in the leaves'.
+LEAVES, WOOD = range(2)
 
 
 def umbrella(data: dict, rng: np.random.Generator) -> Mesh:
@@ -23,10 +23,8 @@ def umbrella(data: dict, rng: np.random.Generator) -> Mesh:
     limbs = [_spreading(fork, pads[k :: data["limbs"]].mean(axis=0), thick) for k in range(data["limbs"])]
     wood = [limb(path, radius * np.array([0.62, 0.5, 0.34]), 4) for path in limbs]
     reach = _clump_reach(data) * np.array([1.0, 1.0, 0.0]) + [0.0, 0.0, 0.32 * thick]
-    tips = twig_tips(pads, reach, rng)
-    thin = branches(limbs, pads, tips, 0.24 * radius)
-    leaves = leafy_twigs(pads, tips, data["leaves"], data["leaf_m"], rng)
-    return joined([joined([trunk, *wood]).with_slot(WOOD), thin.with_slot(BRANCHES), leaves])
+    leaves = leafy_twigs(pads, reach, data["leaves"], data["leaf_m"], rng)
+    return joined([joined([trunk, *wood]).with_slot(WOOD), branches(limbs, pads, 0.24 * radius), leaves])
 
 
 def many_stemmed(data: dict, rng: np.random.Generator) -> Mesh:
@@ -40,10 +38,8 @@ def many_stemmed(data: dict, rng: np.random.Generator) -> Mesh:
         top = out + [0.0, 0.0, data["height_m"] * rng.uniform(0.6, 0.75)]
         paths.append(curve(0.18 * out + [0.0, 0.0, _ROOT_M], 0.8 * out + 0.45 * (top - out), top, 3))
     wood = [limb(path, radius * np.array([1.0, 0.85, 0.65, 0.4]), 4) for path in paths]
-    tips = twig_tips(clumps, np.full(3, _clump_reach(data)), rng)
-    thin = branches(paths, clumps, tips, 0.35 * radius)
-    leaves = leafy_twigs(clumps, tips, data["leaves"], data["leaf_m"], rng)
-    return joined([joined(wood).with_slot(WOOD), thin.with_slot(BRANCHES), leaves])
+    leaves = leafy_twigs(clumps, np.full(3, _clump_reach(data)), data["leaves"], data["leaf_m"], rng)
+    return joined([joined(wood).with_slot(WOOD), branches(paths, clumps, 0.35 * radius), leaves])
 
 
 def bush(data: dict, rng: np.random.Generator) -> Mesh:
@@ -51,8 +47,8 @@ def bush(data: dict, rng: np.random.Generator) -> Mesh:
     clumps = _on_dome(data, rng)
     radius = data["trunk_radius_m"]
     wood = [limb([[*0.1 * tip[:2], -0.1], tip], [radius, 0.4 * radius], 3) for tip in clumps]
-    tips = twig_tips(clumps, np.full(3, _clump_reach(data)), rng)
-    return joined([*wood, leafy_twigs(clumps, tips, data["leaves"], data["leaf_m"], rng)])
+    leaves = leafy_twigs(clumps, np.full(3, _clump_reach(data)), data["leaves"], data["leaf_m"], rng)
+    return joined([*wood, leaves])
 
 
 def bottle(data: dict, rng: np.random.Generator) -> Mesh:
