@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "analysis/box_fill.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "cli/box_style_option.h"
 #include "cli/command.h"
 #include "cli/output.h"
@@ -29,6 +31,8 @@ struct ExportArguments {
   std::string split;
   std::string selection;
   std::string scratch;
+  std::string like;
+  std::string like_frames;
 };
 
 thermal::ExportFormat format_named(const std::string& name) {
@@ -43,7 +47,34 @@ thermal::Linking linking_named(const std::string& name) {
   return name == "hard" ? thermal::Linking::hard : thermal::Linking::symlink;
 }
 
-thermal::ExportOptions request_of(const ExportArguments& options) {
+/// Measures the boxes of somebody's labels, and says what it found.
+thermal::DrawnFills fills_like(const ExportArguments& options, const CommonOptions& common) {
+  const std::vector<std::string> names = {"hit_uav", "birdsai"};
+  if (const auto named = thermal::drawn_fills_named(options.like)) {
+    if (!options.like_frames.empty())
+      throw thermal::ConfigError(
+          thermal::fault("--like-frames", options.like_frames, "", "none with a named style"));
+    return *named;
+  }
+  if (!std::filesystem::exists(options.like))
+    throw thermal::ConfigError(thermal::fault(
+        "--like", options.like, "",
+        "hit_uav, birdsai or labels of your own" + thermal::did_you_mean(options.like, names)));
+  const thermal::MeasuredFills found = thermal::measure_drawn_fills(options.like, options.like_frames);
+  if (common.quiet) return found.fills;
+  for (const auto& [kind, name] : {std::pair{thermal::Kind::human, "people"},
+                                   {thermal::Kind::animal, "animals"},
+                                   {thermal::Kind::vehicle, "vehicles"}}) {
+    const thermal::MeasuredBoxes& boxes = found.kinds.at(static_cast<std::size_t>(kind));
+    const thermal::BoxFill& fill = found.fills.of(kind);
+    if (boxes.boxes > 0)
+      print("{}: {} fill {:.3f} x {:.3f} of their boxes ({} of {} boxes measured)\n", options.like, name,
+            fill.width, fill.height, boxes.measured, boxes.boxes);
+  }
+  return found.fills;
+}
+
+thermal::ExportOptions request_of(const ExportArguments& options, const CommonOptions& common) {
   thermal::ExportOptions request = options.what;
   request.source = options.source;
   request.format = format_named(options.format);
@@ -62,6 +93,9 @@ thermal::ExportOptions request_of(const ExportArguments& options) {
   if (!options.split.empty()) request.splits = thermal::parse_splits(options.split);
   request.selection = options.selection;
   request.scratch = options.scratch;
+  if (!options.like.empty() && request.boxes != thermal::BoxStyle::drawn)
+    throw thermal::ConfigError(thermal::fault("--like", options.like, "", "--box-style drawn beside it"));
+  if (!options.like.empty()) request.fills = fills_like(options, common);
   return request;
 }
 
@@ -134,7 +168,7 @@ void summarise(const thermal::ExportOutcome& outcome, const ExportArguments& opt
 }
 
 int run_export(const ExportArguments& options, const CommonOptions& common) {
-  const thermal::ExportOptions request = request_of(options);
+  const thermal::ExportOptions request = request_of(options, common);
   watch_for_stop();
   thermal::ExportOutcome outcome;
   {
@@ -175,6 +209,17 @@ void add_picture_options(CLI::App& command, ExportArguments& options) {
       ->type_name("LAT,LON[,HEIGHT]");
   add_box_style(command, options.what.boxes,
                 "Boxes around visible pixels, or with the margin of 1 to 2 px that people leave");
+  CLI::Option* like =
+      command
+          .add_option("--like", options.like,
+                      "Drawn boxes as people drew those of a set: hit_uav, birdsai, or labels of your own, "
+                      "of which the warm target's share of each box is measured")
+          ->type_name("STYLE|LABELS");
+  command
+      .add_option("--like-frames", options.like_frames,
+                  "Folder of these labels' pictures, if they are not beside the labels")
+      ->needs(like)
+      ->type_name("DIR");
 }
 
 }  // namespace

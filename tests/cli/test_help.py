@@ -36,6 +36,8 @@ OPTIONS = {
     "export": {
         "--format",
         "--box-style",
+        "--like",
+        "--like-frames",
         "--out",
         "--link",
         "--images",

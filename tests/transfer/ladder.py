@@ -172,6 +172,8 @@ def made_frames(options: argparse.Namespace) -> list[Frame]:
         of_place = ["--set", f"seed={seed + place}"] if place > 0 else []
         subprocess.run([options.veldt, "generate", options.config, "--out", data, *of_place], check=True)
         style = ["--format", "coco", "--box-style", options.box_style]
+        if options.like and options.box_style == "drawn":
+            style += ["--like", options.like]
         subprocess.run([options.veldt, "export", data, *style, "--out", export, "--quiet"], check=True)
         frames += read_frames(export / "annotations.json", export)
     return frames
@@ -256,6 +258,7 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--ladder", type=int, nargs="+", default=[0, 14, 80], help="numbers of real frames")
     parser.add_argument("--box-style", choices=("drawn", "visible"), default="drawn")
+    parser.add_argument("--like", help="draw boxes as in this set: see veldt export --like")
     options = parser.parse_args()
     real = read_frames(*options.real)[0::2]
     ladder = Ladder(

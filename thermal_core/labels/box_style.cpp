@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
+
 namespace thermal {
 namespace {
 
@@ -14,7 +16,26 @@ void widen(double& from, double& length, double margin_px, int size_px) {
   length = end - from;
 }
 
+/// On each side, so that a target fills a share of the drawn box.
+double filling_margin_px(double visible_px, double share) noexcept {
+  constexpr double kBeyondTargetPx = 0.3;
+  return std::max(0.0, 0.5 * ((visible_px - 2 * kBeyondTargetPx) / share - visible_px));
+}
+
 }  // namespace
+
+const BoxFill& DrawnFills::of(Kind kind) const noexcept {
+  if (kind == Kind::human) return people;
+  return kind == Kind::animal ? animals : vehicles;
+}
+
+std::optional<DrawnFills> drawn_fills_named(std::string_view name) noexcept {
+  constexpr BoxFill kHitUav = {0.67, 0.75};
+  constexpr BoxFill kBirdsai = {0.59, 0.6};
+  if (name == "hit_uav") return DrawnFills{kHitUav, kHitUav, kHitUav};
+  if (name == "birdsai") return DrawnFills{kBirdsai, {0.54, 0.44}, kBirdsai};
+  return {};
+}
 
 double drawn_margin_px(const LabelBox& visible) noexcept {
   constexpr double kLeastPx = 0.7;
@@ -24,12 +45,18 @@ double drawn_margin_px(const LabelBox& visible) noexcept {
   return std::min(kMostPx, kLeastPx + kOfSide * std::sqrt(visible.area_px()));
 }
 
-void widen_as_drawn(LabelSet& set) {
+void widen_as_drawn(LabelSet& set, const std::optional<DrawnFills>& fills) {
   for (Label& label : set.labels) {
     const LabelImage& image = set.images[label.image];
-    const double margin_px = drawn_margin_px(label.box);
-    widen(label.box.x_px, label.box.width_px, margin_px, image.width_px);
-    widen(label.box.y_px, label.box.height_px, margin_px, image.height_px);
+    double across_px = drawn_margin_px(label.box);
+    double down_px = across_px;
+    if (fills) {
+      const BoxFill& fill = fills->of(kind_of(lower_case(set.categories[label.category].name)));
+      across_px = filling_margin_px(label.box.width_px, fill.width);
+      down_px = filling_margin_px(label.box.height_px, fill.height);
+    }
+    widen(label.box.x_px, label.box.width_px, across_px, image.width_px);
+    widen(label.box.y_px, label.box.height_px, down_px, image.height_px);
   }
 }
 

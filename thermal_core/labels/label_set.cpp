@@ -1,7 +1,9 @@
 #include "labels/label_set.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <string_view>
 #include <utility>
 
 namespace thermal {
@@ -59,7 +61,9 @@ std::string flat_name(const LabelSet& set, const LabelImage& image) {
 
 Kind kind_of(const std::string& category) noexcept {
   if (category == "human" || category == "person" || category == "poacher") return Kind::human;
-  const bool drives = category == "vehicle" || category == "bicycle" || category == "motorbike";
+  constexpr std::array<std::string_view, 7> kRidden = {"bicycle",    "bus",   "car", "motorbike",
+                                                       "motorcycle", "truck", "van"};
+  const bool drives = category.ends_with("vehicle") || std::ranges::find(kRidden, category) != kRidden.end();
   return drives ? Kind::vehicle : Kind::animal;
 }
 

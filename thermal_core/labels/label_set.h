@@ -121,7 +121,7 @@ void assign_size_classes(LabelSet& set);
 /// Exports for tools that expect all pictures in one folder use it as file name.
 [[nodiscard]] std::string flat_name(const LabelSet& set, const LabelImage& image);
 
-/// Whether a category is people; all others except vehicles, with bicycles and motorbikes, are animals.
+/// Whether a category is people or vehicles, with bicycles and motorbikes; all others are animals.
 enum class Kind { animal, human, vehicle };
 /// The kind of a category.
 [[nodiscard]] Kind kind_of(const std::string& category) noexcept;

@@ -8,13 +8,14 @@ using namespace thermal;
 
 namespace {
 
-LabelSet set_of(const LabelBox& box) {
+LabelSet set_of(const LabelBox& box, const std::string& category = "human") {
   LabelSet set;
   set.images = {{.id = 1, .file = "a.png", .width_px = 100, .height_px = 80}};
   Label label;
   label.box = box;
   label.area_px = 30;
   set.labels = {label};
+  set.categories = {{.id = 1, .name = category}};
   return set;
 }
 
@@ -50,6 +51,32 @@ TEST_CASE("Drawn boxes have their margins on all sides, and end with their pictu
 
 TEST_CASE("A box that reaches out of its picture is not cut") {
   check_box(drawn({-5, 70, 8, 12.5}), {-5, 68.3, 9.7, 14.2});
+}
+
+TEST_CASE("Targets fill their shares of boxes as a set has them") {
+  const DrawnFills fills = {.people = {0.5, 0.8}, .animals = {0.25, 0.4}, .vehicles = {1, 0.5}};
+  const auto drawn_as = [&fills](const std::string& category, const LabelBox& box) {
+    LabelSet set = set_of(box, category);
+    widen_as_drawn(set, fills);
+    CHECK(set.labels[0].area_px == 30);
+    return set.labels[0].box;
+  };
+  // The target is 0.6 px narrower than its visible box: 8 px are half of 16, 12 px are 0.8 of 15.
+  check_box(drawn_as("human", {20, 30, 8.6, 12.6}), {16.3, 28.8, 16, 15});
+  check_box(drawn_as("Human", {20, 30, 8.6, 12.6}), {16.3, 28.8, 16, 15});
+  check_box(drawn_as("zebra", {40, 30, 8.6, 12.6}), {28.3, 21.3, 32, 30});
+  // A box is not drawn within the visible one, and ends with its picture.
+  check_box(drawn_as("truck", {20, 30, 8.6, 12.6}), {20, 24.3, 8.6, 24});
+  check_box(drawn_as("human", {1, 30, 8.6, 12.6}), {0, 28.8, 13.3, 15});
+}
+
+TEST_CASE("Sets whose boxes are known by name") {
+  const auto birdsai = drawn_fills_named("birdsai");
+  REQUIRE(birdsai);
+  CHECK(birdsai->of(Kind::human) == BoxFill{0.59, 0.6});
+  CHECK(birdsai->of(Kind::animal) == BoxFill{0.54, 0.44});
+  CHECK(drawn_fills_named("hit_uav")->of(Kind::vehicle) == drawn_fills_named("hit_uav")->people);
+  CHECK_FALSE(drawn_fills_named("hituav"));
 }
 
 }  // namespace box_style_test

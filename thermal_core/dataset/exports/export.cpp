@@ -100,6 +100,13 @@ GeoPosition origin_of(const ExportOptions& options) {
 
 std::string tiff_type_name(TiffType type) { return type == TiffType::float32 ? "float32" : "uint16"; }
 
+/// By kind: shares of width and height.
+Json fills_of(const DrawnFills& fills) {
+  const auto pair = [](const BoxFill& fill) { return Json{fill.width, fill.height}; };
+  return {
+      {"people", pair(fills.people)}, {"animals", pair(fills.animals)}, {"vehicles", pair(fills.vehicles)}};
+}
+
 /// Identifies an export: equal requests make equal folders.
 Json request_of(const ExportOptions& options, const ExportSource& source) {
   Json splits = Json::object();
@@ -109,6 +116,7 @@ Json request_of(const ExportOptions& options, const ExportSource& source) {
                   {"format", format_name(options.format)},
                   {"images", options.ir16 || options.format == ExportFormat::tiff ? "ir16" : "ir8"}};
   if (options.boxes == BoxStyle::drawn) request["box_style"] = "drawn";
+  if (options.fills) request["box_fill"] = fills_of(*options.fills);
   if (options.segmentation == Segmentation::polygon) request["segmentation"] = "polygon";
   if (options.segmentation == Segmentation::rle && source.has_foreign_masks) request["segmentation"] = "rle";
   if (options.format == ExportFormat::webdataset) {

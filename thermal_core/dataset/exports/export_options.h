@@ -27,10 +27,11 @@ struct ExportOptions {
   /// Of pictures; empty: hard. Not of webdataset, which copies them into tar files.
   std::optional<Linking> linking = {};
   BoxStyle boxes = BoxStyle::visible;
-  bool ir16 = false;                  ///< 16-bit pictures, which only Veldt datasets have
-  std::vector<SplitShare> splits;     ///< empty: no split
-  std::optional<std::uint32_t> seed;  ///< seed of the splits; empty: the dataset's own, or 1
-  Path selection;                     ///< frames to export; empty: all
+  std::optional<DrawnFills> fills = {};  ///< of drawn boxes; empty: drawn_margin_px()
+  bool ir16 = false;                     ///< 16-bit pictures, which only Veldt datasets have
+  std::vector<SplitShare> splits;        ///< empty: no split
+  std::optional<std::uint32_t> seed;     ///< seed of the splits; empty: the dataset's own, or 1
+  Path selection;                        ///< frames to export; empty: all
   bool unfinished_too = false;
   std::optional<int> samples_per_shard = {};  ///< of webdataset alone, 1 to 1,000,000; empty: 1000
   /// Of coco, by default rle; of yolo polygon alone, by default boxes.

@@ -128,7 +128,7 @@ ExportSource read_export_source(const ExportOptions& options) {
   source.all = options.selection.empty() && options.splits.empty() && !options.ir16 && !set.from_windows &&
                options.boxes == BoxStyle::visible && options.segmentation != Segmentation::polygon;
   source.input.boxes_changed = options.boxes == BoxStyle::drawn;
-  if (source.input.boxes_changed) widen_as_drawn(set);
+  if (source.input.boxes_changed) widen_as_drawn(set, options.fills);
   source.seed = options.seed ? *options.seed : own_seed(options.source);
   share_out(source.input, options, source.seed);
   return source;
