@@ -41,7 +41,7 @@ constexpr std::array kCommands = {
 #if VELDT_VIDEO
     add_video,    add_view,
 #endif
-    add_stream,   add_budget, add_heat,    add_radiance,
+    add_stream,   add_budget, add_heat,    add_radiance, add_camera,
 #if VELDT_BENCH
     add_bench,
 #endif

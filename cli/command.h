@@ -66,6 +66,7 @@ void add_balance(CLI::App& app, Session& session);
 void add_budget(CLI::App& app, Session& session);
 void add_heat(CLI::App& app, Session& session);
 void add_radiance(CLI::App& app, Session& session);
+void add_camera(CLI::App& app, Session& session);
 void add_bench(CLI::App& app, Session& session);
 void add_doctor(CLI::App& app, Session& session);
 

@@ -104,6 +104,7 @@ OPTIONS = {
         "--method",
         "--json",
     },
+    "camera": {"--views"},
     "bench": {"--suite", "--only", "--blender", "--json"},
     "doctor": {"--json"},
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "fuzz/targets.h"
+#include "io/config/photo_view.h"
 #include "io/image/grey_picture.h"
 #include "io/image/jpeg.h"
 #include "io/image/kelvin_picture.h"
@@ -30,6 +31,13 @@ void demand_finite(const thermal::Plane<float>& kelvin) {
          "finite temperatures");
 }
 
+void demand_view(const thermal::PhotoView& view) {
+  demand(!view.altitude_m || (*view.altitude_m >= 1 && *view.altitude_m <= 5000), "a height of a flight");
+  demand(!view.look_angle_deg || (*view.look_angle_deg >= 1 && *view.look_angle_deg <= 90),
+         "a view of the ground");
+  demand(!view.heading_deg || std::abs(*view.heading_deg) <= 180, "a heading");
+}
+
 }  // namespace
 
 void fuzz::picture(Bytes bytes) {
@@ -42,4 +50,5 @@ void fuzz::picture(Bytes bytes) {
         file, {.kelvin_per_count = 0.01, .unit = thermal::TemperatureUnit::celsius}));
   });
   tolerate([&] { demand(!thermal::as_jpeg(file, 16).empty(), "a JPEG of what was read"); });
+  tolerate([&] { demand_view(thermal::read_photo_view(thermal::read_photo_tags(file), {})); });
 }

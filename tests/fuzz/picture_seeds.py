@@ -17,6 +17,11 @@ SAMPLES, ROWS, STRIP_BYTES, FORMAT, GDAL_METADATA = 277, 278, 279, 339, 42112
 SHORT, LONG, ASCII = 3, 4, 2
 HEAD_BYTES = 8
 PLAIN, DEFLATE = 1, 8
+XMP = (
+    'http://ns.adobe.com/xap/1.0/\0<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf='
+    '"http://www.w3.org/1999/02/22-rdf-syntax-ns#"><rdf:Description xmlns:drone-dji="http://www.dji.com/drone-dji/1.0/"'
+    ' drone-dji:RelativeAltitude="+60.10" drone-dji:GimbalPitchDegree="-45.00"></rdf:Description></rdf:RDF></x:xmpmeta>'
+)
 COUNTS = '<GDALMetadata><Item name="SCALE" sample="0" role="scale">0.04</Item></GDALMetadata>'
 
 
@@ -50,13 +55,24 @@ def tiff(pixels: np.ndarray, compression: int = PLAIN, metadata: str = "") -> by
     return head + bits + text + data + directory + bytes(4)
 
 
-def write_jpeg(file: Path, pixels: np.ndarray) -> None:
+def write_jpeg(file: Path, pixels: np.ndarray, tags: dict | None = None) -> None:
     """A JPEG of 8-bit grey levels."""
     spec = OpenImageIO.ImageSpec(pixels.shape[1], pixels.shape[0], 1, "uint8")
+    for name, value in (tags or {}).items():
+        spec.attribute(name, value)
     out = OpenImageIO.ImageOutput.create(str(file))
     out.open(str(file), spec)
     out.write_image(pixels[..., np.newaxis])
     out.close()
+
+
+def write_photo(file: Path, pixels: np.ndarray) -> None:
+    """The same with the EXIF and XMP of a drone."""
+    write_jpeg(
+        file, pixels, {"Model": "M3T", "Exif:FocalLength": 9.1, "GPS:AltitudeRef": 0, "GPS:Altitude": 960.1}
+    )
+    content, xmp = file.read_bytes(), XMP.encode()
+    file.write_bytes(content[:2] + b"\xff\xe1" + struct.pack(">H", len(xmp) + 2) + xmp + content[2:])
 
 
 def write_picture_seeds(folder: Path) -> None:
@@ -76,3 +92,4 @@ def write_picture_seeds(folder: Path) -> None:
     for name, content in pictures.items():
         (folder / name).write_bytes(content)
     write_jpeg(folder / "grey.jpg", level)
+    write_photo(folder / "photo.jpg", level)

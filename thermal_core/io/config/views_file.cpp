@@ -101,4 +101,10 @@ std::vector<View> read_views(const Path& file, const Json& keys) {
   return views;
 }
 
+std::string views_text(const std::map<std::pair<double, double>, int>& counts) {
+  std::string text = "altitude_m,look_angle_deg,weight\n";
+  for (const auto& [view, count] : counts) text += fmt::format("{},{},{}\n", view.first, view.second, count);
+  return text;
+}
+
 }  // namespace thermal

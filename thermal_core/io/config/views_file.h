@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/json/file.h"
@@ -19,5 +20,8 @@ struct View {
 /// speed_m_s, in any order; lines that start with # are comments. `keys`: the schema's rules of a flight's keys.
 /// ConfigError with file and line; IoError.
 [[nodiscard]] std::vector<View> read_views(const Path& file, const Json& keys);
+
+/// Such a file's text, of how often each height [m] and look angle [deg] was found.
+[[nodiscard]] std::string views_text(const std::map<std::pair<double, double>, int>& counts);
 
 }  // namespace thermal

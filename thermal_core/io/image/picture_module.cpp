@@ -34,6 +34,10 @@ std::string as_jpeg(const Path& picture, int most_px) {
 
 PictureSize read_picture_size(const Path& file) { return picture_module().read_picture_size(file); }
 
+PhotoTags read_photo_tags(const Path& file) {
+  return naming(file, [&] { return picture_module().read_tags(file); });
+}
+
 std::string encode_picture(const cv::Mat& bgr, PictureFormat format) {
   return picture_module().encode_picture(bgr, format);
 }

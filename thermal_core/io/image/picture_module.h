@@ -4,6 +4,7 @@
 
 #include "io/image/encoded_picture.h"
 #include "io/image/grey_plane.h"
+#include "io/image/photo_tags.h"
 #include "io/image/picture_size.h"
 #include "io/image/stored_temperatures.h"
 #include "io/image/text_coverage.h"
@@ -23,6 +24,7 @@ struct PictureModule {
   /// As read_grey_picture(), with faults of the file without its name.
   GreyPicture (*read_grey)(const Path& file);
   StoredTemperatures (*read_temperatures)(const Path& file);
+  PhotoTags (*read_tags)(const Path& file);
   std::string (*encode_kelvin_tiff)(const Plane<float>& picture, const TiffTags& tags);
   std::string (*encode_counts_tiff)(const Plane<std::uint16_t>& picture, const TiffTags& tags);
   std::string (*openimageio_version)();

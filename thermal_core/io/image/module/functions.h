@@ -16,6 +16,9 @@ namespace thermal::pictures {
 /// Of read_kelvin_picture() in io/image/stored_temperatures.h, with faults of the file without its name.
 [[nodiscard]] StoredTemperatures read_temperatures(const Path& file);
 
+/// As read_photo_tags() in io/image/photo_tags.h, with faults of the file without its name.
+[[nodiscard]] PhotoTags read_tags(const Path& file);
+
 /// As encode_tiff() in io/image/tiff.h.
 [[nodiscard]] std::string encode_kelvin_tiff(const Plane<float>& picture, const TiffTags& tags);
 [[nodiscard]] std::string encode_counts_tiff(const Plane<std::uint16_t>& picture, const TiffTags& tags);

@@ -44,6 +44,7 @@ const thermal::PictureModule kVeldtPictureModule = {
     .encode_picture = thermal::pictures::encode_picture,
     .read_grey = thermal::pictures::read_grey,
     .read_temperatures = thermal::pictures::read_temperatures,
+    .read_tags = thermal::pictures::read_tags,
     .encode_kelvin_tiff = thermal::pictures::encode_kelvin_tiff,
     .encode_counts_tiff = thermal::pictures::encode_counts_tiff,
     .openimageio_version = thermal::pictures::openimageio_version,
