@@ -39,7 +39,9 @@ LabelParameters read_label_parameters(const Json& json) {
 std::optional<VideoCodecSettings> read_codec(const Json& document) {
   if (!document.contains("output") || !document["output"].contains("codec")) return std::nullopt;
   const Json& codec = document["output"]["codec"];
-  return VideoCodecSettings{.name = codec["name"], .bitrate_kbit_s = codec["bitrate_kbit_s"]};
+  return VideoCodecSettings{.name = codec["name"],
+                            .bitrate_kbit_s = codec["bitrate_kbit_s"],
+                            .bitrate_at_hz = codec.value("bitrate_at_hz", 0.0)};
 }
 
 /// The schema of the sections alone.

@@ -16,6 +16,7 @@ namespace thermal {
 namespace {
 
 constexpr const char* kDefaultPreset = "airsim_w";
+const std::vector<std::string> kCameraSections = {"camera", "sensor"};
 
 /// Path of the file of assets/`kind` that a key names; ConfigError with the available ones.
 Path find_asset(const Path& folder, const std::string& extension, const std::string& asset,
@@ -43,17 +44,14 @@ void fill_missing(Json& object, const Json& from) {
 }
 
 /// Checks a preset as part of an otherwise empty config.
-Json read_preset(const Path& file, const Json& schema) {
-  Json keys = schema["properties"];
-  keys["camera"]["properties"].erase("lens_mm");  // of configs, where it stands for a preset's focal_length_m
-  const Json rules = {{"type", "object"},
-                      {"additionalProperties", false},
-                      {"properties",
-                       {{"description", {{"type", "string"}}},
-                        {"camera", keys["camera"]},
-                        {"sensor", keys["sensor"]},
-                        {"models", {{"type", "array"}, {"items", {{"type", "string"}}}}},
-                        {"sources", {{"type", "object"}}}}}};
+Json read_preset(const Path& file, const Json& schema, const std::vector<std::string>& sections) {
+  Json keys = {{"description", {{"type", "string"}}}};
+  for (const std::string& section : sections) keys[section] = schema["properties"][section];
+  if (keys.contains("camera"))
+    keys["camera"]["properties"].erase("lens_mm");  // of configs: short for focal_length_m
+  keys["models"] = {{"type", "array"}, {"items", {{"type", "string"}}}};
+  keys["sources"] = {{"type", "object"}};
+  const Json rules = {{"type", "object"}, {"additionalProperties", false}, {"properties", std::move(keys)}};
   Json preset = read_json(file);
   Json filled = preset;
   const std::vector<std::string> faults = check_and_fill(filled, rules);
@@ -74,12 +72,20 @@ Json read_whole_preset(const std::string& name, const std::string& where, const 
           fault(place, fmt::format("\"{}\"", next), "", "a preset that does not build on this one"));
     built_on.push_back(next);
     const Path file = find_asset(assets.folder("sensors"), ".json", next, place);
-    const Json preset = read_preset(file, schema);
+    const Json preset = read_preset(file, schema, kCameraSections);
     fill_missing(whole, preset);
     next = preset.value(Json::json_pointer("/sensor/preset"), "");
     place = file.string() + ": sensor.preset";
   }
   return whole;
+}
+
+/// Adds what output.preset names, if it does.
+void fill_output(Json& document, const Json& schema, const std::string& where, const Assets& assets) {
+  const Json::json_pointer key("/output/preset");
+  if (!document.contains(key) || !document[key].is_string()) return;
+  const Path file = find_asset(assets.folder("links"), ".json", document[key], where + "output.preset");
+  fill_missing(document["output"], read_preset(file, schema, {"output"}).value("output", Json::object()));
 }
 
 OpticsParameters read_optics(const Json& json, const Json& camera) {
@@ -152,6 +158,7 @@ AgcParameters read_agc(const Json& json) {
 
 void apply_preset(Json& document, const Json& schema, const std::string& where, const Assets& assets) {
   if (!document.is_object()) return;  // the schema reports it
+  fill_output(document, schema, where, assets);
   for (const char* key : {"sensor", "camera"}) {
     if (!document.contains(key)) document[key] = Json::object();
     if (!document[key].is_object()) return;
@@ -172,7 +179,7 @@ std::map<std::string, Json> sensor_presets(const Json& schema, const Assets& ass
   std::map<std::string, Json> presets;
   for (const auto& entry : std::filesystem::directory_iterator(assets.folder("sensors")))
     if (entry.path().extension() == ".json")
-      presets[entry.path().stem().string()] = read_preset(entry.path(), schema);
+      presets[entry.path().stem().string()] = read_preset(entry.path(), schema, kCameraSections);
   return presets;
 }
 

@@ -128,7 +128,8 @@ struct VideoCodec::Impl {
 
   /// At most the rate, over a buffer of a second, as for a radio link.
   void set_rate(double frame_rate_hz) const {
-    encoder->bit_rate = std::llround(1e3 * settings.bitrate_kbit_s);
+    const double share = settings.bitrate_at_hz > 0 ? frame_rate_hz / settings.bitrate_at_hz : 1;
+    encoder->bit_rate = std::max(1000LL, std::llround(1e3 * share * settings.bitrate_kbit_s));
     encoder->rc_max_rate = encoder->bit_rate;
     constexpr double kMostBits = 2e9;
     encoder->rc_buffer_size = static_cast<int>(

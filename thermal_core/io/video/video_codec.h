@@ -14,6 +14,7 @@ namespace thermal {
 struct VideoCodecSettings {
   std::string name = "h264";     ///< h264 (x264, "veryfast"), mpeg4 (MPEG-4 Part 2) or mjpeg (Motion JPEG)
   double bitrate_kbit_s = 4000;  ///< > 0; the mean that the encoder's rate control aims at
+  double bitrate_at_hz = 0;  ///< the frame rate it is stated for, others have theirs in proportion; 0: any
 
   [[nodiscard]] bool operator==(const VideoCodecSettings&) const = default;
 };

@@ -36,9 +36,9 @@ Json config_schema() { return kAssets.schema("config"); }
 
 Config resolved(const Json& document) { return resolve_config(document, "night.json", kAssets); }
 
-std::vector<Path> presets() {
+std::vector<Path> presets(const std::string& kind) {
   std::vector<Path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(kAssets.folder("sensors")))
+  for (const auto& entry : std::filesystem::directory_iterator(kAssets.folder(kind)))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   return files;
 }
@@ -49,6 +49,17 @@ void add_leaves(const Json& object, const std::string& prefix, std::set<std::str
     const std::string name = prefix + key;
     value.is_object() ? add_leaves(value, name + ".", leaves) : (void)leaves.insert(name);
   }
+}
+
+void check_sources(const Json& preset, const std::vector<std::string>& sections) {
+  std::set<std::string> figures;
+  std::set<std::string> sources;
+  for (const std::string& section : sections) add_leaves(preset[section], section + ".", figures);
+  for (const auto& [name, source] : preset["sources"].items()) {
+    CHECK(source.get<std::string>().size() >= 8);
+    sources.insert(name);
+  }
+  CHECK(figures == sources);
 }
 
 /// All but the response, whose samples are in a file.
@@ -108,21 +119,41 @@ TEST_CASE("Every value of a config's sensor reaches the library") {
 }
 
 TEST_CASE("Every preset is usable, and each of its figures has a source") {
-  for (const Path& file : presets()) {
+  for (const Path& file : presets("sensors")) {
     CAPTURE(file.string());
     CHECK_NOTHROW(resolved(with_sensor(R"({"preset": ")" + file.stem().string() + "\"}")));
     const Json preset = read_json(file);
     CHECK(preset["camera"].size() == 4);  // whole in each file: the Blender extension reads no other
-    std::set<std::string> figures;
-    std::set<std::string> sources;
-    add_leaves(preset["camera"], "camera.", figures);
-    add_leaves(preset["sensor"], "sensor.", figures);
-    for (const auto& [name, source] : preset["sources"].items()) {
-      CHECK(source.get<std::string>().size() >= 8);
-      sources.insert(name);
-    }
-    CHECK(figures == sources);
+    check_sources(preset, {"camera", "sensor"});
   }
+  for (const Path& file : presets("links")) {
+    CAPTURE(file.string());
+    Json document = with_sensor("{}");
+    document["output"]["preset"] = file.stem().string();
+    CHECK_NOTHROW(resolved(document));
+    check_sources(read_json(file), {"output"});
+  }
+}
+
+TEST_CASE("A link's preset applies where the config gives no value") {
+  Json document = with_sensor("{}");
+  document["output"] = {{"preset", "analogue_ntsc"}, {"link", {{"hum_hz", 50}, {"noise_levels", 8}}}};
+  const Config config = resolved(document);
+  REQUIRE(config.link);
+  CHECK_FALSE(config.codec);
+  CHECK(config.link->lines == 480);
+  CHECK(config.link->bandwidth_mhz == 4.2);
+  CHECK(config.link->hum_hz == 50);
+  CHECK(config.link->noise_levels == 8);
+  document["output"] = {{"preset", "dji_h264"}};
+  CHECK(resolved(document).codec ==
+        VideoCodecSettings{.name = "h264", .bitrate_kbit_s = 4000, .bitrate_at_hz = 30});
+  CHECK_FALSE(resolved(document).link);
+  document["output"] = {{"preset", "analog_pal"}};
+  CHECK(message_of<ConfigError>([&] { (void)resolved(document); }) ==
+        "night.json: output.preset = \"analog_pal\"; expected one of analogue_ntsc, analogue_pal, dji_h264; "
+        "did "
+        "you mean \"analogue_pal\"?");
 }
 
 namespace {
@@ -189,7 +220,7 @@ std::vector<std::string> row_of_readme(const std::string& preset) {
 }  // namespace
 
 TEST_CASE("Cameras have the field of view and the NETD of their data sheets, to 1 %") {
-  for (const Path& file : presets()) {
+  for (const Path& file : presets("sensors")) {
     const std::string name = file.stem().string();
     if (name.starts_with("airsim_w") || name == "uncooled_640") continue;  // of no maker
     CAPTURE(name);
@@ -212,7 +243,7 @@ TEST_CASE("Cameras have the field of view and the NETD of their data sheets, to 
 }
 
 TEST_CASE("The table of cameras says what the presets have") {
-  for (const Path& file : presets()) {
+  for (const Path& file : presets("sensors")) {
     const std::string name = file.stem().string();
     CAPTURE(name);
     const Config config = resolved(with_sensor(R"({"preset": ")" + name + "\"}"));
@@ -285,7 +316,7 @@ TEST_CASE("NETD grows as the light of the lens's cone of rays falls") {
 
 TEST_CASE("An unknown preset is an error with the nearest name") {
   std::vector<std::string> names;
-  for (const Path& file : presets()) names.push_back(file.stem().string());
+  for (const Path& file : presets("sensors")) names.push_back(file.stem().string());
   std::ranges::sort(names);
   CHECK(message_of<ConfigError>([] { (void)resolved(with_sensor(R"({"preset": "boson_640_13mm"})")); }) ==
         "night.json: sensor.preset = \"boson_640_13mm\"; expected one of " + list_names(names, names.size()) +

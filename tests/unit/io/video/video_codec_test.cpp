@@ -93,6 +93,18 @@ TEST_CASE("Frames survive a codec at a high bit rate, and lose more the lower it
   CHECK(middle.kbit_s < 1.3 * 300);
 }
 
+TEST_CASE("A rate that is stated for another frame rate is in proportion") {
+  const auto passed = [](const VideoCodecSettings& settings) {
+    VideoCodec codec(settings, kRate, kWidth, kHeight);
+    Frame frame = picture(0);
+    (void)codec.pass(frame);
+    return frame;
+  };
+  const Frame stated = passed({.name = "h264", .bitrate_kbit_s = 300});
+  CHECK(passed({.name = "h264", .bitrate_kbit_s = 900, .bitrate_at_hz = 3 * kRate}) == stated);
+  CHECK(passed({.name = "h264", .bitrate_kbit_s = 900}) != stated);
+}
+
 TEST_CASE("The whole range of grey passes a codec: black stays black, white stays white") {
   const std::string name = GENERATE("h264", "mpeg4", "mjpeg");
   CAPTURE(name);
