@@ -5,14 +5,11 @@ import json
 import numpy as np
 import pytest
 
-from configs import tiny
+from configs import QUIET_LINK, tiny
 from pictures import read_grey
 from program import Veldt
 
 PHYSICAL = {"preset": "boson_640_14mm"}
-# A link that combs what moves, and has no errors.
-QUIET = {"standard": "pal", "bandwidth_mhz": 100, "noise_levels": 0, "streak_levels": 0, "row_levels": 0}
-QUIET |= {"drift_levels": 0, "hum_levels": 0, "jitter_px": 0}
 
 
 def _made(veldt, name: str, sensor: dict, output: dict, terms: dict) -> None:
@@ -26,9 +23,9 @@ def _made(veldt, name: str, sensor: dict, output: dict, terms: dict) -> None:
 def _veldt_made(tmp_path_factory) -> Veldt:
     veldt = Veldt(tmp_path_factory.mktemp("link"))
     _made(veldt, "plain", {}, {}, {"smear": "on"})
-    _made(veldt, "linked", {}, {"link": {"standard": "pal"}}, {"smear": "on"})
-    _made(veldt, "combed", {}, {"link": QUIET}, {"smear": "on"})
-    _made(veldt, "still", {}, {"link": QUIET}, {"smear": "off"})
+    _made(veldt, "linked", {}, {"preset": "analogue_pal"}, {"smear": "on"})
+    _made(veldt, "combed", {}, {"link": QUIET_LINK}, {"smear": "on"})
+    _made(veldt, "still", {}, {"link": QUIET_LINK}, {"smear": "off"})
     _made(veldt, "sharp", {}, {}, {"smear": "off"})
     _made(veldt, "halos", {"processing": {"unsharp_amount": 1}}, {}, {"smear": "on"})
     return veldt
@@ -54,14 +51,16 @@ def test_what_moves_is_combed_and_only_if_it_is_known_to(made):
 
 
 def test_it_is_recorded_and_refused_by_name(made):
-    link = made.read("linked/dataset.json")["config"]["output"]["link"]
-    assert link["standard"] == "pal" and link["noise_levels"] == 3
+    output = made.read("linked/dataset.json")["config"]["output"]
+    assert output["preset"] == "analogue_pal"
+    assert (output["link"]["standard"], output["link"]["lines"]) == ("pal", "standard")
+    assert output["link"]["noise_levels"] == 3
     done = made("validate", "linked.json", "--set", "output.link.standard=secam")
     assert done.code == 2
     assert 'output.link.standard = "secam"; expected one of pal, ntsc' in done.err
 
 
-def test_a_kept_dataset_converts_again_to_the_same_frames(made):
+def test_the_config_of_a_dataset_generates_the_same_frames_again(made):
     plan = json.loads((made.folder / "linked" / "dataset.json").read_text(encoding="utf-8"))["config"]
     made.write("again.json", plan)
     done = made("generate", "again.json", "--out", "again", "--quiet")

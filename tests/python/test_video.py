@@ -3,22 +3,13 @@
 import numpy as np
 import pytest
 
+from configs import QUIET_LINK
 from veldt import ConfigError, VideoChain
 
 DRAWN = {
     "processing": {"noise_filter_sigma_px": {"uniform": [0, 0.9]}, "unsharp_amount": {"uniform": [0.5, 1.5]}},
     "link": {"choice": [None, {"standard": "pal", "noise_levels": {"uniform": [2, 8]}}]},
     "field_motion_px": {"uniform": [-3, 3]},
-}
-QUIET = {
-    "standard": "pal",
-    "bandwidth_mhz": 100,
-    "noise_levels": 0,
-    "streak_levels": 0,
-    "row_levels": 0,
-    "drift_levels": 0,
-    "hum_levels": 0,
-    "jitter_px": 0,
 }
 
 
@@ -40,12 +31,12 @@ def test_without_settings_a_picture_is_copied():
     picture = _picture()
     copy = VideoChain({})(picture)
     assert np.array_equal(copy, picture) and copy is not picture
-    assert np.array_equal(VideoChain({"link": QUIET})(picture), picture)
+    assert np.array_equal(VideoChain({"link": QUIET_LINK})(picture), picture)
 
 
 def test_rows_are_combed_by_the_motion_from_field_to_field():
     columns = np.tile(np.arange(20, 120, 2, dtype=np.uint8), (30, 1))
-    combed = VideoChain({"link": QUIET, "field_motion_px": 4})(columns).astype(int)
+    combed = VideoChain({"link": QUIET_LINK, "field_motion_px": 4})(columns).astype(int)
     assert np.all(combed[::2, 5:-5] - combed[1::2, 5:-5] == 8)
 
 

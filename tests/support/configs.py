@@ -21,6 +21,18 @@ LEAST = {
     ],
 }
 
+# A video link that combs what moves, and has no errors.
+QUIET_LINK = {
+    "standard": "pal",
+    "bandwidth_mhz": 100,
+    "noise_levels": 0,
+    "streak_levels": 0,
+    "row_levels": 0,
+    "drift_levels": 0,
+    "hum_levels": 0,
+    "jitter_px": 0,
+}
+
 _TINY = {
     "name": "tiny",
     "seed": 7,

@@ -97,6 +97,34 @@ StageRow agc_row(const std::string& name, AgcMode mode) {
   });
 }
 
+/// What headroom makes of a level, against what it does to pictures.
+StageRow headroom_row() {
+  const AgcParameters full = {.mode = AgcMode::plateau};
+  AgcParameters narrow = full;
+  narrow.black_level = 12;
+  narrow.white_level = 244;
+  const AgcScene scene = {.frame_rate_hz = kSceneRateHz, .temperature_of = {}};
+  const Plane<std::uint16_t> ir16 = counts_of(temperatures(0), scene.kelvin_per_count);
+  Plane<std::uint8_t> levels;
+  Plane<std::uint8_t> ir8;
+  Agc reference(full, scene);
+  Agc agc(narrow, scene);
+  (void)reference.next(ir16);
+  reference.show(ir16, levels);
+  const auto frame = [&] {
+    (void)agc.next(ir16);
+    agc.show(ir16, ir8);
+  };
+  frame();
+  int worst = 0;
+  for (std::size_t i = 0; i < ir8.size(); ++i)
+    worst = std::max(worst, std::abs(level_within(levels.pixels()[i], 12, 244) - ir8.pixels()[i]));
+  const StageRow row = {.group = "AGC",
+                        .name = "plateau, levels 12 to 244",
+                        .figures = {{"worst_levels", static_cast<double>(worst)}}};
+  return timed(row, sizeof(std::uint16_t) + sizeof(std::uint8_t), frame);
+}
+
 /// The pixel under the whole kernel, in double precision. It must be far enough from the border.
 double blurred(const Plane<float>& scene, const HalfKernel& kernel, int x, int y) {
   const int radius = static_cast<int>(kernel.size()) - 1;
@@ -200,6 +228,7 @@ std::vector<StageRow> picture_rows() {
           agc_row("plateau", AgcMode::plateau),
           agc_row("information", AgcMode::information),
           agc_row("clahe", AgcMode::clahe),
+          headroom_row(),
           camera_row("both outputs alone", outputs),
           camera_row("as published: blur, white, 1/f", published),
           camera_row("every stage", full_camera())};

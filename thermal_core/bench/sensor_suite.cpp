@@ -6,13 +6,14 @@
 #include "bench/optics_rows.h"
 #include "bench/picture_rows.h"
 #include "bench/tone_rows.h"
+#include "bench/video_rows.h"
 
 namespace thermal {
 
 std::vector<StageRow> run_sensor_suite() {
   return with_threads(1, [&] {
     std::vector<StageRow> rows = optics_rows();
-    for (const auto& part : {detector_rows(), flicker_rows(), picture_rows(), tone_rows()}) {
+    for (const auto& part : {detector_rows(), flicker_rows(), picture_rows(), tone_rows(), video_rows()}) {
       rows.insert(rows.end(), part.begin(), part.end());
     }
     return rows;
