@@ -33,7 +33,7 @@ constexpr std::array kCommands = {
 #endif
     add_evaluate,
 #if VELDT_COMPARE
-    add_compare,
+    add_compare,  add_fit,
 #endif
 #if VELDT_REPORT
     add_report,

@@ -58,6 +58,7 @@ void add_inspect(CLI::App& app, Session& session);
 void add_validate(CLI::App& app, Session& session);
 void add_evaluate(CLI::App& app, Session& session);
 void add_compare(CLI::App& app, Session& session);
+void add_fit(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
 void add_video(CLI::App& app, Session& session);
 void add_view(CLI::App& app, Session& session);

@@ -78,6 +78,18 @@ OPTIONS = {
         "--html",
         "--json",
     },
+    "fit": {
+        "--config",
+        "--out",
+        "--real-labels",
+        "--category",
+        "--clips",
+        "--frames",
+        "--trials",
+        "--seed",
+        "--set",
+        "--json",
+    },
     "report": {"--out", "--unfinished"},
     "video": {
         "--out",

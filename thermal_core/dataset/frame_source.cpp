@@ -22,16 +22,11 @@
 namespace thermal {
 namespace {
 
-bool is_wanted(const std::string& category, const std::string& wanted) {
-  const std::string name = lower_case(category);
-  return wanted.empty() ? kind_of(name) == Kind::human : name == lower_case(wanted);
-}
-
 /// Boxes by image, of one category, without crowds and ignored ones.
 std::vector<std::vector<LabelBox>> boxes_of(const LabelSet& set, const std::string& category) {
   std::vector<std::vector<LabelBox>> boxes(set.images.size());
   for (const Label& label : set.labels) {
-    if (label.crowd || label.ignore || !is_wanted(set.categories[label.category].name, category)) continue;
+    if (label.crowd || label.ignore || !is_requested(set.categories[label.category].name, category)) continue;
     boxes[label.image].push_back(label.box);
   }
   return boxes;
@@ -199,6 +194,11 @@ FrameSource read_folder_frames(const FrameRequest& request) {
 }
 
 }  // namespace
+
+bool is_requested(const std::string& category, const std::string& requested) {
+  const std::string name = lower_case(category);
+  return requested.empty() ? kind_of(name) == Kind::human : name == lower_case(requested);
+}
 
 FrameSource read_frame_source(const FrameRequest& request) {
   if (Layout{request.source}.is_begun()) return read_dataset_frames(request);

@@ -50,6 +50,9 @@ struct FrameSource {
   std::string no_boxes;                     ///< why there are none; empty if there are
 };
 
+/// Whether a category is the one that a request names, in any case; people if it names none.
+[[nodiscard]] bool is_requested(const std::string& category, const std::string& requested);
+
 /// Lists the frames of a source and reads its labels; opens no picture.
 /// ConfigError for labels, patterns of names and a scale for a Veldt dataset, and for drawn boxes of a folder; DataError
 /// for a folder without pictures, a name that does not match the pattern, labels that name none of the frames or have

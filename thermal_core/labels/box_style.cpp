@@ -45,18 +45,26 @@ double drawn_margin_px(const LabelBox& visible) noexcept {
   return std::min(kMostPx, kLeastPx + kOfSide * std::sqrt(visible.area_px()));
 }
 
+LabelBox drawn_box(const LabelBox& visible, int width_px, int height_px) noexcept {
+  const double margin_px = drawn_margin_px(visible);
+  LabelBox box = visible;
+  widen(box.x_px, box.width_px, margin_px, width_px);
+  widen(box.y_px, box.height_px, margin_px, height_px);
+  return box;
+}
+
 void widen_as_drawn(LabelSet& set, const std::optional<DrawnFills>& fills) {
   for (Label& label : set.labels) {
     const LabelImage& image = set.images[label.image];
-    double across_px = drawn_margin_px(label.box);
-    double down_px = across_px;
-    if (fills) {
-      const BoxFill& fill = fills->of(kind_of(lower_case(set.categories[label.category].name)));
-      across_px = filling_margin_px(label.box.width_px, fill.width);
-      down_px = filling_margin_px(label.box.height_px, fill.height);
+    if (!fills) {
+      label.box = drawn_box(label.box, image.width_px, image.height_px);
+      continue;
     }
-    widen(label.box.x_px, label.box.width_px, across_px, image.width_px);
-    widen(label.box.y_px, label.box.height_px, down_px, image.height_px);
+    const BoxFill& fill = fills->of(kind_of(lower_case(set.categories[label.category].name)));
+    widen(label.box.x_px, label.box.width_px, filling_margin_px(label.box.width_px, fill.width),
+          image.width_px);
+    widen(label.box.y_px, label.box.height_px, filling_margin_px(label.box.height_px, fill.height),
+          image.height_px);
   }
 }
 

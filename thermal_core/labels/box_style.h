@@ -22,6 +22,9 @@ enum class BoxStyle {
 /// (standard deviation).
 [[nodiscard]] double drawn_margin_px(const LabelBox& visible) noexcept;
 
+/// A box with that margin, within its picture of a known size.
+[[nodiscard]] LabelBox drawn_box(const LabelBox& visible, int width_px, int height_px) noexcept;
+
 /// Shares of a drawn box's width and height that the warm target in it fills, above 0 to 1.
 struct BoxFill {
   double width = 1;

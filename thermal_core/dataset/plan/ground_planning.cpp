@@ -60,6 +60,13 @@ bool uses_ground_maps(const Path& folder, const Config& config) {
   return needs_ground_maps(config) && has_ground_maps(folder);
 }
 
+std::shared_ptr<const GroundMaps> read_needed_ground_maps(const Path& folder, const Config& config,
+                                                          const Assets& assets) {
+  if (!uses_ground_maps(folder, config)) return nullptr;
+  const BakedScene scene = read_baked_scene(folder, assets);
+  return std::make_shared<const GroundMaps>(read_ground_maps(folder, scene.ground, assets));
+}
+
 void add_ground_maps(const Path& folder, const Path& scratch, const Config& config, const DatasetPlan& plan,
                      const Assets& assets, const std::function<void(const Progress&)>& show) {
   std::vector<SunDay> days;

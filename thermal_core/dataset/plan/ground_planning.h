@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "dataset/plan/plan.h"
@@ -8,6 +9,7 @@
 #include "heat/weather/sun.h"
 #include "io/assets.h"
 #include "io/config/config.h"
+#include "scene/ground_maps.h"
 #include "scene/seen_ground.h"
 
 namespace thermal {
@@ -23,6 +25,12 @@ namespace thermal {
 
 /// Whether a plan's folder has maps of the ground, and this config's temperatures need them.
 [[nodiscard]] bool uses_ground_maps(const Path& folder, const Config& config);
+
+/// Those maps; null without any, or if this config's temperatures need none. Errors as read_baked_scene() and
+/// read_ground_maps().
+[[nodiscard]] std::shared_ptr<const GroundMaps> read_needed_ground_maps(const Path& folder,
+                                                                        const Config& config,
+                                                                        const Assets& assets);
 
 /// What the clips of the plan in a folder show, with all that a lens or overscan adds. Errors as read_baked_track().
 [[nodiscard]] std::vector<GroundView> ground_views(const Path& folder, const DatasetPlan& plan,

@@ -19,7 +19,6 @@
 #include "dataset/run/tracing.h"
 #include "dataset/run/transaction.h"
 #include "dataset/run/worker_pool.h"
-#include "io/bake/baked_files.h"
 #include "io/bake/ground_maps_file.h"
 #include "io/config/materials.h"
 #include "io/manifest_file.h"
@@ -28,13 +27,6 @@ namespace thermal {
 namespace {
 
 using Stop = std::function<bool()>;
-
-/// The maps of the ground in a plan, if the config's temperatures need them.
-std::shared_ptr<const GroundMaps> read_ground(const Config& config, const GenerateOptions& options) {
-  if (!uses_ground_maps(options.plan, config)) return nullptr;
-  const BakedScene scene = read_baked_scene(options.plan, options.assets);
-  return std::make_shared<const GroundMaps>(read_ground_maps(options.plan, scene.ground, options.assets));
-}
 
 /// That this machine's FFmpeg has the codecs, each tried once.
 void check_codecs(const Config& config) {
@@ -59,7 +51,7 @@ class Generator {
         chosen_(choose_clips(config, options.clips, options.shard)),
         materials_(read_materials(options.assets)),
         heat_(materials_),
-        ground_(read_ground(config, options)),
+        ground_(read_needed_ground_maps(options.plan, config, options.assets)),
         kept_(config, outline_of(config, plan, materials_)),
         transaction_(layout_, config, to_json(kept_.budget()), chosen_) {
     for (const ClipConfig& clip : chosen_)

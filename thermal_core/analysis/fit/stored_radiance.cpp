@@ -1,0 +1,125 @@
+#include "analysis/fit/stored_radiance.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "analysis/compare/order_statistics.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "dataset/clip/imager.h"
+#include "dataset/clip/pass_source.h"
+#include "dataset/clip/scenes.h"
+#include "dataset/frame_source.h"
+#include "dataset/passes/outline.h"
+#include "dataset/plan/ground_planning.h"
+#include "dataset/run/tracing.h"
+#include "io/config/materials.h"
+#include "labels/label_parameters.h"
+
+namespace thermal {
+namespace {
+
+std::vector<LabelBox> boxes_of(const std::vector<Instance>& instances, const Manifest& manifest,
+                               const LabelParameters& parameters, const TargetChoice& targets) {
+  std::vector<LabelBox> boxes;
+  for (const Instance& instance : instances) {
+    const auto actor = std::ranges::find(manifest.objects, instance.index, &ManifestObject::index);
+    if (actor == manifest.objects.end() || !is_requested(actor->category, targets.category)) continue;
+    if (is_ignored(instance, parameters)) continue;
+    LabelBox box = {.x_px = static_cast<double>(instance.box.x_px),
+                    .y_px = static_cast<double>(instance.box.y_px),
+                    .width_px = static_cast<double>(instance.box.width_px),
+                    .height_px = static_cast<double>(instance.box.height_px)};
+    if (targets.boxes == BoxStyle::drawn)
+      box = drawn_box(box, manifest.camera.width_px, manifest.camera.height_px);
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+}  // namespace
+
+void check_can_be_exposed(const Config& config, const std::string& name) {
+  if (!config.physical)
+    throw ConfigError(
+        fault(name + ": sensor.model", "\"published\"", "",
+              "physical, or a preset of a camera: the published model has nothing of what is fitted"));
+  if (config.engine != Engine::embree)
+    throw ConfigError(fault(name + ": render.engine", "\"blender\"", "", "\"embree\" or \"auto\""));
+}
+
+StoredRadiance::StoredRadiance(const Config& config, const DatasetPlan& plan, const Path& folder,
+                               std::size_t most_clips, const Assets& assets, const RunHooks& hooks) {
+  const MaterialLibrary materials = read_materials(assets);
+  HeatDays heat(materials);
+  const auto ground = read_needed_ground_maps(folder, config, assets);
+  const KeptTerms kept(config, outline_of(config, plan, materials));
+  const PlanTracer tracer(folder, config, plan, assets);
+  const std::vector<std::size_t> chosen = evenly(config.clips.size(), most_clips);
+  Progress progress;
+  for (const std::size_t k : chosen) progress.total += config.clips[k].frames;
+  for (const std::size_t k : chosen) {
+    const ClipConfig& clip = config.clips[k];
+    ClipPasses passes = tracer.trace(clip.id, folder / clip.id, false);
+    ClipScenes scenes(passes.manifest, materials);
+    Clip stored = {.manifest = {},
+                   .task = task_of(config, clip, kept.of(settings_of(config, clip)), heat, ground),
+                   .temperatures = {},
+                   .frames = std::vector<SceneFrame>(static_cast<std::size_t>(clip.frames))};
+    const std::size_t scene = scenes.add(stored.task);
+    stored.brightest_w_m2_sr = scenes.brightest_w_m2_sr(scene);
+    stored.temperatures = scenes.temperatures(stored.task.sensor.response);
+    progress.clip = clip.id;
+    for (int frame = 0; frame < clip.frames; ++frame) {
+      if (hooks.stop_wanted()) throw Cancelled();
+      Passes planes;
+      std::vector<SceneFrame> converted;
+      passes.source->read(frame, scenes.needs(), planes);
+      scenes.convert(planes, frame, converted);
+      stored.frames[static_cast<std::size_t>(frame)] = std::move(converted.front());
+      ++progress.done;
+      hooks.report(progress);
+    }
+    stored.manifest = std::move(passes.manifest);
+    clips_.push_back(std::move(stored));
+  }
+}
+
+std::vector<FrameFigures> StoredRadiance::measured(const Config& config, const TargetChoice& targets) const {
+  std::vector<std::vector<FrameFigures>> by_clip(clips_.size());
+  parallel_for(clips_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) by_clip[k] = measured(clips_[k], config, targets);
+  });
+  std::vector<FrameFigures> all;
+  for (std::size_t clip = 0; clip < by_clip.size(); ++clip) {
+    for (FrameFigures& frame : by_clip[clip]) {
+      frame.frame = all.size();
+      frame.unit = clip;
+      all.push_back(std::move(frame));
+    }
+  }
+  return all;
+}
+
+std::vector<FrameFigures> StoredRadiance::measured(const Clip& clip, const Config& config,
+                                                   const TargetChoice& targets) {
+  const ClipSettings& settings = settings_of(config, config.clip(clip.task.clip.id, "clips"));
+  ClipTask task = clip.task;
+  task.sensor = settings.sensor;
+  task.link = settings.link;
+  task.codec = settings.codec;
+  ClipImager imager(task, clip.manifest, clip.brightest_w_m2_sr, clip.temperatures);
+  ClipImager::Frame frame;
+  std::vector<FrameFigures> found;
+  for (const SceneFrame& scene : clip.frames) {
+    imager.expose(scene, frame);
+    imager.encode(frame);
+    const Plane<std::uint8_t>& picture = frame.pictures.ir8;
+    Plane<float> levels(picture.width_px(), picture.height_px());
+    std::ranges::copy(picture.pixels(), levels.pixels().begin());
+    found.push_back(measure_frame(levels, boxes_of(scene.instances, clip.manifest, task.labels, targets)));
+  }
+  return found;
+}
+
+}  // namespace thermal

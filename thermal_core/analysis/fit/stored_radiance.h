@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/compare/set_figures.h"
+#include "dataset/clip/task.h"
+#include "dataset/plan/plan.h"
+#include "dataset/run/progress.h"
+#include "imaging/frame_converter.h"
+#include "io/assets.h"
+#include "io/config/config.h"
+#include "labels/box_style.h"
+#include "radiometry/temperature_table.h"
+
+namespace thermal {
+
+/// Which targets are measured in frames that are exposed, and how their boxes are drawn.
+struct TargetChoice {
+  std::string category = {};  ///< in any case; empty: people
+  BoxStyle boxes = BoxStyle::visible;
+};
+
+/// ConfigError, starting with `name`, unless a config has the physical model and the engine `embree`.
+void check_can_be_exposed(const Config& config, const std::string& name);
+
+/// What some clips show, rendered once, to be exposed again and again by other cameras, links and codecs.
+class StoredRadiance {
+ public:
+  /// Renders the frames of clips that are spread evenly over those of a config, `most_clips` at most. `plan`: the config's,
+  /// in `folder`; it must pass check_can_be_exposed(). DataError and IoError as PlanTracer.
+  StoredRadiance(const Config& config, const DatasetPlan& plan, const Path& folder, std::size_t most_clips,
+                 const Assets& assets, const RunHooks& hooks);
+
+  /// The frames as the same clips of `config` have them, with its sensor, link and codec; all else is that of the config
+  /// rendered. A clip is a unit.
+  [[nodiscard]] std::vector<FrameFigures> measured(const Config& config, const TargetChoice& targets) const;
+
+  [[nodiscard]] std::size_t clips() const noexcept { return clips_.size(); }
+
+ private:
+  struct Clip {
+    Manifest manifest;
+    ClipTask task;
+    float brightest_w_m2_sr = 0;
+    std::shared_ptr<const TemperatureTable> temperatures;
+    std::vector<SceneFrame> frames;
+  };
+
+  static std::vector<FrameFigures> measured(const Clip& clip, const Config& config,
+                                            const TargetChoice& targets);
+
+  std::vector<Clip> clips_;
+};
+
+}  // namespace thermal
