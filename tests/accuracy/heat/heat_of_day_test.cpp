@@ -50,6 +50,28 @@ TEST_CASE("At its nodes, a table has the temperatures of the columns it is made 
 }
 
 TEST_CASE(
+    "Shallow water is colder than deep water at night and warmer by day, and the material's is a metre "
+    "deep") {
+  const DayWeather weather = heat_cases::winter();
+  const HeatOfDay day(weather, materials(), kCoarse);
+  const auto forcing = forcing_of_day(weather, kCoarse.per_day);
+  const SurfaceDay metre = day_of_slab({}, {}, {.forcing = forcing}, kCoarse);
+  const auto at_k = [&](double hour, double depth_m) {
+    return day.at(hour, {"water"}).materials.at("water").temperature_k({.depth_m = depth_m});
+  };
+  for (const double hour : {4.0, 15.0}) CHECK_THAT(at_k(hour, 1), WithinAbs(metre.at_k(hour), 1e-9));
+  // What 0.1 m of water and its bed give off in a night, 100 to 250 W m^-2 for 12 h, cools them by 6 to 16 K without what
+  // comes back, a metre by a sixth or seventh of that.
+  CHECK(at_k(4, 0.1) < at_k(4, 1) - 2);
+  CHECK(at_k(15, 0.1) > at_k(15, 1) + 2);
+  for (const double hour : {4.0, 15.0}) {
+    const double sign = hour < 12 ? 1 : -1;
+    for (const double depth_m : {0.0, 0.1, 0.3, 0.8, 1.5})
+      CHECK(sign * at_k(hour, depth_m) < sign * at_k(hour, depth_m + 0.2));
+  }
+}
+
+TEST_CASE(
     "Values beyond the nodes count as the nearest node's, and a surface is level where it is not said") {
   const HeatOfMoment moment = HeatOfDay(heat_cases::winter(), materials(), kCoarse).at(3, {"soil"});
   const MaterialMoment& soil = moment.materials.at("soil");

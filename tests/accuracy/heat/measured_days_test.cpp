@@ -117,6 +117,12 @@ TEST_CASE("Leaves of shrubs in Arizona cool at night as they were measured, with
                                   .heat_capacity_j_m2_k = 900};
   const CanopyDay day = day_of_canopy(shrub, kSandyLoam, {}, {forcing}, {});
   CHECK(night_rms_k(hours, day.leaves, &Hour::leaf_k) <= kUncertaintyK);
+  // The same as shrubs that stand alone. Air and wind are those of 4 m, so a shrub is half as high in what counts as 2 m.
+  CanopyProperties alone = shrub;
+  alone.height_m /= 2;
+  const SurfaceDay soil = day_of_ground(kSandyLoam, {}, {forcing}, {});
+  const CanopyDay apart = day_of_canopy(alone, kSandyLoam, {}, {forcing, soil.surface_k}, {}, Stand::alone);
+  CHECK(night_rms_k(hours, apart.leaves, &Hour::leaf_k) <= kUncertaintyK);
 }
 
 TEST_CASE("Short grass in Switzerland cools at night as it was measured, within the same uncertainty") {

@@ -103,6 +103,65 @@ TEST_CASE("Leaves of all directions let pass what summing over the sky gives") {
   CHECK_THAT(diffuse_through_leaves(100), WithinAbs(0, 1e-22));
 }
 
+TEST_CASE(
+    "Air near the ground is between the ground's temperature and that at 2 m, as its exchange demands") {
+  constexpr double kRoughnessM = 0.005;
+  const GroundExchange exchange(kRoughnessM);
+  const double wind_m_s = GENERATE(0.3, 1.0, 2.0, 4.0);
+  const double ground_k = GENERATE(268.0, 272.5, 280.0);
+  CAPTURE(wind_m_s, ground_k);
+  const Forcing forcing = {.air_k = 273, .wind_m_s = wind_m_s, .pressure_hpa = 900};
+  CHECK(exchange.air_k(forcing, ground_k, 2) == 273);
+  CHECK(exchange.air_k(forcing, ground_k, 5) == 273);
+  // Stability bends the profile by what lies above a height, of which the roughness for heat is a 4000th of 2 m.
+  CHECK_THAT(exchange.air_k(forcing, ground_k, kRoughnessM / 10), WithinAbs(ground_k, 7.0 / 4000));
+  // The heat that passes each height is the same: a slope of the temperature times the diffusivity of air that a stability
+  // of 1 + 5 z / L hinders, with the friction that the profile of the wind has.
+  const double wind_log = std::log(2 / kRoughnessM);
+  const double air_heat = 1005 * air_density_kg_m3(forcing.pressure_hpa, forcing.air_k);
+  const double wanted_w_m2 = exchange(forcing, ground_k) * (forcing.air_k - ground_k);
+  const auto flux_w_m2 = [&](double per_l) {
+    const double friction = 0.4 * wind_m_s / (wind_log + 10 * per_l);
+    const double heat_log = std::log(20 / kRoughnessM) + 10 * per_l;
+    return air_heat * 0.4 * friction * (forcing.air_k - ground_k) / heat_log;
+  };
+  if (ground_k > 273 || flux_w_m2(0) < wanted_w_m2) {  // neutral: the profile is that of the logarithm
+    const double share = std::log(2 / 0.3) / std::log(20 / kRoughnessM);
+    CHECK_THAT(exchange.air_k(forcing, ground_k, 0.3), WithinAbs(273 + share * (ground_k - 273), 1e-9));
+    return;
+  }
+  double low = 0;
+  double high = 100;
+  for (int i = 0; i < 100; ++i) (flux_w_m2((low + high) / 2) > wanted_w_m2 ? low : high) = (low + high) / 2;
+  const double scale_k = wanted_w_m2 / (air_heat * 0.4 * 0.4 * wind_m_s / (wind_log + 10 * low));
+  for (const double height_m : {0.05, 0.3, 0.6, 1.5}) {
+    const double below_k = scale_k * (std::log(2 / height_m) + 5 * low * (2 - height_m));
+    CHECK_THAT(exchange.air_k(forcing, ground_k, height_m), WithinAbs(273 - below_k, 1e-6));
+  }
+}
+
+TEST_CASE(
+    "A shrub that stands alone is near the air that its open ground cools, not colder than that ground") {
+  const DayWeather weather = winter();
+  const HeatSteps steps;
+  const auto forcing = forcing_of_day(weather, steps.per_day);
+  const SurfaceDay open = day_of_ground(dry_soil(), {}, {forcing}, steps);
+  const CanopyProperties shrub = {.leaf_area_index = 0.9, .leaf_width_m = 0.01, .height_m = 1.2};
+  const auto leaves_k = [&](Stand stand) {
+    return day_of_canopy(shrub, dry_soil(), {}, {forcing, open.surface_k}, steps, stand).leaves.at_k(3);
+  };
+  const double layer_k = leaves_k(Stand::cover);
+  const double alone_k = leaves_k(Stand::alone);
+  const Forcing now = forcing_at(weather, 3);
+  const double around_k = GroundExchange(0.03).air_k(now, open.at_k(3), 0.6);
+  CHECK(around_k < now.air_k - 0.5);
+  // A leaf a centimetre wide takes 20 W m^-2 K^-1 or more from the air, and loses at most 40 W m^-2 to a clear sky.
+  CHECK(alone_k < around_k);
+  CHECK(alone_k > around_k - 2);
+  CHECK(alone_k > open.at_k(3));
+  CHECK(alone_k > layer_k + 1);
+}
+
 TEST_CASE("Leaves store what they get, at every step of the day") {
   for (const bool wet : {false, true}) {
     const DayWeather weather = wet ? summer() : winter();

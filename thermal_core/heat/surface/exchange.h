@@ -15,7 +15,14 @@ class GroundExchange {
 
   [[nodiscard]] double operator()(const Forcing& forcing, double surface_k) const noexcept;
 
+  /// Temperature of the air up to 2 m above such ground [K]: the log-linear profile of stable air (Businger and others
+  /// 1971), as bent as makes it exchange as much heat as above; by day that of neutral air.
+  /// @param height_m  of the air, above 0; from 2 m on it is the forcing's
+  [[nodiscard]] double air_k(const Forcing& forcing, double surface_k, double height_m) const noexcept;
+
  private:
+  double wind_log_;    ///< of 2 m over the roughness
+  double heat_log_;    ///< the same for heat
   double neutral_;     ///< share of the wind that exchanges heat in neutral air
   double root_ratio_;  ///< of 2 m over the roughness
 };

@@ -16,6 +16,7 @@ namespace {
 const std::vector<double> kViewNodes = {0.1, 0.4, 0.75, 1};
 const std::vector<double> kSunlitNodes = {0, 0.5, 1};
 const std::vector<double> kMoistureNodes = {0, 0.1, 0.25, 0.5, 0.75, 1};
+const std::vector<double> kDepthNodesM = {0, 0.1, 0.25, 0.5, 1, 2};
 const std::vector<double> kOne = {1};
 
 template <typename Properties>
@@ -34,7 +35,11 @@ HeatNodes nodes_of(const MaterialHeat& heat) {
             .sunlit = leaves->is_cover ? kSunlitNodes : kOne,
             .moisture = varies(leaves->states) ? kMoistureNodes : kOne};
   }
-  return {.sky_view = kViewNodes, .sunlit = kSunlitNodes, .moisture = kOne};
+  const bool is_water = !std::get<SlabHeat>(heat).is_body;
+  return {.sky_view = kViewNodes,
+          .sunlit = kSunlitNodes,
+          .moisture = is_water ? kDepthNodesM : kOne,
+          .is_water = is_water};
 }
 
 OrientationFit fit_of(const MaterialHeat& heat) {
@@ -84,7 +89,16 @@ SurfacePlace level_place(const HeatNodes& nodes, std::size_t node) {
   return {.normal = {0, 0, 1},
           .sky_view = sky_view,
           .sunlit = suns == 1 ? sky_view : nodes.sunlit[node / moistures % suns],
-          .moisture = nodes.moisture[node % moistures]};
+          .moisture = nodes.is_water ? 0 : nodes.moisture[node % moistures],
+          .depth_m = nodes.is_water ? nodes.moisture[node % moistures] : 1};
+}
+
+/// Of a layer as deep as a metre of water that is mixed all through. What its wet bed takes up in a day counts as 6 cm
+/// more: 2.8 MJ/(m^3 K) times 0.13 m, to which heat gets, over the root of 2.
+SlabProperties at_depth(SlabProperties metre, double depth_m) noexcept {
+  constexpr double kBedM = 0.06;
+  metre.heat_capacity_j_m2_k *= (depth_m + kBedM) / (1 + kBedM);
+  return metre;
 }
 
 /// Number of the level column in full sun below an open sky.
@@ -118,10 +132,12 @@ SurfaceDay day_of(const MaterialHeat& heat, const GroundHeat& soil, const Surfac
   if (const auto* ground = std::get_if<GroundHeat>(&heat))
     return day_of_ground(at_moisture(ground->states, place.moisture), site, around, steps);
   if (const auto* slab = std::get_if<SlabHeat>(&heat))
-    return day_of_slab(slab->properties, site, around, steps);
+    return day_of_slab(slab->is_body ? slab->properties : at_depth(slab->properties, place.depth_m), site,
+                       around, steps);
   const auto& leaves = std::get<LeavesHeat>(heat);
   const CanopyProperties canopy = at_moisture(leaves.states, place.moisture);
-  CanopyDay day = day_of_canopy(canopy, at_moisture(soil.states, place.moisture), site, around, steps);
+  CanopyDay day = day_of_canopy(canopy, at_moisture(soil.states, place.moisture), site, around, steps,
+                                leaves.is_cover ? Stand::cover : Stand::alone);
   if (!leaves.is_cover) return std::move(day.leaves);
   for (std::size_t i = 0; i < day.leaves.surface_k.size(); ++i) {
     double& seen_k = day.leaves.surface_k[i];
@@ -139,7 +155,7 @@ MaterialMoment::MaterialMoment(HeatNodes nodes, std::vector<double> level_k,
 double MaterialMoment::level_k(const SurfacePlace& place) const noexcept {
   const Weights view = smooth_weights(nodes_.sky_view, place.sky_view);
   const Weights sun = smooth_weights(nodes_.sunlit, place.sunlit);
-  const Between wet = between_nodes(nodes_.moisture, place.moisture);
+  const Between wet = between_nodes(nodes_.moisture, nodes_.moisture_at(place));
   const std::size_t next = nodes_.moisture.size() > 1 ? 1 : 0;
   double sum_k = 0;
   for (std::size_t v = 0; v < nodes_.sky_view.size(); ++v) {
@@ -153,7 +169,7 @@ double MaterialMoment::level_k(const SurfacePlace& place) const noexcept {
 }
 
 Orientation MaterialMoment::orientation(const SurfacePlace& place) const noexcept {
-  const Between wet = between_nodes(nodes_.moisture, place.moisture);
+  const Between wet = between_nodes(nodes_.moisture, nodes_.moisture_at(place));
   const std::size_t next = nodes_.moisture.size() > 1 ? 1 : 0;
   const double sunlit = std::clamp(place.sunlit, 0.0, 1.0);
   Orientation sum;

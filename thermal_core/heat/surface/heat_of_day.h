@@ -19,6 +19,7 @@ struct SurfacePlace {
   double sky_view = 1;  ///< share of the sky that its slope leaves and nothing hides, 0 to 1
   double sunlit = 1;    ///< share of the day's sunbeams that reach it, 0 to 1
   double moisture = 0;  ///< 0 dry to 1 saturated
+  double depth_m = 1;   ///< of water, 0 or more
 };
 
 /// Moisture of open ground some days after rain: 0.7 exp(-days / 6), an estimate.
@@ -29,8 +30,12 @@ struct SurfacePlace {
 struct HeatNodes {
   std::vector<double> sky_view;  ///< rising
   std::vector<double> sunlit;
-  std::vector<double> moisture;
+  std::vector<double> moisture;  ///< of water, its depth [m]
+  bool is_water = false;
 
+  [[nodiscard]] double moisture_at(const SurfacePlace& place) const noexcept {
+    return is_water ? place.depth_m : place.moisture;
+  }
   [[nodiscard]] std::size_t count() const noexcept {
     return sky_view.size() * sunlit.size() * moisture.size();
   }

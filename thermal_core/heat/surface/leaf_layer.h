@@ -12,13 +12,21 @@ namespace thermal {
 /// @param leaf_area_index  area of leaves above an area of ground, 0 to 100
 [[nodiscard]] double diffuse_through_leaves(double leaf_area_index) noexcept;
 
+/// How leaves stand: as what covers the ground, or as plants apart from each other, through which the air of the open
+/// ground around blows.
+enum class Stand { cover, alone };
+
 /// The balance of a layer of leaves above ground, per area of ground.
 ///
-/// Leaves up to 2 m high exchange heat through the air near the ground as rough ground does, so they get cold in calm
-/// nights; those of trees stand in the open wind. The wind among leaves is half of that above (estimate).
+/// Leaves up to 2 m high that cover the ground exchange heat through the air above them as rough ground does, so they
+/// get cold in calm nights; those of trees and of plants that stand alone are in the open wind. The wind among leaves is
+/// half of that above (estimate).
 class LeafLayer {
  public:
-  explicit LeafLayer(const CanopyProperties& canopy) noexcept;
+  explicit LeafLayer(const CanopyProperties& canopy, Stand stand = Stand::cover) noexcept;
+
+  /// The weather among the leaves of a plant that stands alone on open ground: the air half-way up the plant.
+  [[nodiscard]] Forcing among(const Forcing& forcing, double open_ground_k) const noexcept;
 
   /// What leaves get from above and below, and how it changes with their temperature.
   [[nodiscard]] SurfaceFlux flux(const Forcing& forcing, const Incoming& above, double ground_k,
@@ -29,6 +37,7 @@ class LeafLayer {
 
  private:
   CanopyProperties canopy_;
+  Stand stand_;
   double shade_;   ///< share of sunlight that leaves take or reflect
   double screen_;  ///< share of longwave radiation that leaves exchange
   GroundExchange exchange_;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "heat/surface/leaf_layer.h"
 #include "heat/weather/humid_air.h"
 
 namespace thermal {
@@ -185,23 +184,25 @@ SurfaceDay day_of_slab(const SlabProperties& properties, const Site& site, const
 }
 
 CanopyDay day_of_canopy(const CanopyProperties& canopy, const GroundProperties& ground, const Site& site,
-                        const DayAround& around, const HeatSteps& steps) {
+                        const DayAround& around, const HeatSteps& steps, Stand stand) {
   GroundBody body(ground, steps.layers, around);
   CanopyDay day = {.leaves = empty_day(around), .ground = empty_day(around)};
   SurfaceDay* days[] = {&day.leaves, &day.ground};
   const double stored = canopy.heat_capacity_j_m2_k * canopy.leaf_area_index / step_s(around);
-  const LeafLayer layer(canopy);
+  const LeafLayer layer(canopy, stand);
   double leaves_k = mean_air_k(around);
   settle(
       steps, days,
       [&](std::size_t i) {
         const Forcing& forcing = around.forcing[i];
         const Incoming above = incoming_at(forcing, site, around.ground_at_k(i));
+        const Forcing among = layer.among(forcing, around.ground_at_k(i));
+        const Incoming at_leaves = incoming_at(among, site, around.ground_at_k(i));
         body.prepare();
         const double old_k = leaves_k;
         const auto left_over = [&](double leaf_k) {
           const double ground_k = body.balance(forcing, layer.below(above, leaf_k));
-          const SurfaceFlux flux = layer.flux(forcing, above, ground_k, leaf_k);
+          const SurfaceFlux flux = layer.flux(among, at_leaves, ground_k, leaf_k);
           return SurfaceFlux{flux.flux_w_m2 - stored * (leaf_k - old_k), flux.slope_w_m2_k - stored};
         };
         leaves_k = balanced_temperature_k(left_over, old_k);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "heat/surface/conduction.h"
+#include "heat/surface/leaf_layer.h"
 #include "heat/surface/properties.h"
 #include "heat/surface/surface_balance.h"
 #include "heat/weather/forcing.h"
@@ -59,7 +60,8 @@ struct CanopyDay {
 };
 /// The settled day of leaves and of the ground below them.
 [[nodiscard]] CanopyDay day_of_canopy(const CanopyProperties& canopy, const GroundProperties& ground,
-                                      const Site& site, const DayAround& around, const HeatSteps& steps);
+                                      const Site& site, const DayAround& around, const HeatSteps& steps,
+                                      Stand stand = Stand::cover);
 
 /// What a thermal camera sees of leaves and the ground between them from straight above, as one blackbody [K].
 [[nodiscard]] double seen_from_above_k(const CanopyProperties& canopy, double leaves_k,
