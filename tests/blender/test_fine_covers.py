@@ -5,7 +5,7 @@ import pytest
 
 from lands import SEED, WILD, small_land
 from veldt.land.covers import Layer
-from veldt.land.fine_covers import lay_ash, lay_grass, lay_kinds
+from veldt.land.fine_covers import BORDER_CELLS, lay_ash, lay_grass, lay_kinds
 from veldt.land.fine_grid import MOST_CELLS, FineGrid
 
 
@@ -30,7 +30,7 @@ def test_cells_are_half_a_metre_or_less_and_not_too_many():
 
 def test_kinds_are_the_topmost_covers_of_all_layers(wild):
     _, layers, grid = wild
-    kind = lay_kinds(grid, layers)
+    kind, _ = lay_kinds(grid, layers)
     top = _topmost(layers, *np.meshgrid(grid.middles_m, grid.middles_m))
     names = ["soil", *(layer.material for layer in layers)]
     top[top == names.index("grass")] = 0
@@ -41,15 +41,32 @@ def test_kinds_are_the_topmost_covers_of_all_layers(wild):
 def test_a_path_narrower_than_the_lattice_is_found():
     _, _, grid = small_land(water_radius_m=0)
     path = Layer("yard", lambda x_m, y_m: np.maximum(0.3 - np.abs(x_m - 0.37 * y_m - 1.1), -100.0))
-    kind = lay_kinds(grid, [path])
+    kind, _ = lay_kinds(grid, [path])
     x_m, y_m = np.meshgrid(grid.middles_m, grid.middles_m)
     assert np.array_equal(kind == 1, path.value(x_m, y_m) > 0)
     assert kind.any(axis=1).all()
 
 
+def test_distances_to_borders_are_those_of_lines_and_never_of_what_is_covered():
+    _, _, grid = small_land(water_radius_m=0)
+    x_m, y_m = np.meshgrid(grid.middles_m, grid.middles_m)
+    out_of_line_m = 0.8 * x_m + 0.6 * y_m - 3.2
+    steep = Layer("rock", lambda x_m, y_m: 5.0 * (0.8 * x_m + 0.6 * y_m - 3.2))  # five times the distance
+    kind, border = lay_kinds(grid, [steep])
+    assert np.array_equal(kind == 1, out_of_line_m > 0)
+    off = np.minimum(np.abs(out_of_line_m) / grid.cell_m, BORDER_CELLS)
+    assert np.abs(border / 255 * BORDER_CELLS - off).max() < 0.01
+    # A road across its border: within the road, only the road's own borders count.
+    road = Layer("road", lambda x_m, y_m: np.maximum(4.0 - np.abs(x_m), -100.0))
+    kind, border = lay_kinds(grid, [road, steep])
+    inside = np.abs(x_m) < 4.0 - BORDER_CELLS * grid.cell_m
+    assert (kind[inside] == 1).all() and (border[inside] == 255).all()
+    assert border[(np.abs(np.abs(x_m) - 4.0) < 0.3)].max() < 255 * 0.3 / (BORDER_CELLS * grid.cell_m) + 2
+
+
 def test_grass_is_half_at_its_borders_and_never_bare_or_full(wild):
     _, layers, grid = wild
-    kind = lay_kinds(grid, layers)
+    kind, _ = lay_kinds(grid, layers)
     share = lay_grass(grid, layers, kind) / 255
     assert not share[kind != 0].any()
     value = layers[-1].value(*np.meshgrid(grid.middles_m, grid.middles_m))
@@ -63,13 +80,13 @@ def test_grass_is_half_at_its_borders_and_never_bare_or_full(wild):
 
 def test_no_grass_without_its_layer():
     _, layers, grid = small_land(grass_fraction=0)
-    assert not lay_grass(grid, layers, lay_kinds(grid, layers)).any()
+    assert not lay_grass(grid, layers, lay_kinds(grid, layers)[0]).any()
 
 
 @pytest.mark.parametrize("fraction", [0.0, 0.05, 0.4, 1.0])
 def test_ash_covers_its_share_of_the_dry_ground(wild, fraction):
     terrain, layers, grid = wild
-    kind = lay_kinds(grid, layers)
+    kind, _ = lay_kinds(grid, layers)
     ash = lay_ash(grid, terrain, fraction, kind, SEED)
     assert not ash[kind != 0].any()
     dry = terrain.shore_m(*np.meshgrid(grid.middles_m, grid.middles_m)) > 0

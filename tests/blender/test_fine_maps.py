@@ -8,7 +8,7 @@ from veldt.bake.forms import SCENE, VERSION
 from veldt.workers import Cores
 from veldt.world import plan_world
 
-MAPS = ("kind", "grass", "trodden", "ash")
+MAPS = ("kind", "border", "grass", "trodden", "ash")
 
 
 def test_kinds_agree_with_the_mesh():

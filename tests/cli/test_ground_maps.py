@@ -82,7 +82,7 @@ def test_they_say_what_each_half_metre_is_made_of(place):
     header = place.read("plan/ground.json")
     assert header["fine_cells"] == 2 * _CELLS
     assert header["kinds"][0] == "soil"
-    for name in ("kind", "grass", "trodden", "ash"):
+    for name in ("kind", "border", "grass", "trodden", "ash"):
         assert _array(place, name).shape == (2 * _CELLS, 2 * _CELLS)
     grass, kind = _array(place, "grass"), _array(place, "kind")
     assert grass.max() > 200

@@ -54,6 +54,7 @@ void demand_ground(const thermal::BakedGround& ground) {
   const std::size_t fine = ground.fine_cells * ground.fine_cells;
   for (const auto& shares : {ground.kind, ground.grass, ground.trodden, ground.ash})
     demand(shares.size() == fine, "a fine cell has all shares");
+  demand(ground.border.empty() || ground.border.size() == fine, "so are distances to borders");
   demand(std::ranges::all_of(ground.kind, [&](auto one) { return one < ground.covers.size(); }), "kinds");
   demand(std::ranges::all_of(ground.height_m, [](float one) { return std::isfinite(one); }), "heights");
 }

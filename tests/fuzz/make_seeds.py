@@ -232,8 +232,8 @@ def main(folder: Path) -> None:
             json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8")) for name in names
         ]
         words[target] = sorted(words_of_schema(schemas))
-    words["ground_maps"] += "sky_view height_m crown_top_m moisture sunlit".split()
-    words["ground_maps"] += "fine_cells kinds kind grass trodden ash".split()
+    words["ground_maps"] += "sky_view height_m crown_top_m moisture sunlit water_m".split()
+    words["ground_maps"] += "fine_cells kinds kind grass trodden ash border".split()
     words["tracks"] += TRACK_ARRAYS
     for target, known in words.items():
         (folder / target).mkdir(parents=True)

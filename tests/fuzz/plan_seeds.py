@@ -93,7 +93,7 @@ def _objects() -> list[dict]:
 
 def _fine_arrays() -> dict[str, tuple]:
     """What the ground is made of: bare soil, and its shares."""
-    shares = {"kind": 0, "grass": 255, "trodden": 9, "ash": 1}
+    shares = {"kind": 0, "grass": 255, "trodden": 9, "ash": 1, "border": 255}
     return {name: ("|u1", np.full((_FINE_CELLS, _FINE_CELLS), share)) for name, share in shares.items()}
 
 

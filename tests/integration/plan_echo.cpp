@@ -100,6 +100,7 @@ Json ground_json(const thermal::BakedGround& ground, Writer& out) {
                {"grass", out.add("ground/grass", "|u1", {fine, fine}, ground.grass)},
                {"trodden", out.add("ground/trodden", "|u1", {fine, fine}, ground.trodden)},
                {"ash", out.add("ground/ash", "|u1", {fine, fine}, ground.ash)}};
+  if (!ground.border.empty()) json["border"] = out.add("ground/border", "|u1", {fine, fine}, ground.border);
   if (!ground.shore_m.empty())
     json["shore_m"] = out.add("ground/shore_m", "<f4", {cells + 1, cells + 1}, ground.shore_m);
   return json;

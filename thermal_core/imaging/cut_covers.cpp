@@ -85,12 +85,15 @@ std::uint8_t CutCovers::kind_at(const Near& rows, const Near& columns) const noe
   const auto each = [&](auto&& visit) {
     for (std::size_t j = 0; j < 4; ++j)
       for (std::size_t i = 0; i < 4; ++i)
-        visit(covers_.kind[rows.cell[j] * covers_.cells + columns.cell[i]],
-              rows.weight[j] * columns.weight[i]);
+        visit(rows.cell[j] * covers_.cells + columns.cell[i], rows.weight[j] * columns.weight[i]);
   };
-  each([&](std::uint8_t kind, float weight) { share[kind] += weight; });
+  each([&](std::size_t cell, float weight) {
+    const float off = covers_.border.empty() ? 1.0F : static_cast<float>(covers_.border[cell]);
+    share[covers_.kind[cell]] += weight * off;
+  });
   std::uint8_t largest = middle;
-  each([&](std::uint8_t kind, float) {
+  each([&](std::size_t cell, float) {
+    const std::uint8_t kind = covers_.kind[cell];
     if (share[kind] > share[largest]) largest = kind;
   });
   return largest;

@@ -31,8 +31,8 @@ struct Cover {
 };
 
 /// The covers between the middles of their cells, by cubic B-splines over 4 x 4 cells. Kinds meet in lines: a place has
-/// the kind with the largest weight, which rounds the steps of the cells and keeps borders where they are to half a
-/// cell. Shares are means of the cells of that kind, and so do not fade at its border.
+/// the kind with the largest weight times distance to its border, so that straight borders stay straight and where they
+/// are. Without these distances, the steps of the cells are only rounded, and borders are off by up to half a cell. Shares are means of the cells of that kind, and so do not fade at its border.
 class CutCovers {
  public:
   CutCovers(const GroundCovers& covers, const CutWindow& window);

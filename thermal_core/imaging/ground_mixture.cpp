@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/between_nodes.h"
 #include "base/parallel.h"
 #include "imaging/ground_noise.h"
 
@@ -18,16 +19,19 @@ constexpr std::uint32_t kStoneStream = 67;
 // Estimates:
 constexpr double kTussocksM = 6;
 constexpr double kFinestTussocksM = 0.25;
-constexpr double kTussockRoughness = 0.84;  // a spectrum that falls by the power of 2.5
-constexpr float kTussockSpread = 0.8F;      // of the largest standard deviation that a share can have
-constexpr float kLitterShare = 0.5F;        // below crowns
+constexpr double kTussockRoughness = kGroundRoughness;
+constexpr float kTussockSpread = 0.8F;  // of the largest standard deviation that a share can have
+constexpr float kLitterShare = 0.5F;    // below crowns
 constexpr float kLitterSpread = 0.25F;
+constexpr float kLitterRagged = 2;  // along their rims
 constexpr float kLeastCrownM = 1.5F;
 constexpr float kAshSpread = 0.2F;
-constexpr float kStonyFrom = 1.96F;  // standard deviations: one cell in forty
-constexpr float kStones = 0.4F;      // for each further one
+constexpr float kStrewnFrom = 1.96F;  // standard deviations: one cell in forty
+constexpr float kStones = 0.4F;       // for each further one
 constexpr float kMostStones = 0.7F;
 constexpr float kMeanStones = 0.01F;
+constexpr float kGathered = 0.8F;  // the same of litter, which is nearer to soil's temperature
+constexpr float kMostGathered = 0.9F;
 
 constexpr std::size_t kMixRowsAChunk = 32;
 
@@ -48,27 +52,75 @@ class Left {
   int left_ = 255;
 };
 
-/// What a cell has that the maps do not: tussocks as a standard normal number, and the share of stones.
+/// What a cell has that the maps do not: tussocks as a standard normal number, and shares.
 struct Roughness {
   float tussocks = 0;
   float stones = kMeanStones;
+  float gathered = 0;  ///< litter
 };
 
-/// Stones lie where there are no tussocks; both numbers are standard normal.
-float stones_of(float noise, float tussocks) noexcept {
+/// Stones lie where there are no tussocks, and litter gathers where there are; both numbers are standard normal.
+Roughness roughness_of(float noise, float tussocks) noexcept {
   const float stony = (noise - tussocks) / std::numbers::sqrt2_v<float>;
-  return std::min(kMostStones, kStones * std::max(0.0F, stony - kStonyFrom));
+  const auto strewn = [](float further, float share, float most) {
+    return std::min(most, share * std::max(0.0F, further - kStrewnFrom));
+  };
+  return {.tussocks = tussocks,
+          .stones = strewn(stony, kStones, kMostStones),
+          .gathered = strewn(-stony, kGathered, kMostGathered)};
 }
 
-GroundMix mix_of(const Cover& cover, bool below_crown, const Roughness& roughness) {
+/// How much of a place is below crowns, 0 to 1: rounds the steps of the maps' cells.
+class BelowCrowns {
+ public:
+  BelowCrowns(const GroundMaps& maps, const CutWindow& window)
+      : maps_(maps),
+        rows_(nodes(maps, window, window.cells.first_y, window.cells.height)),
+        columns_(nodes(maps, window, window.cells.first_x, window.cells.width)) {}
+
+  /// @param row, column  of the window
+  [[nodiscard]] float at(std::size_t row, std::size_t column) const noexcept {
+    const auto [low_y, high_y, up] = rows_[row];
+    const auto [low_x, high_x, right] = columns_[column];
+    const double south = between(low_y, low_x, high_x, right);
+    const double below = south + up * (between(high_y, low_x, high_x, right) - south);
+    return static_cast<float>(below);
+  }
+
+ private:
+  static std::vector<BetweenNodes> nodes(const GroundMaps& maps, const CutWindow& window, std::size_t first,
+                                         std::size_t count) {
+    const double coarse_a_fine =
+        static_cast<double>(maps.cells) / static_cast<double>(window.cuts * maps.covers.cells);
+    std::vector<BetweenNodes> all;
+    for (std::size_t i = 0; i < count; ++i)
+      all.push_back(between_nodes((static_cast<double>(first + i) + 0.5) * coarse_a_fine - 0.5, maps.cells));
+    return all;
+  }
+  [[nodiscard]] double between(std::size_t row, std::size_t low, std::size_t high,
+                               double share) const noexcept {
+    return is_below(row, low) + share * (is_below(row, high) - is_below(row, low));
+  }
+  [[nodiscard]] double is_below(std::size_t row, std::size_t column) const noexcept {
+    return maps_.crown_top_m[row * maps_.cells + column] > kLeastCrownM ? 1 : 0;
+  }
+
+  const GroundMaps& maps_;
+  std::vector<BetweenNodes> rows_;
+  std::vector<BetweenNodes> columns_;
+};
+
+GroundMix mix_of(const Cover& cover, float below_crowns, const Roughness& roughness) {
   GroundMix mix = {.kind = cover.kind};
   Left left(mix);
-  const auto [tussocks, stones] = roughness;
+  const auto [tussocks, stones, gathered] = roughness;
   left.take(kRock, stones);
   left.take(kTrodden, cover.trodden);
   left.take(kAsh, cover.ash * (1 + kAshSpread * tussocks));
   if (mix.kind != 0) return mix;
-  if (below_crown) left.take(kLitter, kLitterShare + kLitterSpread * tussocks);
+  const float rim = kLitterRagged * below_crowns * (1 - below_crowns) * tussocks;
+  const float lain = std::clamp(2 * below_crowns - 0.5F + rim, 0.0F, 1.0F);
+  left.take(kLitter, gathered + lain * (kLitterShare + kLitterSpread * tussocks));
   const float grass = cover.grass * (1 - cover.ash);
   left.take(kGrass, grass + kTussockSpread * std::sqrt(grass * (1 - grass)) * tussocks);
   return mix;
@@ -97,21 +149,15 @@ std::vector<GroundMix> ground_mixture(const GroundMaps& maps, const CutWindow& w
                             seed, kTussockStream);
     stones = ground_noise(area, {.length_cells = kFinestNoiseCells}, seed, kStoneStream);
   }
-  const double coarse_a_fine = static_cast<double>(maps.cells) / cells_a_side;
-  const auto coarse = [&](std::size_t cell) {
-    return static_cast<std::size_t>((static_cast<double>(cell) + 0.5) * coarse_a_fine);
-  };
   const CutCovers covers(maps.covers, window);
+  const BelowCrowns below_crowns(maps, window);
   std::vector<GroundMix> cells(area.width * area.height);
   parallel_for(area.height, kMixRowsAChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin * area.width; i < end * area.width; ++i) {
       const std::size_t x = i % area.width;
       const std::size_t y = i / area.width;
-      const std::size_t of_maps = coarse(area.first_y + y) * maps.cells + coarse(area.first_x + x);
-      const bool below_crown = maps.crown_top_m[of_maps] > kLeastCrownM;
-      const Roughness roughness =
-          rough ? Roughness{tussocks[i], stones_of(stones[i], tussocks[i])} : Roughness{};
-      cells[i] = mix_of(covers.at(y, x), below_crown, roughness);
+      const Roughness roughness = rough ? roughness_of(stones[i], tussocks[i]) : Roughness();
+      cells[i] = mix_of(covers.at(y, x), below_crowns.at(y, x), roughness);
     }
   });
   return cells;

@@ -28,8 +28,9 @@ struct GroundMix {
 
 /// The cells of a window of the cut covers, [row of y, column of x]. Grass has the share of its map, and tussocks and
 /// bare crowns from 6 m down to a quarter of a metre, the more the nearer the share is to a half; litter lies below crowns
-/// of more than 1.5 m; one place in forty is stony, as large as two cells. What is trodden or burnt has no grass. Ground
-/// of other kinds has stones and what is trodden. How these spread is an estimate; a cell depends on (seed, cell, cuts) alone.
+/// of more than 1.5 m, less towards their rims; one place in forty is stony, as large as two cells, and in as many others
+/// litter has gathered. What is trodden or burnt has no grass. Ground of other kinds has stones and what is trodden. How
+/// these spread is an estimate; a cell depends on (seed, cell, cuts) alone.
 /// @param rough  whether they vary from cell to cell; otherwise each share is its mean
 [[nodiscard]] std::vector<GroundMix> ground_mixture(const GroundMaps& maps, const CutWindow& window,
                                                     bool rough, std::uint32_t seed);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "base/between_nodes.h"
@@ -15,6 +16,10 @@ namespace {
 constexpr std::uint32_t kDampStream = 65;
 constexpr double kDampLengthM = 15;
 constexpr float kDampSpread = 0.02F;
+constexpr std::uint32_t kFabricStream = 68;
+constexpr double kFabricM = 2;
+constexpr double kFinestFabricM = 0.25;
+constexpr float kFabricSpread = 0.5F;  // of a part's variation: what it has within 2 m
 constexpr std::size_t kGroundRowsAChunk = 16;
 constexpr std::size_t kGroundCellsAChunk = 4096;
 
@@ -92,6 +97,7 @@ class Cells {
 struct PartPlanes {
   std::vector<float> temperature_k;
   std::vector<float> per_h_k;
+  float variation_k = 0;
 };
 
 double temperature_k(const GroundPart& part, const GroundMoment& moment, SurfacePlace place,
@@ -103,6 +109,7 @@ double temperature_k(const GroundPart& part, const GroundMoment& moment, Surface
 
 PartPlanes planes_of(std::size_t part, const Cells& cells, const GroundWarmth& heat) {
   PartPlanes planes;
+  planes.variation_k = static_cast<float>(heat.first.parts[part].variation_k);
   planes.temperature_k.resize(cells.count());
   planes.per_h_k.resize(cells.count());
   parallel_for(cells.count(), kGroundCellsAChunk, [&](std::size_t begin, std::size_t end) {
@@ -168,14 +175,17 @@ class Mixing {
   Mixing(const std::vector<PartPlanes>& parts, const std::vector<float>& sky_view, std::size_t kinds)
       : parts_(parts), sky_view_(sky_view), kinds_(kinds) {}
 
-  void mix(const GroundMix& mix, const NearCells& near, std::size_t i, GroundValues& values) const {
+  /// Returns the standard deviation of what is uneven within the parts.
+  float mix(const GroundMix& mix, const NearCells& near, std::size_t i, GroundValues& values) const {
     constexpr float kAll = 255;
     float temperature_k = 0;
     float per_h_k = 0;
+    float variation_k = 0;
     const auto add = [&](std::size_t part, int bytes) {
       const float share = static_cast<float>(bytes) / kAll;
       temperature_k += share * near.of(parts_[part].temperature_k);
       per_h_k += share * near.of(parts_[part].per_h_k);
+      variation_k += share * parts_[part].variation_k;
     };
     int left = static_cast<int>(kAll);
     for (std::size_t k = 0; k < mix.share.size(); ++k) {
@@ -187,6 +197,7 @@ class Mixing {
     values.temperature_k[i] = temperature_k;
     values.per_h_k[i] = per_h_k;
     values.sky_view[i] = near.of(sky_view_);
+    return variation_k;
   }
 
  private:
@@ -224,6 +235,10 @@ std::vector<float> sky_views(const Cells& cells) {
 
 double cells_a_m(const GroundMaps& maps) { return static_cast<double>(maps.cells) / maps.size_m; }
 
+double covers_a_m(const GroundMaps& maps, const CutWindow& covers) {
+  return static_cast<double>(covers.cuts * maps.covers.cells) / maps.size_m;
+}
+
 /// Of the south-west corner of a grid that starts at a cell.
 double origin_m(const GroundMaps& maps, std::size_t first, double per_m) {
   return static_cast<double>(first) / per_m - maps.size_m / 2;
@@ -233,11 +248,18 @@ double origin_m(const GroundMaps& maps, std::size_t first, double per_m) {
 
 GroundOfWindow ground_of_window(const GroundMaps& maps, const GroundWindow& window, bool rough,
                                 std::uint32_t seed) {
-  GroundOfWindow ground = {.maps = window, .covers = cut_window(maps, window), .mixes = {}, .damp = {}};
+  GroundOfWindow ground = {
+      .maps = window, .covers = cut_window(maps, window), .mixes = {}, .damp = {}, .fabric = {}};
   ground.mixes = ground_mixture(maps, ground.covers, rough, seed);
   if (!rough) return ground;
   ground.damp = ground_noise(window, {.length_cells = kDampLengthM * cells_a_m(maps)}, seed, kDampStream);
   for (float& damp : ground.damp) damp = std::max(0.0F, kDampSpread * (1 + damp));
+  const double fine_a_m = covers_a_m(maps, ground.covers);
+  ground.fabric = ground_noise(ground.covers.cells,
+                               {.length_cells = kFabricM * fine_a_m,
+                                .roughness = kGroundRoughness,
+                                .finest_cells = kFinestFabricM * fine_a_m},
+                               seed, kFabricStream);
   return ground;
 }
 
@@ -251,7 +273,7 @@ GroundTexture ground_temperatures(const GroundMaps& maps, const GroundOfWindow& 
     if (present[k]) parts[k] = planes_of(k, cells, heat);
   const std::vector<float> sky_view = sky_views(cells);
   const GroundWindow& fine = ground.covers.cells;
-  const double fine_a_m = static_cast<double>(ground.covers.cuts * maps.covers.cells) / maps.size_m;
+  const double fine_a_m = covers_a_m(maps, ground.covers);
   const double coarse_a_fine = cells_a_m(maps) / fine_a_m;
   const auto columns =
       between_cells(fine.first_x, fine.width, coarse_a_fine, ground.maps.first_x, ground.maps.width);
@@ -260,20 +282,43 @@ GroundTexture ground_temperatures(const GroundMaps& maps, const GroundOfWindow& 
   GroundValues values;
   for (auto* plane : {&values.temperature_k, &values.per_h_k, &values.sky_view})
     plane->resize(fine.width * fine.height);
+  std::vector<float> variation_k(fine.width * fine.height);
   const Mixing mixing(parts, sky_view, kinds);
   parallel_for(fine.height, kGroundRowsAChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin * fine.width; i < end * fine.width; ++i) {
       const NearCells near(rows[i / fine.width], columns[i % fine.width], ground.maps.width);
-      mixing.mix(ground.mixes[i], near, i, values);
+      variation_k[i] = mixing.mix(ground.mixes[i], near, i, values);
     }
   });
   values.temperature_k = smoothed(values.temperature_k, fine);
+  for (std::size_t i = 0; i < ground.fabric.size(); ++i)
+    values.temperature_k[i] += kFabricSpread * variation_k[i] * ground.fabric[i];
   return {{.width = fine.width,
            .height = fine.height,
            .cells_per_m = fine_a_m,
            .origin_x_m = origin_m(maps, fine.first_x, fine_a_m),
            .origin_y_m = origin_m(maps, fine.first_y, fine_a_m)},
           std::move(values)};
+}
+
+WaterDepths::WaterDepths(const GroundMaps& maps, const GroundWindow& window)
+    : width_(window.width),
+      height_(window.height),
+      per_m_(cells_a_m(maps)),
+      origin_x_m_(origin_m(maps, window.first_x, per_m_)),
+      origin_y_m_(origin_m(maps, window.first_y, per_m_)) {
+  for (std::size_t row = 0; row < height_ && !maps.water_m.empty(); ++row) {
+    const auto first = maps.water_m.begin() +
+                       static_cast<std::ptrdiff_t>((window.first_y + row) * maps.cells + window.first_x);
+    depth_m_.insert(depth_m_.end(), first, first + static_cast<std::ptrdiff_t>(width_));
+  }
+}
+
+float WaterDepths::at(float x_m, float y_m) const noexcept {
+  if (depth_m_.empty() || !std::isfinite(x_m) || !std::isfinite(y_m)) return 0;
+  const BetweenNodes column = between_nodes((static_cast<double>(x_m) - origin_x_m_) * per_m_ - 0.5, width_);
+  const BetweenNodes row = between_nodes((static_cast<double>(y_m) - origin_y_m_) * per_m_ - 0.5, height_);
+  return NearCells(row, column, width_).of(depth_m_);
 }
 
 CrownTops::CrownTops(const GroundMaps& maps, const GroundWindow& window)

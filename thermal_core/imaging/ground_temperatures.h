@@ -18,6 +18,7 @@ namespace thermal {
 struct GroundPart {
   const MaterialMoment* heat = nullptr;
   GroundShift shift = {};
+  double variation_k = 0;  ///< standard deviation of what is uneven within it
 };
 
 /// What warms the parts of the ground at one moment.
@@ -41,9 +42,12 @@ struct GroundOfWindow {
   CutWindow covers;              ///< the covers in them
   std::vector<GroundMix> mixes;  ///< of the cells of the cut covers
   std::vector<float> damp;       ///< of the cells of the maps: what is added to their moisture
+  std::vector<float>
+      fabric;  ///< of the cells of the cut covers, standard normal: what is uneven within a part
 };
 
-/// @param rough  see ground_mixture(); also whether the soil's moisture varies, by 2 % over 15 m (an estimate)
+/// @param rough  see ground_mixture(); also whether the soil's moisture varies, by 2 % over 15 m, and each part's
+/// temperature by half of its variation over 2 m and less (estimates); otherwise damp and fabric are empty
 [[nodiscard]] GroundOfWindow ground_of_window(const GroundMaps& maps, const GroundWindow& window, bool rough,
                                               std::uint32_t seed);
 
@@ -53,6 +57,23 @@ struct GroundOfWindow {
 /// @return in time, temperatures follow a straight line; its moment is half-way
 [[nodiscard]] GroundTexture ground_temperatures(const GroundMaps& maps, const GroundOfWindow& ground,
                                                 const GroundWarmth& heat);
+
+/// Depths of the waters of a window, in straight lines between the middles of the maps' cells.
+class WaterDepths {
+ public:
+  WaterDepths(const GroundMaps& maps, const GroundWindow& window);
+
+  /// [m]; 0 where no cell around has water.
+  [[nodiscard]] float at(float x_m, float y_m) const noexcept;
+
+ private:
+  std::size_t width_ = 0;
+  std::size_t height_ = 0;
+  double per_m_ = 1;
+  double origin_x_m_ = 0;  ///< of the south-west corner of the window
+  double origin_y_m_ = 0;
+  std::vector<float> depth_m_;  ///< of the window's cells; empty: no water
+};
 
 /// Heights of the highest plant above places, and of the ground where there is none.
 class CrownTops {

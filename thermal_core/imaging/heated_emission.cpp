@@ -137,6 +137,7 @@ class HeatedEmission {
       const std::size_t end = end_of_run(row.surface, begin);
       if (kind_[number] == HeatedSurface::Kind::oriented) face(surfaces_[number], row, begin, end);
       if (kind_[number] == HeatedSurface::Kind::crown) add_depths(surfaces_[number], row, begin, end);
+      if (kind_[number] == HeatedSurface::Kind::water) add_waters(surfaces_[number], row, begin, end);
       begin = end;
     }
   }
@@ -178,7 +179,14 @@ class HeatedEmission {
       if (!(row.depth_m[i] > 0 && row.depth_m[i] < kSkyFromM)) continue;
       const float from_z_m = row.origin_z_m.empty() ? row.pose->position_m[2] : row.origin_z_m[i];
       const float z_m = from_z_m + row.depth_m[i] * along(up, row, i);
-      row.temperature_k[i] = by_depth_k(surface, crown_top_m(row, i) - z_m, later_h(row));
+      row.temperature_k[i] = by_depth_k<kCrownStepM>(surface, crown_top_m(row, i) - z_m, later_h(row));
+    }
+  }
+
+  void add_waters(const HeatedSurface& surface, Row& row, std::size_t begin, std::size_t end) const {
+    for (std::size_t i = begin; i < end; ++i) {
+      const float depth_m = detail_->waters.at(row.metres[0][i], row.metres[1][i]);
+      if (depth_m > 0) row.temperature_k[i] = by_depth_k<kWaterStepM>(surface, depth_m, later_h(row));
     }
   }
 
@@ -186,8 +194,9 @@ class HeatedEmission {
     return detail_->crown_tops.at(row.metres[0][i], row.metres[1][i]);
   }
 
+  template <double StepM>
   static float by_depth_k(const HeatedSurface& surface, float depth_m, float later_h) {
-    constexpr auto kPerM = static_cast<float>(1 / kCrownStepM);
+    constexpr auto kPerM = static_cast<float>(1 / StepM);
     constexpr auto kLast = static_cast<float>(SurfaceWarmth::kDepths - 1);
     const float position = std::clamp(depth_m * kPerM, 0.0F, kLast - 0.001F);
     const auto node = static_cast<std::size_t>(position);

@@ -18,12 +18,16 @@ namespace thermal {
 /// Step of depths in crowns.
 inline constexpr double kCrownStepM = 0.25;
 
+/// Step of depths of water.
+inline constexpr double kWaterStepM = 0.0625;
+
 /// Sky view of leaves whose depth in their crown is not known.
 inline constexpr double kMiddleOfCrown = 0.6;
 
 /// The temperatures of one surface, or how fast they change.
 struct SurfaceWarmth {
-  static constexpr std::size_t kDepths = 33;  ///< nodes of a crown, kCrownStepM apart
+  static constexpr std::size_t kDepths =
+      33;  ///< nodes of a crown, kCrownStepM apart, or of water, kWaterStepM
 
   float temperature_k = 0;                             ///< where nothing else is known
   std::array<float, Orientation::kTerms> by_normal{};  ///< see Orientation
@@ -37,7 +41,8 @@ struct HeatedSurface {
     even,      ///< temperature_k
     ground,    ///< by its place on the maps
     oriented,  ///< by its normal
-    crown      ///< leaves: by their depth below the top of the plants there
+    crown,     ///< leaves: by their depth below the top of the plants there
+    water      ///< by its depth on the maps, where they have water
   };
 
   Kind kind = Kind::even;
@@ -60,6 +65,7 @@ struct HeatSpan {
 /// What the ground has throughout a clip, where maps of it are known.
 struct GroundDetail {
   CrownTops crown_tops;
+  WaterDepths waters;
   GroundWarp warp;
 };
 

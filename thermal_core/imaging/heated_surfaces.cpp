@@ -108,7 +108,14 @@ void HeatedSurfaces::set(const LeavesHeat& heat, const MaterialMoment& by_place,
 
 void HeatedSurfaces::set(const SlabHeat& heat, const MaterialMoment& by_place, HeatedSurface& heated) {
   if (heat.is_body) return set_oriented(by_place.orientation(open_place()), heated);
-  heated.middle.temperature_k = static_cast<float>(by_place.temperature_k(open_place()));
+  SurfacePlace place = open_place();
+  heated.middle.temperature_k = static_cast<float>(by_place.temperature_k(place));
+  if (!terms_.place) return;
+  heated.kind = HeatedSurface::Kind::water;
+  for (std::size_t node = 0; node < SurfaceWarmth::kDepths; ++node) {
+    place.depth_m = kWaterStepM * static_cast<double>(node);
+    heated.middle.by_depth_k[node] = static_cast<float>(by_place.temperature_k(place));
+  }
 }
 
 BodyMoment HeatedSurfaces::moment_of(const ActorState& actor) const {

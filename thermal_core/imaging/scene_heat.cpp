@@ -185,12 +185,12 @@ const MaterialMoment& heat_of(const HeatOfMoment& moment, const std::string& mat
 class GroundOfClip {
  public:
   GroundOfClip(const HeatSettings& settings, const Weather& weather, const Manifest& manifest,
-               const SceneHeatTerms& terms, const GroundShiftOf& shift_of, std::uint32_t seed)
+               const SceneHeatTerms& terms, const GroundLookOf& look_of, std::uint32_t seed)
       : maps_(*settings.ground),
         day_(*settings.day),
         solar_h_(weather.solar_h),
         by_slope_(terms.facing),
-        shift_of_(shift_of),
+        look_of_(look_of),
         ground_(ground_of_window(maps_, window_of(maps_, manifest), terms.variation, seed)) {}
 
   [[nodiscard]] GroundTexture between(const Ends& ends) const {
@@ -204,7 +204,9 @@ class GroundOfClip {
                                 .by_slope = by_slope_});
   }
 
-  [[nodiscard]] CrownTops crown_tops() const { return {maps_, ground_.maps}; }
+  [[nodiscard]] GroundDetail detail(std::uint32_t seed) const {
+    return {.crown_tops = {maps_, ground_.maps}, .waters = {maps_, ground_.maps}, .warp = GroundWarp(seed)};
+  }
 
  private:
   [[nodiscard]] std::vector<float> sunlit_at(const Moment& moment) const {
@@ -216,8 +218,8 @@ class GroundOfClip {
     GroundMoment ground = {.parts = {}, .sunlit = sunlit};
     for (const std::string& name : ground_part_names(maps_.covers)) {
       const MaterialMoment& by_place = heat_of(heat, name);
-      const GroundShift shift = shift_of_(name, by_place.temperature_k({.moisture = heat.ground_moisture}));
-      ground.parts.push_back({.heat = &by_place, .shift = shift});
+      const GroundLook look = look_of_(name, by_place.temperature_k({.moisture = heat.ground_moisture}));
+      ground.parts.push_back({.heat = &by_place, .shift = look.shift, .variation_k = look.variation_k});
     }
     return ground;
   }
@@ -226,7 +228,7 @@ class GroundOfClip {
   const HeatOfDay& day_;
   double solar_h_;
   bool by_slope_;
-  const GroundShiftOf& shift_of_;
+  const GroundLookOf& look_of_;
   GroundOfWindow ground_;
 };
 
@@ -239,7 +241,7 @@ double hours_of(const Manifest& manifest) {
 
 SceneHeat heat_of_scene(const std::vector<Surface>& surfaces, const std::vector<ActorState>& states,
                         const HeatSettings& settings, const Weather& weather, const Manifest& manifest,
-                        const SceneHeatTerms& terms, const GroundShiftOf& shift_of, std::uint32_t seed) {
+                        const SceneHeatTerms& terms, const GroundLookOf& look_of, std::uint32_t seed) {
   const auto moment_at = [&](double later_h) {
     return Moment{later_h, std::make_shared<const HeatedSurfaces>(surfaces, states, settings, weather,
                                                                   3600 * later_h, terms)};
@@ -248,8 +250,8 @@ SceneHeat heat_of_scene(const std::vector<Surface>& surfaces, const std::vector<
       .spans = {}, .spots = warm_spots(manifest, settings.day->at(weather.solar_h)), .ground = {}};
   std::optional<GroundOfClip> ground;
   if (terms.place) {
-    ground.emplace(settings, weather, manifest, terms, shift_of, seed);
-    heat.ground.emplace(GroundDetail{ground->crown_tops(), GroundWarp(seed)});
+    ground.emplace(settings, weather, manifest, terms, look_of, seed);
+    heat.ground.emplace(ground->detail(seed));
   }
   for (const Ends& ends : Spans(moment_at).of_clip(hours_of(manifest))) {
     heat.spans.push_back({.middle_h = ends.middle_h(),

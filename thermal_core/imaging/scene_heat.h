@@ -16,8 +16,12 @@
 
 namespace thermal {
 
-/// See SoilLook: what a material of the ground, at a temperature [K], looks warmer by.
-using GroundShiftOf = std::function<GroundShift(const std::string& material, double temperature_k)>;
+/// How a material of the ground looks at a temperature [K].
+struct GroundLook {
+  GroundShift shift;       ///< see SoilLook
+  double variation_k = 0;  ///< see GroundPart
+};
+using GroundLookOf = std::function<GroundLook(const std::string& material, double temperature_k)>;
 
 /// Works out how each surface's temperature is found. Surfaces whose material has no heat have the temperature of their
 /// part by Table 1's line. A clip is one span, or several where open level surfaces bend by more than 10 mK from a
@@ -26,7 +30,7 @@ using GroundShiftOf = std::function<GroundShift(const std::string& material, dou
 [[nodiscard]] SceneHeat heat_of_scene(const std::vector<Surface>& surfaces,
                                       const std::vector<ActorState>& states, const HeatSettings& settings,
                                       const Weather& weather, const Manifest& manifest,
-                                      const SceneHeatTerms& terms, const GroundShiftOf& shift_of,
+                                      const SceneHeatTerms& terms, const GroundLookOf& look_of,
                                       std::uint32_t seed);
 
 }  // namespace thermal

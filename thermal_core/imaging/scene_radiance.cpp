@@ -138,13 +138,14 @@ void SceneRadiance::add_heat(const Manifest& manifest, const MaterialLibrary& ma
     look.emplace(band_of(settings.heat->ground->covers.kinds.front()), BandAir(air, settings.response),
                  air.temperature_k, terms.sky);
   }
-  const auto shift_of = [&](const std::string& name, double temperature_k) {
-    return look->shift(band_of(name), temperature_k);
+  const auto look_of = [&](const std::string& name, double temperature_k) -> GroundLook {
+    return {.shift = look->shift(band_of(name), temperature_k),
+            .variation_k = materials.find(name, "maps of the ground: kinds").variation.stddev_k};
   };
   held_->heat = heat_of_scene(
       map_.surfaces(), states, *settings.heat, settings.weather, manifest,
       {.parts = terms.parts, .variation = terms.variation, .place = by_place, .facing = terms.facing},
-      shift_of, settings.seed);
+      look_of, settings.seed);
   middle_s_ = middle_s(manifest);
   std::map<const Material*, std::size_t> table_of;
   for (std::size_t i = 0; i < map_.surfaces().size(); ++i) {

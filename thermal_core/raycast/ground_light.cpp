@@ -198,7 +198,8 @@ GroundCovers covers_of(const BakedGround& ground) {
           .kind = copy_of(ground.kind),
           .grass = copy_of(ground.grass),
           .trodden = copy_of(ground.trodden),
-          .ash = copy_of(ground.ash)};
+          .ash = copy_of(ground.ash),
+          .border = copy_of(ground.border)};
 }
 
 }  // namespace
@@ -253,6 +254,7 @@ GroundMaps make_ground_maps(const BakedScene& scene, std::span<const SunDay> day
   maps.moisture = ground_moisture(scene.ground, maps.cells);
   maps.covers = covers_of(scene.ground);
   fill_heights(top_heights(scene, maps.size_m, maps.cells), maps);
+  maps.water_m = water_depths_m(scene.ground, maps.height_m, maps.cells);
   const std::size_t blocks = blocks_along(maps.cells) * blocks_along(maps.cells);
   const BlockRays rays =
       views ? rays_for(finest_pixels_m(scene, maps, *views), maps.size_m / static_cast<double>(maps.cells))

@@ -69,6 +69,7 @@ struct BakedGround {
   std::span<const std::uint8_t> grass = {};
   std::span<const std::uint8_t> trodden = {};
   std::span<const std::uint8_t> ash = {};
+  std::span<const std::uint8_t> border = {};
 };
 
 /// A place with everything on it, as every engine draws it (configs/schema/scene.schema.json).

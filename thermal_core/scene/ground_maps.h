@@ -27,6 +27,9 @@ struct GroundCovers {
   std::vector<std::uint8_t> grass;    ///< of bare soil alone; so are the others
   std::vector<std::uint8_t> trodden;  ///< packed by feet or wheels
   std::vector<std::uint8_t> ash;
+  /// From the middle of a cell to the border of its kind, of which 255 is one and a half cells or more; empty: not known, and
+  /// borders are half-way between cells.
+  std::vector<std::uint8_t> border = {};
 
   [[nodiscard]] bool operator==(const GroundCovers&) const = default;
 };
@@ -44,6 +47,7 @@ struct GroundMaps {
   std::vector<float> height_m;         ///< of the ground, or of the water above it
   std::vector<float> crown_top_m;      ///< the highest plant above that; 0: none
   std::vector<std::uint8_t> moisture;  ///< 255: saturated; see ground_moisture()
+  std::vector<float> water_m = {};     ///< depth of the water, 0 on land; empty: no water
   GroundCovers covers = {};
   std::vector<SunlitHours> sunlit;  ///< one for each sun path
 

@@ -12,9 +12,10 @@
 namespace thermal {
 namespace {
 
-constexpr double kShoreM = 4;   // estimate: capillary rise and seepage wet the ground for a few metres
-constexpr double kSideM = 30;   // from a place to the land beside it: an estimate
-constexpr double kHollowM = 2;  // estimate
+constexpr double kShoreM = 4;      // estimate: capillary rise and seepage wet the ground for a few metres
+constexpr double kNearShoreM = 2;  // beyond which there is no water: distances to the shore are approximate
+constexpr double kSideM = 30;      // from a place to the land beside it: an estimate
+constexpr double kHollowM = 2;     // estimate
 constexpr double kMostInHollows = 0.5;  // estimate
 
 std::uint8_t as_byte(double share) noexcept {
@@ -82,6 +83,23 @@ std::vector<std::uint8_t> ground_moisture(const BakedGround& ground, std::size_t
     const double from_shore_m = shore_m.at(between_nodes(row, nodes), between_nodes(column, nodes));
     return std::max(in_hollow, std::exp(-std::max(0.0, from_shore_m) / kShoreM));
   });
+}
+
+std::vector<float> water_depths_m(const BakedGround& ground, std::span<const float> highest_m,
+                                  std::size_t cells) {
+  if (ground.shore_m.empty()) return {};
+  const std::size_t nodes = ground.cells + 1;
+  const double steps_a_cell = static_cast<double>(ground.cells) / static_cast<double>(cells);
+  const Grid height_m = {.values = ground.height_m, .nodes = nodes};
+  const Grid shore_m = {.values = ground.shore_m, .nodes = nodes};
+  std::vector<float> depths_m(cells * cells);
+  for (std::size_t i = 0; i < depths_m.size(); ++i) {
+    const BetweenNodes row = between_nodes((static_cast<double>(i / cells) + 0.5) * steps_a_cell, nodes);
+    const BetweenNodes column = between_nodes((static_cast<double>(i % cells) + 0.5) * steps_a_cell, nodes);
+    if (shore_m.at(row, column) < kNearShoreM)
+      depths_m[i] = std::max(0.0F, highest_m[i] - static_cast<float>(height_m.at(row, column)));
+  }
+  return depths_m;
 }
 
 }  // namespace thermal

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scene/baked_scene.h"
@@ -13,5 +14,10 @@ namespace thermal {
 /// 4 m outwards; and up to 0.5 in hollows, in proportion to how far the land rises on two opposite sides, 30 m away, up
 /// to 2 m. The foot of a slope is no hollow. `ground` has at least one cell.
 [[nodiscard]] std::vector<std::uint8_t> ground_moisture(const BakedGround& ground, std::size_t cells);
+
+/// Depth of the water in the middles of the same squares [m], 0 on land: how far what is highest there, ground or water,
+/// is above the ground. Empty without water.
+[[nodiscard]] std::vector<float> water_depths_m(const BakedGround& ground, std::span<const float> highest_m,
+                                                std::size_t cells);
 
 }  // namespace thermal

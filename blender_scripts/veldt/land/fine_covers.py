@@ -14,6 +14,8 @@ from .fine_grid import FineGrid, blurred
 from .shares import as_bytes
 from .terrain import Terrain
 
+BORDER_CELLS = 1.5  # farthest distance to a border that is known
+
 _SPARSE, _DENSE = 0.08, 0.92  # shares of grass deep in bare soil, and deep in grass; estimates
 _RAMP = 0.15  # of the layer's value, to each side of the border: about as much of a patch's size
 _STEEP = (
@@ -31,23 +33,27 @@ _HALVINGS = 24
 class FineCovers:
     """Maps (cells, cells) of bytes on the fine grid.
 
-    kind: number of the topmost cover, 0 for soil, also where grass is on top. grass, trodden, ash: shares, of which 255
-    is all; grass and ash are 0 where kind is not.
+    kind: number of the topmost cover, 0 for soil, also where grass is on top. border: distance from a cell's middle to
+    the border of its kind, of which 255 is BORDER_CELLS or more. grass, trodden, ash: shares, of which 255 is all; grass
+    and ash are 0 where kind is not.
     """
 
     kind: np.ndarray
+    border: np.ndarray
     grass: np.ndarray
     trodden: np.ndarray
     ash: np.ndarray
 
 
-def lay_kinds(grid: FineGrid, layers: Sequence[Layer]) -> np.ndarray:
-    """The number (cells, cells) of the first of the layers at the middle of each cell, from 1; 0 for soil and grass."""
+def lay_kinds(grid: FineGrid, layers: Sequence[Layer]) -> tuple[np.ndarray, np.ndarray]:
+    """The number (cells, cells) of the first of the layers at the middle of each cell, from 1; 0 for soil and grass. And
+    the distance to the border of that kind, see FineCovers."""
     kinds = np.zeros((grid.cells, grid.cells), np.uint8)
+    border = np.full_like(kinds, 255)
     for number, layer in reversed(list(enumerate(layers, start=1))):
         if layer.material != GRASS:
-            _lay(kinds, number, grid, layer.value)
-    return kinds
+            _lay(kinds, border, number, grid, layer.value)
+    return kinds, border
 
 
 def lay_grass(grid: FineGrid, layers: Sequence[Layer], kinds: np.ndarray) -> np.ndarray:
@@ -90,16 +96,37 @@ def refined_bytes(grid: FineGrid, share: np.ndarray, where: np.ndarray) -> np.nd
     return fine
 
 
-def _lay(kinds: np.ndarray, number: int, grid: FineGrid, value: Value) -> None:
+def _lay(kinds: np.ndarray, border: np.ndarray, number: int, grid: FineGrid, value: Value) -> None:
     """Set the cells in which a layer's value is positive; far from its borders, its sign on the lattice decides."""
     at_lattice = value(*grid.lattice())
     low, _ = grid.below
     inside, unsure = at_lattice > 0, _near_border(at_lattice)
+    around = np.full((grid.cells + 2, grid.cells + 2), np.nan, np.float32)  # with a rim
+    fine = around[1:-1, 1:-1]
+    for rows in grid.blocks():
+        row, column = np.nonzero(unsure[low[rows]][:, low])
+        fine[rows][row, column] = value(grid.middles_m[column], grid.middles_m[rows][row])
     for rows in grid.blocks():
         laid = inside[low[rows]][:, low]
-        row, column = np.nonzero(unsure[low[rows]][:, low])
-        laid[row, column] = value(grid.middles_m[column], grid.middles_m[rows][row]) > 0
+        row, column = np.nonzero(np.isfinite(fine[rows]))
+        laid[row, column] = fine[rows][row, column] > 0
         kinds[rows][laid] = number
+        border[rows][laid] = 255
+        off = as_bytes(_cells_off(around, rows.start + row + 1, column + 1) / BORDER_CELLS)
+        border[rows][row, column] = np.minimum(border[rows][row, column], off)
+
+
+def _cells_off(value: np.ndarray, row: np.ndarray, column: np.ndarray) -> np.ndarray:
+    """Distance (n,) of cells to where a value is 0: the value over its slope to their neighbours, of which some may be
+    unknown, NaN."""
+    at = value[row, column]
+    square = np.zeros_like(at)
+    for down, right in ((1, 0), (0, 1)):
+        before, after = value[row - down, column - right], value[row + down, column + right]
+        known = np.isfinite(before).astype(np.float32) + np.isfinite(after)
+        step = np.where(np.isfinite(after), after, at) - np.where(np.isfinite(before), before, at)
+        square += (step / np.maximum(known, 1.0)) ** 2
+    return np.abs(at) / np.sqrt(np.maximum(square, 1e-12))
 
 
 def _near_border(value: np.ndarray) -> np.ndarray:

@@ -42,7 +42,7 @@ def lay_fine_covers(
 ) -> FineCovers:
     """The fine maps of a terrain with its covers, with ash on burnt_fraction of its dry ground and about hearths."""
     grid = FineGrid(terrain.size_m)
-    kind = lay_kinds(grid, layers)
+    kind, border = lay_kinds(grid, layers)
     ash = lay_ash(grid, terrain, burnt_fraction, kind, seed)
     lay_halos(ash, grid, hearths, seed)
     ash[kind != 0] = 0
@@ -50,7 +50,7 @@ def lay_fine_covers(
     for number, layer in enumerate(layers, start=1):
         if layer.material in _HARD:
             trodden[kind == number] = 0
-    return FineCovers(kind, lay_grass(grid, layers, kind), trodden, ash)
+    return FineCovers(kind, border, lay_grass(grid, layers, kind), trodden, ash)
 
 
 def lay_trodden(grid: FineGrid, terrain: Terrain, treads: Treads, seed: int) -> np.ndarray:

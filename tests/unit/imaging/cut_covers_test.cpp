@@ -79,6 +79,30 @@ TEST_CASE("Kinds meet in lines that keep their place, and shares do not fade the
   CHECK(std::sqrt(squares / 224) < 0.29);
 }
 
+TEST_CASE("Where distances to borders are known, straight borders stay straight") {
+  GroundMaps maps = place(32);
+  const double slope = GENERATE(0.0, 0.13, 0.37, 0.77);
+  const auto line = [slope](double x) { return 12.1 + slope * x; };
+  lay(maps.covers, 1, [&](double x, double y) { return y > line(x); });
+  for (std::size_t i = 0; i < 64 * 64; ++i) {
+    const double x = static_cast<double>(i % 64) + 0.5;
+    const double y = static_cast<double>(i / 64) + 0.5;
+    const double off = std::abs(y - line(x)) / std::sqrt(1 + slope * slope);
+    maps.covers.border.push_back(static_cast<std::uint8_t>(std::lround(std::min(255.0, off / 1.5 * 255))));
+  }
+  const CutWindow window = cut_window(maps, {.width = 32, .height = 32});
+  const CutCovers covers(maps.covers, window);
+  for (std::size_t column = 16; column < 240; ++column) {
+    std::size_t row = 0;
+    while (covers.at(row, column).kind == 0) ++row;
+    // The first row whose middle is beyond it, and a byte's rounding over two cells of two weights.
+    const double middle = (static_cast<double>(row) + 0.5) / 4;
+    const double y = line((static_cast<double>(column) + 0.5) / 4);
+    CHECK(middle > y - 0.02);
+    CHECK(middle - 0.25 < y + 0.02);
+  }
+}
+
 TEST_CASE("A single cell of a kind is lost among others, and shares are smooth within a kind") {
   GroundMaps maps = place(16);
   lay(maps.covers, 2, [](double x, double y) { return x == 10.5 && y == 12.5; });

@@ -195,6 +195,80 @@ TEST_CASE("Litter lies below crowns, and no grass grows where the ground burnt")
   CHECK(grassy > mixes.size() / 2);
 }
 
+TEST_CASE("Litter ends smoothly where crowns do, not with the cells of the maps") {
+  GroundMaps wood = maps();
+  // Crowns west of the middle of the place.
+  for (std::size_t i = 0; i < kCells * kCells; ++i) wood.crown_top_m[i] = i % kCells < 32 ? 4 : 0;
+  const CutWindow window = cut_window(wood, all());
+  const auto mixes = ground_mixture(wood, window, false, 3);
+  const auto litter = [&](std::size_t column) { return mixes[100 * window.cells.width + column].share[1]; };
+  const std::size_t rim = window.cells.width / 2;
+  CHECK(litter(rim - 8) > 120);
+  CHECK(litter(rim + 8) == 0);
+  for (std::size_t column = rim - 8; column < rim + 8; ++column) {
+    CHECK(litter(column) >= litter(column + 1));
+    CHECK(litter(column) - litter(column + 1) <= 36);  // a quarter of what lies below crowns, over 12 cm
+  }
+}
+
+TEST_CASE("As many specks are of litter as of stones, where soil is bare") {
+  const GroundMaps bare_soil = maps();
+  const auto mixes = ground_mixture(bare_soil, cut_window(bare_soil, all()), true, 3);
+  std::array<std::size_t, 2> specks{};
+  for (const GroundMix& mix : mixes) {
+    specks[0] += mix.share[1] > 0 ? 1U : 0U;
+    specks[1] += mix.share[4] > 0 ? 1U : 0U;
+  }
+  // One cell in forty each. Of (64 m / 0.25 m)^2 = 65,536 points of the lattice, 1600 are beyond: five standard deviations.
+  const double each = static_cast<double>(mixes.size()) / 40;
+  for (const std::size_t count : specks) CHECK_THAT(static_cast<double>(count) / each, WithinAbs(1, 0.35));
+}
+
+TEST_CASE("Each part is uneven by its variation, as finely as a quarter of a metre, and keeps its mean") {
+  GroundMaps yard = maps();
+  yard.covers = bare({"soil", "yard"});
+  yard.covers.kind.assign(kFineCells * kFineCells, 1);
+  const MaterialMoment heat = always(270);
+  GroundWarmth warmth = steady(heat);
+  warmth.first.parts.emplace_back(GroundPart{&heat});
+  const auto [even_low, even_high] = range_of(ground_of(yard, all(), warmth, true));
+  CHECK(even_high - even_low < 0.01F);
+  warmth.first.parts[1].variation_k = 0.9;
+  const GroundTexture rough = ground_of(yard, all(), warmth, true);
+  double sum = 0;
+  double squares = 0;
+  double differences = 0;
+  int count = 0;
+  for (float y = -31; y < 31; y += 0.43F) {
+    for (float x = -31; x < 31; x += 0.37F, ++count) {
+      const double off_k = static_cast<double>(at(rough, x, y, 0.05F)) - 270;
+      sum += off_k;
+      squares += off_k * off_k;
+      differences += std::pow(off_k - static_cast<double>(at(rough, x + 0.5F, y, 0.05F)) + 270, 2);
+    }
+  }
+  // Half of 0.9 K. Of (64 m / 2 m)^2 = 1024 patches: five standard deviations of the mean and of the spread.
+  CHECK_THAT(sum / count, WithinAbs(0, 5 * 0.45 / 32));
+  const double spread_k = std::sqrt(squares / count);
+  CHECK_THAT(spread_k, WithinAbs(0.45, 5 * 0.45 / 32 / std::sqrt(2)));
+  CHECK(std::sqrt(differences / count) > 0.5 * spread_k);  // half a metre away
+  CHECK(ground_of_window(yard, all(), false, 3).fabric.empty());
+}
+
+TEST_CASE("Water has its depth in straight lines between cells, and land has none") {
+  GroundMaps lake = maps();
+  CHECK(WaterDepths(lake, all()).at(0, 0) == 0);
+  for (std::size_t i = 0; i < kCells * kCells; ++i)
+    lake.water_m.push_back(i % kCells < 32 ? 0.1F * static_cast<float>(32 - i % kCells) : 0.0F);
+  const WaterDepths depths(lake, all());
+  CHECK_THAT(depths.at(-10, 3), WithinAbs(1.05, 1e-5));  // between columns 21 and 22
+  CHECK_THAT(depths.at(0, 3), WithinAbs(0.05, 1e-5));
+  CHECK(depths.at(1, 3) == 0);
+  CHECK(depths.at(std::numeric_limits<float>::quiet_NaN(), 3) == 0);
+  const WaterDepths part(lake, {.first_x = 20, .first_y = 30, .width = 12, .height = 9});
+  CHECK_THAT(part.at(-10, 2), WithinAbs(1.05, 1e-5));
+}
+
 TEST_CASE("Pixels that are not ground or have no place keep the temperature they had") {
   const MaterialMoment heat = by_moisture();
   const GroundTexture ground = ground_of(maps(), all(), steady(heat));

@@ -94,4 +94,23 @@ TEST_CASE("A single cell of ground is dry, and moist by its shore") {
   CHECK(thermal::ground_moisture(ground, 1)[0] == 255);
 }
 
+TEST_CASE("Water is as deep as the ground is below it, and there is none on land") {
+  Land land;
+  CHECK(thermal::water_depths_m(land.ground(), std::vector<float>(400 * 400, 9.0F), 400).empty());
+  // A bed that falls by 0.1 towards the west below a level of 5 m, from the shore at x = 0 on.
+  land.shore_m = Land::on_lines([](double x, double) { return x; });
+  land.height_m = Land::on_lines([](double x, double) { return 5 + 0.1 * x; });
+  std::vector<float> highest_m;
+  for (std::size_t i = 0; i < 400U * 400U; ++i) {
+    const double x = static_cast<double>(i % 400) + 0.5 - 200;
+    highest_m.push_back(static_cast<float>(x < 0 ? 5 : x < 100 ? 5 + 0.1 * x : 90));  // a tower on land
+  }
+  const auto depth_m = thermal::water_depths_m(land.ground(), highest_m, 400);
+  const std::size_t middle = 200 * 400;
+  for (const std::size_t off : {0U, 3U, 40U})
+    CHECK_THAT(depth_m[middle + 199 - off], WithinAbs(0.1 * (static_cast<double>(off) + 0.5), 1e-5));
+  CHECK_THAT(depth_m[middle + 200], WithinAbs(0, 1e-5));
+  CHECK(depth_m[middle + 350] == 0);
+}
+
 }  // namespace ground_moisture_test

@@ -42,16 +42,24 @@ class MapsReader {
     maps.height_m = heights("height_m");
     maps.crown_top_m = heights("crown_top_m");
     maps.moisture = map<std::uint8_t>("moisture", "|u1");
+    if (has("water_m")) maps.water_m = heights("water_m");
     maps.covers = covers();
-    const auto below = std::ranges::find_if(maps.crown_top_m, [](float one) { return one < 0; });
-    if (below != maps.crown_top_m.end())
-      throw file_.fault_at(fmt::format("crown_top_m[{}]", below - maps.crown_top_m.begin()),
-                           fmt::format("{}", *below), "0 or more");
+    check_not_below_0("crown_top_m", maps.crown_top_m);
+    check_not_below_0("water_m", maps.water_m);
     maps.sunlit = sunlit();
     return maps;
   }
 
  private:
+  [[nodiscard]] bool has(const char* name) const { return file_.header().at("arrays").contains(name); }
+
+  void check_not_below_0(const char* name, const std::vector<float>& values) const {
+    const auto below = std::ranges::find_if(values, [](float one) { return one < 0; });
+    if (below != values.end())
+      throw file_.fault_at(fmt::format("{}[{}]", name, below - values.begin()), fmt::format("{}", *below),
+                           "0 or more");
+  }
+
   template <typename Value>
   [[nodiscard]] std::vector<Value> map(const char* name, const char* type) const {
     return square<Value>(name, type, cells_);
@@ -72,6 +80,7 @@ class MapsReader {
     covers.grass = share("grass");
     covers.trodden = share("trodden");
     covers.ash = share("ash");
+    if (has("border")) covers.border = share("border");
     file_.check_below("kind", covers.kind, covers.kinds.size());
     return covers;
   }
@@ -145,11 +154,13 @@ void write_ground_maps(const GroundMaps& maps, const Path& folder, const Path& s
   file.add<float>("height_m", "<f4", shape, maps.height_m);
   file.add<float>("crown_top_m", "<f4", shape, maps.crown_top_m);
   file.add<std::uint8_t>("moisture", "|u1", shape, maps.moisture);
+  if (!maps.water_m.empty()) file.add<float>("water_m", "<f4", shape, maps.water_m);
   const std::vector<std::size_t> fine = {maps.covers.cells, maps.covers.cells};
   file.add<std::uint8_t>("kind", "|u1", fine, maps.covers.kind);
   file.add<std::uint8_t>("grass", "|u1", fine, maps.covers.grass);
   file.add<std::uint8_t>("trodden", "|u1", fine, maps.covers.trodden);
   file.add<std::uint8_t>("ash", "|u1", fine, maps.covers.ash);
+  if (!maps.covers.border.empty()) file.add<std::uint8_t>("border", "|u1", fine, maps.covers.border);
   std::vector<std::uint32_t> hours;
   for (const SunlitHours& sunlit : maps.sunlit)
     hours.insert(hours.end(), sunlit.hours.begin(), sunlit.hours.end());

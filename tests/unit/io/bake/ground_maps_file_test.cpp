@@ -26,12 +26,14 @@ GroundMaps maps() {
           .height_m = {-1.5F, 0, 1e-3F, 20},
           .crown_top_m = {0, 0, 3.25F, 0},
           .moisture = {255, 4, 0, 9},
+          .water_m = {1.5F, 0, 0, 0},
           .covers = {.cells = 3,
                      .kinds = {"soil", "road"},
                      .kind = {0, 1, 0, 0, 0, 0, 1, 0, 0},
                      .grass = {7, 0, 255, 1, 2, 3, 0, 4, 5},
                      .trodden = {0, 0, 0, 9, 0, 0, 0, 0, 255},
-                     .ash = {0, 0, 1, 0, 0, 0, 0, 8, 0}},
+                     .ash = {0, 0, 1, 0, 0, 0, 0, 8, 0},
+                     .border = {255, 9, 0, 1, 2, 3, 4, 5, 6}},
           .sunlit = {{.path = {.latitude_deg = -19, .day_of_year = 190}, .hours = {0, 1, 0xFFFFFF, 4}},
                      {.path = {.latitude_deg = 12.25, .day_of_year = 1}, .hours = {9, 8, 7, 6}}}};
 }
