@@ -18,8 +18,8 @@ def leafy_twigs(
 ) -> Mesh:
     """`count` clusters of leaves, each of radius about leaf_m, along twigs that are too thin to draw.
 
-    Twigs part in the middle of each clump (n, 3) and end in a flattened ball with half axes reach_m (3,). The clusters of
-    a crown have the area of leaves, and leave the gaps, of `heat.leaves` of its material.
+    Twigs part in the middle of each clump (n, 3) and end in a flattened ball with half axes reach_m (3,). The clusters
+    of a crown have the area of leaves, and leave the gaps, of `heat.leaves` of its material.
     """
     twigs = len(clumps_m) * _TWIGS
     out_m = directions(rng, twigs) * rng.uniform(0.6, 1.1, (twigs, 1)) * reach_m
