@@ -31,11 +31,14 @@ std::vector<std::vector<const Label*>> labels_by_picture(const LabelSet& set) {
   return taken;
 }
 
-Plane<float> levels_in(const LabelSet& set, const LabelImage& image, const Path& labels) {
+void check_is_there(const LabelSet& set, const LabelImage& image, const Path& labels) {
   if (!std::filesystem::exists(Path(set.root) / image.file))
     throw DataError(
         fmt::format("{}: no picture {} in {}; expected the folder of its pictures as --like-frames",
                     labels.string(), image.file, set.root.empty() ? "." : set.root));
+}
+
+Plane<float> levels_in(const LabelSet& set, const LabelImage& image) {
   const GreyPicture picture = read_grey_picture(picture_of(set, image));
   Plane<float> levels(picture.levels.width_px(), picture.levels.height_px());
   std::ranges::copy(picture.levels.pixels(), levels.pixels().begin());
@@ -67,10 +70,11 @@ MeasuredFills measure_drawn_fills(const Path& labels, const Path& frames) {
   LabelSet set = read_labels(labels);
   if (!frames.empty()) set.root = frames.string();
   const auto pictures = labels_by_picture(set);
+  for (const auto& picture : pictures) check_is_there(set, set.images[picture.front()->image], labels);
   std::vector<std::vector<std::optional<BoxFill>>> found(pictures.size());
   parallel_for(pictures.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const Plane<float> levels = levels_in(set, set.images[pictures[k].front()->image], labels);
+      const Plane<float> levels = levels_in(set, set.images[pictures[k].front()->image]);
       for (const Label* label : pictures[k]) found[k].push_back(fill_of(levels, label->box));
     }
   });
