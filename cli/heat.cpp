@@ -52,13 +52,19 @@ std::string day_of(const thermal::SunPath& sun) {
   return fmt::format("{} {}", day, kMonths[month]);
 }
 
+std::string cloud_of(const thermal::DayWeather& day) {
+  if (day.cloud_hourly.empty()) return fmt::format("{:g}", day.cloud_fraction);
+  const auto [least, most] = std::ranges::minmax(day.cloud_hourly);
+  return fmt::format("{:g} to {:g}", least, most);
+}
+
 std::string title_of(const SeasonHeat& heat) {
   const thermal::DayWeather& day = heat.weather.day;
   const double latitude_deg = day.sun.latitude_deg;
   return fmt::format(
-      "{}: {}, {:g} deg {}, vapour {:.1f} hPa, wind {:g} to {:g} m/s, cloud {:g}, rain {:g} days ago",
+      "{}: {}, {:g} deg {}, vapour {:.1f} hPa, wind {:g} to {:g} m/s, cloud {}, rain {:g} days ago",
       thermal::season_name(heat.season), day_of(day.sun), std::abs(latitude_deg),
-      latitude_deg < 0 ? "S" : "N", day.vapour_hpa, day.night_wind_m_s, day.day_wind_m_s, day.cloud_fraction,
+      latitude_deg < 0 ? "S" : "N", day.vapour_hpa, day.night_wind_m_s, day.day_wind_m_s, cloud_of(day),
       day.rain_days_ago);
 }
 

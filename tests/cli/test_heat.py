@@ -35,6 +35,10 @@ def test_json_has_a_day_for_each_season_of_the_config(veldt):
     assert -6 < soil[3] - air[3] < -4
     assert 10 < water[3] - air[3] < 12
     assert soil[12] > air[12] > water[12]
+    # Crowns are in air that is warmer than that near the ground, by how much is not well known.
+    crown = winter["materials"]["acacia"]
+    assert 0 < crown["hourly_k"][3] - air[3] < 2
+    assert 0.4 < crown["uncertainty_k"] < 1.5
     pairs = {(line["warmer"], line["colder"]) for line in winter["crossovers"]}
     assert {("soil", "water"), ("water", "soil")} <= pairs
 
@@ -62,6 +66,23 @@ def test_chosen_surfaces_are_shown_alone(veldt):
     )
 
 
+def test_clouds_by_the_hour(veldt):
+    def soil_k(weather):
+        done = _faulty(veldt, weather)
+        assert (done.code, done.err) == (0, "")
+        days = veldt("heat", "config.json", "--json").json()["days"]
+        return days[0]["materials"]["soil"]["hourly_k"], done.out
+
+    clear, _ = soil_k({})
+    even, _ = soil_k({"cloud_hourly": [0] * 24})
+    assert even == clear
+    # Overcast from 17:00 to 20:00: soil is warmer at dusk by kelvins, and nearly as cold as otherwise before sunrise.
+    dusk, text = soil_k({"cloud_hourly": [1 if 17 <= hour <= 20 else 0 for hour in range(24)]})
+    assert "cloud 0 to 1, rain" in text
+    assert 2 < dusk[19] - clear[19] < 6
+    assert abs(dusk[5] - clear[5]) < 1
+
+
 @pytest.mark.parametrize(
     "weather, message",
     [
@@ -78,6 +99,10 @@ def test_chosen_surfaces_are_shown_alone(veldt):
         (
             {"air_temperature_k": 280, "air_min_k": 270},
             "weather.air_temperature_k = 280 K; expected none beside the air of the whole day",
+        ),
+        (
+            {"cloud_fraction": 0.5, "cloud_hourly": [0.5] * 24},
+            "weather.cloud_hourly = 24 numbers; expected none beside weather.cloud_fraction",
         ),
         (
             {"relative_humidity": 0.5, "dew_point_k": 260},

@@ -61,12 +61,21 @@ class Cells {
         damp_(ground.damp),
         open_moisture_(open_moisture),
         by_slope_(by_slope),
-        slopes_(maps) {}
+        slopes_(maps) {
+    if (maps.height_m.empty()) return;
+    const auto [low, high] = std::ranges::minmax(maps.height_m);
+    highest_m_ = high;
+    per_relief_m_ = high > low ? 1 / (high - low) : 0;
+  }
 
   [[nodiscard]] std::size_t count() const noexcept { return window_.width * window_.height; }
   /// Number among the cells of the maps.
   [[nodiscard]] std::size_t of_maps(std::size_t number) const noexcept {
     return row(number) * maps_.cells + column(number);
+  }
+  /// From 0 for the highest ground to 1 for the lowest.
+  [[nodiscard]] double depth(std::size_t number) const {
+    return static_cast<double>((highest_m_ - maps_.height_m[of_maps(number)]) * per_relief_m_);
   }
   [[nodiscard]] SurfacePlace place(std::size_t number) const {
     const std::size_t cell = of_maps(number);
@@ -91,6 +100,8 @@ class Cells {
   double open_moisture_;
   bool by_slope_;
   Slopes slopes_;
+  float highest_m_ = 0;
+  float per_relief_m_ = 0;
 };
 
 /// Temperature and warming of one part, by the cells of the maps.
@@ -100,11 +111,12 @@ struct PartPlanes {
   float variation_k = 0;
 };
 
-double temperature_k(const GroundPart& part, const GroundMoment& moment, SurfacePlace place,
-                     std::size_t cell) {
-  if (!moment.sunlit.empty()) place.sunlit = static_cast<double>(moment.sunlit[cell]);
-  return part.heat->temperature_k(place) + part.shift.without_sky_k +
-         part.shift.by_sky_view_k * place.sky_view;
+double temperature_k(const GroundPart& part, const GroundMoment& moment, const Cells& cells,
+                     SurfacePlace place, std::size_t number) {
+  if (!moment.sunlit.empty()) place.sunlit = static_cast<double>(moment.sunlit[cells.of_maps(number)]);
+  const double ground_k =
+      part.heat->temperature_k(place) + part.shift.without_sky_k + part.shift.by_sky_view_k * place.sky_view;
+  return moment.cold_pool_k > 0 ? ground_k - moment.cold_pool_k * cells.depth(number) : ground_k;
 }
 
 PartPlanes planes_of(std::size_t part, const Cells& cells, const GroundWarmth& heat) {
@@ -115,10 +127,9 @@ PartPlanes planes_of(std::size_t part, const Cells& cells, const GroundWarmth& h
   parallel_for(cells.count(), kGroundCellsAChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const SurfacePlace place = cells.place(i);
-      const std::size_t cell = cells.of_maps(i);
-      const double first_k = temperature_k(heat.first.parts[part], heat.first, place, cell);
+      const double first_k = temperature_k(heat.first.parts[part], heat.first, cells, place, i);
       const double more_k =
-          heat.hours > 0 ? temperature_k(heat.last.parts[part], heat.last, place, cell) - first_k : 0;
+          heat.hours > 0 ? temperature_k(heat.last.parts[part], heat.last, cells, place, i) - first_k : 0;
       planes.temperature_k[i] = static_cast<float>(first_k + more_k / 2);
       planes.per_h_k[i] = static_cast<float>(heat.hours > 0 ? more_k / heat.hours : 0);
     }

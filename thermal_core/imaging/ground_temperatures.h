@@ -25,6 +25,8 @@ struct GroundPart {
 struct GroundMoment {
   std::vector<GroundPart> parts;  ///< in the order of ground_part_names()
   std::span<const float> sunlit;  ///< share of the day's sunbeams of each cell of the maps; empty: all
+  double cold_pool_k =
+      0;  ///< by which the lowest cell of the maps is colder than the highest, all others by height
 };
 
 /// The same at the first and the last moment of some time.

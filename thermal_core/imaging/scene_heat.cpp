@@ -189,6 +189,7 @@ class GroundOfClip {
       : maps_(*settings.ground),
         day_(*settings.day),
         solar_h_(weather.solar_h),
+        cold_pool_k_(weather.cold_pool_k),
         by_slope_(terms.facing),
         look_of_(look_of),
         ground_(ground_of_window(maps_, window_of(maps_, manifest), terms.variation, seed)) {}
@@ -213,9 +214,15 @@ class GroundOfClip {
     return sunlit_cells(maps_, day_.weather(), solar_h_ + moment.later_h);
   }
 
+  /// Cold air drains once the sun is down, and the sun ends that within half an hour (estimate).
+  [[nodiscard]] double cold_pool_k(const Forcing& forcing) const {
+    constexpr double kEndedSine = 0.1;
+    return cold_pool_k_ * std::clamp(1 - forcing.sun[2] / kEndedSine, 0.0, 1.0);
+  }
+
   [[nodiscard]] GroundMoment moment_of(const Moment& moment, const std::vector<float>& sunlit) const {
     const HeatOfMoment& heat = moment.surfaces->moment();
-    GroundMoment ground = {.parts = {}, .sunlit = sunlit};
+    GroundMoment ground = {.parts = {}, .sunlit = sunlit, .cold_pool_k = cold_pool_k(heat.forcing)};
     for (const std::string& name : ground_part_names(maps_.covers)) {
       const MaterialMoment& by_place = heat_of(heat, name);
       const GroundLook look = look_of_(name, by_place.temperature_k({.moisture = heat.ground_moisture}));
@@ -227,6 +234,7 @@ class GroundOfClip {
   const GroundMaps& maps_;
   const HeatOfDay& day_;
   double solar_h_;
+  double cold_pool_k_;
   bool by_slope_;
   const GroundLookOf& look_of_;
   GroundOfWindow ground_;

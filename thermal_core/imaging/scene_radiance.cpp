@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "heat/weather/air_profile.h"
 #include "imaging/actor_states.h"
 #include "imaging/pixel_quarters.h"
 #include "scene/camera_geometry.h"
@@ -73,7 +74,30 @@ PassChecks sum_over_rows(int rows, const Work& work) {
   return sum;
 }
 
+PhysicsSettings of_clip(PhysicsSettings settings, const Manifest& manifest) {
+  settings.weather = with_inversion(settings, manifest);
+  return settings;
+}
+
 }  // namespace
+
+Weather with_inversion(const PhysicsSettings& settings, const Manifest& manifest) {
+  constexpr double kUsualHeightM = 61;
+  Weather weather = settings.weather;
+  if (!weather.inversion_by_balance || !settings.heat) return weather;
+  double sum_m = 0;
+  int known = 0;
+  for (const ManifestFrame& frame : manifest.frames) {
+    if (!frame.agl_m) continue;
+    sum_m += *frame.agl_m;
+    ++known;
+  }
+  const HeatOfMoment moment = settings.heat->day->at(weather.solar_h);
+  const StableAir air(moment.forcing, moment.ground_k);
+  weather.air.inversion_k =
+      std::min(kLargestInversionK, air.warmer_k(known > 0 ? sum_m / known : kUsualHeightM));
+  return weather;
+}
 
 SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials, Season season,
                              const RadianceOf& radiance_of)
@@ -87,7 +111,7 @@ SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& ma
 
 SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& materials,
                              const PhysicsSettings& settings)
-    : SceneRadiance(manifest, materials, settings,
+    : SceneRadiance(manifest, materials, of_clip(settings, manifest),
                     settings.heat ? states_of_actors(manifest, materials, settings.weather, settings.seed)
                                   : ActorStates()) {}
 

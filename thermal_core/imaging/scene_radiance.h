@@ -31,6 +31,10 @@ struct PhysicsSettings {
   [[nodiscard]] bool operator==(const PhysicsSettings&) const = default;
 };
 
+/// The weather of a clip. If it is to follow from the heat balance, and there is one, the inversion is that of StableAir at
+/// the mean height of the frames above the ground, or at 61 m where none is known; otherwise as given.
+[[nodiscard]] Weather with_inversion(const PhysicsSettings& settings, const Manifest& manifest);
+
 /// Radiance at the camera from everything that a clip's manifest names.
 class SceneRadiance {
  public:

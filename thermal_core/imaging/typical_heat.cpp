@@ -10,6 +10,7 @@
 #include "heat/surface/heat_of_day.h"
 #include "heat/surface/heat_report.h"
 #include "heat/surface/leaf_layer.h"
+#include "heat/weather/air_profile.h"
 #include "imaging/actor_states.h"
 #include "imaging/heated_surfaces.h"
 
@@ -192,6 +193,12 @@ void heat_night(const std::vector<SceneOutline::Cover>& covers, const MaterialLi
   const Shares shares = shares_of(covers);
   const Columns columns(library, night.weather);
   const BodyMoment moment = open_moment(night.weather, night.heated_k);
+  if (night.weather.inversion_by_balance && !night.looks.empty()) {
+    const SceneOutline::Look& look = night.looks.front();
+    night.weather.air.inversion_k = std::min(
+        kLargestInversionK,
+        StableAir(moment.around.forcing, moment.around.ground_k).warmer_k(look.range_m * look.ground_cosine));
+  }
   for (const Material* material : materials) {
     if (const BodyHeat* body = material->body_heat_of("")) {
       if (std::holds_alternative<FirePart>(*body)) {

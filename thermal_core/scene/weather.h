@@ -12,9 +12,12 @@ namespace thermal {
 struct Weather {
   Air air;  ///< at the clip's time
   std::optional<double> vehicle_stopped_s =
-      {};               ///< since engines were switched off; empty: of each vehicle its own
-  DayWeather day = {};  ///< around the clip, for the heat balance
-  double solar_h = 3;   ///< local solar time of the clip's middle
+      {};                  ///< since engines were switched off; empty: of each vehicle its own
+  DayWeather day = {};     ///< around the clip, for the heat balance
+  double solar_h = 3;      ///< local solar time of the clip's middle
+  double cold_pool_k = 0;  ///< by which the lowest ground of the scene is colder at night than the highest
+  /// Whether the heat balance says what air.inversion_k is, by the heights of the cameras; see with_inversion().
+  bool inversion_by_balance = false;
 
   [[nodiscard]] bool operator==(const Weather&) const = default;
 };

@@ -2,9 +2,11 @@
 #include <cmath>
 #include <vector>
 
+#include "base/error.h"
 #include "heat/weather/forcing.h"
 #include "heat/weather/humid_air.h"
 #include "support/catch.h"
+#include "support/message_of.h"
 
 namespace air_test {
 
@@ -128,6 +130,36 @@ TEST_CASE("A table of hours is met at every hour, and straight between") {
     CHECK_THAT(air_temperature_k(weather, hour - 1e-9),
                WithinAbs(weather.air_hourly_k[at], 1.7e-8 + kRoundingK));
   }
+}
+
+TEST_CASE("Clouds by the hour are met at every hour, and let pass what clouds of all day do") {
+  DayWeather weather = weather_at(-19, 190);
+  DayWeather all_day = weather;
+  for (int hour = 0; hour < 24; ++hour) weather.cloud_hourly.push_back((hour * 7 % 11) / 10.0);
+  for (int hour = 0; hour < 24; ++hour) {
+    CAPTURE(hour);
+    const auto at = static_cast<std::size_t>(hour);
+    CHECK(cloud_fraction_at(weather, hour) == weather.cloud_hourly[at]);
+    const double next = weather.cloud_hourly[(at + 1) % 24];
+    CHECK_THAT(cloud_fraction_at(weather, hour + 24.25),
+               WithinAbs(0.75 * weather.cloud_hourly[at] + 0.25 * next, 1e-15));
+    all_day.cloud_fraction = weather.cloud_hourly[at];
+    CHECK(cloud_fraction_at(all_day, hour + 0.7) == all_day.cloud_fraction);
+    CHECK(forcing_at(weather, hour).sky_w_m2 == forcing_at(all_day, hour).sky_w_m2);
+    CHECK(forcing_at(weather, hour).global_w_m2 == forcing_at(all_day, hour).global_w_m2);
+    CHECK(forcing_at(weather, hour).beam_w_m2 == forcing_at(all_day, hour).beam_w_m2);
+  }
+}
+
+TEST_CASE("Clouds by the hour are 24 shares") {
+  DayWeather weather;
+  weather.cloud_hourly.assign(23, 0);
+  CHECK(message_of<ConfigError>([&] { weather.validate(); }) ==
+        "weather.cloud_hourly = 23 numbers; expected 24 numbers, of 0:00 to 23:00");
+  weather.cloud_hourly = std::vector<double>(24, 0);
+  weather.cloud_hourly[21] = 1.5;
+  CHECK(message_of<ConfigError>([&] { weather.validate(); }) ==
+        "weather.cloud_hourly[21] = 1.5; expected 0 to 1");
 }
 
 TEST_CASE("Wind is that of the night from sunset to sunrise and that of the day at noon") {

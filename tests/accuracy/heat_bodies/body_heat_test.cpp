@@ -1,6 +1,5 @@
 #include "heat/body/body_heat.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "accuracy/heat_bodies/nights.h"
@@ -65,34 +64,6 @@ TEST_CASE("At night a direction is no more than its slope") {
     const BodyMoment moment = {.around = cold_night()};
     CHECK_THAT(part_temperature_k(heat, moment, EastNorthUp{0, 0.8, 0.6}),
                WithinAbs(part_temperature_k(heat, moment, 0.6), 1e-9));
-  }
-}
-
-TEST_CASE(
-    "A fit to the slope is within millikelvins on a dry night, and within 0.15 K where dew starts on part of "
-    "a body") {
-  double dry_mk = 0;
-  double dewy_mk = 0;
-  for (const BodyHeat& heat : all_kinds()) {
-    for (const double air_k : {253.0, 273.0, 283.0, 293.0, 303.0}) {
-      for (const double wind : {0.2, 0.5, 1.0, 2.0, 5.0}) {
-        BodyMoment moment = {.around = night(air_k, wind, air_k - 5)};
-        dewy_mk = std::max(dewy_mk, fit_body(heat, moment).error_mk);
-        moment.around.forcing.vapour_hpa = 0;  // below the same sky
-        dry_mk = std::max(dry_mk, fit_body(heat, moment).error_mk);
-      }
-    }
-  }
-  CAPTURE(dry_mk, dewy_mk);
-  CHECK(dry_mk < 20);
-  CHECK(dewy_mk < 150);
-}
-
-TEST_CASE("A fit to the slope and the sun is within 0.4 K by day") {
-  for (const BodyHeat& heat : all_kinds()) {
-    const BodyFit fit = fit_body(heat, {.around = sunny_day(293, 2)});
-    CAPTURE(heat.index(), fit.error_mk);
-    CHECK(fit.error_mk < 400);
   }
 }
 

@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
 
 #include "accuracy/physical/chain_scene.h"
 #include "base/error.h"
+#include "heat/weather/air_profile.h"
 #include "imaging/budget.h"
 #include "radiometry/band_radiance.h"
 #include "radiometry/spectral_air.h"
@@ -124,6 +128,34 @@ TEST_CASE("An inversion is from 0 to 20 K") {
           Air{273, 0.6, 0, 20.5}.validate();
         }) == "weather.inversion_k = 20.5 K; expected 0 to 20 K");
   CHECK_NOTHROW(Air{273, 0.6, 0, 20}.validate());
+}
+
+TEST_CASE("An inversion that nobody states follows from the cooled ground and the cameras' height") {
+  Manifest manifest = chain_scene::manifest();
+  PhysicsSettings settings = chain_scene::settings({});
+  settings.weather = weather_of(Season::winter);
+  CHECK(with_inversion(settings, manifest).air.inversion_k == 0);
+  settings.weather.inversion_by_balance = true;
+  CHECK(with_inversion(settings, manifest).air.inversion_k == 0);  // no balance
+  const std::map<std::string, MaterialHeat> heat = {{"soil", GroundHeat()}};
+  settings.heat = HeatSettings{.day = std::make_shared<HeatOfDay>(settings.weather.day, heat), .ground = {}};
+  const auto inversion_k = [&](double agl_m) {
+    for (ManifestFrame& frame : manifest.frames) frame.agl_m = agl_m;
+    return with_inversion(settings, manifest).air.inversion_k;
+  };
+  const HeatOfMoment moment = settings.heat->day->at(settings.weather.solar_h);
+  for (const double agl_m : {20.0, 61.0, 122.0}) {
+    CHECK(inversion_k(agl_m) == StableAir(moment.forcing, moment.ground_k).warmer_k(agl_m));
+    CHECK(inversion_k(agl_m) > 2);
+  }
+  for (ManifestFrame& frame : manifest.frames) frame.agl_m = {};
+  const double usual_k = with_inversion(settings, manifest).air.inversion_k;
+  CHECK(usual_k == inversion_k(61));
+  settings.weather.solar_h = 13;
+  CHECK(inversion_k(61) == 0);
+  settings.weather = weather_of(Season::winter);
+  settings.weather.air.inversion_k = 1.5;
+  CHECK(inversion_k(61) == 1.5);
 }
 
 }  // namespace inversion_test

@@ -109,6 +109,23 @@ std::array<float, 2> range_of(const GroundTexture& ground) {
 
 }  // namespace
 
+TEST_CASE(
+    "A cold pool cools the lowest ground by all of it, the highest by nothing, all other by its height") {
+  GroundMaps slope = maps();
+  for (std::size_t i = 0; i < kCells * kCells; ++i)
+    slope.height_m[i] = 900 + 0.5F * static_cast<float>(i % kCells);
+  const MaterialMoment even = always(280);
+  GroundWarmth warmth = steady(even);
+  CHECK(at(ground_of(slope, all(), warmth), 0, 0, 0.05F) == 280);
+  warmth.first.cold_pool_k = 6.3;
+  const GroundTexture pool = ground_of(slope, all(), warmth);
+  // 63 steps of 0.1 K; the middles of cells are half a metre from the borders.
+  CHECK_THAT(at(pool, 31.5F, 0, 0.05F), WithinAbs(280, 0.03));
+  CHECK_THAT(at(pool, -31.5F, 0, 0.05F), WithinAbs(273.7, 0.03));
+  CHECK_THAT(at(pool, 0, 0, 0.05F), WithinAbs(276.85, 0.03));
+  CHECK(at(ground_of(maps(), all(), warmth), 0, 0, 0.05F) == 280);  // level
+}
+
 TEST_CASE("Temperatures are those of the maps, in straight lines between the middles of their cells") {
   const MaterialMoment heat = by_moisture();
   const GroundTexture ground = ground_of(maps(), all(), steady(heat));

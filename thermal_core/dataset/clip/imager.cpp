@@ -19,7 +19,8 @@ ThermalCamera::Clip sensor_clip(const ClipTask& task, const Manifest& manifest) 
           .height_px = manifest.camera.height_px,
           .noise_gain = falloff ? falloff_noise_gain(manifest.camera) : Plane<float>(),
           .sampling = pixel_sampling(manifest, task.distortion),
-          .air_k = task.physics ? air_at_camera_k(task.physics->weather.air) : ThermalCamera::Clip().air_k};
+          .air_k = task.physics ? air_at_camera_k(with_inversion(*task.physics, manifest).air)
+                                : ThermalCamera::Clip().air_k};
 }
 
 std::optional<AnalogueLink> link_of(const ClipTask& task, const Manifest& manifest) {

@@ -1,10 +1,7 @@
 #include "heat/body/body_heat.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "base/polynomial.h"
 #include "base/ranges.h"
 
 namespace thermal {
@@ -64,29 +61,6 @@ struct Validate {
   }
 };
 
-BodyMoment without_sun(BodyMoment moment) {
-  Forcing& forcing = moment.around.forcing;
-  forcing.beam_w_m2 = forcing.diffuse_w_m2 = forcing.global_w_m2 = 0;
-  return moment;
-}
-
-double arriving_sun(const BodyMoment& moment, const EastNorthUp& normal) {
-  return incoming_on(moment.around, normal).sun_w_m2;
-}
-
-/// Adds the straight line in arriving sunlight through a surface that faces the sun and one that faces away.
-void add_sun(const BodyHeat& heat, const BodyMoment& moment, BodyFit& fit) {
-  const EastNorthUp& sun = moment.around.forcing.sun;
-  const EastNorthUp away = {-sun[0], -sun[1], -sun[2]};
-  const double bright = arriving_sun(moment, sun);
-  const double dim = arriving_sun(moment, away);
-  if (!(bright > dim)) return;
-  const double bright_k = part_temperature_k(heat, moment, sun) - fit.at_k(sun[2]);
-  const double dim_k = part_temperature_k(heat, moment, away) - fit.at_k(away[2]);
-  fit.sun_k_m2_w = (bright_k - dim_k) / (bright - dim);
-  fit.a_k += dim_k - fit.sun_k_m2_w * dim;
-}
-
 }  // namespace
 
 void Powered::validate(const std::string& where) const {
@@ -103,28 +77,6 @@ double part_temperature_k(const BodyHeat& heat, const BodyMoment& moment, double
 double part_temperature_k(const BodyHeat& heat, const BodyMoment& moment,
                           const EastNorthUp& normal) noexcept {
   return std::visit(PartTemperature{moment, incoming_on(moment.around, normal)}, heat);
-}
-
-BodyFit fit_body(const BodyHeat& heat, const BodyMoment& moment) {
-  constexpr int kSlopes = 40;
-  const BodyMoment night = without_sun(moment);
-  const std::vector<double> powers =
-      fit_polynomial([&](double normal_z) { return part_temperature_k(heat, night, normal_z); }, 3);
-  BodyFit fit = {.a_k = powers[0], .b_k = powers[1], .c_k = powers[2]};
-  const bool day = moment.around.forcing.global_w_m2 > 0;
-  if (day) add_sun(heat, moment, fit);
-  for (int slope = 0; slope <= kSlopes; ++slope) {
-    const double up = -1 + 2.0 * slope / kSlopes;
-    const double across = std::sqrt(std::max(0.0, 1 - up * up));
-    for (int azimuth = 0; azimuth < (day ? 8 : 1); ++azimuth) {
-      const double angle = azimuth * std::numbers::pi / 4;
-      const EastNorthUp normal = {across * std::cos(angle), across * std::sin(angle), up};
-      const double error_k =
-          part_temperature_k(heat, moment, normal) - fit.at_k(up, day ? arriving_sun(moment, normal) : 0);
-      fit.error_mk = std::max(fit.error_mk, 1000 * std::abs(error_k));
-    }
-  }
-  return fit;
 }
 
 }  // namespace thermal

@@ -86,23 +86,4 @@ struct BodyMoment {
 [[nodiscard]] double part_temperature_k(const BodyHeat& heat, const BodyMoment& moment,
                                         const EastNorthUp& normal) noexcept;
 
-/// Temperatures of a part at one moment for every direction of its surface, for use in each pixel.
-struct BodyFit {
-  double a_k = 0;
-  double b_k = 0;
-  double c_k = 0;
-  double sun_k_m2_w = 0;  ///< rise per sunlight that arrives
-  double error_mk =
-      0;  ///< largest difference from part_temperature_k() over 41 slopes, and by day 8 azimuths
-
-  /// a + b n + c n^2 + sun * arriving. @param sun_w_m2  of incoming_on()
-  [[nodiscard]] double at_k(double normal_z, double sun_w_m2 = 0) const noexcept {
-    return a_k + normal_z * (b_k + normal_z * c_k) + sun_k_m2_w * sun_w_m2;
-  }
-};
-
-/// Through the Chebyshev points of the moment without sun; the rise in sunlight by a straight line through a surface that
-/// faces the sun and one that faces away.
-[[nodiscard]] BodyFit fit_body(const BodyHeat& heat, const BodyMoment& moment);
-
 }  // namespace thermal

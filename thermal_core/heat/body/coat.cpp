@@ -20,15 +20,24 @@ double wet_share(const Coat& coat, double since_bath_s) noexcept {
   return std::max(coat.surface.wet, coat.wet_when_bathed * std::exp(-since_bath_s / coat.drying_s));
 }
 
+double resting_tissue_m2_k_w(double air_k) noexcept {
+  constexpr double kColdM2KW = 0.1;
+  constexpr double kColdAirK = 283;
+  constexpr double kMildAirK = 293;
+  return kColdM2KW * std::clamp((kMildAirK - air_k) / (kMildAirK - kColdAirK), 0.0, 1.0);
+}
+
 double coat_surface_k(const Coat& coat, Activity activity, double since_bath_s, const Forcing& forcing,
                       const Incoming& incoming) noexcept {
   BodySurface surface = coat.surface;
   surface.wet = wet_share(coat, since_bath_s);
   Forcing moving = forcing;
+  double resistance = coat.tissue.resistance_m2_k_w(forcing.air_k, activity) + coat.coat_m2_k_w;
   if (surface.diameter_m <= 0) {
     moving.wind_m_s = relative_wind_m_s(forcing.wind_m_s, metabolic_rate_w_m2(activity));
+  } else if (activity == Activity::standing) {
+    resistance += resting_tissue_m2_k_w(forcing.air_k);
   }
-  const double resistance = coat.tissue.resistance_m2_k_w(forcing.air_k, activity) + coat.coat_m2_k_w;
   const double conductance = resistance > 0 ? 1 / resistance : std::numeric_limits<double>::infinity();
   return body_surface_k(surface, {.inside_k = coat.tissue.core_k, .w_m2_k = conductance}, moving, incoming);
 }

@@ -23,8 +23,13 @@ struct Coat {
 /// @param since_bath_s  at least 0; infinite: never
 [[nodiscard]] double wet_share(const Coat& coat, double since_bath_s) noexcept;
 
+/// What the tissue of an animal at rest insulates more than that of one that forages [m^2 K/W]: 0.1 in air up to 283 K, in a
+/// straight line to 0 at 293 K. An estimate: an elephant then gives off 1.7 times its basal rate in air of 273 K, not 2.7; adult
+/// cattle have 0.12 to 0.25 in all (Nutrient Requirements of Beef Cattle, NRC 1996).
+[[nodiscard]] double resting_tissue_m2_k_w(double air_k) noexcept;
+
 /// Surface of a coat or of bare skin [K]. A person's air moves past it as past clothes; an animal that walks is cooled by
-/// the wind alone.
+/// the wind alone, and one that stands is at rest.
 [[nodiscard]] double coat_surface_k(const Coat& coat, Activity activity, double since_bath_s,
                                     const Forcing& forcing, const Incoming& incoming) noexcept;
 

@@ -18,6 +18,7 @@ constexpr double kSeenInCrown = 0.6;
 struct Conditions {
   DayWeather weather;
   double more_sky_w_m2 = 0;
+  bool even_air = false;  ///< as warm at all heights
 };
 
 std::vector<Forcing> forcing_of(const Conditions& conditions, int steps) {
@@ -32,8 +33,11 @@ SurfaceDay open_day(const MaterialHeat& heat, const GroundHeat& soil, const Cond
   const std::vector<Forcing> forcing = forcing_of(conditions, steps.per_day);
   SurfacePlace place = {.moisture = moisture_after_rain(conditions.weather.rain_days_ago)};
   const auto* leaves = std::get_if<LeavesHeat>(&heat);
-  if (leaves != nullptr && !leaves->is_cover) place.sky_view = place.sunlit = kSeenInCrown;
-  return day_of(heat, soil, place, {.forcing = forcing}, steps);
+  if (leaves == nullptr || leaves->is_cover) return day_of(heat, soil, place, {.forcing = forcing}, steps);
+  std::vector<double> ground_k;
+  if (!conditions.even_air) ground_k = day_of(soil, soil, place, {.forcing = forcing}, steps).surface_k;
+  place.sky_view = place.sunlit = kSeenInCrown;
+  return day_of(heat, soil, place, {.forcing = forcing, .ground_k = ground_k}, steps);
 }
 
 const GroundHeat& ground_below(const Materials& materials, const MaterialHeat& heat) {
@@ -54,11 +58,21 @@ std::vector<WeatherChange> weather_changes() {
              w.night_wind_m_s += 1;
              w.day_wind_m_s += 1;
            }},
-          {"cloud + 0.5", [](DayWeather& w) { w.cloud_fraction = std::min(1.0, w.cloud_fraction + 0.5); }},
+          {"cloud + 0.5",
+           [](DayWeather& w) {
+             w.cloud_fraction = std::min(1.0, w.cloud_fraction + 0.5);
+             for (double& cloud : w.cloud_hourly) cloud = std::min(1.0, cloud + 0.5);
+           }},
           {"dew point + 3 K", [](DayWeather& w) { w.vapour_hpa *= 1.24; }},
           {"air maximum + 3 K", [](DayWeather& w) { w.air_max_k += 3; }},
           {"rain yesterday", [](DayWeather& w) { w.rain_days_ago = std::min(w.rain_days_ago, 1.0); }},
           {"30 days later", [](DayWeather& w) { w.sun.day_of_year = (w.sun.day_of_year + 29) % 365 + 1; }}};
+}
+
+DayWeather sheltered(DayWeather weather) {
+  weather.night_wind_m_s *= 0.5;
+  weather.day_wind_m_s *= 0.5;
+  return weather;
 }
 
 // --- properties -------------------------------------------------------------------------------------------------------
@@ -93,6 +107,7 @@ std::vector<MaterialHeat> other_properties(const MaterialHeat& heat) {
     leaves([](CanopyProperties& canopy) { canopy.leaf_area_index *= 1.35; });
     leaves([](CanopyProperties& canopy) { canopy.leaf_width_m *= 2; });
     leaves([](CanopyProperties& canopy) { canopy.albedo += 0.04; });
+    leaves([](CanopyProperties& canopy) { canopy.emissivity -= 0.02; });
     return others;
   }
   surfaces([](SurfaceProperties& surface) { surface.albedo = std::min(1.0, surface.albedo + 0.04); });
@@ -167,6 +182,10 @@ HeatReport heat_report(const DayWeather& weather, const Materials& materials, do
       double variance = std::pow(at_k(heat, {weather, 10}) - assumed_k, 2);
       for (const MaterialHeat& other : other_properties(heat))
         variance += std::pow(at_k(other, {weather}) - assumed_k, 2);
+      if (std::holds_alternative<LeavesHeat>(heat)) {
+        variance += std::pow(at_k(heat, {sheltered(weather)}) - assumed_k, 2);
+        variance += std::pow(0.5 * (at_k(heat, {.weather = weather, .even_air = true}) - assumed_k), 2);
+      }
       uncertainty_k[i] = std::sqrt(variance);
       for (std::size_t c = 0; c < changes.size(); ++c) {
         Conditions conditions = {weather};

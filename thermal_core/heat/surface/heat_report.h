@@ -34,7 +34,8 @@ struct HeatReport {
   std::vector<InputWorth> inputs;     ///< at the moment that was asked for
   /// One standard deviation of each material's temperature at that moment that its properties' sources leave [K]. The
   /// spread of each property is an estimate: conductivity 35 %, heat capacity 12 %, albedo 0.04, emissivity 0.02,
-  /// roughness a factor 2.5, evaporation 0.1, leaf area 35 %, leaf width a factor 2; the sky 10 W m^-2.
+  /// roughness a factor 2.5, evaporation 0.1, leaf area 35 %, leaf width a factor 2; the sky 10 W m^-2. Of leaves also what
+  /// the place of a tree leaves open: half of the wind, and half of what the air at their height is warmer by.
   std::map<std::string, double> uncertainty_k;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "heat/weather/air_profile.h"
 #include "heat/weather/humid_air.h"
 
 namespace thermal {
@@ -127,6 +128,14 @@ class FixedPoint {
   bool known_ = false;
 };
 
+/// The forcing with the air that is around leaves at a height.
+std::vector<Forcing> forcing_at_height(const DayAround& around, double height_m) {
+  std::vector<Forcing> raised(around.forcing.begin(), around.forcing.end());
+  for (std::size_t i = 0; i < raised.size(); ++i)
+    raised[i].air_k += StableAir(raised[i], around.ground_at_k(i)).warmer_k(height_m);
+  return raised;
+}
+
 SurfaceDay empty_day(const DayAround& around) {
   return {.surface_k = std::vector<double>(around.forcing.size(), mean_air_k(around))};
 }
@@ -190,13 +199,14 @@ CanopyDay day_of_canopy(const CanopyProperties& canopy, const GroundProperties& 
   SurfaceDay* days[] = {&day.leaves, &day.ground};
   const double stored = canopy.heat_capacity_j_m2_k * canopy.leaf_area_index / step_s(around);
   const LeafLayer layer(canopy, stand);
+  const std::vector<Forcing> at_height = forcing_at_height(around, canopy.height_m);
   double leaves_k = mean_air_k(around);
   settle(
       steps, days,
       [&](std::size_t i) {
         const Forcing& forcing = around.forcing[i];
-        const Incoming above = incoming_at(forcing, site, around.ground_at_k(i));
-        const Forcing among = layer.among(forcing, around.ground_at_k(i));
+        const Incoming above = incoming_at(at_height[i], site, around.ground_at_k(i));
+        const Forcing among = layer.among(at_height[i], around.ground_at_k(i));
         const Incoming at_leaves = incoming_at(among, site, around.ground_at_k(i));
         body.prepare();
         const double old_k = leaves_k;

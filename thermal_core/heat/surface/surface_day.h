@@ -35,7 +35,7 @@ struct SurfaceDay {
 };
 
 /// The weather of a day as these functions take it, step by step, and the temperature of open level ground, which slopes
-/// and standing bodies face; empty: that of the air.
+/// and standing bodies face and which cools the air near it; empty: that of the air.
 struct DayAround {
   std::span<const Forcing> forcing;
   std::span<const double> ground_k = {};
@@ -53,7 +53,7 @@ struct DayAround {
 [[nodiscard]] SurfaceDay day_of_slab(const SlabProperties& properties, const Site& site,
                                      const DayAround& around, const HeatSteps& steps);
 
-/// A layer of leaves and the ground below it.
+/// A layer of leaves and the ground below it. Leaves above 2 m are in the air of their height: see StableAir.
 struct CanopyDay {
   SurfaceDay leaves;
   SurfaceDay ground;

@@ -16,6 +16,15 @@ void check(const std::string& key, double value, const char* unit, double low, d
   require_range("weather." + key, value, unit, low, high);
 }
 
+void check_hours(const std::string& key, const std::vector<double>& hourly, const char* unit, double low,
+                 double high) {
+  if (hourly.size() != 24)
+    throw ConfigError(fault("weather." + key, fmt::format("{} numbers", hourly.size()), "",
+                            "24 numbers, of 0:00 to 23:00"));
+  for (std::size_t hour = 0; hour < hourly.size(); ++hour)
+    check(fmt::format("{}[{}]", key, hour), hourly[hour], unit, low, high);
+}
+
 constexpr double kColdestK = 200;
 constexpr double kHottestK = 340;
 
@@ -27,11 +36,7 @@ double check_air(const DayWeather& weather) {
     throw ConfigError(fault("weather.air_min_k", fmt::format("{}", weather.air_min_k), "K",
                             fmt::format("at most weather.air_max_k, {} K", weather.air_max_k)));
   }
-  if (weather.air_hourly_k.size() != 24)
-    throw ConfigError(fault("weather.air_hourly_k", fmt::format("{} numbers", weather.air_hourly_k.size()),
-                            "", "24 numbers, of 0:00 to 23:00"));
-  for (std::size_t hour = 0; hour < 24; ++hour)
-    check(fmt::format("air_hourly_k[{}]", hour), weather.air_hourly_k[hour], "K", kColdestK, kHottestK);
+  check_hours("air_hourly_k", weather.air_hourly_k, "K", kColdestK, kHottestK);
   return *std::ranges::max_element(weather.air_hourly_k);
 }
 
@@ -45,6 +50,7 @@ void DayWeather::validate() const {
   check("wind_m_s", night_wind_m_s, "m/s", 0, 60);
   check("day_wind_m_s", day_wind_m_s, "m/s", 0, 60);
   check("cloud_fraction", cloud_fraction, "", 0, 1);
+  if (!cloud_hourly.empty()) check_hours("cloud_hourly", cloud_hourly, "", 0, 1);
   check("rain_days_ago", rain_days_ago, "", 0, 10000);
 }
 

@@ -17,7 +17,9 @@ struct DayWeather {
   double night_wind_m_s = 1;         ///< at 2 m above the ground
   double day_wind_m_s = 3.5;         ///< at noon
   double cloud_fraction = 0;         ///< 0 to 1
-  double rain_days_ago = 60;         ///< at least 0
+  std::vector<double> cloud_hourly =
+      {};                     ///< the same at 0:00, 1:00, … 23:00, instead of it; empty: all day alike
+  double rain_days_ago = 60;  ///< at least 0
 
   /// ConfigError with the key of weather if a value is outside its domain: temperatures 200 to 340 K and the minimum
   /// not above the maximum, vapour that the air cannot hold even at its warmest, wind 0 to 60 m/s.

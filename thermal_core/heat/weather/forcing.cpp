@@ -39,10 +39,9 @@ double wind_at(const DayWeather& weather, double since_sunrise_h, double day_h) 
   return weather.night_wind_m_s + (weather.day_wind_m_s - weather.night_wind_m_s) * rise;
 }
 
-void add_sunlight(const DayWeather& weather, Forcing& forcing) {
+void add_sunlight(const DayWeather& weather, double cloud, Forcing& forcing) {
   constexpr double kLowestSine = 0.02;  // below it, 1 deg, the beam counts as diffuse
   const double sine = std::max(0.0, forcing.sun[2]);
-  const double cloud = weather.cloud_fraction;
   const double passed = (0.75 + 2e-5 * weather.elevation_m) * (1 - 0.65 * cloud * cloud);
   forcing.global_w_m2 = kSolarConstantWM2 * sun_nearness(weather.sun.day_of_year) * sine * passed;
   const double diffuse_share = sine > kLowestSine ? 0.2 + 0.6 * cloud : 1;
@@ -72,6 +71,11 @@ double air_temperature_k(const DayWeather& weather, double solar_h) noexcept {
   return by_night(weather, since_sunset_h < 0 ? since_sunset_h + 24 : since_sunset_h, day_h);
 }
 
+double cloud_fraction_at(const DayWeather& weather, double solar_h) noexcept {
+  return weather.cloud_hourly.empty() ? weather.cloud_fraction
+                                      : between_hours(weather.cloud_hourly, hour_of_day(solar_h));
+}
+
 Forcing forcing_at(const DayWeather& weather, double solar_h) noexcept {
   const double day_h = day_length_h(weather.sun);
   Forcing forcing;
@@ -79,10 +83,11 @@ Forcing forcing_at(const DayWeather& weather, double solar_h) noexcept {
   forcing.wind_m_s = wind_at(weather, hour_of_day(solar_h) - (12 - day_h / 2), day_h);
   forcing.vapour_hpa = std::min(weather.vapour_hpa, saturation_hpa(forcing.air_k));
   forcing.pressure_hpa = pressure_hpa(weather.elevation_m);
-  forcing.sky_w_m2 = broadband_sky_emissivity(forcing.air_k, forcing.vapour_hpa, weather.cloud_fraction) *
-                     blackbody_w_m2(forcing.air_k);
+  const double cloud = cloud_fraction_at(weather, solar_h);
+  forcing.sky_w_m2 =
+      broadband_sky_emissivity(forcing.air_k, forcing.vapour_hpa, cloud) * blackbody_w_m2(forcing.air_k);
   forcing.sun = sun_direction(weather.sun, solar_h);
-  add_sunlight(weather, forcing);
+  add_sunlight(weather, cloud, forcing);
   return forcing;
 }
 

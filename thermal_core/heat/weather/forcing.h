@@ -32,6 +32,9 @@ struct Forcing {
 /// straight lines between the hours.
 [[nodiscard]] double air_temperature_k(const DayWeather& weather, double solar_h) noexcept;
 
+/// Share of the sky that clouds cover at a local solar time; with cloud_hourly, straight lines between the hours.
+[[nodiscard]] double cloud_fraction_at(const DayWeather& weather, double solar_h) noexcept;
+
 /// The forcing at a local solar time, any finite number of hours; 25 is 1. `weather` must be valid.
 /// Sunlight through a clear sky: 0.75 + 2e-5 z of that above the air (FAO-56, equation 37), a fifth of it diffuse
 /// (estimate); clouds take 0.65 n^2 of it (Kasten and Czeplak 1980 have 0.75 n^3.4) and make a share of 0.6 n more of

@@ -149,6 +149,13 @@ void fill_sampling(Json& render, bool physical) {
   if (!render.contains("sampling")) render["sampling"] = by_default ? "adaptive" : "full";
 }
 
+/// As the config has it; Table 1's line says nothing of an inversion.
+Weather given_weather(const Config& config, const ClipConfig& clip) {
+  Weather weather = settings_of(config, clip).weather.at(static_cast<std::size_t>(clip.season));
+  weather.inversion_by_balance = weather.inversion_by_balance && config.heat_balance;
+  return weather;
+}
+
 }  // namespace
 
 const ClipConfig& Config::clip(const std::string& id, const std::string& where) const {
@@ -165,13 +172,13 @@ const ClipSettings& settings_of(const Config& config, const ClipConfig& clip) {
 }
 
 Weather weather_of(const Config& config, const ClipConfig& clip) {
-  const Weather& weather = settings_of(config, clip).weather.at(static_cast<std::size_t>(clip.season));
+  const Weather weather = given_weather(config, clip);
   if (!config.heat_balance) return weather;
   return at_moment(weather, clip.start_s + 0.5 * (clip.frames - 1) / clip.frame_rate_hz);
 }
 
 Weather weather_at_start(const Config& config, const ClipConfig& clip) {
-  const Weather& weather = settings_of(config, clip).weather.at(static_cast<std::size_t>(clip.season));
+  const Weather weather = given_weather(config, clip);
   return config.heat_balance ? at_moment(weather, 0) : weather;
 }
 

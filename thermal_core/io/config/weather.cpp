@@ -57,7 +57,9 @@ Weather read_weather(const Json& weather, Season season) {
   replace(weather, "relative_humidity", read.air.relative_humidity);
   replace(weather, "cloud_fraction", read.air.cloud_fraction);
   replace(weather, "inversion_k", read.air.inversion_k);
+  read.inversion_by_balance = !weather.contains("inversion_k");
   if (weather.contains("vehicle_stopped_s")) read.vehicle_stopped_s = weather["vehicle_stopped_s"];
+  replace(weather, "cold_pool_k", read.cold_pool_k);
   DayWeather& day = read.day;
   if (weather.contains("date")) day.sun.day_of_year = day_of_year(date_of(weather["date"]));
   if (weather.contains("time")) read.solar_h = hours_of(weather["time"]);
@@ -67,6 +69,10 @@ Weather read_weather(const Json& weather, Season season) {
   if (weather.contains("wind_m_s")) day.day_wind_m_s = day.night_wind_m_s + 2;
   replace(weather, "day_wind_m_s", day.day_wind_m_s);
   replace(weather, "rain_days_ago", day.rain_days_ago);
+  if (weather.contains("cloud_hourly")) {
+    day.cloud_hourly = weather["cloud_hourly"].get<std::vector<double>>();
+    read.air.cloud_fraction = cloud_fraction_at(day, read.solar_h);
+  }
   day.cloud_fraction = read.air.cloud_fraction;
   read_air(weather, read.solar_h, day);
   read_vapour(weather, read.air, read.solar_h, day);
@@ -78,6 +84,7 @@ Weather at_moment(Weather weather, double later_s) {
   const Forcing forcing = forcing_at(weather.day, weather.solar_h);
   weather.air.temperature_k = forcing.air_k;
   weather.air.relative_humidity = forcing.vapour_hpa / saturation_hpa(forcing.air_k);
+  weather.air.cloud_fraction = cloud_fraction_at(weather.day, weather.solar_h);
   return weather;
 }
 
@@ -97,6 +104,8 @@ void check_weather(const Json& weather, std::initializer_list<Season> seasons,
   if (weather.contains("air_temperature_k") && (extremes || hourly))
     return add("air_temperature_k", fmt::format("{}", weather["air_temperature_k"].get<double>()), "K",
                "none beside the air of the whole day");
+  if (weather.contains("cloud_hourly") && weather.contains("cloud_fraction"))
+    return add("cloud_hourly", "24 numbers", "", "none beside weather.cloud_fraction");
   if (weather.contains("dew_point_k") && weather.contains("relative_humidity"))
     return add("dew_point_k", fmt::format("{}", weather["dew_point_k"].get<double>()), "K",
                "none beside weather.relative_humidity");
