@@ -137,7 +137,7 @@ def test_boxes_like_those_of_a_known_set(place, tmp_path):
     done = _export(place, tmp_path / "x", "--format", "yolo", "--box-style", "drawn")
     assert (done.code, done.err) == (
         2,
-        f"veldt: {tmp_path}/x holds another export: box_fill; expected the same request, or an empty or new folder\n",
+        f"veldt: {tmp_path}/x holds another export: box_fill is only there; expected the same request, or an empty or new folder\n",
     )
 
 
