@@ -234,9 +234,9 @@ class NightShifts {
     for (const SceneOutline::Cover& cover : outline_.covers) {
       if (!(shares > 0)) break;
       const double shift_k = std::abs(direct_k(cover) - ground_k / shares) * std::min(1.0, outline_.smear_px);
-      for (const auto& [sign, part] : {std::pair{-1.0, 0.25}, {0.0, 0.5}, {1.0, 0.25}}) {
-        add("smear", sign * shift_k, part * cover.share, cover.actor);
-        if (cover.actor) on_actors_.at(index_of("smear")).push_back({sign * shift_k, part * cover.share});
+      for (const double value_k : {0.0, shift_k}) {
+        add("smear", value_k, cover.share / 2, cover.actor);
+        if (cover.actor) on_actors_.at(index_of("smear")).push_back({value_k, cover.share / 2});
       }
     }
   }

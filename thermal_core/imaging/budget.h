@@ -75,8 +75,9 @@ struct Budget {
 /// third of the NETD; dropping less than that adds at most 5 % to the noise in quadrature. Percentiles are over what
 /// fills the pictures; for `parts` over the actors, for `facing` over actors or all else, whichever differ more, for
 /// `mirror` over the water. Shifts of emission and reflection are relative to the terms before them in kTerms, with
-/// level surfaces under an open sky. `smear` counts at borders, of actors alone or of all: half of their pixels differ,
-/// to either side, by the contrast to the mean ground times the motion in px within a time constant, at most 1. An
+/// level surfaces under an open sky. `smear` counts at borders, of actors alone or of all: half of their pixels differ
+/// by the contrast to the mean ground times the motion in px within a time constant, at most 1. A border loses that on
+/// one side and gains it on the other; it counts once. An
 /// automatic term that is impossible is dropped; ConfigError if the config requires one.
 [[nodiscard]] Budget weigh_terms(const SceneOutline& outline, const TermChoices& choices);
 
