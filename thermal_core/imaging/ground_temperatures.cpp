@@ -19,7 +19,8 @@ constexpr float kDampSpread = 0.02F;
 constexpr std::uint32_t kFabricStream = 68;
 constexpr double kFabricM = 2;
 constexpr double kFinestFabricM = 0.25;
-constexpr float kFabricSpread = 0.5F;  // of a part's variation: what it has within 2 m
+// Of a part's variation: what it has within 2 m, set so that ground is as uneven as in night frames of HIT-UAV.
+constexpr float kFabricSpread = 0.5F;
 constexpr std::size_t kGroundRowsAChunk = 16;
 constexpr std::size_t kGroundCellsAChunk = 4096;
 
