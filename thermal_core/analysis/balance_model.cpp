@@ -7,7 +7,7 @@
 namespace thermal {
 namespace {
 
-using Terms = std::vector<IntegerProgram::Term>;
+using ProgramTerms = std::vector<IntegerProgram::Term>;
 
 /// The largest level in 0 … top for which `holds`, a predicate that is true up to some level and true at 0.
 template <typename Holds>
@@ -74,7 +74,7 @@ class ModelMaker {
   void add_video(std::size_t i) {
     const BalanceVideo& video = program_.videos[i];
     const ClassCounts there = video.available();
-    std::array<Terms, kBalanceClasses> labels;
+    std::array<ProgramTerms, kBalanceClasses> labels;
     for (const FrameType& type : video.types) {
       const std::size_t column = model_.program.add(
           {.upper = static_cast<double>(type.frames.size()), .whole = shape_.parts[i] == VideoPart::whole});
@@ -91,10 +91,10 @@ class ModelMaker {
   }
 
   /// The rows of u, v and w for one video and class.
-  void add_rows_of(std::size_t i, std::size_t k, const Terms& labels, std::int64_t there) {
+  void add_rows_of(std::size_t i, std::size_t k, const ProgramTerms& labels, std::int64_t there) {
     add_row({.upper = 0, .terms = with(labels, {most_[k], -1})});
     const std::int64_t beyond = levels_.least_at_most[k] - there;  // v_k never exceeds T_ik by more than
-    Terms above_least = with(labels, {least_[k], -1});
+    ProgramTerms above_least = with(labels, {least_[k], -1});
     if (beyond > 0) {
       const std::optional<bool> known = shape_.used_up.empty() ? std::nullopt : shape_.used_up[i][k];
       const std::size_t column = model_.program.add({.lower = known.value_or(false) ? 1.0 : 0.0,
@@ -120,7 +120,7 @@ class ModelMaker {
   }
 
   void add_objective_row() {
-    Terms terms;
+    ProgramTerms terms;
     for (std::size_t k = 0; k < kBalanceClasses; ++k) {
       terms.push_back({most_[k], 1});
       terms.push_back({least_[k], -1});
@@ -128,7 +128,7 @@ class ModelMaker {
     add_row({.upper = shape_.objective_at_most, .terms = std::move(terms)});
   }
 
-  static Terms with(Terms terms, const IntegerProgram::Term& term) {
+  static ProgramTerms with(ProgramTerms terms, const IntegerProgram::Term& term) {
     terms.push_back(term);
     return terms;
   }
@@ -140,7 +140,7 @@ class ModelMaker {
   BalanceModel model_;
   std::array<std::size_t, kBalanceClasses> most_{};
   std::array<std::size_t, kBalanceClasses> least_{};
-  std::array<Terms, kBalanceClasses> sums_;
+  std::array<ProgramTerms, kBalanceClasses> sums_;
   std::array<double, kBalanceClasses> fixed_{};
 };
 

@@ -18,7 +18,7 @@ constexpr int kMostTagNumbers = 16;
 /// Empty: neither text nor a few numbers.
 std::string text_of(const OIIO::ParamValue& tag) {
   if (tag.type() == OIIO::TypeDesc::STRING) return std::string(tag.get_ustring());
-  const int count = tag.type().basevalues() * tag.nvalues();
+  const auto count = static_cast<int>(tag.type().basevalues()) * tag.nvalues();
   if (tag.type().basetype == OIIO::TypeDesc::STRING || count > kMostTagNumbers) return "";
   std::string text;
   for (int k = 0; k < count; ++k) text += fmt::format("{}{}", k == 0 ? "" : " ", tag.get_float_indexed(k));
