@@ -119,18 +119,17 @@ TEST_CASE("Headers that do not fit are refused") {
         "ground.json: arrays.sunlit.shape = [2,2,2]; expected [1, 2, 2]");
   CHECK(fault_of_header([](Json& header) { header["arrays"].erase("grass"); }) ==
         "ground.json: arrays.grass = nothing; expected an array");
-  CHECK(fault_of_header([](Json& header) { header["arrays"]["sunlit"]["offset"] = 576; }) ==
-        "ground.json: arrays.sunlit.offset = 576; expected a multiple of 64 within the 576 bytes of "
-        "ground.bin, "
-        "with all of the array");
+  CHECK(fault_of_header([](Json& header) { header["arrays"]["sunlit"]["offset"] = 704; }) ==
+        "ground.json: arrays.sunlit.offset = 704; expected a multiple of 64 within the 704 bytes of "
+        "ground.bin, with all of the array");
 }
 
 TEST_CASE("A binary file that is cut is refused") {
   const TemporaryFolder folder;
   thermal::write_ground_maps(maps(), folder.path(), folder.path());
-  std::filesystem::resize_file(folder / "ground.bin", 575);
+  std::filesystem::resize_file(folder / "ground.bin", 703);
   CHECK(message_of<DataError>([&] { (void)read(folder); }) ==
-        (folder / "ground.bin").string() + ": 575 bytes; expected 576");
+        (folder / "ground.bin").string() + ": 703 bytes; expected 704");
 }
 
 }  // namespace ground_maps_file_test
