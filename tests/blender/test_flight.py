@@ -97,7 +97,7 @@ def test_look_angle_is_kept():
 
 @pytest.mark.parametrize("aircraft, least_deg", [("multirotor", 89.5), ("fixed_wing", 88)])
 def test_a_gimbal_holds_nadir_through_the_turns(aircraft, least_deg):
-    """Leaning by 17 degrees to brake, or over from 30 to the left to 30 to the right, takes three quarters of a second."""
+    """Leaning by 17 degrees to brake, or over from 30 to the left to 30 to the right, takes .75 s."""
     _, flight = _fly(frames=900, speed_m_s=6, aircraft=aircraft, gimbal={"lag_s": 0.05})
     assert least_deg < flight.look_angle_deg.min() < 89.9
 

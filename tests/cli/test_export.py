@@ -10,35 +10,18 @@ import numpy as np
 import pytest
 
 import passes
-from pictures import read_grey, write_exr, write_grey
+from exports import CLIPS, export, export_whole, with_three_clips
+from pictures import read_grey
 from processes import PATIENCE_S, interrupt
 from program import Veldt, files_below
 
-CLIPS = ("one", "two", "three")
 FRAMES = passes.FRAMES
 TABLE = "  split          clips  pictures  labels   human  elephant\n"
 
 
 @pytest.fixture(scope="module", name="place")
 def _place(tmp_path_factory) -> Veldt:
-    """A place with a dataset of three clips, in `data`; the last frame of `three` is empty."""
-    veldt = Veldt(tmp_path_factory.mktemp("export"))
-    clips = [passes.write_clip(veldt.folder / clip, clip) for clip in CLIPS]
-    ground = np.full((passes.HEIGHT, passes.WIDTH), passes.GROUND, np.float32)
-    write_exr(clips[2] / f"{FRAMES - 1:06d}.exr", {passes.OBJECTS: ground, passes.DEPTH: ground * 40})
-    done = veldt("convert", *clips, "--out", "data", "--quiet")
-    assert (done.code, done.out, done.err) == (0, "", "")
-    return veldt
-
-
-def _export(place, out, *options, source="data"):
-    return place("export", source, "--out", out, "--progress", "none", *options)
-
-
-def _made(place, out, *options, source="data") -> Path:
-    done = _export(place, out, *options, "--quiet", source=source)
-    assert (done.code, done.out, done.err) == (0, "", "")
-    return place.folder / out
+    return with_three_clips(tmp_path_factory.mktemp("export"))
 
 
 def _boxes(document: dict) -> list:
@@ -52,133 +35,11 @@ def _boxes(document: dict) -> list:
     )
 
 
-@pytest.mark.parametrize("options", [["--format", "coco"], ["--format", "coco", "--split", "a:0.5,b:0.5"]])
-def test_drawn_boxes_are_wider_and_everything_else_is_as_it_was(place, tmp_path, options):
-    made = _made(place, tmp_path / "x", *options, "--box-style", "drawn")
-    files = [made / "annotations.json"] if len(options) == 2 else sorted((made / "annotations").iterdir())
-    drawn = {a["id"]: a for file in files for a in json.loads(file.read_text())["annotations"]}
-    visible = json.loads((place.folder / "data" / "annotations.json").read_text())["annotations"]
-    assert len(drawn) == len(visible) > 0
-    for annotation in visible:
-        x, y, wide, high = annotation["bbox"]
-        margin = min(2.1, 0.7 + 0.1 * (wide * high) ** 0.5)
-        left, top = max(x - margin, 0), max(y - margin, 0)
-        right, low = min(x + wide + margin, passes.WIDTH), min(y + high + margin, passes.HEIGHT)
-        assert drawn[annotation["id"]]["bbox"] == pytest.approx([left, top, right - left, low - top])
-        assert drawn[annotation["id"]] | {"bbox": annotation["bbox"]} == annotation
-    record = json.loads((made / "export.json").read_text())
-    assert record["request"]["box_style"] == "drawn"
-
-
-def test_drawn_boxes_are_in_every_format(place, tmp_path):
-    labels = {}
-    for style in ("visible", "drawn"):
-        made = _made(place, tmp_path / style, "--format", "yolo", "--box-style", style)
-        lines = [
-            line.split() for file in sorted(made.rglob("*.txt")) for line in file.read_text().splitlines()
-        ]
-        labels[style] = np.array([[float(word) for word in words[1:]] for words in lines if len(words) == 5])
-    assert (labels["drawn"][:, 2:] > labels["visible"][:, 2:]).all()
-
-
-def _write_drawn(place, folder: str, count: int, names=("Person", "Deer")) -> None:
-    """Labelled frames: people of 8 x 12 px in boxes of 16 x 15 px, animals of 10 x 6 in 20 x 20, some as dark as land."""
-    annotations = []
-    (place.folder / folder / "frames").mkdir(parents=True)
-    for k in range(count):
-        levels = np.full((60, 80), 50, np.uint8)
-        boxes = [[10 + k % 5, 20, 16, 15], [45, 20 + k % 5, 20, 20]]
-        for category, (x, y, wide, high), (left, top) in zip((0, 1), boxes, ((4, 1), (5, 7))):
-            levels[y + top : y + high - top - (category == 0), x + left : x + wide - left] = 50 + 100 * (
-                k % 4 > 0
-            )
-            annotations.append(
-                {"id": len(annotations), "image_id": k, "category_id": category, "bbox": [x, y, wide, high]}
-            )
-        write_grey(place.folder / folder / "frames" / f"{k:02d}.png", levels)
-    images = [{"id": k, "file_name": f"{k:02d}.png", "width": 80, "height": 60} for k in range(count)]
-    categories = [{"id": k, "name": name} for k, name in enumerate(names)]
-    place.write(
-        f"{folder}/labels.json", {"images": images, "annotations": annotations, "categories": categories}
-    )
-
-
-def test_boxes_like_those_of_other_labels(place, tmp_path):
-    _write_drawn(place, "theirs", 40)
-    options = ("--format", "coco", "--box-style", "drawn", "--like", "theirs/labels.json")
-    done = _export(place, tmp_path / "x", *options, "--like-frames", "theirs/frames")
-    assert (done.code, done.err) == (0, "")
-    assert done.out.startswith(
-        "theirs/labels.json: people fill 0.500 x 0.800 of their boxes (30 of 40 boxes measured)\n"
-        "theirs/labels.json: animals fill 0.500 x 0.300 of their boxes (30 of 40 boxes measured)\n"
-    )
-    record = json.loads((tmp_path / "x" / "export.json").read_text())
-    assert record["request"]["box_fill"] == {
-        "people": [0.5, 0.8],
-        "animals": [0.5, 0.3],
-        "vehicles": [0.5, 0.55],
-    }
-    drawn = {
-        a["id"]: a["bbox"] for a in json.loads((tmp_path / "x/annotations.json").read_text())["annotations"]
-    }
-    for annotation in place.read("data/annotations.json")["annotations"]:
-        x, y, wide, high = annotation["bbox"]
-        share = {1: (0.5, 0.8), 2: (0.5, 0.3)}[annotation["category_id"]]
-        across, down = (max(0, ((side - 0.6) / s - side) / 2) for side, s in zip((wide, high), share))
-        left, top = max(x - across, 0), max(y - down, 0)
-        right, low = min(x + wide + across, passes.WIDTH), min(y + high + down, passes.HEIGHT)
-        assert drawn[annotation["id"]] == pytest.approx([left, top, right - left, low - top])
-
-
-def test_boxes_like_those_of_a_known_set(place, tmp_path):
-    options = ("--format", "yolo", "--box-style", "drawn", "--like", "birdsai")
-    record = json.loads((_made(place, tmp_path / "x", *options) / "export.json").read_text())
-    assert record["request"]["box_fill"]["animals"] == [0.54, 0.44]
-    done = _export(place, tmp_path / "x", "--format", "yolo", "--box-style", "drawn")
-    assert (done.code, done.err) == (
-        2,
-        f"veldt: {tmp_path}/x holds another export: box_fill is only there; expected the same request, or an empty or new folder\n",
-    )
-
-
-@pytest.mark.parametrize(
-    "options, code, message",
-    [
-        (["--like", "birdsai"], 2, "--like = birdsai; expected --box-style drawn beside it"),
-        (
-            ["--box-style", "drawn", "--like", "birdsay"],
-            2,
-            '--like = birdsay; expected hit_uav, birdsai or labels of your own; did you mean "birdsai"?',
-        ),
-        (
-            ["--box-style", "drawn", "--like", "birdsai", "--like-frames", "frames"],
-            2,
-            "--like-frames = frames; expected none with a named style",
-        ),
-        (
-            ["--box-style", "drawn", "--like", "few/labels.json", "--like-frames", "few/frames"],
-            1,
-            "few/labels.json = 18 boxes whose targets stand out; expected at least 20",
-        ),
-        (
-            ["--box-style", "drawn", "--like", "few/labels.json"],
-            1,
-            "few/labels.json: no picture 00.png in few; expected the folder of its pictures as --like-frames",
-        ),
-    ],
-)
-def test_faults_of_like(place, tmp_path, options, code, message):
-    if not (place.folder / "few").exists():
-        _write_drawn(place, "few", 12)
-    done = _export(place, tmp_path / "x", "--format", "coco", *options)
-    assert (done.code, done.out, done.err) == (code, "", f"veldt: {message}\n")
-
-
 # --- formats ----------------------------------------------------------------------------------------------------------
 
 
 def test_coco_is_the_dataset_s_own_file_with_its_pictures(place, tmp_path):
-    done = _export(place, tmp_path / "x", "--format", "coco")
+    done = export(place, tmp_path / "x", "--format", "coco")
     assert (done.code, done.err) == (0, "")
     row = "  all                3         9      16       8         8\n"
     assert done.out == f"{tmp_path}/x: 9 pictures and 16 labels as coco\n{TABLE}{row}"
@@ -189,7 +50,7 @@ def test_coco_is_the_dataset_s_own_file_with_its_pictures(place, tmp_path):
 
 
 def test_yolo(place, tmp_path):
-    done = _export(place, tmp_path / "x", "--format", "yolo")
+    done = export(place, tmp_path / "x", "--format", "yolo")
     assert (done.code, done.err) == (0, "")
     row = "  train              3         9      16       8         8\n"
     assert done.out == f"{tmp_path}/x: 9 pictures and 16 labels as yolo\n{TABLE}{row}"
@@ -207,7 +68,7 @@ def test_yolo(place, tmp_path):
 
 
 def test_mot(place, tmp_path):
-    out = _made(place, tmp_path / "x", "--format", "mot")
+    out = export_whole(place, tmp_path / "x", "--format", "mot")
     of_a_clip = ["gt/gt.txt", "seqinfo.ini", *(f"img1/{k + 1:06d}.png" for k in range(FRAMES))]
     files = [f"train/{clip}/{name}" for clip in CLIPS for name in of_a_clip]
     assert files_below(out) == sorted(["classes.txt", "export.json", "seqmaps/made_up-train.txt", *files])
@@ -223,13 +84,13 @@ def test_mot(place, tmp_path):
 
 
 def test_birdsai_comes_back_as_it_was(place, tmp_path):
-    out = _made(place, tmp_path / "x", "--format", "birdsai")
+    out = export_whole(place, tmp_path / "x", "--format", "birdsai")
     pictures = [f"images/{clip}/{clip}_{k:010d}.png" for clip in CLIPS for k in range(FRAMES)]
     tables = [f"annotations/{clip}.csv" for clip in CLIPS]
     assert files_below(out) == sorted(["export.json", *tables, *pictures])
     rows = (out / "annotations/one.csv").read_text().splitlines()
     assert rows[:2] == ["0,7,8,5,2,4,1,0,0,0", "0,9,0,10,5,4,0,1,0,0"]
-    back = _made(place, tmp_path / "back", "--format", "coco", source=out)
+    back = export_whole(place, tmp_path / "back", "--format", "coco", source=out)
     document = json.loads((back / "annotations.json").read_text())
     assert len(document["images"]) == 9
     assert _boxes(document) == _boxes(place.read("data/annotations.json"))
@@ -242,7 +103,7 @@ def test_vehicles_are_left_out_of_birdsai_and_counted(place, tmp_path):
             category["name"] = "vehicle"
     file = place.folder / "data" / "vehicles.json"
     file.write_text(json.dumps(document))
-    done = _export(place, tmp_path / "x", "--format", "birdsai", source=file)
+    done = export(place, tmp_path / "x", "--format", "birdsai", source=file)
     assert (done.code, done.err) == (0, "")
     assert done.out.splitlines()[0] == f"{tmp_path}/x: 9 pictures and 8 labels as birdsai"
     assert done.out.splitlines()[-1] == "left out: 8 labels of vehicles, which BIRDSAI has no class for"
@@ -252,11 +113,11 @@ def test_vehicles_are_left_out_of_birdsai_and_counted(place, tmp_path):
 
 
 def test_pictures_of_sixteen_bits(place, tmp_path):
-    out = _made(place, tmp_path / "x", "--format", "yolo", "--images", "ir16")
+    out = export_whole(place, tmp_path / "x", "--format", "yolo", "--images", "ir16")
     picture = out / "images/train/two_000001.png"
     assert picture.samefile(place.folder / "data/clips/two/ir16/000001.png")
     assert read_grey(picture).dtype == np.uint16
-    out = _made(place, tmp_path / "y", "--format", "coco", "--images", "ir16")
+    out = export_whole(place, tmp_path / "y", "--format", "coco", "--images", "ir16")
     document = json.loads((out / "annotations.json").read_text())
     assert document["images"][4]["file_name"] == "clips/two/ir16/000001.png"
     assert (out / "clips/two/ir16/000001.png").exists()
@@ -268,7 +129,7 @@ def test_pictures_of_sixteen_bits(place, tmp_path):
 
 @pytest.mark.parametrize("link", ["hard", "symlink", "copy"])
 def test_ways_to_link(place, tmp_path, link):
-    out = _made(place, tmp_path / "x", "--format", "yolo", "--link", link)
+    out = export_whole(place, tmp_path / "x", "--format", "yolo", "--link", link)
     made, source = out / "images/train/one_000000.png", place.folder / "data/clips/one/ir8/000000.png"
     assert made.read_bytes() == source.read_bytes()
     assert made.is_symlink() == (link == "symlink")
@@ -285,7 +146,7 @@ def test_copies_where_a_file_system_ends(place):
         pytest.skip("one file system is all there is")
     out = other / f"veldt_export_{os.getpid()}"
     try:
-        done = _export(place, out, "--format", "yolo")
+        done = export(place, out, "--format", "yolo")
         assert (done.code, done.err) == (0, "")
         assert done.out.splitlines()[-1] == "9 pictures copied: the file system cannot link them"
         made = out / "images/train/one_000000.png"
@@ -298,7 +159,7 @@ def test_copies_where_a_file_system_ends(place):
 
 
 def test_clips_go_whole_to_one_split(place, tmp_path):
-    done = _export(place, tmp_path / "x", "--format", "yolo", "--split", "train:0.67,val:0.33")
+    done = export(place, tmp_path / "x", "--format", "yolo", "--split", "train:0.67,val:0.33")
     assert (done.code, done.err) == (0, "")
     splits = {s: {f.stem[:-7] for f in (tmp_path / "x/images" / s).iterdir()} for s in ("train", "val")}
     assert (len(splits["train"]), len(splits["val"])) == (2, 1)
@@ -310,7 +171,9 @@ def test_clips_go_whole_to_one_split(place, tmp_path):
 
 
 def test_splits_of_coco_are_files_of_their_own(place, tmp_path):
-    out = _made(place, tmp_path / "x", "--format", "coco", "--split", "a:0.3,b:0.3,c:0.4", "--seed", "3")
+    out = export_whole(
+        place, tmp_path / "x", "--format", "coco", "--split", "a:0.3,b:0.3,c:0.4", "--seed", "3"
+    )
     whole = place.read("data/annotations.json")
     parts = [json.loads((out / "annotations" / f"{name}.json").read_text()) for name in "abc"]
     for key in ("videos", "images", "annotations"):
@@ -321,13 +184,13 @@ def test_splits_of_coco_are_files_of_their_own(place, tmp_path):
         assert {image["video_id"] for image in part["images"]} == {part["videos"][0]["id"]}
         ids = {image["id"] for image in part["images"]}
         assert {a["image_id"] for a in part["annotations"]} <= ids
-    again = _made(place, tmp_path / "y", "--format", "birdsai", source=out / "annotations" / "a.json")
+    again = export_whole(place, tmp_path / "y", "--format", "birdsai", source=out / "annotations" / "a.json")
     assert len(list((again / "annotations").iterdir())) == 1  # pictures are found beside annotations/
 
 
 def test_a_seed_decides(place, tmp_path):
     def clips_in_a(name, *seed):
-        out = _made(place, tmp_path / name, "--format", "mot", "--split", "a:0.34,b:0.66", *seed)
+        out = export_whole(place, tmp_path / name, "--format", "mot", "--split", "a:0.34,b:0.66", *seed)
         return sorted(path.name for path in (out / "a").iterdir())
 
     found = {seed: clips_in_a(f"x{seed}", "--seed", seed) for seed in range(1, 9)}
@@ -344,11 +207,11 @@ def _select(place, frames: dict, **changes) -> Path:
 
 def test_selected_frames(place, tmp_path):
     selection = _select(place, {"one": [1], "three": [0, 2]})
-    out = _made(place, tmp_path / "x", "--format", "yolo", "--selection", selection)
+    out = export_whole(place, tmp_path / "x", "--format", "yolo", "--selection", selection)
     names = ["one_000001", "three_000000", "three_000002"]
     assert sorted(file.stem for file in (out / "images/train").iterdir()) == names
     assert sorted(file.stem for file in (out / "labels/train").iterdir()) == names
-    out = _made(place, tmp_path / "y", "--format", "coco", "--selection", selection)
+    out = export_whole(place, tmp_path / "y", "--format", "coco", "--selection", selection)
     document, whole = json.loads((out / "annotations.json").read_text()), place.read("data/annotations.json")
     assert document["images"] == [whole["images"][k] for k in (1, 6, 8)]
     assert len(document["annotations"]) == 4
@@ -360,7 +223,7 @@ def test_selected_frames(place, tmp_path):
 
 def test_a_selection_is_shared_out_by_clips_that_have_frames(place, tmp_path):
     selection = _select(place, {"one": [1], "two": [], "three": [0, 2]})
-    out = _made(
+    out = export_whole(
         place, tmp_path / "x", "--format", "birdsai", "--selection", selection, "--split", "a:0.5,b:0.5"
     )
     assert sorted(file.name for file in out.glob("*/annotations/*")) == ["one.csv", "three.csv"]
@@ -371,9 +234,9 @@ def test_a_selection_is_shared_out_by_clips_that_have_frames(place, tmp_path):
 
 def test_once_more_there_is_nothing_to_do(place, tmp_path):
     options = ("--format", "coco", "--split", "a:0.5,b:0.5")
-    _made(place, tmp_path / "x", *options)
+    export_whole(place, tmp_path / "x", *options)
     times = {file: file.stat().st_mtime_ns for file in (tmp_path / "x").rglob("*")}
-    done = _export(place, f"{tmp_path}/x/", *options)
+    done = export(place, f"{tmp_path}/x/", *options)
     assert (done.code, done.err) == (0, "")
     assert done.out == f"{tmp_path}/x/: nothing to do; this export already exists\n"
     assert {file: file.stat().st_mtime_ns for file in (tmp_path / "x").rglob("*")} == times
@@ -382,7 +245,7 @@ def test_once_more_there_is_nothing_to_do(place, tmp_path):
 
 def test_into_an_empty_folder_that_is_there(place, tmp_path):
     (tmp_path / "x").mkdir()
-    _made(place, tmp_path / "x", "--format", "mot")
+    export_whole(place, tmp_path / "x", "--format", "mot")
     assert (tmp_path / "x" / "classes.txt").read_text() == "1 human\n2 elephant\n"
 
 

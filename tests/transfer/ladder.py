@@ -6,9 +6,9 @@
 Generates the dataset, exports its labels as people draw them, trains a small detector on it from several seeds, with no
 real frames, a few, and many, and beside it on those real frames alone. Real frames are split by the order of their
 names: every other one is for training, the rest judges. --also judges by other frames, too; --chain draws what cameras
-and links do after the sensor while it trains, with the package `veldt` (PYTHONPATH=build/release/python). Everything that
-exists in OUT already is kept. Needs python3-torch and python3-opencv; each training takes minutes on two cores. Results
-and how to read them: thermal_core/TRANSFER.md.
+and links do after the sensor while it trains, with the package `veldt` (PYTHONPATH=build/release/python). Everything
+that exists in OUT already is kept. Needs python3-torch and python3-opencv; each training takes minutes on two cores.
+Results and how to read them: thermal_core/TRANSFER.md.
 """
 
 from __future__ import annotations
@@ -82,6 +82,7 @@ class Draws:
         """Of a training. The package is needed only here."""
         import veldt  # pylint: disable=import-outside-toplevel
 
+        # pylint: disable-next=no-member
         return veldt.VideoChain(json.loads(self.settings.read_text(encoding="utf-8")), seed=seed)
 
 

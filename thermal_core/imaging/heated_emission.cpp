@@ -179,14 +179,14 @@ class HeatedEmission {
       if (!(row.depth_m[i] > 0 && row.depth_m[i] < kSkyFromM)) continue;
       const float from_z_m = row.origin_z_m.empty() ? row.pose->position_m[2] : row.origin_z_m[i];
       const float z_m = from_z_m + row.depth_m[i] * along(up, row, i);
-      row.temperature_k[i] = by_depth_k<kCrownStepM>(surface, crown_top_m(row, i) - z_m, later_h(row));
+      row.temperature_k[i] = by_depth_k(surface, crown_top_m(row, i) - z_m, kCrownStepM, later_h(row));
     }
   }
 
   void add_waters(const HeatedSurface& surface, Row& row, std::size_t begin, std::size_t end) const {
     for (std::size_t i = begin; i < end; ++i) {
       const float depth_m = detail_->waters.at(row.metres[0][i], row.metres[1][i]);
-      if (depth_m > 0) row.temperature_k[i] = by_depth_k<kWaterStepM>(surface, depth_m, later_h(row));
+      if (depth_m > 0) row.temperature_k[i] = by_depth_k(surface, depth_m, kWaterStepM, later_h(row));
     }
   }
 
@@ -194,11 +194,9 @@ class HeatedEmission {
     return detail_->crown_tops.at(row.metres[0][i], row.metres[1][i]);
   }
 
-  template <double StepM>
-  static float by_depth_k(const HeatedSurface& surface, float depth_m, float later_h) {
-    constexpr auto kPerM = static_cast<float>(1 / StepM);
+  static float by_depth_k(const HeatedSurface& surface, float depth_m, double step_m, float later_h) {
     constexpr auto kLast = static_cast<float>(SurfaceWarmth::kDepths - 1);
-    const float position = std::clamp(depth_m * kPerM, 0.0F, kLast - 0.001F);
+    const float position = std::clamp(depth_m * static_cast<float>(1 / step_m), 0.0F, kLast - 0.001F);
     const auto node = static_cast<std::size_t>(position);
     const auto node_k = [&](std::size_t number) {
       return surface.middle.by_depth_k[number] + later_h * surface.per_h.by_depth_k[number];

@@ -94,8 +94,10 @@ std::vector<float> water_depths_m(const BakedGround& ground, std::span<const flo
   const Grid shore_m = {.values = ground.shore_m, .nodes = nodes};
   std::vector<float> depths_m(cells * cells);
   for (std::size_t i = 0; i < depths_m.size(); ++i) {
-    const BetweenNodes row = between_nodes((static_cast<double>(i / cells) + 0.5) * steps_a_cell, nodes);
-    const BetweenNodes column = between_nodes((static_cast<double>(i % cells) + 0.5) * steps_a_cell, nodes);
+    const std::size_t y = i / cells;
+    const std::size_t x = i % cells;
+    const BetweenNodes row = between_nodes((static_cast<double>(y) + 0.5) * steps_a_cell, nodes);
+    const BetweenNodes column = between_nodes((static_cast<double>(x) + 0.5) * steps_a_cell, nodes);
     if (shore_m.at(row, column) < kNearShoreM)
       depths_m[i] = std::max(0.0F, highest_m[i] - static_cast<float>(height_m.at(row, column)));
   }

@@ -214,7 +214,8 @@ void AnalogueLink::draw_lines(std::uint32_t frame) {
     double& here = drift[y % 2];
     const auto driven = static_cast<double>(drifts[y]);
     here = y < 2 ? driven : follows * here + fresh * driven;
-    const double fields = static_cast<double>(y % 2) + static_cast<double>(y / 2) / field_lines;
+    const std::size_t line = y / 2;
+    const double fields = static_cast<double>(y % 2) + static_cast<double>(line) / field_lines;
     const double time_s = frame / frame_rate_hz_ + fields / parameters_.field_rate_hz;
     const double hum =
         std::numbers::sqrt2 * std::sin(2 * std::numbers::pi * (parameters_.hum_hz * time_s + hum_turns_));

@@ -34,8 +34,8 @@ class FineCovers:
     """Maps (cells, cells) of bytes on the fine grid.
 
     kind: number of the topmost cover, 0 for soil, also where grass is on top. border: distance from a cell's middle to
-    the border of its kind, of which 255 is BORDER_CELLS or more. grass, trodden, ash: shares, of which 255 is all; grass
-    and ash are 0 where kind is not.
+    the border of its kind, of which 255 is BORDER_CELLS or more. grass, trodden, ash: shares, of which 255 is all;
+    grass and ash are 0 where kind is not.
     """
 
     kind: np.ndarray
@@ -46,8 +46,8 @@ class FineCovers:
 
 
 def lay_kinds(grid: FineGrid, layers: Sequence[Layer]) -> tuple[np.ndarray, np.ndarray]:
-    """The number (cells, cells) of the first of the layers at the middle of each cell, from 1; 0 for soil and grass. And
-    the distance to the border of that kind, see FineCovers."""
+    """The number (cells, cells) of the first of the layers at the middle of each cell, from 1; 0 for soil and grass.
+    And the distance to the border of that kind, see FineCovers."""
     kinds = np.zeros((grid.cells, grid.cells), np.uint8)
     border = np.full_like(kinds, 255)
     for number, layer in reversed(list(enumerate(layers, start=1))):

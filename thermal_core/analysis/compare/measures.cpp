@@ -37,10 +37,10 @@ constexpr std::array<Figure<FrameFigures>, 7> kGrey = {{
     {"roughness of histogram", "", [](const FrameFigures& f) { return std::optional(f.grey.roughness); }},
 }};
 
-template <double Edge::*halo>
+template <double Edge::*Halo>
 std::optional<double> median_halo(const FrameFigures& frame) {
   std::vector<double> halos;
-  for (const Edge& edge : frame.edges) halos.push_back(edge.*halo);
+  for (const Edge& edge : frame.edges) halos.push_back(edge.*Halo);
   return halos.empty() ? std::nullopt : std::optional(median_of(std::move(halos)));
 }
 
@@ -55,9 +55,9 @@ std::optional<double> noise_deviation(const FrameFigures& frame) {
   return frame.noise ? std::optional(frame.noise->deviation) : std::nullopt;
 }
 
-template <std::optional<double> FlatNoise::*correlation>
+template <std::optional<double> FlatNoise::*Correlation>
 std::optional<double> noise_correlation(const FrameFigures& frame) {
-  return frame.noise ? (*frame.noise).*correlation : std::nullopt;
+  return frame.noise ? (*frame.noise).*Correlation : std::nullopt;
 }
 
 constexpr std::array<Figure<FrameFigures>, 2> kHalos = {{

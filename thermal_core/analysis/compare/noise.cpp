@@ -37,8 +37,9 @@ std::optional<Block> flattened(const Plane<float>& frame, int left, int top) {
     down += level * (y - kMiddle);
   }
   for (std::size_t k = 0; k < block.size(); ++k) {
+    const std::size_t row = k / kBlockPx;
     const double x = static_cast<double>(k % kBlockPx) - kMiddle;
-    const double y = static_cast<double>(k / kBlockPx) - kMiddle;
+    const double y = static_cast<double>(row) - kMiddle;
     block[k] -= sum / kCount + (across * x + down * y) / kMoment;
   }
   return block;

@@ -400,10 +400,10 @@ bool FittedFeature::is_unlike() const { return told_after > kUnlike && told_afte
 
 RealFeatures::RealFeatures(std::vector<FrameFigures> frames, std::uint32_t seed)
     : frames_(std::move(frames)), columns_(columns_of(figures_in(frames_))), scales_(columns_.size()) {
-  constexpr std::uint32_t kHalvings = 10;
+  constexpr std::uint32_t kScaleHalvings = 10;
   constexpr double kLeastShare = 0.01;
   std::vector<double> counts(columns_.size());
-  for (std::uint32_t draw = 0; draw < kHalvings; ++draw) {
+  for (std::uint32_t draw = 0; draw < kScaleHalvings; ++draw) {
     const Halves halves = halves_of(frames_, seed, kScaleHalving + draw);
     const auto first = columns_of(halves.first);
     const auto second = columns_of(halves.second);

@@ -49,7 +49,7 @@ class FittedSpace {
   [[nodiscard]] Json document_at(const std::vector<double>& place) const;
 
   /// A key's value at a place, as document_at() writes it: a number or a distribution.
-  [[nodiscard]] Json value_at(std::size_t key, const std::vector<double>& place) const;
+  [[nodiscard]] Json value_at(std::size_t number, const std::vector<double>& place) const;
 
  private:
   [[nodiscard]] double number_at(const FittedKey& key, double coordinate) const;

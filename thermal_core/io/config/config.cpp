@@ -172,7 +172,7 @@ const ClipSettings& settings_of(const Config& config, const ClipConfig& clip) {
 }
 
 Weather weather_of(const Config& config, const ClipConfig& clip) {
-  const Weather weather = given_weather(config, clip);
+  Weather weather = given_weather(config, clip);
   if (!config.heat_balance) return weather;
   return at_moment(weather, clip.start_s + 0.5 * (clip.frames - 1) / clip.frame_rate_hz);
 }
