@@ -158,7 +158,7 @@ def draw_models(shop: Workshop, out: Path) -> None:
     budget = json.loads((ROOT / published / "dataset.json").read_text(encoding="utf-8"))["physics"]
     spread_k = {term["term"]: term["spread_mk"] / 1000 for term in budget["terms"]}
     total, bodies = f"{budget['dropped_mk'] / 1000:.0f} K", f"{spread_k['parts']:.0f} K of that within bodies"
-    shop.words["README.md"] = f"puts what it leaves out at {total}, {bodies}"
+    shop.words["thermal_core/README.md"] = f"puts what it leaves out at {total}, {bodies}"
 
 
 def draw_gallery(shop: Workshop, out: Path) -> None:
@@ -228,7 +228,7 @@ def draw_map(shop: Workshop, out: Path) -> None:
     shop.veldt("render", "configs/savanna.json", "--out", BUILD / "look", "--preview")
     write_jpeg(out, 90, BUILD / "look/preview/map.png", "--resize", "1100x0")
     found = checksums(Map("configs/savanna.json"))
-    shop.words["README.md"] = f"one square mile, {found['actors']} actors, {found['plants']:,} plants"
+    shop.words["cli/README.md"] = f"one square mile, {found['actors']} actors, {found['plants']:,} plants"
 
 
 def draw_day(shop: Workshop, out: Path) -> None:
@@ -254,7 +254,7 @@ def draw_follow(shop: Workshop, out: Path) -> None:
         r"in view: ([\d.]+)%.*thought to be ([\d.]+) m off \(median\).* ([\d.]+) m \(most\)", told, re.DOTALL
     ).groups()
     off = f"{middle_m} m off their place (median; {most_m} m at most)"
-    shop.words["README.md"] = f"keep {share} % of four poachers in view, thought to be {off}"
+    shop.words["thermal_core/python/README.md"] = f"keep {share} % of four poachers in view, thought to be {off}"
 
 
 PICTURES = {
