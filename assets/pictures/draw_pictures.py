@@ -254,7 +254,9 @@ def draw_follow(shop: Workshop, out: Path) -> None:
         r"in view: ([\d.]+)%.*thought to be ([\d.]+) m off \(median\).* ([\d.]+) m \(most\)", told, re.DOTALL
     ).groups()
     off = f"{middle_m} m off their place (median; {most_m} m at most)"
-    shop.words["thermal_core/python/README.md"] = f"keep {share} % of four poachers in view, thought to be {off}"
+    shop.words[
+        "thermal_core/python/README.md"
+    ] = f"keep {share} % of four poachers in view, thought to be {off}"
 
 
 PICTURES = {
