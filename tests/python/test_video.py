@@ -34,6 +34,20 @@ def test_without_settings_a_picture_is_copied():
     assert np.array_equal(VideoChain({"link": QUIET_LINK})(picture), picture)
 
 
+def test_noise_is_white_without_a_filter_and_coloured_with_one():
+    grey = np.full((200, 300), 128, np.uint8)
+    white = VideoChain({"noise_levels": 12})(grey).astype(float) - 128
+    assert white.std() == pytest.approx(12, rel=0.02)  # 5 deviations of 60,000 values are 1.5 %
+    assert abs((white[:, 1:] * white[:, :-1]).mean()) < 0.02 * 144
+    sigma_px = 0.8
+    coloured = (
+        VideoChain({"noise_levels": 12, "processing": {"noise_filter_sigma_px": sigma_px}})(grey) - 128.0
+    )
+    assert coloured.std() == pytest.approx(12 / (2 * np.sqrt(np.pi) * sigma_px), rel=0.05)
+    next_px = (coloured[:, 1:] * coloured[:, :-1]).mean() / coloured.var()
+    assert next_px == pytest.approx(np.exp(-1 / (4 * sigma_px**2)), abs=0.03)
+
+
 def test_rows_are_combed_by_the_motion_from_field_to_field():
     columns = np.tile(np.arange(20, 120, 2, dtype=np.uint8), (30, 1))
     combed = VideoChain({"link": QUIET_LINK, "field_motion_px": 4})(columns).astype(int)
@@ -52,6 +66,7 @@ def test_an_unsharp_mask_leaves_halos():
     [
         ({"lnk": {}}, "settings: lnk is not a known key"),
         ({"link": {}}, "settings: link.standard"),
+        ({"noise_levels": -1}, "settings: noise_levels = -1"),
         ({"processing": {"unsharp_amount": -1}}, "settings: processing.unsharp_amount = -1"),
         ({"field_motion_px": {"uniform": [1]}}, "settings: field_motion_px"),
         ({"link": {"standard": "secam"}}, 'settings: link.standard = "secam"'),

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -5,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/rng.h"
 #include "io/assets.h"
 #include "io/config/distribution.h"
 #include "io/config/video.h"
@@ -13,28 +16,47 @@
 #include "python/parts.h"
 #include "sensor/analogue_link.h"
 #include "sensor/processing.h"
+#include "sensor/streams.h"
 
 namespace thermal::python {
 namespace {
 
 constexpr int kCountsPerLevel = 256;
+constexpr double kLeastCount = 1;  // 0 and 65535 are of pixels without a measurement
+constexpr double kMostCount = 65534;
 constexpr const char* kFieldMotion = "field_motion_px";
+constexpr const char* kNoise = "noise_levels";
 
 /// The schema of a chain's settings, from that of configs.
 Json rules_of_chain(const Json& config) {
   return {{"type", "object"},
           {"additionalProperties", false},
           {"properties",
-           {{"processing", config["properties"]["sensor"]["properties"]["processing"]},
+           {{kNoise, {{"type", "number"}, {"minimum", 0}, {"maximum", 100}, {"default", 0}}},
+            {"processing", config["properties"]["sensor"]["properties"]["processing"]},
             {"link", config["properties"]["output"]["properties"]["link"]},
             {kFieldMotion, {{"type", "number"}, {"minimum", -100}, {"maximum", 100}, {"default", 0}}}}}};
 }
 
-void process(const ProcessingParameters& parameters, Plane<std::uint8_t>& picture) {
+/// A picture in finer steps, with the white noise of another detector.
+Plane<std::uint16_t> noisy_counts(const Plane<std::uint8_t>& picture, double noise_levels,
+                                  const RandomField& field) {
   Plane<std::uint16_t> counts(picture.width_px(), picture.height_px());
+  std::vector<float> noise(noise_levels > 0 ? picture.size() : 0);
+  fill_normal(field, 0, noise);
+  const double scale = kCountsPerLevel * noise_levels;
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    const double count = kCountsPerLevel * (picture.pixels()[i] + 0.5);
+    const double added = noise.empty() ? 0 : scale * static_cast<double>(noise[i]);
+    counts.pixels()[i] =
+        static_cast<std::uint16_t>(std::clamp(std::round(count + added), kLeastCount, kMostCount));
+  }
+  return counts;
+}
+
+void process(const ProcessingParameters& parameters, const Plane<std::uint16_t>& counts,
+             Plane<std::uint8_t>& picture) {
   const auto levels = picture.pixels();
-  for (std::size_t i = 0; i < levels.size(); ++i)
-    counts.pixels()[i] = static_cast<std::uint16_t>(kCountsPerLevel * levels[i] + kCountsPerLevel / 2);
   Processing processing(parameters);
   const auto filtered = processing.filter(counts).pixels();
   for (std::size_t i = 0; i < levels.size(); ++i)
@@ -56,7 +78,9 @@ class VideoChain {
     {
       const py::gil_scoped_release others_run;
       const Json settings = drawn(number);
-      process(read_processing(settings["processing"]), picture);
+      const RandomField field = {.seed = seed_, .stream = kChainNoiseStream, .frame = number};
+      process(read_processing(settings["processing"]),
+              noisy_counts(picture, settings[kNoise].get<double>(), field), picture);
       if (settings.contains("link")) send(settings, number, picture);
     }
     return array_of(std::move(picture));

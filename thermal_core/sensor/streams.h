@@ -37,6 +37,7 @@ enum SensorStream : std::uint32_t {
   kLinkHumStream = 60,
   kLinkDropoutStream = 61,
   kLinkStreakStream = 62,
+  kChainNoiseStream = 63,
   kFlickerStream = 64,  ///< and the 31 numbers after it, one for each process
 };
 

@@ -14,10 +14,11 @@ from .runs import json_of
 
 
 class VideoChain:
-    """A noise filter, an unsharp mask and an analogue link for 8-bit pictures, with the code and the keys of a config's
-    `sensor.processing` and `output.link`, whose values may be distributions.
+    """Noise of a detector, a noise filter, an unsharp mask and an analogue link for 8-bit pictures, with the code and the
+    keys of a config's `sensor.processing` and `output.link`. All values may be distributions.
 
     >>> chain = VideoChain({
+    ...     "noise_levels": {"uniform": [0, 20]},
     ...     "processing": {"noise_filter_sigma_px": {"uniform": [0, 0.9]}, "unsharp_amount": {"uniform": [0, 1.5]}},
     ...     "link": {"choice": [None, {"standard": "pal", "noise_levels": {"uniform": [0, 8]}}]},
     ...     "field_motion_px": {"choice": [0, {"uniform": [-3, 3]}]},
@@ -26,8 +27,9 @@ class VideoChain:
     """
 
     def __init__(self, settings: Mapping[str, Any], *, seed: int = 1) -> None:
-        """settings: any of `processing`, `link` and `field_motion_px`, how far to the right all moves from even rows to
-        odd ones. ConfigError for unknown keys, values out of range, and distributions that are none.
+        """settings: any of `noise_levels` (0 to 100), the deviation of white noise that is added first, in levels;
+        `processing`; `link`; and `field_motion_px` (-100 to 100), how far to the right all moves from even rows to odd
+        ones. ConfigError for unknown keys, values out of range, and distributions that are none.
         """
         self._chain = _core.VideoChain(json_of(dict(settings), "settings"), home(), seed)
         self._next = 0
