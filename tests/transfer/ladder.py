@@ -6,14 +6,16 @@
 Generates the dataset, exports its labels as people draw them, trains a small detector on it from several seeds, with no
 real frames, a few, and many, and beside it on those real frames alone. Real frames are split by the order of their
 names: every other one is for training, the rest judges. --also judges by other frames, too; --chain draws what cameras
-and links do after the sensor while it trains, with the package `veldt` (PYTHONPATH=build/release/python). Everything
-that exists in OUT already is kept. Needs python3-torch and python3-opencv; each training takes minutes on two cores.
+and links do after the sensor while it trains, with the package `veldt` (VELDT_HOME=$PWD
+PYTHONPATH=$PWD/build/release/python). Everything that exists in OUT already is kept. Needs python3-torch and python3-opencv; each training takes minutes on two cores.
 Results and how to read them: thermal_core/TRANSFER.md.
 """
 
 from __future__ import annotations
 
 import argparse
+import hashlib
+import itertools
 import json
 import multiprocessing
 import os
@@ -78,6 +80,12 @@ class Draws:
     settings: Path
     per_frame: int
 
+    @property
+    def name(self) -> str:
+        """Of a training's files: one with other settings is another."""
+        digest = hashlib.sha256(self.settings.read_bytes()).hexdigest()[:8]
+        return f"_{self.settings.stem}_{digest}_{self.per_frame}"
+
     def chain(self, seed: int) -> Chain:
         """Of a training. The package is needed only here."""
         import veldt  # pylint: disable=import-outside-toplevel
@@ -102,16 +110,11 @@ class Ladder:
         weights = self._weights(training)
         if weights.exists():
             return
+        crops = self._crops(training)
         if training.start is not None:
             steps = round(_FINE_STEPS * self.steps)
-            crops = Crops(self._some_real(training), training.seed)
             detector = train(crops, steps, training.seed, _FINE_RATE, self._weights(training.start))
         else:
-            crops = (
-                self._made(training.seed)
-                if training.with_made
-                else Crops(self._some_real(training), training.seed)
-            )
             detector = train(crops, self.steps, training.seed, _RATE)
         weights.parent.mkdir(parents=True, exist_ok=True)
         part = weights.with_suffix(".part")
@@ -120,7 +123,7 @@ class Ladder:
 
     def scores(self, training: Training, judge: Judge) -> dict[str, float]:
         """The figures of a training by one judge."""
-        file = self.out / "scores" / f"{training.name}_{judge.name}.json"
+        file = self.out / "scores" / f"{self._name(training)}_{judge.name}.json"
         if not file.exists():
             detector = Detector()
             detector.load_state_dict(torch.load(self._weights(training)))
@@ -128,13 +131,18 @@ class Ladder:
             file.write_text(json.dumps(judge.scores(detector.eval())), encoding="utf-8")
         return json.loads(file.read_text(encoding="utf-8"))
 
-    def _made(self, seed: int) -> Crops:
+    def _crops(self, training: Training) -> Crops:
+        if training.count > 0:
+            return Crops(self._some_real(training), training.seed)
         if self.draws is None:
-            return Crops(self.made, seed)
-        return Crops(self.made, seed, self.draws.chain(seed), self.draws.per_frame)
+            return Crops(self.made, training.seed)
+        return Crops(self.made, training.seed, self.draws.chain(training.seed), self.draws.per_frame)
+
+    def _name(self, training: Training) -> str:
+        return training.name + (self.draws.name if self.draws and training.with_made else "")
 
     def _weights(self, training: Training) -> Path:
-        return self.out / "weights" / f"{training.name}.pt"
+        return self.out / "weights" / f"{self._name(training)}.pt"
 
     def _some_real(self, training: Training) -> list[Frame]:
         some = np.random.default_rng(0).permutation(len(self.real))[: training.count]
@@ -185,27 +193,24 @@ def _rows(counts: list[int]) -> list[tuple[int, bool]]:
     return [(count, with_made) for count in counts for with_made in ((True, False) if count > 0 else (True,))]
 
 
+def _cells(scores: list[dict[str, float]]) -> list[str]:
+    """Mean and deviation of each figure over the seeds."""
+    values = np.array([[each[key] for key in KEYS] for each in scores])
+    deviations = values.std(axis=0, ddof=1) if len(values) > 1 else np.zeros(len(KEYS))
+    return [f"{mean:.3f} ± {deviation:.3f}" for mean, deviation in zip(values.mean(axis=0), deviations)]
+
+
 def _print_table(ladder: Ladder, counts: list[int], seeds: list[int]) -> None:
     print(f"{len(ladder.made)} frames made, {len(ladder.real)} real ones to train with")
     print(
         "| judged by | real frames | made | AP50 | AP30 | found at one false alarm a frame | seeds |\n"
         "|---|---|---|---|---|---|---|"
     )
-    for judge in ladder.judges:
-        for count, with_made in _rows(counts):
-            scores = [ladder.scores(Training(count, seed, with_made), judge) for seed in seeds]
-            cells = []
-            for key in KEYS:
-                values = np.array([each[key] for each in scores])
-                cells.append(f"{values.mean():.3f} ± {values.std(ddof=1) if len(values) > 1 else 0:.3f}")
-            row = (
-                f"{len(judge.frames)} {judge.name}",
-                count,
-                "yes" if with_made else "no",
-                *cells,
-                len(seeds),
-            )
-            print(f"| {' | '.join(map(str, row))} |", flush=True)
+    for judge, (count, with_made) in itertools.product(ladder.judges, _rows(counts)):
+        scores = [ladder.scores(Training(count, seed, with_made), judge) for seed in seeds]
+        made = "yes" if with_made else "no"
+        row = (f"{len(judge.frames)} {judge.name}", count, made, *_cells(scores), len(seeds))
+        print(f"| {' | '.join(map(str, row))} |", flush=True)
 
 
 def judges_of(options: argparse.Namespace) -> list[Judge]:
