@@ -213,9 +213,8 @@ StageRow housing_row() {
 StageRow bad_pixel_row() {
   const SensorParameters camera = full_camera();
   Plane<float> truth(kSceneWidthPx, kSceneHeightPx);
-  for (int y = 0; y < kSceneHeightPx; ++y) {
-    for (int x = 0; x < kSceneWidthPx; ++x) truth.at(x, y) = static_cast<float>(scene_k(x + 0.5, y + 0.5));
-  }
+  std::ranges::transform(scene_temperatures_k(), truth.pixels().begin(),
+                         [](double kelvin) { return static_cast<float>(kelvin); });
   Optics(camera.optics, camera.response, {}).apply({}, truth);
   const BadPixelParameters parameters = camera.bad_pixels;
   BadPixels bad(parameters, kDetectorSeed, "bench", kSceneRateHz, kSceneWidthPx, kSceneHeightPx);

@@ -37,10 +37,8 @@ StageRow table_row() {
 
 /// The scene's temperatures with a constant added.
 std::vector<double> temperatures(double warmer_k) {
-  std::vector<double> all_k;
-  for (int y = 0; y < kSceneHeightPx; ++y) {
-    for (int x = 0; x < kSceneWidthPx; ++x) all_k.push_back(warmer_k + scene_k(x + 0.5, y + 0.5));
-  }
+  std::vector<double> all_k = scene_temperatures_k();
+  for (double& kelvin : all_k) kelvin += warmer_k;
   return all_k;
 }
 

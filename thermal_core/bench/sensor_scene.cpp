@@ -1,5 +1,6 @@
 #include "bench/sensor_scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "radiometry/band_radiance.h"
@@ -18,14 +19,19 @@ double scene_k(double u_px, double v_px) {
   return ground_k(u_px, v_px) + (across < 10 && down < 10 ? 10 : 0);
 }
 
+std::vector<double> scene_temperatures_k(double right_px) {
+  std::vector<double> all_k;
+  all_k.reserve(kScenePixels);
+  for (int y = 0; y < kSceneHeightPx; ++y)
+    for (int x = 0; x < kSceneWidthPx; ++x) all_k.push_back(scene_k(x + right_px + 0.5, y + 0.5));
+  return all_k;
+}
+
 Plane<float> scene_radiance(const SpectralResponse& response) {
   const BandRadiance band(response);
   Plane<float> scene(kSceneWidthPx, kSceneHeightPx);
-  for (int y = 0; y < kSceneHeightPx; ++y) {
-    for (int x = 0; x < kSceneWidthPx; ++x) {
-      scene.at(x, y) = static_cast<float>(band.radiance(scene_k(x + 0.5, y + 0.5)));
-    }
-  }
+  std::ranges::transform(scene_temperatures_k(), scene.pixels().begin(),
+                         [&](double kelvin) { return static_cast<float>(band.radiance(kelvin)); });
   return scene;
 }
 

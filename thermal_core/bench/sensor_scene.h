@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "base/image.h"
 #include "sensor/thermal_camera.h"
 
@@ -16,7 +18,10 @@ inline constexpr double kSceneRateHz = 30;
 /// The same with squares on it, 10 K warmer and 10 px wide: edges for optics, two peaks for a histogram.
 [[nodiscard]] double scene_k(double u_px, double v_px);
 
-/// In-band radiance of scene_k(), one value per pixel.
+/// scene_k() at the middles of a frame's pixels, row by row; the frame stands `right_px` to the right.
+[[nodiscard]] std::vector<double> scene_temperatures_k(double right_px = 0);
+
+/// In-band radiance of these.
 [[nodiscard]] Plane<float> scene_radiance(const SpectralResponse& response);
 
 /// A camera with every stage enabled: physical optics f/1.0 12 um, 10 ms of lag, white and 1/f noise, every pattern, a warm housing,

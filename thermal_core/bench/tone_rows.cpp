@@ -46,9 +46,8 @@ StageRow denoise_row() {
 /// The scene in counts of 10 mK.
 Plane<std::uint16_t> scene_counts() {
   Plane<std::uint16_t> ir16(kSceneWidthPx, kSceneHeightPx);
-  for (int y = 0; y < kSceneHeightPx; ++y)
-    for (int x = 0; x < kSceneWidthPx; ++x)
-      ir16.at(x, y) = static_cast<std::uint16_t>(std::lround(100 * scene_k(x + 0.5, y + 0.5)));
+  std::ranges::transform(scene_temperatures_k(), ir16.pixels().begin(),
+                         [](double kelvin) { return static_cast<std::uint16_t>(std::lround(100 * kelvin)); });
   return ir16;
 }
 

@@ -159,11 +159,9 @@ Picture frame_of(std::uint32_t number) {
   Picture frame(kSceneWidthPx, kSceneHeightPx);
   std::vector<float> noise(kScenePixels);
   fill_normal({.seed = 1, .stream = 1, .clip = 1, .frame = number}, 0, noise);
+  const std::vector<double> scene = scene_temperatures_k(number);
   for (std::size_t i = 0; i < noise.size(); ++i) {
-    const std::size_t row = i / kSceneWidthPx;
-    const auto x = static_cast<double>(i % kSceneWidthPx) + number;
-    const auto y = static_cast<double>(row);
-    const double level = 25 * (scene_k(x + 0.5, y + 0.5) - 282) + 20 + 2 * static_cast<double>(noise[i]);
+    const double level = 25 * (scene[i] - 282) + 20 + 2 * static_cast<double>(noise[i]);
     frame.pixels()[i] = static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0));
   }
   return frame;
