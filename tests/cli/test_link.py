@@ -50,6 +50,16 @@ def test_what_moves_is_combed_and_only_if_it_is_known_to(made):
     assert np.array_equal(_frames(made, "still", "ir8"), _frames(made, "sharp", "ir8"))
 
 
+def _first_line(made, name: str) -> dict:
+    file = made.folder / name / "clips" / "down" / "frames.jsonl"
+    return json.loads(file.read_text(encoding="utf-8").splitlines()[0])
+
+
+def test_frames_say_whether_levels_are_kelvin(made):
+    invertible = {name: _first_line(made, name)["agc"]["invertible"] for name in ("plain", "linked", "halos")}
+    assert invertible == {"plain": True, "linked": False, "halos": False}
+
+
 def test_it_is_recorded_and_refused_by_name(made):
     output = made.read("linked/dataset.json")["config"]["output"]
     assert output["preset"] == "analogue_pal"

@@ -18,6 +18,14 @@ Path fresh_folder(const Path& folder) {
   return folder;
 }
 
+/// Whether thresholds turn a task's 8-bit frames back into kelvin: nothing filters, sharpens, sends or encodes them.
+bool is_invertible(const ClipTask& task) {
+  const AgcParameters& agc = task.sensor.agc;
+  const ProcessingParameters& processing = task.sensor.processing;
+  return agc.mode != AgcMode::clahe && agc.mode != AgcMode::table_max && agc.detail.gain_dn_per_netd == 0 &&
+         processing.noise_filter_sigma_px == 0 && processing.unsharp_amount == 0 && !task.link && !task.codec;
+}
+
 template <typename T>
 ClipOutput::WrittenPicture write_picture(const Plane<T>& picture, const Path& file,
                                          std::vector<std::byte>& png) {
@@ -93,6 +101,7 @@ Json ClipOutput::frame_line(int number, const Frame& frame) const {
   if (pose.camera_to_world) line["camera_to_world"] = *pose.camera_to_world;
   line["ffc"] = frame.pictures.shutter_closed;
   line["agc"] = tone_record(frame.pictures.curve, task_.sensor.agc, brightest_w_m2_sr_);
+  line["agc"]["invertible"] = is_invertible(task_);
   if (imager_.has_codec()) line["encoded_bytes"] = frame.encoded_bytes;
   line["ir8_sha256"] = frame.ir8.pixels_sha256;
   line["ir16_sha256"] = frame.ir16.pixels_sha256;
