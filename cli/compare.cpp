@@ -117,7 +117,7 @@ void add_compare(CLI::App& app, Session& session) {
       "Each source is a Veldt dataset (its ir8), or a folder of grey pictures of 8 or 16 bits (.png, .jpg,\n"
       ".jpeg, .tif, .tiff) with labels of COCO. Differences are put beside those between random halves of\n"
       "the real frames; a measure within twice those is marked. A classifier's AUC says how well frames,\n"
-      "or crops of targets, can be told apart: .5 not at all, 1 always.\n"
+      "or crops of targets, can be distinguished: .5 not at all, 1 always.\n"
       "Frames may have different sizes: each is measured as it is, and power is scaled to 640 x 512 px.\n"
       "Example: veldt compare real_frames my_dataset --box-style drawn --html comparison.html");
   auto options = std::make_shared<CompareArguments>();

@@ -71,21 +71,23 @@ void print_video_noise(const Comparison& comparison) {
   row("frames (sigma_t)", &thermal::VideoNoise::frames);
 }
 
-void print_told(const char* what, const std::optional<thermal::Told>& told,
-                const std::vector<std::string>& features) {
+void print_classification(const char* what, const std::optional<thermal::Classification>& classified,
+                          const std::vector<std::string>& features) {
   print("\n");
-  if (!told) {
+  if (!classified) {
     print("classifier of {}: left out; it needs {} in two parts or more of each set\n", what, what);
     return;
   }
-  print("classifier of {}: AUC {:.3f} +- {:.3f}", what, told->sets.auc, told->sets.error);
-  if (told->real_halves)
-    print("; real against real {:.3f} +- {:.3f}", told->real_halves->auc, told->real_halves->error);
+  print("classifier of {}: AUC {:.3f} +- {:.3f}", what, classified->sets.auc, classified->sets.error);
+  if (classified->real_halves)
+    print("; real against real {:.3f} +- {:.3f}", classified->real_halves->auc,
+          classified->real_halves->error);
   print("\n");
   print("  {:<40} {:>9} {:>9} {:>9}\n", "feature", "AUC falls", "AUC alone", "real-real");
-  for (const thermal::Importance& one : told->sets.importances) {
-    const auto halves =
-        told->halves_alone.empty() ? std::nullopt : std::optional(told->halves_alone[one.feature]);
+  for (const thermal::Importance& one : classified->sets.importances) {
+    const auto halves = classified->halves_alone.empty()
+                            ? std::nullopt
+                            : std::optional(classified->halves_alone[one.feature]);
     print("  {:<40} {:>9.3f} {:>9.3f} {:>9}\n", features[one.feature], one.fall, one.alone, number(halves));
   }
 }
@@ -137,8 +139,8 @@ void print_tables(const Comparison& comparison) {
           levels->lowest_k + 255 * levels->kelvin_per_level);
   print_measures(comparison);
   print_video_noise(comparison);
-  print_told("frames", comparison.frames, thermal::frame_features());
-  print_told("targets", comparison.crops, thermal::crop_features());
+  print_classification("frames", comparison.frames, thermal::frame_features());
+  print_classification("targets", comparison.crops, thermal::crop_features());
   print_targets(comparison);
 }
 

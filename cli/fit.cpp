@@ -109,7 +109,7 @@ void print_fit(const thermal::Fit& fit) {
   print("\n{:<46} {:>16} {:>16}\n", "changed", "before", "after");
   for (const thermal::ChangedKey& one : fit.changed)
     print("  {:<44} {:>16} {:>16}\n", one.key, value_text(one.before), value_text(one.after));
-  print("\n{:<38} {:>26} {:>21}\n", "", "medians", "told apart (AUC)");
+  print("\n{:<38} {:>26} {:>21}\n", "", "medians", "AUC");
   print("{:<38} {:>8} {:>8} {:>8} {:>7} {:>6} {:>6}\n", "frames", "real", "before", "after", "before",
         "after", "halves");
   print_features(fit, false);
@@ -118,7 +118,7 @@ void print_fit(const thermal::Fit& fit) {
   print_forest("frames", fit.frames);
   print_forest("targets", fit.targets);
   if (std::ranges::any_of(fit.features, &thermal::FittedFeature::is_unlike))
-    print("! could not be fitted: told apart better than .65, and than halves of the real frames\n");
+    print("! could not be fitted: AUC above .65, and than halves of the real frames\n");
   if (!fit.no_size.empty()) print("the size of targets was not fitted: {}\n", fit.no_size);
 }
 

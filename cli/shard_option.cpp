@@ -15,7 +15,7 @@ namespace {
 struct Scheduler {
   const char* index = "";
   const char* count = "";
-  const char* last = "";  ///< highest index of all jobs; empty: not told
+  const char* last = "";  ///< highest index of all jobs; empty: unknown
   int first = 0;          ///< index of the first job
   const char* rule = "";
 };

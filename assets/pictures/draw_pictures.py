@@ -123,7 +123,7 @@ def run(*command: object) -> str:
 
 
 def write_jpeg(out: Path, quality: int, *work: object) -> None:
-    """Do with pictures what oiiotool is told to, and write the result without the tool's name in it."""
+    """Run oiiotool on pictures, and write the result without the tool's name in it."""
     write = ["--compression", f"jpeg:{quality}", "-o", str(out)]
     run("oiiotool", "--nosoftwareattrib", *work, *write)
 
@@ -249,9 +249,9 @@ def draw_follow(shop: Workshop, out: Path) -> None:
     shop.veldt("plan", "configs/follow.json", "--out", plan)
     command = [python, "tests/examples/follow.py", plan, "night", "--picture", out]
     shop.commands.append(shlex.join(["python", *map(str, command[1:])]))
-    told = run(*command)
+    printed = run(*command)
     share, middle_m, most_m = re.search(
-        r"in view: ([\d.]+)%.*thought to be ([\d.]+) m off \(median\).* ([\d.]+) m \(most\)", told, re.DOTALL
+        r"in view: ([\d.]+)%.*thought to be ([\d.]+) m off \(median\).* ([\d.]+) m \(most\)", printed, re.DOTALL
     ).groups()
     off = f"{middle_m} m off their place (median; {most_m} m at most)"
     shop.words[

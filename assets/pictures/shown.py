@@ -65,7 +65,7 @@ class Frames(NamedTuple):
 
 
 class Map(NamedTuple):
-    """A config's place from above, as Blender is told to draw it."""
+    """A config's place from above, as the program passes it to Blender."""
 
     config: str
 

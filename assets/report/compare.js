@@ -8,14 +8,14 @@ function comparisonOverview(figures) {
   const set = ({ source, frames, frames_listed: listedFrames, targets }) => `${source}: ${counted(frames, "frame")} of ${count(listedFrames)}, ${counted(targets, "target")}`;
   const good = figures.measures.filter((row) => row.good).length;
   const measured = figures.measures.filter((row) => known(row.difference)).length;
-  const auc = (told) => (told ? `${told.auc.toFixed(3)} \u00b1 ${told.error.toFixed(3)}` : undefined);
+  const auc = (classified) => (classified ? `${classified.auc.toFixed(3)} \u00b1 ${classified.error.toFixed(3)}` : undefined);
   return element("header", {},
     element("p", { class: "eyebrow" }, "Comparison with real frames"), element("h1", {}, figures.dataset.source),
     element("p", { class: "lead" }, `Real: ${set(figures.real)}. Dataset: ${set(figures.dataset)}.`),
     SETS.map(({ key }) => (known(figures[key].no_boxes) ? element("p", { class: "notice" }, `${figures[key].no_boxes}; measures of targets are left out.`) : null)),
     SETS.map(({ key }) => (figures[key].rejected.length > 0 ? element("p", { class: "notice" }, `Rejected: ${listed(figures[key].rejected)}.`) : null)),
-    facts([["Measures within twice real against real", `${good} of ${measured}`], ["Frames told apart (AUC)", auc(figures.frames_told_apart)],
-      ["Targets told apart (AUC)", auc(figures.crops_told_apart)]]));
+    facts([["Measures within twice real against real", `${good} of ${measured}`], ["Classifier of frames (AUC)", auc(figures.frames_told_apart)],
+      ["Classifier of targets (AUC)", auc(figures.crops_told_apart)]]));
 }
 
 function measuresSection({ measures, good_ratio: ratio, real, dataset }) {
@@ -95,18 +95,18 @@ function cropsSection(figures) {
     element("div", { class: "grid" }, SETS.map(({ key, name }) => element("div", { class: "card" }, element("h3", {}, name), element("div", { class: "crops" }, figures[key].shown_crops.map(shownCrop))))));
 }
 
-function toldTable(what, told) {
-  if (!told) return element("p", {}, `Too few ${what} for a classifier.`);
-  const halves = told.real_halves ? ` Halves of the real ones: ${told.real_halves.auc.toFixed(3)} \u00b1 ${told.real_halves.error.toFixed(3)}.` : "";
-  return element("div", { class: "card" }, element("h3", {}, `${what}: AUC ${told.auc.toFixed(3)} \u00b1 ${told.error.toFixed(3)}`), element("p", { class: "soft" }, halves),
-    table(`What tells ${what} apart`, [{ name: "feature", text: true }, { name: "AUC falls by" }, { name: "AUC alone" }, { name: "real against real" }],
-      told.importances.map(({ feature, fall, alone, real_alone: halves }) => [feature, fall.toFixed(3), alone.toFixed(3), known(halves) ? halves.toFixed(3) : "-"])));
+function classifierTable(what, classified) {
+  if (!classified) return element("p", {}, `Too few ${what} for a classifier.`);
+  const halves = classified.real_halves ? ` Halves of the real ones: ${classified.real_halves.auc.toFixed(3)} \u00b1 ${classified.real_halves.error.toFixed(3)}.` : "";
+  return element("div", { class: "card" }, element("h3", {}, `${what}: AUC ${classified.auc.toFixed(3)} \u00b1 ${classified.error.toFixed(3)}`), element("p", { class: "soft" }, halves),
+    table(`Features that separate ${what}`, [{ name: "feature", text: true }, { name: "AUC falls by" }, { name: "AUC alone" }, { name: "real against real" }],
+      classified.importances.map(({ feature, fall, alone, real_alone: halves }) => [feature, fall.toFixed(3), alone.toFixed(3), known(halves) ? halves.toFixed(3) : "-"])));
 }
 
 function toldSection(figures) {
-  return section("classifier", "What a classifier tells apart",
+  return section("classifier", "How well a classifier separates them",
     element("p", { class: "soft" }, "A cross-validated random forest: .5 if it cannot tell real from dataset, 1 if it always can. AUC falls by: when the feature is shuffled; features that say the same stand in for each other."),
-    element("div", { class: "grid" }, toldTable("frames", figures.frames_told_apart), toldTable("targets", figures.crops_told_apart)));
+    element("div", { class: "grid" }, classifierTable("frames", figures.frames_told_apart), classifierTable("targets", figures.crops_told_apart)));
 }
 
 function targetTables(figures) {

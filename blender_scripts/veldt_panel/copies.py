@@ -109,7 +109,7 @@ def _is_rendered(instance: bpy.types.DepsgraphObjectInstance) -> bool:
 
 
 def _number(instance: bpy.types.DepsgraphObjectInstance) -> tuple[int, ...]:
-    """What tells the copies that one object makes from each other, the same for all parts of a copy.
+    """What distinguishes the copies that one object makes, the same for all parts of a copy.
 
     Found in Blender 4.5 and 5.0: particles and vertices count copies in the first number, geometry nodes count parts
     there and copies in the others.

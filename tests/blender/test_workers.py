@@ -78,7 +78,7 @@ def _wait_until_one_ended() -> None:
 
 
 def test_a_worker_that_is_killed_while_it_sends_a_result_is_noticed():
-    first_is_here, told = os.pipe()
+    first_is_here, go = os.pipe()
 
     def act(value: int) -> bytes:
         if value == 1:
@@ -88,7 +88,7 @@ def test_a_worker_that_is_killed_while_it_sends_a_result_is_noticed():
 
     results = in_order(act, range(2), 2)
     next(results)
-    os.write(told, b"1")
+    os.write(go, b"1")
     _wait_until_one_ended()
     with pytest.raises(ProcessLost, match=KILLED):
         list(results)

@@ -104,11 +104,11 @@ def test_noise_that_differs_is_told(veldt):
     row = _row(found, "in flat blocks")
     assert row["dataset"] == pytest.approx(2.5 * row["real"], rel=0.1)
     assert not row["good"]
-    told = found["frames_told_apart"]
-    assert told["auc"] == 1
-    alone = {one["feature"]: one["alone"] for one in told["importances"]}
+    classified = found["frames_told_apart"]
+    assert classified["auc"] == 1
+    alone = {one["feature"]: one["alone"] for one in classified["importances"]}
     assert alone["noise in flat blocks"] == 1
-    assert told["real_halves"]["auc"] == pytest.approx(0.5, abs=0.45)
+    assert classified["real_halves"]["auc"] == pytest.approx(0.5, abs=0.45)
 
 
 def test_boxes_are_compared_with_what_is_warm_in_them(pair):

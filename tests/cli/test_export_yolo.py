@@ -25,7 +25,7 @@ LEAST_SIDE_PX = 10
 
 @pytest.fixture(scope="module", name="place")
 def _place(tmp_path_factory) -> Veldt:
-    """A place with a dataset of three clips, in `data`; the last frame of each shows nobody."""
+    """A place with a dataset of three clips, in `data`; the last frame of each is empty."""
     veldt = Veldt(tmp_path_factory.mktemp("yolo"))
     clips = [passes.write_clip(veldt.folder / clip, clip) for clip in CLIPS]
     ground = np.full((passes.HEIGHT, passes.WIDTH), passes.GROUND, np.float32)
@@ -105,7 +105,7 @@ def test_each_picture_leads_to_a_label_file(made, place):
 def test_labels_are_accepted(made):
     count = len(_data(made)["names"])
     tables = [_rows(file) for file in made.rglob("*.txt")]
-    assert sum(not rows for rows in tables) == len(CLIPS)  # a frame with nobody has an empty file
+    assert sum(not rows for rows in tables) == len(CLIPS)  # an empty frame has an empty file
     for rows in filter(None, tables):
         _check_rows(rows, count)
 

@@ -1,4 +1,4 @@
-"""The pictures of the pages still show what Veldt draws: their record, assets/pictures/pictures.json, tells."""
+"""The pictures of the pages still show what Veldt draws: by their record, assets/pictures/pictures.json."""
 
 import functools
 import hashlib

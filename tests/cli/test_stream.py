@@ -64,13 +64,13 @@ def test_a_client_gets_the_lines_and_the_video_has_the_frames(planned):
         "--video", f"udp://127.0.0.1:{video.port}", "--labels", f"tcp://127.0.0.1:{port}",
     )  # fmt: skip
     with _connected(port) as client, client.makefile() as lines:
-        told = [json.loads(lines.readline()) for _ in range(6)]
+        received = [json.loads(lines.readline()) for _ in range(6)]
         others = [socket.create_connection(("127.0.0.1", port)) for _ in range(20)]
         assert [other.recv(1) for other in others] == 15 * [b"{"] + 5 * [b""]
-        told += [json.loads(lines.readline()) for _ in range(6)]
+        received += [json.loads(lines.readline()) for _ in range(6)]
         interrupt(run.pid, signal.SIGINT)
         out, err = run.communicate(timeout=PATIENCE_S)
-        told += map(json.loads, lines)
+        received += map(json.loads, lines)
     assert (run.returncode, err) == (130, "")
     for other in others:
         other.close()
@@ -78,8 +78,8 @@ def test_a_client_gets_the_lines_and_the_video_has_the_frames(planned):
     states = [tuple(map(int, STATE.fullmatch(line).groups())) for line in out.splitlines()]
     assert {count for _, count, _, _ in states[:-1]} == {2}
     assert len(_decoded(video.all(), _size(planned))) == sum(sent for sent, *_ in states)
-    assert {line["clip"] for line in told} == {"side"}
-    for one, then in itertools.pairwise(told):
+    assert {line["clip"] for line in received} == {"side"}
+    for one, then in itertools.pairwise(received):
         assert then["stream_s"] > one["stream_s"] and (2 * then["stream_s"]).is_integer()
         if then["frame"] > one["frame"]:  # of the same clip: no line is missing
             assert then["frame"] - one["frame"] <= 1 + then["left_out"] - one["left_out"]
@@ -91,19 +91,19 @@ def test_at_the_clips_own_rate_frames_and_labels_are_those_of_generate(planned):
     done = planned("stream", "plan", "--clips", "down", "--video", f"udp://127.0.0.1:{video.port}",
                    "--labels", f"udp://127.0.0.1:{lines.port}")  # fmt: skip
     assert (done.code, done.err) == (0, "")
-    frames, told = _decoded(video.all(), _size(planned)), [
+    frames, received = _decoded(video.all(), _size(planned)), [
         json.loads(line) for line in lines.all().splitlines()
     ]
     made = planned.read("made/annotations.json")
     images = {image["id"]: image for image in made["images"] if "/down/" in image["file_name"]}
-    for line in told:
+    for line in received:
         if line["left_out"] > 0:
             break
         in_file = [one for one in made["annotations"]
                    if images.get(one["image_id"], {}).get("frame_index") == line["frame"]]  # fmt: skip
         assert [label["bbox"] for label in line["labels"]] == [one["bbox"] for one in in_file]
         assert [label["segmentation"] for label in line["labels"]] == [one["segmentation"] for one in in_file]
-    assert (told[0]["frame"], told[0]["left_out"]) == (0, 0)
+    assert (received[0]["frame"], received[0]["left_out"]) == (0, 0)
     first = read_grey(planned.folder / "made/clips/down/ir8/000000.png")
     # Levels 0 to 255 as 16 to 235 and back, and x264 at a rate factor of 20.
     assert np.abs(frames[0].astype(int) - first).mean() < 4

@@ -36,7 +36,7 @@ def _wait(command: subprocess.Popen) -> None:
     while not select.select([sys.stdin], [], [], 0.1)[0]:
         while ended := os.waitpid(-1, os.WNOHANG)[0]:
             if ended == command.pid:
-                command.returncode = 0  # it is gone; nobody asks how it ended
+                command.returncode = 0  # it is gone; its exit code is of no use
                 return
 
 

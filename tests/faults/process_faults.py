@@ -87,7 +87,7 @@ def _ask(trial: Trial) -> Outcome:
 
 
 def _two_runs(trial: Trial) -> Outcome:
-    """The same command twice at once: one of them waits, has nothing to do, or is told to try again."""
+    """The same command twice at once: one of them waits, has nothing to do, or exits with a request to try again."""
     delay_s = trial.random.choice((0.0, trial.moment_s()))
     first = trial.start("first")
     pause(delay_s, first)

@@ -3,7 +3,7 @@
 # minimal Debian 13 as root, which stands in for debian:trixie-slim: ./run fresh --container
 #
 # A stage is a copy of this machine in a folder of its own. An instruction that is not known here is an error, so that
-# none is in Dockerfile that nobody has tried.
+# all those of Dockerfile are tried.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source tests/fresh/copies.sh
@@ -101,7 +101,7 @@ check_libraries() {
   [[ -z $missing ]] || fail "libraries are missing: $missing"
 }
 
-# The demo's two clips, one frame each, with Blender and for somebody whom the image does not know with Embree.
+# The demo's two clips, one frame each, with Blender and for a user that the image does not know with Embree.
 make_frames() { # USER ENGINE
   local folder=$images/data_$2
   install --directory --owner "${1%:*}" "$folder"
@@ -114,12 +114,12 @@ make_frames() { # USER ENGINE
 }
 
 use_image() {
-  local nobody=$images/nothing
-  mkdir -p "$nobody"
+  local empty_home=$images/nothing
+  mkdir -p "$empty_home"
   [[ $user != 0* ]] || fail "the image runs as root"
   check_libraries
-  run_container "$user" "$nobody" --version
-  run_container "$user" "$nobody" doctor
+  run_container "$user" "$empty_home" --version
+  run_container "$user" "$empty_home" doctor
   make_frames "$user" blender
   make_frames 4321:4321 embree
 }

@@ -31,7 +31,7 @@ namespace {
 using thermal::Json;
 using thermal::Path;
 
-/// A folder for a dataset, beside one that no dataset may lead to. Linux tells whether anything there was touched.
+/// A folder for a dataset, beside one that no dataset may lead to. inotify reports whether anything there was touched.
 class Place {
  public:
   Place() : descriptor_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {

@@ -182,4 +182,4 @@ def write_plan_seeds(folder: Path) -> None:
     (folder / "ground_maps" / "two_days").write_bytes(ground_maps([190, 15]))
     (folder / "ground_maps" / "dark").write_bytes(ground_maps([]))
     (folder / "tracks" / "posed").write_bytes(track([[1, 1], [0, 1]]))
-    (folder / "tracks" / "nobody").write_bytes(track([[0], [0]]))
+    (folder / "tracks" / "nothing").write_bytes(track([[0], [0]]))

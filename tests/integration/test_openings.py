@@ -51,7 +51,7 @@ def _traced(veldt):
 
 @pytest.fixture(name="place")
 def _place(veldt):
-    """A dataset, its passes, and a folder that nobody names."""
+    """A dataset, its passes, and a folder that nothing names."""
     passes.write_clip(veldt.folder / "passes")
     assert veldt("convert", "passes", "--out", "set", "--quiet").code == 0
     secret = veldt.folder / "secret"
@@ -91,7 +91,7 @@ def test_nothing_else_is_opened(place, traced, name):
 
 
 def _link(folder: Path, name: str) -> None:
-    """In place of a file or folder of the dataset: a link to the same one in the folder that nobody names."""
+    """In place of a file or folder of the dataset: a link to the same one in the folder that nothing names."""
     target = folder / "secret" / name
     there = folder / "set" / name
     if there.is_dir():

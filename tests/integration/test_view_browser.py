@@ -96,7 +96,7 @@ def _odd(tmp_path_factory):
     return veldt.folder / "page" / "index.html"
 
 
-# A clock of the page that goes on when it is told to.
+# A clock of the page that advances on request.
 CLOCK = """
 let now_ms = 0, waiting = [];
 performance.now = () => now_ms;

@@ -126,14 +126,14 @@ def test_what_cannot_be_used_is_counted_and_changes_nothing(poses):
 
 
 def test_each_reason_is_reported_once_a_minute():
-    told = []
-    poses = Poses(("127.0.0.1", 0), Vehicle([0, 0, 0], ORIGIN), told.append)
+    reports = []
+    poses = Poses(("127.0.0.1", 0), Vehicle([0, 0, 0], ORIGIN), reports.append)
     for time_s in (5, 6, 7, 64.9, 65, 66):
         for datagram in (b"{", b'{"position_m": [0, 0, NaN]}', b"\x1b[2J"):
             send(datagram, ("127.0.0.1", poses.port))
         poses.receive_until(time_s, lambda now_s=time_s: now_s)
     poses.close()
-    assert told == [
+    assert reports == [
         f"rejected: {fault}; {count} up to now)"
         for count in (1, 5)
         for fault in (
@@ -212,11 +212,11 @@ def test_the_wait_for_the_first_pose_says_so_each_minute_and_can_be_ended():
             """Wait."""
             self.now_s = time_s
 
-    told, none = [], _None()
+    reports, none = [], _None()
     with pytest.raises(KeyboardInterrupt):
-        fly(None, none, _Sink(), clock=lambda: none.now_s, report=told.append)
+        fly(None, none, _Sink(), clock=lambda: none.now_s, report=reports.append)
     expected = "expected position and attitude of MAVLink, or JSON"
-    assert told == [f"no pose for {seconds} s; {expected}" for seconds in (60, 120)]
+    assert reports == [f"no pose for {seconds} s; {expected}" for seconds in (60, 120)]
 
 
 @pytest.mark.parametrize("seconds", [0, -1, float("nan")])
@@ -298,9 +298,9 @@ def test_a_port_in_use_and_an_address_for_others_are_refused(poses, capsys):
         "--video": ("udp://10.0.0.1:5600", "udp://10.0.0.1:5600"),
         "--labels": ("tcp://0.0.0.0:5601", "tcp://0.0.0.0:5601"),
     }
-    for option, (given, told) in others.items():
+    for option, (given, reports) in others.items():
         assert main(["plan", "side", "--video", "udp://127.0.0.1:5600", option, given]) == 2
-        fault = f"veldt.fly: {option} = {told}; expected 127.0.0.1, or --allow-remote\n"
+        fault = f"veldt.fly: {option} = {reports}; expected 127.0.0.1, or --allow-remote\n"
         assert capsys.readouterr().err == fault
 
 
@@ -337,7 +337,7 @@ def test_the_command_flies_by_mavlink_and_sends_video_and_lines(place, tmp_path)
 def test_a_terminal_that_has_gone_is_no_fault_of_its_own(monkeypatch):
     class _Gone:
         def write(self, _):
-            """To a pipe that nobody reads."""
+            """To a pipe without a reader."""
             raise BrokenPipeError
 
     monkeypatch.setattr(sys, "stderr", _Gone())

@@ -16,7 +16,7 @@ from veldt.huggingface import write_image_folder
 
 @pytest.fixture(name="foreign")
 def _foreign(converted, tmp_path):
-    """A copy of a dataset, to be changed, beside a file that is nobody else's business."""
+    """A copy of a dataset, to be changed, beside a private file."""
     shutil.copytree(converted[0], tmp_path / "out")
     shutil.copy(converted[0] / "clips/one/ir8/000000.png", tmp_path / "secret")
     return tmp_path / "out"

@@ -59,6 +59,6 @@ def test_the_reward_is_the_share_that_is_seen(place):
     people = {track for track, actor in capture.actors.items() if actor.category == "human"}
     seen = {label.track_id for label in capture.labels} & people
     assert (len(people), reward) == (3, len(seen) / 3)
-    nobody = FlightEnv(place, "down", follow="rhinoceros")
-    nobody.reset()
-    assert nobody.step(np.zeros(5, np.float32))[1] == 0
+    empty = FlightEnv(place, "down", follow="rhinoceros")
+    empty.reset()
+    assert empty.step(np.zeros(5, np.float32))[1] == 0

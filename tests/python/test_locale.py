@@ -80,7 +80,7 @@ def _plan(veldt):
 
 def test_the_package_in_a_host_with_a_comma(plan, comma, tmp_path):
     passes.write_clip(tmp_path / "passes")
-    told, sums = [], []
+    outputs, sums = [], []
     for name in ("point", "comma"):
         (tmp_path / name).mkdir()
         done = subprocess.run(
@@ -92,9 +92,9 @@ def test_the_package_in_a_host_with_a_comma(plan, comma, tmp_path):
             check=False,
         )
         assert (done.returncode, done.stderr) == (0, "")
-        told.append(done.stdout)
+        outputs.append(done.stdout)
         sums.append(_sums(tmp_path / name))
-    assert told[0] == told[1]
+    assert outputs[0] == outputs[1]
     assert sums[0] == sums[1] and len(sums[0]) > 20
 
 
@@ -116,13 +116,13 @@ def test_the_command_with_a_comma(veldt, plan, comma):
         ("export", "made", "--format", "tiff", "--origin=-24.5,31.25,410.5", "--out", "tiff"),
         ("report", "made", "--out", "report.html"),
     ]
-    told = []
+    outputs = []
     for environment in (None, comma):
         before = _sums(veldt.folder)
         outcome = [veldt(*run, "--quiet", env=environment) for run in runs]
         made = {name: total for name, total in _sums(veldt.folder).items() if name not in before}
         assert [one.code for one in outcome] == [0] * len(runs), outcome
-        told.append(([(one.code, one.out, one.err) for one in outcome], made))
+        outputs.append(([(one.code, one.out, one.err) for one in outcome], made))
         for name in ("made", "converted", "coco", "yolo", "tiff", "report.html"):
-            (veldt.folder / name).rename(veldt.folder / f"{name}_{len(told)}")
-    assert told[0] == told[1]
+            (veldt.folder / name).rename(veldt.folder / f"{name}_{len(outputs)}")
+    assert outputs[0] == outputs[1]

@@ -29,7 +29,7 @@ def _content(folder: Path, name: str):
 
 
 def flip_bit(file: Path, position: int | None = None) -> None:
-    """Flip the lowest bit of one byte: the one in the middle, unless told."""
+    """Flip the lowest bit of one byte: by default the one in the middle."""
     content = bytearray(file.read_bytes())
     content[len(content) // 2 if position is None else position] ^= 1
     file.write_bytes(content)

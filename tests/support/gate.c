@@ -1,6 +1,6 @@
 // Preloaded into a program, holds it at a moment that a test has chosen, however fast or slow the machine is: the first
 // thread that is about to open, make or rename to a path which ends in $GATE_BEFORE reads from the FIFO $GATE, and so
-// waits until the test closes its end. Where that FIFO is not, nobody waits. What the program starts is left alone.
+// waits until the test closes its end. Without that FIFO, it does not wait. What the program starts is left alone.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>

@@ -80,7 +80,7 @@ class Gate:
     def _is_held(self) -> bool:
         try:
             self._end = os.open(self._fifo, os.O_WRONLY | os.O_NONBLOCK)
-        except OSError:  # ENXIO: nobody reads
+        except OSError:  # ENXIO: no reader
             return False
         return True
 

@@ -9,12 +9,12 @@ from pathlib import Path
 
 from processes import wait_until
 
-# Below those that the kernel gives to whoever asks for any: nobody gets one of these by chance before its user has it.
+# Below those that the kernel gives to whoever asks for any: none of these is given away by chance before its user has it.
 _OURS = range(10_000, 32_000)
 
 
 def free_port(kind: socket.SocketKind) -> int:
-    """A port that nobody uses now."""
+    """A port that is free now."""
     while True:
         port = random.SystemRandom().choice(_OURS)
         with socket.socket(socket.AF_INET, kind) as one:
@@ -29,7 +29,7 @@ def wait_until_bound(port: int, kind: socket.SocketKind) -> None:
     """Return once a process receives at a port."""
     table = Path("/proc/net") / ("udp" if kind == socket.SOCK_DGRAM else "tcp")
     bound = f":{port:04X} 00000000:0000"
-    assert wait_until(lambda: bound in table.read_text(encoding="ascii")), f"nobody receives at port {port}"
+    assert wait_until(lambda: bound in table.read_text(encoding="ascii")), f"no receiver at port {port}"
 
 
 class Arrivals(threading.Thread):

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 PATIENCE_S = 600.0
-HELD_S = 6 * PATIENCE_S  # how long what is held stays, if nobody ends it: longer than anybody waits
+HELD_S = 6 * PATIENCE_S  # how long what is held stays, if it is not ended: longer than any test waits
 
 _PR_SET_CHILD_SUBREAPER = 36  # <linux/prctl.h>
 

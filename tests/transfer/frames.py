@@ -104,7 +104,7 @@ class Crops:
 
 
 def targets_of(boxes_px: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What a detector shall find in a crop: peaks (n, n), offsets and log sizes (4, n, n), and where they count (n, n).
+    """The targets of a detector in a crop: peaks (n, n), offsets and log sizes (4, n, n), and where they count (n, n).
 
     A peak is a Gaussian about the middle of a box, 1 in the cell that holds it.
     """

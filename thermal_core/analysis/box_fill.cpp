@@ -45,7 +45,7 @@ Plane<float> levels_in(const LabelSet& set, const LabelImage& image) {
   return levels;
 }
 
-/// Empty if the target cannot be told from what is around it.
+/// Empty if the target does not differ from what is around it.
 std::optional<BoxFill> fill_of(const Plane<float>& levels, const LabelBox& box) {
   constexpr double kLeastDeviations = 4;
   const auto crop = target_crop(levels, box);

@@ -14,7 +14,7 @@
 
 namespace thermal {
 
-/// What tells the temperatures of one actor from those of another of its species, or one camp fire from another.
+/// How the temperatures of one actor differ from those of another of its species, or one camp fire from another.
 struct ActorState {
   Activity activity = Activity::standing;
   double dress = 0.5;  ///< of people, 0 (thin clothes) to 1: the middle of one of four equal parts

@@ -62,7 +62,7 @@ struct VariedInput {
 };
 void emit_varied(const VariedInput& in, float* radiance, std::size_t count) noexcept;
 
-/// Places and sizes in metres in correlation lengths, and turned about so slowly that nobody sees it, and by so much
+/// Places and sizes in metres in correlation lengths, and turned so slowly that it is not visible, and by so much
 /// that a field which repeats itself no longer does so at the same distance everywhere.
 struct UnsettledInput {
   const std::uint16_t* surface;

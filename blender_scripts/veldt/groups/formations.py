@@ -62,7 +62,7 @@ def settle(
 def march(formation: str, count: int, spacing_m: float, path_m: float, seed: int, name: str) -> list[Place]:
     """Places of members who walk along a path: one behind the other, two by two, or side by side.
 
-    On a loop the last must not run into the first: those for whom a path of length path_m is too short get no place.
+    On a loop the last must not run into the first: those that do not fit on a path of length path_m get no place.
     """
     abreast, ranks_m = _abreast(formation, count), _RANKS[formation] * spacing_m
     places = []

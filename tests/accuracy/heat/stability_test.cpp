@@ -277,7 +277,7 @@ TEST_CASE("Green grass settles on a calm day") {
 
 TEST_CASE("A body that hardly exchanges heat with its surface is not taken as settled before it is") {
   // Its surface is the same on the first two days, because little heat comes from below on either: only the heat that
-  // stays in it tells that it is not settled.
+  // stays in it shows that it is not settled.
   const Case one = make({288, 0, 172, 3, 0, 1, 1, 5, 0.05, false});
   const auto forcing = forcing_of_day(one.weather, one.steps.per_day);
   const SurfaceDay day = day_of_ground(one.ground, {}, {forcing}, one.steps);

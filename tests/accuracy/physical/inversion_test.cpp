@@ -130,7 +130,7 @@ TEST_CASE("An inversion is from 0 to 20 K") {
   CHECK_NOTHROW(Air{273, 0.6, 0, 20}.validate());
 }
 
-TEST_CASE("An inversion that nobody states follows from the cooled ground and the cameras' height") {
+TEST_CASE("An inversion that is not stated follows from the cooled ground and the cameras' height") {
   Manifest manifest = chain_scene::manifest();
   PhysicsSettings settings = chain_scene::settings({});
   settings.weather = weather_of(Season::winter);

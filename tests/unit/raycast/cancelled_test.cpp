@@ -8,7 +8,7 @@
 #include "support/catch.h"
 #include "support/grove.h"
 
-/// oneTBB tells all work that is tied to what is cancelled. Embree keeps work of its own with each scene; it must not be
+/// oneTBB cancels all work that is tied to what is cancelled. Embree keeps work of its own with each scene; it must not be
 /// tied to the loop in which the scene was built, which is over.
 namespace cancelled_test {
 
@@ -21,7 +21,7 @@ namespace {
   return numbers[7];
 }
 
-/// Only what has started other work tells others that it is cancelled.
+/// Only what has started other work passes its cancellation on.
 void cancel_pipeline() {
   const auto give_up = [](std::size_t item) {
     thermal::parallel_for(8, 1, [](std::size_t, std::size_t) { (void)write_over_stack(); });

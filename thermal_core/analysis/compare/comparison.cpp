@@ -62,8 +62,8 @@ std::vector<ComparedMeasure> compared(const SetFigures& real, const SetFigures& 
 using TableOf = FeatureTable (*)(const MeasuredFrames&);
 
 /// Fills in averages over halvings; importances are those of no one forest, and are left out.
-void tell_halves(const SetFigures& real, TableOf table_of, std::size_t features, std::uint32_t seed,
-                 Told& told) {
+void classify_halves(const SetFigures& real, TableOf table_of, std::size_t features, std::uint32_t seed,
+                     Classification& classified) {
   Discrimination mean = {.auc = 0, .error = 0};
   std::vector<double> alone(features);
   for (std::uint32_t draw = 0; draw < kToldHalvings; ++draw) {
@@ -76,18 +76,18 @@ void tell_halves(const SetFigures& real, TableOf table_of, std::size_t features,
     mean.error += one.error / kToldHalvings;
     for (const Importance& feature : one.importances) alone[feature.feature] += feature.alone / kToldHalvings;
   }
-  told.real_halves = mean;
-  told.halves_alone = std::move(alone);
+  classified.real_halves = mean;
+  classified.halves_alone = std::move(alone);
 }
 
-std::optional<Told> told_by(const SetFigures& real, const SetFigures& other, TableOf table_of,
-                            std::size_t features, std::uint32_t seed) {
+std::optional<Classification> classify(const SetFigures& real, const SetFigures& other, TableOf table_of,
+                                       std::size_t features, std::uint32_t seed) {
   const FeatureTable first = table_of(all_of(real));
   const FeatureTable second = table_of(all_of(other));
   if (!has_two_units(first) || !has_two_units(second)) return {};
-  Told told = {.sets = discriminate(first, second, features, seed), .real_halves = {}};
-  tell_halves(real, table_of, features, seed, told);
-  return told;
+  Classification classified = {.sets = discriminate(first, second, features, seed), .real_halves = {}};
+  classify_halves(real, table_of, features, seed, classified);
+  return classified;
 }
 
 }  // namespace
@@ -131,8 +131,8 @@ Comparison compare(const CompareOptions& options) {
                       .frames = {},
                       .crops = {}};
   found.measures = compared(found.real, found.other, options.seed);
-  found.frames = told_by(found.real, found.other, frame_table, frame_features().size(), options.seed);
-  found.crops = told_by(found.real, found.other, crop_table, crop_features().size(), options.seed);
+  found.frames = classify(found.real, found.other, frame_table, frame_features().size(), options.seed);
+  found.crops = classify(found.real, found.other, crop_table, crop_features().size(), options.seed);
   return found;
 }
 

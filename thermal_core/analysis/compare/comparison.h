@@ -40,12 +40,12 @@ struct ComparedMeasure {
   [[nodiscard]] bool is_good() const;  ///< within kGoodRatio, or no difference at all
 };
 
-/// What a classifier tells apart.
-struct Told {
+/// How well a classifier separates real from made frames or crops.
+struct Classification {
   Discrimination sets;  ///< real against other
   std::optional<Discrimination>
       real_halves;                        ///< real against real, averaged over halvings; empty: too few units
-  std::vector<double> halves_alone = {};  ///< what each feature alone tells of the same; empty likewise
+  std::vector<double> halves_alone = {};  ///< the AUC of each feature alone, likewise; empty likewise
 };
 
 /// How far one set of frames is from another.
@@ -53,8 +53,8 @@ struct Comparison {
   SetFigures real;
   SetFigures other;
   std::vector<ComparedMeasure> measures;  ///< in the order of measures()
-  std::optional<Told> frames;
-  std::optional<Told> crops;  ///< empty: fewer than two units with crops in a set
+  std::optional<Classification> frames;
+  std::optional<Classification> crops;  ///< empty: fewer than two units with crops in a set
 };
 
 /// Reads, measures and compares two sets of frames. The result depends on the frames, labels and options alone.

@@ -32,20 +32,23 @@ Json measures_json(const Comparison& comparison) {
   return rows;
 }
 
-Json told_json(const std::optional<Told>& told, const std::vector<std::string>& features) {
-  if (!told) return {};
+Json classification_json(const std::optional<Classification>& classified,
+                         const std::vector<std::string>& features) {
+  if (!classified) return {};
   Json importances = Json::array();
-  for (const Importance& one : told->sets.importances) {
+  for (const Importance& one : classified->sets.importances) {
     importances.push_back(
         {{"feature", features[one.feature]},
          {"fall", one.fall},
          {"alone", one.alone},
-         {"real_alone", told->halves_alone.empty() ? Json() : Json(told->halves_alone[one.feature])}});
+         {"real_alone",
+          classified->halves_alone.empty() ? Json() : Json(classified->halves_alone[one.feature])}});
   }
   Json halves;
-  if (told->real_halves) halves = {{"auc", told->real_halves->auc}, {"error", told->real_halves->error}};
-  return {{"auc", told->sets.auc},
-          {"error", told->sets.error},
+  if (classified->real_halves)
+    halves = {{"auc", classified->real_halves->auc}, {"error", classified->real_halves->error}};
+  return {{"auc", classified->sets.auc},
+          {"error", classified->sets.error},
           {"real_halves", std::move(halves)},
           {"importances", std::move(importances)}};
 }
@@ -203,8 +206,8 @@ Json to_json(const Comparison& comparison, bool each) {
                {"measures", measures_json(comparison)},
                {"frame_features", frame_features()},
                {"crop_features", crop_features()},
-               {"frames_told_apart", told_json(comparison.frames, frame_features())},
-               {"crops_told_apart", told_json(comparison.crops, crop_features())}};
+               {"frames_told_apart", classification_json(comparison.frames, frame_features())},
+               {"crops_told_apart", classification_json(comparison.crops, crop_features())}};
   if (const auto& levels = comparison.real.source.kelvin)
     json["levels"] = {{"lowest_k", levels->lowest_k}, {"kelvin_per_level", levels->kelvin_per_level}};
   return json;

@@ -31,7 +31,7 @@ struct Importance {
   double alone = 0.5;  ///< told_alone()
 };
 
-/// How well a classifier tells two sets apart.
+/// How well a classifier separates two sets.
 struct Discrimination {
   double auc =
       0.5;  ///< area under the receiver operating characteristic: .5 if it cannot, 1 if it always can
@@ -41,7 +41,7 @@ struct Discrimination {
 
 /// A random forest (OpenCV's) of 100 trees, cross-validated in five parts of whole units, or fewer if a set has fewer
 /// units. Pairs within a part are compared; so a part's own level does not matter. Unknown values count as the median.
-/// Features that say the same stand in for each other: none falls by much then, and what each tells alone says more. The result depends on `seed` and the tables alone. At most
+/// Features that say the same stand in for each other: none falls by much then, and the AUC of each alone says more. The result depends on `seed` and the tables alone. At most
 /// 400 rows of each table are used, evenly spaced.
 /// Both tables need two units or more.
 [[nodiscard]] Discrimination discriminate(const FeatureTable& first, const FeatureTable& second,

@@ -29,7 +29,7 @@ struct Measure {
 /// quantiles over all of them; of all others, the median over frames. Empty where nothing is known.
 [[nodiscard]] KnownValues values_of(const MeasuredFrames& frames);
 
-/// Names of the features by which a classifier tells frames, or crops of targets, apart.
+/// Names of the features by which a classifier separates frames, or crops of targets.
 [[nodiscard]] const std::vector<std::string>& frame_features();
 /// The same of crops of targets.
 [[nodiscard]] const std::vector<std::string>& crop_features();

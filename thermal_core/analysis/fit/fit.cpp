@@ -369,12 +369,12 @@ class Fitter {
                                        const std::vector<FrameFigures>& before,
                                        const std::vector<FrameFigures>& after) const {
     const FeatureTable real = table_of(figures_in(judging));
-    const auto told = [&](const std::vector<FrameFigures>& frames) -> std::optional<Discrimination> {
+    const auto classified = [&](const std::vector<FrameFigures>& frames) -> std::optional<Discrimination> {
       const FeatureTable table = table_of(figures_in(frames));
       if (!has_two_units(real) || !has_two_units(table)) return {};
       return discriminate(real, table, features, options_.seed);
     };
-    return {.before = told(before), .after = told(after)};
+    return {.before = classified(before), .after = classified(after)};
   }
 
   const FitOptions& options_;

@@ -36,7 +36,7 @@ struct FitOptions {
 /// Plans a config into a folder.
 using PlanInto = std::function<DatasetPlan(const Path& folder, const Config& config)>;
 
-/// A feature of frames or targets: medians, and how well it alone tells frames from the half of the real ones that was not
+/// A feature of frames or targets: medians, and how well it alone separates frames from the half of the real ones that was not
 /// fitted (area under the curve, .5 or more).
 struct FittedFeature {
   std::string name;
@@ -48,11 +48,11 @@ struct FittedFeature {
   double told_after = 0.5;
   double told_halves = 0.5;  ///< the half that was fitted
 
-  /// Told apart by more than what counts as unlike, and more than the real halves are from each other.
+  /// Separated by more than what counts as unlike, and more than the real halves are from each other.
   [[nodiscard]] bool is_unlike() const;
 };
 
-/// What a forest tells of frames or targets, before and after; empty: too few clips or targets.
+/// The classifier of frames or targets, before and after; empty: too few clips or targets.
 struct FittedForest {
   std::optional<Discrimination> before;
   std::optional<Discrimination> after;

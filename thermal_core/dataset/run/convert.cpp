@@ -32,7 +32,7 @@ Layout own_layout(const ConvertRequest& request) {
   return layout;
 }
 
-/// DataError if no frame of any clip can be converted. Looks at clips that nobody has looked at.
+/// DataError if no frame of any clip can be converted. Looks at clips that have not been looked at.
 void check_any_readable(const std::vector<ClipPasses>& sources, std::vector<PassesView>& views) {
   std::vector<std::string> faults;
   for (std::size_t i = 0; i < sources.size(); ++i) {

@@ -66,7 +66,7 @@ std::unique_ptr<LiveClip> clip_for(const PlannedDataset& planned, const Path& pl
   return std::make_unique<LiveClip>(std::move(manifest), std::move(materials), std::move(task));
 }
 
-/// ConfigError unless a pose is a rotation and a place near the scene, where single precision tells centimetres apart.
+/// ConfigError unless a pose is a rotation and a place near the scene, where single precision resolves centimetres.
 void check_pose(const std::array<double, 16>& pose) {
   constexpr double kOff = 1e-6;
   constexpr double kFarthestM = 100'000;

@@ -63,7 +63,7 @@ void check_frame_rate(double frame_rate_hz, const std::string& where) {
 struct FrameStream::Impl {
   StreamTarget target;
   std::function<bool()> stopped;      ///< asked until there is a receiver
-  std::atomic<bool> cut = false;      ///< nobody waits any longer
+  std::atomic<bool> cut = false;      ///< no call waits any longer
   std::unique_ptr<H264Stream> video;  ///< the sender's; null while there is no receiver
   mutable std::mutex mutex;           ///< of all below
   std::condition_variable changed;

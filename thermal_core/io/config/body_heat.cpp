@@ -11,7 +11,7 @@
 namespace thermal {
 namespace {
 
-/// Takes the keys of one object, and reports those that nobody took.
+/// Takes the keys of one object, and reports those that were not taken.
 class HeatKeys {
  public:
   HeatKeys(const Json& json, const std::string& where) : json_(json), where_(where) {}

@@ -204,7 +204,7 @@ class ResultsReader {
   PictureFinder pictures_;
   std::unordered_map<LabelId, std::size_t> ids_;
   bool may_be_places_ = true;    ///< all entries name pictures as Ultralytics does
-  bool must_be_places_ = false;  ///< and some as nobody else does
+  bool must_be_places_ = false;  ///< and some as no other program does
   std::vector<CategoryNumber> numbers_;
   std::vector<Detection> detections_;
 };

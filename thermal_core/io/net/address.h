@@ -14,7 +14,7 @@ struct NetAddress {
   std::uint16_t port = 0;
   std::string path;  ///< with its slash, or empty
 
-  /// Whether the host is this machine, and nobody else can be reached by it: 127.0.0.0/8, ::1 or "localhost".
+  /// Whether the host is this machine, and no other machine can be reached by it: 127.0.0.0/8, ::1 or "localhost".
   [[nodiscard]] bool is_loopback() const;
 
   /// "udp://[::1]:5600".

@@ -136,7 +136,7 @@ struct LineSender::Impl {
 
   void send_datagram(std::string_view line) {
     const std::string text = std::string(line) + '\n';
-    // Nobody listening is no fault; neither is a buffer that is full.
+    // No listener is no fault; neither is a buffer that is full.
     const ssize_t sent = ::send(socket.number(), text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
     ++(sent < 0 && errno != ECONNREFUSED ? counts.missed : counts.sent);
   }

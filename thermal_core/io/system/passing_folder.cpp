@@ -18,7 +18,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::string_view kPrefix = ".veldt-passing-";  // nobody else's: what has this name is removed
+constexpr std::string_view kPrefix = ".veldt-passing-";  // no other program's: what has this name is removed
 
 /// The descriptor of a folder that no other process has locked; -1 if one has, or if it is gone.
 int lock_folder(const Path& folder) {

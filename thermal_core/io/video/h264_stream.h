@@ -9,13 +9,13 @@
 
 namespace thermal {
 
-/// Sends grey frames as H.264 video: MPEG-TS by `udp`, which nobody has to receive, or pushed to a server by `rtsp`.
+/// Sends grey frames as H.264 video: MPEG-TS by `udp`, which needs no receiver, or pushed to a server by `rtsp`.
 /// Each frame leaves at once, a keyframe is among every second's, and whoever joins later waits for it.
 class H264Stream {
  public:
   /// @param frame_rate_hz  > 0
   /// @param interrupted  asked while the stream waits, from the thread that uses it: true ends the wait with an IoError
-  /// IoError if nobody answers within 5 s, or FFmpeg has no encoder.
+  /// IoError if there is no answer within 5 s, or FFmpeg has no encoder.
   H264Stream(const NetAddress& address, double frame_rate_hz, int width_px, int height_px,
              std::function<bool()> interrupted);
   ~H264Stream();

@@ -28,36 +28,36 @@ FeatureTable table_of(std::size_t rows, double shift, std::uint32_t draw) {
 
 }  // namespace
 
-TEST_CASE("Equal distributions cannot be told apart") {
+TEST_CASE("Equal distributions cannot be separated") {
   // The error of an AUC of .5 with 200 cases on each side is .029; bounds at five.
   for (const std::uint32_t seed : {1U, 2U, 3U}) {
-    const Discrimination told = discriminate(table_of(200, 0, 50), table_of(200, 0, 51), 3, seed);
-    CHECK_THAT(told.auc, WithinAbs(0.5, 0.145));
-    CHECK_THAT(told.error, WithinAbs(std::sqrt(401.0 / 12 / 200 / 200), 0.002));
+    const Discrimination found = discriminate(table_of(200, 0, 50), table_of(200, 0, 51), 3, seed);
+    CHECK_THAT(found.auc, WithinAbs(0.5, 0.145));
+    CHECK_THAT(found.error, WithinAbs(std::sqrt(401.0 / 12 / 200 / 200), 0.002));
   }
 }
 
-TEST_CASE("Distributions that do not meet are told apart by what differs") {
-  const Discrimination told = discriminate(table_of(60, 0, 50), table_of(60, 30, 51), 3, 1);
-  CHECK(told.auc == 1);
-  CHECK(told.error == 0);
-  REQUIRE(told.importances.size() == 3);
-  CHECK(told.importances[0].feature == 1);
-  CHECK(told.importances[0].alone == 1);
-  CHECK_THAT(told.importances[0].fall, WithinAbs(0.5, 0.15));  // shuffled, it tells nothing
-  CHECK_THAT(told.importances[1].fall, WithinAbs(0, 0.05));
+TEST_CASE("Distributions that do not meet are separated by what differs") {
+  const Discrimination found = discriminate(table_of(60, 0, 50), table_of(60, 30, 51), 3, 1);
+  CHECK(found.auc == 1);
+  CHECK(found.error == 0);
+  REQUIRE(found.importances.size() == 3);
+  CHECK(found.importances[0].feature == 1);
+  CHECK(found.importances[0].alone == 1);
+  CHECK_THAT(found.importances[0].fall, WithinAbs(0.5, 0.15));  // shuffled, it separates nothing
+  CHECK_THAT(found.importances[1].fall, WithinAbs(0, 0.05));
 }
 
 TEST_CASE("Normal distributions two deviations apart") {
   // The best AUC is that of their difference: Phi(2 / sqrt 2) = .921. Error .014; a forest loses a few percent.
-  const Discrimination told = discriminate(table_of(200, 0, 50), table_of(200, 2, 51), 3, 1);
-  CHECK(told.auc > 0.84);
-  CHECK(told.auc < 0.97);
+  const Discrimination found = discriminate(table_of(200, 0, 50), table_of(200, 2, 51), 3, 1);
+  CHECK(found.auc > 0.84);
+  CHECK(found.auc < 0.97);
 }
 
 TEST_CASE("Few rows are enough") {
-  const Discrimination told = discriminate(table_of(4, 0, 50), table_of(4, 30, 51), 3, 1);
-  CHECK(told.auc == 1);
+  const Discrimination found = discriminate(table_of(4, 0, 50), table_of(4, 30, 51), 3, 1);
+  CHECK(found.auc == 1);
   CHECK(discriminate(table_of(2, 0, 50), table_of(300, 30, 51), 3, 1).auc == 1);
 }
 
@@ -68,9 +68,9 @@ TEST_CASE("Unknown values count as the median, also if all are unknown") {
   for (std::size_t k = 0; k < 20; ++k) second.rows[k][2].reset();
   CHECK(discriminate(first, second, 3, 1).auc == 1);
   for (auto& row : second.rows) row[2].reset();
-  const Discrimination told = discriminate(first, second, 3, 1);
-  CHECK(told.auc == 1);
-  CHECK(told.importances.back().alone == 0.5);
+  const Discrimination found = discriminate(first, second, 3, 1);
+  CHECK(found.auc == 1);
+  CHECK(found.importances.back().alone == 0.5);
 }
 
 TEST_CASE("Rows of one unit are not spread over training and test") {
@@ -89,11 +89,11 @@ TEST_CASE("Rows of one unit are not spread over training and test") {
 }
 
 TEST_CASE("The result does not depend on threads") {
-  const auto told = [](int threads) {
+  const auto found = [](int threads) {
     return with_threads(threads, [] { return discriminate(table_of(50, 0, 50), table_of(50, 1, 51), 3, 1); });
   };
-  const Discrimination one = told(1);
-  const Discrimination four = told(4);
+  const Discrimination one = found(1);
+  const Discrimination four = found(4);
   CHECK(one.auc == four.auc);
   for (std::size_t k = 0; k < 3; ++k) CHECK(one.importances[k].fall == four.importances[k].fall);
 }

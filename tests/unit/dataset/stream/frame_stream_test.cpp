@@ -15,7 +15,7 @@ using namespace thermal;
 
 namespace {
 
-StreamTarget nobody() {
+StreamTarget no_receiver() {
   return {.video = parse_video_address("udp://127.0.0.1:9", "--video"),
           .lines = parse_line_address("udp://127.0.0.1:9", "--labels"),
           .frame_rate_hz = 30,
@@ -26,7 +26,7 @@ StreamTarget nobody() {
 }  // namespace
 
 TEST_CASE("What waits is sent when the stream is closed, and nothing afterwards") {
-  FrameStream stream(nobody());
+  FrameStream stream(no_receiver());
   CHECK(stream.send(Plane<std::uint8_t>(65, 47, 100), 0, "{}"));
   CHECK(stream.send(Plane<std::uint8_t>(65, 47, 120), 5, "{}"));
   stream.close();
@@ -37,7 +37,7 @@ TEST_CASE("What waits is sent when the stream is closed, and nothing afterwards"
 }
 
 TEST_CASE("All frames are sent or counted as dropped, however quickly they come") {
-  FrameStream stream(nobody());
+  FrameStream stream(no_receiver());
   int taken = 0;
   for (int k = 0; k < 500; ++k) taken += stream.send(Plane<std::uint8_t>(65, 47, 100), k, "{}") ? 1 : 0;
   stream.close();
@@ -47,10 +47,10 @@ TEST_CASE("All frames are sent or counted as dropped, however quickly they come"
 }
 
 TEST_CASE("Frames of another size, and a server that does not answer, are faults") {
-  FrameStream stream(nobody());
+  FrameStream stream(no_receiver());
   CHECK(message_of<ConfigError>([&] { stream.send(Plane<std::uint8_t>(64, 48), 0, ""); }) ==
         "frame = 64 x 48 px; expected 65 x 47");
-  StreamTarget refused = nobody();
+  StreamTarget refused = no_receiver();
   refused.video = parse_video_address("rtsp://127.0.0.1:9/veldt", "--video");
   CHECK(message_of<IoError>([&] { FrameStream{refused}; }) ==
         "cannot send to rtsp://127.0.0.1:9/veldt: Connection refused");
@@ -58,7 +58,7 @@ TEST_CASE("Frames of another size, and a server that does not answer, are faults
 
 TEST_CASE("A server that accepts and never answers is given up after 5 s, or when the run is stopped") {
   const Peer silent(SOCK_STREAM);
-  StreamTarget target = nobody();
+  StreamTarget target = no_receiver();
   target.video = parse_video_address(fmt::format("rtsp://127.0.0.1:{}/veldt", silent.take_port()), "--video");
   silent.be_served();
   const std::string where = "cannot send to " + target.video.url() + ": ";
@@ -69,7 +69,7 @@ TEST_CASE("A server that accepts and never answers is given up after 5 s, or whe
 }
 
 TEST_CASE("Lines that cannot be sent are counted") {
-  FrameStream stream(nobody());
+  FrameStream stream(no_receiver());
   CHECK(
       stream.send(Plane<std::uint8_t>(65, 47, 100), 0, std::string(70'000, 'x')));  // no datagram is as long
   CHECK(stream.counts().lines_missed == 1);
@@ -77,7 +77,7 @@ TEST_CASE("Lines that cannot be sent are counted") {
 
 TEST_CASE("A stream's rate and size have limits") {
   const auto fault_of = [](double rate_hz, int width_px, int height_px) {
-    StreamTarget target = nobody();
+    StreamTarget target = no_receiver();
     target.frame_rate_hz = rate_hz;
     target.width_px = width_px;
     target.height_px = height_px;

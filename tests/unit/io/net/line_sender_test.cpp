@@ -48,7 +48,7 @@ class NoDescriptors {
 TEST_CASE("Clients get the lines from their connection on, and one that goes is no fault") {
   const std::uint16_t port = free_port();
   LineSender sender(at("tcp", port));
-  sender.send("nobody hears");
+  sender.send("not received");
   const Peer stays(SOCK_STREAM);
   REQUIRE(stays.connect_to(port));
   {
@@ -63,7 +63,7 @@ TEST_CASE("Clients get the lines from their connection on, and one that goes is 
   CHECK(sender.counts().clients == 1);
 }
 
-TEST_CASE("A client that does not read misses whole lines, and holds up nobody") {
+TEST_CASE("A client that does not read misses whole lines, and holds up no other") {
   const std::uint16_t port = free_port();
   LineSender sender(at("tcp", port));
   const Peer slow(SOCK_STREAM);
@@ -156,7 +156,7 @@ TEST_CASE("Each line is a datagram, whether somebody listens or not") {
     CHECK(sender.counts().missed == 1);
   }
   LineSender sender(at("udp", port));
-  for (int k = 0; k < 3; ++k) sender.send("nobody hears");
+  for (int k = 0; k < 3; ++k) sender.send("not received");
   CHECK(sender.counts().missed == 0);
 }
 
