@@ -2,7 +2,8 @@
 
 
 def test_the_heat_balance_is_measured(veldt):
-    """Errors do not depend on the machine; they are those of ACCURACY.md, with a margin for changes of properties."""
+    """Errors do not depend on the machine; they are those of ACCURACY.md and DECISIONS.md, with a margin for changes
+    of properties."""
     done = veldt("bench", "--suite", "heat", "--json", "--quiet")
     rows = {}
     for row in done.json()["rows"]:

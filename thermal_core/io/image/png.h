@@ -10,9 +10,9 @@
 namespace thermal {
 
 /// A grey PNG in memory; lossless. Every row is filtered with PNG's filter "sub" and compressed by ISA-L at level 3:
-/// on noisy pictures as small as zlib's, in a third of the time (ACCURACY.md, "The converter"). The bytes depend on
-/// the picture, on ISA-L's version, and possibly on the processor, for which ISA-L has specific code. The picture
-/// must not be empty. `out` is overwritten; its memory is reused.
+/// on noisy pictures as small as zlib's, in a third of the time (DECISIONS.md, "PNG by ISA-L at level 3"). The bytes
+/// depend on the picture, on ISA-L's version, and possibly on the processor, for which ISA-L has specific code. The
+/// picture must not be empty. `out` is overwritten; its memory is reused.
 void encode_png(const Plane<std::uint8_t>& picture, std::vector<std::byte>& out);
 /// The same with 16 bits.
 void encode_png(const Plane<std::uint16_t>& picture, std::vector<std::byte>& out);
