@@ -9,6 +9,7 @@ from pathlib import Path
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[2] / "thermal_core/python")]
 
 # pylint: disable=invalid-name,wrong-import-position
+from pygments.lexers.special import TextLexer
 from pages import notebook_to_markdown, without_folder_links
 from stub import load_stub
 
@@ -81,5 +82,6 @@ def hide_constructor(_app, what: str, _name: str, item, *_) -> tuple[str, str] |
 
 def setup(app) -> None:
     """Called by Sphinx."""
+    app.add_lexer("mermaid", TextLexer)  # diagrams stay text: Pygments has no lexer for them
     app.connect("source-read", read_source)
     app.connect("autodoc-process-signature", hide_constructor)

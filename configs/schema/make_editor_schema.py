@@ -34,7 +34,7 @@ _KINDS = {
             "uniform": {
                 **_PAIR,
                 "items": {"type": ["number", "string"]},
-                "description": "Lowest and highest; of times and dates, first and last.",
+                "description": "Lowest and highest, both included; of times and dates, first and last.",
             }
         },
     },
@@ -46,7 +46,8 @@ _KINDS = {
             "normal": {
                 **_PAIR,
                 "items": {"type": "number"},
-                "description": "Mean and standard deviation; drawn again until the key's range has the value.",
+                "description": "Mean and standard deviation; drawn again until the key's range has the value."
+                " Refused if fewer than one in a hundred would be in it.",
             }
         },
     },

@@ -35,8 +35,8 @@ using ShowCells = std::function<void(int done, int total)>;
 
 /// Fills in sky_view and sunlit of maps whose place and heights are known, by rays that start 1 cm above the middle of
 /// each cell and end at anything they hit: ground, water, crowns. The sun is a point. A cell that is not traced, or not
-/// within 1e9 m of the origin, sees all there is. The result depends on nothing else, such as threads or the processor's
-/// vectors.
+/// within 1e9 m of the origin, sees all there is. Only whether a ray hits anything counts, so ties between triangles do
+/// not matter. The result depends on nothing else, such as threads or the processor's vectors.
 void trace_ground_light(const RayCaster& caster, std::span<const SunDay> days, const BlockRays& rays,
                         GroundMaps& maps, const ShowCells& show = {});
 

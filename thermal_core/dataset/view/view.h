@@ -30,8 +30,8 @@ struct ViewOutcome {
 
 /// Writes a page to look through a dataset's frames, for a browser without a server: index.html, its scripts in `code`,
 /// and in `data` one script per frame, which the page loads when it shows the frame, with its labels and both PNG files
-/// (4/3 of their size). Memory does not grow with the frames but by what is said of each. OUT is complete or unchanged;
-/// the same dataset gives the same bytes.
+/// (4/3 of their size): a page from a file may run the files beside it, but not fetch them. Memory does not grow with
+/// the frames but by what is said of each. OUT is complete or unchanged; the same dataset gives the same bytes.
 /// ConfigError for an OUT that holds anything but such a page and for what cannot be asked for; DataError or IoError
 /// naming a file that is damaged or not there; TryAgainError when the disk is full or another run writes OUT;
 /// Cancelled.
