@@ -13,7 +13,7 @@ CONFIGS = [
 ]
 
 
-# Planning 90 clips takes long, and they are drawn alike.
+# Planning all clips takes long, and they are drawn alike.
 def fewer_clips(config):
     clips = json.loads(config.read_text()).get("clips", [])
     counts = [(i, clip.get("count", 1)) for i, clip in enumerate(clips)]
