@@ -1,4 +1,9 @@
-"""Progress events for the process that started the renderer: one JSON object per line."""
+"""Progress events for the process that started the planner or the renderer: one JSON object per line.
+
+The planner reports `planned` for each clip or flight, the renderer `scene_built`, `clip`, `frame`, `clip_done`, `done`
+and `error`. An `error` has a `kind` (`config` or `internal`), a `message` (exception type and last line), `where`
+(`blender_scripts/FILE:LINE`) and sometimes a `hint`.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Import models from the user's files into Blender."""
+"""Import models from the user's files into Blender; one that differs from its box by over one percent is rejected."""
 
 from __future__ import annotations
 

@@ -3,8 +3,13 @@
     /usr/bin/python3 tests/faults/night.py --hours 2 --seed 7 --log night.jsonl
     /usr/bin/python3 tests/faults/night.py --seed 7 --only-round 12
 
-Each round has a line in the log. A round that fails leaves its folder, with the state before the resumed run in
-`disturbed`. The exit code is 1 if anything was lost.
+Each round has a line in the log. A round that fails leaves its folder, with the messages and, in `disturbed`, the
+state before the resumed run. Moments depend on the machine, so repeat it a few times. A disturbed run that reports
+success must have made the whole dataset, but may leave a temporary folder that it names. The exit code is 1 if anything
+was lost.
+
+Finished pictures whose bytes change in silence are not looked for: `veldt validate` finds those. Faults by preloading
+follow the orders in fault_shim.c and machine_shim.c.
 """
 
 from __future__ import annotations

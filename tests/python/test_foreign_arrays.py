@@ -1,4 +1,7 @@
-"""What is no plane of indices, or no numbers, is refused by name, whatever its type, shape and strides."""
+"""What is no plane of indices, or no numbers, is refused by name, whatever its type, shape and strides.
+
+With VELDT_ARRAY_ROUNDS=77000 it calls the package's functions a million times with arrays of any type, shape and order.
+"""
 
 import itertools
 import os

@@ -1,4 +1,16 @@
-"""Fly a plan as closely as the aircraft and the gimbal allow."""
+"""Fly a plan as closely as the aircraft and the gimbal allow.
+
+1. Every 20 ms from the start of the flight, a course or a pursuit gives a point, a heading and a height above ground.
+2. Courses are averaged over 0.74 s, since accelerations, and with them the aircraft's tilt, build up over time. A
+   multirotor slows down where these heights change faster than it can climb. `heights` finds how much, and then the
+   nearest heights that it can reach, by the largest deviation, averaged over two seconds.
+3. `gusts` of the Dryden model push it off its course. It steers back (`disturbance_response`), leaning as far as that
+   requires.
+4. The gimbal points at the target from the aircraft's actual position with its lag, and compensates its tilt: an even
+   rate fully, and what changes faster than its lag not at all.
+5. Frames take their pose from these samples by linear interpolation (`poses`). A request for later times never changes
+   earlier samples, so a clip cut from a flight has the same poses as in the whole flight, wherever it is generated.
+"""
 
 from __future__ import annotations
 
