@@ -251,7 +251,9 @@ def draw_follow(shop: Workshop, out: Path) -> None:
     shop.commands.append(shlex.join(["python", *map(str, command[1:])]))
     printed = run(*command)
     share, middle_m, most_m = re.search(
-        r"in view: ([\d.]+)%.*thought to be ([\d.]+) m off \(median\).* ([\d.]+) m \(most\)", printed, re.DOTALL
+        r"in view: ([\d.]+)%.*thought to be ([\d.]+) m off \(median\).* ([\d.]+) m \(most\)",
+        printed,
+        re.DOTALL,
     ).groups()
     off = f"{middle_m} m off their place (median; {most_m} m at most)"
     shop.words[
