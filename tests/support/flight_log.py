@@ -28,25 +28,29 @@ def position_of(origin: tuple[float, float, float], point_m: np.ndarray) -> tupl
 
 
 def write_log(path: Path, origin: tuple[float, float, float], times_s, poses, hz: float = 50) -> None:
-    """A log of a drone whose camera takes these poses, without roll; the body leans as it likes. Positions have the
-    1e-7 degrees and millimetres of the message, so 1 cm."""
+    """A log of a drone whose camera takes these poses; the body leans as it likes. Positions have the 1e-7 degrees and
+    millimetres of the message, so 1 cm."""
     link = common.MAVLink(None, srcSystem=1, srcComponent=1)
     with path.open("wb") as file:
         for time_s in np.arange(times_s[0], times_s[-1], 1 / hz):
             place_m = [np.interp(time_s, times_s, poses[:, k, 3]) for k in range(3)]
-            forward = np.array([np.interp(time_s, times_s, poses[:, k, 2]) for k in range(3)])
-            for message in _messages_at(origin, np.array(place_m), forward, time_s - times_s[0]):
+            axes = np.array(
+                [[np.interp(time_s, times_s, poses[:, k, axis]) for k in range(3)] for axis in (0, 2)]
+            )
+            for message in _messages_at(origin, np.array(place_m), *axes, time_s - times_s[0]):
                 file.write(struct.pack(">Q", round(time_s * 1e6)) + message.pack(link))
 
 
-def _messages_at(origin, place_m, forward, time_s: float):
+def _messages_at(origin, place_m, right, forward, time_s: float):
     latitude_deg, longitude_deg, height_m = position_of(origin, place_m)
     yaw, pitch = np.arctan2(forward[0], forward[1]), np.arcsin(forward[2] / np.linalg.norm(forward))
+    level = np.array([np.cos(yaw), -np.sin(yaw), 0])
+    roll = np.arctan2(right @ np.cross(forward, level), right @ level)
     boot_ms = round(1e3 * time_s)
     yield common.MAVLink_heartbeat_message(2, 3, 0, 0, 4, 3)
     yield common.MAVLink_attitude_message(boot_ms, 0.1 * np.sin(time_s), -0.2, yaw + 0.3, 0, 0, 0)
     yield common.MAVLink_gimbal_device_attitude_status_message(
-        0, 0, boot_ms, _GIMBAL | common.GIMBAL_DEVICE_FLAGS_YAW_IN_EARTH_FRAME, Quaternion([0, pitch, yaw]).q,
+        0, 0, boot_ms, _GIMBAL | common.GIMBAL_DEVICE_FLAGS_YAW_IN_EARTH_FRAME, Quaternion([roll, pitch, yaw]).q,
         0, 0, 0, 0,
     )  # fmt: skip
     yield common.MAVLink_global_position_int_message(
