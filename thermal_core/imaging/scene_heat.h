@@ -21,6 +21,7 @@ struct GroundLook {
   GroundShift shift;       ///< see SoilLook
   double variation_k = 0;  ///< see GroundPart
 };
+/// That of each material, by its name.
 using GroundLookOf = std::function<GroundLook(const std::string& material, double temperature_k)>;
 
 /// Works out how each surface's temperature is found. Surfaces whose material has no heat have the temperature of their
