@@ -227,7 +227,7 @@ def print_result(steps: list[Step], took_s: float, frame_rate_hz: float) -> None
     flown_s, speed_hz = len(steps) / frame_rate_hz, len(steps) / took_s
     print(f"{len(steps)} frames, {flown_s:.0f} s of flight in {took_s:.0f} s: {speed_hz:.1f} frames/s")
     print(
-        f"in view: {seen.sum() / sum(step.count for step in steps):.1%} of the group; out of view for {away:.1f} s at most"
+        f"in view: {seen.sum() / sum(step.count for step in steps):.1%} of the group; away for {away:.1f} s at most"
     )
     middle_m, high_m = np.percentile(off_m, [50, 95])
     print(f"thought to be {middle_m:.1f} m off (median), {high_m:.1f} m (95 %), {off_m.max():.1f} m (most)")

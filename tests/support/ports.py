@@ -9,7 +9,7 @@ from pathlib import Path
 
 from processes import wait_until
 
-# Below those that the kernel gives to whoever asks for any: none of these is given away by chance before its user has it.
+# Below those that the kernel gives to whoever asks for any: none of these is taken by chance before its user has it.
 _OURS = range(10_000, 32_000)
 
 

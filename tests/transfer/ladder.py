@@ -3,12 +3,12 @@
 
     tests/transfer/ladder.py CONFIG --real ANNOTATIONS.json FOLDER --out OUT
 
-Generates the dataset, exports its labels as people draw them, trains a small detector on it from several seeds, with no
-real frames, a few, and many, and beside it on those real frames alone. Real frames are split by the order of their
-names: every other one is for training, the rest judges. --also judges by other frames, too; --chain draws what cameras
-and links do after the sensor while it trains, with the package `veldt` (VELDT_HOME=$PWD
-PYTHONPATH=$PWD/build/release/python). Everything that exists in OUT already is kept. Needs python3-torch and python3-opencv; each training takes minutes on two cores.
-Results and how to read them: thermal_core/TRANSFER.md.
+Generates the dataset, exports its labels as people draw them, trains a small detector on it from several seeds, with
+no real frames, a few, and many, and beside it on those real frames alone. Real frames are split by the order of their
+names: every other one is for training, the rest judges. --also judges by other frames, too; --chain draws what
+cameras and links do after the sensor while it trains, with the package `veldt` (VELDT_HOME=$PWD
+PYTHONPATH=$PWD/build/release/python). Everything that exists in OUT already is kept. Needs python3-torch and
+python3-opencv; each training takes minutes on two cores. Results and how to read them: thermal_core/TRANSFER.md.
 """
 
 from __future__ import annotations

@@ -52,7 +52,7 @@ class Stream:
         tcp://HOST:PORT, a server for 16 clients, or udp://HOST:PORT, a datagram a line. allow_remote: hosts
         may be other than this machine. Sides of 1 to 8192 px, 0.1 to 240 Hz.
 
-        ConfigError for another URL, rate or size; IoError if there is no answer within 5 s, or the server's port is in use.
+        ConfigError for another URL, rate or size; IoError without an answer in 5 s, or the server's port is in use.
         """
         self._stream = _core.FrameStream(
             video_url, labels_url, frame_rate_hz, width_px, height_px, allow_remote

@@ -14,8 +14,8 @@ from .runs import json_of
 
 
 class VideoChain:
-    """Noise of a detector, a noise filter, an unsharp mask and an analogue link for 8-bit pictures, with the code and the
-    keys of a config's `sensor.processing` and `output.link`. All values may be distributions.
+    """Noise of a detector, a noise filter, an unsharp mask and an analogue link for 8-bit pictures, with the code and
+    the keys of a config's `sensor.processing` and `output.link`. All values may be distributions.
 
     >>> chain = VideoChain({
     ...     "noise_levels": {"uniform": [0, 20]},
