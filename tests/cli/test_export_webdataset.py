@@ -7,15 +7,13 @@ import signal
 import tarfile
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import passes
-from pictures import write_exr
+from exports import CLIPS, with_three_clips
 from processes import PATIENCE_S, interrupt
 from program import Veldt, check_fault, files_below
 
-CLIPS = ("one", "two", "three")
 FRAMES = passes.FRAMES
 FORMAT = ("--format", "webdataset")
 KEYS = [f"{clip}_{k:06d}" for clip in CLIPS for k in range(FRAMES)]
@@ -23,14 +21,7 @@ KEYS = [f"{clip}_{k:06d}" for clip in CLIPS for k in range(FRAMES)]
 
 @pytest.fixture(scope="module", name="place")
 def _place(tmp_path_factory) -> Veldt:
-    """A place with a dataset of three clips, in `data`; the last frame of `three` is empty."""
-    veldt = Veldt(tmp_path_factory.mktemp("webdataset"))
-    clips = [passes.write_clip(veldt.folder / clip, clip) for clip in CLIPS]
-    ground = np.full((passes.HEIGHT, passes.WIDTH), passes.GROUND, np.float32)
-    write_exr(clips[2] / f"{FRAMES - 1:06d}.exr", {passes.OBJECTS: ground, passes.DEPTH: ground * 40})
-    done = veldt("convert", *clips, "--out", "data", "--quiet")
-    assert (done.code, done.out, done.err) == (0, "", "")
-    return veldt
+    return with_three_clips(tmp_path_factory.mktemp("webdataset"))
 
 
 def _made(place, out, *options, source="data", env=None) -> Path:
