@@ -118,7 +118,7 @@ void print_fit(const thermal::Fit& fit) {
   print_forest("frames", fit.frames);
   print_forest("targets", fit.targets);
   if (std::ranges::any_of(fit.features, &thermal::FittedFeature::is_unlike))
-    print("! could not be fitted: AUC above .65, and than halves of the real frames\n");
+    print("! could not be fitted: AUC above .65, and above that of halves of the real frames\n");
   if (!fit.no_size.empty()) print("the size of targets was not fitted: {}\n", fit.no_size);
 }
 

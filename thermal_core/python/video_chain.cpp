@@ -38,20 +38,22 @@ Json rules_of_chain(const Json& config) {
             {kFieldMotion, {{"type", "number"}, {"minimum", -100}, {"maximum", 100}, {"default", 0}}}}}};
 }
 
-/// A picture in finer steps, with the white noise of another detector.
-Plane<std::uint16_t> noisy_counts(const Plane<std::uint8_t>& picture, double noise_levels,
-                                  const RandomField& field) {
+Plane<std::uint16_t> counts_of(const Plane<std::uint8_t>& picture) {
   Plane<std::uint16_t> counts(picture.width_px(), picture.height_px());
-  std::vector<float> noise(noise_levels > 0 ? picture.size() : 0);
-  fill_normal(field, 0, noise);
-  const double scale = kCountsPerLevel * noise_levels;
-  for (std::size_t i = 0; i < picture.size(); ++i) {
-    const double count = kCountsPerLevel * (picture.pixels()[i] + 0.5);
-    const double added = noise.empty() ? 0 : scale * static_cast<double>(noise[i]);
+  for (std::size_t i = 0; i < picture.size(); ++i)
     counts.pixels()[i] =
-        static_cast<std::uint16_t>(std::clamp(std::round(count + added), kLeastCount, kMostCount));
-  }
+        static_cast<std::uint16_t>(kCountsPerLevel * picture.pixels()[i] + kCountsPerLevel / 2);
   return counts;
+}
+
+/// Adds the white noise of another detector.
+void add_noise(double levels, const RandomField& field, Plane<std::uint16_t>& counts) {
+  std::vector<float> noise(counts.size());
+  fill_normal(field, 0, noise);
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    const double noisy = counts.pixels()[i] + kCountsPerLevel * levels * static_cast<double>(noise[i]);
+    counts.pixels()[i] = static_cast<std::uint16_t>(std::clamp(std::round(noisy), kLeastCount, kMostCount));
+  }
 }
 
 void process(const ProcessingParameters& parameters, const Plane<std::uint16_t>& counts,
@@ -78,9 +80,10 @@ class VideoChain {
     {
       const py::gil_scoped_release others_run;
       const Json settings = drawn(number);
-      const RandomField field = {.seed = seed_, .stream = kChainNoiseStream, .frame = number};
-      process(read_processing(settings["processing"]),
-              noisy_counts(picture, settings[kNoise].get<double>(), field), picture);
+      Plane<std::uint16_t> counts = counts_of(picture);
+      if (const double levels = settings[kNoise].get<double>(); levels > 0)
+        add_noise(levels, {.seed = seed_, .stream = kChainNoiseStream, .frame = number}, counts);
+      process(read_processing(settings["processing"]), counts, picture);
       if (settings.contains("link")) send(settings, number, picture);
     }
     return array_of(std::move(picture));
