@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[2] / "thermal_core/python")]
 
-# pylint: disable=invalid-name,wrong-import-position
+# pylint: disable=invalid-name,wrong-import-position,import-error
 from pygments.lexers.special import TextLexer
 from pages import notebook_to_markdown, without_folder_links
 from stub import load_stub

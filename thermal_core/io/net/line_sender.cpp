@@ -161,12 +161,13 @@ void LineSender::send(std::string_view line) {
 }
 
 void LineSender::finish(double seconds) {
-  using Clock = std::chrono::steady_clock;
-  const auto end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  using std::chrono::steady_clock;
+  const auto end = steady_clock::now() +
+                   std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(seconds));
   for (Client& client : impl_->clients) {
     while (!client.is_done()) {
-      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+      const auto left =
+          std::chrono::duration_cast<std::chrono::milliseconds>(end - steady_clock::now()).count();
       pollfd wait = {.fd = client.socket.number(), .events = POLLOUT, .revents = 0};
       if (left <= 0 || poll(&wait, 1, static_cast<int>(left)) <= 0 || !client.push()) break;
     }
