@@ -39,8 +39,8 @@ def is_held(folder: Path) -> bool:
 
 
 def _main() -> None:
-    folder, script = Path(sys.argv[1]), Path(sys.argv[4])  # after -I and -B
-    sys.argv = sys.argv[4:]
+    folder, script = Path(sys.argv[1]), Path(sys.argv[3])  # after -I
+    sys.argv = sys.argv[3:]
     sys.path.insert(0, str(script.parent))
     order = folder / _ORDER
     if order.exists():

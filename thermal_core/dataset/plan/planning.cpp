@@ -61,7 +61,6 @@ std::string run_planning(const Config& config, const std::string& name, const Pl
   const Path script = options.assets.script("plan_scene.py");
   std::vector<std::string> command = {python.string(),
                                       "-I",
-                                      "-B",
                                       script.string(),
                                       "--config",
                                       "-",

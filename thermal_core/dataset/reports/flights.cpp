@@ -139,9 +139,8 @@ Json map_of(const std::vector<FlightTrack>& tracks, const Json& config, const As
   write_file_atomically(folder.path() / "config.json", to_text(config));
   write_file_atomically(folder.path() / "points.json", ground_points(tracks, config).dump());
   const std::string at = folder.path().string();
-  const Output output =
-      run_program({python.string(), "-I", "-B", assets.script("draw_map.py").string(), "--config",
-                   at + "/config.json", "--points", at + "/points.json", "--out", at});
+  const Output output = run_program({python.string(), "-I", assets.script("draw_map.py").string(), "--config",
+                                     at + "/config.json", "--points", at + "/points.json", "--out", at});
   if (output.status.signal != 0 || output.status.code != 0) {
     const std::string why = printable(output.last_words());
     return absent("The place could not be drawn: " + (why.empty() ? output.status.in_words() : why));
