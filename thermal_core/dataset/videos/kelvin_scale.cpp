@@ -141,11 +141,13 @@ KelvinRange KelvinScale::known() const {
 
 KelvinScale scale_of_curve(const std::array<std::uint16_t, kLevels - 1>& thresholds,
                            double kelvin_per_count) {
+  constexpr std::uint16_t kLeastMeasured = 1;
   constexpr std::uint16_t kNever = 65535;
   KelvinScale scale;
   scale.edges_k.front() = -kInfinity;
   scale.edges_k.back() = kInfinity;
   std::ranges::transform(thresholds, scale.edges_k.begin() + 1, [&](std::uint16_t count) {
+    if (count <= kLeastMeasured) return -kInfinity;
     return count == kNever ? kInfinity : count * kelvin_per_count;
   });
   return scale;

@@ -23,7 +23,7 @@ struct KelvinRange {
 
 /// Which apparent temperatures each of 256 levels stands for.
 struct KelvinScale {
-  /// Level k is shown from edges_k[k] to edges_k[k + 1]; the first edge may be minus infinity, the last ones infinity.
+  /// Level k is shown from edges_k[k] to edges_k[k + 1]; the first may be minus infinity, the last ones infinity.
   /// They do not fall.
   std::array<double, kLevels + 1> edges_k{};
 
@@ -35,7 +35,8 @@ struct KelvinScale {
   [[nodiscard]] KelvinRange known() const;
 };
 
-/// That of a frame's tone curve: thresholds in counts of ir16, of kelvin_per_count each; 65535 is never reached.
+/// That of a frame's tone curve: thresholds in counts of ir16, of kelvin_per_count each; all that is measured reaches a
+/// level of 1, nothing one of 65535.
 [[nodiscard]] KelvinScale scale_of_curve(const std::array<std::uint16_t, kLevels - 1>& thresholds,
                                          double kelvin_per_count);
 

@@ -54,6 +54,15 @@ TEST_CASE("A threshold of 65535 is never reached") {
   CHECK_THAT(scale.known().high_k, WithinAbs(30099 * 0.01, kRounding));
 }
 
+TEST_CASE("Levels below the least that a curve shows stand for no temperature") {
+  std::array<std::uint16_t, kLevels - 1> thresholds = rising(26000, 10);
+  std::fill(thresholds.begin(), thresholds.begin() + 12, std::uint16_t{1});
+  const KelvinScale scale = scale_of_curve(thresholds, 0.01);
+  CHECK_FALSE(scale.place_of(200));
+  CHECK_THAT(scale.known().low_k, WithinAbs(26120 * 0.01, kRounding));
+  CHECK(labels_of(ticks_of(scale, 0.15)) == "265 270 275 280 285");
+}
+
 TEST_CASE("Levels that a curve leaves out take no temperatures") {
   std::array<std::uint16_t, kLevels - 1> thresholds = rising(30000, 1);
   for (std::size_t k = 10; k < 20; ++k) thresholds[k] = 30010;
