@@ -21,17 +21,17 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # python3 -I leaves it out
 
 # pylint: disable=wrong-import-position
-from veldt.failures import reported_imports, run
+from planner.failures import reported_imports, run
 
 with reported_imports():
     import numpy as np
 
-    from veldt.config import load
-    from veldt.images import write_rgb
-    from veldt.land.road_plan import plan_road
-    from veldt.land.terrain import Terrain, build_terrain
-    from veldt.plants.density import plan_density
-    from veldt.preview.ground_picture import draw_ground, whole_place, window_round
+    from planner.config import load
+    from planner.images import write_rgb
+    from planner.land.road_plan import plan_road
+    from planner.land.terrain import Terrain, build_terrain
+    from planner.plants.density import plan_density
+    from planner.preview.ground_picture import draw_ground, whole_place, window_round
 
 PLACE_PX, WINDOW_PX = 320, 640
 

@@ -16,8 +16,8 @@ sys.dont_write_bytecode = True  # nothing is written into the folder of the scri
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # pylint: disable=wrong-import-position
-from veldt.faults import ConfigError
-from veldt.model_meshes import write_mesh
+from planner.faults import ConfigError
+from planner.model_meshes import write_mesh
 from veldt_bl import models
 
 

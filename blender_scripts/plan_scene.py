@@ -20,14 +20,14 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # python3 -I leaves it out
 
 # pylint: disable=wrong-import-position
-from veldt.failures import reported_imports, run
+from planner.failures import reported_imports, run
 
 with reported_imports():
-    from veldt.bake.folder import bake_plan, plan
-    from veldt.config import load
-    from veldt.events import Events
-    from veldt.model_meshes import ModelMeshes
-    from veldt.workers import Cores
+    from planner.bake.folder import bake_plan, plan
+    from planner.config import load
+    from planner.events import Events
+    from planner.model_meshes import ModelMeshes
+    from planner.workers import Cores
 
 
 def main(arguments: list[str]) -> int:

@@ -19,14 +19,14 @@ sys.dont_write_bytecode = True  # nothing is written into the folder of the scri
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # pylint: disable=wrong-import-position
-from veldt.events import Events
-from veldt.faults import ConfigError
+from planner.events import Events
+from planner.faults import ConfigError
 from veldt_bl.entry import own_arguments, reported_imports, run
 
 with reported_imports():
     import bpy
 
-    from veldt.bake.baked import clip_of, read_plan, read_scene, read_track
+    from planner.bake.baked import clip_of, read_plan, read_scene, read_track
     from veldt_bl.profile import profile_frames
     from veldt_bl.render import set_up_renderer
     from veldt_bl.scene import build_stage

@@ -20,13 +20,13 @@ sys.dont_write_bytecode = True  # nothing is written into the folder of the scri
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # pylint: disable=wrong-import-position
-from veldt.events import Events
-from veldt.faults import ConfigError
+from planner.events import Events
+from planner.faults import ConfigError
 from veldt_bl.entry import own_arguments, reported_imports, run
 
 with reported_imports():
-    from veldt.bake.baked import clip_of, read_plan, read_scene, read_sheet, read_track
-    from veldt.manifest import build_manifest, frame_file, to_json
+    from planner.bake.baked import clip_of, read_plan, read_scene, read_sheet, read_track
+    from planner.manifest import build_manifest, frame_file, to_json
     from veldt_bl.preview import pictures_of, render_pictures
     from veldt_bl.render import first_missing, render_frames, render_frames_and_actors, set_up_renderer
     from veldt_bl.scene import Stage, build_stage

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import mathutils
 
-from veldt.bake.baked import BakedScene, BakedTrack
+from planner.bake.baked import BakedScene, BakedTrack
 
 from .meshes import add_twin, new_object
 

@@ -8,7 +8,7 @@ import bpy
 import mathutils
 import numpy as np
 
-from veldt.camera import DEPTH_RANGE_M, Intrinsics, lens_shift
+from planner.camera import DEPTH_RANGE_M, Intrinsics, lens_shift
 
 _SENSOR_MM = 36.0  # arbitrary: only its ratio to the focal length matters
 _FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])  # Blender's cameras look along -z with y up

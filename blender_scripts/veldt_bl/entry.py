@@ -1,6 +1,6 @@
 """Entry point shared by the scripts that Blender runs: exit codes and error events.
 
-Like veldt.failures, it imports nothing but Python's standard library.
+Like planner.failures, it imports nothing but Python's standard library.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
-from veldt import failures
-from veldt.events import Events
+from planner import failures
+from planner.events import Events
 
 
 def run(act: Callable[[], None], events: Events) -> int:

@@ -8,9 +8,9 @@ import bpy
 import mathutils
 import numpy as np
 
-from veldt.bake.baked import BakedScene
-from veldt.camera import Intrinsics
-from veldt.plants.views import circles_seen, held_circles
+from planner.bake.baked import BakedScene
+from planner.camera import Intrinsics
+from planner.plants.views import circles_seen, held_circles
 
 from . import compat
 from .meshes import add_twin, new_object, new_points

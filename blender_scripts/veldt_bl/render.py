@@ -8,9 +8,9 @@ from pathlib import Path
 
 import bpy
 
-from veldt.blender_images import add_layer, is_whole_exr
-from veldt.camera import Intrinsics, pixel_aspect
-from veldt.manifest import ACTOR_LAYER, LAYER, frame_file
+from planner.blender_images import add_layer, is_whole_exr
+from planner.camera import Intrinsics, pixel_aspect
+from planner.manifest import ACTOR_LAYER, LAYER, frame_file
 
 from . import compat
 from .scene import Stage

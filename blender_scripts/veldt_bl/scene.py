@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from veldt.bake.baked import BakedScene, BakedTrack
+from planner.bake.baked import BakedScene, BakedTrack
 
 from . import actors, camera, plants
 from .meshes import add_twin, new_material, new_mesh, new_object

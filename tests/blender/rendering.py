@@ -14,7 +14,7 @@ import numpy as np
 
 from pictures import read_planes
 from processes import PATIENCE_S
-from veldt.config import ROOT
+from planner.config import ROOT
 
 BLENDER = os.environ.get("BLENDER") or shutil.which("blender") or "blender"
 

@@ -7,7 +7,7 @@ import pytest
 
 from rendering import PLANES, Run, render
 from scenes import tiny
-from veldt import ids
+from planner import ids
 
 pytestmark = pytest.mark.blender
 

@@ -5,7 +5,7 @@ import pytest
 
 from rendering import render
 from scenes import tiny
-from veldt.world import plan_world
+from planner.world import plan_world
 
 AREA_M = [-40, -35, 40, 35]
 CELL_M = 1.0

@@ -8,10 +8,10 @@ import pytest
 
 from plans import bake
 from scenes import flat, tiny
-from veldt.bake.baked import clip_of, read_plan, read_scene, read_track
-from veldt.config import ROOT
-from veldt.groups.actors import track
-from veldt.manifest import build_manifest, to_json
+from planner.bake.baked import clip_of, read_plan, read_scene, read_track
+from planner.config import ROOT
+from planner.groups.actors import track
+from planner.manifest import build_manifest, to_json
 
 SCHEMA = json.loads((ROOT / "configs" / "schema" / "manifest.schema.json").read_text())
 

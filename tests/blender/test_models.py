@@ -7,13 +7,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from veldt import assets, models
-from veldt.anatomy.bodies import body_of
-from veldt.config import ROOT
-from veldt.faults import ConfigError, ProcessLost
-from veldt.model_files import survey
-from veldt.model_meshes import ModelMeshes
-from veldt.anatomy.pose import Motion, Walker, pose
+from planner import assets, models
+from planner.anatomy.bodies import body_of
+from planner.config import ROOT
+from planner.faults import ConfigError, ProcessLost
+from planner.model_files import survey
+from planner.model_meshes import ModelMeshes
+from planner.anatomy.pose import Motion, Walker, pose
 
 CUBE_OBJ = """v 0 0 0
 v 2 0 0

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from raster import covered_m2
-from veldt import assets
-from veldt.config import ROOT
-from veldt.faults import ConfigError
-from veldt.plants import tree_shapes
-from veldt.plants.plant_shapes import build_variants, slots_of
+from planner import assets
+from planner.config import ROOT
+from planner.faults import ConfigError
+from planner.plants import tree_shapes
+from planner.plants.plant_shapes import build_variants, slots_of
 
 SEED = 7
 NAMES = [name for name in assets.names("plants") if "form" in assets.load("plants", name)]

@@ -8,8 +8,8 @@ import pytest
 
 from rendering import PLANES, Run, render
 from scenes import tiny
-from veldt import ids
-from veldt.blender_images import is_whole_exr
+from planner import ids
+from planner.blender_images import is_whole_exr
 
 pytestmark = pytest.mark.blender
 

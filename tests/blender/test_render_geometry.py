@@ -8,11 +8,11 @@ import pytest
 from raster import draw, farthest_from_an_edge, plant_triangles, world_triangles
 from rendering import PLANES, render
 from scenes import flat, tiny
-from veldt import assets, ids
-from veldt.camera import project
-from veldt.groups.actors import track
-from veldt.sightings import box_corners_m
-from veldt.world import plan_world
+from planner import assets, ids
+from planner.camera import project
+from planner.groups.actors import track
+from planner.sightings import box_corners_m
+from planner.world import plan_world
 
 pytestmark = pytest.mark.blender
 

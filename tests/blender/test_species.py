@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from creatures import Hills, circle
-from veldt import asset_checks, assets
-from veldt.anatomy.bodies import build_body, variant_names
-from veldt.anatomy.pose import Motion, Walker, pose
-from veldt.anatomy.skeleton import is_in
-from veldt.config import ROOT
-from veldt.faults import ConfigError
+from planner import asset_checks, assets
+from planner.anatomy.bodies import build_body, variant_names
+from planner.anatomy.pose import Motion, Walker, pose
+from planner.anatomy.skeleton import is_in
+from planner.config import ROOT
+from planner.faults import ConfigError
 
 KINDS = [(species, variant) for species in assets.names("species") for variant in variant_names(species)]
 FLAT = Hills(0.0)

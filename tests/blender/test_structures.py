@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from veldt import assets
-from veldt.asset_checks import check
-from veldt.faults import ConfigError
-from veldt.plants.plant_shapes import build_variants, slots_of
+from planner import assets
+from planner.asset_checks import check
+from planner.faults import ConfigError
+from planner.plants.plant_shapes import build_variants, slots_of
 
 SOLID = [name for name in assets.names("plants") if "shapes" in assets.load("plants", name)]
 NAMES = (*assets.names("structures"), *SOLID)

@@ -15,7 +15,7 @@ LOG = "; log: out/passes/down.log"
 KILLED = "; unless someone killed it, the machine may have run out of memory" + LOG
 NUMPY = (
     '{"event": "error", "kind": "internal", "message": "ModuleNotFoundError: No module named numpy",'
-    ' "where": "blender_scripts/veldt/noise.py:8", "hint": "install it"}'
+    ' "where": "blender_scripts/planner/noise.py:8", "hint": "install it"}'
 )
 BLENDERS = {
     "ends without a word": (
@@ -60,7 +60,7 @@ BLENDERS = {
         f"echo 'Error: something else'; echo '{NUMPY}' >&3; exit 1",
         1,
         "Blender failed while building the scene: ModuleNotFoundError: No module named numpy"
-        " (blender_scripts/veldt/noise.py:8); install it" + LOG,
+        " (blender_scripts/planner/noise.py:8); install it" + LOG,
     ),
     "reports a fault of many lines": (
         """printf %s\\\\n '{"event": "error", "kind": "internal", "message": "a\\nb\\u001b[2J"}' >&3; exit 1""",

@@ -80,7 +80,7 @@ def _files(config: dict, standing: Iterable[str]) -> dict[str, str]:
     named |= dict.fromkeys((assets.kind_of(name), name) for name in standing)
     models = [assets.load(kind, name).get("model", {}).get("path") for kind, name in named]
     ours = [ROOT / "assets" / kind / f"{name}.json" for kind, name in named]
-    ours += sorted((ROOT / "blender_scripts" / "veldt").rglob("*.py"))
+    ours += sorted((ROOT / "blender_scripts" / "planner").rglob("*.py"))
     given = [*input_files(config), *(Path(path) for path in models if path)]
     return {str(path.relative_to(ROOT)): _digest(path) for path in ours} | {
         str(path): _digest(path) for path in given

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from veldt.faults import ConfigError, ProcessLost
+from planner.faults import ConfigError, ProcessLost
 
 _TRY_AGAIN = 75
 _KILLED_HINT = "unless someone killed it, the machine may have run out of memory"
@@ -27,7 +27,7 @@ class Failure:
 
     exit_code: int  # 2 for a fault of the config, 75 for a full disk or a killed process, else 1
     message: str  # "ModuleNotFoundError: No module named 'numpy'"; of our own exceptions, the bare message
-    where: str  # "blender_scripts/veldt/noise.py:8"; empty if the place says nothing
+    where: str  # "blender_scripts/planner/noise.py:8"; empty if the place says nothing
     hint: str  # "install NumPy …"
 
     @property
