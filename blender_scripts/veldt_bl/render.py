@@ -10,12 +10,18 @@ import bpy
 
 from planner.blender_images import add_layer, is_whole_exr
 from planner.camera import Intrinsics, pixel_aspect
-from planner.manifest import ACTOR_LAYER, LAYER, frame_file
 
 from . import compat
 from .scene import Stage
 
+LAYER = "Scene"
+ACTOR_LAYER = "Actors"
 _PART = "part_"
+
+
+def frame_file(number: int) -> str:
+    """Name of a frame's passes."""
+    return f"{number:06d}.exr"
 
 
 def set_up_renderer(intrinsics: Intrinsics, supersample: int) -> None:

@@ -142,7 +142,13 @@ def test_a_syntax_error_is_placed_where_it_is(bare_python, tmp_path):
     scripts = tmp_path / "blender_scripts"
     (scripts / "planner").mkdir(parents=True)
     (scripts / "veldt_bl").mkdir()
-    for name in ("planner/__init__", "planner/events", "planner/failures", "planner/faults", "veldt_bl/entry"):
+    for name in (
+        "planner/__init__",
+        "planner/events",
+        "planner/failures",
+        "planner/faults",
+        "veldt_bl/entry",
+    ):
         (scripts / f"{name}.py").write_text((SCRIPTS / f"{name}.py").read_text())
     (scripts / "render_passes.py").write_text((SCRIPTS / "render_passes.py").read_text())
     (scripts / "planner" / "bake").mkdir()
