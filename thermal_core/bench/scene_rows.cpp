@@ -89,7 +89,7 @@ class ExactChain {
   }
 
   [[nodiscard]] double surroundings_at(int x, int y, const Material& material, double cosine) const {
-    if (material.angular == AngularLaw::water) {
+    if (material.mirrors()) {
       const double mirrored = settings_.terms.angular || settings_.terms.sky ? cosine : 1;
       return air_.sky_emissivity(mirrored);
     }

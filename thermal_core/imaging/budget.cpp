@@ -61,8 +61,7 @@ class MaterialModel {
 
   /// Emission and reflection at an angle; a fall-off factor of 1 ignores the angle.
   [[nodiscard]] double with_sky(double factor, double cosine) const {
-    const double sky =
-        material_.angular == AngularLaw::water ? air_.sky_emissivity(cosine) : air_.sky_emissivity();
+    const double sky = material_.mirrors() ? air_.sky_emissivity(cosine) : air_.sky_emissivity();
     return factor * emitted(temperature_k()) + (air_radiance_ - factor * emitted_as_air_) * sky;
   }
 
@@ -116,7 +115,7 @@ class NightShifts {
         air_(night.weather.air, response_) {
     for (const SceneOutline::Cover& cover : outline.covers) {
       add_cover(cover);
-      if (cover.material->angular == AngularLaw::water) add_mirror(cover);
+      if (cover.material->mirrors()) add_mirror(cover);
     }
     add_smear();
     add_falloff();
@@ -183,7 +182,7 @@ class NightShifts {
   void add_mirror(const SceneOutline::Cover& water) {
     const MaterialModel model = model_of(water);
     for (const SceneOutline::Cover& cover : outline_.covers) {
-      if (cover.material->angular == AngularLaw::water) continue;
+      if (cover.material->mirrors()) continue;
       const double mirrored = model_of(cover).with_sky(1, 1);
       for (const SceneOutline::Look& look : night_.looks) {
         const double factor = angular_factor(water.material->angular, look.ground_cosine);

@@ -19,13 +19,16 @@ constexpr double kBelowCrown = 0.6;
 /// Largest horizontal part of the normals of ground: 50 deg.
 constexpr float kSteepestGround = 0.77F;
 
+/// The material that animals bathe in.
+constexpr const char* kBath = "water";
+
 bool is_fire(const Material& material) {
   return material.body_heat && std::holds_alternative<FirePart>(*material.body_heat);
 }
 
-/// Materials whose tables a scene needs; bathing animals come out of water that nothing shows.
+/// Materials whose tables a scene needs; what animals bathe in need not be in the picture.
 std::set<std::string> heated_materials(const std::vector<Surface>& surfaces, const HeatSettings& settings) {
-  std::set<std::string> names = {"water"};
+  std::set<std::string> names = {kBath};
   for (const Surface& surface : surfaces)
     if (surface.material->heat_of(surface.part) != nullptr)
       names.insert(surface.material->heat_name(surface.part));
@@ -125,7 +128,7 @@ BodyMoment HeatedSurfaces::moment_of(const ActorState& actor) const {
   moment.vehicle = actor.vehicle;
   moment.since_bath_s = actor.since_bath_s;
   moment.fire = actor.fire;
-  if (const auto water = moment_.materials.find("water"); water != moment_.materials.end())
+  if (const auto water = moment_.materials.find(kBath); water != moment_.materials.end())
     moment.refuge_k = water->second.temperature_k(open_place());
   return moment;
 }

@@ -73,7 +73,7 @@ Shares shares_of(const std::vector<SceneOutline::Cover>& covers) {
   Shares shares;
   for (const SceneOutline::Cover& cover : covers) {
     if (is_crown(*cover.material)) shares.crowns += cover.share;
-    if (cover.material->angular == AngularLaw::water) shares.water += cover.share;
+    if (cover.material->mirrors()) shares.water += cover.share;
   }
   return shares;
 }

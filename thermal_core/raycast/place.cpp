@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -73,14 +72,6 @@ EmbreeScene scene_of(RTCDevice device, const BakedMesh& mesh, RTCFilterFunctionN
   return scene;
 }
 
-/// Which indices stand for water.
-template <typename Entry>
-std::vector<bool> water_among(const std::vector<Entry>& entries) {
-  std::vector<bool> wet(std::numeric_limits<std::uint16_t>::max() + std::size_t{1});
-  for (const Entry& entry : entries) wet[entry.index] = entry.material == "water";
-  return wet;
-}
-
 /// As Blender has it, which keeps the angle of a plant and its size, each in single precision.
 Transform<double> upright(const Transform<double>& plant) noexcept {
   Transform<double> rounded = plant;
@@ -121,7 +112,12 @@ std::vector<Piece> surroundings_of(const BakedScene& scene) {
 }  // namespace
 
 Place::Place(const BakedScene& scene, RTCFilterFunctionN filter)
-    : scene_(scene), device_(new_device()), meshes_(scene.meshes.size()), normals_(scene.meshes.size()) {
+    : scene_(scene),
+      device_(new_device()),
+      meshes_(scene.meshes.size()),
+      normals_(scene.meshes.size()),
+      mirrors_(scene),
+      has_water_(mirrors_.any()) {
   for (const BakedMesh& mesh : scene.meshes) boxes_.push_back(box_of(mesh));
   std::vector<bool> is_surface(scene.meshes.size());
   for (const BakedSurface& surface : scene.surfaces) is_surface[surface.mesh] = true;
@@ -138,10 +134,7 @@ Place::Place(const BakedScene& scene, RTCFilterFunctionN filter)
     }
   });
   surroundings_ = set_of(surroundings_of(scene));
-  water_objects_ = water_among(scene.objects);
-  water_materials_ = water_among(scene.materials);
-  has_water_ = std::ranges::count(water_objects_, true) + std::ranges::count(water_materials_, true) > 0;
-  if (!has_water_) return;
+  if (!has_water()) return;
   std::map<std::pair<std::uint16_t, std::uint32_t>, bool> wet;  // by object and mesh, which plants share
   for (const Piece& piece : surroundings_.pieces) {
     const auto [known, is_new] = wet.try_emplace({piece.object, piece.mesh}, false);

@@ -44,12 +44,12 @@ class Place {
 
   [[nodiscard]] bool has_water() const noexcept { return has_water_; }
 
-  /// Those of the surroundings that have triangles of the material "water".
+  /// Those of the surroundings that have triangles that mirror.
   [[nodiscard]] const std::vector<Piece>& waters() const noexcept { return waters_; }
 
-  /// Whether triangles of this object and material are of the material "water".
+  /// Whether triangles of this object and material mirror.
   [[nodiscard]] bool is_water(std::uint16_t object, std::uint16_t material) const noexcept {
-    return has_water_ && (material != 0 ? water_materials_[material] : water_objects_[object]);
+    return has_water_ && mirrors_.has(object, material);
   }
 
   [[nodiscard]] const MeshBox& box(std::size_t mesh) const noexcept { return boxes_[mesh]; }
@@ -65,10 +65,9 @@ class Place {
   std::vector<std::vector<std::array<float, 3>>> normals_;
   std::vector<MeshBox> boxes_;
   PieceSet surroundings_;
+  MirrorIndices mirrors_;
   bool has_water_ = false;
   std::vector<Piece> waters_;
-  std::vector<bool> water_objects_;  ///< by index; by index
-  std::vector<bool> water_materials_;
 };
 
 }  // namespace thermal

@@ -49,7 +49,7 @@ class CameraTracer {
   /// exact to single precision, indices to about 1e-4 px at silhouettes, by Embree's single precision.
   /// Adaptive: a pixel has all rays if an actor may be in it, or if it differs from one of its eight neighbours in
   /// object or material, seen or mirrored, or in depth by more than 2 %. A plant that no neighbour shows is missed between
-  /// rays. Water is what has the material "water"; it mirrors as a level surface.
+  /// rays. Materials of BakedScene::mirrors mirror as level surfaces.
   /// The result depends on nothing else. Memory of `out` is reused. Safe to call from several threads.
   void trace(const BakedMoment& now, const PassNeeds& needs, Passes& out) const;
 

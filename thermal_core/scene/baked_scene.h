@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -81,6 +84,7 @@ struct BakedScene {
   std::array<double, 2> depth_range_m{};  ///< along the axis: the nearest and the farthest that is seen
   std::vector<ManifestObject> objects;
   std::vector<ManifestMaterial> materials;
+  std::set<std::string> mirrors = {};  ///< materials in which the scene is seen
   std::vector<BakedMesh> meshes;
   std::vector<BakedSurface> surfaces;
   std::vector<BakedPlants> plants;
@@ -88,6 +92,34 @@ struct BakedScene {
   std::vector<WarmBed> beds = {};
   BakedGround ground;
   std::vector<std::byte> data;  ///< what the spans refer to
+};
+
+/// Which surfaces of a scene mirror.
+class MirrorIndices {
+ public:
+  explicit MirrorIndices(const BakedScene& scene)
+      : objects_(among(scene.objects, scene.mirrors)), materials_(among(scene.materials, scene.mirrors)) {}
+
+  /// Whether any may.
+  [[nodiscard]] bool any() const {
+    return std::ranges::count(objects_, true) + std::ranges::count(materials_, true) > 0;
+  }
+
+  /// Whether those of this object and material do.
+  [[nodiscard]] bool has(std::uint16_t object, std::uint16_t material) const {
+    return material != 0 ? materials_[material] : objects_[object];
+  }
+
+ private:
+  template <typename Entry>
+  static std::vector<bool> among(const std::vector<Entry>& entries, const std::set<std::string>& mirrors) {
+    std::vector<bool> found(std::numeric_limits<std::uint16_t>::max() + std::size_t{1});
+    for (const Entry& entry : entries) found[entry.index] = mirrors.contains(entry.material);
+    return found;
+  }
+
+  std::vector<bool> objects_;  ///< by index
+  std::vector<bool> materials_;
 };
 
 /// A clip's camera and actors, frame by frame (configs/schema/track.schema.json).

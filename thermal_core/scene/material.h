@@ -47,6 +47,9 @@ struct Material {
   std::optional<MaterialHeat> heat;   ///< how its temperature follows the weather; empty: as in Table 1
   std::optional<BodyHeat> body_heat;  ///< of an actor's parts that state none of their own
 
+  /// Whether what is beyond it is seen in it, as in still water.
+  [[nodiscard]] bool mirrors() const noexcept { return angular == AngularLaw::water; }
+
   /// ConfigError if a value is outside its domain.
   void validate() const;
 

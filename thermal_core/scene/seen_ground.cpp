@@ -76,25 +76,15 @@ class Sight {
   std::array<Side, 4> sides_;
 };
 
-/// Which indices stand for water.
-template <typename Entry>
-std::vector<bool> water_among(const std::vector<Entry>& entries) {
-  std::vector<bool> wet(std::numeric_limits<std::uint16_t>::max() + std::size_t{1});
-  for (const Entry& entry : entries) wet[entry.index] = entry.material == "water";
-  return wet;
-}
-
-/// Heights of each surface that is water.
+/// Heights of each surface that mirrors.
 std::vector<HeightRange> waters_of(const BakedScene& scene) {
-  const std::vector<bool> objects = water_among(scene.objects);
-  const std::vector<bool> materials = water_among(scene.materials);
+  const MirrorIndices mirrors(scene);
   std::vector<HeightRange> waters;
   for (const BakedSurface& surface : scene.surfaces) {
     const BakedMesh& mesh = scene.meshes[surface.mesh];
     HeightRange range;
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
-      const std::uint16_t material = mesh.material_index[k];
-      if (!(material != 0 ? materials[material] : objects[surface.object])) continue;
+      if (!mirrors.has(surface.object, mesh.material_index[k])) continue;
       for (const std::uint32_t corner : mesh.triangles[k]) range.add(mesh.points_m[corner][2]);
     }
     if (range.low_m <= range.high_m) waters.push_back(range);

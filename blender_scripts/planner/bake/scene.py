@@ -65,6 +65,7 @@ def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
     actors = [_actor(actor, bodies, model_mesh, meshes) for actor in world.actors]
     maps = _maps(world, world.ground)
     beds = plan_beds(world.config["scene"]["groups"], world.actors, world.terrain, world.config["seed"])
+    mirrors = _mirrors(world)
     header = {
         "format": SCENE,
         "version": VERSION,
@@ -74,6 +75,7 @@ def bake_scene(world: World, model_mesh: ModelMesh, path: Path) -> None:
         "view_margin_px": world.view_margin_px,
         "depth_range_m": list(DEPTH_RANGE_M),
         "materials": _materials(world),
+        **({"mirrors": mirrors} if mirrors else {}),
         "objects": [*_place(world), *_cast(world)],
         "meshes": meshes.entries,
         "surfaces": surfaces,
@@ -204,6 +206,12 @@ def _materials(world: World) -> list[dict]:
         {"index": index, "material": material} | ({"part": part} if part else {})
         for (material, part), index in world.material_indices.items()
     ]
+
+
+def _mirrors(world: World) -> list[str]:
+    """The materials in which the scene is seen."""
+    listed = sorted({material for material, _ in world.material_indices})
+    return [name for name in listed if assets.load("materials", name).get("angular") == "water"]
 
 
 def _place(world: World) -> list[dict]:

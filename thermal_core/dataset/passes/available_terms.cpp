@@ -40,14 +40,17 @@ std::string pose_lacking(const Manifest& manifest) {
   return "";
 }
 
-bool shows_water(const Manifest& manifest) {
-  const auto is_water = [](const auto& entry) { return entry.material == "water"; };
-  return std::ranges::any_of(manifest.objects, is_water) || std::ranges::any_of(manifest.materials, is_water);
+bool shows_mirrors(const Manifest& manifest, const MaterialLibrary& materials) {
+  const auto mirrors = [&materials](const auto& entry) {
+    const auto found = materials.all().find(entry.material);
+    return found != materials.all().end() && found->second.mirrors();
+  };
+  return std::ranges::any_of(manifest.objects, mirrors) || std::ranges::any_of(manifest.materials, mirrors);
 }
 
 /// What each term needs. The first missing input is reported; among several clips, that of the first.
 void add_impossible(const ClipPasses& source, const PassesView& view, const Config& config,
-                    SceneOutline& outline) {
+                    const MaterialLibrary& materials, SceneOutline& outline) {
   const PassNeeds& planes = *view.planes;
   const std::string depth = planes.depth ? "" : "no depth";
   const std::string normals = planes.normals ? "" : "no normals";
@@ -66,7 +69,8 @@ void add_impossible(const ClipPasses& source, const PassesView& view, const Conf
   add("angular", normals.empty() ? poses : normals);
   add("path", depth);
   if (config.sensor.time_constant_s > 0) add("smear", depth.empty() ? poses : depth);
-  if (shows_water(source.manifest)) add("mirror", planes.mirrored ? poses : "no mirrored planes");
+  if (shows_mirrors(source.manifest, materials))
+    add("mirror", planes.mirrored ? poses : "no mirrored planes");
 }
 
 /// Angle of incidence of a ray on level ground; without a pose, as if perpendicular.
@@ -218,7 +222,7 @@ SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
     const SensorParameters& sensor = settings_of(config, clip).sensor;
     add_told_height(manifest, clip, nights);
     if (!config.physical) continue;
-    if (views[i].planes) add_impossible(sources[i], views[i], config, outline);
+    if (views[i].planes) add_impossible(sources[i], views[i], config, materials, outline);
     nights.add(clip, views[i].looks);
     outline.smear_px =
         std::max(outline.smear_px, motion_px_per_s(manifest, views[i].looks) * sensor.time_constant_s);

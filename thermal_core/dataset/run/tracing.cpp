@@ -26,13 +26,6 @@ double round_decimal(double value, int digits) {
 /// The same of many numbers, faster: some differ in their last bit. Without negative zeros.
 double round_scaled(double value, double scale) { return std::nearbyint(value * scale) / scale + 0.0; }
 
-bool has_water(const BakedScene& scene) {
-  return std::ranges::any_of(scene.objects,
-                             [](const ManifestObject& one) { return one.material == "water"; }) ||
-         std::ranges::any_of(scene.materials,
-                             [](const ManifestMaterial& one) { return one.material == "water"; });
-}
-
 /// Where kept frames are written.
 struct Kept {
   Path folder;
@@ -114,7 +107,7 @@ Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const Cli
   manifest.camera = track.camera.value_or(scene.camera);
   manifest.supersample = config.supersample;
   if (config.engine == Engine::embree) {
-    if (has_water(scene)) manifest.mirror_layer = kMirrorLayer;
+    if (MirrorIndices(scene).any()) manifest.mirror_layer = kMirrorLayer;
     manifest.lens = settings.distortion;
   } else {  // a pinhole's picture, to which conversion applies the lens, without rays beyond the water
     manifest.overscan_px = scene.view_margin_px;
