@@ -16,7 +16,6 @@ from .model_files import SUFFIXES, Unreadable, survey
 
 # Rotation of a model, deg, that turns its forward axis to +x.
 FORWARD = {"x": 0.0, "-x": 180.0, "y": -90.0, "-y": 90.0}
-_KEYS = {"file", "scale", "forward", "parts", "size_m"}
 _MOST_M = 200.0  # of a side; the tallest tree is 116 m high
 _CORNERS = np.array([[i, j, k] for i in (-0.5, 0.5) for j in (-0.5, 0.5) for k in (0.0, 1.0)])
 _SIDES = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
@@ -44,14 +43,11 @@ def checked(where: str, folder: Path, entry, parts: Mapping) -> dict:
 
     `parts` are those of its material. ConfigError names the key, or the file and its fault.
     """
-    if not isinstance(entry, dict) or "file" not in entry or "parts" not in entry:
-        raise ConfigError(f"{where}: model = {entry}; expected file, forward and parts")
-    for key in entry.keys() - _KEYS:
-        raise ConfigError(
-            f"{where}: model.{key} is unknown; expected {listing(_KEYS)}{did_you_mean(key, _KEYS)}"
-        )
     model = {"scale": 1.0, **entry}
-    _check_values(where, model)
+    if Path(model["file"]).suffix.lower() not in SUFFIXES:
+        raise ConfigError(
+            f'{where}: model.file = "{model["file"]}"; expected a file ending in {", ".join(SUFFIXES)}'
+        )
     _check_parts(where, model["parts"], parts)
     path = (folder / model["file"]).absolute()
     found = _survey(where, model["file"], path)
@@ -82,36 +78,12 @@ def check_mapped(where: str, name: str, parts: Mapping) -> None:
         )
 
 
-def _check_values(where: str, model: dict) -> None:
-    if not isinstance(model["file"], str) or Path(model["file"]).suffix.lower() not in SUFFIXES:
-        raise ConfigError(
-            f'{where}: model.file = "{model["file"]}"; expected a file ending in {", ".join(SUFFIXES)}'
-        )
-    if not _is_length(model["scale"]):
-        raise ConfigError(f'{where}: model.scale = {model["scale"]}; expected a number above 0')
-    forward = model.get("forward")
-    if forward not in list(FORWARD):
-        found = "is missing" if forward is None else f'= "{forward}"'
-        raise ConfigError(f"{where}: model.forward {found}; expected the axis it faces: {listing(FORWARD)}")
-    size_m = model.get("size_m", [1, 1, 1])
-    if not (isinstance(size_m, list) and len(size_m) == 3 and all(map(_is_length, size_m))):
-        raise ConfigError(
-            f"{where}: model.size_m = {size_m} m; expected [length, width, height], all above 0"
-        )
-
-
-def _is_length(value) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and 0 < value < 1e6
-
-
-def _check_parts(where: str, parts, known: Mapping) -> None:
-    if not isinstance(parts, dict) or not parts:
-        raise ConfigError(f"{where}: model.parts = {parts}; expected a part for each material of the model")
+def _check_parts(where: str, parts: Mapping, known: Mapping) -> None:
     for name, part in parts.items():
         if part not in ["", *known]:
             raise ConfigError(
                 f'{where}: model.parts["{name}"] = "{part}"; expected a part of its material: {listing(known)},'
-                f' or "" for the material\'s own temperature{did_you_mean(str(part), known)}'
+                f' or "" for the material\'s own temperature{did_you_mean(part, known)}'
             )
 
 

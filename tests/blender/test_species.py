@@ -261,24 +261,6 @@ def test_a_pattern_stands_for_all_names_that_fit():
     assert is_in({"only": ["ma*"]}, "man", "sit")
 
 
-@pytest.mark.parametrize(
-    "patch, message",
-    [
-        ({"part": "legs"}, "patches[0].from_m is missing; expected [x, y, z]"),
-        (
-            {"part": "legs", "from_m": [0, 1], "to_m": [1, 1, 1]},
-            "patches[0].from_m = [0, 1]; expected [x, y, z]",
-        ),
-    ],
-)
-def test_a_patch_without_a_box_is_a_fault(patch, message):
-    data = json.loads((ROOT / "assets" / "species" / "lion.json").read_text(encoding="utf-8"))
-    data["bones"]["tail"]["shapes"][0]["patches"] = [patch]
-    with pytest.raises(ConfigError) as raised:
-        asset_checks.check("lion.json", "species", data)
-    assert str(raised.value) == f"lion.json: bones.tail.shapes[0].{message}"
-
-
 def test_a_part_without_a_temperature_is_a_fault():
     data = json.loads((ROOT / "assets" / "species" / "lion.json").read_text(encoding="utf-8"))
     data["bones"]["tail"]["shapes"][0]["part"] = "tial"

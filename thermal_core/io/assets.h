@@ -20,7 +20,8 @@ class Assets {
 
   [[nodiscard]] const Path& home() const { return home_; }
 
-  /// assets/`kind`: "materials", "sensors", "links", "responses", "species", "plants", "structures", "fonts", "report", "view".
+  /// assets/`kind`: "materials", "sensors", "links", "responses", "species", "plants", "structures",
+  /// "sites", "fonts", "report", "view".
   [[nodiscard]] Path folder(const std::string& kind) const { return home_ / "assets" / kind; }
 
   /// configs/schema/`name`.schema.json. IoError or DataError if it cannot be read.

@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from .. import models
-
-from ..faults import ConfigError, did_you_mean, listing
 from ..geometry.shapes import Mesh, joined
 from ..geometry.solids import solid_of
 from ..noise import stream
@@ -42,11 +40,6 @@ def build_variants(name: str, data: dict, seed: int) -> list[Mesh]:
     if "shapes" in data:
         part = {name: slot for slot, name in enumerate(data["materials"])}
         return [joined([solid_of(shape).with_slot(part[shape["part"]]) for shape in data["shapes"]])]
-    if data["form"] not in FORMS:
-        raise ConfigError(
-            f'assets/plants/{name}.json: form = "{data["form"]}"; expected one of {listing(FORMS)}'
-            f'{did_you_mean(data["form"], FORMS)}'
-        )
     form = FORMS[data["form"]]
     return [_fitted(form(data, stream(seed, f"plant/{name}", k)), data) for k in range(data["variants"])]
 

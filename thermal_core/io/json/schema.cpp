@@ -187,6 +187,7 @@ class Checker {
 
   void check_object(Json& value, const Json& schema, const std::string& where) {
     const std::string prefix = where.empty() ? "" : where + ".";
+    if (value.size() < schema.value("minProperties", std::size_t{0})) add(value, "at least one entry");
     const Json& properties = member_or(schema, "properties", kNone);
     const Json& others = member_or(schema, "additionalProperties", kAnything);
     for (const auto& [key, member] : value.items()) {

@@ -8,7 +8,7 @@
 namespace thermal {
 
 /// Checks a document against a JSON schema (the keywords that our schemas use: type, properties,
-/// additionalProperties, required, enum, minimum, maximum, exclusiveMinimum, pattern, minItems, maxItems, items) and
+/// additionalProperties, minProperties of 1, required, enum, minimum, maximum, exclusiveMinimum, pattern, minItems, maxItems, items) and
 /// fills in every default. Returns all faults as "<where> = <value> <unit>; expected <rule>", with the unit from the
 /// key's suffix; empty if there are none. `where` is the place of
 /// the document within a larger one, if it is a part.
