@@ -65,13 +65,13 @@ def install_python(folder: str, requirements: str, *options: str) -> bool:
 
 def _add_seconds(stage: str, seconds: float) -> None:
     with SECONDS.open("a", encoding="utf-8") as file:
-        file.write(f"{stage}\t{seconds:.0f}\n")
+        file.write(f"{stage}\t{seconds:.3f}\n")
 
 
-def _preparing_s() -> int:
+def _preparing_s() -> float:
     """Seconds spent on packages and on building."""
     rows = (line.split("\t") for line in SECONDS.read_text(encoding="utf-8").splitlines())
-    return sum(int(seconds) for stage, seconds in rows if stage in ("packages", "build"))
+    return sum(float(seconds) for stage, seconds in rows if stage in ("packages", "build"))
 
 
 @contextmanager
@@ -101,7 +101,7 @@ class Checks:
             self.failed.append(name)
         seconds = time.monotonic() - _preparing_s() - start_s
         _add_seconds(name, seconds)
-        print(f"== {name} took {seconds:.0f} s")
+        print(f"== {name} took {int(seconds)} s")
 
     def conclude(self, what: str) -> None:
         """End with 1 if anything failed."""
