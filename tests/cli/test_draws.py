@@ -196,13 +196,3 @@ def _shipped() -> list[dict]:
     files = (ROOT / "configs").glob("*.json")
     configs = [json.loads(file.read_text(encoding="utf-8")) for file in files]
     return [config for config in configs if "variants" not in config]
-
-
-def test_the_schema_of_editors_is_current():
-    folder = ROOT / "configs" / "schema"
-    space: dict = {"__file__": str(folder / "make_editor_schema.py"), "__name__": "make_editor_schema"}
-    exec((folder / "make_editor_schema.py").read_text(encoding="utf-8"), space)  # pylint: disable=exec-used
-    resolved = json.loads((folder / "config.schema.json").read_text(encoding="utf-8"))
-    text = space["as_text"](space["editor_schema"](resolved))
-    hint = "run python3 configs/schema/make_editor_schema.py"
-    assert (folder / "editor.schema.json").read_text(encoding="utf-8") == text, hint
