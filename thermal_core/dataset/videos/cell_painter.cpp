@@ -13,7 +13,6 @@
 namespace thermal {
 namespace {
 
-constexpr double kTrailSeconds = 5;
 constexpr const char* kShutterText = "shutter closed (FFC)";
 constexpr double kShade = 0.62;  // of what lies behind text on a picture
 

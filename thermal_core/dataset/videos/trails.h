@@ -9,6 +9,8 @@
 
 namespace thermal {
 
+inline constexpr double kTrailSeconds = 5;  ///< of the trails in videos and on pages
+
 /// Where a target was.
 struct TrailPoint {
   double x_px = 0;  ///< in the frame that is shown

@@ -15,13 +15,13 @@
 #include "dataset/exports/export_folder.h"
 #include "dataset/videos/clip_source.h"
 #include "dataset/videos/palette.h"
+#include "dataset/videos/trails.h"
 #include "dataset/view/clip_figures.h"
 #include "io/system/base64.h"
 
 namespace thermal {
 namespace {
 
-constexpr double kViewTrailSeconds = 5;
 constexpr const char* kViewRecord = "view.json";
 constexpr const char* kViewFormat = "veldt-view";
 constexpr const char* kPage = "index.html";
@@ -111,6 +111,7 @@ class ViewWriter {
                call_of("takeDataset", {{"name", dataset_.name},
                                        {"kelvin_per_count", dataset_.kelvin_per_count},
                                        {"palettes", palettes_of_page()},
+                                       {"trail_s", kTrailSeconds},
                                        {"clips", clips_},
                                        {"not_made", not_made}}));
     write_text(kViewRecord, to_text({{"format", kViewFormat},
@@ -130,7 +131,7 @@ class ViewWriter {
   void write_clip(const std::string& id, const std::string& season) {
     const ClipFilm film = read_clip_film(dataset_, id, true);
     const ClipMasks masks = read_clip_masks(film);
-    const Trails trails(film, kViewTrailSeconds);
+    const Trails trails(film, kTrailSeconds);
     const FrameParts parts{
         .film = film, .masks = masks, .trails = trails, .kelvin_per_count = dataset_.kelvin_per_count};
     make_folder(folder_ / "data" / id);
