@@ -218,7 +218,8 @@ std::shared_ptr<const GroundMaps> maps_of_crowns() {
                   .kind = none,
                   .grass = std::vector<std::uint8_t>(none.size(), 128),
                   .trodden = none,
-                  .ash = none};
+                  .ash = none,
+                  .border = std::vector<std::uint8_t>(none.size(), 255)};
   return maps;
 }
 

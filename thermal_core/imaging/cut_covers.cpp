@@ -88,8 +88,7 @@ std::uint8_t CutCovers::kind_at(const Near& rows, const Near& columns) const noe
         visit(rows.cell[j] * covers_.cells + columns.cell[i], rows.weight[j] * columns.weight[i]);
   };
   each([&](std::size_t cell, float weight) {
-    const float off = covers_.border.empty() ? 1.0F : static_cast<float>(covers_.border[cell]);
-    share[covers_.kind[cell]] += weight * off;
+    share[covers_.kind[cell]] += weight * static_cast<float>(covers_.border[cell]);
   });
   std::uint8_t largest = middle;
   each([&](std::size_t cell, float) {

@@ -27,9 +27,8 @@ struct GroundCovers {
   std::vector<std::uint8_t> grass;    ///< of bare soil alone; so are the others
   std::vector<std::uint8_t> trodden;  ///< packed by feet or wheels
   std::vector<std::uint8_t> ash;
-  /// From the middle of a cell to the border of its kind, of which 255 is one and a half cells or more; empty: not known, and
-  /// borders are half-way between cells.
-  std::vector<std::uint8_t> border = {};
+  /// From the middle of a cell to the border of its kind, of which 255 is one and a half cells or more.
+  std::vector<std::uint8_t> border;
 
   [[nodiscard]] bool operator==(const GroundCovers&) const = default;
 };

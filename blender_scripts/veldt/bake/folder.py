@@ -45,7 +45,7 @@ def bake_plan(
     outline = cores.start(lambda: outline_of(world))
     bake_scene(world, models.mesh, folder / "scene")
     (folder / "tracks").mkdir()
-    everyone = config["render"].get("posed_actors") == "all"
+    everyone = config["render"]["posed_actors"] == "all"
 
     def bake(outlook: Outlook) -> None:
         name, camera = outlook.clip["id"], outlook.clip.get("camera")

@@ -179,7 +179,7 @@ class SceneReader {
     ground.grass = fine("grass");
     ground.trodden = fine("trodden");
     ground.ash = fine("ash");
-    if (json.contains("border")) ground.border = fine("border");
+    ground.border = fine("border");
     file_.check_below(json.at("kind"), ground.kind, ground.covers.size());
     if (!json.contains("shore_m")) return ground;
     const std::string shore = json.at("shore_m");
