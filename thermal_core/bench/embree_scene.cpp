@@ -81,17 +81,6 @@ EmbreeTimes EmbreeScene::times(const std::string& clip, int supersample) const {
   return times;
 }
 
-double EmbreeScene::bare_frame_s(BareTracer& tracer, const std::string& clip, int supersample) const {
-  const BakedTrack frames = track(clip);
-  double seconds = 0;
-  for (std::size_t frame = 1; frame < kEngineFrames; ++frame) {
-    tracer.aim(frames.camera_to_world[frame], finer(camera_, supersample));
-    (void)tracer.hits();
-    seconds += middle_run_s([&] { (void)tracer.hits(); });
-  }
-  return seconds / (kEngineFrames - 1);
-}
-
 Differing EmbreeScene::differing(const std::string& clip, const Path& blenders) const {
   const BakedTrack frames = track(clip);
   const ClipTracer tracer(caster_, frames, camera_);

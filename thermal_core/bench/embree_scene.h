@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "bench/engine_scenes.h"
-#include "raycast/bare_trace.h"
 #include "raycast/ray_caster.h"
 #include "scene/baked_scene.h"
 
@@ -38,12 +37,9 @@ class EmbreeScene {
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
   [[nodiscard]] EmbreeTimes times(const std::string& clip, int supersample) const;
-  /// Embree alone, without actors.
-  [[nodiscard]] double bare_frame_s(BareTracer& tracer, const std::string& clip, int supersample) const;
   /// Compares all frames with the files in this folder.
   [[nodiscard]] Differing differing(const std::string& clip, const Path& blenders) const;
 
-  [[nodiscard]] const BakedScene& baked() const noexcept { return scene_; }
   [[nodiscard]] std::size_t plants() const noexcept;
   [[nodiscard]] double pixels() const noexcept;
 
