@@ -16,7 +16,7 @@ namespace thermal {
 template <typename Number>
 using Transform = std::array<Number, 12>;
 
-/// Triangles that things of a scene share.
+/// Triangles that several parts of a scene share.
 struct BakedMesh {
   std::string name;
   bool smooth = false;                                      ///< normals are interpolated between vertices
@@ -25,7 +25,7 @@ struct BakedMesh {
   std::span<const std::uint16_t> material_index;            ///< of each triangle
 };
 
-/// A mesh in its place: the ground, a water surface.
+/// A mesh with its position: the ground, a water surface.
 struct BakedSurface {
   std::uint16_t object = 0;
   std::size_t mesh = 0;
@@ -72,13 +72,13 @@ struct BakedGround {
   std::span<const std::uint8_t> border = {};
 };
 
-/// A place with everything on it, as every engine draws it (configs/schema/scene.schema.json).
+/// A complete scene, as every engine draws it (configs/schema/scene.schema.json).
 struct BakedScene {
   std::string name;
   std::uint32_t seed = 0;
   CameraIntrinsics camera;
-  int view_margin_px = 0;                 ///< of the view beyond each side of a pinhole's picture
-  std::array<double, 2> depth_range_m{};  ///< along the axis: the nearest and the farthest that is seen
+  int view_margin_px = 0;                 ///< by which the view exceeds each side of a pinhole's picture
+  std::array<double, 2> depth_range_m{};  ///< along the axis: clipped nearer and farther
   std::vector<ManifestObject> objects;
   std::vector<ManifestMaterial> materials;
   std::vector<BakedMesh> meshes;
@@ -101,7 +101,7 @@ struct BakedTrack {
   std::span<const double> look_angle_deg;
   std::span<const std::array<double, 3>> actor_position_m;  ///< [actor, frame], on the ground
   std::span<const double> actor_heading_rad;                ///< [actor, frame]
-  std::span<const std::uint8_t> posed;      ///< [actor, frame]: whether it may be in the picture
+  std::span<const std::uint8_t> posed;                      ///< whether the picture may show it
   std::span<const Transform<float>> bones;  ///< of posed actors: actor by actor, frame by frame, bone by bone
   std::vector<std::byte> data;              ///< what the spans refer to
 };
