@@ -11,8 +11,8 @@ namespace thermal {
 
 class Place;
 
-/// The limit of ClipTracer::trace() on this machine, for benchmarks: the same packets of rays, computed before, find what
-/// they hit among the surroundings, and nothing is done with it. There are no actors.
+/// Lower bound of the time of ClipTracer::trace(), for benchmarks: the same packets of rays, computed before, find
+/// their first hits among the surroundings, and nothing else is done. There are no actors.
 class BareTracer {
  public:
   /// The scene must outlive this object.
@@ -24,7 +24,7 @@ class BareTracer {
   /// Computes the rays of a frame.
   void aim(const std::array<double, 16>& camera_to_world, const CameraIntrinsics& camera);
 
-  /// Traces these rays: how many do not end in the sky.
+  /// Traces these rays; returns how many hit something.
   [[nodiscard]] std::size_t hits() const;
 
  private:
