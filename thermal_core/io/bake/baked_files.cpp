@@ -66,7 +66,7 @@ class SceneReader {
   }
 
  private:
-  /// What manifests made from the scene promise, and rays rely on.
+  /// Checks what manifests and ray casting rely on.
   void check_header() const {
     const auto [nearest, farthest] = scene_.depth_range_m;
     if (nearest >= farthest)
@@ -206,7 +206,7 @@ std::size_t count_bones(const BakedScene& scene, std::size_t frames, std::span<c
   return count;
 }
 
-/// Of a track whose camera is not the scene's.
+/// The camera of a track, if it differs from the scene's.
 std::optional<CameraIntrinsics> camera_of(const Json& header) {
   if (!header.contains("camera")) return std::nullopt;
   return intrinsics_of(header.at("camera"));

@@ -30,7 +30,7 @@ class MapsReader {
   MapsReader(const Path& folder, const Assets& assets)
       : file_(header_in(folder), assets.schema("ground_maps")), cells_(file_.header().at("cells")) {}
 
-  /// `size_m` of the scene, if there is one.
+  /// `size_m` of the scene, if known.
   [[nodiscard]] GroundMaps read(std::optional<double> size_m) const {
     GroundMaps maps;
     maps.size_m = file_.header().at("size_m");

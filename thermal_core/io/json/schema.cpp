@@ -50,8 +50,8 @@ std::string key_of(std::string_view where) {
   return key;
 }
 
-/// Compiles a pattern on any thread. libstdc++ keeps each character that it has narrowed for a pattern in a table of
-/// all threads, without a lock (GCC's bug 77704). Narrowing a range fills the whole table, which is then only read.
+/// Compiles a pattern on any thread. libstdc++ caches each character narrowed for a pattern in a global table, without
+/// a lock (GCC's bug 77704). Narrowing a range fills the whole table, which is then only read.
 std::regex compiled(const std::string& pattern) {
   [[maybe_unused]] static const char kNarrowed = [] {
     const char letter = 'a';
@@ -96,7 +96,7 @@ class Checker {
   [[nodiscard]] std::vector<std::string> faults() && { return std::move(faults_); }
 
  private:
-  /// Resolves a "$ref" to a place in the same schema.
+  /// Resolves a "$ref" within the same schema.
   [[nodiscard]] const Json& meant_by(const Json& schema) const {
     const auto reference = schema.find("$ref");
     if (reference == schema.end()) return schema;
@@ -206,11 +206,11 @@ class Checker {
     for (const auto& [key, property] : properties.items()) {
       if (value.contains(key) || !property.contains("default")) continue;
       value[key] = property["default"];
-      check_at(value[key], property, prefix + key);  // fills in defaults of what is inside
+      check_at(value[key], property, prefix + key);  // fills in nested defaults
     }
   }
 
-  /// Some keys are shorthand for several others: "presets" lists, for each value, the defaults of those.
+  /// Some keys are shorthand for several others: "presets" lists the others' defaults for each value.
   static void fill_preset(Json& value, const std::string& key, const Json& property) {
     const auto presets = property.find("presets");
     if (presets == property.end() || !value.contains(key) || !value[key].is_string()) return;

@@ -7,13 +7,11 @@
 
 namespace thermal {
 
-/// Checks a document against a JSON schema (the keywords that our schemas use: type, properties,
-/// additionalProperties, required, enum, minimum, maximum, exclusiveMinimum, pattern, minItems, maxItems, items) and
-/// fills in every default. Returns all faults as "<where> = <value> <unit>; expected <rule>", with the unit from the
-/// key's suffix; empty if there are none. `where` is the place of
-/// the document within a larger one, if it is a part.
-/// Our own implementation, because errors are part of the interface: a library's messages say which rule failed, not
-/// what to write.
+/// Checks a document against a JSON schema (the keywords that our schemas use: type, properties, additionalProperties,
+/// required, enum, minimum, maximum, exclusiveMinimum, pattern, minItems, maxItems, items) and fills in every default.
+/// Returns all faults as "<where> = <value> <unit>; expected <rule>", with the unit from the key's suffix; empty if
+/// there are none. `where` is the path of the document within a larger one, if it is a part. Our own implementation,
+/// because errors are part of the interface: a library's messages name the failed rule, not what to write.
 [[nodiscard]] std::vector<std::string> check_and_fill(Json& document, const Json& schema,
                                                       const std::string& where = "");
 
