@@ -12,7 +12,7 @@
 namespace thermal {
 namespace {
 
-constexpr PassNeeds kNeeds = {.depth = true, .normals = true};  // what Blender renders
+constexpr PassNeeds kNeeds = {.depth = true, .normals = true};  // the planes that Blender renders
 
 double differing_pixels(const Plane<std::uint16_t>& one, const Plane<std::uint16_t>& other) {
   if (one.size() != other.size()) throw DataError("Blender's frames have another size or lack a plane");

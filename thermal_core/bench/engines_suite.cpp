@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array kSupersamples = {1, 2, 4};
 
-/// What the engines need for frames of one clip.
+/// Cost of frames of one clip with both engines.
 struct Measured {
   std::string clip;
   int supersample = 1;
@@ -33,7 +33,7 @@ struct Measured {
     const int count = supersample * supersample;
     return fmt::format("{}, {} {}", clip, count, count == 1 ? "ray" : "rays");
   }
-  /// Without the file, as `embree` has it.
+  /// Without writing the file, as for `embree`.
   [[nodiscard]] double cycles_s() const { return cycles->frame_s - cycles->split_s.at("write"); }
 };
 
@@ -136,7 +136,7 @@ class EnginesSuite {
                           frames);
   }
 
-  /// In the order of Cycles' profiles. Rays for Embree alone are computed when memory has been measured.
+  /// In the order of Cycles' profiles. Rays for Embree alone are computed after memory has been measured.
   std::vector<Measured> embree(const EngineScene& planned, const Path& blenders) {
     task_.announce(planned.name + ", Embree");
     const PeakMemory memory;

@@ -102,8 +102,7 @@ double worst_db(const Generator& generator) {
   return worst;
 }
 
-/// Of a video: what lies above its Nyquist frequency is folded into its spectrum as by theory, so only videos of every
-/// frame are measured.
+/// The deviation in a video. Its spectrum aliases as by theory, so only videos with every native frame are measured.
 double measured_db(const Generator& generator) {
   constexpr std::size_t kSpectrumPixels = 128;
   constexpr std::uint32_t kFrames = 32768;
