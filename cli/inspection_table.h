@@ -5,10 +5,10 @@
 
 namespace veldt {
 
-/// Prints what passes hold, and what a conversion would do with them.
+/// Prints the contents of passes, and how a conversion would use them.
 void print(const thermal::Inspection& inspection);
 
-/// Prints what a starter manifest guessed, what the user has to fill in, and the command to run next.
+/// Prints a starter manifest's guesses, the entries that the user has to fill in, and the next command.
 void print(const thermal::StarterManifest& starter, const thermal::Inspection& inspection,
            const thermal::Path& file);
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Which of Doxygen's warnings count: `check_doxygen.py LOG` prints those and exits with 1 if there are any.
+"""Filters Doxygen's warnings: `check_doxygen.py LOG` prints those that count and exits with 1 if there are any.
 
-All but one kind do: a member of a documented class may have no docstring, if its name and unit say what it is. Classes,
-and whatever stands in a namespace itself, need one.
+Members of a documented class may have no docstring, if name and unit are enough; classes, and everything directly in a
+namespace, need one.
 """
 
 import re
@@ -14,7 +14,7 @@ UNDOCUMENTED_MEMBER = re.compile(r" Member .* of (?:class|struct|union) .* is no
 
 
 def faults(log: str) -> list[str]:
-    """The lines that count, each once, with files as they are called in the repository."""
+    """The warnings that count, without repetition, with file names relative to the repository."""
     lines = [line for line in log.splitlines() if not UNDOCUMENTED_MEMBER.search(line)]
     return list(dict.fromkeys(STAGED.sub("thermal_core/", line) for line in lines))
 

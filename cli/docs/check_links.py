@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Whether every link of a site leads to a file and a place that exist: `check_links.py FOLDER` prints those that do
-not, and exits with 1 if there are any. Links to other sites are not followed.
+"""Checks that every link of a site leads to a file and an anchor that exist: `check_links.py FOLDER` prints broken ones
+and exits with 1 if there are any. Links to other sites are not followed.
 """
 
 import sys
@@ -11,7 +11,7 @@ from urllib.parse import unquote, urlsplit
 
 
 class Page(HTMLParser):
-    """What a page links to, and the places in it."""
+    """Links and anchors of a page."""
 
     def __init__(self, file: Path) -> None:
         """Read the page."""
