@@ -1,4 +1,4 @@
-"""Render the passes of a plan's clips. Blender runs it:
+"""Render the passes of a plan's clips. Run by Blender:
 
     blender -b --factory-startup --disable-autoexec --python-exit-code 1 --python render_passes.py --
             --plan DIR --out DIR (--clip ID ... [--supersample N] [--actor-layer] | --preview) [--events-fd N]
@@ -16,7 +16,7 @@ import sys
 import time
 from pathlib import Path
 
-sys.dont_write_bytecode = True  # nothing is written into the folder of the scripts, whoever owns it
+sys.dont_write_bytecode = True  # write nothing into the scripts' folder
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # pylint: disable=wrong-import-position

@@ -7,7 +7,7 @@ from fnmatch import fnmatchcase
 
 from .faults import ConfigError, check_known, did_you_mean, listing
 
-# By kind: the keys that every file has, and what they are. `veldt` checks materials against their schema.
+# By kind: required keys and their types. `veldt` checks materials against their schema.
 _TEXT, _NUMBER, _PAIR, _TABLE, _LIST, _COUNT, _POINT = (
     "text",
     "a number",
@@ -40,7 +40,7 @@ _KEYS = {
     "materials": {"emissivity": _NUMBER, "winter_k": _NUMBER, "summer_k": _NUMBER, "source": _TEXT},
 }
 _PLAIN_PARTS = ("head", "torso")  # need no entry in the material: they use its own temperature
-_WALK = "walk"  # the posture of all that have legs
+_WALK = "walk"  # the posture of all species with legs
 _DRAWN = {"gait": _TABLE, "bones": _TABLE}
 _PATCH = {"part": _TEXT, "from_m": _POINT, "to_m": _POINT}
 _STANDING = {"form": _TEXT, "variants": _COUNT, "height_m": _NUMBER, "crown_diameter_m": _NUMBER}
@@ -73,7 +73,7 @@ _IS: dict[str, Callable] = {
 
 
 def is_named(name: str, patterns: Iterable[str]) -> bool:
-    """Whether one of the patterns, which may have a *, such as "stand*", is the name."""
+    """Whether a name matches one of the patterns, which may have a *, such as "stand*"."""
     return any(fnmatchcase(name, pattern) for pattern in patterns)
 
 

@@ -41,12 +41,12 @@ def load(kind: str, name: str) -> dict:
 
 
 def standing(name: str) -> dict:
-    """The file of what stands in a place and never moves: a plant, or a structure."""
+    """The file of a static object: a plant, or a structure."""
     return load(kind_of(name), name)
 
 
 def kind_of(name: str) -> str:
-    """The folder of what stands in a place: `plants` or `structures`."""
+    """The folder of a static object: `plants` or `structures`."""
     return "plants" if name in names("plants") else "structures"
 
 

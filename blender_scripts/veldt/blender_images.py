@@ -1,11 +1,12 @@
 """The image files that Blender writes: detect truncated ones, and add a layer of the actors alone to a frame.
 
-By hand, because Python inside Blender may lack OpenImageIO, as the module bpy does, and a view layer of Blender's own
-for the actors takes .1 s more of processor time a frame: it can go when every Blender in use brings OpenImageIO.
+Implemented here, because Python inside Blender may lack OpenImageIO, as the module bpy does, and a view layer of
+Blender's own for the actors takes .1 s more of processor time a frame. Remove it when every Blender in use includes
+OpenImageIO.
 
 Blender reports a file as saved even if the disk was full, so a file is checked before it gets its final name. EXR files
-have one part of scan lines, with increasing y; those that are joined have 32-bit floats without compression.
-Layouts: "OpenEXR File Layout", openexr.com; PNG, ISO/IEC 15948.
+have one part of scan lines, with increasing y; those that are joined have 32-bit floats without compression. Layouts:
+"OpenEXR File Layout", openexr.com; PNG, ISO/IEC 15948.
 """
 
 from __future__ import annotations
@@ -108,7 +109,7 @@ def _read_layers(path: Path) -> _Layers:
         names = _channel_names(header["channels"])
         left, top, right, bottom = struct.unpack("<4i", header["dataWindow"])
         lines, columns = bottom - top + 1, right - left + 1
-        file.seek(8 * lines, 1)  # where each line begins
+        file.seek(8 * lines, 1)  # start of each line
         data = np.fromfile(file, _line(len(names), columns), lines)
     return _Layers(beginning, header, {name: data["samples"][:, k] for k, name in enumerate(names)})
 

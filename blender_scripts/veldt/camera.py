@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-DEPTH_RANGE_M = (0.1, 20000.0)  # along the axis: where the camera sees surfaces
+DEPTH_RANGE_M = (0.1, 20000.0)  # along the axis: surfaces outside this range are not rendered
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ def intrinsics_of(camera: dict) -> Intrinsics:
 
 
 def camera_of(entry: dict, usual: Intrinsics) -> Intrinsics:
-    """Intrinsics of a clip or flight: its own, or the usual ones."""
+    """Intrinsics of a clip or flight: its own, or the default."""
     return intrinsics_of(entry["camera"]) if "camera" in entry else usual
 
 
@@ -61,10 +61,11 @@ def edge_tangents(intrinsics: Intrinsics) -> tuple[tuple[float, float], tuple[fl
 
 
 def lens_shift(intrinsics: Intrinsics) -> tuple[float, float]:
-    """Blender's shift_x and shift_y: how far the picture's middle is right of and above the axis, over its width."""
+    """Blender's shift_x and shift_y: offset of the picture's centre to the right of and above the axis, over its width.
+    """
     (fx_px, fy_px), (cx_px, cy_px) = intrinsics.focal_px, intrinsics.centre_px
     width_px, height_px = intrinsics.width_px, intrinsics.height_px
-    # Along y Blender counts in widths too, and pixels there are fx / fy as high as they are wide.
+    # Blender expresses both shifts in widths; pixels are fx / fy as high as they are wide.
     return (0.5 * width_px - cx_px) / width_px, (cy_px - 0.5 * height_px) * (fx_px / fy_px) / width_px
 
 
@@ -96,7 +97,7 @@ def project(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Picture points (..., n, 2) in px and depths (..., n) in m of world points (..., n, 3) for poses (..., 4, 4).
 
-    Points with depth <= 0 lie behind the camera; their picture points mean nothing.
+    Points with depth <= 0 lie behind the camera; their picture points are undefined.
     """
     rotation, position_m = camera_to_world[..., :3, :3], camera_to_world[..., None, :3, 3]
     local = (points_m - position_m) @ rotation

@@ -1,4 +1,4 @@
-"""Check what a schema cannot: configs whose values are valid one by one but contradict each other."""
+"""Checks beyond the schema: configs whose values are valid one by one but contradict each other."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .groups.behaviours import member_names
 from .groups.routes import ROAD
 from .plants.placement import by_area
 
-_MOST_CELLS = 4000  # a side: 32 million triangles, some 10 GB in Blender
+_MOST_CELLS = 4000  # per side: 32 million triangles, some 10 GB in Blender
 _MOST_PLANTS = 2_000_000  # of a species
 _LEAST_LOOP_M = 1.0
 _LOOP_STEP_M = 1.0
@@ -31,7 +31,7 @@ def check_names(config: dict) -> None:
 
 
 def check_size(scene: dict) -> None:
-    """Check that the place fits in memory."""
+    """Check that the scene fits in memory."""
     size_m, cell_m = scene["terrain"]["size_m"], scene["terrain"]["cell_m"]
     if size_m > _MOST_CELLS * cell_m:
         raise ConfigError(

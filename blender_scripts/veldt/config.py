@@ -1,4 +1,4 @@
-"""Read a resolved config, which the `veldt` command has checked and filled in with every default.
+"""Read a resolved config: checked by the `veldt` command, with all defaults.
 
 The command checks types and ranges; `checks` checks values against each other.
 """

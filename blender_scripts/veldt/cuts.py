@@ -18,7 +18,7 @@ def cut(flight: dict, seen: np.ndarray, seed: int) -> list[Stretch]:
     """The clips of a flight, in order: ranges of frames, none longer than clip_length_s.
 
     seen (n,): the frames that contain an actor. Keeps all frames, or those with actors and, where available, as many
-    others as `negatives` asks for; the choice of these depends on the seed and the flight's id.
+    others as `negatives` requests; these are chosen by the seed and the flight's id.
     """
     rate_hz = flight["frame_rate_hz"]
     longest = max(1, int(np.floor(flight.get("clip_length_s", _USUAL_S) * rate_hz + 1e-9)))

@@ -1,6 +1,6 @@
-"""How a failed script reaches the user: the exception's own last line, its place in these scripts, and a hint.
+"""Report failures of scripts to the user: the exception's last line, its location in these scripts, and a hint.
 
-This module imports nothing but Python's standard library, because it also reports that others are missing.
+This module imports nothing but Python's standard library, because it also reports missing modules.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ _MODULES = {"numpy": ("NumPy", "python3-numpy"), "OpenImageIO": ("OpenImageIO", 
 
 @dataclass(frozen=True)
 class Failure:
-    """Why a script failed, in one line each; `hint` may be empty."""
+    """Cause of a script's failure, in one line each; `hint` may be empty."""
 
     exit_code: int  # 2 for a fault of the config, 75 for a full disk or a killed process, else 1
     message: str  # "ModuleNotFoundError: No module named 'numpy'"; of our own exceptions, the bare message
-    where: str  # "blender_scripts/veldt/noise.py:8"; empty if the place says nothing
+    where: str  # "blender_scripts/veldt/noise.py:8"; empty if unknown
     hint: str  # "install NumPy …"
 
     @property
@@ -36,7 +36,7 @@ class Failure:
         return self.exit_code == 2
 
     def in_words(self) -> str:
-        """All of it in one line; of a fault of the config, the message alone."""
+        """The failure in one line; for a fault of the config, the message alone."""
         if self.is_config_fault:
             return self.message
         where = f" ({self.where})" if self.where else ""
@@ -55,9 +55,9 @@ def failure_of(error: BaseException) -> Failure:
 
 
 def run(act: Callable[[], None], report: Callable[[BaseException], int] | None = None) -> int:
-    """Acts, reports a failure, and returns the exit code: 0 done, 1 failed, 2 the config is at fault, 75 the disk is
-    full or a process that worked for this one was killed. `report` returns the code of a failure; without it, the
-    failure goes to stderr, summed up in its last line.
+    """Call `act`, report a failure, and return the exit code: 0 done, 1 failed, 2 invalid config, 75 the disk is full
+    or a child process was killed. `report` returns the code of a failure; without it, the failure goes to stderr, with
+    a summary in the last line.
     """
     try:
         act()
@@ -84,14 +84,14 @@ def _report(error: BaseException) -> int:
 
 
 def _last_line(error: BaseException) -> str:
-    """Type and message of an exception; of a message of many lines, the last that is not empty."""
+    """Type and message of an exception; of a multi-line message, the last non-empty line."""
     text = error.msg if isinstance(error, SyntaxError) else str(error)
     lines = [line.strip() for line in text.splitlines() if line.strip()]
     return ": ".join([type(error).__name__, *lines[-1:]])
 
 
 def _place(error: BaseException) -> str:
-    """File and line of the innermost frame that lies in these scripts; of a syntax error, where it is."""
+    """File and line of the innermost frame in these scripts; of a syntax error, its own location."""
     steps = [(step.filename, step.lineno) for step in traceback.extract_tb(error.__traceback__)]
     if isinstance(error, SyntaxError):
         steps.append((error.filename or "", error.lineno))

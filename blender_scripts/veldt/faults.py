@@ -8,15 +8,16 @@ from collections.abc import Collection, Iterable
 
 
 class ConfigError(Exception):
-    """A config that is well formed but makes no sense: `<where> = <value> <unit>; expected <rule>`."""
+    """A well-formed but invalid config: `<where> = <value> <unit>; expected <rule>`."""
 
 
 class ProcessLost(Exception):
-    """A process that worked for this one ended before its work was done; `killed` if from outside, as when the memory
-    runs out."""
+    """A child process ended before its work was done; `killed` if by a signal from outside, such as when memory runs
+    out.
+    """
 
     def __init__(self, name: str, code: int):
-        """code: -N after signal N."""
+        """code: -N for signal N."""
         how = (
             f"was killed by signal {-code} ({signal.strsignal(-code)})"
             if code < 0

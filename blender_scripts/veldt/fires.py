@@ -1,4 +1,4 @@
-"""Camp fires of a scene: where they are, and what they look like. Lengths in m."""
+"""Camp fires of a scene: positions and meshes. Lengths in m."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Fire:
 
 
 def plan_fires(entries: Sequence[dict], terrain: Terrain) -> list[Fire]:
-    """The fires of a config; ConfigError if one is not on dry ground of the place."""
+    """The fires of a config; ConfigError if one is not on dry ground of the scene."""
     return [_fire(f"scene.fires[{k}]", f"fire_{k + 1}", entry, terrain) for k, entry in enumerate(entries)]
 
 

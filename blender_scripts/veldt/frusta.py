@@ -11,7 +11,7 @@ from .camera import Intrinsics, edge_tangents
 
 @dataclass(frozen=True)
 class Frusta:
-    """What n poses see: the space inside the planes of the picture's four sides, in front of the camera.
+    """View frusta of n poses: the space inside the planes of the picture's four sides, in front of the camera.
 
     normals (3, 5, n): unit vectors that point outwards, in world axes; offsets_m (5, n): of the planes along them.
     """
@@ -20,14 +20,14 @@ class Frusta:
     offsets_m: np.ndarray
 
     def at(self, frames: np.ndarray) -> Frusta:
-        """Those of some of the poses, by their numbers."""
+        """Frusta of some of the poses, by their indices."""
         return Frusta(self.normals[..., frames], self.offsets_m[..., frames])
 
     def may_show(self, x_m: np.ndarray, y_m: np.ndarray, z_m: tuple, radius_m) -> np.ndarray:
-        """Mask (..., n) of the poses in which balls may be in the picture, wherever they are between two heights.
+        """Mask (..., n) of the poses whose picture may show spheres at any height in a range.
 
-        x_m and y_m (..., n) are their middles', z_m the least and the greatest height of their middles, numbers or
-        (..., n); radius_m is a number or (..., 1). False only where a ball is entirely outside one of the planes.
+        x_m and y_m (..., n) are their centres', z_m the range of their centres' heights, numbers or (..., n); radius_m
+        is a number or (..., 1). False only where a sphere is entirely outside one of the planes.
         """
         east, north, up = self.normals
         x_m, y_m, low_m, high_m = (np.atleast_1d(along)[..., None, :] for along in (x_m, y_m, *z_m))

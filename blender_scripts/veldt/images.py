@@ -1,7 +1,7 @@
 """Read and write images with OpenImageIO.
 
-OpenImageIO takes .3 s to load, so it is imported only when an image is read or written. Not for Blender, whose Python
-may lack it.
+OpenImageIO takes .3 s to load, so it is imported only when an image is read or written. Not used in Blender, whose
+Python may lack it.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def read_values(path: Path, channel: str | None = None) -> np.ndarray:
     """Values [row from the top, column] of a grey PNG, 0 to 1, or of an EXR's channel, unchanged; float64.
 
     `channel` names one of an EXR that has several; PART.CHANNEL, if it has several parts. ValueError if the file is
-    neither, has no such channel, several and none is named, more than 4e8 pixels, or is damaged.
+    neither, lacks the channel, has several channels and none is named, has more than 4e8 pixels, or is damaged.
     """
     with open(path, "rb") as file:
         begin = file.read(8)
@@ -33,7 +33,7 @@ def read_values(path: Path, channel: str | None = None) -> np.ndarray:
         raise ValueError("it is neither")
     oiio = _oiio()
     with _silent_stderr(), TemporaryDirectory() as folder:
-        # OpenImageIO 2.4 chooses the decoder by the file's name, from Python.
+        # From Python, OpenImageIO 2.4 chooses the decoder by the file's name.
         link = Path(folder) / f"map.{kind}"
         link.symlink_to(path.absolute())
         image = oiio.ImageInput.open(str(link))
@@ -98,10 +98,10 @@ def write_rgb(path: Path, colours: np.ndarray) -> None:
 def _oiio():
     import OpenImageIO  # pylint: disable=import-outside-toplevel
 
-    # One thread: this process may fork later, and a fork has no threads but its own.
+    # One thread: this process may fork later, and threads do not survive a fork.
     OpenImageIO.attribute("threads", 1)
     OpenImageIO.attribute("exr_threads", -1)
-    OpenImageIO.attribute("try_all_readers", 0)  # untrusted bytes reach the decoder of their own kind alone
+    OpenImageIO.attribute("try_all_readers", 0)  # untrusted bytes must not reach decoders of other formats
     return OpenImageIO
 
 
@@ -111,7 +111,7 @@ def _one_line(fault: str) -> str:
 
 @contextmanager
 def _silent_stderr() -> Iterator[None]:
-    """Drop what libpng prints: of a script that rejects a config, standard error holds its faults alone."""
+    """Suppress libpng's output: on standard error, a script that rejects a config prints its faults alone."""
     kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 2)
     try:

@@ -75,5 +75,7 @@ def _place_of(index: int, track: BakedTrack, actor: int, frame: int) -> dict:
 
 
 def _rounded(values: np.ndarray, digits: int = 6) -> list:
-    """Numbers rounded to the micrometre: far less than a pixel, and more than the cosines of two machines differ by."""
+    """Numbers rounded to the micrometre: far less than a pixel, and more than the differences of cosines between
+    machines.
+    """
     return (np.round(values, digits) + 0.0).tolist()  # + 0.0 turns -0.0 into 0.0

@@ -26,7 +26,7 @@ _CONFIG_FAULT = 2
 
 @dataclass(frozen=True)
 class ModelMeshes:
-    """Meshes by their files' contents, kept in `folder`; those in `earlier`, of another plan, are taken over.
+    """Meshes by their files' contents, kept in `folder`; those in `earlier`, of another plan, are reused.
 
     blender: the program, or an empty string if there is none.
     """
@@ -50,7 +50,7 @@ class ModelMeshes:
         return Mesh(*(np.array(found[name]) for name in ("points_m", "triangles", "slot")))
 
     def _take_over(self, path: Path) -> bool:
-        """Copy a mesh of the earlier plan, if it has it."""
+        """Copy a mesh of the earlier plan, if it exists."""
         if self.earlier is None or not (self.earlier / path.name).with_suffix(".json").exists():
             return False
         for suffix in (".bin", ".json"):
@@ -102,7 +102,7 @@ def write_mesh(path: Path, mesh: Mesh) -> None:
 
 
 def _key(data: dict) -> str:
-    """Of the content of a model's file, and of everything that determines what is made of it."""
+    """Hash of a model's file, and of all other inputs of its mesh."""
     digest = hashlib.sha256(Path(data["model"]["path"]).read_bytes())
     entry = {key: value for key, value in data["model"].items() if key != "path"}
     digest.update(json.dumps(entry, sort_keys=True).encode())

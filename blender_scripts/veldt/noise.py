@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 _MASK = (1 << 64) - 1
-_AT_ONCE = 1 << 14  # positions whose intermediate values stay in the cache
+_AT_ONCE = 1 << 14  # positions whose intermediate values fit the cache
 
 
 def stream(seed: int, subsystem: str, *entity: int) -> np.random.Generator:

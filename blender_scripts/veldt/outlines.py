@@ -1,4 +1,4 @@
-"""What a place shows from above, for the budget of physical terms: shares of its materials, and species of actors."""
+"""View of a scene from above, for the budget of physical terms: shares of its materials, and species of actors."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from .land.covers import SOIL
 from .plants.plant_shapes import slots_of
 from .world import WATER, World
 
-_MOST = 0.9  # share of the ground that plants of one species hide; beyond it, their crowns overlap
+_MOST = 0.9  # largest share of the ground that plants of one species hide, since crowns overlap
 
 
 def outline_of(world: World) -> dict:
     """`covers`: the share of each material seen from straight above, which add up to 1; `actors`: their materials.
 
     Ground is sampled at the vertices of the terrain's grid, so that a share p of n vertices has a standard error below
-    sqrt(p / n). Crowns of different species are taken to hide each other at random, the widest being the tallest.
+    sqrt(p / n). Crowns of different species are assumed to hide each other at random, the widest being the tallest.
     """
     shares = _ground_shares(world)
     dry = 1.0 - shares.get(WATER, 0.0)
@@ -37,7 +37,9 @@ def _ground_names(world: World) -> list[str]:
 
 
 def _ground_shares(world: World) -> dict[str, float]:
-    """Shares of the place without its plants: of water, and of soil and its covers, the first of which wins."""
+    """Shares of the scene without its plants: of water, and of soil and its covers; where covers overlap, the first
+    wins.
+    """
     terrain = world.terrain
     x_m, y_m = (lines_m.ravel() for lines_m in terrain.grid())
     bare = np.ones(len(x_m), bool)
@@ -54,7 +56,7 @@ def _ground_shares(world: World) -> dict[str, float]:
 
 
 def _crowns(world: World, dry: float) -> list[tuple[str, float, float]]:
-    """Of each species: its material, the area of one crown in m2, and the share of dry ground below all of them."""
+    """For each species: its material, the area of one crown in m2, and the share of dry ground below all of them."""
     dry_m2 = dry * world.terrain.size_m**2
     crowns = []
     for name, planting in world.plantings.items():

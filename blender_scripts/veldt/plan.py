@@ -1,4 +1,4 @@
-"""Plan the clips of a config: cut its long flights, and find out what each clip will show."""
+"""Plan the clips of a config: cut its long flights, and predict the contents of each clip."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ def plan_clips(
     bake: Callable[[Outlook], None] = lambda outlook: None,
     planned: Callable[[str, int, int], None] = lambda name, done, total: None,
 ) -> list[dict]:
-    """What is known of each clip before it is rendered: the config's own clips, then those cut from its flights.
+    """Outlooks of all clips: the config's own, then those cut from its flights.
 
-    `bake` is called with each clip where it is planned, which may be in another process; `planned` with the id of each
-    clip or flight of the config, and how many of them are planned.
+    `bake` is called with each clip in the process that plans it; `planned` with the id of each clip or flight of the
+    config, and the number of planned ones.
     """
 
     def plan_entry(entry: dict) -> list[dict]:
@@ -52,7 +52,7 @@ def plan_clips(
 
 
 def _outlooks_of(world: World, entry: dict) -> list[Outlook]:
-    """Of a clip, or of the clips cut from a flight."""
+    """Outlooks of a clip, or of the clips cut from a flight."""
     flight = world.flight(entry)
     seen = sightings(world.camera(entry), flight, world.actors)
     if "keep" not in entry:  # a clip
@@ -69,7 +69,7 @@ def _outlooks_of(world: World, entry: dict) -> list[Outlook]:
 
 
 def _check_ids(ids: list[str]) -> None:
-    """Check that the config's own clips, which come first, have other ids than those cut from flights."""
+    """Check that the ids of the config's own clips, which come first, differ from those cut from flights."""
     last = {name: k for k, name in enumerate(ids)}
     for k, name in enumerate(ids):
         if last[name] != k:

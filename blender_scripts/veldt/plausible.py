@@ -1,4 +1,4 @@
-"""Plausible ranges, lowest and highest, of quantities in files from outside: beyond them is an error."""
+"""Plausible ranges, minimum and maximum, of quantities in external files: values outside are errors."""
 
 LAND_M = (-500.0, 9000.0)  # above the sea, from the shore of the Dead Sea to the top of Mount Everest
 ALTITUDE_M = (-1000.0, 10_000.0)  # of aircraft, above the sea, home or ground

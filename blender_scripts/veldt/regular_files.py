@@ -1,4 +1,4 @@
-"""Read files that a config names, which may be anything."""
+"""Read files named by a config, which are untrusted."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from pathlib import Path
 
 
 def read_regular(path: Path, most_bytes: int) -> bytes:
-    """A file's content. OSError if it cannot be read, is a device or a pipe, which may never end, or has more bytes."""
+    """A file's content. OSError if it cannot be read, is not regular (reading a device or a pipe may never end), or
+    exceeds most_bytes.
+    """
     status = path.stat()
     if not stat.S_ISREG(status.st_mode) and not stat.S_ISDIR(status.st_mode):
         raise OSError(errno.EINVAL, "it is a device or a pipe")

@@ -1,4 +1,4 @@
-"""Which actors come into the picture, and when."""
+"""Visibility of actors in the picture over time."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ def sightings(intrinsics: Intrinsics, flight: Flight, actors: list[Actor]) -> np
 def may_be_in_frame(
     frusta: Frusta, actors: Sequence[Actor], position_m: np.ndarray, slack: float
 ) -> np.ndarray:
-    """Mask (actors, n) of frames in which balls around actors' positions (actors, n, 3) may be in the picture.
+    """Mask (actors, n) of frames whose picture may show spheres around actors' positions (actors, n, 3).
 
-    At slack 1 a ball just contains an actor's box; its radius grows with slack.
+    At slack 1 a sphere just contains an actor's box; its radius is proportional to slack.
     """
     radii_m = np.array([_radius_m(actor) for actor in actors])[:, None]
     x_m, y_m, z_m = np.moveaxis(position_m, -1, 0)
@@ -40,9 +40,9 @@ def may_be_in_frame(
 
 
 def _near(frusta: Frusta, time_s: np.ndarray, actor: Actor) -> tuple[np.ndarray, Track]:
-    """The frames in which a ball that contains an actor's box may be in the picture, and the actor's track in them.
+    """The frames whose picture may show a sphere around an actor's box, and the actor's track in them.
 
-    Most frames are ruled out before the height of the ground is computed, which costs most.
+    Most frames are excluded before the height of the ground is computed, the most expensive step.
     """
     radius_m = _radius_m(actor)
     point, heading = ground_path(actor, time_s)

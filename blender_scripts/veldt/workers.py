@@ -1,4 +1,4 @@
-"""Work on many independent things on all cores, in processes forked from this one."""
+"""Parallel work on independent items, in forked processes."""
 
 from __future__ import annotations
 
@@ -31,8 +31,9 @@ class Cores:
 
     def start(self, act: Callable[[], Result]) -> Callable[[], Result]:
         """Start `act` in another process, if there is more than one core, and return a function that waits for its
-        result; without a second core, or if `act` fails there, the function acts itself. ProcessLost if that process
-        ends before; map() notices it too."""
+        result; without a second core, or if `act` fails there, that function calls `act` itself. ProcessLost if the
+        process ends early, also from map().
+        """
         if self._processes < 2:
             return act
         try:
@@ -58,21 +59,21 @@ def in_order(
 ) -> Iterator[Result]:
     """The results of `act` for all items, in their order; the same whatever `processes` is.
 
-    Results are pickled; `act` and the items are not, so they may be large. Not for Blender, whose threads a fork does
-    not copy. An exception is raised here, with its place in the scripts. ProcessLost as soon as a process ends before
-    its work is done, or one of `others`.
+    Results are pickled; `act` and the items are not, so they may be large. Not for Blender, whose threads do not
+    survive a fork. Exceptions are raised here, with their location in the scripts. ProcessLost as soon as a process, or
+    one of `others`, ends before its work is done.
     """
     done, processes = 0, min(processes, len(items))
     if processes > 1:
         for results in _by_workers(act, items, processes, others):
             yield from results
             done += len(results)
-    for item in items[done:]:  # what a worker failed at fails here, where its traceback leads to its place
+    for item in items[done:]:  # an item that failed in a worker fails again here, with a useful traceback
         yield act(item)
 
 
 class _Worker:
-    """A process that acts on items, part after part. It does not outlive this one."""
+    """A process that calls `act` on parts of the items. It ends with this process."""
 
     def __init__(self, act: Callable, items: Sequence):
         self._connection, theirs = _multiprocessing().Pipe()
@@ -87,7 +88,7 @@ class _Worker:
 
     @property
     def is_owing(self) -> bool:
-        """Whether results are to come."""
+        """Whether results are outstanding."""
         return self._owed > 0
 
     def fileno(self) -> int:
@@ -95,7 +96,7 @@ class _Worker:
         return self._connection.fileno()
 
     def hand(self, number: int, part: range) -> None:
-        """Have it act on some items."""
+        """Assign it some items."""
         try:
             self._connection.send((number, part))
         except OSError:
@@ -103,7 +104,7 @@ class _Worker:
         self._owed += 1
 
     def look(self) -> None:
-        """Receive what take() will return, which has arrived. ProcessLost if it never will."""
+        """Receive a result that has arrived, for take(). ProcessLost if there will be none."""
         try:
             self._taken = self._connection.recv()
         except (EOFError, OSError):
@@ -111,14 +112,14 @@ class _Worker:
         self._owed -= 1
 
     def take(self) -> tuple[int, list, bool]:
-        """Wait for the results of a part: its number, those up to the first failure, and whether that is all."""
+        """Wait for the results of a part: its number, those up to the first failure, and whether these are all."""
         if self._taken is None:
             self.look()
         taken, self._taken = self._taken, None
         return taken
 
     def end(self) -> None:
-        """End the process, whatever it does."""
+        """Terminate the process."""
         self._process.kill()
         self._process.join()
         self._connection.close()
@@ -135,20 +136,20 @@ def _multiprocessing():
 
 
 def die_with(parent: int) -> None:
-    """Have the kernel kill this process when the one that started it ends."""
+    """Have the kernel kill this process when its parent ends."""
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-    if os.getppid() != parent:  # it ended before
+    if os.getppid() != parent:  # it has ended already
         os.kill(os.getpid(), signal.SIGKILL)
 
 
 def _serve(act: Callable, items: Sequence, connection, parent: int) -> None:
-    """In a worker: act as ordered until the end."""
+    """A worker's loop: call `act` on request until the end."""
     die_with(parent)
     while True:
         number, part = connection.recv()
         try:
             connection.send((number, *_results(act, items, part)))
-        except Exception:  # pylint: disable=broad-exception-caught # results that cannot be sent
+        except Exception:  # pylint: disable=broad-exception-caught # results that cannot be pickled
             connection.send((number, [], False))
 
 
@@ -169,7 +170,7 @@ def _by_workers(act: Callable, items: Sequence, processes: int, others: Sequence
     parts = [range(first, min(first + at_once, len(items))) for first in range(0, len(items), at_once)]
     workers: list[_Worker] = []
     try:
-        with suppress(OSError):  # the system allows no more processes: those that there are do it
+        with suppress(OSError):  # the system allows no more processes: use the existing ones
             for _ in range(processes):
                 workers.append(_Worker(act, items))
         yield from _parts_in_order(workers, parts, others)
@@ -182,7 +183,7 @@ def _parts_in_order(
     workers: Sequence[_Worker], parts: Sequence[range], others: Sequence[_Worker]
 ) -> Iterator[list]:
     left = iter(enumerate(parts))
-    for worker in [*workers, *workers]:  # each has its next part when it has done one
+    for worker in [*workers, *workers]:  # a worker gets its next part when it has finished one
         _hand_next(worker, left)
     found: dict[int, list] = {}
     for place in range(len(parts) if workers else 0):
@@ -204,7 +205,7 @@ def _hand_next(worker: _Worker, left: Iterator[tuple[int, range]]) -> None:
 
 
 def _ready(workers: Sequence[_Worker], others: Sequence[_Worker]) -> list[_Worker]:
-    """Workers that have results. Those of others are kept for them."""
+    """Workers with results. Those of `others` are stored for them."""
     from multiprocessing.connection import wait  # pylint: disable=import-outside-toplevel
 
     ready = wait([worker for worker in [*workers, *others] if worker.is_owing])

@@ -39,7 +39,7 @@ WATER = "water"
 class World:
     """The scene of a config; plantings of plants and structures by name, material indices by (material, part).
 
-    ground is None if it was not asked for.
+    ground is None if it was not requested.
     """
 
     config: dict
@@ -58,7 +58,7 @@ class World:
 
     @property
     def view_intrinsics(self) -> Intrinsics:
-        """Intrinsics of a pinhole camera that sees all that the passes and the lens show."""
+        """Intrinsics of a pinhole camera that contains the views of the passes and the lens."""
         return widened(self.intrinsics, self.view_margin_px)
 
     def camera(self, entry: dict) -> Intrinsics:
@@ -71,7 +71,7 @@ class World:
 
 
 def plan_world(config: dict, cores: Cores = Cores(), with_ground: bool = False) -> World:
-    """Plan the scene of a resolved config; ConfigError if the config makes no sense."""
+    """Plan the scene of a resolved config; ConfigError if the config is invalid."""
     checks.check_names(config)
     scene, seed = config["scene"], config["seed"]
     checks.check_size(scene)
@@ -129,7 +129,7 @@ def _materials(
     burning: list[fires.Fire],
     actors: list[Actor],
 ) -> list[tuple[str, str]]:
-    """Every (material, part) of the scene, those of the place first."""
+    """Every (material, part) of the scene, those of the ground and its objects first."""
     names = [SOIL, *(layer.material for layer in covers), *([WATER] if terrain.waters else [])]
     pairs = [(name, "") for name in names]
     for name in standing:

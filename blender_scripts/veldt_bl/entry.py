@@ -40,7 +40,7 @@ def own_arguments() -> list[str]:
 
 
 def _report(events: Events, error: BaseException) -> int:
-    """Writes an event of the exception, and its traceback into the log."""
+    """Write an event of the exception, and its traceback into the log."""
     failure = failures.failure_of(error)
     kind = "config" if failure.is_config_fault else "internal"
     hint = {"hint": failure.hint} if failure.hint else {}

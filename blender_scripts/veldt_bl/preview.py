@@ -1,4 +1,4 @@
-"""Render a preview of a dataset: a map of the place, and colour stills."""
+"""Render a preview of a dataset: a map of the scene, and colour stills."""
 
 from __future__ import annotations
 

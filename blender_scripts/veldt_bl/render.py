@@ -28,8 +28,8 @@ def set_up_renderer(intrinsics: Intrinsics, supersample: int) -> None:
     render.engine = "CYCLES"
     cycles.device = "CPU"
     cycles.samples = 1
-    # The only ray passes through the middle of its filter, which Cycles reads from a table: with the default filter
-    # 6e-4 px beside the pixel's centre.
+    # The single ray passes through the centre of its filter, which Cycles reads from a table: with the default filter,
+    # it is 6e-4 px off the pixel's centre.
     cycles.pixel_filter_type = "BLACKMAN_HARRIS"
     cycles.filter_width = 0.01
     cycles.use_adaptive_sampling = False

@@ -19,7 +19,7 @@ from .limbs import Limbs, limbs_of
 from .skeleton import SIDES, Bone, build_bones, is_in, part_names
 
 _SHARES = {"pitch": 1.0, "roll": 0.4}  # default fraction of the ground's slope that a body follows
-_FOOTING = 0.7  # of the half length and width of a body without legs: where it touches the ground
+_FOOTING = 0.7  # of the half length and width of a body without legs: position of its ground contacts
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class Body:
             return np.array(rests_m) * [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]]
         wheels = [self.bones[wheel.bone].joint_m for wheel in self.wheels]
         places = [leg.toe_m for leg in self.legs] + wheels
-        if not places:  # a model from a file has neither: roughly where its feet are
+        if not places:  # a model from a file has neither: approximate feet
             return _FOOTING * self.rest().points_m[:, :2]
         return np.array([place[:2] for place in places])
 
@@ -105,7 +105,7 @@ class Body:
 
     @cached_property
     def unsupported(self) -> list[int]:
-        """Bones whose places do not depend on the feet: those of no leg, and those that others hang from."""
+        """Bones whose positions do not depend on the feet: those of no leg, and their ancestors."""
         found = set(range(len(self.bones))) - {bone for leg in self.legs for bone in leg.bones}
         found |= {self.bones[leg.bones[0]].parent for leg in self.legs}
         for bone in reversed(range(len(self.bones))):  # children before their parents
@@ -115,7 +115,7 @@ class Body:
 
     @cached_property
     def borne(self) -> list[int]:
-        """Bones that legs bear: not those that hang from the same root as a wheel, of a bicycle that is pushed."""
+        """Bones supported by legs: not those that share a root with a wheel, of a bicycle that is pushed."""
         roots: list[int] = []
         for k, bone in enumerate(self.bones):
             roots.append(k if bone.parent < 0 else roots[bone.parent])
@@ -133,7 +133,7 @@ def variant_names(species: str) -> tuple[str, ...]:
 
 
 def draw_variant(species: str, seed: int, name: str, k: int, behaviour: str) -> str:
-    """The variant of a group's k-th member, drawn with the probabilities given by the shares of those that do this."""
+    """The variant of a group's k-th member, drawn by the shares of those that have this behaviour."""
     variants = assets.load("species", species)["variants"]
     shares = {
         variant: entry["share"]
@@ -151,12 +151,12 @@ def drawn(shares: Mapping[str, float], rng: np.random.Generator) -> str:
 
 @lru_cache(maxsize=None)
 def build_body(species: str, variant: str, posture: str = "walk") -> Body:
-    """The body of a variant of `assets/species/<species>.json`, with what only a posture has, such as a stool."""
+    """The body of a variant of `assets/species/<species>.json`, with parts of a posture, such as a stool."""
     return body_of(assets.load("species", species), variant, posture)
 
 
 def body_of(data: dict, variant: str, posture: str = "walk") -> Body:
-    """The body of a variant from the content of a species file, with what it has in a posture."""
+    """The body of a variant from the content of a species file, with parts of a posture."""
     bones = _on_its_feet(build_bones(data, variant, posture), data)
     place = {bone.name: k for k, bone in enumerate(bones)}
     gait = data.get("gait", {})
@@ -196,7 +196,7 @@ def _legs(data: dict, place: Collection[str]) -> list[dict]:
 
 
 def _held_deg(data: dict, variant: str) -> dict:
-    """The angles that a variant keeps in every posture, as of an arm that carries something."""
+    """The angles that a variant keeps in every posture, such as those of an arm that carries something."""
     return data["variants"][variant].get("holds_deg", {})
 
 

@@ -15,9 +15,9 @@ from ..geometry.components import about, facing, product, unit
 from ..land.terrain import Terrain
 
 _GRAVITY_M_S2 = 9.81
-_WALKING_FROUDE = (0.02, 0.3)  # of speeds that walking strides are given for; faster walkers step more often
+_WALKING_FROUDE = (0.02, 0.3)  # range in which walking strides are known; faster walkers take more steps
 _STRIKE = 0.12  # of a stance, until the foot is flat: at 7 % of a stride (Perry 1992)
-_SOLE_M = 0.12  # before and behind a foot, where the ground's slope below it is measured
+_SOLE_M = 0.12  # before and behind a foot, to measure the ground's slope
 
 # Distances (..., n) to points (..., n, 2) and headings (..., n, 2).
 Path = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
@@ -27,8 +27,8 @@ Path = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 class Leg:
     """A leg's bones from the hip down, the point about which its foot rolls over the toe, and its timing.
 
-    phase: fraction of a stride at which it touches down; glide: fraction of the foot's offset from its place below the
-    body that the hip follows, as shoulder blades and hips do; heel_rad: angle of the heel when the foot lifts off;
+    phase: fraction of a stride at which it touches down; glide: fraction of the foot's offset from its neutral position
+    that the hip follows, as shoulder blades and hips do; heel_rad: angle of the heel when the foot lifts off;
     strike_rad: angle of the toe at touch-down, from which the foot rolls over its heel, foot_m behind the toe.
     """
 
@@ -47,7 +47,7 @@ class Footing:
     """The feet of legs at n moments.
 
     toe_m (3, legs, n), rotation (3, 3, legs, n), bearing (legs, n): true while on the ground; strike_rad (legs, n):
-    angle of toes that are up, in which the heel is what bears.
+    angle of raised toes, when the heel carries the weight.
     """
 
     toe_m: np.ndarray
@@ -71,8 +71,8 @@ def footing(
     """The feet of legs after walked_m (n,) along a path; stride and scale are numbers or (n,).
 
     `stance` is the fraction of a stride that a foot is on the ground.
-    Footprint n is where the leg's place below the body is in the middle of the n-th stance. pace (n,), from 0 standing
-    to 1 walking, scales how high feet are lifted: a walker that stops in mid-stride puts its feet down.
+    Footprint n is the point below the leg's hip in the middle of the n-th stance. pace (n,), from 0 standing to 1
+    walking, scales how high feet are lifted: a walker that stops in mid-stride puts its feet down.
     """
     phase, lift_m, heel_rad, strike_rad, foot_m = (
         np.array([getattr(leg, name) for leg in legs])[:, None]

@@ -11,7 +11,7 @@ from ..geometry.components import applied, cross, dot, frame, length, product, u
 from .gait import Leg
 from .skeleton import Bone
 
-_LONGEST = 0.995  # of a leg's two bones: a knee is never quite straight
+_LONGEST = 0.995  # of a leg's two bones: knees are never fully straight
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from ..land.terrain import Terrain
 from .bodies import Body
 from .gait import Footing, Path, footing
 
-_NORM = 8  # of the legs' needs to be nearer to the ground: about the largest of them, without its kinks
+_NORM = 8  # exponent of a smooth maximum of the legs' needs to be lowered
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Walker:
     """A body of a given scale on a path over the ground; `phase` offsets everything that moves periodically.
 
     scale, stride_m and phase are numbers; or (n,), for n moments of several walkers that have this body. Then `path`
-    gives the place of the walker of each moment.
+    gives the position of each moment's walker.
     """
 
     body: Body
@@ -62,7 +62,7 @@ class Poses:
     scale: np.ndarray
 
     def points_m(self, body: Body, moment: int) -> np.ndarray:
-        """All vertices (v, 3) of the body in the world."""
+        """All vertices (v, 3) of the body in world axes."""
         return np.concatenate(
             [
                 position + self.scale[moment] * bone.mesh.points_m @ rotation.T
@@ -90,7 +90,7 @@ class Poses:
         return np.stack([low, high])
 
     def mesh(self, body: Body, moment: int) -> Mesh:
-        """The body in the world."""
+        """The body in world axes."""
         whole = joined([bone.mesh for bone in body.bones])
         return Mesh(self.points_m(body, moment), whole.triangles, whole.slot)
 
@@ -143,7 +143,7 @@ def _carriage(walker: Walker, motion: Motion):
     height = _bearing_m(walker, motion.posture, at[:, 0], at[:, 1])
     x, y = np.swapaxes(contacts - middle, 0, 1)
     pitch, roll = _slope(height, x), _slope(height, y)
-    mean = np.ascontiguousarray(height.T).mean(axis=1)  # one memory layout, so that sums have one order
+    mean = np.ascontiguousarray(height.T).mean(axis=1)  # one memory layout gives one order of sums
     residues = height - (mean + pitch * x + roll * y)
     share = (1.0, 1.0) if body.postures[motion.posture].rests_m else (body.pitch, body.roll)
     own = product(about("y", -np.arctan(share[0] * pitch)), about("x", np.arctan(share[1] * roll)))

@@ -50,12 +50,12 @@ def part_names(data: dict) -> tuple[str, ...]:
 
 
 def is_in(entry: Mapping, variant: str, posture: str) -> bool:
-    """Whether a variant, or whoever has this posture, has this bone, shape or move."""
+    """Whether this bone, shape or move exists in a variant and posture."""
     return "only" not in entry or is_named(variant, entry["only"]) or is_named(posture, entry["only"])
 
 
 def has_own_shapes(data: dict, posture: str) -> bool:
-    """Whether a species is drawn differently in a posture, as with a stool to sit on."""
+    """Whether a posture has shapes of its own, such as a stool."""
     bones = data.get("bones", {}).values()
     return any(
         is_named(posture, entry.get("only", [])) for bone in bones for entry in [bone, *bone["shapes"]]

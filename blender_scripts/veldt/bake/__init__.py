@@ -1,1 +1,1 @@
-"""The baked scene: everything a renderer draws, as flat arrays in files. Contract: configs/schema/*.schema.json."""
+"""The baked scene: all renderer input, as flat arrays in files. Contract: configs/schema/*.schema.json."""

@@ -1,7 +1,7 @@
 """Flat arrays in a binary file, described by a JSON header beside it.
 
 NAME.bin holds little-endian arrays, each at an offset that is a multiple of 64 bytes. NAME.json has their types, shapes
-and offsets in `arrays`, the size of the binary file in `bytes`, and whatever else its writer has to say.
+and offsets in `arrays`, the size of the binary file in `bytes`, and further keys of its writer.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ TYPES = ("<f8", "<f4", "<u4", "<u2", "|u1")
 
 
 class BadBake(Exception):
-    """A file of a plan that is damaged, or of another version: the file, what was found, what was expected."""
+    """A plan's file that is damaged, or of another version: the file, the actual and the expected value."""
 
 
 def write(path: Path, header: Mapping, arrays: Mapping[str, np.ndarray]) -> None:
@@ -39,7 +39,7 @@ def write(path: Path, header: Mapping, arrays: Mapping[str, np.ndarray]) -> None
 
 
 def read(path: Path, form: str, version: int) -> tuple[dict, dict[str, np.ndarray]]:
-    """The header and the arrays of `path`.json and `path`.bin, which are mapped and read when they are used.
+    """The header and the arrays of `path`.json and `path`.bin, which are memory-mapped.
 
     BadBake unless they are complete, consistent, and of this format and version.
     """

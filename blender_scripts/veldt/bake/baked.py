@@ -37,7 +37,7 @@ class BakedScene:
 
     @cached_property
     def heights_m(self) -> tuple[float, float]:
-        """The least and the greatest height of the ground's grid."""
+        """Minimum and maximum of the ground grid's heights."""
         height_m = self.arrays[self.header["ground"]["height_m"]]
         return float(height_m.min()), float(height_m.max())
 
@@ -47,8 +47,8 @@ class BakedTrack:
     """The track of a clip of n frames.
 
     time_s (n,); camera_to_world (n, 4, 4); agl_m (n,) over ground or water; look_angle_deg (n,); actor_position_m
-    (actors, n, 3) on the ground; actor_heading_rad (actors, n); posed (actors, n): whether an actor may be in the
-    picture. bones_of: the number of bones of each actor. camera: of the clip, if it is not the scene's.
+    (actors, n, 3) on the ground; actor_heading_rad (actors, n); posed (actors, n): whether the picture may show an
+    actor. bones_of: the number of bones of each actor. camera: the clip's own, if it differs from the scene's.
     """
 
     clip: str
@@ -64,7 +64,7 @@ class BakedTrack:
     camera: dict | None = None
 
     def bones(self, actor: int, frame: int) -> np.ndarray:
-        """Transforms (bones, 3, 4) of a posed actor, by its place in the scene's list, in a frame."""
+        """Transforms (bones, 3, 4) of a posed actor, by its index in the scene's list, in a frame."""
         first = self._first[actor, frame]
         return self.all_bones[first : first + self.bones_of[actor]]
 

@@ -1,4 +1,4 @@
-"""A plan and the folder that holds it."""
+"""A plan and its folder."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Planned = Callable[[str, int, int], None]  # see plan_clips()
 
 
 def plan(config: dict, cores: Cores = Cores(), planned: Planned = lambda *_: None) -> dict:
-    """The plan of a resolved config, without its baked scene. ConfigError if the config makes no sense."""
+    """The plan of a resolved config, without its baked scene. ConfigError if the config is invalid."""
     world = plan_world(config, cores)
     shares = cores.start(lambda: outline_of(world))
     return _described(world, plan_clips(world, cores, planned=planned), shares())
@@ -39,7 +39,7 @@ def bake_plan(
 ) -> dict:
     """Write the plan of a resolved config, its scene and its tracks into an empty folder, and return the plan.
 
-    ConfigError if the config makes no sense. plan.json is written last.
+    ConfigError if the config is invalid. plan.json is written last.
     """
     world = plan_world(config, cores, with_ground=True)
     outline = cores.start(lambda: outline_of(world))
@@ -73,7 +73,9 @@ def _described(world: World, clips: list[dict], outline: dict) -> dict:
 
 
 def _files(config: dict, standing: Iterable[str]) -> dict[str, str]:
-    """SHA-256 of every file that determines the plan besides the config: absolute, or relative to the installation."""
+    """SHA-256 of every file, besides the config, that determines the plan: absolute paths, or relative to the
+    installation.
+    """
     scene = config["scene"]
     named = dict.fromkeys(("species", group["species"]) for group in scene["groups"])
     named |= dict.fromkeys(("sites", site["kind"]) for site in scene.get("sites", []))

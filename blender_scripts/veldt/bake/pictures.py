@@ -1,4 +1,5 @@
-"""Write what a preview needs besides the scene: the map's sheet, the poses of its stills, and actors at one moment."""
+"""Write the inputs of a preview besides the scene: the map's sheet, the poses of its stills, and actors at one moment.
+"""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ ModelMesh = Callable[[str, dict], Mesh]
 
 @dataclass
 class _Meshes:
-    """The meshes of the scene so far, and their arrays."""
+    """Meshes of the scene, and their arrays."""
 
     materials: Mapping[tuple[str, str], int]
     entries: list[dict] = field(default_factory=list)
@@ -109,7 +109,7 @@ def _ground(ground: GroundMesh, meshes: _Meshes) -> dict:
 
 
 def _water(water: Water, meshes: _Meshes) -> dict:
-    """A flat disc; its rim lies below the banks, so the shoreline is where the ground rises through it."""
+    """A flat disc; its rim lies below the banks, so the ground's intersection with it is the shoreline."""
     angle = 2.0 * np.pi * np.arange(_SHEET_CORNERS) / _SHEET_CORNERS
     rim = water.basin.centre_m + water.basin.disc_radius_m * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     points = np.column_stack([rim, np.full(_SHEET_CORNERS, water.level_m)])
@@ -120,7 +120,7 @@ def _water(water: Water, meshes: _Meshes) -> dict:
 def _all_plants(
     world: World, model_mesh: ModelMesh, meshes: _Meshes
 ) -> tuple[list[dict], dict[str, np.ndarray]]:
-    """An instance table for each species that grows in the scene and for each fire, and their arrays."""
+    """Instance tables of plant species and fires, and their arrays."""
     entries, arrays = [], {}
     for name, planting in world.plantings.items():
         if len(planting.scale) == 0:
@@ -153,8 +153,8 @@ def _variants(name: str, seed: int, model_mesh: ModelMesh, meshes: _Meshes) -> i
 def _transforms(planting: Planting) -> np.ndarray:
     """Matrices (n, 3, 4) that turn a plant about z, scale it, and move it to its root.
 
-    Angle and scale are single-precision numbers, which the double-precision matrix determines exactly: Blender needs
-    them, and ray tracers need the matrix.
+    Angle and scale are single-precision numbers, which can be restored exactly from the double-precision matrix:
+    Blender uses them, ray tracers use the matrix.
     """
     turn = planting.yaw_rad.astype(np.float32).astype(float)
     scale = planting.scale.astype(np.float32).astype(float)
@@ -170,7 +170,7 @@ def _transforms(planting: Planting) -> np.ndarray:
 def _actor(
     actor: Actor, bodies: dict[tuple[str, str, str], list[dict]], model_mesh: ModelMesh, meshes: _Meshes
 ) -> dict:
-    """An actor and its bones that have a mesh; actors that are drawn alike share their meshes."""
+    """An actor and its bones that have a mesh; actors of the same appearance share meshes."""
     own = has_own_shapes(assets.load("species", actor.species), actor.posture)
     kind = actor.species, actor.variant, actor.posture if own else ""
     if kind not in bodies:
@@ -222,7 +222,7 @@ def _place(world: World) -> list[dict]:
 
 
 def _cast(world: World) -> list[dict]:
-    """Every actor, with what the config says of its engine or its bath."""
+    """Every actor, with its engine or bath from the config."""
     groups = {group["name"]: group for group in world.config["scene"]["groups"]}
     member: dict[str, int] = {}
     objects = []

@@ -1,4 +1,4 @@
-"""Write the track of a clip: the camera, the place of every actor, and the bones of those that may be seen."""
+"""Write the track of a clip: the camera, the position of every actor, and the bones of those that may be visible."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .arrays import write
 from .forms import TRACK, VERSION
 
 # Large enough that calls of NumPy cost little, small enough that arrays take a few megabytes for any clip.
-_PLACES_AT_ONCE = 16384  # moments of actors whose places are found together
+_PLACES_AT_ONCE = 16384  # moments of actors whose positions are computed together
 _POSES_AT_ONCE = 2048  # moments of actors of one body that are posed together
 _SLACK = 1.2  # of the size of bodies: allowance beyond their boxes, which are sampled in time
 
@@ -27,7 +27,7 @@ def bake_track(
 ) -> None:
     """Write `path`.json and `path`.bin. camera: the clip's own, if it has one.
 
-    posed (actors, frames): whether an actor may be in the picture, or `everyone`. bones (k, 3, 4): scaled rotations and
+    posed (actors, frames): whether the picture may show an actor, or `everyone`. bones (k, 3, 4): scaled rotations and
     positions of its bones with a mesh in these frames, actor by actor, frame by frame, bone by bone.
     """
     company = Company(world.actors)
@@ -52,8 +52,9 @@ def bake_track(
 def _places(
     world: World, company: Company, flight: Flight, camera: dict | None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Positions (actors, n, 3) and headings (actors, n), and the mask (actors, n) of the frames of a flight in which
-    each actor may be in the picture."""
+    """Positions (actors, n, 3) and headings (actors, n), and the mask (actors, n) of the frames of a flight that may
+    show each actor.
+    """
     actors, time_s = world.actors, flight.time_s
     positions = np.zeros((len(actors), len(time_s), 3))
     headings, posed = np.zeros(positions.shape[:2]), np.zeros(positions.shape[:2], bool)
@@ -98,7 +99,7 @@ def _with_mesh(actor: Actor) -> list[int]:
 
 
 def _alike(actors: Sequence[Actor]) -> list[np.ndarray]:
-    """Places of the actors that share a body and a posture, for each body and posture."""
+    """Indices of the actors that share a body and a posture, for each body and posture."""
     found: dict[tuple, list[int]] = {}
     for k, actor in enumerate(actors):
         found.setdefault((actor.species, actor.variant, actor.posture), []).append(k)
@@ -106,6 +107,6 @@ def _alike(actors: Sequence[Actor]) -> list[np.ndarray]:
 
 
 def _parts(count: int, at_once: int) -> list[slice]:
-    """Successive parts of a range, each of at most at_once places, or 1."""
+    """Successive parts of a range, each of at most at_once items, or 1."""
     step = max(1, at_once)
     return [slice(start, min(start + step, count)) for start in range(0, count, step)]

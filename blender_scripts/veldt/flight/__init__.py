@@ -1,1 +1,1 @@
-"""Flights: where the camera goes and where it looks."""
+"""Flights: paths and viewing directions of the camera."""

@@ -6,8 +6,8 @@
    nearest heights that it can reach, by the largest deviation, averaged over two seconds.
 3. `gusts` of the Dryden model push it off its course. It steers back (`disturbance_response`), leaning as far as that
    requires.
-4. The gimbal points at the target from the aircraft's actual position with its lag, and compensates its tilt: an even
-   rate fully, and what changes faster than its lag not at all.
+4. The gimbal points at the target from the aircraft's actual position with its lag, and compensates its tilt: fully at
+   a constant rate, and not at all for changes faster than its lag.
 5. Frames take their pose from these samples by linear interpolation (`poses`). A request for later times never changes
    earlier samples, so a clip cut from a flight has the same poses as in the whole flight, wherever it is generated.
 """
@@ -46,7 +46,7 @@ _LEAST_ARM_M = 1.0  # nearer than this, a target defines no viewing direction
 
 @dataclass(frozen=True)
 class Surroundings:
-    """The surroundings in which a flight is planned; actors: those it looks at."""
+    """The surroundings in which a flight is planned; actors: its targets."""
 
     terrain: Terrain
     actors: Sequence[Actor]
@@ -70,7 +70,8 @@ class Orders:
 
 
 def plan_trajectory(where: str, plan: dict, name: str, until_s: float, around: Surroundings) -> Trajectory:
-    """The trajectory of a flight plan from time 0 to until_s, which does not change its values. `name` keys turbulence.
+    """The trajectory of a flight plan from time 0 to until_s; its values do not depend on until_s. `name` keys
+    turbulence.
 
     ConfigError, beginning with `where`, if it cannot be flown, or ends before until_s.
     """
@@ -89,7 +90,7 @@ def plan_trajectory(where: str, plan: dict, name: str, until_s: float, around: S
 
 
 def _source(where: str, plan: dict, around: Surroundings) -> Course | Log | None:
-    """The course of a plan; None where it depends on the target."""
+    """The course of a plan; None if it depends on the target."""
     aircraft, terrain = aircraft_of(plan), around.terrain
     nose_turns = plan["gimbal"]["heading"] == "course"
     if plan["pattern"] == "zigzag":
@@ -144,10 +145,10 @@ def _ordered(plan: dict, course: Course, around: Surroundings, time_s: np.ndarra
 
 
 def _eased(point_m: np.ndarray) -> np.ndarray:
-    """Points (n, 2) of a course as means over _EASED_STEPS: no aircraft leans from one moment to the next.
+    """Points (n, 2) of a course as means over _EASED_STEPS, because no aircraft tilts instantly.
 
-    What moves evenly or stands still is kept; a multirotor that brakes is 7 cm off, a wing in a turn 13 cm. Before the
-    first point and after the last one it flies on.
+    Uniform motion and standstill are unchanged; a multirotor that brakes is 7 cm off, a wing in a turn 13 cm. Before
+    the first point and after the last one it flies on.
     """
     half = _EASED_STEPS // 2
     beyond = np.arange(1, half + 1)[:, None]
@@ -199,7 +200,7 @@ def _flown(plan: dict, name: str, orders: Orders, seed: int) -> Poses:
     position_m = np.column_stack([orders.point_m, height_m]) + offset_m
     bearing_rad, depression_rad = _aim(plan, orders, position_m)
     acceleration_m_s2 = _second_derivative(orders.point_m) + control_m_s2[:, :2]
-    if plan["aircraft"] == FIXED_WING:  # which banks, and accelerates without pitching
+    if plan["aircraft"] == FIXED_WING:  # a wing banks, and accelerates without pitching
         acceleration_m_s2 = _across(acceleration_m_s2, orders.nose_rad)
     return Poses(
         position_m,

@@ -22,7 +22,7 @@ _MOST_TURN_DEG = 175.0  # at a corner this sharp, the arc starts 22 radii before
 
 
 def zigzag_course(plan: dict, aircraft: Aircraft, footprint: Footprint, nose_turns: bool = True) -> Timetable:
-    """Lanes over area_m (`lanes.round_of_lanes`), flown there and back without end from the start of the first lane.
+    """Lanes over area_m (`lanes.round_of_lanes`), flown back and forth endlessly from the start of the first lane.
 
     A fixed wing flies from lane to lane on the shortest path that its turn radius allows, at constant speed. A
     multirotor stops at both ends of a lane and turns on the spot. Without nose_turns the camera looks along heading_deg
@@ -33,7 +33,7 @@ def zigzag_course(plan: dict, aircraft: Aircraft, footprint: Footprint, nose_tur
 
 
 def transect_course(plan: dict, aircraft: Aircraft, nose_turns: bool = True) -> Timetable:
-    """From the first of points_m to the second and back without end, with the turns of a zigzag.
+    """From the first of points_m to the second and back, endlessly, with the turns of a zigzag.
 
     Without nose_turns a multirotor flies back tail first.
     """
@@ -53,7 +53,7 @@ def waypoint_course(
 
     Between two waypoints the height changes linearly, in the height reference of the second; height_at(x (n,), y (n,))
     gives the height (n,) of ground or water to convert the first one's. A multirotor flies straight and stops at each;
-    a fixed wing rounds the corners. ConfigError, without its place in the config, if it cannot.
+    a fixed wing rounds the corners. ConfigError, without its key in the config, if it cannot.
     """
     places = merged(waypoints, aircraft.speed_m_s)
     if aircraft.kind == FIXED_WING:
@@ -98,9 +98,9 @@ def _next(things: Sequence) -> list:
 def _visits(
     places: Sequence[Place], acceleration_m_s2: float, surface_at: SurfaceAt, nose_turns: bool
 ) -> list[Step]:
-    """From stop to stop, turning on the spot towards the next place, or with the nose kept as on the first leg.
+    """From stop to stop, turning on the spot towards the next waypoint, or with the nose kept as on the first leg.
 
-    Over a single place it hovers without end, its nose towards +x.
+    Over a single waypoint it hovers endlessly, its nose towards +x.
     """
     if len(places) == 1:
         return [Stay(places[0].point_m, math.inf, 0.0, climb=places[0].level)]
@@ -123,7 +123,7 @@ def _hold(place: Place, nose_rad: float) -> list[Step]:
 
 @dataclass(frozen=True)
 class _Corner:
-    """An arc tangent to both legs at inset_m from the place, turning by turn_rad."""
+    """An arc tangent to both legs at inset_m from the corner, turning by turn_rad."""
 
     inset_m: float
     radius_m: float
@@ -131,10 +131,10 @@ class _Corner:
 
 
 def _fly_by_turns(places: Sequence[Place], aircraft: Aircraft, surface_at: SurfaceAt) -> list[Step]:
-    """Past all places but the first and the last on arcs tangent to the legs, each leg at its own speed.
+    """Past all waypoints but the first and the last on arcs tangent to the legs, each leg at its own speed.
 
     The radius of an arc is that of the faster leg. A leg, and the change of height along it, extends from the middle of
-    one arc to the middle of the next. ConfigError for a single place, a hold time, a turn of more than 175 deg, or a
+    one arc to the middle of the next. ConfigError for a single waypoint, a hold time, a turn of more than 175 deg, or a
     leg too short for its arcs.
     """
     _check_winged(places)
@@ -149,7 +149,7 @@ def _fly_by_turns(places: Sequence[Place], aircraft: Aircraft, surface_at: Surfa
 
 
 def _corners(places: Sequence[Place], courses_rad: Sequence[float], aircraft: Aircraft) -> list[_Corner]:
-    """A corner for each place; those of the first and the last are empty."""
+    """A corner for each waypoint; those of the first and the last are empty."""
     none = _Corner(0.0, 0.0, 0.0)
     return [
         none,

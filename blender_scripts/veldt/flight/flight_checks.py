@@ -1,4 +1,4 @@
-"""Check for flight plans that pass the schema but cannot be flown."""
+"""Check flight plans that pass the schema for being flyable."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .aircraft import aircraft_of
 from .poses import Flight
 
 _PATTERNS = "zigzag, transect, waypoints, orbit or follow"
-_NEEDED = {  # by pattern: a key it requires, and the meaning of that key
+_NEEDED = {  # by pattern: a required key, and its meaning
     "zigzag": ("area_m", "[x_min, y_min, x_max, y_max]"),
     "transect": ("points_m", "two points [x, y]"),
     "orbit": ("radius_m", "the distance from the middle"),
@@ -18,7 +18,7 @@ _NEEDED = {  # by pattern: a key it requires, and the meaning of that key
 
 
 def check_entry(where: str, entry: dict, targets: Mapping[str, object]) -> None:
-    """Check that the plan of a clip or flight makes sense by itself. targets: names that it can look at."""
+    """Check the plan of a clip or flight by itself. targets: names that it can look at."""
     if "flight" not in entry:
         raise ConfigError(f"{where}.flight is missing; expected a flight plan with a pattern: {_PATTERNS}")
     if "clip_length_s" in entry and entry["clip_length_s"] > entry["duration_s"]:

@@ -15,7 +15,7 @@ _ECCENTRICITY_2 = FLATTENING * (2.0 - FLATTENING)
 
 
 def radii_m(latitude_deg: float) -> tuple[float, float]:
-    """The ellipsoid's radii of curvature: along the meridian, and across it (TR8350.2, section 3.2)."""
+    """Radii of curvature of the ellipsoid: in the meridian, and in the prime vertical (TR8350.2, section 3.2)."""
     sine = math.sin(math.radians(latitude_deg))
     squeezed = 1.0 - _ECCENTRICITY_2 * sine * sine
     across_m = SEMI_MAJOR_M / math.sqrt(squeezed)

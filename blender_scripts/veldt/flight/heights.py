@@ -6,8 +6,8 @@ import numpy as np
 
 _AVERAGED_S = 2.0  # estimate: time to change from sinking to climbing
 
-_USED = 0.9  # share of the climb rate for the planned rise; the rest covers what averaging leaves out
-_SMOOTHED_S = 0.5  # of the rise that is considered
+_USED = 0.9  # share of the climb rate for the planned rise; the rest allows for averaging
+_SMOOTHED_S = 0.5  # before and after a steep section, during which it is already slow
 _REACH_S = 1.0  # before and after a steep place, during which it is already slow
 _EASED_S = 2.0  # over which its pace changes
 
@@ -66,7 +66,7 @@ def moving_average(values: np.ndarray, reach: int) -> np.ndarray:
 
 
 def slowed_times(wanted_m: np.ndarray, step_s: float, climb_m_s: float) -> np.ndarray:
-    """The moment (n,) of its plan that an aircraft has reached if it flies no faster than it can climb.
+    """The moment (n,) of its plan that an aircraft has reached if it slows down to its climb rate.
 
     wanted_m (n,): wanted heights at moments step_s apart, from 0, if it flies as planned. Its pace is at most the
     planned one, such that the heights change by at most climb_m_s, apart from changes shorter than half a second. No

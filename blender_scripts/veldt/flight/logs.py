@@ -81,7 +81,7 @@ class Log:
 def read_log(file: str, home_m, where: str) -> Log:
     """The log in a .csv file; the latitude and longitude of the first line are mapped to home_m [x, y].
 
-    ConfigError if it cannot be read; `where` is its place in the config.
+    ConfigError if it cannot be read; `where` is its key in the config.
     """
     name = Path(file).name
     table, numbers = _read_table(read_text(file, where), name)
@@ -186,7 +186,7 @@ def _values(row: Sequence[str], columns: Sequence[str], where: str) -> list[floa
 def _number(field: str) -> float | None:
     """The value of a field; ConfigError if it is not a number."""
     try:
-        return None if "_" in field else float(field)  # Python takes 1_000
+        return None if "_" in field else float(field)  # float() accepts 1_000
     except ValueError:
         return None
 

@@ -14,11 +14,11 @@ from .autopilot import Surroundings, plan_trajectory
 from .flight_checks import check_height
 from .poses import Flight, Trajectory, flight_of
 
-_KEPT = 16  # trajectories; more than the flights of most configs, and few enough for thousands of flights
+_KEPT = 16  # trajectories: enough for the flights of most configs, and few enough for configs with thousands
 
 
 def frames_of(entry: dict) -> int:
-    """How many frames a clip or a flight of a config has."""
+    """Number of frames of a clip or flight of a config."""
     if "frames" in entry:
         return entry["frames"]
     return int(np.floor(entry["duration_s"] * entry["frame_rate_hz"] + 1e-9))

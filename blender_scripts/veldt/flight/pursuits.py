@@ -10,7 +10,7 @@ import numpy as np
 from ..geometry.rotations import heading_of
 from ..groups.actors import Actor, track
 
-_STEP_S = 0.1  # time step of targets and their followers; nothing of interest happens faster
+_STEP_S = 0.1  # time step of targets and their followers; faster motion is irrelevant
 _MARGIN_S = 12.0  # before and after, for averages
 _TARGET_SIGMA_S = 1.0  # a pilot follows the general direction of a target, not each of its turns
 _HEADING_SIGMA_S = 3.0

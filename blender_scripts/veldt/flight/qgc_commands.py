@@ -35,7 +35,7 @@ _NAMES = {
     DELAY: "delay",
     SPEED: "change speed",
 }
-_REFUSED = {  # of those that missions have, for messages
+_REFUSED = {  # common in missions, for messages
     23: "land local",
     24: "take-off local",
     25: "follow",
@@ -86,9 +86,9 @@ _REFUSED = {  # of those that missions have, for messages
     42702: "script time",
     42703: "attitude time",
 }
-# These do not change where the aircraft flies: regions of interest, cameras, gimbals and mounts; then the start of a
-# landing, a VTOL's transition, and gates, which lie on the way to the next waypoint; the aircraft's heading, relays and
-# servos, the switch of the fence, and grippers.
+# These do not change the flight path: regions of interest, cameras, gimbals and mounts; then the start of a landing, a
+# VTOL's transition, and gates, which lie on the way to the next waypoint; the aircraft's heading, relays and servos,
+# the switch of the fence, and grippers.
 _CAMERA = {
     80,
     *range(195, 199),
@@ -106,7 +106,7 @@ _CAMERA = {
     2501,
 }
 IGNORED = _CAMERA | {115, 181, 182, 183, 184, 189, 207, 211, 3000, 4501}
-ENDS = {_LOITER, _RETURN, LAND, _VTOL_LAND}  # nothing after these is reached
+ENDS = {_LOITER, _RETURN, LAND, _VTOL_LAND}  # commands after these are never reached
 _LOITERS = {_LOITER, _TURNS, _TIME, _LOITER_TO_ALTITUDE}
 _SEA, _HOME, _TERRAIN = {0, 5}, {3, 6}, {10, 11}  # frames, by height reference
 
@@ -115,7 +115,8 @@ _SEA, _HOME, _TERRAIN = {0, 5}, {3, 6}, {10, 11}  # frames, by height reference
 class Home:
     """The start of a mission: latitude and longitude, [x, y] in the scene, and the height of the scene's ground there.
 
-    amsl, m above sea level, and hover_speed, m/s, are those of the file, if given; `where` is the place of the mission.
+    amsl, m above sea level, and hover_speed, m/s, are those of the file, if given; `where` is the location of the
+    mission in its file.
     """
 
     where: str
@@ -214,7 +215,7 @@ def _before(command: Command, before: Sequence[Waypoint]) -> Waypoint:
 
 
 def _is_here(command: Command) -> bool:
-    """Whether the place is where the aircraft is."""
+    """Whether a command's position is the aircraft's own."""
     return all(value is None or value == 0 for value in command.params[4:6])
 
 

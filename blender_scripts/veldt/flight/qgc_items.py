@@ -25,9 +25,9 @@ _KINDS = {dict: "an object", list: "a list", str: "a text"}
 
 @dataclass(frozen=True)
 class Command:
-    """A MAVLink mission command: its place in the file, `where`, its number, frame and 7 params, unchanged.
+    """A MAVLink mission command: its location in the file, `where`, its number, frame and 7 params, unchanged.
 
-    agl_m: height above ground to fly instead of params[6], which applies to the terrain of the real place.
+    agl_m: height above ground to fly instead of params[6], which refers to the real terrain.
     """
 
     where: str

@@ -33,14 +33,14 @@ def read_plan(file: str, home_m, ground_m: SurfaceAt, where: str) -> list[Waypoi
     home. ground_m(x (n,), y (n,)) gives the ground's height (n,) above the datum. Heights that QGroundControl computed
     above its own terrain data are flown above the scene's terrain. A take-off begins over home, at its height.
     Loitering means hovering: for a day if there is no limit, or for as long as the turns would take. A return to launch
-    flies to home and a landing to its place, both at the last height, and the flight ends there. Splines are flown as
-    straight lines. Loiters and landings at latitude and longitude 0 or null are where the aircraft is; a delay holds
-    there. cruiseSpeed and hoverSpeed, from which QGroundControl estimates durations, do not set a speed.
-    Used: fileType, version, mission with its version, items, plannedHomePosition and hoverSpeed; of an item, command,
-    frame, params, autoContinue, AltitudeMode, Altitude and the waypoints of surveys. Ignored: geoFence, rallyPoints,
-    the kind of vehicle, and commands of cameras, headings, relays and servos, which do not move the aircraft.
-    ConfigError if the file is not a plan, is of another version, or has a command that cannot be flown, such as a
-    jump, or a value that cannot be; `where` is its place in the config.
+    flies to home and a landing to its position, both at the last height, and the flight ends there. Splines are flown
+    as straight lines. Loiters and landings at latitude and longitude 0 or null are where the aircraft is; a delay holds
+    there. cruiseSpeed and hoverSpeed, from which QGroundControl estimates durations, do not set a speed. Used:
+    fileType, version, mission with its version, items, plannedHomePosition and hoverSpeed; of an item, command, frame,
+    params, autoContinue, AltitudeMode, Altitude and the waypoints of surveys. Ignored: geoFence, rallyPoints, the kind
+    of vehicle, and commands of cameras, headings, relays and servos, which do not move the aircraft. ConfigError if the
+    file is not a plan, is of another version, or has a command that cannot be flown, such as a jump, or an invalid
+    value; `where` is its key in the config.
     """
     mission, name = _mission(file, where), f"{Path(file).name}: "
     home = _home(mission, f"{name}mission", home_m, ground_m)

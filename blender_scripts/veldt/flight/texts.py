@@ -28,7 +28,7 @@ def read_text(file: str, where: str) -> str:
         return Path(file).read_bytes().decode("utf-8-sig")
     except OSError as error:
         raise ConfigError(f"{where} = {file}; expected a readable file ({error.strerror})") from error
-    except ValueError as error:  # of a path, too
+    except ValueError as error:  # also raised for invalid paths
         raise ConfigError(f"{where} = {file}; expected a text file in UTF-8 ({error})") from error
 
 

@@ -64,7 +64,7 @@ class Leg:
 
     @property
     def courses_rad(self) -> tuple[float, float]:
-        """Where the nose points at its start and its end."""
+        """Direction of the nose at its start and its end."""
         return self.piece.courses_rad if self.nose_rad is None else (self.nose_rad, self.nose_rad)
 
     def at(self, time_s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -88,7 +88,7 @@ class Stay:
 
     @property
     def courses_rad(self) -> tuple[float, float]:
-        """Where the nose points at its start and its end."""
+        """Direction of the nose at its start and its end."""
         return self.nose_rad, self.nose_rad + self.turn_rad
 
     def at(self, time_s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -13,7 +13,7 @@ from .waypoints import SurfaceAt, Waypoint
 def read_waypoints(file: str, home_m, ground_m: SurfaceAt, where: str) -> list[Waypoint] | Log:
     """The content of a .plan (`qgc_plans.read_plan`) or a .csv (`logs.read_log`), with its home at home_m [x, y].
 
-    ConfigError if it cannot be read, naming the file; `where` is its place in the config.
+    ConfigError if it cannot be read, naming the file; `where` is its key in the config.
     """
     suffix = Path(file).suffix.lower()
     if suffix == ".plan":

@@ -1,4 +1,4 @@
-"""Waypoints, and the distinct places that they are merged into, each with a speed of its own."""
+"""Waypoints, and the distinct positions that they are merged into, each with a speed of its own."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SurfaceAt = Callable[
 
 @dataclass(frozen=True)
 class Waypoint:
-    """A place to fly to: height_m above ground or above the datum; hold_s to stay there.
+    """A position to fly to: height_m above ground or above the datum; hold_s to stay there.
 
     speed_m_s applies from here on; None keeps the speed.
     """
@@ -33,7 +33,7 @@ class Waypoint:
 
 @dataclass(frozen=True)
 class Place:
-    """A waypoint with its `number`, from 1, or several at the same place; speed_m_s applies from here on."""
+    """A waypoint with its `number`, from 1, or several at one position; speed_m_s applies from here on."""
 
     number: int
     point_m: Point
@@ -49,10 +49,10 @@ class Place:
 
 
 def merged(waypoints: Sequence[Waypoint], speed_m_s: float) -> list[Place]:
-    """Places of waypoints, flown to at speed_m_s > 0 until a waypoint changes the speed.
+    """Merged positions of waypoints, flown to at speed_m_s > 0 until a waypoint changes the speed.
 
-    Successive waypoints less than 1 mm apart become one place, with the last one's height and speed and the sum of
-    their hold times.
+    Successive waypoints less than 1 mm apart become one, with the last one's height and speed and the sum of their hold
+    times.
     """
     places: list[Place] = []
     for k, waypoint in enumerate(waypoints):
@@ -66,7 +66,7 @@ def merged(waypoints: Sequence[Waypoint], speed_m_s: float) -> list[Place]:
 
 
 def climb_between(start: Place, end: Place, start_m: Point, surface_at: SurfaceAt) -> Climb:
-    """The climb between two places, in the height reference of the second; the leg begins over start_m."""
+    """The climb between two waypoints, in the height reference of the second; the leg begins over start_m."""
     if start.is_agl == end.is_agl:
         return Climb(start.height_m, end.height_m, end.is_agl)
     surface_m = float(surface_at(np.array([start_m[0]]), np.array([start_m[1]]))[0])

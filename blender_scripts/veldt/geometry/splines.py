@@ -81,7 +81,7 @@ class Line(_Curve):
 
 @dataclass(frozen=True)
 class Spot:
-    """A place to stay, with the interface of a path: point_m (2,), heading (2,)."""
+    """A position to stay at, with the interface of a path: point_m (2,), heading (2,)."""
 
     point_m: np.ndarray
     heading: np.ndarray

@@ -59,7 +59,7 @@ def _new_vertices(triangles: np.ndarray, edges: np.ndarray, first_new: int) -> n
     touched = np.zeros(first_new, bool)
     touched[edges] = True
     a, b, c = (touched[corner] for corner in triangles.T)
-    about = np.flatnonzero(a & b | b & c | c & a)  # others cannot have any of the edges
+    about = np.flatnonzero(a & b | b & c | c & a)  # only these can have one of the edges
     wanted = _packed(edges)
     keys = _packed(np.sort(triangles[about][:, [[0, 1], [1, 2], [2, 0]]], axis=2))
     place = np.minimum(np.searchsorted(wanted, keys), len(wanted) - 1)

@@ -1,1 +1,1 @@
-"""Groups of actors: who is in the scene, where, and what they do."""
+"""Groups of actors: members, positions and behaviours."""

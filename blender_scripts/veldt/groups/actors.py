@@ -19,7 +19,7 @@ from .behaviours import Draft
 from .schedules import Doing, together
 
 _PLACES = 64  # positions along an actor's path at which its bounding box is measured
-_MOMENTS = 24  # steps of a stride, at each of the path's steepest places
+_MOMENTS = 24  # steps of a stride, at each of the path's steepest sections
 _STEP_M = 1.0
 _UNLIKE_S = 1.7  # between moments at which a body is measured; not a period of any motion
 # Pace and head_down of walking, standing and feeding: a neck extends farthest when half lowered.
@@ -63,7 +63,7 @@ class Actor(Draft):
 def measure(actors: Sequence[Actor], cores: Cores) -> None:
     """Find the boxes of all actors at once."""
     for actor, box in zip(actors, cores.map(lambda actor: actor.bounds_m, actors)):
-        vars(actor)["bounds_m"] = box  # where cached_property keeps it
+        vars(actor)["bounds_m"] = box  # where cached_property stores it
 
 
 @dataclass(frozen=True)
@@ -80,10 +80,10 @@ class Track:
 
 
 class Company:
-    """Some actors of a place at n moments at once.
+    """Some actors of a scene at n moments at once.
 
-    A moment is an actor and a time: `of` (n,), the actor's place in the company, ascending, and time_s (n,). What holds
-    for a moment does not depend on the others.
+    A moment is an actor and a time: `of` (n,), the actor's index in the company, ascending, and time_s (n,). Moments
+    are independent of each other.
     """
 
     def __init__(self, actors: Sequence[Actor]):
@@ -111,7 +111,7 @@ class Company:
         return self.path(of)(self._start_m[of] + self._doing(of, time_s).walked_m)
 
     def track(self, of: np.ndarray, time_s: np.ndarray) -> Track:
-        """Tracks on the ground, one after the other."""
+        """Tracks on the ground, concatenated."""
         point, heading = self.ground_path(of, time_s)
         return Track(np.column_stack([point, self.actors[0].terrain.height_m(*point.T)]), heading)
 
@@ -140,12 +140,12 @@ class Company:
 
 
 def _numbered(keys: Sequence) -> np.ndarray:
-    """For each key, how often keys have changed before it."""
+    """For each key, the number of changes of keys before it."""
     return np.cumsum([k > 0 and key != keys[k - 1] for k, key in enumerate(keys)])
 
 
 def _runs(numbers: np.ndarray) -> list[slice]:
-    """Where an array (n,) has equal numbers in succession."""
+    """Slices of an array (n,) with equal numbers."""
     starts = [0, *(np.flatnonzero(np.diff(numbers)) + 1)] if len(numbers) else []
     return [slice(start, stop) for start, stop in zip(starts, [*starts[1:], len(numbers)])]
 
@@ -180,9 +180,10 @@ def poses(actor: Actor, time_s: np.ndarray) -> Poses:
 
 
 def _telling_moments(actor: Actor) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Distances walked, paces and head_down, each (n,), that sample everything a body does along its path.
+    """Distances walked, paces and head_down, each (n,), that sample all poses of a body along its path.
 
-    For walkers, points all along the path and strides around its steepest places; at each, every state of its schedule.
+    For walkers, points all along the path and strides around its steepest sections; at each, every state of its
+    schedule.
     """
     moves, lowers = actor.schedule.mean_m_s > 0, actor.schedule.lowers_head
     states = ([_WALKING] if moves else []) + ([*_FEEDING] if lowers else []) + ([] if moves else [_STANDING])
@@ -195,7 +196,7 @@ def _telling_moments(actor: Actor) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _telling_places(actor: Actor) -> np.ndarray:
-    """Distances (n,) along an actor's path: all along it, and strides around its steepest places."""
+    """Distances (n,) along an actor's path: all along it, and strides around its steepest sections."""
     along_m = np.arange(0.0, actor.route.length_m, _STEP_M)
     point, heading = actor.path(along_m)
     slopes = []

@@ -12,8 +12,8 @@ from ..land.terrain import Terrain
 from ..noise import stream
 from .actors import Actor
 
-_LYING = (0.6, 1.4)  # length and width of what touches the ground, in those of the standing body: an estimate
-_BESIDE = (0.8, 1.6)  # body lengths from a bed to where its animal stands, an estimate
+_LYING = (0.6, 1.4)  # length and width of the contact with the ground, relative to the standing body: an estimate
+_BESIDE = (0.8, 1.6)  # body lengths from a bed to its animal, an estimate
 _TRIES = 16
 
 
@@ -37,7 +37,7 @@ def check_beds(where: str, group: dict) -> None:
 def plan_beds(groups: Sequence[dict], actors: Sequence[Actor], terrain: Terrain, seed: int) -> list[dict]:
     """Entries of `beds` in the baked scene, those of a group's first members.
 
-    A bed is where its animal was left_s before time 0 if it walks, and otherwise beside it, on dry ground.
+    A bed is at the position of its animal left_s before time 0 if it walks, and otherwise beside it, on dry ground.
     """
     beds = []
     for group in groups:
@@ -64,7 +64,7 @@ def _bed(actor: Actor, beds: dict, terrain: Terrain, rng: np.random.Generator) -
 def _place(
     actor: Actor, left_s: float, terrain: Terrain, rng: np.random.Generator
 ) -> tuple[np.ndarray, float]:
-    """Place [m] and heading [rad] of a bed."""
+    """Position [m] and heading [rad] of a bed."""
     walked_m = actor.schedule.mean_m_s * left_s
     points, headings = actor.path(np.array([actor.start_m - walked_m]))
     if walked_m > 0:

@@ -82,7 +82,7 @@ def _behaviour(group: dict, k: int, seed: int) -> str:
 
 
 def _posture(species: str, behaviour: str, seed: int, name: str, k: int) -> str:
-    """One of the species' postures for a behaviour, which are called like it or begin with its name and `_`."""
+    """One of the species' postures for a behaviour: named like it, or beginning with its name and `_`."""
     if behaviour in _OF_WALKERS:
         return "walk"
     known = assets.load("species", species).get("postures", {})

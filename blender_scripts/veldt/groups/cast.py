@@ -1,4 +1,4 @@
-"""Turn the groups of a config into actors on paths and at places."""
+"""Place the groups of a config on paths or at positions, as actors."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .placement import find_spots, fitting
 from .site_rules import Land, venue
 
 _CORRIDOR_STEP_M = 0.8
-_NEAR_M = 10.0  # from its place: where a formation may move to if there is no space
+_NEAR_M = 10.0  # from its position: how far a formation may move to find space
 _TIGHTEST = (
     0.3  # least fraction of a distance along the path that remains on the inside of a curve; loops are wider
 )
@@ -29,7 +29,7 @@ _TIGHTEST = (
 
 @dataclass(frozen=True)
 class Cast:
-    """All actors, in the order of the config's groups, and the ground that must stay free for them."""
+    """All actors, in the order of the config's groups, and the ground reserved for them."""
 
     actors: list[Actor]
     corridors: list[Corridor]
@@ -55,7 +55,7 @@ class _Group:
 def plan_cast(groups: Sequence[dict], land: Land, seed: int) -> Cast:
     """All members of all groups, each with its object index.
 
-    Groups at places keep off the paths and off each other. Groups on paths then get their starting points, unless the
+    Stationary groups keep off the paths and off each other. Groups on paths then get their starting points, unless the
     config gives them: first those without `meets`, so that the others can meet them.
     """
     index = ids.plan_indices([name for entry in groups for name in member_names(entry)])
@@ -91,7 +91,7 @@ def _turn(group: _Group) -> int:
 def _on_path(
     group: _Group, land: Land, crowds: Mapping[str, Crowd], index: Mapping[str, int], seed: int
 ) -> list[Actor]:
-    """The members along their path, each at its place in the group."""
+    """The members along their path, each at its position in the group."""
     entry, loop = group.entry, land.loops[group.entry["path"]]
     rooms = [draft.room for draft in group.drafts]
     spread_m = entry.get("spread_m", 0.0)
@@ -141,7 +141,7 @@ def _at_place(
     index: Mapping[str, int],
     seed: int,
 ) -> list[Actor]:
-    """The members at spots of the group's place."""
+    """The members at spots of the group's area."""
     rooms = [draft.room for draft in group.drafts]
     draw, allowed = venue(group.where, group.entry, group.drafts, land, corridors, seed)
     standing = list(crowds.values())
@@ -158,7 +158,7 @@ def _at_place(
 
 
 def _in_formation(group: _Group, fits: Callable[[Spot], bool], seed: int) -> list[Spot]:
-    """The spots of a group that stays together; ConfigError if there is no space for it near its place."""
+    """The spots of a group that stays together; ConfigError if there is no space for it near its position."""
     entry, rooms = group.entry, [draft.room for draft in group.drafts]
     stands = form(entry["formation"], rooms, spacing_of(entry), entry.get("spread_m"), seed, group.name)
     found = settle(stands, entry["place"], fits, _NEAR_M, seed, group.name)

@@ -1,4 +1,4 @@
-"""What an actor's temperatures depend on besides its species and the weather: its engine, and when it was in water."""
+"""Inputs of an actor's temperatures besides its species and the weather: its engine, and its last bath."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from ..faults import ConfigError
 from ..noise import stream
 from .behaviours import WALKING, behaves
 
-_RUNNING_S = 3600.0  # for which an engine has run if the config does not say it: it is warm
+_RUNNING_S = 3600.0  # default running time of an engine: it is warm
 _HEAT = "body_heat"  # of materials and their parts
 
 
@@ -25,8 +25,8 @@ def check_condition(where: str, group: dict) -> None:
 def condition(group: dict, member: int, seed: int) -> dict:
     """Keys `engine` and `wet_s` of a member's object in the manifest; without them, the thermal core decides.
 
-    A parked vehicle whose time is not stated has none. Animals of a species with `wet_s`, which comes out of the water
-    now and then, are wet since a time drawn from that range; those that float, since now.
+    A parked vehicle without a stated time has none. Animals of a species with `wet_s`, which bathes now and then, are
+    wet since a time drawn from that range; floating ones since now.
     """
     keys = {}
     engine = group.get("engine", {})
@@ -59,7 +59,7 @@ def _check_engine(where: str, group: dict) -> None:
 
 
 def _heats(species: str) -> list[dict]:
-    """All entries of what heats a species, of the whole and of parts."""
+    """All heat models of a species, of the whole and of parts."""
     material = assets.load("materials", assets.load("species", species)["material"])
     entries = [material, *material.get("parts", {}).values()]
     return [entry[_HEAT] for entry in entries if _HEAT in entry]

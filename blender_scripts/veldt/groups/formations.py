@@ -1,4 +1,4 @@
-"""Arrangements of people who stand, sit or walk close together, at a place or along a path. Lengths in m.
+"""Arrangements of people who stand, sit or walk close together, at a position or along a path. Lengths in m.
 
 Members of a formation may be closer than the bodies of other groups: they overlap in views from the side.
 """
@@ -15,18 +15,18 @@ from ..noise import stream
 from .herds import Place, Room
 
 SPACING_M = 0.7  # estimate, by default; personal distance is 0.45 to 1.2 m (Hall 1966)
-LEAST_M = 0.35  # estimate: between the middles of people who touch
+LEAST_M = 0.35  # estimate: between the centres of people who touch
 ON_PATHS = ("queue", "pairs", "row")
-_UNEVEN = 0.15  # of the spacing: deviation of members from their places; estimate, as all below
-_TURN_RAD = np.radians(20.0)  # largest deviation of a member from where the arrangement faces
+_UNEVEN = 0.15  # of the spacing: deviation of members from their positions; estimate, as all below
+_TURN_RAD = np.radians(20.0)  # largest deviation of a member from the arrangement's direction
 _APART = 3.5  # spacings between pairs
 _RANKS = {
     "queue": 1.0,
     "pairs": 2.0,
     "row": 2.0,
-}  # spacings between ranks that walk: they need space for their legs
+}  # spacings between walking ranks: they need space for their legs
 _ROOMY = {"pairs": 1.8, "scatter": 1.1}  # radius of the area, in spacings and roots of pairs or members
-_BODY_M = 0.35  # half length that a spacing includes; those who lie are longer
+_BODY_M = 0.35  # half length that a spacing includes; lying bodies are longer
 _TRIES = 100
 
 # A member's offset (2,) from the middle of its formation, and the direction (2,) in which it faces.
@@ -36,7 +36,7 @@ Stand = tuple[np.ndarray, np.ndarray]
 def form(
     formation: str, rooms: Sequence[Room], spacing_m: float, spread_m: float | None, seed: int, name: str
 ) -> list[Stand]:
-    """Where the members of a group stand about its middle; spread_m is the radius of a circle, or of the area."""
+    """Positions of the members of a group about its centre; spread_m is the radius of a circle, or of the area."""
     rng = stream(seed, f"formation/{name}")
     turn = rng.uniform(0.0, 2.0 * np.pi)
     stands = _ARRANGEMENTS[formation](rooms, spacing_m, spread_m, rng)
@@ -46,8 +46,9 @@ def form(
 def settle(
     stands: Sequence[Stand], centre_m, fits: Callable[[Spot], bool], reach_m: float, seed: int, name: str
 ) -> list[Spot]:
-    """The spots of a formation about a point, or about the first of some farther and farther off, to reach_m, where all
-    its members fit; none if they fit nowhere."""
+    """The spots of a formation about a point, or about the first of points farther and farther off, up to reach_m,
+    where all its members fit; none if they fit nowhere.
+    """
     rng = stream(seed, f"settle/{name}")
     for k in range(_TRIES):
         middle_m = np.asarray(centre_m, float) + reach_m * k / _TRIES * heading_of(
@@ -60,9 +61,9 @@ def settle(
 
 
 def march(formation: str, count: int, spacing_m: float, path_m: float, seed: int, name: str) -> list[Place]:
-    """Places of members who walk along a path: one behind the other, two by two, or side by side.
+    """Positions of members who walk along a path: one behind the other, two by two, or side by side.
 
-    On a loop the last must not run into the first: those that do not fit on a path of length path_m get no place.
+    On a loop the last must not run into the first: those that do not fit on a path of length path_m get no position.
     """
     abreast, ranks_m = _abreast(formation, count), _RANKS[formation] * spacing_m
     places = []
@@ -86,7 +87,7 @@ def _abreast(formation: str, count: int) -> int:
 
 
 def _circle(rooms: Sequence[Room], spacing_m: float, spread_m: float | None, rng: np.random.Generator):
-    """Around a point, which all face."""
+    """Around a point, facing it."""
     count = len(rooms)
     tightest_m = 0.5 * spacing_m / np.sin(np.pi / count) if count > 1 else 0.0
     radius_m = max(tightest_m, spread_m or 0.0)
@@ -119,7 +120,7 @@ def _pairs(rooms: Sequence[Room], spacing_m: float, spread_m: float | None, rng:
 
 
 def _scatter(rooms: Sequence[Room], spacing_m: float, spread_m: float | None, rng: np.random.Generator):
-    """Anywhere in an area, in any direction; those who lie have as much space as they are long."""
+    """Anywhere in an area, in any direction; lying members have as much space as they are long."""
     sizes_m = [0.5 * spacing_m + max(0.0, room.half_length_m - _BODY_M) for room in rooms]
     area_m = spread_m or _ROOMY["scatter"] * float(np.sqrt(np.square(sizes_m).sum())) * 2.0
     return [(at_m, heading_of(rng.uniform(0.0, 2.0 * np.pi))) for at_m in _spread_out(sizes_m, area_m, rng)]
@@ -145,7 +146,7 @@ def _evenly(count: int, spacing_m: float) -> np.ndarray:
 
 
 def _unsettled(stand: Stand, spacing_m: float, rng: np.random.Generator) -> Stand:
-    """A little off its place and its direction."""
+    """A small random deviation of position and direction."""
     off_m = 0.5 * _UNEVEN * spacing_m * rng.uniform() * heading_of(rng.uniform(0.0, 2.0 * np.pi))
     return stand[0] + off_m, _rotated(stand[1], _TURN_RAD * rng.uniform(-1.0, 1.0))
 

@@ -14,7 +14,8 @@ from .formations import LEAST_M, ON_PATHS
 
 
 def check_groups(groups: list[dict], paths: Collection[str]) -> None:
-    """Check that every group has a species, a path or a place, and a behaviour of its species; `paths`: known names."""
+    """Check that every group has a species, a path or a `place`, and a behaviour of its species; `paths`: known names.
+    """
     names = [group["name"] for group in groups]
     for k, group in enumerate(groups):
         where = f"scene.groups[{k}]"
@@ -59,7 +60,7 @@ def _check_behaviour(where: str, group: dict) -> None:
 
 
 def _check_shares(where: str, group: dict, able: Collection[str]) -> None:
-    """The shares of behaviours: of a group that stays, of what its species can do, and not all 0."""
+    """Check shares of behaviours: of a stationary group, for behaviours of its species, and not all 0."""
     if "behaviour" in group:
         raise ConfigError(f"{where}: behaviour and behaviours are both given; expected one of them")
     if "path" in group:

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from ..noise import stream
 
 _GAP_M = 0.4  # between two bodies side by side
-_UNEVEN = 0.25  # of the spacing: deviation of members from equidistant places
-_DRAWS = 12  # for a place beside the path, before a member falls back
+_UNEVEN = 0.25  # of the spacing: deviation of members from equidistant positions
+_DRAWS = 12  # tries for a position beside the path, before a member falls back
 _BACK_M = 0.5
 
 
 @dataclass(frozen=True)
 class Room:
-    """The footprint of a body: half its length and width, and how far its schedule moves it from its place."""
+    """The footprint of a body: half its length and width, and how far its schedule moves it from its position."""
 
     half_length_m: float
     half_width_m: float
@@ -24,7 +24,7 @@ class Room:
 
 @dataclass(frozen=True)
 class Place:
-    """A member's place: along_m ahead of the group's first member, usually negative, and lateral_m to the left."""
+    """A member's position: along_m ahead of the group's first member, usually negative, and lateral_m to the left."""
 
     along_m: float
     lateral_m: float
@@ -39,11 +39,11 @@ def plan_places(
     name: str,
     shrink: float = 1.0,
 ) -> list[Place]:
-    """Places of a group's members, about spacing_m apart along, and up to spread_m beside, a path of length path_m.
+    """Positions of a group's members, about spacing_m apart along, and up to spread_m beside, a path of length path_m.
 
     A member that does not fit drops back until it does. On a loop, the last member must not run into the first: members
-    for which the loop is too short get no place. `shrink` is the fraction of a distance along the path that remains on
-    the inside of its tightest curve.
+    for which the loop is too short get no position. `shrink` is the fraction of a distance along the path that remains
+    on the inside of its tightest curve.
     """
     places: list[Place] = []
     for k, room in enumerate(rooms):
@@ -77,7 +77,7 @@ def _fits(
     places: Sequence[Place],
     shrink: float,
 ) -> bool:
-    """Whether a member at this place is clear of all members already placed."""
+    """Whether a member at this position is clear of all members already placed."""
     return all(
         shrink * (abs(along_m - p.along_m) - room.reach_m - r.reach_m)
         >= room.half_length_m + r.half_length_m + _GAP_M

@@ -15,7 +15,7 @@ from ..plants.placement import Corridor
 from .collision_discs import Crowd, centres, cover
 from .herds import Room
 
-_TRIES = 400  # of places, for each member
+_TRIES = 400  # for each member
 _GAP_M = 0.5
 _TURN_RAD = np.radians(35.0)  # largest deviation of an animal at the water from facing it
 _MARCH_M = 0.25
@@ -121,7 +121,7 @@ def along(line: Line, aside_m: float) -> Draw:
 
 
 def on_land(terrain: Terrain, corridors: Sequence[Corridor]) -> Allowed:
-    """Whether a spot is dry, within the place, and off the paths of others."""
+    """Whether a spot is dry, within the scene, and off the paths of others."""
 
     def allowed(at_m: np.ndarray) -> bool:
         return bool(
@@ -143,7 +143,7 @@ def afloat(terrain: Terrain, depth_m: float) -> Allowed:
 
 
 def _shoreline_m(water: Water, outward: np.ndarray) -> float:
-    """Distance of the shore from the middle of the water in a direction; the largest if there are several."""
+    """Distance of the shore from the centre of the water in a direction; the largest if there are several."""
     away_m = np.arange(0.0, water.basin.disc_radius_m + _MARCH_M, _MARCH_M)
     wet = water.basin.is_wet(*(water.basin.centre_m + away_m[:, None] * outward).T)
     return float(away_m[wet][-1]) if wet.any() else 0.0

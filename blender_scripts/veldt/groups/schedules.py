@@ -1,4 +1,4 @@
-"""When actors walk, stand and lower their heads, as functions of time.
+"""Schedules of walking, standing and lowering heads, as functions of time.
 
 The schedules of a group's members differ in a number or a phase alone. Both may be (n,), for n moments of several
 members.

@@ -1,4 +1,4 @@
-"""Interpret a group's `place`: where its members may be placed."""
+"""Interpret a group's `place`: where its members may stand."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Land:
 def venue(
     where: str, group: dict, drafts: Sequence[Draft], land: Land, corridors: Sequence[Corridor], seed: int
 ) -> tuple[placement.Draw, placement.Allowed]:
-    """Functions that draw spots at a group's place and test them; `where` is the group's place in the config."""
+    """Functions that draw spots for a group's `place` and test them; `where` is the group's key in the config."""
     place, rooms = group["place"], [draft.room for draft in drafts]
     floats = behaves(group, "float")
     if not isinstance(place, str):

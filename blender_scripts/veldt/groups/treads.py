@@ -1,4 +1,4 @@
-"""What groups do to the ground: paths along their loops, and trampled halos where they stay. Lengths in m."""
+"""Traces of groups on the ground: paths along their loops, and trampled halos where they stay. Lengths in m."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from .routes import ROAD
 _PERSON_HALF_M, _HERD_HALF_M, _WHEEL_HALF_M = 0.2, (0.28, 0.18, 0.23, 0.15), 0.2
 _WANDER_M, _MOST_WANDER_M = 2.4, 8.0  # of one path, and of the strands of a wide herd
 _GRAZED = 0.6  # share of a strand of animals that graze along their way
-_LEADS = 3  # places on a loop from which trails lead to the water
-_STAND_SHARE, _GROUP_SHARE = 0.8, 0.45  # of bare ground around each who stays, and around the group
+_LEADS = 3  # points of a loop from which trails lead to the water
+_STAND_SHARE, _GROUP_SHARE = 0.8, 0.45  # of bare ground around each stationary member, and around the group
 _MOST_GROUP_M = 30.0
 
 
@@ -54,7 +54,7 @@ def _strands(group: dict, loop: Loop) -> list[Strand]:
 
 
 def _wider(strand: Strand, other: Strand | None) -> Strand:
-    """Of the same strand of two groups, that which strays farther."""
+    """The wider strand of two groups with the same strand."""
     return other if other is not None and other.wander_m > strand.wander_m else strand
 
 

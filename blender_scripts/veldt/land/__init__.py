@@ -1,1 +1,1 @@
-"""The ground: its shape, its waters, its road and what covers it."""
+"""The ground: its shape, waters, road and covers."""

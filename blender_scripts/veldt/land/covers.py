@@ -1,4 +1,4 @@
-"""Ground covers: dry soil, and on it grass, wet margins, rock and the road."""
+"""Ground covers: dry soil with grass, wet margins, rock and the road on it."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def _plan_grass(terrain: Terrain, settings: dict, seed: int) -> Value | None:
     values = _patches(seed, patch_m, x_m[can_grow], y_m[can_grow])
     threshold = float(np.quantile(values, 1.0 - share)) if share < 1.0 else -np.inf
 
-    near_m = _BARE_MARGIN_M + 4.0 * patch_m  # where the margin is less than the patches' value can be
+    near_m = _BARE_MARGIN_M + 4.0 * patch_m  # farther away, the margin cannot be less than the patches' value
 
     def value(x_m, y_m) -> np.ndarray:
         margin = (terrain.shore_m(x_m, y_m, near_m) - _BARE_MARGIN_M) / patch_m

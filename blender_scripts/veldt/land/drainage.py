@@ -13,8 +13,8 @@ from ..noise import lattice_uniform
 _LEAST_CELL_M = 16.0
 _MOST_LINES = 160  # nodes per side
 _JITTER = 0.35  # of a cell: displacement of nodes, so that gullies do not follow the grid
-_HEAD_M2 = 9000.0  # of land drain into the smallest gully
-_FULL_M2 = 250000.0  # of land drain into a gully of full depth
+_HEAD_M2 = 9000.0  # of land that drains into the smallest gully
+_FULL_M2 = 250000.0  # of land that drains into a gully of full depth
 _SAMPLE_M = 3.0
 _SIDE_REACH = 1.8  # half widths of a gully beyond which land is unchanged
 _BLEND_M = 0.4

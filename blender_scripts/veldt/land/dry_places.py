@@ -1,4 +1,4 @@
-"""Check that what a config puts at a place lies on dry ground."""
+"""Check that positions in a config lie on dry ground."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from .terrain import Terrain
 def check_dry_place(
     where: str, place_m: Sequence[float], terrain: Terrain, reach_m: float, shore_m: float, note: str = ""
 ) -> None:
-    """Raise ConfigError unless a place is reach_m inside the border and shore_m from water.
+    """Raise ConfigError unless a position is reach_m inside the border and shore_m from water.
 
-    where: its key in the config, such as "scene.fires[0]"; note: what the reach follows from.
+    where: its key in the config, such as "scene.fires[0]"; note: explanation of the reach.
     """
     x_m, y_m = (float(value) for value in place_m)
     found = f"{where}.place = [{x_m:g}, {y_m:g}] m; expected"

@@ -1,4 +1,4 @@
-"""Fine maps of the ground's covers: what lies on top, and which shares are grass, ash and trodden ground."""
+"""Fine maps of the ground: the topmost cover, and shares of grass, ash and trodden ground."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from .fine_grid import FineGrid, blurred
 from .shares import as_bytes
 from .terrain import Terrain
 
-BORDER_CELLS = 1.5  # farthest distance to a border that is known
+BORDER_CELLS = 1.5  # largest known distance to a border
 
 _SPARSE, _DENSE = 0.08, 0.92  # shares of grass deep in bare soil, and deep in grass; estimates
 _RAMP = 0.15  # of the layer's value, to each side of the border: about as much of a patch's size
 _STEEP = (
-    0.75  # a layer's border is looked for where its value is less than so much of the step to its neighbours
+    0.75  # a layer's border is searched where its value is less than this share of the difference to its neighbours
 )
 
 _BURNT_M = 15.0  # size of burnt patches; estimate
 _BURNT_GAIN = 0.6
-_WIDE_OCTAVES, _FINE_OCTAVES = 3, 3  # on the lattice, and only where they decide
+_WIDE_OCTAVES, _FINE_OCTAVES = 3, 3  # evaluated on the lattice, and only where they matter
 _BURNT_BORDER = 0.06  # of the noise, to each side of a patch's border: about half a metre
 _HALVINGS = 24
 
@@ -47,7 +47,8 @@ class FineCovers:
 
 def lay_kinds(grid: FineGrid, layers: Sequence[Layer]) -> tuple[np.ndarray, np.ndarray]:
     """The number (cells, cells) of the first of the layers at the middle of each cell, from 1; 0 for soil and grass.
-    And the distance to the border of that kind, see FineCovers."""
+    Also the distance to the border of that kind, see FineCovers.
+    """
     kinds = np.zeros((grid.cells, grid.cells), np.uint8)
     border = np.full_like(kinds, 255)
     for number, layer in reversed(list(enumerate(layers, start=1))):
@@ -117,8 +118,9 @@ def _lay(kinds: np.ndarray, border: np.ndarray, number: int, grid: FineGrid, val
 
 
 def _cells_off(value: np.ndarray, row: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Distance (n,) of cells to where a value is 0: the value over its slope to their neighbours, of which some may be
-    unknown, NaN."""
+    """Distance (n,) of cells to the zero crossing of a value: the value over its gradient to their neighbours, some of
+    which may be unknown, NaN.
+    """
     at = value[row, column]
     square = np.zeros_like(at)
     for down, right in ((1, 0), (0, 1)):
@@ -131,7 +133,8 @@ def _cells_off(value: np.ndarray, row: np.ndarray, column: np.ndarray) -> np.nda
 
 def _near_border(value: np.ndarray) -> np.ndarray:
     """Mask (lines - 1, lines - 1) of the lattice's squares that a border may cross: those around points at which the
-    value is small against its change to the next ones, and those beside them."""
+    value is small against its change to the neighbours, and adjacent ones.
+    """
     step = np.zeros(value.shape)
     for axis in (0, 1):
         change = np.abs(np.diff(value, axis=axis))
@@ -148,7 +151,7 @@ def _near_border(value: np.ndarray) -> np.ndarray:
 
 
 def _wide(seed: int, x_m, y_m) -> np.ndarray:
-    """The noise of burnt patches without its finest octaves; scars lie together in parts of the place."""
+    """The noise of burnt patches without its finest octaves; scars are clustered."""
     return 1.6 * fractal_noise(seed, "burnt/area", x_m, y_m, 20.0 * _BURNT_M, 2) + fractal_noise(
         seed, "burnt", x_m, y_m, 4.0 * _BURNT_M, _WIDE_OCTAVES, _BURNT_GAIN
     )
@@ -162,7 +165,7 @@ def _fine(seed: int, x_m, y_m) -> np.ndarray:
 
 
 def _threshold(values: np.ndarray, wanted: float) -> float:
-    """The value above which the mean share of ash is as wanted."""
+    """The threshold that gives the wanted mean share of ash."""
     low, high = float(values.min()) - _BURNT_BORDER, float(values.max()) + _BURNT_BORDER
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
@@ -175,7 +178,7 @@ def _ash_share(above: np.ndarray) -> np.ndarray:
 
 
 def _burnt(seed: int, grid: FineGrid, wide: np.ndarray, rows: slice) -> np.ndarray:
-    """Shares of some rows; the finest octaves are added where they can matter."""
+    """Shares of some rows; the finest octaves are added where they matter."""
     above = grid.refined(wide, rows)
     most = _BURNT_GAIN**_WIDE_OCTAVES * sum(_BURNT_GAIN**k for k in range(_FINE_OCTAVES))
     row, column = np.nonzero(np.abs(above) < most + _BURNT_BORDER)

@@ -63,7 +63,7 @@ class FineGrid:
 
     @cached_property
     def below(self) -> tuple[np.ndarray, np.ndarray]:
-        """The lattice's line before each cell (cells,), and how far the cell is on the way to the next, 0..1."""
+        """The lattice's line before each cell (cells,), and the cell's position on the way to the next one, 0..1."""
         lines = len(self.lattice_axis_m)
         place = (np.arange(self.cells) + 0.5) / self.cells * (lines - 1)
         low = np.minimum(place.astype(np.int64), lines - 2)

@@ -11,19 +11,19 @@ from ..images import read_values
 from ..plausible import LAND_M
 from ..regular_files import read_regular
 
-_MOST_BYTES = 2 << 30  # more than an EXR of so many pixels has
+_MOST_BYTES = 2 << 30  # more than the largest accepted EXR
 _MISSING = np.array(
     [-9999.0, -32767.0, -32768.0, -99999.0]
-)  # how elevation models mark cells without a height
+)  # values that mark cells without a height in elevation models
 _ROUNDING = 1e-3  # of shares that were 0 to 1 before a filter
 
 
 def read_height_shares(given: dict, where: str) -> np.ndarray:
-    """Shares of height_m [row from the top, column] of `scene.terrain.heightmap`, whose place in the config is `where`.
+    """Shares of height_m [row from the top, column] of `scene.terrain.heightmap`, whose key in the config is `where`.
 
-    Uses file, height_m and channel. Shares in an EXR may be below 0 or above 1: the land is from -500 to
-    9000 m high, or within height_m. ConfigError for other heights, for marks of missing data (-9999, -32767, -32768,
-    -99999) and for what read_grey refuses.
+    Uses file, height_m and channel. Shares in an EXR may be below 0 or above 1: the land is from -500 to 9000 m high,
+    or within height_m. ConfigError for other heights, for marks of missing data (-9999, -32767, -32768, -99999) and as
+    read_grey().
     """
     shares = read_grey(given["file"], f"{where}.file", given.get("channel"))
     low_m, high_m = given["height_m"]
@@ -48,8 +48,8 @@ def read_density(given: dict, where: str) -> np.ndarray:
 def read_grey(path: Path, where: str, channel: str | None = None) -> np.ndarray:
     """Values [row from the top, column] of an image: 0 to 1 for a PNG file, unchanged for the channel of an EXR.
 
-    ConfigError, naming `where` and the file, if it cannot be read, is not grey, or has several channels and `channel`
-    names none. Values may be anything.
+    ConfigError, naming `where` and the file, if it cannot be read, is not grey, or has several channels without
+    `channel` naming one. Values are not checked.
     """
     try:
         is_empty = not read_regular(Path(path), _MOST_BYTES)
@@ -79,7 +79,7 @@ def _check_all(is_fine: np.ndarray, values: np.ndarray, where: str, expected: st
 
 
 def sample(values: np.ndarray, size_m: float, x_m, y_m) -> np.ndarray:
-    """Values interpolated bilinearly: corner pixels lie on the corners of the place, with the top row in the north."""
+    """Values interpolated bilinearly: corner pixels lie on the corners of the scene, with the top row in the north."""
     rows, columns = values.shape
     u, column = _split((np.asarray(x_m, float) / size_m + 0.5) * (columns - 1), columns)
     v, row = _split((0.5 - np.asarray(y_m, float) / size_m) * (rows - 1), rows)

@@ -13,7 +13,7 @@ from .roads import SHOULDER_M
 from .terrain import Terrain
 
 _BORDER_EDGE_M = 0.8  # triangles at a border are halved until their edges are about this short
-_COARSE = 1.5  # tolerance on that length: the diagonal of a square of 0.8 m passes
+_COARSE = 1.5  # tolerance on that length, for the diagonal of a square of 0.8 m
 # Largest edge on the road and its shoulders. The curvature of a track's cross-section is at most 1.25 / m: the middle
 # of an edge of 0.36 m is off by 1.25 x 0.36^2 / 8 = 2 cm.
 _ROAD_EDGE_M, _SHOULDER_EDGE_M = 0.36, 0.8

@@ -43,7 +43,7 @@ def hollows_m(depth_m: float, seed: int, x_m, y_m) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Crag:
-    """The craggy part of a place: where a noise is above `threshold`."""
+    """The craggy part of a scene: where a noise is above `threshold`."""
 
     seed: int
     relief_m: float
@@ -66,7 +66,7 @@ class Crag:
 
 
 def plan_crag(settings: dict, seed: int, x_m: np.ndarray, y_m: np.ndarray) -> Crag | None:
-    """A crag on craggy_fraction of the places x_m, y_m, away from the water in the middle."""
+    """A crag on craggy_fraction of the points x_m, y_m, away from the water in the centre."""
     fraction, relief_m = settings["craggy_fraction"], settings["crag_relief_m"]
     if fraction <= 0:
         return None

@@ -1,4 +1,4 @@
-"""The course of the road: a loop through the place, off water and steep ground, and a fork that leads out of it."""
+"""The course of the road: a loop through the scene, off water and steep ground, and a fork that leads out of it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .roads import Road, lay_road
 from .terrain import Terrain, slope_deg
 from .ways import CORNERS, SLOPE_STEP_M, Passable, plan_loop
 
-_RADII = 0.3, 0.26, 0.34, 0.22  # radii to try, of the place's side; the first with a passable loop is used
+_RADII = 0.3, 0.26, 0.34, 0.22  # radii to try, as shares of the scene's side; the first with a passable loop is used
 _WANDER = 0.22
 _SHORE_M = 25.0
 _STEEPEST_DEG = 14.0  # estimate: steepest slope that a lorry can drive
@@ -52,7 +52,7 @@ def _plan_loop(size_m: float, passable: Passable, seed: int) -> Loop | None:
 
 
 def _plan_spur(loop: Loop, terrain: Terrain, passable: Passable, seed: int) -> Line | None:
-    """A road from one of the loop's corners out towards the border: the first that is passable all along."""
+    """A road from one of the loop's corners out towards the border: the first that is entirely passable."""
     rng = stream(seed, "road/spur")
     for corner in rng.permutation(CORNERS):
         at_m = loop.corners_at_m[corner % (len(loop.corners_at_m) - 1)]

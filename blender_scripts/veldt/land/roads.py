@@ -86,7 +86,7 @@ class Road:
         return about, np.column_stack([x_m[about], y_m[about]])
 
     def _nearest(self, line: int, places: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Indices (k,) of places (n, 2) within reach_m of a line, their distances, and the heights of its bed."""
+        """Indices (k,) of points (n, 2) within reach_m of a line, their distances, and the heights of its bed."""
         if len(places) == 0:
             return np.zeros(0, np.int64), np.zeros(0), np.zeros(0)
         start, along, low, high = self._segments[line]
@@ -124,7 +124,7 @@ class Road:
         return marked
 
     def _square(self, x_m, y_m) -> tuple[np.ndarray, np.ndarray]:
-        """Column and row of the square of each position; positions outside the place are clamped to its border."""
+        """Column and row of the square of each position; positions outside the scene are clamped to its border."""
         last = int(np.ceil(self.size_m / _RASTER_M)) - 1
         column, row = (
             np.clip(((v + 0.5 * self.size_m) / _RASTER_M).astype(np.int64), 0, last) for v in (x_m, y_m)
@@ -166,7 +166,7 @@ def _least_of_each(number: np.ndarray, value: np.ndarray) -> np.ndarray:
 
 
 def _starts(ordered: np.ndarray) -> np.ndarray:
-    """Where each distinct number of an ascending array appears first."""
+    """Index of the first occurrence of each distinct number of an ascending array."""
     return np.flatnonzero(np.diff(ordered, prepend=ordered[0] - 1))
 
 

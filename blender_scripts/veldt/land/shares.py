@@ -13,10 +13,10 @@ def as_bytes(share: np.ndarray) -> np.ndarray:
 
 
 def raise_to(shares: np.ndarray, place: np.ndarray, share: np.ndarray) -> None:
-    """Raise bytes at flat places (n,), which may repeat, to the largest of their new ones (n,) if that is more."""
+    """Raise bytes at flat indices (n,), which may repeat, to the largest of their new values (n,) if that is more."""
     flat = shares.reshape(-1)
     more = share > flat[place]
-    while more.any():  # of several new values for a place, one is kept; those above it remain
+    while more.any():  # of several new values for an index, NumPy keeps one; larger ones remain
         place, share = place[more], share[more]
         flat[place] = share
         more = share > flat[place]

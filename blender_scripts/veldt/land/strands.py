@@ -24,8 +24,9 @@ _RAGGED = 0.6  # of a halo's reach: how uneven its border is
 class Strand:
     """A strip along a curve that winds by up to about wander_m to each side of it, aside_m to its left.
 
-    half_width_m and share are at its corners, evenly along the curve, and interpolated between them; share is of ground
-    that is bare where it is not frayed. `name` keys how it winds: the same in the same place for all of that name.
+    half_width_m and share are at its corners, evenly along the curve, and interpolated between them; share is of bare
+    ground, where the strand is not frayed. `name` keys its winding, which is the same at the same point for all strands
+    of that name.
     """
 
     curve: Line | Loop
@@ -49,7 +50,7 @@ class Halo:
 
 
 def lay_strands(trodden: np.ndarray, grid: FineGrid, strands: Sequence[Strand], seed: int) -> None:
-    """Raise the shares (cells, cells) of trodden ground along strands, each cell by how much of it they cover."""
+    """Raise the shares (cells, cells) of trodden ground along strands by the share of each cell that they cover."""
     for strand in strands:
         _lay_strand(trodden, grid, strand, seed)
 

@@ -1,6 +1,6 @@
 """The terrain: hills, hollows, gullies and a crag on a square grid, still water, and a road cut in.
 
-Axes: x east, y north, z up, in metres, with the origin in the middle of the place at height 0 of the datum.
+Axes: x east, y north, z up, in metres, with the origin in the centre of the scene at height 0 of the datum.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Terrain:
 
     @cached_property
     def range_m(self) -> tuple[float, float]:
-        """The least and the greatest height of the ground, up to rounding; of the road, bounds."""
+        """Minimum and maximum height of the ground, up to rounding; with the road's bounds."""
         heights = [self.heights_m, *([] if self.road is None else self.road.heights_m)]
         return min(float(h.min()) for h in heights), max(float(h.max()) for h in heights)
 
@@ -138,7 +138,7 @@ def _land(settings: dict, seed: int, x_m, y_m) -> tuple[Crag | None, np.ndarray]
 
 
 def _plan_basins(settings: dict, seed: int, land_m: np.ndarray, x_m, y_m) -> list[Basin]:
-    """The water hole in the middle, and the pan; land_m is infinite where a pan is not allowed."""
+    """The water hole in the centre, and the pan; land_m is infinite where a pan is not allowed."""
     radius_m, pan_m = settings["water_radius_m"], settings["pan_radius_m"]
     basins = [Basin(seed, "shore", (0.0, 0.0), radius_m)] if radius_m > 0 else []
     if pan_m > 0:
@@ -148,7 +148,7 @@ def _plan_basins(settings: dict, seed: int, land_m: np.ndarray, x_m, y_m) -> lis
 
 
 def _lowest_place(settings: dict, land_m: np.ndarray, x_m, y_m) -> tuple[float, float] | None:
-    """The place of the pan: low ground, well inside the place and well away from the middle."""
+    """The position of the pan: low ground, well inside the scene and well away from the centre."""
     reach_m = REACH * settings["pan_radius_m"]
     step = max(1, round(_PAN_GRID_M / (x_m[0, 1] - x_m[0, 0])))
     x_m, y_m, land_m = (grid[::step, ::step] for grid in (x_m, y_m, land_m))

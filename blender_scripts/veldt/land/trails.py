@@ -1,4 +1,4 @@
-"""Game trails that lead to water, the easy way: over gentle ground, and together where they meet. Lengths in m."""
+"""Game trails that lead to water over gentle ground, and join on their way. Lengths in m."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from ..noise import fractal_noise, lattice_uniform
 from .strands import Strand
 from .terrain import Terrain
 
-_NODE_M = 11.0  # between the nodes of the ways
+_NODE_M = 11.0  # distance between nodes
 _MOST_LINES = 180  # of nodes along a side
 _JITTER = 0.36  # of the distance between nodes
 _THICKET_M, _THICK = 70.0, 0.8  # size of ground that trails avoid, and by how much; estimates
 _STEEP = 40.0  # a grade of 16 % doubles the cost of a way; estimate
-_FROM_M = 190.0  # between the random places from which trails lead, of which some have none
+_FROM_M = 190.0  # between random starts of trails, some of which have none
 _FROM_SHARE = 0.6
 _WINDING_M = 24.0
-_BEGINS = (0.15, 0.45, 0.8)  # of the usual share: where a trail begins, animals come from all sides
+_BEGINS = (0.15, 0.45, 0.8)  # of the usual share: trails begin narrow, because animals come from all sides
 _BORDER_M = 8.0
 _NEIGHBOURS = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
-# By strand, from how much traffic there is one, and how far it strays: trails of many animals are braided.
+# By strand: least traffic for it, and how far it strays; trails of many animals are braided.
 _BRAIDS = ((1.0, 2.2), (3.0, 3.6), (7.0, 5.0))
 
 
 @dataclass(frozen=True)
 class _Ways:
-    """Ways to water from nodes (lines x lines): where each is (n, 2), and the next node on its way, or itself."""
+    """Ways to water from nodes (lines x lines): positions (n, 2), and the next node on the way, or the node itself."""
 
     lines: int
     points_m: np.ndarray
@@ -38,8 +38,8 @@ class _Ways:
 
 
 def plan_trails(terrain: Terrain, sources_m: Sequence[np.ndarray], seed: int) -> list[Strand]:
-    """Trails from places (n, 2), and from others at random, to the water that is nearest by easy ways; none without
-    water."""
+    """Trails from points (n, 2), and from random ones, to the water that is nearest by easy ways; none without water.
+    """
     if not terrain.waters:
         return []
     ways = _plan_ways(terrain, seed)
@@ -63,7 +63,7 @@ def _plan_ways(terrain: Terrain, seed: int) -> _Ways:
     dear = 1.0 + _THICK * np.clip(fractal_noise(seed, "trails/thick", x_m, y_m, _THICKET_M, 3), -1.0, 1.0)
     costs = [_step_costs(points_m, height_m, dear, lines, dx + dy * lines).tolist() for dx, dy in _NEIGHBOURS]
     wet = np.flatnonzero(terrain.shore_m(x_m, y_m) < 0)
-    if len(wet) == 0:  # a pan between nodes
+    if len(wet) == 0:  # the pan lies between nodes
         wet = np.array([terrain.shore_m(x_m, y_m).argmin()])
     return _Ways(lines, points_m, _nearest_sinks(costs, wet.tolist(), lines))
 
@@ -76,7 +76,7 @@ def _nodes_m(lines: int, size_m: float, seed: int) -> np.ndarray:
 
 
 def _step_costs(points_m: np.ndarray, height_m: np.ndarray, dear: np.ndarray, lines: int, to: int):
-    """The cost (n,) of the step from each node to that `to` places on; wrong where it leaves the grid."""
+    """The cost (n,) of the step from each node to the one `to` indices later; invalid where it leaves the grid."""
     other = np.clip(np.arange(lines * lines) + to, 0, lines * lines - 1)
     way_m = points_m[other] - points_m
     length_m = np.sqrt(way_m[:, 0] * way_m[:, 0] + way_m[:, 1] * way_m[:, 1])
@@ -105,7 +105,7 @@ def _nearest_sinks(costs: list[list[float]], sinks: list[int], lines: int) -> np
 
 
 def _random_places(terrain: Terrain, seed: int) -> np.ndarray:
-    """Places (n, 2) spread over the ground, at most one in each square of a lattice."""
+    """Points (n, 2) spread over the ground, at most one in each square of a lattice."""
     reach = int(np.ceil(0.5 * terrain.size_m / _FROM_M))
     iy, ix = (index.ravel() - reach for index in np.indices((2 * reach, 2 * reach)))
     drawn = [lattice_uniform(seed, f"trails/from/{axis}", ix, iy) for axis in ("x", "y", "is")]
@@ -122,7 +122,7 @@ def _nodes_at(ways: _Ways, size_m: float, places_m: Sequence[np.ndarray]) -> lis
 
 
 def _traffic(following: np.ndarray, begins: Sequence[int]) -> np.ndarray:
-    """How many of the trails pass each node."""
+    """Number of trails through each node."""
     traffic = np.zeros(len(following))
     for node in begins:
         while following[node] != node:
@@ -133,7 +133,7 @@ def _traffic(following: np.ndarray, begins: Sequence[int]) -> np.ndarray:
 
 
 def _smoothed(ways: _Ways, traffic: np.ndarray) -> np.ndarray:
-    """Nodes moved towards the middle between the one before, by which most trails come, and the next."""
+    """Nodes moved towards the midpoint between the node before, by which most trails come, and the next."""
     nodes = np.flatnonzero(traffic > 0)
     before = np.arange(len(traffic))
     for node in nodes[np.argsort(traffic[nodes], kind="stable")]:
@@ -146,7 +146,7 @@ def _smoothed(ways: _Ways, traffic: np.ndarray) -> np.ndarray:
 
 
 def _courses(following: np.ndarray, begins: Sequence[int]) -> list[list[int]]:
-    """Nodes of each trail, to the water or to the next but one node of a trail that it joins."""
+    """Nodes of each trail, to the water or to the second node of a trail that it joins."""
     done = np.zeros(len(following), bool)
     courses = []
     for node in begins:
@@ -162,7 +162,7 @@ def _courses(following: np.ndarray, begins: Sequence[int]) -> list[list[int]]:
 
 
 def _strands(points_m: np.ndarray, traffic: np.ndarray) -> list[Strand]:
-    """One or more strands along a trail, bare and wide where many trails are one."""
+    """One or more strands along a trail; bare and wide where many trails have joined."""
     curve = Line(points_m)
     worn = traffic / (traffic + 2.0)
     begins = np.append(_BEGINS, np.ones(len(traffic)))[: len(traffic)]

@@ -1,4 +1,4 @@
-"""All fine maps of a place, and the one of trodden ground: trails, paths, wheel tracks, and trampled halos."""
+"""All fine maps of a scene, and the one of trodden ground: trails, paths, wheel tracks, and trampled halos."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from .strands import Halo, Strand, lay_halos, lay_strands
 from .terrain import Terrain
 from .trails import plan_trails
 
-_HARD = ("rock", "concrete")  # on which feet leave nothing
+_HARD = ("rock", "concrete")  # no traces of feet
 _WHEEL_M = 0.2  # half of a wheel track's width; estimate
 _SHORE_SHARE, _SHORE_RAGGED = 0.85, 0.5
-_SHORE_REACH = 1.3  # of the water's radius: how far its halo reaches, at least _SHORE_LEAST_M; estimates
+_SHORE_REACH = 1.3  # of the water's radius: reach of its halo, at least _SHORE_LEAST_M; estimates
 _SHORE_LEAST_M = 12.0
 
 
 @dataclass(frozen=True)
 class Treads:
-    """What groups do to the ground: strands, halos, and places (2,) from which trails lead to the water."""
+    """Traces of groups on the ground: strands, halos, and points (2,) from which trails lead to the water."""
 
     strands: list[Strand]
     halos: list[Halo]
@@ -64,7 +64,7 @@ def lay_trodden(grid: FineGrid, terrain: Terrain, treads: Treads, seed: int) -> 
 
 
 def wheel_tracks(road: Road) -> list[Strand]:
-    """Both tracks of each line of a road, where it is deepest."""
+    """Both tracks of each line of a road, where they are deepest."""
     return [
         Strand(line, f"wheels/{k}", [_WHEEL_M] * 2, [0.95] * 2, 0.08, 60.0, side * TRACK_M, frays=0.25)
         for k, line in enumerate(road.lines)

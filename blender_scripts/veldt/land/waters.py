@@ -38,11 +38,11 @@ class Basin:
         return np.sqrt(x_m**2 + y_m**2) + _RAGGEDNESS * self.radius_m * wander - self.radius_m
 
     def is_wet(self, x_m, y_m) -> np.ndarray:
-        """shore_m < 0, without the cost of the shoreline's noise far from the water."""
+        """shore_m < 0, skipping the shoreline's noise far from the water."""
         return self.near_shore_m(x_m, y_m, 0.0) < 0
 
     def near_shore_m(self, x_m, y_m, within_m: float) -> np.ndarray:
-        """shore_m where it may be less than within_m; infinite elsewhere, without the cost of the shoreline's noise."""
+        """shore_m where it may be less than within_m; infinite elsewhere, skipping the shoreline's noise."""
         x_m, y_m = np.broadcast_arrays(np.asarray(x_m, float), np.asarray(y_m, float))
         off_m = np.hypot(x_m - self.centre_m[0], y_m - self.centre_m[1])
         near = off_m < _OUTERMOST * self.radius_m + within_m

@@ -15,7 +15,7 @@ cover_m2      ground it hides from above, for the budget of physical terms
 model         a 3D model instead of `form`: see assets/README.md
 
 Instead of a `form`, it can have `shapes` and `materials` as a structure has. A structure is a file in
-`assets/structures`. It stands where a rule of a site puts it, at its drawn size.
+`assets/structures`. The rules of a site place it, at its drawn size.
 
 shapes        solids (`geometry/solids.py`) in m, x along its front, z up, the origin on the ground, each with a `part`
 materials     by part: a file in `assets/materials`, or `[material, part]` for a part of it; the first is what is seen

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..geometry.shapes import Mesh, facets, joined
 
-GOLDEN_ANGLE_RAD = 2.399963  # successive directions are never above each other
+GOLDEN_ANGLE_RAD = 2.399963  # successive directions are never aligned
 
 
 def limb(path_m: np.ndarray, radii_m: Sequence[float], sides: int, closed: bool = False) -> Mesh:
@@ -34,7 +34,7 @@ def loft_triangles(rings: int, sides: int) -> np.ndarray:
 
 
 def curve(start, knee, end, steps: int) -> np.ndarray:
-    """Points (steps + 1, 3) from start to end that leave start towards the knee and arrive from it."""
+    """Points (steps + 1, 3) of a curve from start to end with tangents towards and from the knee."""
     t = np.linspace(0.0, 1.0, steps + 1)[:, None]
     return (1 - t) ** 2 * np.asarray(start) + 2 * t * (1 - t) * np.asarray(knee) + t**2 * np.asarray(end)
 

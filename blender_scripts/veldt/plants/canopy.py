@@ -1,4 +1,4 @@
-"""How much of the ground lies below the crowns of plants."""
+"""Share of the ground below the crowns of plants."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..land.shares import as_bytes
 from ..land.terrain import Terrain
 from .placement import Planting
 
-_DOTS_M = 1.0  # largest distance of the points at which crowns are sampled
+_DOTS_M = 1.0  # largest distance between sample points of crowns
 
 
 def canopy(terrain: Terrain, plantings: Mapping[str, Planting]) -> np.ndarray:

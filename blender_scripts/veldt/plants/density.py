@@ -1,4 +1,4 @@
-"""Vegetation density: which parts of the place are open plain, which are mid and which are dense."""
+"""Vegetation density: open plain, mid and dense areas."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class DensityMap:
 
 
 def plan_density(terrain: Terrain, settings: dict, seed: int) -> DensityMap:
-    """The areas of a place: from the user's map, or a third of the place each, from its seed and its hills."""
+    """The areas of a scene: from the user's map, or a third of the scene each, from its seed and its hills."""
     if "density_map" in settings:
         values = read_density(settings["density_map"], "scene.terrain.density_map")
         return DensityMap(lambda x_m, y_m: sample(values, terrain.size_m, x_m, y_m), *_MAP_BORDERS)

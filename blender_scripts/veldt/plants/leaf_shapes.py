@@ -9,8 +9,8 @@ from .branch_shapes import directions
 
 _CLUSTER_CORNERS = 3
 _TWIGS = 36  # of a clump
-_BESIDE_TWIG = 3.0  # farthest middle of a cluster from its twig, in radii of a cluster
-_LEAFINESS = 0.3, 1.7  # of clumps, of which the barest show their branches
+_BESIDE_TWIG = 3.0  # farthest centre of a cluster from its twig, in radii of a cluster
+_LEAFINESS = 0.3, 1.7  # range over clumps; the barest show their branches
 
 
 def leafy_twigs(
@@ -18,8 +18,8 @@ def leafy_twigs(
 ) -> Mesh:
     """`count` clusters of leaves, each of radius about leaf_m, along twigs that are too thin to draw.
 
-    Twigs part in the middle of each clump (n, 3) and end in a flattened ball with half axes reach_m (3,). The clusters
-    of a crown have the area of leaves, and leave the gaps, of `heat.leaves` of its material.
+    Twigs start in the centre of each clump (n, 3) and end in an ellipsoid with half axes reach_m (3,). The clusters of
+    a crown have the leaf area and the gaps of `heat.leaves` of its material.
     """
     twigs = len(clumps_m) * _TWIGS
     out_m = directions(rng, twigs) * rng.uniform(0.6, 1.1, (twigs, 1)) * reach_m

@@ -15,7 +15,7 @@ from ..noise import fractal_noise, lattice_uniform
 
 AREAS = 3  # open, mid, dense
 _PATCHINESS = 0.6  # relative variation of a species' density between patches
-_MOST_TAKEN = 0.5  # largest share of a place taken by the footprints of other species
+_MOST_TAKEN = 0.5  # largest share of a scene taken by the footprints of other species
 _SHORE_M = 1.5
 _M2_PER_HA = 1e4
 
@@ -43,7 +43,7 @@ class Corridor:
 
 
 def _even_shares(x_m: np.ndarray, _) -> np.ndarray:
-    """Shares of a place that is a third of each area everywhere."""
+    """Shares of a scene that is a third of each area everywhere."""
     return np.full((len(x_m), AREAS), 1.0 / AREAS)
 
 
@@ -53,7 +53,7 @@ def _no_road(x_m: np.ndarray, _) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Site:
-    """The site for plants: the ground, its areas, and what must stay free.
+    """The ground for plants, its areas, and reserved parts.
 
     shares(x_m, y_m) gives the shares (n, 3) of open, mid and dense, which sum to 1; road_m(x_m, y_m) the distance (n,)
     to the road's border, negative on it.
@@ -82,8 +82,8 @@ def by_area(per_ha: float | Sequence[float]) -> list[float]:
 def place_plants(plants: Mapping[str, dict], site: Site, seed: int) -> dict[str, Planting]:
     """Plants of all species of `scene.plants`, by name in alphabetical order.
 
-    The species with the widest footprint is placed first; the others keep off it, and their density is raised to make
-    up for the loss. Plants in the way of water, road and walkers are removed last, so that a new path moves no plant.
+    The species with the widest footprint is placed first; the others keep off it, and their density is raised to
+    compensate. Plants in the way of water, road and walkers are removed last, so that a new path moves no plant.
     """
     kinds = [
         _Species(name, assets.load("plants", name), np.array(by_area(wanted["per_ha"]), float) / _M2_PER_HA)

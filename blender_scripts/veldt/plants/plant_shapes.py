@@ -28,8 +28,9 @@ _WOODY = ("umbrella", "many_stemmed")  # forms with stems that have a slot of th
 
 
 def slots_of(data: dict) -> list[tuple[str, str]]:
-    """(material, part) of a plant's or structure's meshes by slot: those of its shapes or its model, or its material
-    as a whole and, of trees in leaf, their wood."""
+    """(material, part) of a plant's or structure's meshes by slot: from its shapes or its model, or its material as a
+    whole and, for trees in leaf, their wood.
+    """
     if "shapes" in data:
         return [(slot, "") if isinstance(slot, str) else tuple(slot) for slot in data["materials"].values()]
     if "model" in data:

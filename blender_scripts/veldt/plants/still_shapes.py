@@ -20,7 +20,7 @@ def mound(data: dict, rng: np.random.Generator) -> Mesh:
 
 
 def rock(data: dict, rng: np.random.Generator) -> Mesh:
-    """A boulder: a ball with many flat cuts, a quarter of its height below the ground."""
+    """A boulder: a sphere with many flat cuts, a quarter of its height below the ground."""
     rings, sides = 7, 10
     polar = np.pi * (np.arange(rings) + 0.02) / (rings - 0.96)
     angle = 2.0 * np.pi * np.arange(sides) / sides

@@ -9,7 +9,7 @@ from .branch_shapes import GOLDEN_ANGLE_RAD, branches, curve, directions, limb, 
 from .leaf_shapes import blades, leafy_twigs
 
 _ROOT_M = -0.3  # depth of trunks below the ground, which may slope
-# Material slots; branches and the stems of bushes, which follow the air as leaves do, are in the leaves'.
+# Material slots; branches and the stems of bushes, which follow the air as leaves do, use that of leaves.
 LEAVES, WOOD = range(2)
 
 

@@ -1,4 +1,4 @@
-"""The part of the place that a camera may see: circles of ground, frame by frame."""
+"""The ground that a camera may see, as circles, frame by frame."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ _LEAST_FALL = 0.05  # vertical share of a ray's length; flatter rays are assumed
 def circles_seen(
     intrinsics: Intrinsics, camera_to_world: np.ndarray, low_m: float, high_m: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Centres (n, 2) and radii (n,) of circles that contain the plan view of all that poses (n, 4, 4) see between two
-    heights.
+    """Centres (n, 2) and radii (n,) of circles that contain the views of poses (n, 4, 4) between two heights, seen from
+    above.
 
     A radius is infinite if the picture reaches the horizon, or nearly.
     """
@@ -33,7 +33,7 @@ def circles_seen(
 
 
 def held_circles(centres_m: np.ndarray, radii_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Circles (n, 2) and (n,) that contain the given ones, each kept for as many consecutive frames as possible.
+    """Circles (n, 2) and (n,) that contain the given ones, each reused for as many consecutive frames as possible.
 
     A circle is kept while it is at most _GROWTH times as large as the smallest one it contains.
     """

@@ -1,1 +1,1 @@
-"""Plans of the preview: a map of a place and colour stills."""
+"""Plans of the preview: a map of a scene and colour stills."""

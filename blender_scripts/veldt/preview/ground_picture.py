@@ -1,4 +1,4 @@
-"""A picture of a place's ground from above: shaded relief, water, road and vegetation density."""
+"""A picture of a scene's ground from above: shaded relief, water, road and vegetation density."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _LEAST_MARGIN_M, _MARGIN = 15.0, 0.12
 
 @dataclass(frozen=True)
 class Window:
-    """A square of the place: its south-west corner and its side."""
+    """A square of the scene: its south-west corner and its side."""
 
     west_m: float
     south_m: float
@@ -26,7 +26,7 @@ class Window:
 
 
 def whole_place(terrain: Terrain) -> Window:
-    """The window that covers exactly the place."""
+    """The window that covers exactly the scene."""
     return Window(-0.5 * terrain.size_m, -0.5 * terrain.size_m, terrain.size_m)
 
 

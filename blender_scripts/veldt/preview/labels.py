@@ -1,4 +1,4 @@
-"""Placement of a map's labels such that they hide neither each other nor what they name."""
+"""Placement of a map's labels that hide neither each other nor their objects."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Label:
 
 @dataclass(frozen=True)
 class Anchor:
-    """What a label names: a position (x, y), and the distance that the label keeps from it."""
+    """The object of a label: a position (x, y), and the distance that the label keeps from it."""
 
     text: str
     point_m: tuple[float, float]

@@ -15,9 +15,9 @@ from .colours import INK, mixed, surface_colour
 from .flat_shapes import box, polygon
 from .labels import Label
 
-AREA_TINTS = {"open": "#ffe9a0", "dense": "#0b4a20"}  # mid areas are left as they are
+AREA_TINTS = {"open": "#ffe9a0", "dense": "#0b4a20"}  # mid areas have no tint
 AREA_OPACITY = 0.22
-LEGEND_WIDTH, MARGIN = 0.3, 0.02  # shares of the place's side, like all below
+LEGEND_WIDTH, MARGIN = 0.3, 0.02  # shares of the scene's side, like all below
 _PAPER = "#f4f1ea"
 _SURFACES = ("soil", "grass", "wet_soil", "rock", "road", "water")
 _LEFT, _ROW, _LETTERS = 0.03, 0.026, 0.0145
@@ -51,7 +51,7 @@ class _Row:
 
 
 def plan_legend(world: World, actor_colours: dict[str, str], time_s: float) -> Legend:
-    """The legend of a world's map, to the right of the place."""
+    """The legend of a world's map, to the right of the map."""
     side = world.terrain.size_m
     rows = _rows(world, actor_colours, time_s)
     pitch = side * min(_ROW, (1.0 - _FOOT) / len(rows))
@@ -94,7 +94,7 @@ def _section(title: str, entries: list[tuple[str, str]]) -> list[_Row]:
 
 
 def _areas() -> list[tuple[str, str]]:
-    """The areas in approximately the colours that their tints give to soil and grass."""
+    """The areas in approximately the colours of their tints over soil and grass."""
     bare = mixed(surface_colour("soil"), surface_colour("grass"), 0.5)
     tinted = {name: mixed(bare, tint, AREA_OPACITY) for name, tint in AREA_TINTS.items()}
     return [("open", tinted["open"]), ("mid", bare), ("dense", tinted["dense"])]
@@ -113,7 +113,7 @@ def _swatch(left: float, middle: float, letters: float) -> Mesh:
 
 
 def _frame(side: float) -> Mesh:
-    """The part of the sheet outside the place."""
+    """A frame that hides everything outside the scene."""
     half, edge = 0.5 * side, (0.5 + MARGIN) * side
     right = edge + LEGEND_WIDTH * side
     return joined(

@@ -106,7 +106,7 @@ def _tints(world: World) -> list[FlatLayer]:
 
 
 def _path_layers(courses: dict, colours: dict[str, str], side: float) -> list[FlatLayer]:
-    """Paths in the colour of their walkers, on a pale casing, and the place's border."""
+    """Paths in the colour of their walkers, on a pale casing, and the scene's border."""
     half = 0.5 * side
     corners = np.array([[-half, -half], [half, -half], [half, half], [-half, half], [-half, -half]])
     casing = [band(points_m, _CASING * side) for points_m, _ in courses.values()]

@@ -1,4 +1,4 @@
-"""Camera poses for colour stills of a place: an overview, and close-ups of some of its actors."""
+"""Camera poses for colour stills of a scene: an overview, and close-ups of some of its actors."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _NEAREST_M, _FARTHEST_M = 5.0, 15.0
 _ROOM = 2.0  # picture size relative to the body's size
 _AZIMUTHS_DEG = (90, -90, 70, -70, 110, -110, 45, -45, 135, -135, 20, -20, 160, -160)
 _SIGHT_STEPS = 12
-_BODY_M = 2.5  # distance from the line of sight within which another actor is in the way
+_BODY_M = 2.5  # distance from the line of sight within which an actor blocks the view
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Still:
 
 
 def plan_stills(world: World, time_s: float) -> list[Still]:
-    """An overview at 45 deg from 122 m, and from the side the first actor of each of the first four categories."""
+    """An overview at 45 deg from 122 m, and a side view of the first actor of each of the first four categories."""
     firsts: dict[str, Actor] = {}
     for actor in world.actors:
         firsts.setdefault(assets.load("species", actor.species)["category"], actor)
@@ -43,7 +43,7 @@ def plan_stills(world: World, time_s: float) -> list[Still]:
 
 
 def _overview(world: World, time_s: float) -> np.ndarray:
-    """A view of the largest group of actors, towards the middle of the place, or of the middle, to the north."""
+    """A view of the largest group of actors, towards the centre of the scene, or of the centre, to the north."""
     at_m = _busiest(world, time_s)
     distance_m = np.linalg.norm(at_m)
     bearing = -at_m / distance_m if distance_m > 1.0 else np.array([0.0, 1.0])
@@ -53,7 +53,7 @@ def _overview(world: World, time_s: float) -> np.ndarray:
 
 
 def _busiest(world: World, time_s: float) -> np.ndarray:
-    """The position (x, y) of the actor with most others near it."""
+    """The position (x, y) of the actor with most neighbours."""
     if not world.actors:
         return np.zeros(2)
     places_m = np.array([_place(actor, time_s)[0][:2] for actor in world.actors])
@@ -97,7 +97,8 @@ def _eye(
 
 
 def _hindrances(world: World, eye_m: np.ndarray, target_m: np.ndarray, others_m: np.ndarray) -> float:
-    """Number of obstacles between eye and target: plants, other actors, ground; a position off the place is worst."""
+    """Number of obstacles between eye and target: plants, other actors, ground; a position outside the scene is worst.
+    """
     half_m = 0.5 * world.terrain.size_m
     line = eye_m + np.linspace(0.0, 0.9, _SIGHT_STEPS)[:, None] * (target_m - eye_m)
     under_m = world.terrain.surface_m(line[:, 0], line[:, 1])

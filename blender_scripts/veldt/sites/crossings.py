@@ -16,12 +16,12 @@ from .layout import Standing
 _APART_M = 40.0  # between crossings
 _BUILT_FOR_M = 3.8  # width of the road that the walls of the assets are for
 _WALL_STEP_M = 0.5
-# The bank's height from which each stands; estimates. In lower gullies the road is a ford.
+# Least height of the bank for each; estimates. In lower gullies the road is a ford.
 _KINDS = (("bridge", 1.0), ("culvert", 0.4))
 
 
 def plan_crossings(terrain: Terrain, corridors: Sequence[Corridor]) -> list[Standing]:
-    """A pair of walls at each high bank of the road, the highest of those close together.
+    """A pair of walls at each high bank of the road; of nearby banks, at the highest.
 
     Where walkers' corridors meet a wall, there is none.
     """
@@ -36,7 +36,7 @@ def plan_crossings(terrain: Terrain, corridors: Sequence[Corridor]) -> list[Stan
 
 
 def _candidates(terrain: Terrain, road: Road) -> Iterator[tuple[float, Standing]]:
-    """The bank's height and what would stand there, for all points of the road where it is high enough."""
+    """The bank's height and its crossing, for all points of the road where it is high enough."""
     land = terrain.with_road(None)
     for points_m, bed_m in zip(road.points_m, road.bed_m):
         ahead_m = np.gradient(points_m, axis=0)
@@ -48,7 +48,7 @@ def _candidates(terrain: Terrain, road: Road) -> Iterator[tuple[float, Standing]
 
 
 def _is_clear(thing: Standing, width_m: float, corridors: Sequence[Corridor]) -> bool:
-    """Whether no walker gets close to a wall."""
+    """Whether walls are clear of walkers."""
     clear_m = assets.standing(thing.name)["clearance_m"]
     along_m = np.arange(-thing.foot_m, thing.foot_m + _WALL_STEP_M, _WALL_STEP_M)[:, None]
     ahead, left = heading_of(thing.yaw_rad), heading_of(thing.yaw_rad + 0.5 * np.pi)

@@ -1,4 +1,4 @@
-"""Where the things of a settlement stand: scattered, in rows, around loops, and beside each other. Lengths in m."""
+"""Positions of a settlement's objects: scattered, in rows, around loops, and beside each other. Lengths in m."""
 
 from __future__ import annotations
 
@@ -14,15 +14,14 @@ from ..noise import stream
 from ..plants.placement import Corridor, Planting
 from .settlement import Settlement
 
-_TRIES = 60  # of places, for each thing
+_TRIES = 60  # positions tried for each object
 _EVERYWHERE = (0.0, 1.0)
 _SHORE_M = 1.0
 
 
 @dataclass(frozen=True, eq=False)
 class Standing:
-    """A thing that people built: its name among plants and structures, its place (2,), the angle it is turned by, and
-    its size beside the asset's."""
+    """A built object: its name among plants and structures, its position (2,), rotation, and scale."""
 
     name: str
     point_m: np.ndarray
@@ -37,7 +36,7 @@ class Standing:
 
 @dataclass
 class Layout:
-    """What stands in a settlement so far, and what more may not stand on: walkers, water, the road."""
+    """Objects placed so far in a settlement, and reserved ground: walkers' paths, water, the road."""
 
     site: Settlement
     terrain: Terrain
@@ -45,12 +44,12 @@ class Layout:
     things: list[Standing] = field(default_factory=list)
 
     def is_free(self, thing: Standing) -> bool:
-        """Whether a thing can stand where it is."""
+        """Whether an object can stand at its position."""
         apart = all(_apart_m(thing, other) >= thing.foot_m + other.foot_m for other in self.things)
         return apart and self.is_open(thing)
 
     def is_open(self, thing: Standing) -> bool:
-        """Whether the ground of a thing is within the place, dry, off the road and clear of walkers."""
+        """Whether the ground of an object is within the scene, dry, off the road and clear of walkers."""
         data, at_m = assets.standing(thing.name), thing.point_m[None]
         x_m, y_m = at_m.T
         if np.abs(at_m).max() > 0.5 * self.terrain.size_m - data["foot_m"]:
@@ -63,14 +62,14 @@ class Layout:
         return all(corridor.is_clear(at_m, clear_m) for corridor in self.corridors)
 
     def add_first_free(self, tries: Iterator[Standing]) -> None:
-        """Add the first of some things that can stand where it is, if any."""
+        """Add the first of some objects that can stand at its position, if any."""
         found = next((thing for thing in tries if self.is_free(thing)), None)
         if found is not None:
             self.things.append(found)
 
 
 def lay_out(site: Settlement, terrain: Terrain, corridors: Sequence[Corridor]) -> list[Standing]:
-    """Everything that stands in a settlement, rule by rule in the order of its file."""
+    """All objects of a settlement, rule by rule in the order of its file."""
     layout = Layout(site, terrain, corridors)
     for number, rule in enumerate(site.rules["objects"]):
         kind = next((kind for kind in _RULES if kind in rule), "scatter")
@@ -79,7 +78,7 @@ def lay_out(site: Settlement, terrain: Terrain, corridors: Sequence[Corridor]) -
 
 
 def plantings_of(things: Sequence[Standing], terrain: Terrain, seed: int) -> dict[str, Planting]:
-    """The things by name, as plants are kept; sizes and variants are drawn for each."""
+    """The objects by name, as plantings; sizes and variants are drawn for each."""
     return {
         name: _planting(name, [thing for thing in things if thing.name == name], terrain, seed)
         for name in sorted({thing.name for thing in things})
@@ -99,7 +98,7 @@ def _planting(name: str, things: Sequence[Standing], terrain: Terrain, seed: int
 
 
 def _scatter(layout: Layout, rule: dict, number: int) -> None:
-    """Single things anywhere in a ring."""
+    """Single objects anywhere in a ring."""
     site = layout.site
     for k in range(site.count(site.stream("count", number), rule)):
         rng = site.stream("thing", number, k)
@@ -111,7 +110,7 @@ def _scatter(layout: Layout, rule: dict, number: int) -> None:
 
 
 def _beside(layout: Layout, rule: dict, number: int) -> None:
-    """A thing beside a share of those that another rule has placed."""
+    """An object beside a share of those placed by another rule."""
     least_m, most_m = rule.get("gap_m", [0.3, 1.5])
     hosts = [thing for thing in layout.things if thing.name in rule["beside"]]
     for k, host in enumerate(hosts):
@@ -129,7 +128,7 @@ def _beside(layout: Layout, rule: dict, number: int) -> None:
 
 
 def _row(layout: Layout, rule: dict, number: int) -> None:
-    """Things side by side on a straight line, all or those that find space."""
+    """Objects side by side on a straight line, all or those that find space."""
     site, rng = layout.site, layout.site.stream("thing", number)
     step_m, count = rule["row"]["step_m"], site.count(rng, rule)
     best: list[Standing] = []
@@ -196,7 +195,7 @@ def _segments(corners_m: np.ndarray, name: str, step_m: float) -> Iterator[Stand
 def _facing(
     site: Settlement, rng: np.random.Generator, rule: dict, name: str, point_m: np.ndarray
 ) -> Standing:
-    """A thing at a place, turned as its rule has it: to the middle, along the site's grid, or any way."""
+    """An object at a position, rotated by its rule: to the centre, along the site's grid, or at random."""
     faces = rule.get("faces", "any")
     if faces == "middle":
         inward = site.middle_m - point_m

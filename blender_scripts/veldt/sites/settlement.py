@@ -1,4 +1,4 @@
-"""A settlement of the config: where it is, and the random streams that lay it out. Lengths in m."""
+"""A settlement of the config: its position, and random streams for its layout. Lengths in m."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ..noise import stream
 
 @dataclass(frozen=True)
 class Settlement:
-    """A site of the config: the rules of its kind, its middle (2,), its size, and which way it is built."""
+    """A site of the config: the rules of its kind, its centre (2,), its size, and its heading."""
 
     name: str
     rules: dict
@@ -28,24 +28,24 @@ class Settlement:
     seed: int
 
     def stream(self, *entity) -> np.random.Generator:
-        """The random generator of one thing of this site."""
+        """The random generator of one object of this site."""
         what, *numbers = entity
         return stream(self.seed, f"site/{self.name}/{what}", *numbers)
 
     def count(self, rng: np.random.Generator, rule: dict) -> int:
-        """How many of a rule's things there are: between both of its numbers, times the density."""
+        """Number of a rule's objects: between both of its numbers, times the density."""
         least, most = rule.get("count", [1, 1])
         return round(self.density * rng.integers(least, most + 1))
 
     def draw_place(self, rng: np.random.Generator, ring: Sequence[float]) -> np.ndarray:
-        """A place (2,) between two distances from the middle, in radii; all of that area is equally likely."""
+        """A point (2,) between two distances from the centre, in radii, uniform over that area."""
         inner, outer = ring
         away_m = self.radius_m * np.sqrt(inner**2 + (outer**2 - inner**2) * rng.uniform())
         return self.middle_m + away_m * any_heading(rng)
 
 
 def plan_settlements(entries: Sequence[dict], terrain: Terrain, seed: int) -> list[Settlement]:
-    """The sites of a config; ConfigError if one is of no known kind, or not on dry ground of the place."""
+    """The sites of a config; ConfigError if one is of an unknown kind, or not on dry ground of the scene."""
     names = [entry.get("name", f"{entry['kind']}_{k + 1}") for k, entry in enumerate(entries)]
     for k, name in enumerate(names):
         if name in names[:k]:
