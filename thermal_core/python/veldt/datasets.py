@@ -24,7 +24,7 @@ class Label:
     category: str
     track_id: int
     box_px: tuple[float, float, float, float]
-    """Of its visible pixels: x, y, width and height."""
+    """Bounding box of its visible pixels: x, y, width and height."""
     values: dict[str, Any] = field(repr=False)
     """All keys of its annotation, such as range_m and contrast_k; thermal_core/DATASET.md explains them."""
 
@@ -47,7 +47,7 @@ class Frame:
     clip: Clip = field(repr=False)
     index: int
     line: str = field(repr=False)
-    """Of frames.jsonl, as text: a fifth of the memory."""
+    """Its line of frames.jsonl as text, in a fifth of the memory."""
 
     @property
     def values(self) -> dict[str, Any]:

@@ -64,7 +64,7 @@ class Poses:
         self._held: deque[bytes] = deque(maxlen=_MOST_HELD)
         self.received = 0
         self.of_no_use = 0
-        """Datagrams of whole MAVLink messages that say no pose."""
+        """Datagrams of valid MAVLink messages without a pose."""
         self.rejected = Rejections(report)
 
     def receive_until(self, time_s: float, clock: Callable[[], float]) -> None:
@@ -154,7 +154,7 @@ class Flight(NamedTuple):
     dropped: int
     """Not made in time, or not sent."""
     worst_s: float
-    """The longest that a frame was late, when it was handed over."""
+    """Largest lateness of a frame, when it was queued."""
 
 
 def fly(

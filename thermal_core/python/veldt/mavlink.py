@@ -26,9 +26,9 @@ class Received(NamedTuple):
     """Counts of a datagram's messages."""
 
     used: int
-    """Messages that say where the drone or its camera is."""
+    """Messages with a position or an attitude."""
     faults: list[Unusable]
-    """What was dropped. Whole messages of other kinds are neither."""
+    """Dropped messages. Valid messages of other kinds are not counted."""
 
 
 class _Motion(NamedTuple):
@@ -36,9 +36,9 @@ class _Motion(NamedTuple):
 
     arrived_s: float
     now: NDArray[np.float64]
-    """A place (3,) [m], or a rotation (3, 3)."""
+    """A position (3,) [m], or a rotation (3, 3)."""
     rates: NDArray[np.float64]
-    """Of change (3,) a second."""
+    """Rates of change (3,) per second."""
     from_north: bool = False
 
 

@@ -19,9 +19,9 @@ class Progress(NamedTuple):
     """Progress of a run."""
 
     stage: str
-    """"planning", "ground maps" or "frames": what is counted."""
+    """Unit of the counts: "planning", "ground maps" or "frames"."""
     clip: str
-    """The one at work."""
+    """The current clip."""
     done: int
     total: int
 

@@ -19,11 +19,11 @@ class StreamCounts(NamedTuple):
 
     sent: int
     dropped: int
-    """No room, or no receiver."""
+    """Queue full, or no receiver."""
     waiting: int
-    """Neither yet; at most a few."""
+    """Queued; at most a few."""
     lines_missed: int
-    """Lines that slow clients did not get, and those too long for a datagram."""
+    """Lines that slow clients missed, and those too long for a datagram."""
     fault: str
     """Why the last frame without a receiver had none."""
 

@@ -36,11 +36,11 @@ class Capture(NamedTuple):
     labels: list[Label]
     """The actors in it."""
     object_index: NDArray[np.uint16]
-    """What each pixel shows, as the passes have it."""
+    """Object index of each pixel, as in passes."""
     depth_m: NDArray[np.float32]
     """Along the camera's axis, 1e10 for sky; (0, 0) if no physical term needs it."""
     actors: dict[int, Actor]
-    """Where all actors are at that time, by track id."""
+    """Poses of all actors at that time, by track id."""
 
 
 class Intrinsics(NamedTuple):
