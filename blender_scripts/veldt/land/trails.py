@@ -21,7 +21,7 @@ _STEEP = 40.0  # a grade of 16 % doubles the cost of a way; estimate
 _FROM_M = 190.0  # between random starts of trails, some of which have none
 _FROM_SHARE = 0.6
 _WINDING_M = 24.0
-_BEGINS = (0.15, 0.45, 0.8)  # of the usual share: trails begin narrow, because animals come from all sides
+_BEGINS = (0.15, 0.45, 0.8)  # of the usual share: trails begin faint, because animals come from all sides
 _BORDER_M = 8.0
 _NEIGHBOURS = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
 # By strand: least traffic for it, and how far it strays; trails of many animals are braided.
