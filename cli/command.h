@@ -8,21 +8,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/output.h"
 #include "io/assets.h"
 #include "io/config/config.h"
 
 namespace veldt {
 
-/// Exit codes; scripts rely on the numbers.
-enum ExitCode : int {
-  kDone = 0,
-  kFailed = 1,
-  kBadUsage = 2,
-  kSomeRejected = 3,
-  kTryAgain = 75,
-};
-
-/// What they mean, for help and manual.
+/// What the exit codes mean, for help and manual.
 inline constexpr std::array<std::pair<int, const char*>, 5> kExitMeanings = {
     {{kDone, "done"},
      {kFailed, "failed"},

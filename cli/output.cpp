@@ -9,8 +9,6 @@
 
 #include <fcntl.h>
 
-#include "cli/command.h"
-
 namespace veldt {
 namespace {
 

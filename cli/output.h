@@ -39,6 +39,15 @@ void print_error(ShownFormat<Values...> format, const Values&... values) {
   fmt::print(stderr, format, shown(values)...);
 }
 
+/// Exit codes; scripts rely on the numbers.
+enum ExitCode : int {
+  kDone = 0,
+  kFailed = 1,
+  kBadUsage = 2,
+  kSomeRejected = 3,
+  kTryAgain = 75,
+};
+
 /// A document on standard output, indented.
 void print_json(const thermal::Json& document);
 
