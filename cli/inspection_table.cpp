@@ -200,7 +200,7 @@ void print_bad_frames(const Inspection& inspection) {
 
 }  // namespace
 
-void print(const Inspection& inspection) {
+void print_inspection(const Inspection& inspection) {
   print_files(inspection);
   print_layers(inspection);
   print_indices(inspection);
@@ -212,7 +212,8 @@ void print(const Inspection& inspection) {
   print_conversion(inspection);
 }
 
-void print(const thermal::StarterManifest& starter, const Inspection& inspection, const thermal::Path& file) {
+void print_starter(const thermal::StarterManifest& starter, const Inspection& inspection,
+                   const thermal::Path& file) {
   print("\n{}: starter manifest\n", file.string());
   print_block("guessed; check these", starter.guesses);
   print_block("to fill in", starter.to_fill_in);

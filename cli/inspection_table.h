@@ -6,10 +6,10 @@
 namespace veldt {
 
 /// Prints what passes hold, and what a conversion would do with them.
-void print(const thermal::Inspection& inspection);
+void print_inspection(const thermal::Inspection& inspection);
 
 /// Prints what a starter manifest guessed, what the user has to fill in, and the command to run next.
-void print(const thermal::StarterManifest& starter, const thermal::Inspection& inspection,
-           const thermal::Path& file);
+void print_starter(const thermal::StarterManifest& starter, const thermal::Inspection& inspection,
+                   const thermal::Path& file);
 
 }  // namespace veldt
