@@ -171,7 +171,7 @@ def test_errors_name_the_key(veldt):
     config["clips"][0]["flight"]["altitude_m"] = {"uniform": [50, 30]}
     veldt.write("config.json", config)
     rule = "flight.altitude_m.uniform = [50,30]; expected the lowest first"
-    check_fault(veldt("validate", "config.json"), 2, f"config.json: clips[0] (many_0000).{rule}")
+    check_fault(veldt("validate", "config.json"), 2, f'config.json: clips[0] ("many", 5 clips).{rule}')
 
 
 def test_a_clip_cannot_have_a_scene_or_a_size_of_picture_of_its_own(veldt):

@@ -6,6 +6,7 @@
 #include <locale>
 #include <map>
 #include <regex>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -77,7 +78,7 @@ constexpr std::size_t kMostPatternBytes = 4096;
 /// Checks one document against one schema.
 class Checker {
  public:
-  explicit Checker(const Json& root) : root_(root) {}
+  Checker(const Json& root, const EntryNames& names) : root_(root), names_(names) {}
 
   void check(Json& value, const Json& given, const std::string& where) {
     const Json& schema = meant_by(given);
@@ -106,7 +107,11 @@ class Checker {
   void add(const Json& value, const std::string& rule) {
     const std::string unit = value.is_number() ? unit_of_key(key_of(where_)) : "";
     const std::string where = where_.empty() ? "document" : where_;
-    faults_.push_back(fault(where, shortened(value), unit, rule));
+    add_at(where, fault("", shortened(value), unit, rule));
+  }
+
+  void add_at(const std::string& where, const std::string& fault) {
+    if (at_fault_.insert(where).second) faults_.push_back(where + fault);
   }
 
   static std::string shortened(const Json& value) {
@@ -200,7 +205,7 @@ class Checker {
     }
     for (const Json& key : member_or(schema, "required", kNone)) {
       const auto name = key.get<std::string>();
-      if (!value.contains(name)) faults_.push_back(prefix + name + " is missing; expected a value");
+      if (!value.contains(name)) add_at(prefix + name, " is missing; expected a value");
     }
     for (const auto& [key, property] : properties.items()) fill_preset(value, key, property);
     for (const auto& [key, property] : properties.items()) {
@@ -223,7 +228,7 @@ class Checker {
   void add_unknown_key(const std::string& where, const std::string& key, const Json& properties) {
     std::vector<std::string> known;
     for (const auto& [name, property] : properties.items()) known.push_back(name);
-    faults_.push_back(where + " is not a known key; expected " +
+    add_at(where, " is not a known key; expected " +
                       (known.empty() ? "none" : "one of " + list_names(known, 40)) +
                       did_you_mean(key, known));
   }
@@ -239,20 +244,28 @@ class Checker {
     }
     if (!schema.contains("items")) return;
     for (std::size_t i = 0; i < value.size(); ++i) {
-      check_at(value[i], schema["items"], fmt::format("{}[{}]", where, i));
+      check_at(value[i], schema["items"], entry_name(where, i));
     }
   }
 
+  [[nodiscard]] std::string entry_name(const std::string& list, std::size_t entry) const {
+    const auto named = names_.find(list);
+    return named == names_.end() ? fmt::format("{}[{}]", list, entry) : named->second.at(entry);
+  }
+
   const Json& root_;
+  const EntryNames& names_;
   std::string where_;
   std::vector<std::string> faults_;
+  std::set<std::string> at_fault_;  ///< places that have one
   std::map<std::string, std::regex> patterns_;
 };
 
 }  // namespace
 
-std::vector<std::string> check_and_fill(Json& document, const Json& schema, const std::string& where) {
-  Checker checker(schema);
+std::vector<std::string> check_and_fill(Json& document, const Json& schema, const std::string& where,
+                                        const EntryNames& names) {
+  Checker checker(schema, names);
   checker.check_at(document, schema, where);
   return std::move(checker).faults();
 }
