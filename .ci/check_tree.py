@@ -1,4 +1,4 @@
-"""Checks on the repository's files that no compiler makes: JSON that parses, configs that match the schema,
+"""Checks on the repository's files that no compiler makes: JSON that parses, configs that match their schema,
 no paths of a developer's machine, no path that a document leads astray, no number that a locale changes. Standard input
 names the files, one a line, relative to the root.
 
@@ -11,6 +11,9 @@ import sys
 from pathlib import Path
 
 import jsonschema
+
+sys.path.insert(0, "configs/schema")
+from make_editor_schema import editor_schema
 
 CONFIG_SCHEMA = Path("configs/schema/config.schema.json")
 # A home or working folder at the start of a path; the look-behind leaves URLs and relative paths alone.
@@ -52,12 +55,15 @@ def schema_faults(path: Path, schema: dict) -> list[str]:
 
 
 def config_faults(path: Path, config: dict) -> list[str]:
-    """One line for each place where a config departs from the schema it names, or else the config schema."""
-    schema = path.parent / config["$schema"] if "$schema" in config else CONFIG_SCHEMA
-    validator = jsonschema.Draft202012Validator(json.loads(schema.read_text(encoding="utf-8")))
+    """One line for each place where a config departs from the schema it names, or else that for editors."""
+    schema = path.parent / config.get("$schema", "schema/editor.schema.json")
+    if schema.name == "editor.schema.json":  # which builds make
+        rules = editor_schema(json.loads(CONFIG_SCHEMA.read_text(encoding="utf-8")))
+    else:
+        rules = json.loads(schema.read_text(encoding="utf-8"))
     return [
         f"{path}: {error.json_path}: {error.message}; expected what {schema} says"
-        for error in validator.iter_errors(config)
+        for error in jsonschema.Draft202012Validator(rules).iter_errors(config)
     ]
 
 

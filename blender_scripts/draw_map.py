@@ -1,13 +1,13 @@
-"""Draw the ground of a config's place from above, without Blender.
+"""Draw a map of the ground of a config's scene, without Blender.
 
     python3 draw_map.py --config FILE --out FOLDER [--points FILE]
 
-Writes place.png, which shows the whole place. With --points, also writes window.png, the ground around the given
-points: FILE holds a JSON list of [x_m, y_m, ground_m], where ground_m is the known height of the ground or water there,
-or null. Prints one JSON object: the south-west corner and the side of each picture in metres, and off_m, the largest
-difference between the given heights and those of this place.
+Writes place.png, a map of the whole scene. With --points, also writes window.png, the ground around the given points:
+FILE holds a JSON list of [x_m, y_m, ground_m], where ground_m is the known height of the ground or water there, or
+null. Prints one JSON object: the south-west corner and the side of each picture in metres, and off_m, the largest
+difference between the given heights and those of the scene.
 A fault in the config prints one line on stderr and exits with code 2. Any other failure prints a traceback whose last
-line has the exception, its place and a hint, and exits with code 1.
+line has the exception, its location and a hint, and exits with code 1.
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ import sys
 from dataclasses import asdict
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))  # python3 -I leaves it out
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # python3 -I omits it
 
 # pylint: disable=wrong-import-position
-from veldt.failures import reported_imports, run
+from planner.failures import reported_imports, run
 
 with reported_imports():
     import numpy as np
 
-    from veldt.config import load
-    from veldt.images import write_rgb
-    from veldt.land.road_plan import plan_road
-    from veldt.land.terrain import Terrain, build_terrain
-    from veldt.plants.density import plan_density
-    from veldt.preview.ground_picture import draw_ground, whole_place, window_round
+    from planner.config import load
+    from planner.images import write_rgb
+    from planner.land.road_plan import plan_road
+    from planner.land.terrain import Terrain, build_terrain
+    from planner.plants.density import plan_density
+    from planner.preview.ground_picture import draw_ground, whole_place, window_round
 
 PLACE_PX, WINDOW_PX = 320, 640
 
@@ -49,7 +49,7 @@ def main(arguments: list[str]) -> int:
 
 
 def draw(config: dict, out: Path, points_m: np.ndarray) -> dict:
-    """Write the pictures of a config's place and return their corners and sides; points_m (n, 3) may be empty."""
+    """Write the maps of a config's scene and return their corners and sides; points_m (n, 3) may be empty."""
     settings, seed = config["scene"]["terrain"], config["seed"]
     terrain = build_terrain(settings, seed)
     terrain = terrain.with_road(plan_road(settings["road"], terrain, seed))

@@ -1,4 +1,4 @@
-"""Turn a user's model into a mesh of the baked scene. Blender runs it:
+"""Convert a user's model to a mesh of the baked scene. Run by Blender:
 
     blender -b --factory-startup --disable-autoexec --python-exit-code 1 --python import_model.py < ORDER
 
@@ -12,12 +12,12 @@ import json
 import sys
 from pathlib import Path
 
-sys.dont_write_bytecode = True  # nothing is written into the folder of the scripts, whoever owns it
+sys.dont_write_bytecode = True  # write nothing into the scripts' folder
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # pylint: disable=wrong-import-position
-from veldt.faults import ConfigError
-from veldt.model_meshes import write_mesh
+from planner.faults import ConfigError
+from planner.model_meshes import write_mesh
 from veldt_bl import models
 
 

@@ -1,4 +1,4 @@
-"""Plan a dataset: check what a resolved config means, cut its flights into clips, and bake its scene. No Blender.
+"""Plan a dataset: check a resolved config, cut its flights into clips, and bake its scene. No Blender.
 
     python3 plan_scene.py --config FILE [--out DIR [--preview] [--earlier DIR] [--blender PROGRAM]]
             [--processes N] [--events-fd N]
@@ -6,7 +6,7 @@
 Prints the plan as JSON. With --out, writes it to DIR/plan.json, with the baked scene in DIR/scene.json and
 DIR/scene.bin, and the track of each clip in DIR/tracks. The config is one that `veldt` has resolved. Each planned clip
 or flight is an event: `planned`, with `id`, `done` and `total`. A fault in the config prints one line on stderr and
-exits with code 2. Any other failure prints a traceback whose last line has the exception, its place and a hint, and
+exits with code 2. Any other failure prints a traceback whose last line has the exception, its location and a hint, and
 exits with code 1.
 """
 
@@ -17,17 +17,17 @@ import json
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))  # python3 -I leaves it out
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # python3 -I omits it
 
 # pylint: disable=wrong-import-position
-from veldt.failures import reported_imports, run
+from planner.failures import reported_imports, run
 
 with reported_imports():
-    from veldt.bake.folder import bake_plan, plan
-    from veldt.config import load
-    from veldt.events import Events
-    from veldt.model_meshes import ModelMeshes
-    from veldt.workers import Cores
+    from planner.bake.folder import bake_plan, plan
+    from planner.config import load
+    from planner.events import Events
+    from planner.model_meshes import ModelMeshes
+    from planner.workers import Cores
 
 
 def main(arguments: list[str]) -> int:

@@ -1,4 +1,4 @@
-"""Measure where the time of a clip's frames goes. Run by Blender:
+"""Profile the rendering of a clip's frames. Run by Blender:
 
     blender -b --factory-startup --python-exit-code 1 --python profile_render.py -- --plan DIR
             [--clip ID ...] [--frames N] [--out DIR] [--supersample N ...] [--events-fd N]
@@ -15,18 +15,18 @@ import tempfile
 import time
 from pathlib import Path
 
-sys.dont_write_bytecode = True  # nothing is written into the folder of the scripts, whoever owns it
+sys.dont_write_bytecode = True  # write nothing into the scripts' folder
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # pylint: disable=wrong-import-position
-from veldt.events import Events
-from veldt.faults import ConfigError
+from planner.events import Events
+from planner.faults import ConfigError
 from veldt_bl.entry import own_arguments, reported_imports, run
 
 with reported_imports():
     import bpy
 
-    from veldt.bake.baked import clip_of, read_plan, read_scene, read_track
+    from planner.bake.baked import clip_of, read_plan, read_scene, read_track
     from veldt_bl.profile import profile_frames
     from veldt_bl.render import set_up_renderer
     from veldt_bl.scene import build_stage
@@ -75,8 +75,9 @@ def _profile(options: argparse.Namespace, events: Events) -> None:
 
 
 def _size() -> dict[str, int]:
-    """What a frame consists of, and the peak memory of this process. Linux counts that of the program which started it
-    in ru_maxrss."""
+    """Size of a frame, and the peak memory of this process. On Linux, ru_maxrss includes that of the program which
+    started it.
+    """
     render = bpy.context.scene.render
     status = Path("/proc/self/status").read_text(encoding="ascii")
     peak_kib = next(int(line.split()[1]) for line in status.splitlines() if line.startswith("VmHWM"))

@@ -1,34 +1,37 @@
-"""Render the passes of a plan's clips. Blender runs it:
+"""Render the passes of a plan's clips. Run by Blender:
 
     blender -b --factory-startup --disable-autoexec --python-exit-code 1 --python render_passes.py --
             --plan DIR --out DIR (--clip ID ... [--supersample N] [--actor-layer] | --preview) [--events-fd N]
 
-For each clip, writes DIR/<clip>/manifest.json and then DIR/<clip>/000000.exr and so on; a file with such a name is
-complete. A second run resumes at a clip's first missing frame. Exit codes: 0 done, 1 failed, 2 the folder holds frames
-of another plan.
+For each clip, writes DIR/<clip>/000000.exr and so on; a file with such a name is complete. A second run resumes at a
+clip's first missing frame. The thermal core writes the manifest beside them. Exit codes: 0 done, 1 failed, 2 the plan
+has no such clip.
 """
 
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 import time
 from pathlib import Path
 
-sys.dont_write_bytecode = True  # nothing is written into the folder of the scripts, whoever owns it
+sys.dont_write_bytecode = True  # write nothing into the scripts' folder
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # pylint: disable=wrong-import-position
-from veldt.events import Events
-from veldt.faults import ConfigError
+from planner.events import Events
 from veldt_bl.entry import own_arguments, reported_imports, run
 
 with reported_imports():
-    from veldt.bake.baked import clip_of, read_plan, read_scene, read_sheet, read_track
-    from veldt.manifest import build_manifest, frame_file, to_json
+    from planner.bake.baked import clip_of, read_plan, read_scene, read_sheet, read_track
     from veldt_bl.preview import pictures_of, render_pictures
-    from veldt_bl.render import first_missing, render_frames, render_frames_and_actors, set_up_renderer
+    from veldt_bl.render import (
+        first_missing,
+        frame_file,
+        render_frames,
+        render_frames_and_actors,
+        set_up_renderer,
+    )
     from veldt_bl.scene import Stage, build_stage
 
 
@@ -84,13 +87,11 @@ def _render_preview(stage: Stage, plan: Path, folder: Path, events: Events) -> N
 
 
 def _render_clip(stage: Stage, clip: dict, options: argparse.Namespace, events: Events) -> None:
-    """Write a clip's manifest, then the frames it lacks."""
+    """Write the frames that a clip lacks."""
     name, frames, folder = clip["id"], clip["frames"], options.out / clip["id"]
     folder.mkdir(parents=True, exist_ok=True)
     first = first_missing(folder, frames)
     track = read_track(options.plan / "tracks" / name, stage.scene)
-    manifest = build_manifest(stage.scene, track, clip, options.supersample, options.actor_layer)
-    _write_manifest(folder / "manifest.json", to_json(manifest), has_frames=first > 0)
     events.report("clip", clip=name, first_frame=first, frames=frames)
     if first < frames:
         set_up_renderer(stage.scene.passes_of(track), options.supersample)
@@ -105,15 +106,6 @@ def _render_clip(stage: Stage, clip: dict, options: argparse.Namespace, events: 
         else:
             render_frames(folder, left, stage.pose, on_frame)
     events.report("clip_done", clip=name)
-
-
-def _write_manifest(path: Path, text: str, has_frames: bool) -> None:
-    """Write the manifest atomically; existing frames must belong to the same manifest."""
-    if has_frames and (not path.exists() or path.read_text(encoding="utf-8") != text):
-        raise ConfigError(f"--out = {path.parent}; expected no frames there, or frames of this plan")
-    part = path.with_suffix(".part")
-    part.write_text(text, encoding="utf-8")
-    os.replace(part, path)
 
 
 if __name__ == "__main__":

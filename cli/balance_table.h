@@ -7,7 +7,7 @@
 
 namespace veldt {
 
-/// What `balance` did.
+/// Result of `balance`.
 struct Balanced {
   std::vector<thermal::LabelSource> sources;
   thermal::BalanceProgram program;
@@ -16,7 +16,7 @@ struct Balanced {
   double time_s = 0;
 };
 
-/// Prints labels taken out of those available, by video and class, and how good the selection is.
+/// Prints selected and available labels by video and class, and the quality of the selection.
 void print_table(const Balanced& balanced);
 
 /// The same as JSON.

@@ -94,7 +94,7 @@ thermal::Json to_json(const thermal::ConvertRow& row) {
   return json;
 }
 
-/// Whole numbers in full, others to three digits.
+/// Whole numbers in full, others with three digits.
 std::string short_number(double value) {
   return value == std::floor(value) ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
@@ -172,7 +172,7 @@ std::vector<thermal::RenderRow> measure_rendering(const BenchArguments& options,
   return thermal::run_render_suite({find_blender(options.blender), thermal::Assets::find(), teller(quiet)});
 }
 
-/// Without a Blender on PATH, rows of Embree alone.
+/// Without a Blender on PATH, measures Embree alone.
 std::vector<thermal::RenderRow> measure_engines(const BenchArguments& options, const CommonOptions& common) {
   thermal::Path blender;
   if (!options.blender.empty() || !thermal::find_program("blender").empty()) {

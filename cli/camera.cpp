@@ -22,7 +22,7 @@ struct CameraArguments {
   std::string views;
 };
 
-/// What the photos of one camera have in common, and how often each view was found.
+/// The camera of several photos, and the frequency of each of their views.
 struct Views {
   std::map<std::string, std::pair<thermal::Json, int>> cameras;  ///< sections and photos, by their text
   std::map<std::pair<double, double>, int> counts;
@@ -36,7 +36,7 @@ void add_pictures(const thermal::Path& folder, std::vector<thermal::Path>& photo
   std::sort(photos.begin() + begin, photos.end());
 }
 
-/// The files named, and the pictures of folders named.
+/// The given files, and the pictures in given folders.
 std::vector<thermal::Path> photos_of(const CameraArguments& options) {
   std::vector<thermal::Path> photos;
   for (const std::string& name : options.photos) {

@@ -34,7 +34,7 @@ ClassBounds parse_bounds(std::string_view text, const std::string& word) {
   return {.at_least = *low, .at_most = *high};
 }
 
-/// The category of poachers is `human`, so small_human is another name of small_poacher.
+/// The category of poachers is `human`, so small_human is an alias of small_poacher.
 std::string with_poachers(const std::string& name) {
   const std::size_t size = name.rfind("_human");
   return size != std::string::npos && name.ends_with("_human") ? name.substr(0, size) + "_poacher" : name;

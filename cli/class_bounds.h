@@ -8,8 +8,8 @@
 
 namespace veldt {
 
-/// Bounds as --per-class gives them: "LO:HI" for all classes, "small_animal=LO:HI" for one, which takes precedence.
-/// Classes that are not listed have no bounds. Throws ConfigError for anything else.
+/// Bounds from --per-class: "LO:HI" for all classes, "small_animal=LO:HI" for one, which takes precedence. Classes that
+/// are not listed have no bounds. ConfigError for anything else.
 [[nodiscard]] std::array<thermal::ClassBounds, thermal::kBalanceClasses> parse_class_bounds(
     const std::vector<std::string>& words);
 

@@ -45,43 +45,43 @@ std::string filled_in(std::string text, const Values& values) {
   return text;
 }
 
-/// In single quotes, as a shell reads it unchanged.
+/// Single-quoted for a shell.
 std::string shell_quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
 }
 
-/// The same text; ConfigError for tabs, ends of lines and what is not UTF-8, which schedulers, shells and YAML read in ways
-/// of their own.
+/// The same text; ConfigError for tabs, line ends and invalid UTF-8, which schedulers, shells and YAML interpret
+/// differently.
 const std::string& checked(const char* what, const std::string& text) {
   if (thermal::printable(text) == text) return text;
   throw thermal::ConfigError(
       thermal::fault(what, text, "", "a text without control characters, in UTF-8, such as /data/park"));
 }
 
-/// A name that Kubernetes accepts: small letters, digits and hyphens, a letter or digit at both ends.
+/// A name valid in Kubernetes: lower-case letters, digits and hyphens, a letter or digit at both ends.
 std::string label_of(const std::string& name) {
   std::string label;
   for (const char c : name) {
     const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
     label += is_plain ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '-';
   }
-  constexpr std::size_t kLongest = 40;  // of 63, which pods of jobs need for more
+  constexpr std::size_t kLongest = 40;  // of 63: jobs append to it for their pods
   label = label.substr(0, kLongest);
   const std::size_t first = label.find_first_not_of('-');
   return first == std::string::npos ? "dataset"
                                     : label.substr(first, label.find_last_not_of('-') - first + 1);
 }
 
-/// Four shards a node: the last to end leaves the others idle for a quarter of their time at most.
+/// Four shards a node: then the last to end leaves the others idle for at most a quarter of their time.
 int shard_count(const ClusterArguments& options, std::size_t clips) {
   constexpr int kShardsANode = 4;
   if (options.shards > 0) return options.shards;
   return std::clamp(kShardsANode * options.nodes, 1, std::max(1, static_cast<int>(clips)));
 }
 
-/// Time limit of a shard: three times the estimate, which is right within a factor of two, and never short. A shard
+/// Time limit of a shard: three times the estimate, which is accurate within a factor of two, with a minimum. A shard
 /// that reaches it continues with the clip after its last complete one.
 int shard_minutes(const thermal::Config& config, int shards, int cores) {
   constexpr double kEstimatedCores = 2;
@@ -97,7 +97,7 @@ int shard_minutes(const thermal::Config& config, int shards, int cores) {
 
 /// Merging reads and checks every file once.
 int merge_minutes(const thermal::Estimate& estimate) {
-  constexpr double kBytesPerMinute = 3e9;  // 50 MB/s, of a slow shared disk
+  constexpr double kBytesPerMinute = 3e9;  // 50 MB/s, as for a slow shared disk
   constexpr int kLeast = 15;
   return kLeast + static_cast<int>(std::ceil(estimate.bytes / kBytesPerMinute));
 }

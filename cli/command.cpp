@@ -24,7 +24,7 @@
 namespace veldt {
 namespace {
 
-/// The one table of commands, in the order help shows them; CMake's options of these names leave some out.
+/// The table of commands, in the order of the help; CMake options of these names leave some out.
 constexpr std::array kCommands = {
     add_generate, add_plan,   add_render,  add_convert,  add_merge,
     add_cluster,  add_export, add_inspect, add_validate,
@@ -54,8 +54,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// The fault of an option that a command does not have, which may be the misspelt name of one that it lacks; empty if
-/// there is none.
+/// The fault of an unknown option, perhaps a misspelt one; empty if there is none.
 std::string unknown_option(const CLI::App& command) {
   const std::vector<std::string> rest = command.remaining();
   const auto option =
@@ -71,7 +70,7 @@ std::string unknown_option(const CLI::App& command) {
          "?";
 }
 
-/// What is wrong with a command line, as one line.
+/// The fault of a command line, as one line.
 std::string usage_fault(const CLI::App* app, const CLI::Error& error) {
   const std::vector<CLI::App*> named = app->get_subcommands();
   if (!named.empty()) {
@@ -90,7 +89,7 @@ std::string usage_fault(const CLI::App* app, const CLI::Error& error) {
                      thermal::did_you_mean(unknown.front(), known));
 }
 
-/// The words after the program's name, last first, as the parser takes them; `help X` is another way to say `X --help`.
+/// The words after the program's name in reverse order, for the parser; `help X` is an alias of `X --help`.
 std::vector<std::string> words_of(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   if (!words.empty() && words.front() == "help") {
@@ -102,14 +101,14 @@ std::vector<std::string> words_of(const CLI::App& app, int argc, const char* con
   return words;
 }
 
-/// What exit codes mean, for help.
+/// The meaning of exit codes, for help.
 std::string list_exit_codes() {
   std::vector<std::string> all;
   for (const auto& [code, meaning] : kExitMeanings) all.push_back(fmt::format("{} {}", code, meaning));
   return thermal::list_names(all);
 }
 
-/// Prints help, the version or what is wrong with the command line.
+/// Prints help, the version or the fault of the command line.
 int print_parsed(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out;
   std::ostringstream fault;

@@ -8,21 +8,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/output.h"
 #include "io/assets.h"
 #include "io/config/config.h"
 
 namespace veldt {
 
-/// Exit codes; scripts rely on the numbers.
-enum ExitCode : int {
-  kDone = 0,
-  kFailed = 1,
-  kBadUsage = 2,
-  kSomeRejected = 3,
-  kTryAgain = 75,
-};
-
-/// What they mean, for help and manual.
+/// Meaning of exit codes, for help and manual.
 inline constexpr std::array<std::pair<int, const char*>, 5> kExitMeanings = {
     {{kDone, "done"},
      {kFailed, "failed"},
@@ -30,23 +22,23 @@ inline constexpr std::array<std::pair<int, const char*>, 5> kExitMeanings = {
      {kSomeRejected, "some inputs rejected"},
      {kTryAgain, "try again later"}}};
 
-/// What the program is for, without a full stop.
+/// The program's purpose, without a full stop.
 inline constexpr const char* kPurpose = "Labelled thermal drone video of the savanna, for training detectors";
 
-/// Options every command has.
+/// Options of every command.
 struct CommonOptions {
   bool quiet = false;
   std::string progress = "auto";
   int threads = 0;
 };
 
-/// A parsed command line: what to run, and the options all commands share.
+/// A parsed command line: the command to run, and common options.
 struct Session {
   CommonOptions common;
   std::function<int()> run;
 };
 
-/// Each adds one command to the parser; parsing it sets session.run.
+/// Each adds one command to the parser; parsing sets session.run.
 void add_generate(CLI::App& app, Session& session);
 void add_render(CLI::App& app, Session& session);
 void add_plan(CLI::App& app, Session& session);
@@ -71,7 +63,7 @@ void add_camera(CLI::App& app, Session& session);
 void add_bench(CLI::App& app, Session& session);
 void add_doctor(CLI::App& app, Session& session);
 
-/// Describes the program to a new parser: all of the above and what is said before a command.
+/// Adds the program's description and all of these commands to a new parser.
 void add_commands(CLI::App& app, Session& session);
 
 /// A subcommand with the common options.
@@ -81,15 +73,15 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
 /// Adds --set KEY=VALUE …, changes to a config.
 void add_settings(CLI::App* command, std::vector<std::string>& settings);
 
-/// Adds --engine NAME, which changes a config as --set render.engine=NAME does.
+/// Adds --engine NAME, an alias of --set render.engine=NAME.
 void add_engine(CLI::App* command, std::string& engine);
 
-/// The settings, and the engine if one is given.
+/// The settings, with the engine if one is given.
 [[nodiscard]] std::vector<std::string> with_engine(std::vector<std::string> settings,
                                                    const std::string& engine);
 
-/// Reads a config, applies `settings` and checks it. Any fault of the file is a ConfigError; IoError if the machine
-/// fails to read it.
+/// Reads a config, applies `settings` and checks it. Faults of the file are ConfigErrors; IoError for a failure of the
+/// machine.
 [[nodiscard]] thermal::Config load_config(const thermal::Path& file, const std::vector<std::string>& settings,
                                           const thermal::Assets& assets);
 

@@ -68,7 +68,7 @@ void check_page(const thermal::Path& file) {
     throw thermal::ConfigError(thermal::fault("--html", file.string(), "", "a file in an existing folder"));
 }
 
-/// Adds --PREFIXkelvin-per-count and --PREFIXunit, which `kelvin` must accompany.
+/// Adds --PREFIXkelvin-per-count and --PREFIXunit, which require `kelvin`.
 void add_scale(CLI::App& command, CLI::Option* kelvin, thermal::StoredScale& scale,
                const std::array<const char*, 2>& help) {
   command.add_option(scale.prefix + "kelvin-per-count", scale.kelvin_per_count, help[0])

@@ -17,7 +17,7 @@ using thermal::SetFigures;
 /// Undefined values are "-".
 std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.3g}", *value) : "-"; }
 
-/// Logarithms with two decimals, so that their differences show.
+/// Logarithms with two decimals, which shows their differences.
 std::string number(const std::optional<double>& value, const std::string& unit) {
   return value && unit == "log10" ? fmt::format("{:.2f}", *value) : number(value);
 }

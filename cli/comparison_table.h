@@ -4,7 +4,7 @@
 
 namespace veldt {
 
-/// Prints what was read, one row per measure, how well a classifier separates them, and tables of targets.
+/// Prints the sources, one row per measure, the separability by a classifier, and tables of targets.
 void print_tables(const thermal::Comparison& comparison);
 
 }  // namespace veldt

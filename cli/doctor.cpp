@@ -18,12 +18,12 @@
 namespace veldt {
 namespace {
 
-/// One thing to look for.
+/// A requirement, and whether it is installed.
 struct Finding {
   std::string what;
   std::string found;            ///< version and path; empty if missing
   std::string remedy;           ///< how to get it
-  std::string needed_for = {};  ///< of an engine, where one of them is enough; empty: for everything
+  std::string needed_for = {};  ///< of an engine, of which one is enough; empty: for everything
 };
 
 /// First line that a program prints; empty if it cannot be run.
@@ -59,7 +59,7 @@ Finding find_embree() {
   }
 }
 
-/// How many cores commands use without --threads, and what keeps them from using all.
+/// How many cores commands use without --threads, and the reason for the limit.
 std::string describe(const thermal::Cores& cores) {
   std::string text = fmt::format("{} usable of {}", cores.usable(), cores.machine);
   if (cores.usable() < cores.affinity)
@@ -85,7 +85,7 @@ std::vector<Finding> look() {
 
 bool is_there(const Finding& finding) { return !finding.found.empty(); }
 
-/// Whether datasets can be made: all is there but for an engine, if there is another.
+/// Whether datasets can be made: everything is installed, and at least one engine.
 bool is_enough(const std::vector<Finding>& findings) {
   const auto is_engine = [](const Finding& finding) { return !finding.needed_for.empty(); };
   return std::ranges::all_of(findings, [&](const Finding& one) { return is_engine(one) || is_there(one); }) &&

@@ -47,7 +47,7 @@ thermal::Linking linking_named(const std::string& name) {
   return name == "hard" ? thermal::Linking::hard : thermal::Linking::symlink;
 }
 
-/// Measures the boxes of somebody's labels, and says what it found.
+/// Measures the drawn boxes of other labels, and prints the result.
 thermal::DrawnFills fills_like(const ExportArguments& options, const CommonOptions& common) {
   const std::vector<std::string> names = {"hit_uav", "birdsai"};
   if (const auto named = thermal::drawn_fills_named(options.like)) {
@@ -179,7 +179,7 @@ int run_export(const ExportArguments& options, const CommonOptions& common) {
   return kDone;
 }
 
-/// What pictures and masks become.
+/// Adds options for pictures and masks.
 void add_picture_options(CLI::App& command, ExportArguments& options) {
   command
       .add_option("--link", options.link, "How to place pictures; copies where the file system cannot link")

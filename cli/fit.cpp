@@ -33,7 +33,7 @@ void check_fit_out(const std::string& file) {
     throw thermal::ConfigError(thermal::fault("--out", file, "", "a file in an existing folder"));
 }
 
-/// As given, with its settings; files that it names are found from the folder of what is written, too.
+/// Reads the config with its settings; paths in it are made valid for the output's folder.
 thermal::Json read_fitted_config(const FitArguments& options) {
   thermal::Json document = read_named_document(options.config);
   for (const std::string& setting : options.settings) thermal::apply_setting(document, setting);
@@ -73,7 +73,7 @@ thermal::Fit fitted(const FitArguments& options, const CommonOptions& common) {
   return thermal::fit(request, plan);
 }
 
-// --- what is printed
+// --- output
 
 std::string median_text(const std::optional<double>& value) {
   return value ? fmt::format("{:.3g}", *value) : "-";

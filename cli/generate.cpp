@@ -24,7 +24,7 @@
 namespace veldt {
 namespace {
 
-/// What generate and render do differently.
+/// Differences between generate and render.
 struct Work {
   std::string command;
   std::string footer;
@@ -71,7 +71,7 @@ int make_preview(const thermal::Config& config, const std::string& name,
   return kDone;
 }
 
-/// A given plan, whose config is complete, or a config with a plan of this run's own.
+/// A given plan, whose config is complete, or a config with a plan made by this run.
 thermal::PlannedDataset plan_of_run(const thermal::Config& config, const GenerateArguments& options,
                                     const thermal::GenerateOptions& request, const CommonOptions& common,
                                     const Work& work) {
@@ -87,7 +87,7 @@ thermal::PlannedDataset plan_of_run(const thermal::Config& config, const Generat
   return {.config = std::move(cut), .plan = std::move(planned)};
 }
 
-/// Blender renders colour stills for every engine.
+/// Colour stills need Blender with every engine.
 bool needs_blender(const GenerateArguments& options, const thermal::Config& config) {
   return !options.dry_run && (options.preview || config.engine == thermal::Engine::blender);
 }
@@ -105,7 +105,7 @@ void check_sources(const GenerateArguments& options, const std::string& command)
     throw thermal::ConfigError("--keep-passes and --scratch exclude each other: passes are kept in --out");
 }
 
-/// The config as given, or with its plan.
+/// The given config, or a plan with its config.
 thermal::PlannedDataset read_sources(const GenerateArguments& options, const thermal::Assets& assets) {
   if (!options.plan.empty()) return thermal::open_plan(options.plan, assets);
   return {.config = load_config(options.config, with_engine(options.settings, options.engine), assets),
@@ -130,7 +130,7 @@ int run_generate(const GenerateArguments& options, const CommonOptions& common, 
       .jobs = options.jobs,
       .threads = common.threads,
       .keep_passes = options.keep_passes};
-  if (dataset.config.flights.empty())  // then wrong --clips can be reported at once
+  if (dataset.config.flights.empty())  // reports a wrong --clips at once
     (void)thermal::choose_clips(dataset.config, request.clips, request.shard);
   if (options.preview && !options.dry_run)
     return make_preview(dataset.config, options.config, request, common);
@@ -165,7 +165,7 @@ void add(CLI::App& app, Session& session, const std::string& description, const 
   command->add_option("--out", options->out, "Folder of the dataset")->required()->type_name("DIR");
   command->add_option("--clips", options->clips, "Only these clips")
       ->delimiter(',')
-      ->allow_extra_args(false)  // otherwise a CONFIG that follows would be read as a clip
+      ->allow_extra_args(false)  // otherwise a CONFIG that follows would be parsed as a clip
       ->type_name("ID,…");
   command
       ->add_option(

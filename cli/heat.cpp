@@ -28,7 +28,7 @@ struct HeatArguments {
   bool json = false;
 };
 
-/// A season of a config: its weather, when it is flown, and its surfaces.
+/// A season of a config: weather, flight hours, and surfaces.
 struct SeasonHeat {
   thermal::Season season = thermal::Season::winter;
   thermal::Weather weather;
@@ -70,7 +70,7 @@ std::string title_of(const SeasonHeat& heat) {
 
 using Surfaces = std::map<std::string, thermal::MaterialHeat>;
 
-/// Those that are named; all if none is.
+/// The named surfaces; all without names.
 Surfaces choose(const Surfaces& all, const std::vector<std::string>& names) {
   if (names.empty()) return all;
   Surfaces chosen;

@@ -14,11 +14,11 @@ namespace {
 constexpr double kWidth = 900;
 constexpr double kHeight = 420;
 constexpr double kLeft = 60;
-constexpr double kRight = 170;  // names of curves
+constexpr double kRight = 170;  // space for names of curves
 constexpr double kTop = 40;
 constexpr double kBottom = 40;
 
-// Okabe and Ito's colours, which people with any colour vision distinguish; then the same, dashed.
+// Okabe and Ito's colours, which are distinct for any colour vision; then the same, dashed.
 constexpr std::array kColours = {"#e69f00", "#0072b2", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#999999"};
 
 /// Pixels of one chart.
@@ -78,7 +78,7 @@ class Chart {
     if (end > 24) rectangle(0, end - 24);
   }
 
-  /// At least three pixels wide: short flights must be seen.
+  /// At least three pixels wide, so that short flights are visible.
   void rectangle(double from_h, double to_h) {
     svg_ +=
         fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#f0d080\"/>\n",
@@ -120,8 +120,7 @@ class Chart {
     labels_.push_back({points.back().second, curve.material, colour});
   }
 
-  /// Names at the right end of their curves, moved apart where they would overlap and up where they would leave the
-  /// chart.
+  /// Names at the right end of their curves, moved apart where they would overlap, and up at the chart's bottom.
   void names() {
     constexpr double kApart = 14;
     std::ranges::sort(labels_, std::greater<>(), &Label::at_k);

@@ -7,7 +7,7 @@
 
 namespace veldt {
 
-/// One day of a plot, with the hours in which something flies.
+/// One day of a plot, with flight hours.
 struct PlottedDay {
   std::string title;
   const thermal::DayWeather* weather = nullptr;
@@ -16,8 +16,8 @@ struct PlottedDay {
       flown_h;  ///< from, to; from 0 to 24, or beyond for flights over midnight
 };
 
-/// An SVG with a chart a day, one below the other: curves of all surfaces and of the air in kelvin over local solar time,
-/// dots where open soil crosses another surface, and a shade over flown hours.
+/// An SVG with a chart a day, one below the other: curves of all surfaces and of the air in kelvin over local solar
+/// time, dots where open soil crosses another surface, and flight hours shaded.
 [[nodiscard]] std::string heat_svg(const std::vector<PlottedDay>& days);
 
 }  // namespace veldt

@@ -56,13 +56,13 @@ void write_starter(const Inspection& inspection, const InspectArguments& options
   const thermal::StarterManifest starter =
       thermal::starter_manifest(inspection, thermal::NameGuesser(thermal::Assets::find()));
   thermal::write_file_atomically(options.starter, thermal::to_text(starter.document));
-  if (!options.json) print(starter, inspection, options.starter);
+  if (!options.json) print_starter(starter, inspection, options.starter);
 }
 
 int run_inspect(const InspectArguments& options, const CommonOptions& common) {
   check_starter(options.starter);
   const Inspection inspection = inspect(options, common);
-  options.json ? print_json(to_json(inspection)) : print(inspection);
+  options.json ? print_json(to_json(inspection)) : print_inspection(inspection);
   if (!options.starter.empty()) write_starter(inspection, options);
   return kDone;
 }

@@ -20,7 +20,7 @@ using thermal::Inspection;
 constexpr std::size_t kMostLines = 40;
 constexpr std::size_t kMostNames = 4;
 
-/// Lines past the limit are only counted; --json has all.
+/// Prints lines up to a limit and counts the rest; --json has all.
 void print_lines(const std::vector<std::string>& lines) {
   for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) print("  {}\n", lines[i]);
   if (lines.size() > kMostLines) print("  … and {} more; --json lists them\n", lines.size() - kMostLines);
@@ -57,7 +57,7 @@ void print_files(const Inspection& inspection) {
     print("  rays follow the lens: {}\n", name_of(inspection.manifest->lens));
 }
 
-/// What a conversion uses a channel for; empty if it does not.
+/// The use of a channel in a conversion; empty if it is not used.
 std::string use_of(const Inspection& inspection, const thermal::ExrChannel& channel) {
   const std::string name = channel.full_name();
   const thermal::ChosenPlanes& planes = inspection.planes;
@@ -69,7 +69,7 @@ std::string use_of(const Inspection& inspection, const thermal::ExrChannel& chan
   return is_matte ? "cryptomatte" : "";
 }
 
-/// A pass of one layer, its components together.
+/// A pass of one layer, with its components.
 struct PassLine {
   std::string layer;
   std::string pass;
@@ -200,7 +200,7 @@ void print_bad_frames(const Inspection& inspection) {
 
 }  // namespace
 
-void print(const Inspection& inspection) {
+void print_inspection(const Inspection& inspection) {
   print_files(inspection);
   print_layers(inspection);
   print_indices(inspection);
@@ -212,7 +212,8 @@ void print(const Inspection& inspection) {
   print_conversion(inspection);
 }
 
-void print(const thermal::StarterManifest& starter, const Inspection& inspection, const thermal::Path& file) {
+void print_starter(const thermal::StarterManifest& starter, const Inspection& inspection,
+                   const thermal::Path& file) {
   print("\n{}: starter manifest\n", file.string());
   print_block("guessed; check these", starter.guesses);
   print_block("to fill in", starter.to_fill_in);

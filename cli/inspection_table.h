@@ -5,11 +5,11 @@
 
 namespace veldt {
 
-/// Prints what passes hold, and what a conversion would do with them.
-void print(const thermal::Inspection& inspection);
+/// Prints the contents of passes, and how a conversion would use them.
+void print_inspection(const thermal::Inspection& inspection);
 
-/// Prints what a starter manifest guessed, what the user has to fill in, and the command to run next.
-void print(const thermal::StarterManifest& starter, const thermal::Inspection& inspection,
-           const thermal::Path& file);
+/// Prints a starter manifest's guesses, the entries that the user has to fill in, and the next command.
+void print_starter(const thermal::StarterManifest& starter, const thermal::Inspection& inspection,
+                   const thermal::Path& file);
 
 }  // namespace veldt

@@ -30,7 +30,7 @@ struct MergeArguments {
 
 constexpr std::size_t kMostListed = 8;
 
-/// Lists the shards to make again in the form that the arrays of schedulers take: 3,5.
+/// Lists the shards to repeat in the format of schedulers' arrays: 3,5.
 void print_shards(const thermal::MergeOutcome& outcome, const MergeArguments& options) {
   if (outcome.shards_to_make.empty()) return;
   print_error("veldt: run these of {} shards again: {}\n", options.shards,

@@ -5,8 +5,8 @@
 
 namespace veldt {
 
-/// Reads a JSON document that the user names. ConfigError if it is not there, or is not for this user to read: that is
-/// wrong usage. IoError if the machine fails to read a file that is.
+/// Reads a JSON document that the user names. ConfigError if it is missing or not readable for this user; IoError for a
+/// failure of the machine.
 [[nodiscard]] thermal::Json read_named_document(const thermal::Path& file);
 
 }  // namespace veldt

@@ -9,14 +9,12 @@
 
 #include <fcntl.h>
 
-#include "cli/command.h"
-
 namespace veldt {
 namespace {
 
 constexpr std::size_t kMostFaultLines = 30;
 
-/// JSON leaves delete and the control characters U+0080 to 9F as they are; they can stand in strings alone.
+/// JSON does not escape delete and the control characters U+0080 to 9F, which can occur in strings only.
 std::string escaped(const std::string& json) {
   std::string out;
   for (std::size_t i = 0; i < json.size(); ++i) {
@@ -51,7 +49,7 @@ void print_fault(const std::string& what) {
 
 void open_standard_streams() {
   for (int descriptor = 0; descriptor <= 2; ++descriptor) {
-    // The lowest free descriptor is this one.
+    // open() returns the lowest free descriptor, which is this one.
     if (::fcntl(descriptor, F_GETFD) == -1) std::ignore = ::open("/dev/null", O_RDWR);
   }
 }

@@ -19,7 +19,7 @@ struct PlanArguments {
   std::vector<std::string> settings;
 };
 
-/// Only a plan may be replaced.
+/// Only a plan may be overwritten.
 void check_out(const thermal::Path& out) {
   const bool is_taken = std::filesystem::exists(out) &&
                         (!std::filesystem::is_directory(out) || !std::filesystem::is_empty(out));
@@ -31,7 +31,7 @@ int run_plan(const PlanArguments& options, const CommonOptions& common) {
   const thermal::Assets assets = thermal::Assets::find();
   const thermal::Config given =
       load_config(options.config, with_engine(options.settings, options.engine), assets);
-  // Without the slash that a shell may add: the plan is made beside the folder.
+  // Without a trailing slash: the plan is built beside the folder.
   const thermal::Path out = std::filesystem::absolute(options.out + "/").lexically_normal().parent_path();
   check_out(options.out);
   thermal::PlannedDataset dataset;

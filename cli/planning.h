@@ -9,7 +9,7 @@
 
 namespace veldt {
 
-/// Calls `plan` with options for --threads cores. Planning that takes longer than ten seconds shows how far it is.
+/// Calls `plan` with options for --threads cores. Shows progress after ten seconds.
 void plan_with_progress(const CommonOptions& common, const thermal::Assets& assets,
                         const std::function<void(const thermal::PlanOptions& options)>& plan);
 

@@ -2,7 +2,7 @@
 
 namespace veldt {
 
-/// All that main() does. Without types of libraries, which would take main() longer to compile than all else here.
+/// The body of main(). Without types of libraries, which would make main() slow to compile.
 int run_program(int argc, const char* const* argv);
 
 }  // namespace veldt

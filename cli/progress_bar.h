@@ -8,14 +8,15 @@
 
 namespace veldt {
 
-/// Commands that only read a dataset's clips show no progress to people before this time.
+/// Commands that only read a dataset's clips show no progress bar before this time.
 inline constexpr std::chrono::seconds kClipPatience(2);
 
 /// Shows the progress of a run on standard error: a bar with rate and time left on a terminal, a line every few
 /// seconds elsewhere, or one JSON object per line for machines.
 class ProgressBar {
  public:
-  /// `opening` is what the run does before its first frame. Nothing is shown to people of runs shorter than `patience`.
+  /// `opening`: what the run does before its first frame. Nothing is shown on a terminal for runs shorter than
+  /// `patience`.
   explicit ProgressBar(const CommonOptions& options, std::string opening = "starting",
                        std::string unit = "frames", std::chrono::seconds patience = {});
   ~ProgressBar();
@@ -23,11 +24,11 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(const thermal::Progress& progress);
-  /// Blender crashed while rendering a clip and is restarted.
+  /// Reports that Blender crashed while rendering a clip and is restarted.
   void show_restart(const std::string& clip, const std::string& why);
-  /// An existing clip is made again.
+  /// Reports that an existing clip is made again.
   void show_remade(const std::string& clip);
-  /// A frame was skipped. Printed only as JSON; the summary lists skipped frames for people.
+  /// Reports a skipped frame, as JSON only; the summary lists skipped frames for people.
   void show_skipped(const std::string& clip, const thermal::SkippedFrame& frame);
 
  private:
@@ -43,10 +44,10 @@ class ProgressBar {
 
   Style style_;
   std::string opening_;
-  std::string unit_;         ///< of what is counted
-  Clock::time_point begin_;  ///< of what is shown
+  std::string unit_;         ///< of the counts
+  Clock::time_point begin_;  ///< of the display
   Clock::time_point last_shown_;
-  Clock::time_point first_at_;  ///< rate and time left exclude what is done before
+  Clock::time_point first_at_;  ///< rate and time left exclude work before the first frame
   int first_ = 0;
   bool line_open_ = false;
 };

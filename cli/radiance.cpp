@@ -39,7 +39,7 @@ thermal::SpectralResponse parse_band(const std::string& text) {
   throw thermal::ConfigError(thermal::fault("--band-um", text, "um", "A:B with 0 < A < B"));
 }
 
-/// How radiance is computed from temperature, and how far off it may be.
+/// Conversion from temperature to radiance, and its error bound.
 class Evaluator {
  public:
   Evaluator(const thermal::SpectralResponse& response, const std::string& method) : band_(response) {
@@ -65,8 +65,8 @@ class Evaluator {
   }
 
  private:
-  /// That of the radiance and of the product with an emissivity: two roundings, and few digits below the smallest
-  /// normal double.
+  /// Error bound of the radiance and of its product with an emissivity: two roundings, and lost digits below the
+  /// smallest normal double.
   [[nodiscard]] double bound(double temperature_k, double radiance) const {
     using Double = std::numeric_limits<double>;
     if (temperature_k == 0) return 0;
@@ -101,7 +101,7 @@ void check_values(const std::vector<double>& values, const std::string& option, 
   }
 }
 
-/// The band or the response that was named. A response that cannot be read is bad usage.
+/// The given band or response. ConfigError for an unreadable response.
 thermal::SpectralResponse response_of(const RadianceArguments& options) {
   if (options.response.empty()) return parse_band(options.band_um);
   try {

@@ -24,7 +24,7 @@ void add_max_megapixels(CLI::App* command, double& max_megapixels) {
 
 thermal::ReadLimits read_limits(double max_megapixels) {
   const double pixels = max_megapixels * kPixels;
-  if (!(pixels >= 1 && max_megapixels <= kMostMegapixels)) {  // so written, NaN is refused
+  if (!(pixels >= 1 && max_megapixels <= kMostMegapixels)) {  // this form rejects NaN
     throw thermal::ConfigError(thermal::fault("--max-megapixels", fmt::format("{}", max_megapixels), "",
                                               "at least 0.000001 (a pixel) and at most 1000000"));
   }

@@ -45,12 +45,12 @@ std::size_t frames_in(const std::vector<thermal::ClipSkips>& skips) {
   return frames;
 }
 
-/// Lists clips that could not be made; `what` happened to them.
+/// Lists clips that could not be made; `what`: what happened to them.
 void print_failed(const thermal::RunOutcome& run, const std::string& whose, const std::string& what) {
   for (const auto& [clip, why] : run.failed) print_error("veldt: {}clip {} {}: {}\n", whose, clip, what, why);
 }
 
-/// Names clips with unusable depth or normals, and what of that is accepted.
+/// Lists clips with unusable depth or normals, and the accepted share.
 void print_unusable(const thermal::RunOutcome& run, const std::string& whose, double most) {
   for (const auto& [clip, key, share] : run.unusable) {
     const std::string where = fmt::format("{}clip {}: {}", whose, clip, key);

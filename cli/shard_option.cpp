@@ -11,7 +11,7 @@
 namespace veldt {
 namespace {
 
-/// What a scheduler calls the place of a job, and how many there are.
+/// A scheduler's environment variables for the index of a job and the number of jobs.
 struct Scheduler {
   const char* index = "";
   const char* count = "";
@@ -46,7 +46,7 @@ int read_variable(const char* name, const Environment& environment) {
   throw thermal::ConfigError(thermal::fault(name, text, "", "a whole number, for --shard auto"));
 }
 
-/// Tasks 3 and 5 of an array of 8 are an array of two: shards of N = 2 would be others.
+/// Tasks 3 and 5 of an array of 8 are an array of two: its shards of N = 2 would differ.
 bool is_whole_array(const Scheduler& scheduler, const thermal::Shard& shard, const Environment& environment) {
   const std::string last = std::to_string(scheduler.first + shard.count - 1);
   return environment(scheduler.last).value_or(last) == last;

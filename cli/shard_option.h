@@ -8,14 +8,14 @@
 
 namespace veldt {
 
-/// Value of a variable of the environment; none if it is not set.
+/// Value of an environment variable; empty if it is not set.
 using Environment = std::function<std::optional<std::string>(const std::string& name)>;
 
-/// The process's own.
+/// The process's own environment.
 [[nodiscard]] std::optional<std::string> own_environment(const std::string& name);
 
-/// --shard: "I/N" with 0 <= I < N, or "auto": the place of this job among those of a Slurm array, a Kubernetes Indexed
-/// Job or a parallel GitLab job. ConfigError says what is wrong with the text, or with the variables of that job.
+/// --shard: "I/N" with 0 <= I < N, or "auto": the index of this job in a Slurm array, a Kubernetes Indexed Job or a
+/// parallel GitLab job. ConfigError for an invalid text, or invalid variables of that job.
 [[nodiscard]] thermal::Shard parse_shard(const std::string& text, const Environment& environment);
 
 }  // namespace veldt

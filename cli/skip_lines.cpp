@@ -49,8 +49,7 @@ void add_lines(const thermal::ClipSkips& clip, std::vector<std::string>& lines) 
 
 std::vector<std::string> skip_lines(const std::vector<thermal::ConvertOutcome>& outcomes) {
   std::vector<std::string> lines;
-  std::map<std::string, std::vector<Frames>>
-      printed;  // by clip: datasets of other runs may skip other frames
+  std::map<std::string, std::vector<Frames>> printed;  // by clip: other datasets may skip other frames
   for (const thermal::ConvertOutcome& outcome : outcomes) {
     for (const thermal::ClipSkips& clip : outcome.skips) {
       std::vector<Frames>& before = printed[clip.clip];

@@ -48,7 +48,7 @@ thermal::LiveStreamOptions request_of(const StreamArguments& options) {
   return request;
 }
 
-/// Plans a config into the folder, for cameras that fly live.
+/// Plans a config into the folder, for live flights.
 void plan_into_folder(const StreamArguments& options, const thermal::Path& folder,
                       const thermal::Assets& assets, const CommonOptions& common) {
   std::vector<std::string> settings = options.settings;
@@ -93,7 +93,7 @@ int run_stream(const StreamArguments& options, const CommonOptions& common) {
         any_lost = any_lost || clip.late + clip.dropped + clip.lines_missed + clip.clients_refused > 0;
         if (common.quiet) return;
         print("{}\n", words_of(clip));
-        std::fflush(stdout);  // whoever reads a pipe hears of each clip at once
+        std::fflush(stdout);  // readers of a pipe see each clip at once
       });
   if (stop_signal() != 0) return 128 + stop_signal();
   return any_lost ? kSomeRejected : kDone;

@@ -11,10 +11,10 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "blender_scripts"))
 
 # pylint: disable=wrong-import-position
-from veldt.bake.pictures import bake_pictures
-from veldt.config import load
-from veldt.workers import Cores
-from veldt.world import plan_world
+from planner.bake.pictures import bake_pictures
+from planner.config import load
+from planner.workers import Cores
+from planner.world import plan_world
 
 
 def main(config: Path, folder: Path) -> None:

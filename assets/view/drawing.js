@@ -1,8 +1,6 @@
 "use strict";
 // Draws a frame: its counts through a palette, and over it what is known of it.
 
-const TRAIL_SECONDS = 5; // as view.cpp has them
-
 /** Colours of levels 0 to 255, coldest first, as pixels of ImageData. */
 function coloursOf(palette) {
   const rgb = bytesOf(palette.colours);
@@ -89,7 +87,7 @@ function drawTrail(context, to, points, colour) {
     const path = new Path2D();
     path.moveTo(...at(k - 3));
     path.lineTo(...at(k));
-    context.globalAlpha = Math.max(0.15, 1 - points[k + 2] / TRAIL_SECONDS);
+    context.globalAlpha = Math.max(0.15, 1 - points[k + 2] / dataset.trail_s);
     strokeTwice(context, path, colour, to.line_px);
   }
   context.globalAlpha = 1;

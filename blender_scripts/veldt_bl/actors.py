@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import mathutils
 
-from veldt.bake.baked import BakedScene, BakedTrack
+from planner.bake.baked import BakedScene, BakedTrack
 
 from .meshes import add_twin, new_object
 
@@ -23,7 +23,7 @@ class ActorRigs:
         self._parked = [False] * len(rigs)
 
     def pose(self, track: BakedTrack, frame: int) -> None:
-        """Move the actors that may be seen in a frame to their positions, and the others out of sight."""
+        """Move the actors that a frame may show to their positions, and the others out of sight."""
         for k, rig in enumerate(self._rigs):
             if track.posed[k, frame]:
                 for shown, matrix in zip(rig, track.bones(k, frame).tolist()):

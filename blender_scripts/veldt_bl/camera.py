@@ -8,7 +8,7 @@ import bpy
 import mathutils
 import numpy as np
 
-from veldt.camera import DEPTH_RANGE_M, Intrinsics, lens_shift
+from planner.camera import DEPTH_RANGE_M, Intrinsics, lens_shift
 
 _SENSOR_MM = 36.0  # arbitrary: only its ratio to the focal length matters
 _FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])  # Blender's cameras look along -z with y up
@@ -40,7 +40,7 @@ def set_lens(camera: bpy.types.Object, intrinsics: Intrinsics) -> None:
 def place(camera: bpy.types.Object, camera_to_world: np.ndarray) -> None:
     """Move the camera to a pose (4, 4), as its matrix in single precision.
 
-    A rotation of Blender's would turn it by up to 2e-7 rad, at silhouettes 2e-4 px. Only the matrix that relates an
-    object to its parent is kept as it is.
+    A rotation in Blender would be off by up to 2e-7 rad, 2e-4 px at silhouettes. Only the matrix between an object and
+    its parent is stored exactly.
     """
     camera.matrix_parent_inverse = mathutils.Matrix((camera_to_world @ _FROM_OPENCV).tolist())

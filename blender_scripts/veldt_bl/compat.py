@@ -1,4 +1,4 @@
-"""All differences between Blender versions that matter here."""
+"""All relevant differences between Blender versions."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Entry point shared by the scripts that Blender runs: exit codes and error events.
 
-Like veldt.failures, it imports nothing but Python's standard library.
+Like planner.failures, it imports nothing but Python's standard library.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
-from veldt import failures
-from veldt.events import Events
+from planner import failures
+from planner.events import Events
 
 
 def run(act: Callable[[], None], events: Events) -> int:
@@ -40,7 +40,7 @@ def own_arguments() -> list[str]:
 
 
 def _report(events: Events, error: BaseException) -> int:
-    """Writes an event of the exception, and its traceback into the log."""
+    """Write an event of the exception, and its traceback into the log."""
     failure = failures.failure_of(error)
     kind = "config" if failure.is_config_fault else "internal"
     hint = {"hint": failure.hint} if failure.hint else {}

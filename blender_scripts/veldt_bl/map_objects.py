@@ -5,9 +5,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from veldt.bake.baked import BakedSheet
-from veldt.ids import GROUND
-from veldt.preview.colours import INK, linear
+from planner.bake.baked import BakedSheet
+from planner.ids import GROUND
+from planner.preview.colours import INK, linear
 
 from . import compat
 from .meshes import new_mesh, new_object

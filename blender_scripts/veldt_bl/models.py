@@ -9,9 +9,9 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from veldt.faults import ConfigError
-from veldt.models import check_mapped, in_body_axes, part_names
-from veldt.geometry.shapes import Mesh, facets, joined
+from planner.faults import ConfigError
+from planner.models import check_mapped, in_body_axes, part_names
+from planner.geometry.shapes import Mesh, facets, joined
 
 from . import compat
 

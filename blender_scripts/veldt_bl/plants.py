@@ -8,9 +8,9 @@ import bpy
 import mathutils
 import numpy as np
 
-from veldt.bake.baked import BakedScene
-from veldt.camera import Intrinsics
-from veldt.plants.views import circles_seen, held_circles
+from planner.bake.baked import BakedScene
+from planner.camera import Intrinsics
+from planner.plants.views import circles_seen, held_circles
 
 from . import compat
 from .meshes import add_twin, new_object, new_points
@@ -49,7 +49,7 @@ def circles_needed(
     """Centres (n, 2) and radii (n,) of circles that contain all plants that a camera may see in poses (n, 4, 4).
 
     Cycles synchronises all meshes again, including the ground, whenever the number of instances changes; therefore one
-    circle is kept for many frames.
+    circle is reused for many frames.
     """
     low_m, high_m = scene.heights_m
     centres_m, radii_m = circles_seen(intrinsics, camera_to_world, low_m, high_m + flora.reach_m)
@@ -60,10 +60,10 @@ def show_within(flora: Flora, centre_m: np.ndarray, radius_m: float) -> None:
     """Show only the plants in a circle.
 
     Blender iterates over all instances before each frame, which for a whole savanna takes longer than rendering.
-    Therefore an empty holds the centre and the radius of the visible circle, and the node trees read it.
+    Therefore the node trees show only plants within a circle, given by the location and scale of an empty.
     """
     place, scale = mathutils.Vector((*centre_m, 0.0)), mathutils.Vector((radius_m,) * 3)
-    if (flora.view.location, flora.view.scale) != (place, scale):  # avoids selecting the plants again
+    if (flora.view.location, flora.view.scale) != (place, scale):  # avoids re-evaluating the plants
         flora.view.location, flora.view.scale = place, scale
 
 
@@ -79,7 +79,7 @@ class _Upright:
 def _instances(scene: BakedScene, plants: dict) -> tuple[np.ndarray, _Upright]:
     """The mesh (n,) of each plant of a species, and how it stands.
 
-    Angles and sizes are single-precision numbers in the plan, so that they come out of its matrices exactly.
+    Angles and sizes are single-precision numbers, so they can be restored exactly from the plan's matrices.
     """
     matrix = scene.arrays[plants["transform"]]
     cos, sin = matrix[:, 0, 0], matrix[:, 1, 0]

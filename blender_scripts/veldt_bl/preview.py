@@ -1,4 +1,4 @@
-"""Render a preview of a dataset: a map of the place, and colour stills."""
+"""Render a preview of a dataset: a map of the scene, and colour stills."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from veldt.bake.baked import BakedScene, BakedSheet, BakedTrack
-from veldt.blender_images import is_whole_png
-from veldt.camera import look
-from veldt.preview.colours import SKY, linear, surface_colour
-from veldt.preview.views import INTRINSICS
+from planner.bake.baked import BakedScene, BakedSheet, BakedTrack
+from planner.blender_images import is_whole_png
+from planner.camera import look
+from planner.preview.colours import SKY, linear, surface_colour
+from planner.preview.views import INTRINSICS
 
 from . import compat
 from .camera import add_camera, place

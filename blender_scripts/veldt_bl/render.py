@@ -8,14 +8,20 @@ from pathlib import Path
 
 import bpy
 
-from veldt.blender_images import add_layer, is_whole_exr
-from veldt.camera import Intrinsics, pixel_aspect
-from veldt.manifest import ACTOR_LAYER, LAYER, frame_file
+from planner.blender_images import add_layer, is_whole_exr
+from planner.camera import Intrinsics, pixel_aspect
 
 from . import compat
 from .scene import Stage
 
+LAYER = "Scene"
+ACTOR_LAYER = "Actors"
 _PART = "part_"
+
+
+def frame_file(number: int) -> str:
+    """Name of a frame's passes."""
+    return f"{number:06d}.exr"
 
 
 def set_up_renderer(intrinsics: Intrinsics, supersample: int) -> None:
@@ -28,8 +34,8 @@ def set_up_renderer(intrinsics: Intrinsics, supersample: int) -> None:
     render.engine = "CYCLES"
     cycles.device = "CPU"
     cycles.samples = 1
-    # The only ray passes through the middle of its filter, which Cycles reads from a table: with the default filter
-    # 6e-4 px beside the pixel's centre.
+    # The single ray passes through the centre of its filter, which Cycles reads from a table: with the default filter,
+    # it is 6e-4 px off the pixel's centre.
     cycles.pixel_filter_type = "BLACKMAN_HARRIS"
     cycles.filter_width = 0.01
     cycles.use_adaptive_sampling = False

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from veldt.bake.baked import BakedScene, BakedTrack
+from planner.bake.baked import BakedScene, BakedTrack
 
 from . import actors, camera, plants
 from .meshes import add_twin, new_material, new_mesh, new_object
@@ -92,7 +92,7 @@ def _add_mesh(scene: BakedScene, entry: dict, materials: dict[int, bpy.types.Mat
 def _add_surface(entry: dict, meshes: list[bpy.types.Mesh]) -> bpy.types.Object:
     mesh = meshes[entry["mesh"]]
     # Cycles merges a mesh with a single user into the BVH that it rebuilds each frame, which for the ground takes
-    # longer than rendering. A second user, far below where no camera ray meets it, keeps a separate BVH. Waters have
-    # one too, for when the place is moved out of sight.
+    # longer than rendering. A second user, far below where no camera ray hits it, keeps a separate BVH; also for
+    # waters, for when everything but the actors is moved out of sight.
     add_twin(mesh, entry["object"])
     return new_object(mesh.name, mesh, entry["object"])

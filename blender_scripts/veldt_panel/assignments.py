@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators that say what objects and collections are."""
+"""Operators that assign meanings to objects and collections."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ class GuessNames(bpy.types.Operator):
 
 
 def unassigned(scene: bpy.types.Scene) -> list[str]:
-    """Names of the objects with a shape that are background because nothing says what they are, sorted."""
+    """Names of the objects with a shape that are background because they have no assignment, sorted."""
     around = collections_around()
     drawn = [each for each in scene.objects if each.type in DRAWN and not each.hide_render]
     return sorted(each.name for each in drawn if owner_of(each, lambda one: around.get(one.name, [])) is None)
@@ -138,7 +138,7 @@ def _parents_first(scene: bpy.types.Scene) -> list[bpy.types.Object]:
 
 
 def _fault(context: bpy.types.Context) -> str | None:
-    """What is wrong with the brush; None if nothing is."""
+    """The fault of the brush; None if it is valid."""
     brush, known = context.window_manager.veldt, catalogue(context)
     if not known.materials:
         return "veldt was not found yet; press Find Program first"
@@ -150,7 +150,7 @@ def _fault(context: bpy.types.Context) -> str | None:
 
 
 def _brushed(context: bpy.types.Context) -> Thing:
-    """What the brush says; of a species only while its category is unchanged."""
+    """The assignment of the brush; with a species only while its category is unchanged."""
     brush = context.window_manager.veldt
     if brush.kind != "actor":
         return Thing(brush.kind, brush.material)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the program's assets know: things with their category and material, materials, camera presets. No bpy."""
+"""Contents of the program's assets: kinds of objects with their category and material, materials, camera presets. No
+bpy.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,7 @@ _OTHER_WORDS = {
 
 @dataclass(frozen=True)
 class Thing:
-    """What an object can be. `kind` is a class of the manifest; category and species are empty unless it is actor."""
+    """A kind of object. `kind` is a class of the manifest; category and species are empty except for actors."""
 
     kind: str
     material: str
@@ -59,7 +61,7 @@ def read_catalogue(home: Path) -> Catalogue:
 
 
 def guess(things: dict[str, Thing], name: str) -> Thing | None:
-    """The thing that an object is by its name: the first of its words that is known, two words before one."""
+    """A likely kind for an object's name: by its first known word, pairs of words before single ones."""
     words = words_of(name)
     for first, second in zip(words, words[1:]):
         if found := _find(things, f"{first}_{second}"):
@@ -92,7 +94,7 @@ def _things(assets: Path) -> dict[str, Thing]:
 
 
 def _main_material(content: dict) -> str:
-    """Of a plant or structure: the one it is made of, or that of what is seen from above, the first."""
+    """Main material of a plant or structure: its own, or the first of those seen from above."""
     if "material" in content:
         return content["material"]
     slot = next(iter(content["materials"].values()))

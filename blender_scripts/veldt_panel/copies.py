@@ -27,7 +27,7 @@ class Copies:
         self._objects, self._meshes = [], []
 
     def bake(self, depsgraph: bpy.types.Depsgraph, stage) -> None:
-        """Replace everything that makes instances of actors by copies of what it shows, as Stage.target says.
+        """Replace instancers of actors by copies of their instances, for the targets of Stage.target().
 
         Copies of an earlier frame must be gone. Copies are what the viewport shows: with its levels of subdivision and
         its share of particles.
@@ -62,7 +62,7 @@ class Copies:
 
     @staticmethod
     def _target(instance: bpy.types.DepsgraphObjectInstance, stage):
-        """The maker's, if that is an actor; otherwise a copy of what is shown."""
+        """The instancer's target, if that is an actor; otherwise a copy's."""
         maker = instance.parent.original
         own = stage.target(maker)
         if own.is_actor:
@@ -92,24 +92,24 @@ class Copies:
 
 
 def _is_copy(instance: bpy.types.DepsgraphObjectInstance) -> bool:
-    """Whether an instance shows another object, not geometry of its maker."""
+    """Whether an instance shows another object, not geometry of its instancer."""
     return instance.is_instance and instance.object.original != instance.parent.original
 
 
 def _is_whole(maker: bpy.types.Object) -> bool:
-    """Whether all that an object instances is one collection, once."""
+    """Whether an object instances exactly one collection, once."""
     return maker.instance_type == "COLLECTION"
 
 
 def _is_rendered(instance: bpy.types.DepsgraphObjectInstance) -> bool:
-    """By the settings for rendering, which the dependency graph of the viewport ignores."""
+    """Whether it is rendered by its settings, which the viewport's dependency graph ignores."""
     if not instance.is_instance:
         return instance.object.original.show_instancer_for_render
     return not instance.object.original.hide_render
 
 
 def _number(instance: bpy.types.DepsgraphObjectInstance) -> tuple[int, ...]:
-    """What distinguishes the copies that one object makes, the same for all parts of a copy.
+    """Key of a copy among those of one instancer, the same for all parts of a copy.
 
     Found in Blender 4.5 and 5.0: particles and vertices count copies in the first number, geometry nodes count parts
     there and copies in the others.

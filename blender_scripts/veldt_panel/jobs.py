@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the buttons do, as generators that yield progress: an operator runs them step by step, or all at once.
+"""The buttons' jobs, as generators that yield progress: an operator runs them step by step, or all at once.
 
-Closing a generator stops it; whatever it changed in Blender is then restored.
+Closing a generator stops it and restores its changes in Blender.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Request:
 
 
 def request_of(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, known: Catalogue) -> Request:
-    """What the settings ask for. ValueError with a text for the user if they make no sense."""
+    """The request of the settings. ValueError with a text for the user if they are invalid."""
     said = scene.veldt
     if scene.camera is None:
         raise ValueError("scene.camera is missing; expected a camera")
@@ -112,7 +112,7 @@ def _render_frames(request: Request, stage: Stage, folder: Path) -> Iterator[Pro
     rate_hz = request.scene.render.fps / request.scene.render.fps_base
     unit_m = request.scene.unit_settings.scale_length
     stage.set_size(*request.size_px, request.supersample)
-    # Depth is in Blender's units, and nothing in a manifest says how long these are.
+    # Depth is in Blender's units, whose length a manifest cannot state.
     stage.scene.view_layers[0].use_pass_z = abs(unit_m - 1) < 1e-6
     frames: list[Frame] = []
     intrinsics = None
@@ -140,7 +140,7 @@ def _render_frames(request: Request, stage: Stage, folder: Path) -> Iterator[Pro
 
 
 def convert(request: Request, program: str) -> Job:
-    """Turn the clip's passes into a dataset."""
+    """Convert the clip's passes to a dataset."""
     if not (request.passes / "manifest.json").is_file():
         raise ValueError(f"{request.passes}: no passes; expected those that Render Passes makes")
     arguments = ["convert", str(request.passes), "--out", str(request.dataset), "--set", *request.settings]
@@ -172,15 +172,15 @@ def _in_metres(matrix, unit_m: float) -> list[list[float]]:
 
 
 def _check_replaceable(folder: Path) -> None:
-    """Only passes may be replaced, nothing else that is in the way."""
+    """Check that a folder holds nothing but passes, so that it may be replaced."""
     if folder.exists() and not (folder / "manifest.json").is_file():
         raise ValueError(f"{folder}: not a folder of passes; expected passes, or nothing")
 
 
 @contextmanager
 def _new_folder(folder: Path) -> Iterator[Path]:
-    """A folder to write into, which replaces `folder` once it is complete, and is removed if it does not become so."""
-    # Names of clips have no dots, so these folders are only ever ours.
+    """A folder to write into, which replaces `folder` once it is complete, and is removed otherwise."""
+    # Clip names have no dots, so these folders are always ours.
     part = folder.with_name(folder.name + ".part")
     shutil.rmtree(part, ignore_errors=True)
     part.mkdir(parents=True)

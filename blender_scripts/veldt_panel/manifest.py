@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The manifest of a clip, which says what `veldt convert` finds in its passes. No bpy."""
+"""The manifest of a clip, which describes its passes for `veldt convert`. No bpy."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Matrix = Sequence[Sequence[float]]  # 4 rows of 4
 
 @dataclass(frozen=True)
 class Lens:
-    """What Blender's perspective camera has: focal length, sensor, shift in sizes of the picture's fitted side."""
+    """Parameters of Blender's perspective camera: focal length, sensor, shift in sizes of the picture's fitted side."""
 
     focal_mm: float
     sensor_width_mm: float
@@ -66,7 +66,7 @@ def camera_to_world(matrix: Matrix) -> list[float]:
 
 
 def clip_name(text: str) -> str:
-    """A clip's name made of any text: letters, digits, _ and -, at most 200, not beginning with -."""
+    """A valid clip name from any text: letters, digits, _ and -, at most 200, not beginning with -."""
     return re.sub(r"[^A-Za-z0-9_-]", "_", text).lstrip("-")[:200] or "clip"
 
 
@@ -83,7 +83,7 @@ def build_manifest(
     objects: list[dict],
     frames: Sequence[Frame],
 ) -> dict:
-    """The manifest of a clip, as configs/schema/manifest.schema.json wants it."""
+    """The manifest of a clip, by configs/schema/manifest.schema.json."""
     return {
         "format": "veldt-passes",
         "version": 1,

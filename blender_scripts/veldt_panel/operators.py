@@ -16,7 +16,7 @@ FAULTS = (ProgramError, ValueError, OSError, RuntimeError)
 
 
 def found_program(context: bpy.types.Context) -> Installation:
-    """The program of the preferences, which then know it. ProgramError if there is none."""
+    """The program of the preferences, which are updated. ProgramError if there is none."""
     said = preferences(context)
     found = find_program(bpy.path.abspath(said.program))
     said.home, said.version = str(found.home), found.version
@@ -43,14 +43,14 @@ class FindProgram(bpy.types.Operator):
 
 
 class JobOperator(bpy.types.Operator):
-    """What operators that run a job have in common; they define `job`."""
+    """Base of operators that run a job; they define `job`."""
 
     _job: Job
     _timer: bpy.types.Timer | None = None
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether nothing else runs."""
+        """Whether no other job runs."""
         return not context.window_manager.veldt.is_running
 
     def job(self, context: bpy.types.Context) -> Job:
@@ -83,7 +83,7 @@ class JobOperator(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Take a step. Other events are kept from Blender, because the scene must not change meanwhile."""
+        """Take a step. Other events are blocked, because the scene must not change meanwhile."""
         if event.type == "ESC":
             self._job.close()
             return self._end(context, {"CANCELLED"}, "Stopped", is_error=True)

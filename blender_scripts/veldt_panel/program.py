@@ -20,7 +20,7 @@ class ProgramError(Exception):
 
 @dataclass(frozen=True)
 class Installation:
-    """A program that answers."""
+    """A working program."""
 
     path: str
     version: str
@@ -29,7 +29,7 @@ class Installation:
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a job is: a fraction, and what it does."""
+    """Progress of a job: a fraction, and the current step."""
 
     fraction: float
     text: str
@@ -39,7 +39,7 @@ Job = Generator[Progress, None, str]  # what it returns is for the user
 
 
 def find_program(named: str) -> Installation:
-    """The program of this path, or if it is empty the `veldt` on PATH, by what `veldt doctor` says."""
+    """The program at this path, or if it is empty the `veldt` on PATH, from `veldt doctor`."""
     path = shutil.which(named or "veldt")
     if path is None:
         raise ProgramError(
@@ -63,10 +63,10 @@ def _remedy(report: str) -> str:
 
 
 def run(program: str, arguments: list[str]) -> Job:
-    """Run a command; yields its progress, several times a second. Returns what it printed last.
+    """Run a command; yields its progress, several times a second. Returns its last output line.
 
-    ProgramError with the command's own message if it fails; exit code 3 (some inputs were rejected) is one. Closing
-    the generator stops the command.
+    ProgramError with the command's own message if it fails; exit code 3 (some inputs were rejected) is one. Closing the
+    generator stops the command.
     """
     with tempfile.TemporaryFile("w+", encoding="utf-8") as out:
         process = subprocess.Popen(

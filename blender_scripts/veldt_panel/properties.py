@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the add-on stores: assignments in objects and collections, settings in scenes, the program in preferences."""
+"""Data of the add-on: assignments in objects and collections, settings in scenes, the program in preferences."""
 
 # No postponed annotations: Blender reads them as properties.
 
@@ -32,7 +32,7 @@ def preferences(context: bpy.types.Context) -> "Preferences":
 
 
 def catalogue(context: bpy.types.Context) -> Catalogue:
-    """The assets of the program that was found; empty before that."""
+    """The assets of the found program; empty before that."""
     home = preferences(context).home
     try:
         return read_catalogue(Path(home)) if home else Catalogue({}, (), {})
@@ -61,13 +61,13 @@ def _categories(_, context, text):
 
 
 def _take_thing(brush: "Brush", context: bpy.types.Context) -> None:
-    """Fill in what a thing of the assets is."""
+    """Fill in the properties of an asset."""
     if (thing := catalogue(context).things.get(brush.thing)) is not None:
         brush.kind, brush.material, brush.category = thing.kind, thing.material, thing.category
 
 
 class Assignment(bpy.types.PropertyGroup):
-    """What an object or a collection is."""
+    """Meaning of an object or a collection."""
 
     kind: EnumProperty(name="Kind", items=KINDS)
     material: StringProperty(name="Material", search=_materials)
@@ -79,7 +79,7 @@ class Assignment(bpy.types.PropertyGroup):
 
 
 class Brush(bpy.types.PropertyGroup):
-    """What is assigned next, and what runs; kept in the window manager, so in no file."""
+    """The next assignment, and the running job; stored in the window manager, so in no file."""
 
     thing: StringProperty(
         name="What it is", description="A thing that Veldt knows", search=_things, update=_take_thing
@@ -95,7 +95,7 @@ class Brush(bpy.types.PropertyGroup):
 
 
 class Settings(bpy.types.PropertyGroup):
-    """Of a scene: what is made of it."""
+    """Settings of a scene."""
 
     out: StringProperty(
         name="Output", description="Folder of passes and dataset", subtype="DIR_PATH", default="//veldt/"

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A temporary copy of the user's scene to render passes of; the user's own is left as it was.
+"""A temporary copy of the user's scene for rendering passes; the user's own scene is unchanged.
 
 The copy has the same objects, and render settings, view layers, markers and a camera of its own. Two settings of
-objects change while it exists, and are restored: the pass index, and whether what makes instances of actors renders.
+objects change while it exists, and are restored: the pass index, and the visibility of instancers of actors.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ DRAWN = {"MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "VOLUME", "POINTC
 
 
 class Stage:
-    """A context manager: from entering to leaving it, `pose` prepares one frame after the other."""
+    """A context manager; inside, `pose` prepares one frame after another."""
 
     def __init__(self, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, rest: str) -> None:
-        """`rest` is the material of what is not assigned."""
+        """`rest` is the material of unassigned objects."""
         self._user, self._layer_name, self._rest = scene, view_layer.name, rest
         self.indices = Indices()
         self.actors: dict[int, mathutils.Matrix] = {}  # root of each actor in the current frame, by index
@@ -65,11 +65,11 @@ class Stage:
                 thing.hide_render = is_hidden
 
     def target(self, thing: bpy.types.Object) -> Target:
-        """What an object is part of."""
+        """The target that an object is part of."""
         return target_of(self.owner(thing), self._rest)
 
     def owner(self, thing: bpy.types.Object):
-        """The object or collection whose assignment holds for an object; None if it has none."""
+        """The object or collection whose assignment applies to an object; None if it has none."""
         return owner_of(thing, lambda each: self._around.get(each.name, []))
 
     def set_size(self, width_px: int, height_px: int, supersample: int) -> None:
@@ -107,11 +107,11 @@ class Stage:
 
     @property
     def camera_matrix(self) -> mathutils.Matrix:
-        """Of the camera in the current frame, in Blender's units."""
+        """Matrix of the camera in the current frame, in Blender's units."""
         return self._camera.matrix_world
 
     def _place_camera(self, camera: bpy.types.Object, fixed_focal_mm: float | None) -> None:
-        """Take place and lens of a camera, but not its depth of field, which would blur indices."""
+        """Copy position and lens of a camera, but not its depth of field, which would blur indices."""
         if camera.data.type != "PERSP":
             raise ValueError(f"camera {camera.name} = {camera.data.type}; expected PERSP")
         data = self._camera.data
@@ -125,7 +125,7 @@ class Stage:
         self._camera.matrix_world = camera.matrix_world.normalized()  # Blender's cameras have no scale
 
     def _number_objects(self) -> None:
-        """Give the objects of the scene their indices, in the order of their targets' names."""
+        """Assign object indices, in the order of the targets' names."""
         drawn = [each for each in bpy.data.objects if each.type in DRAWN]
         names = set(self.scene.view_layers[0].objects.keys())
         of = {each: self.target(each) for each in drawn}

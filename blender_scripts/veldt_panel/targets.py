@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which objects are one target, and what each target is. No bpy: objects need only the attributes used here."""
+"""Grouping of objects into targets, and the meaning of each. No bpy: objects need only the attributes used here."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ LARGEST_INDEX = 32767  # of Blender's pass_index
 
 @dataclass(frozen=True)
 class Target:
-    """What gets one object index: an actor, or all background of one kind and material."""
+    """An entity with one object index: an actor, or all background of one kind and material."""
 
     name: str
     kind: str  # a class of the manifest: actor, plant, ground, water
@@ -25,7 +25,7 @@ class Target:
 
 
 def owner_of(thing, collections_of):
-    """The object or collection whose assignment holds for an object; None if it has none.
+    """The object or collection whose assignment applies to an object; None if it has none.
 
     The object's own, that of its nearest parent, or that of the nearest collection around any of them.
     `collections_of(object)` are the collections around an object, nearest first.
@@ -49,7 +49,7 @@ def target_of(owner, rest: str) -> Target:
 
 
 def copy_of(target: Target, instancer: str, number: tuple[int, ...]) -> Target:
-    """The target that one instance of an actor is, by the object that makes the instances and its number there."""
+    """The target of one instance of an actor, by the instancer and its instance number."""
     name = "_".join([target.name, instancer, *map(str, number)])
     return Target(name, target.kind, target.material, target.category, target.species)
 

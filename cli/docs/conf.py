@@ -1,6 +1,6 @@
-"""Sphinx's settings for the site that `./run docs` builds: the repository's Markdown files where they lie, the pages of
-this folder, and the Python package from its docstrings. The root of the repository is Sphinx's source folder, so that
-links between files are the same here and in a checkout.
+"""Sphinx's settings for the site of `./run docs`: the repository's Markdown files, the pages of this folder, and the
+Python package from its docstrings. The root of the repository is Sphinx's source folder, so that links between files
+work in a checkout, too.
 """
 
 import sys
@@ -37,9 +37,9 @@ include_patterns = [
 ]
 exclude_patterns = ["build", ".git"]
 myst_heading_anchors = 4
-suppress_warnings = ["misc.highlighting_failure"]  # of JSON that is cut short with …
+suppress_warnings = ["misc.highlighting_failure"]  # for JSON abbreviated with …
 
-# What is in the code is code, and types of others are not linked: the site is built without network.
+# Backquotes mark code; types of other projects are not linked, because the site is built without network.
 default_role = "code"
 nitpick_ignore_regex = [("py:.*", r"(?!veldt\.).*")]
 autoclass_content = "both"
@@ -67,7 +67,7 @@ templates_path = ["templates"]
 
 
 def read_source(app, name: str, source: list[str]) -> None:
-    """Turn notebooks into Markdown, and drop links that lead to folders: a site has no pages for those."""
+    """Convert notebooks to Markdown, and unlink folders, which have no pages on a site."""
     file = Path(app.env.doc2path(name))
     if file.suffix == ".ipynb":
         source[0] = notebook_to_markdown(source[0])
@@ -75,13 +75,13 @@ def read_source(app, name: str, source: list[str]) -> None:
 
 
 def hide_constructor(_app, what: str, _name: str, item, *_) -> tuple[str, str] | None:
-    """Show no arguments of classes whose objects only the package makes."""
+    """Hide the constructor arguments of classes that only the package instantiates."""
     is_made = what == "class" and (item.__init__.__doc__ or "").startswith("Made by ")
     return ("", "") if is_made else None
 
 
 def setup(app) -> None:
     """Called by Sphinx."""
-    app.add_lexer("mermaid", TextLexer)  # diagrams stay text: Pygments has no lexer for them
+    app.add_lexer("mermaid", TextLexer)  # diagrams are shown as text: Pygments has no lexer for them
     app.connect("source-read", read_source)
     app.connect("autodoc-process-signature", hide_constructor)

@@ -1,4 +1,4 @@
-"""Markdown of files that Sphinx cannot take as they are."""
+"""Convert files for Sphinx to Markdown that it supports."""
 
 import json
 import re
@@ -8,7 +8,7 @@ LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)#\s]+)\)")
 
 
 def without_folder_links(text: str, folder: Path) -> str:
-    """`text` of a file in `folder`, with the words of links to folders in place of the links."""
+    """`text` of a file in `folder`, with links to folders replaced by their words."""
     return LINK.sub(lambda link: link[1] if (folder / link[2]).is_dir() else link[0], text)
 
 

@@ -1,4 +1,4 @@
-"""Stands in for the compiled module of the Python package, so that its docstrings are read without a build."""
+"""A stand-in for the compiled module of the Python package, to read its docstrings without a build."""
 
 import importlib.machinery
 import importlib.util
@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def load_stub(name: str, file: Path) -> None:
-    """Import a stub (.pyi), whose classes and functions have names and types but do nothing, as module `name`."""
+    """Import a stub (.pyi), with classes and functions that do nothing, as module `name`."""
     loader = importlib.machinery.SourceFileLoader(name, str(file))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
     sys.modules[name] = module

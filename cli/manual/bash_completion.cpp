@@ -55,7 +55,7 @@ std::string case_of_values(const CommandText& command) {
   return free.empty() ? cases : cases + fmt::format("      {}) return ;;\n", fmt::join(free, " | "));
 }
 
-/// The choice of an argument is offered until one of it is there.
+/// Choices of an argument are offered until one is given.
 std::string case_of_arguments(const CommandText& command) {
   std::string cases;
   for (const OptionText& argument : command.arguments) {

@@ -9,13 +9,13 @@
 namespace veldt {
 namespace {
 
-/// Line breaks, which help has for narrow terminals, as blanks.
+/// Replaces line breaks by blanks.
 std::string one_line(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
 }
 
-/// Reads what help has after the options. A line break after a full stop begins a paragraph.
+/// Parses the text after the options. A line break after a full stop begins a paragraph.
 void read_footer(const std::string& footer, CommandText& text) {
   const std::string example = "Example: ";
   std::istringstream lines(footer);
@@ -61,7 +61,7 @@ std::vector<std::string> elements_of(const std::string& set) {
   return elements;
 }
 
-/// What the type of an option says: "TEXT:{a,b}" has choices, "INT:INT in [1 - 64]" bounds.
+/// Parses the type of an option: "TEXT:{a,b}" has choices, "INT:INT in [1 - 64]" bounds.
 void read_type(const std::string& type, OptionText& text) {
   const std::size_t set = type.find(":{");
   const std::size_t range = type.find(" in [");

@@ -7,13 +7,13 @@
 
 namespace veldt {
 
-/// An option or an argument, as help, manual and completions show it.
+/// An option or an argument, for help, manual and completions.
 struct OptionText {
   std::vector<std::string> names;             ///< "-h", "--help"; of an argument: "config"
   std::string purpose;                        ///< one line, without a full stop at its end
-  std::string value;                          ///< what to put there, such as "DIR"; empty: nothing
-  std::vector<std::string> choices;           ///< all values there are; empty: any
-  std::string bounds;                         ///< "1 to 64"; empty: none, or none that help knows
+  std::string value;                          ///< placeholder of the value, such as "DIR"; empty: no value
+  std::vector<std::string> choices;           ///< all valid values; empty: any
+  std::string bounds;                         ///< "1 to 64"; empty: none, or unknown
   std::string default_value;                  ///< empty: none
   std::vector<std::string> excluded, needed;  ///< names of options that it excludes and needs
   bool required = false;
@@ -34,10 +34,10 @@ struct ProgramText {
   std::vector<CommandText> commands;  ///< in the order that help shows them
 };
 
-/// All that a parser says about itself, after add_commands().
+/// Texts of a parser after add_commands().
 [[nodiscard]] ProgramText read_texts(const CLI::App& app);
 
-/// Words as bash, zsh and fish read them in a list: "a b\ c". Of what they treat in a special way, words may have blanks.
+/// Words for a list in bash, zsh and fish: "a b\ c". Blanks are the only special characters allowed in words.
 [[nodiscard]] std::string shell_words(const std::vector<std::string>& words);
 
 }  // namespace veldt

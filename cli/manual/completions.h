@@ -4,8 +4,8 @@
 
 #include "cli/manual/command_texts.h"
 
-/// Scripts that complete a command line of the program: commands, options, the values of options that have a fixed
-/// choice, and files elsewhere. None runs the program.
+/// Completion scripts: commands, options, the values of options with a fixed choice, and files elsewhere. None runs the
+/// program.
 namespace veldt {
 
 [[nodiscard]] std::string bash_completion(const ProgramText& text);

@@ -5,7 +5,7 @@
 namespace veldt {
 namespace {
 
-/// Between single quotes.
+/// Single-quoted for fish.
 std::string fish_quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
@@ -19,7 +19,7 @@ std::string line(const std::string& condition, const std::string& rest) {
   return fmt::format("complete -c veldt -n {} {}\n", fish_quoted(condition), rest);
 }
 
-/// -r: an option that takes a value, of which files are offered; -x: no files.
+/// -r: an option with a value, completed with files; -x: without files.
 std::string option_line(const std::string& condition, const OptionText& option) {
   std::string rest;
   for (const std::string& name : option.names)
@@ -31,7 +31,7 @@ std::string option_line(const std::string& condition, const OptionText& option) 
   return line(condition, rest.substr(1) + " -d " + fish_quoted(option.purpose));
 }
 
-/// The choice of an argument is offered until one of it is there.
+/// Choices of an argument are offered until one is given.
 std::string argument_line(const std::string& condition, const OptionText& argument) {
   if (argument.choices.empty()) return "";
   const std::string choices = shell_words(argument.choices);

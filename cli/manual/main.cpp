@@ -3,7 +3,7 @@
 
 #include "cli/manual/write_manual.h"
 
-/// usage: veldt_manual FOLDER; a step of the build.
+/// Usage: veldt_manual FOLDER; a build step.
 int main(int argc, char** argv) {
   if (argc != 2) {
     (void)std::fputs("usage: veldt_manual FOLDER\n", stderr);

@@ -10,7 +10,7 @@
 namespace veldt {
 namespace {
 
-/// Variables that every command reads, and files that it finds.
+/// Sections on environment variables and files.
 constexpr const char* kSurroundings = R"(.SH ENVIRONMENT
 .TP
 .B VELDT_HOME
@@ -41,7 +41,7 @@ void append_utf8(std::string& roff, std::string_view character) {
   roff += fmt::format("\\[u{:04X}]", code);
 }
 
-/// A text that means itself in roff: `text` in UTF-8, one line. Hyphens are ASCII's, so that options can be copied.
+/// `text` (UTF-8, one line) escaped for roff. Hyphens are ASCII's, so that options can be copied.
 std::string roff(std::string_view text) {
   std::string escaped;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -68,7 +68,7 @@ std::string roff(std::string_view text) {
 std::string bold(std::string_view text) { return "\\fB" + roff(text) + "\\fR"; }
 std::string italic(std::string_view text) { return "\\fI" + roff(text) + "\\fR"; }
 
-/// As in the middle of a sentence; "HTML" stays.
+/// With a small first letter, for the middle of a sentence; "HTML" is unchanged.
 std::string uncapitalised(std::string text) {
   if (text.size() > 1 && std::isupper(static_cast<unsigned char>(text[1])) == 0)
     text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
@@ -81,7 +81,7 @@ std::string upper_case(std::string text) {
   return text;
 }
 
-/// "a, b", each by `form`.
+/// "a, b", each formatted by `form`.
 template <typename Form>
 std::string listed(const std::vector<std::string>& names, Form form) {
   std::string text;
@@ -91,13 +91,13 @@ std::string listed(const std::vector<std::string>& names, Form form) {
 
 bool is_argument(const OptionText& option) { return !option.names.front().starts_with('-'); }
 
-/// "--out DIR", or "passes ..." of an argument
+/// "--out DIR", or "passes ..." for an argument.
 std::string usage(const OptionText& option) {
   if (is_argument(option)) return italic(option.names.front()) + (option.repeated ? " ..." : "");
   return listed(option.names, bold) + (option.value.empty() ? "" : " " + italic(option.value));
 }
 
-/// What an option does, then what its values are.
+/// Description of an option, then of its values.
 std::string explanation(const OptionText& option) {
   std::string text = roff(option.purpose) + ".";
   if (option.required && !is_argument(option)) text += " Required.";

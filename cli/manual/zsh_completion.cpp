@@ -31,7 +31,7 @@ _veldt() {{
 if [[ $funcstack[1] == _veldt ]]; then _veldt "$@"; else compdef _veldt veldt; fi
 )";
 
-/// With a backslash before each of `special`, and as it stands between single quotes.
+/// Inside single quotes, with a backslash before each of `special`.
 std::string zsh_quoted(const std::string& text, const std::string& special) {
   std::string result;
   for (const char c : text) {
@@ -48,7 +48,7 @@ std::string action(const OptionText& option, const std::string& value) {
   return fmt::format(":{}:{}", zsh_quoted(value, "\\:"), values);
 }
 
-/// One specification for each name, which excludes the others; an option that may be repeated excludes nothing.
+/// One specification per name, which excludes the others; a repeatable option excludes nothing.
 std::string option_specification(const OptionText& option) {
   std::vector<std::string> barred = option.excluded;
   barred.insert(barred.end(), option.names.begin(), option.names.end());

@@ -1,6 +1,4 @@
-"""Write editor.schema.json, which editors and validators use for configs as people write them.
-
-    python3 configs/schema/make_editor_schema.py
+"""Write editor.schema.json, which editors and validators use for configs as people write them; each build does it.
 
 config.schema.json describes resolved configs, which hold values alone. In a config as written, most values may be
 distributions, and sections of clips and flights hold only what differs. This derives the one from the other.
@@ -108,11 +106,7 @@ def _inside(rules: dict, partial: bool = False) -> dict:
     return found
 
 
-def as_text(schema: dict) -> str:
-    """The file's content."""
-    return json.dumps(schema, indent=1, ensure_ascii=False) + "\n"
-
-
 if __name__ == "__main__":
     source = json.loads((_HERE / "config.schema.json").read_text(encoding="utf-8"))
-    (_HERE / "editor.schema.json").write_text(as_text(editor_schema(source)), encoding="utf-8")
+    text = json.dumps(editor_schema(source), indent=1, ensure_ascii=False) + "\n"
+    (_HERE / "editor.schema.json").write_text(text, encoding="utf-8")

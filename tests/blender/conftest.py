@@ -12,7 +12,7 @@ os.environ.update(numpy_settings.REPRODUCIBLE)  # before NumPy is imported
 from plans import bake
 from rendering import Run, render
 from scenes import tiny
-from veldt.world import World, plan_world
+from planner.world import World, plan_world
 
 
 @pytest.fixture(scope="session", name="full")

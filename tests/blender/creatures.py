@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from veldt.anatomy.gait import Footing
+from planner.anatomy.gait import Footing
 
 
 def apart(feet: Footing) -> list[Footing]:

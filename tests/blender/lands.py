@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from scenes import tiny
-from veldt.land.covers import Layer, plan_covers
-from veldt.land.fine_grid import FineGrid
-from veldt.land.road_plan import plan_road
-from veldt.land.terrain import Terrain, build_terrain
+from planner.land.covers import Layer, plan_covers
+from planner.land.fine_grid import FineGrid
+from planner.land.road_plan import plan_road
+from planner.land.terrain import Terrain, build_terrain
 
 SIZE_M, SEED = 241, 5
 WILD = {"pan_radius_m": 8, "craggy_fraction": 0.1, "road": {"width_m": 3.8, "fork": True}}

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from veldt.bake.folder import bake_plan
-from veldt.model_meshes import ModelMeshes
+from planner.bake.folder import bake_plan
+from planner.model_meshes import ModelMeshes
 
 
 def bake(config: dict, folder: Path) -> Path:

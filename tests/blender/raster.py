@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from veldt import assets
-from veldt.groups.actors import poses
-from veldt.camera import project
-from veldt.plants.plant_shapes import build_variants
+from planner import assets
+from planner.groups.actors import poses
+from planner.camera import project
+from planner.plants.plant_shapes import build_variants
 
 _SMALL_PX = 8  # side of boxes around triangles that are drawn together
 

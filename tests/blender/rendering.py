@@ -14,7 +14,8 @@ import numpy as np
 
 from pictures import read_planes
 from processes import PATIENCE_S
-from veldt.config import ROOT
+from planner.bake.baked import read_scene, read_track
+from planner.config import ROOT
 
 BLENDER = os.environ.get("BLENDER") or shutil.which("blender") or "blender"
 
@@ -33,6 +34,7 @@ class Run:
     """The result of a run of the renderer."""
 
     code: int
+    plan: Path
     out: Path
     events: list[dict]
     log: str
@@ -41,9 +43,15 @@ class Run:
         """The passes of one frame."""
         return read_planes(self.out / clip / f"{frame:06d}.exr")
 
-    def manifest(self, clip: str) -> dict:
-        """The manifest of a clip."""
-        return json.loads((self.out / clip / "manifest.json").read_text())
+    def meaning(self, clip: str) -> dict:
+        """The camera of a clip, its poses (frames, 4, 4), and what indices mean, by the names of a manifest."""
+        scene = read_scene(self.plan / "scene")
+        track = read_track(self.plan / "tracks" / clip, scene)
+        listed = {kind: scene.header[kind] for kind in ("objects", "materials")}
+        return listed | {
+            "camera": track.camera or scene.header["camera"],
+            "camera_to_world": track.camera_to_world,
+        }
 
 
 def _limit_files(size_bytes: int | None) -> None:
@@ -101,4 +109,4 @@ def render(
         )
         os.close(writer)
         parsed = [json.loads(line) for line in events]
-    return Run(done.returncode, out, parsed, done.stdout + done.stderr)
+    return Run(done.returncode, folder / "plan", out, parsed, done.stdout + done.stderr)

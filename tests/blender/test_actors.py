@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.groups.actors import poses, track
-from veldt.geometry.components import facing
-from veldt.groups.schedules import StopAndGo
-from veldt.world import plan_world
+from planner.groups.actors import poses, track
+from planner.geometry.components import facing
+from planner.groups.schedules import StopAndGo
+from planner.world import plan_world
 
 
 def _grazing(config: dict) -> None:

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from veldt.config import ROOT
+from planner.config import ROOT
 
 SCRIPTS = ROOT / "blender_scripts"
-SCENE_CODE = sorted([*SCRIPTS.glob("veldt/**/*.py"), *SCRIPTS.glob("veldt_bl/*.py")])
+SCENE_CODE = sorted([*SCRIPTS.glob("planner/**/*.py"), *SCRIPTS.glob("veldt_bl/*.py")])
 BANNED_MODULES = {"random", "secrets", "time", "datetime", "uuid"}
 ALLOWED_RANDOM = {"Generator", "PCG64", "SeedSequence"}
 
@@ -38,7 +38,7 @@ def test_scene_code_is_deterministic(path: Path):
     assert set(_numpy_random_uses(tree)) <= ALLOWED_RANDOM
 
 
-@pytest.mark.parametrize("path", sorted(SCRIPTS.glob("veldt/**/*.py")), ids=lambda path: path.name)
+@pytest.mark.parametrize("path", sorted(SCRIPTS.glob("planner/**/*.py")), ids=lambda path: path.name)
 def test_planning_needs_no_blender(path: Path):
     assert not {"bpy", "mathutils", "veldt_bl"} & set(_imports(ast.parse(path.read_text(encoding="utf-8"))))
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from veldt.faults import ConfigError
-from veldt.groups.beds import check_beds, plan_beds
-from veldt.groups.behaviours import draft_members
-from veldt.groups.actors import Actor
-from veldt.geometry.splines import Loop, Spot
+from planner.faults import ConfigError
+from planner.groups.beds import check_beds, plan_beds
+from planner.groups.behaviours import draft_members
+from planner.groups.actors import Actor
+from planner.geometry.splines import Loop, Spot
 
 BEDS = {"count": 2, "left_s": 300, "lain_s": 5400}
 

@@ -4,7 +4,7 @@ import numpy as np
 import OpenImageIO
 
 from pictures import read_planes
-from veldt.blender_images import add_layer, is_whole_exr
+from planner.blender_images import add_layer, is_whole_exr
 
 
 def _write(path, names: list[str], pixels: np.ndarray) -> None:

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from creatures import CART, PONY
-from veldt import assets
-from veldt.anatomy.bodies import body_of, build_body, draw_variant, variant_names
-from veldt.anatomy.skeleton import has_own_shapes
-from veldt.geometry.shapes import NOTHING, ellipsoid, joined, sheet, tube
+from planner import assets
+from planner.anatomy.bodies import body_of, build_body, draw_variant, variant_names
+from planner.anatomy.skeleton import has_own_shapes
+from planner.geometry.shapes import NOTHING, ellipsoid, joined, sheet, tube
 
 KINDS = [(species, variant) for species in assets.names("species") for variant in variant_names(species)]
 MARE = body_of(PONY, "mare")

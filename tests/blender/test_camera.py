@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.camera import (
+from planner.camera import (
     Intrinsics,
     centred,
     edge_tangents,

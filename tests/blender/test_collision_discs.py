@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from veldt.groups.collision_discs import HORIZON_S, TIMES_S, clear_until_s, cover, gather, nearest_m
-from veldt.groups.meetings import choose_start
+from planner.groups.collision_discs import HORIZON_S, TIMES_S, clear_until_s, cover, gather, nearest_m
+from planner.groups.meetings import choose_start
 
 STEP_S = TIMES_S[1] - TIMES_S[0]
 

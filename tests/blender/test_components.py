@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from veldt.geometry import components
-from veldt.noise import stream
+from planner.geometry import components
+from planner.noise import stream
 
 COUNT = 50
 VECTORS, OTHERS, ANGLES = stream(1, "components").uniform(-2.0, 2.0, (3, 3, COUNT))

@@ -2,8 +2,8 @@
 
 import pytest
 
-from veldt.faults import ConfigError
-from veldt.groups.conditions import check_condition, condition
+from planner.faults import ConfigError
+from planner.groups.conditions import check_condition, condition
 
 
 def _group(species, **keys):

@@ -6,8 +6,8 @@ import pytest
 
 from resolved import resolve
 from scenes import tiny
-from veldt.config import input_files, load
-from veldt.faults import ConfigError
+from planner.config import input_files, load
+from planner.faults import ConfigError
 
 
 def test_unreadable_configs_are_faults(tmp_path: Path):

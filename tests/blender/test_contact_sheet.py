@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from resolved import load
-from veldt import assets
-from veldt.camera import project
-from veldt.config import ROOT
-from veldt.world import World, plan_world
+from planner import assets
+from planner.camera import project
+from planner.config import ROOT
+from planner.world import World, plan_world
 
 sys.path.insert(0, str(ROOT / "assets" / "pictures"))
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from veldt.flight.aircraft import Aircraft, aircraft_of
-from veldt.flight.courses import transect_course, waypoint_course, zigzag_course
-from veldt.flight.lanes import Footprint
-from veldt.flight.waypoints import Waypoint
+from planner.flight.aircraft import Aircraft, aircraft_of
+from planner.flight.courses import transect_course, waypoint_course, zigzag_course
+from planner.flight.lanes import Footprint
+from planner.flight.waypoints import Waypoint
 
 PLAN = {"area_m": [-60, -40, 60, 40], "heading_deg": 0, "lane_spacing_m": 20}
 NADIR, AHEAD = Footprint(35.0, -14.0, 14.0), Footprint(40.0, 38.0, 98.0)

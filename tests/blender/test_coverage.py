@@ -5,7 +5,7 @@ import pytest
 
 from rendering import render
 from scenes import tiny
-from veldt.world import plan_world
+from planner.world import plan_world
 
 AREA_M = [-40, -35, 40, 35]
 CELL_M = 1.0
@@ -54,8 +54,7 @@ def test_all_of_the_area_is_seen(tmp_path, look_angle_deg, aircraft, duration_s)
     world, run = plan_world(config), render(tmp_path, config)
     assert run.code == 0, run.log
     seen = np.zeros(80 * 70, bool)
-    for frame, entry in enumerate(run.manifest("down")["frames"]):
-        pose = np.array(entry["camera_to_world"]).reshape(4, 4)
+    for frame, pose in enumerate(run.meaning("down")["camera_to_world"]):
         seen[_cells(_ground_m(world, run.planes("down", frame), pose))] = True
     assert seen.mean() >= 0.99
     assert seen[: len(seen) // 2].mean() > 0.98 and seen[len(seen) // 2 :].mean() > 0.98

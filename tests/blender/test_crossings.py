@@ -5,12 +5,12 @@ from functools import lru_cache
 import numpy as np
 
 from scenes import tiny
-from veldt import assets
-from veldt.geometry.rotations import heading_of
-from veldt.land.road_plan import plan_road
-from veldt.land.terrain import build_terrain
-from veldt.plants.placement import Corridor
-from veldt.sites.crossings import plan_crossings
+from planner import assets
+from planner.geometry.rotations import heading_of
+from planner.land.road_plan import plan_road
+from planner.land.terrain import build_terrain
+from planner.plants.placement import Corridor
+from planner.sites.crossings import plan_crossings
 
 ANGLES = np.linspace(0, 2 * np.pi, 12, endpoint=False)
 LOOP_M = (350 * np.column_stack([np.cos(ANGLES), np.sin(ANGLES)])).tolist()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veldt.cuts import clips_of, cut
+from planner.cuts import clips_of, cut
 
 FLIGHT = {
     "id": "flight",

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.plants.density import plan_density
-from veldt.land.terrain import build_terrain
+from planner.plants.density import plan_density
+from planner.land.terrain import build_terrain
 
 SIZE_M = 1609.0
 SETTINGS = tiny()["scene"]["terrain"] | {"size_m": SIZE_M, "cell_m": 15, "area_wavelength_m": 500}

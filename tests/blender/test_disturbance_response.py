@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from veldt.flight.aircraft import FIXED_WING, MULTIROTOR
-from veldt.flight.filters import lag_error, states
-from veldt.flight.gusts import WIND_M_S, gusts_m_s, intensities_m_s, scales_m
-from veldt.flight.disturbance_response import (
+from planner.flight.aircraft import FIXED_WING, MULTIROTOR
+from planner.flight.filters import lag_error, states
+from planner.flight.gusts import WIND_M_S, gusts_m_s, intensities_m_s, scales_m
+from planner.flight.disturbance_response import (
     _HOLDS,
     lagged_angles,
     disturbance_response,
     tilt_rad,
     unsteadiness_rad,
 )
-from veldt.geometry.rotations import by_vector
+from planner.geometry.rotations import by_vector
 
 STEP_S = 0.02
 SPEED_M_S = {MULTIROTOR: 8.0, FIXED_WING: 16.0}

@@ -10,13 +10,13 @@ import pytest
 
 from processes import PATIENCE_S
 from scenes import tiny
-from veldt.config import ROOT
-from veldt.images import write_rgb
-from veldt.land.road_plan import plan_road
-from veldt.land.terrain import build_terrain
-from veldt.plants.density import plan_density
-from veldt.preview.ground_picture import Window, draw_ground, whole_place, window_round
-from veldt.blender_images import is_whole_png
+from planner.config import ROOT
+from planner.images import write_rgb
+from planner.land.road_plan import plan_road
+from planner.land.terrain import build_terrain
+from planner.plants.density import plan_density
+from planner.preview.ground_picture import Window, draw_ground, whole_place, window_round
+from planner.blender_images import is_whole_png
 
 
 def _rich(config: dict) -> None:

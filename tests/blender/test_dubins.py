@@ -5,8 +5,8 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from veldt.flight.dubins import shortest
-from veldt.flight.path_segments import Arc, Straight
+from planner.flight.dubins import shortest
+from planner.flight.path_segments import Arc, Straight
 
 ORIGIN = (0.0, 0.0)
 SIDES = [(1, 1), (-1, -1), (1, -1), (-1, 1)]

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from python_environments import venv
-from veldt import failures
-from veldt.config import ROOT
-from veldt.faults import ConfigError
+from planner import failures
+from planner.config import ROOT
+from planner.faults import ConfigError
 
 SCRIPTS = ROOT / "blender_scripts"
 
@@ -54,12 +54,12 @@ def test_a_fault_of_the_config_is_its_own_words():
 
 def test_the_place_is_the_innermost_of_these_scripts():
     """Not that in Python's library, which refuses a number as a path, nor that of the caller."""
-    from veldt.config import load  # pylint: disable=import-outside-toplevel
+    from planner.config import load  # pylint: disable=import-outside-toplevel
 
     failure = _failure(lambda: load(7))
-    lines = (SCRIPTS / "veldt" / "config.py").read_text().splitlines()
+    lines = (SCRIPTS / "planner" / "config.py").read_text().splitlines()
     file, _, line = failure.where.partition(":")
-    assert file == "blender_scripts/veldt/config.py" and "Path(path).read_bytes" in lines[int(line) - 1]
+    assert file == "blender_scripts/planner/config.py" and "Path(path).read_bytes" in lines[int(line) - 1]
 
 
 def test_without_a_frame_of_these_scripts_the_place_says_so():
@@ -140,13 +140,19 @@ def test_imports_that_fail_in_blender_are_an_event(bare_python, script):
 def test_a_syntax_error_is_placed_where_it_is(bare_python, tmp_path):
     """In the file that cannot be read, not in the one that imports it."""
     scripts = tmp_path / "blender_scripts"
-    (scripts / "veldt").mkdir(parents=True)
+    (scripts / "planner").mkdir(parents=True)
     (scripts / "veldt_bl").mkdir()
-    for name in ("veldt/__init__", "veldt/events", "veldt/failures", "veldt/faults", "veldt_bl/entry"):
+    for name in (
+        "planner/__init__",
+        "planner/events",
+        "planner/failures",
+        "planner/faults",
+        "veldt_bl/entry",
+    ):
         (scripts / f"{name}.py").write_text((SCRIPTS / f"{name}.py").read_text())
     (scripts / "render_passes.py").write_text((SCRIPTS / "render_passes.py").read_text())
-    (scripts / "veldt" / "bake").mkdir()
-    (scripts / "veldt" / "bake" / "baked.py").write_text("A = 1\nB = = 2\n")
+    (scripts / "planner" / "bake").mkdir()
+    (scripts / "planner" / "bake" / "baked.py").write_text("A = 1\nB = = 2\n")
     code, events = _events_of(bare_python, scripts / "render_passes.py")
     assert (code, events) == (
         1,
@@ -155,7 +161,7 @@ def test_a_syntax_error_is_placed_where_it_is(bare_python, tmp_path):
                 "event": "error",
                 "kind": "internal",
                 "message": "SyntaxError: invalid syntax",
-                "where": "blender_scripts/veldt/bake/baked.py:2",
+                "where": "blender_scripts/planner/bake/baked.py:2",
             }
         ],
     )

@@ -9,9 +9,9 @@ import jsonschema
 import pytest
 
 from scenes import tiny
-from veldt.config import ROOT
-from veldt.faults import ConfigError
-from veldt.world import plan_world
+from planner.config import ROOT
+from planner.faults import ConfigError
+from planner.world import plan_world
 
 
 def _set(path, value):

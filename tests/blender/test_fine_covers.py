@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from lands import SEED, WILD, small_land
-from veldt.land.covers import Layer
-from veldt.land.fine_covers import BORDER_CELLS, lay_ash, lay_grass, lay_kinds
-from veldt.land.fine_grid import MOST_CELLS, FineGrid
+from planner.land.covers import Layer
+from planner.land.fine_covers import BORDER_CELLS, lay_ash, lay_grass, lay_kinds
+from planner.land.fine_grid import MOST_CELLS, FineGrid
 
 
 @pytest.fixture(scope="module", name="wild")

@@ -3,10 +3,10 @@
 import numpy as np
 
 from scenes import tiny
-from veldt.bake.arrays import read
-from veldt.bake.forms import SCENE, VERSION
-from veldt.workers import Cores
-from veldt.world import plan_world
+from planner.bake.arrays import read
+from planner.bake.forms import SCENE, VERSION
+from planner.workers import Cores
+from planner.world import plan_world
 
 MAPS = ("kind", "border", "grass", "trodden", "ash")
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from veldt import assets, ids
-from veldt.faults import ConfigError
-from veldt.fires import PARTS, fire_mesh, flame_height_m, plan_fires
+from planner import assets, ids
+from planner.faults import ConfigError
+from planner.fires import PARTS, fire_mesh, flame_height_m, plan_fires
 
 
 class _Flat:

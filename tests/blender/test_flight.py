@@ -7,11 +7,11 @@ import pytest
 
 from resolved import resolve
 from scenes import tiny
-from veldt.camera import project
-from veldt.config import ROOT
-from veldt.geometry.rotations import by_vector
-from veldt.groups.actors import track
-from veldt.world import plan_world
+from planner.camera import project
+from planner.config import ROOT
+from planner.geometry.rotations import by_vector
+from planner.groups.actors import track
+from planner.world import plan_world
 
 RATE_HZ = 8.0
 

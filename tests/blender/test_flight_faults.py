@@ -3,9 +3,9 @@
 import pytest
 
 from scenes import tiny
-from veldt.faults import ConfigError
-from veldt.plan import plan_clips
-from veldt.world import plan_world
+from planner.faults import ConfigError
+from planner.plan import plan_clips
+from planner.world import plan_world
 
 CENTRE = {"pattern": "orbit", "centre_m": [0, 0], "radius_m": 40}
 AREA = {"pattern": "zigzag", "area_m": [-30, -30, 30, 30]}

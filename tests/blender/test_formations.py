@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from scenes import flat, tiny
-from veldt.groups.formations import form, half_breadth_m, march
-from veldt.groups.herds import Room
-from veldt.world import plan_world
+from planner.groups.formations import form, half_breadth_m, march
+from planner.groups.herds import Room
+from planner.world import plan_world
 
 ROOM = Room(0.3, 0.25)
 SPACING_M = 0.6

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from veldt.camera import Intrinsics, centred, look, project
-from veldt.frusta import frusta_of
-from veldt.noise import stream
+from planner.camera import Intrinsics, centred, look, project
+from planner.frusta import frusta_of
+from planner.noise import stream
 
 LENS = centred(640, 512, 765.0)
 OFF_CENTRE = Intrinsics(640, 512, (765.0, 820.0), (250.0, 300.0))

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from creatures import PONY, Hills, apart, circle
-from veldt.anatomy.bodies import body_of
-from veldt.anatomy.gait import footing, smooth, stride_m
+from planner.anatomy.bodies import body_of
+from planner.anatomy.gait import footing, smooth, stride_m
 
 BODY = body_of(PONY, "mare")
 STRIDE_M = stride_m(1.1, BODY.leg_m)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from veldt.flight.geodesy import FLATTENING, SEMI_MAJOR_M, east_north_m
+from planner.flight.geodesy import FLATTENING, SEMI_MAJOR_M, east_north_m
 
 
 def _ecef_m(latitude_deg, longitude_deg):

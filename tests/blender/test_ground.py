@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.land.covers import SOIL, plan_covers
-from veldt.land.ground import build_ground
-from veldt.land.road_plan import plan_road
-from veldt.land.terrain import build_terrain
-from veldt.geometry.triangles import split_edges
+from planner.land.covers import SOIL, plan_covers
+from planner.land.ground import build_ground
+from planner.land.road_plan import plan_road
+from planner.land.terrain import build_terrain
+from planner.geometry.triangles import split_edges
 
 SETTINGS = tiny()["scene"]["terrain"] | {"size_m": 240}
 WILD = {"pan_radius_m": 8, "craggy_fraction": 0.1, "gully_depth_m": 1, "road": {"width_m": 3.8, "fork": True}}

@@ -3,8 +3,8 @@
 import pytest
 
 from scenes import tiny
-from veldt.faults import ConfigError
-from veldt.world import plan_world
+from planner.faults import ConfigError
+from planner.world import plan_world
 
 
 def _group(k: int, **entries):

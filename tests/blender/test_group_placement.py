@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.groups.collision_discs import cover, gather
-from veldt.groups.herds import Room
-from veldt.plants.placement import Corridor
-from veldt.groups.placement import about, afloat, at_shore, find_spots, in_water, on_land
-from veldt.land.terrain import build_terrain
+from planner.groups.collision_discs import cover, gather
+from planner.groups.herds import Room
+from planner.plants.placement import Corridor
+from planner.groups.placement import about, afloat, at_shore, find_spots, in_water, on_land
+from planner.land.terrain import build_terrain
 
 ZEBRA, HIPPO = Room(1.25, 0.33), Room(1.9, 0.75)
 

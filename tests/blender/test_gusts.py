@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veldt.flight.gusts import WIND_M_S, gusts_m_s, intensities_m_s, scales_m
+from planner.flight.gusts import WIND_M_S, gusts_m_s, intensities_m_s, scales_m
 
 # Values are drawn from fixed seeds, so the tests always see the same ones. For other seeds, and for changes that draw
 # other numbers, each bound is one of five standard deviations: broken by chance once in 1.7 million checks.

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from resolved import resolve
-from veldt.config import ROOT
-from veldt.flight.heights import follow_heights, look_ahead_s, nearest_heights
-from veldt.land.terrain import build_terrain
+from planner.config import ROOT
+from planner.flight.heights import follow_heights, look_ahead_s, nearest_heights
+from planner.land.terrain import build_terrain
 
 STEP_S, CLIMB_M_S, SPEED_M_S = 0.02, 5.0, 12.0
 

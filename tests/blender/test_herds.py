@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veldt.groups.herds import Room, plan_places
+from planner.groups.herds import Room, plan_places
 
 ELEPHANT = Room(2.6, 1.1)
 LONG_M = 1000.0

@@ -2,8 +2,8 @@
 
 import pytest
 
-from veldt import ids
-from veldt.faults import ConfigError
+from planner import ids
+from planner.faults import ConfigError
 
 
 def test_actors_count_up_and_stay_off_the_place():

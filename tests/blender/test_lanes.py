@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from veldt.camera import Intrinsics, centred, look, project
-from veldt.faults import ConfigError
-from veldt.flight.aircraft import Aircraft
-from veldt.flight.courses import zigzag_course
-from veldt.flight.lanes import (
+from planner.camera import Intrinsics, centred, look, project
+from planner.faults import ConfigError
+from planner.flight.aircraft import Aircraft
+from planner.flight.courses import zigzag_course
+from planner.flight.lanes import (
     Footprint,
     check_lane_spacing,
     footprint,

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from veldt.camera import look
-from veldt.faults import ConfigError
-from veldt.flight.waypoint_files import read_waypoints
-from veldt.geometry.rotations import by_vector
+from planner.camera import look
+from planner.faults import ConfigError
+from planner.flight.waypoint_files import read_waypoints
+from planner.geometry.rotations import by_vector
 
 FLIGHTS = Path(__file__).resolve().parents[1] / "data" / "flights"
 TEXT = (FLIGHTS / "log.csv").read_text(encoding="utf-8")

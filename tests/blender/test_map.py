@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 
 from raw_png import png_bytes
-from veldt import assets
-from veldt.groups.actors import track
-from veldt.camera import project
-from veldt.preview.colours import UNKNOWN, linear, mixed, signal_colours, surface_colour
-from veldt.preview.flat_shapes import band, box, disc, filled
-from veldt.preview.labels import Anchor, Label, place_labels
-from veldt.preview.legend import round_length_m
-from veldt.preview.map_layers import plan_map
-from veldt.blender_images import is_whole_png
-from veldt.preview.stills import INTRINSICS, plan_stills
+from planner import assets
+from planner.groups.actors import track
+from planner.camera import project
+from planner.preview.colours import UNKNOWN, linear, mixed, signal_colours, surface_colour
+from planner.preview.flat_shapes import band, box, disc, filled
+from planner.preview.labels import Anchor, Label, place_labels
+from planner.preview.legend import round_length_m
+from planner.preview.map_layers import plan_map
+from planner.blender_images import is_whole_png
+from planner.preview.stills import INTRINSICS, plan_stills
 
 
 def _area_m2(mesh) -> float:

@@ -11,11 +11,11 @@ import configs
 from raw_png import RGB, png_bytes
 from resolved import load
 from scenes import tiny
-from veldt.plants.density import plan_density
-from veldt.failures import failure_of
-from veldt.faults import ConfigError
-from veldt.land.grey_images import read_density, read_grey, read_height_shares, sample
-from veldt.land.terrain import build_terrain
+from planner.plants.density import plan_density
+from planner.failures import failure_of
+from planner.faults import ConfigError
+from planner.land.grey_images import read_density, read_grey, read_height_shares, sample
+from planner.land.terrain import build_terrain
 
 
 def _write(path, values, form):

@@ -18,7 +18,7 @@ from program import Veldt
 from rendering import BLENDER
 from scenes import tiny
 from test_models import bush, glb, okapi
-from veldt.config import ROOT
+from planner.config import ROOT
 
 pytestmark = pytest.mark.blender
 
@@ -49,7 +49,7 @@ READ = """
 import json, sys
 sys.path.insert(0, sys.argv[-3])
 import bpy
-from veldt import assets, faults
+from planner import assets, faults
 from veldt_bl.models import _everything, load
 def folder(kind): return __import__("pathlib").Path(sys.argv[-2]) / kind
 assets._folder = folder
@@ -121,7 +121,7 @@ def test_a_model_comes_back_as_it_was(made, tmp_path, suffix):
 
 def test_a_glb_and_an_obj_are_measured_alike_without_blender(made):
     # pylint: disable=import-outside-toplevel
-    from veldt.model_files import survey
+    from planner.model_files import survey
 
     for suffix in (".glb", ".obj"):
         found = survey(made / f"okapi{suffix}")
@@ -160,7 +160,7 @@ def _quantized_glb() -> bytes:
 
 def test_a_quantized_glb_is_as_large_as_it_was(made, tmp_path):
     # pylint: disable=import-outside-toplevel
-    from veldt.model_files import survey
+    from planner.model_files import survey
 
     file = tmp_path / "species" / "okapi.glb"
     file.parent.mkdir()

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from veldt.geometry.neighbours import pairs_within
-from veldt.noise import stream
+from planner.geometry.neighbours import pairs_within
+from planner.noise import stream
 
 
 def test_all_near_pairs_are_found_once():

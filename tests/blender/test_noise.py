@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from veldt.noise import fractal_noise, gradient_noise, lattice_hash, lattice_uniform, stream
+from planner.noise import fractal_noise, gradient_noise, lattice_hash, lattice_uniform, stream
 
 
 def test_hashes_are_the_same_on_every_machine():

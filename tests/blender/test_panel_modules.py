@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import jsonschema
 import pytest
 
-from veldt.config import ROOT
+from planner.config import ROOT
 from veldt_panel.catalogue import Preset, Thing, guess, read_catalogue, words_of
 from veldt_panel.manifest import Frame, Intrinsics, Lens, build_manifest, clip_name, intrinsics_of
 from veldt_panel.program import Progress, ProgramError, find_program, parse_progress, run

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veldt.geometry.panel_shapes import panel, wheel
+from planner.geometry.panel_shapes import panel, wheel
 
 _BOX = np.array([[0.0, 0.0, 0.5], [2.0, 0.0, 0.5], [2.0, 1.0, 0.5], [0.0, 1.0, 0.5]])
 # A square of side 3 with a notch of 1 by 2 from below, as a wheel arch is cut.

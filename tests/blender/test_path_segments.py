@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from veldt.flight.speed_profile import Steady, StopToStop
-from veldt.flight.path_segments import Arc, Straight, turn_rad
+from planner.flight.speed_profile import Steady, StopToStop
+from planner.flight.path_segments import Arc, Straight, turn_rad
 
 
 @pytest.mark.parametrize("sweep_rad", [1.2, -1.2])

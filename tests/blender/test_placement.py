@@ -8,11 +8,11 @@ import pytest
 import configs
 from resolved import resolve
 from scenes import tiny
-from veldt import assets
-from veldt.geometry.neighbours import pairs_within
-from veldt.plants.placement import AREAS, Corridor, Site, by_area, place_plants, slope_deg
-from veldt.geometry.splines import Loop
-from veldt.land.terrain import build_terrain
+from planner import assets
+from planner.geometry.neighbours import pairs_within
+from planner.plants.placement import AREAS, Corridor, Site, by_area, place_plants, slope_deg
+from planner.geometry.splines import Loop
+from planner.land.terrain import build_terrain
 
 SIZE_M = 1609.0
 SEED = 9

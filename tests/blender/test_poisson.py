@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from veldt.geometry.neighbours import pairs_within
-from veldt.geometry.poisson import poisson_points
+from planner.geometry.neighbours import pairs_within
+from planner.geometry.poisson import poisson_points
 
 SIZE_M, SPACING_M = 400.0, 2.0
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from creatures import CART, PONY, Hills, apart, circle
-from veldt import assets
-from veldt.anatomy.bodies import body_of, build_body, variant_names
-from veldt.anatomy.gait import stride_m
-from veldt.anatomy.pose import Motion, Walker, feet, pose
+from planner import assets
+from planner.anatomy.bodies import body_of, build_body, variant_names
+from planner.anatomy.gait import stride_m
+from planner.anatomy.pose import Motion, Walker, feet, pose
 
 MARE, WAGON = body_of(PONY, "mare"), body_of(CART, "plain")
 KINDS = [

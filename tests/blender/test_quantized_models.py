@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from test_models import glb
-from veldt.model_files import survey
+from planner.model_files import survey
 
 
 def _position(component, low, high, **more) -> list[dict]:

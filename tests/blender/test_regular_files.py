@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from veldt.faults import ConfigError
-from veldt.flight.texts import read_text
-from veldt.land.grey_images import read_grey
-from veldt.model_files import survey
-from veldt.regular_files import read_regular
+from planner.faults import ConfigError
+from planner.flight.texts import read_text
+from planner.land.grey_images import read_grey
+from planner.model_files import survey
+from planner.regular_files import read_regular
 
 
 def test_a_file_up_to_its_limit(tmp_path: Path):

@@ -8,8 +8,8 @@ import pytest
 
 from rendering import PLANES, Run, render
 from scenes import tiny
-from veldt import ids
-from veldt.blender_images import is_whole_exr
+from planner import ids
+from planner.blender_images import is_whole_exr
 
 pytestmark = pytest.mark.blender
 
@@ -25,7 +25,7 @@ def _assert_same_pixels(one: Run, other: Run, clip: str, frames: int = 3) -> Non
 def test_files_are_whole_and_nothing_else_is_left(full):
     for clip in CLIPS:
         names = sorted(path.name for path in (full.out / clip).iterdir())
-        assert names == ["000000.exr", "000001.exr", "000002.exr", "manifest.json"]
+        assert names == ["000000.exr", "000001.exr", "000002.exr"]
         planes = full.planes(clip, 2)
         assert set(PLANES) <= set(planes)
         assert all(plane.shape == (80, 96) for plane in planes.values())
@@ -39,7 +39,7 @@ def test_a_clip_with_its_own_camera_is_rendered_as_by_that_camera(full, tmp_path
     usual = render(tmp_path / "all", tiny(lambda config: config["camera"].update(focal["camera"])))
     _assert_same_pixels(own, usual, "side")
     _assert_same_pixels(own, full, "down")
-    assert own.manifest("side")["camera"]["fx_px"] == usual.manifest("side")["camera"]["fx_px"]
+    assert own.meaning("side")["camera"]["fx_px"] == usual.meaning("side")["camera"]["fx_px"]
 
 
 def test_events_are_complete_and_in_order(full):
@@ -64,9 +64,9 @@ def test_events_are_complete_and_in_order(full):
 
 def test_index_planes_hold_whole_listed_numbers(full):
     for clip in CLIPS:
-        manifest = full.manifest(clip)
-        objects = {entry["index"] for entry in manifest["objects"]} | {0}
-        materials = {entry["index"] for entry in manifest["materials"]} | {0}
+        meaning = full.meaning(clip)
+        objects = {entry["index"] for entry in meaning["objects"]} | {0}
+        materials = {entry["index"] for entry in meaning["materials"]} | {0}
         for frame in range(3):
             planes = full.planes(clip, frame)
             assert set(np.unique(planes["Scene.IndexOB.X"])) <= objects
@@ -75,9 +75,9 @@ def test_index_planes_hold_whole_listed_numbers(full):
 
 def test_objects_wear_their_own_materials(full):
     for clip in CLIPS:
-        manifest = full.manifest(clip)
-        material = {entry["index"]: entry["material"] for entry in manifest["materials"]}
-        worn = {entry["index"]: {entry["material"]} for entry in manifest["objects"]} | {
+        meaning = full.meaning(clip)
+        material = {entry["index"]: entry["material"] for entry in meaning["materials"]}
+        worn = {entry["index"]: {entry["material"]} for entry in meaning["objects"]} | {
             ids.GROUND: {"soil", "grass", "wet_soil", "rock"}
         }
         planes = full.planes(clip, 0)
@@ -100,9 +100,6 @@ def test_clips_and_threads_change_no_pixel(full, tmp_path):
     assert [event["clip"] for event in run.events if event["event"] == "clip"] == ["side", "down"]
     for clip in CLIPS:
         _assert_same_pixels(full, run, clip)
-        assert (run.out / clip / "manifest.json").read_bytes() == (
-            full.out / clip / "manifest.json"
-        ).read_bytes()
 
 
 def test_what_blender_keeps_from_frame_to_frame_changes_no_pixel(full, tmp_path):
@@ -125,7 +122,7 @@ def test_a_killed_clip_goes_on_where_it_stopped(full, tmp_path):
     assert run.events[1] == {"event": "clip", "clip": "down", "first_frame": 1, "frames": 3}
     assert [event["index"] for event in run.events if event["event"] == "frame"] == [1, 2]
     assert (out / "down" / "000000.exr").stat().st_mtime_ns == kept
-    assert sorted(path.name for path in (out / "down").iterdir())[-1] == "manifest.json"
+    assert not list((out / "down").glob("part*"))
     _assert_same_pixels(full, run, "down")
 
 
@@ -138,16 +135,6 @@ def test_a_damaged_frame_is_rendered_again(full, tmp_path):
     assert run.code == 0, run.log
     assert [event["index"] for event in run.events if event["event"] == "frame"] == [1, 2]
     _assert_same_pixels(full, run, "down")
-
-
-def test_frames_of_another_config_are_left_alone(full, tmp_path):
-    out = tmp_path / "out"
-    shutil.copytree(full.out, out)
-    run = render(tmp_path, tiny(lambda config: config.update(seed=8)), out=out)
-    assert run.code == 2
-    message = f"--out = {out / 'down'}; expected no frames there, or frames of this plan"
-    assert run.events[-1]["message"] == message
-    assert (out / "down" / "manifest.json").read_bytes() == (full.out / "down" / "manifest.json").read_bytes()
 
 
 def test_an_unknown_clip_is_reported(tmp_path):

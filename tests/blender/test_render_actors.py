@@ -10,9 +10,9 @@ from plans import bake
 from processes import PATIENCE_S
 from rendering import BLENDER
 from scenes import tiny
-from veldt.groups.actors import poses
-from veldt.config import ROOT
-from veldt.world import plan_world
+from planner.groups.actors import poses
+from planner.config import ROOT
+from planner.world import plan_world
 
 pytestmark = pytest.mark.blender
 
@@ -25,7 +25,7 @@ from pathlib import Path
 scripts, plan, clip, frames, out = sys.argv[-5:]
 sys.path.insert(0, scripts)
 import bpy, numpy as np
-from veldt.bake.baked import read_scene, read_track
+from planner.bake.baked import read_scene, read_track
 from veldt_bl.scene import build_stage
 scene = read_scene(Path(plan) / "scene")
 track = read_track(Path(plan) / "tracks" / clip, scene)

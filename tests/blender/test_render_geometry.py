@@ -8,11 +8,11 @@ import pytest
 from raster import draw, farthest_from_an_edge, plant_triangles, world_triangles
 from rendering import PLANES, render
 from scenes import flat, tiny
-from veldt import assets, ids
-from veldt.camera import project
-from veldt.groups.actors import track
-from veldt.sightings import box_corners_m
-from veldt.world import plan_world
+from planner import assets, ids
+from planner.camera import project
+from planner.groups.actors import track
+from planner.sightings import box_corners_m
+from planner.world import plan_world
 
 pytestmark = pytest.mark.blender
 
@@ -26,8 +26,7 @@ def test_ground_and_water_are_where_they_were_planned(full, world):
     column, row = np.meshgrid(np.arange(lens.width_px) + 0.5, np.arange(lens.height_px) + 0.5)
     rays = np.stack([(column - cx_px) / fx_px, (row - cy_px) / fy_px, np.ones_like(row)], axis=-1)
     for clip in CLIPS:
-        planes, manifest = full.planes(clip, 1), full.manifest(clip)
-        pose = np.array(manifest["frames"][1]["camera_to_world"]).reshape(4, 4)
+        planes, pose = full.planes(clip, 1), full.meaning(clip)["camera_to_world"][1]
         place = (rays * planes["Scene.Depth.Z"][..., None]) @ pose[:3, :3].T + pose[:3, 3]
         wet = planes["Scene.IndexOB.X"] == ids.WATER
         dry = planes["Scene.IndexOB.X"] == ids.GROUND
@@ -49,7 +48,7 @@ def test_boxes_hold_their_actors(full, world):
             for frame in range(3):
                 row, column = np.nonzero(full.planes(clip, frame)["Scene.IndexOB.X"] == actor.index)
                 pixels = np.stack([column, row], axis=1) + 0.5
-                # Poses in the manifest and in Blender differ by float32: about 1e-3 px.
+                # Poses in the plan and in Blender differ by float32: about 1e-3 px.
                 assert (pixels > corners[frame].min(axis=0) - 0.01).all()
                 assert (pixels < corners[frame].max(axis=0) + 0.01).all()
 
@@ -57,7 +56,7 @@ def test_boxes_hold_their_actors(full, world):
 def test_overscan_adds_around_the_picture_and_leaves_it_as_it_is(full, tmp_path):
     wide = render(tmp_path, tiny(lambda config: config.update(render={"overscan_px": 5})), "--clip", "side")
     assert wide.code == 0, wide.log
-    assert wide.manifest("side")["camera"] == full.manifest("side")["camera"]
+    assert wide.meaning("side")["camera"] == full.meaning("side")["camera"]
     for frame in range(3):
         plain, wider = full.planes("side", frame), wide.planes("side", frame)
         inner = {name: plane[5:-5, 5:-5] for name, plane in wider.items()}
@@ -126,7 +125,7 @@ def test_bodies_fill_exactly_the_pixels_they_should(tmp_path, camera):
     config["camera"].update(camera)
     world, run = plan_world(config), render(tmp_path, config)
     assert run.code == 0, run.log
-    assert run.manifest("down")["camera"].items() >= camera.items()
+    assert run.meaning("down")["camera"].items() >= camera.items()
     for clip in config["clips"]:
         flight = world.flight(clip)
         for frame in range(clip["frames"]):

@@ -6,10 +6,10 @@ import pytest
 import configs
 from resolved import resolve
 from scenes import tiny
-from veldt.land.road_plan import plan_road
-from veldt.land.roads import TRACK_M
-from veldt.geometry.splines import self_crossing
-from veldt.land.terrain import build_terrain, slope_deg
+from planner.land.road_plan import plan_road
+from planner.land.roads import TRACK_M
+from planner.geometry.splines import self_crossing
+from planner.land.terrain import build_terrain, slope_deg
 
 ROAD = {"width_m": 3.8, "fork": True}
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from veldt.land.ways import plan_loop
-from veldt.geometry.splines import self_crossing
+from planner.land.ways import plan_loop
+from planner.geometry.splines import self_crossing
 
 
 def _anywhere(x_m, _):

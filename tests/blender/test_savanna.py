@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from resolved import resolve
-from veldt.bake.arrays import read
-from veldt.bake.forms import TRACK, VERSION
-from veldt.bake.tracks import bake_track
-from veldt.config import ROOT
-from veldt.groups.actors import poses, track
-from veldt.world import plan_world
+from planner.bake.arrays import read
+from planner.bake.forms import TRACK, VERSION
+from planner.bake.tracks import bake_track
+from planner.config import ROOT
+from planner.groups.actors import poses, track
+from planner.world import plan_world
 
 TEN_MINUTES_S = np.arange(0.0, 600.0, 1.0)
 POACHERS = ("northern_poachers", "western_poachers", "eastern_poachers")

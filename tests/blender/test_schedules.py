@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veldt.groups.schedules import Drinking, Steady, StopAndGo, together
+from planner.groups.schedules import Drinking, Steady, StopAndGo, together
 
 TIME_S = np.arange(0.0, 1200.0, 0.02)
 GRAZERS = [StopAndGo(7, "herd", k, 1.1) for k in range(12)]

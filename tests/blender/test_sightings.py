@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.camera import project
-from veldt.groups.actors import track
-from veldt.sightings import box_corners_m, sightings
-from veldt.world import plan_world
+from planner.camera import project
+from planner.groups.actors import track
+from planner.sightings import box_corners_m, sightings
+from planner.world import plan_world
 
 
 def _with(flight: dict, road_m: float):

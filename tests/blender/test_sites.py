@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt import assets, ids
-from veldt.faults import ConfigError
-from veldt.land.terrain import build_terrain
-from veldt.outlines import outline_of
-from veldt.plants.placement import Corridor
-from veldt.sites.grounds import plan_grounds
-from veldt.sites.layout import lay_out, plantings_of
-from veldt.sites.settlement import plan_settlements
-from veldt.world import plan_world
+from planner import assets, ids
+from planner.faults import ConfigError
+from planner.land.terrain import build_terrain
+from planner.outlines import outline_of
+from planner.plants.placement import Corridor
+from planner.sites.grounds import plan_grounds
+from planner.sites.layout import lay_out, plantings_of
+from planner.sites.settlement import plan_settlements
+from planner.world import plan_world
 
 SEED = 9
 KINDS = assets.names("sites")

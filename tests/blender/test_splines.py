@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veldt.geometry.splines import Loop
+from planner.geometry.splines import Loop
 
 CORNERS = [[30, 0], [5, 28], [-30, 3], [-4, -20]]
 UNEVEN = [[30, 0], [29, 7], [5, 28], [-30, 3], [-26, -6], [-4, -20]]

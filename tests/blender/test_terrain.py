@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from scenes import tiny
-from veldt.land.terrain import build_terrain, slope_deg
+from planner.land.terrain import build_terrain, slope_deg
 
 FULL = {
     "size_m": 800,

@@ -3,13 +3,13 @@
 import pytest
 
 from scenes import tiny
-from veldt.bake import tracks
-from veldt.bake.arrays import read
-from veldt.bake.forms import TRACK, VERSION
-from veldt.camera import project
-from veldt.groups.actors import track
-from veldt.sightings import box_corners_m
-from veldt.world import World, plan_world
+from planner.bake import tracks
+from planner.bake.arrays import read
+from planner.bake.forms import TRACK, VERSION
+from planner.camera import project
+from planner.groups.actors import track
+from planner.sightings import box_corners_m
+from planner.world import World, plan_world
 
 
 def _busy(config: dict) -> None:

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from lands import SEED, SIZE_M, WILD, small_land
-from veldt.geometry.splines import Line
-from veldt.land.fine_grid import FineGrid
-from veldt.land.strands import Halo, Strand, lay_strands
-from veldt.land.trodden import Treads, lay_fine_covers, lay_trodden, wheel_tracks
+from planner.geometry.splines import Line
+from planner.land.fine_grid import FineGrid
+from planner.land.strands import Halo, Strand, lay_strands
+from planner.land.trodden import Treads, lay_fine_covers, lay_trodden, wheel_tracks
 
 NO_TREADS = Treads([], [], [])
 

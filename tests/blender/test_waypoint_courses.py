@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from veldt.faults import ConfigError
-from veldt.flight.aircraft import Aircraft
-from veldt.flight.courses import waypoint_course
-from veldt.flight.waypoints import Waypoint
+from planner.faults import ConfigError
+from planner.flight.aircraft import Aircraft
+from planner.flight.courses import waypoint_course
+from planner.flight.waypoints import Waypoint
 
 COPTER = Aircraft("multirotor", 10.0, np.radians(30))
 WING = Aircraft("fixed_wing", 10.0, np.radians(30))

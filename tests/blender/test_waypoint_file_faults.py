@@ -20,8 +20,8 @@ from missions import (
     place_params,
     read_mission,
 )
-from veldt.faults import ConfigError
-from veldt.flight.waypoint_files import read_waypoints
+from planner.faults import ConfigError
+from planner.flight.waypoint_files import read_waypoints
 
 
 def _set(*path_and_value):

@@ -18,8 +18,8 @@ from missions import (
     place_params,
     read_mission,
 )
-from veldt.flight.waypoint_files import read_waypoints
-from veldt.flight.waypoints import Waypoint
+from planner.flight.waypoint_files import read_waypoints
+from planner.flight.waypoints import Waypoint
 
 TAKE_OFF = mission_item(22, place_params(3, 4, 30))
 

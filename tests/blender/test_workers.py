@@ -16,10 +16,10 @@ import pytest
 
 from processes import HELD_S, wait_until
 from scenes import tiny
-from veldt.config import ROOT
-from veldt.failures import failure_of
-from veldt.faults import ConfigError, ProcessLost
-from veldt.workers import Cores, die_with, in_order
+from planner.config import ROOT
+from planner.failures import failure_of
+from planner.faults import ConfigError, ProcessLost
+from planner.workers import Cores, die_with, in_order
 
 SCRIPT = ROOT / "blender_scripts" / "plan_scene.py"
 
@@ -136,7 +136,7 @@ def test_no_worker_outlives_a_killed_planner(tmp_path):
     script = (
         "import os, sys, time\n"
         f"sys.path.insert(0, {str(ROOT / 'blender_scripts')!r})\n"
-        "from veldt.workers import in_order\n"
+        "from planner.workers import in_order\n"
         "def act(k):\n"
         "    open(os.path.join(sys.argv[1], str(os.getpid())), 'w').close()\n"
         f"    time.sleep({HELD_S})\n"

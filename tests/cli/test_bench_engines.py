@@ -182,7 +182,6 @@ RAYS = ("1 ray", "4 rays", "16 rays")
 FROM_EMBREE = {
     "frame, s": [f"{view}, {rays}" for view in VIEWS for rays in RAYS],
     "frame, s, adaptive sampling": [f"{view}, {rays}" for view in VIEWS for rays in RAYS[1:]],
-    "rays, million/s": [f"{view}, {rays}" for view in VIEWS for rays in RAYS],
     "peak memory so far, MB": [f"{view}, {rays}" for view in VIEWS for rays in RAYS],
     "memory by plants": ["10000 plants", "100000 plants", "1000000 plants"],
     "memory by threads": ["1 thread, 100000 plants", "2 threads, 100000 plants"],

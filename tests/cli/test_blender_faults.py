@@ -15,7 +15,7 @@ LOG = "; log: out/passes/down.log"
 KILLED = "; unless someone killed it, the machine may have run out of memory" + LOG
 NUMPY = (
     '{"event": "error", "kind": "internal", "message": "ModuleNotFoundError: No module named numpy",'
-    ' "where": "blender_scripts/veldt/noise.py:8", "hint": "install it"}'
+    ' "where": "blender_scripts/planner/noise.py:8", "hint": "install it"}'
 )
 BLENDERS = {
     "ends without a word": (
@@ -60,7 +60,7 @@ BLENDERS = {
         f"echo 'Error: something else'; echo '{NUMPY}' >&3; exit 1",
         1,
         "Blender failed while building the scene: ModuleNotFoundError: No module named numpy"
-        " (blender_scripts/veldt/noise.py:8); install it" + LOG,
+        " (blender_scripts/planner/noise.py:8); install it" + LOG,
     ),
     "reports a fault of many lines": (
         """printf %s\\\\n '{"event": "error", "kind": "internal", "message": "a\\nb\\u001b[2J"}' >&3; exit 1""",
@@ -169,8 +169,8 @@ def _spoil(veldt, blender, when: str) -> None:
 
 
 UNKNOWN = (
-    "object index at pixel (0, 0) = 55 (48 pixels);"
-    " expected an index of the manifest's objects: 0, 1, 4, 101, 102"
+    "object index at pixel (0, 0) = 55 (960 pixels);"
+    " expected an index of the manifest's objects: 0, 1, 2, 3, 4, 101, 102, 103, 104, 105, 106, 107"
 )
 
 
@@ -199,7 +199,7 @@ def test_a_damaged_file_fails_its_clip_alone(veldt, blender):
     """Blender reports it as complete, but it is not."""
     shutil.copytree(ROOT / "tests" / "support", veldt.folder / "support")
     stand_in = veldt.folder / "support" / "fake_blender.py"
-    written = 'write_exr(folder / "part.exr", {passes.OBJECTS: passes.object_index(frame)})\n'
+    written = 'write_exr(folder / "part.exr", planes)\n'
     cut = '        clip == "side" and frame == 2 and os.truncate(folder / "part.exr", 300)\n'
     assert written in stand_in.read_text()
     stand_in.write_text(stand_in.read_text().replace(written, written + cut))

@@ -1,7 +1,6 @@
 """What `./run docs` uses beside Sphinx and Doxygen: Markdown of notebooks, and which warnings and links are errors."""
 
 import json
-import subprocess
 import sys
 
 from program import ROOT
@@ -9,7 +8,9 @@ from program import ROOT
 DOCS = ROOT / "cli" / "docs"
 sys.path.insert(0, str(DOCS))
 
-from pages import notebook_to_markdown, without_folder_links  # pylint: disable=wrong-import-position
+# pylint: disable=wrong-import-position
+from build_docs import has_no_warnings, has_sound_links
+from pages import notebook_to_markdown, without_folder_links
 
 PNG = {"output_type": "display_data", "data": {"image/png": "aGk=\n", "text/plain": ["<Figure>"]}}
 JPEG = {"output_type": "display_data", "data": {"image/jpeg": ["aG\n", "k="], "text/plain": ["<Figure>"]}}
@@ -18,14 +19,6 @@ JPEG = {"output_type": "display_data", "data": {"image/jpeg": ["aG\n", "k="], "t
 def cell(kind: str, source: list[str], outputs: list[dict] | None = None) -> dict:
     """A cell of a notebook."""
     return {"cell_type": kind, "source": source} | ({} if outputs is None else {"outputs": outputs})
-
-
-def run(script: str, argument) -> tuple[int, str]:
-    """Exit code and output of a script of cli/docs."""
-    done = subprocess.run(
-        [sys.executable, DOCS / script, argument], capture_output=True, text=True, check=False
-    )
-    return done.returncode, done.stdout + done.stderr
 
 
 def test_notebook_becomes_text_code_and_outputs():
@@ -50,7 +43,7 @@ def test_links_to_folders_become_text(tmp_path):
     assert without_folder_links(text, tmp_path) == text.replace("[`plants`](plants)", "`plants`")
 
 
-def test_warnings_of_doxygen_count_but_for_members(tmp_path):
+def test_warnings_of_doxygen_count_but_for_members(tmp_path, capsys):
     log = tmp_path / "log"
     staged = "/a/build/docs/include/veldt/base/rng.h"
     member = f"{staged}:3: warning: Member x (variable) of struct thermal::R is not documented."
@@ -60,28 +53,28 @@ def test_warnings_of_doxygen_count_but_for_members(tmp_path):
     ]
     lines = [staged + other for other in others]
     log.write_text("\n".join([member, *lines, lines[0]]), encoding="utf-8")
-    assert run("check_doxygen.py", log) == (
-        1,
-        "".join(f"thermal_core/base/rng.h{other}\n" for other in others),
-    )
+    assert not has_no_warnings(log)
+    assert capsys.readouterr().out == "".join(f"thermal_core/base/rng.h{other}\n" for other in others)
     log.write_text(member, encoding="utf-8")
-    assert run("check_doxygen.py", log) == (0, "no warnings that count\n")
+    assert has_no_warnings(log)
+    assert capsys.readouterr().out == "no warnings that count\n"
 
 
-def test_broken_links_are_named(tmp_path):
+def test_broken_links_are_named(tmp_path, capsys):
     (tmp_path / "a.html").write_text(
         '<a id="here" href="#here">1</a><a href="b.html#there">2</a><a href="https://example.org/x">3</a>'
         '<a href="#gone">4</a><a href="b.html#gone">5</a><img src="gone.png">',
         encoding="utf-8",
     )
     (tmp_path / "b.html").write_text('<p id="there">', encoding="utf-8")
-    assert run("check_links.py", tmp_path) == (
-        1,
-        "a.html: #gone leads nowhere\na.html: b.html#gone leads nowhere\na.html: gone.png leads nowhere\n",
-    )
+    assert not has_sound_links(tmp_path)
+    faults = ("#gone", "b.html#gone", "gone.png")
+    assert capsys.readouterr().out == "".join(f"a.html: {link} leads nowhere\n" for link in faults)
     (tmp_path / "a.html").unlink()
-    assert run("check_links.py", tmp_path) == (0, "1 pages, all of whose links are sound\n")
+    assert has_sound_links(tmp_path)
+    assert capsys.readouterr().out == "1 pages, all of whose links are sound\n"
 
 
-def test_a_folder_without_pages_is_no_site(tmp_path):
-    assert run("check_links.py", tmp_path) == (1, f"{tmp_path} has no pages; expected a site\n")
+def test_a_folder_without_pages_is_no_site(tmp_path, capsys):
+    assert not has_sound_links(tmp_path)
+    assert capsys.readouterr().out == f"{tmp_path} has no pages; expected a site\n"

@@ -140,6 +140,8 @@ MOMENTS = {
 
 def _reached(veldt, clip: str, frame: int) -> bool:
     """Whether a run that is held there has done all it can."""
+    if not fake_blender.is_held(veldt.folder):
+        return False
     clips = veldt.folder / "out" / "clips"
     if frame == FRAMES - 1:
         return (clips / clip).exists()

@@ -93,7 +93,7 @@ def test_a_home_without_assets(veldt, blender):
 @pytest.mark.parametrize(
     "said, reported",
     [
-        ("echo 'Traceback …' >&2; echo 'ModuleNotFoundError: No module (veldt/noise.py:8)' >&2; exit 1", ""),
+        ("echo 'Traceback …' >&2; echo 'ModuleNotFoundError: No module (planner/noise.py:8)' >&2; exit 1", ""),
         ("exit 1", None),
     ],
 )
@@ -101,7 +101,7 @@ def test_a_python_that_fails_to_plan(veldt, blender, said, reported):
     python = veldt.write("python", f"#!/bin/sh\n{said}\n")
     python.chmod(0o755)
     done = generate(veldt, blender, env={"VELDT_PYTHON": str(python)})
-    why = "" if reported is None else ": ModuleNotFoundError: No module (veldt/noise.py:8)"
+    why = "" if reported is None else ": ModuleNotFoundError: No module (planner/noise.py:8)"
     check_fault(done, 1, f"{python} plan_scene.py ended with exit code 1{why}")
 
 

@@ -15,8 +15,8 @@ sys.path.insert(0, str(ROOT / "assets" / "pictures"))
 
 from draw_pictures import FOLDER, PICTURES, RECORD, main, reworded  # pylint: disable=wrong-import-position
 
-# They show how fast a machine was, which no run repeats; the pages name the machine, CONTRIBUTING the commands.
-PLOTS_OF_SPEED = {"thermal_core/accuracy.svg", "thermal_core/truth.svg"}
+# Shows how fast a machine was, which no run repeats; the page names the machine and the command.
+PLOTS_OF_SPEED = {"thermal_core/truth.svg"}
 
 FOLDERS = ("assets", "blender_scripts", "cli", "configs", "tests", "thermal_core")
 PAGES = [*ROOT.glob("*.md"), *(page for folder in FOLDERS for page in (ROOT / folder).rglob("*.md"))]

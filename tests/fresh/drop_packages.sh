@@ -18,8 +18,7 @@ command=$2
 dropped=("${@:3}")
 log=$(mktemp)
 
-# The assignments in `run`, as they are there.
-eval "$(sed -n '/^[a-z]*_packages=(/,/)$/p' run)"
+source ./run # for its lists
 declare -n listed=$1_packages
 ((${#dropped[@]})) || dropped=("${listed[@]}")
 

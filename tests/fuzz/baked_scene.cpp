@@ -52,9 +52,8 @@ void demand_ground(const thermal::BakedGround& ground) {
   demand(ground.canopy.size() == ground.cells * ground.cells, "a cell has a canopy");
   demand(ground.cover.size() == ground.covers.size() * ground.canopy.size(), "a cell has shares of covers");
   const std::size_t fine = ground.fine_cells * ground.fine_cells;
-  for (const auto& shares : {ground.kind, ground.grass, ground.trodden, ground.ash})
+  for (const auto& shares : {ground.kind, ground.grass, ground.trodden, ground.ash, ground.border})
     demand(shares.size() == fine, "a fine cell has all shares");
-  demand(ground.border.empty() || ground.border.size() == fine, "so are distances to borders");
   demand(std::ranges::all_of(ground.kind, [&](auto one) { return one < ground.covers.size(); }), "kinds");
   demand(std::ranges::all_of(ground.height_m, [](float one) { return std::isfinite(one); }), "heights");
 }

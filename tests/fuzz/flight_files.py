@@ -56,7 +56,7 @@ ODD = (
 
 def target_of(suffix: str, folder: Path) -> Callable[[bytes], None]:
     """A function that reads bytes as a flight file with this suffix; ConfigError is the only accepted exception."""
-    files, faults = (importlib.import_module(f"veldt.{name}") for name in ("flight.waypoint_files", "faults"))
+    files, faults = (importlib.import_module(f"planner.{name}") for name in ("flight.waypoint_files", "faults"))
     file = folder / f"flight.{suffix}"
 
     def ground_m(x_m, _y_m):
@@ -140,7 +140,7 @@ def fuzz(suffix: str, folder: Path, arguments: list[str]) -> None:
 
     with atheris.instrument_imports():
         for name in MODULES:
-            importlib.import_module(f"veldt.{name}")
+            importlib.import_module(f"planner.{name}")
     mutator = {"custom_mutator": changed_json} if suffix == "plan" else {}
     atheris.Setup([sys.argv[0], *arguments], target_of(suffix, folder), **mutator)
     atheris.Fuzz()

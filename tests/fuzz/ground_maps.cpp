@@ -27,9 +27,8 @@ void demand_sound(const thermal::GroundMaps& maps) {
   const thermal::GroundCovers& covers = maps.covers;
   const std::size_t fine = covers.cells * covers.cells;
   demand(covers.kind.size() == fine && covers.grass.size() == fine && covers.trodden.size() == fine &&
-             covers.ash.size() == fine,
+             covers.ash.size() == fine && covers.border.size() == fine,
          "a fine cell has all shares");
-  demand(covers.border.empty() || covers.border.size() == fine, "so are distances to borders");
   demand(std::ranges::all_of(covers.kind, [&](auto one) { return one < covers.kinds.size(); }), "kinds");
   demand(is_finite(maps.height_m, std::numeric_limits<float>::lowest()) && is_finite(maps.crown_top_m, 0),
          "heights");

@@ -99,8 +99,8 @@ Json ground_json(const thermal::BakedGround& ground, Writer& out) {
                {"kind", out.add("ground/kind", "|u1", {fine, fine}, ground.kind)},
                {"grass", out.add("ground/grass", "|u1", {fine, fine}, ground.grass)},
                {"trodden", out.add("ground/trodden", "|u1", {fine, fine}, ground.trodden)},
-               {"ash", out.add("ground/ash", "|u1", {fine, fine}, ground.ash)}};
-  if (!ground.border.empty()) json["border"] = out.add("ground/border", "|u1", {fine, fine}, ground.border);
+               {"ash", out.add("ground/ash", "|u1", {fine, fine}, ground.ash)},
+               {"border", out.add("ground/border", "|u1", {fine, fine}, ground.border)}};
   if (!ground.shore_m.empty())
     json["shore_m"] = out.add("ground/shore_m", "<f4", {cells + 1, cells + 1}, ground.shore_m);
   return json;
@@ -125,6 +125,7 @@ void write_scene(const thermal::BakedScene& scene, const thermal::Path& folder) 
   for (const char* list : {"materials", "objects", "meshes", "surfaces", "plants", "actors"})
     header[list] = Json::array();
   for (const auto& material : scene.materials) header["materials"].push_back(material_json(material));
+  if (!scene.mirrors.empty()) header["mirrors"] = scene.mirrors;
   for (const auto& object : scene.objects) header["objects"].push_back(object_json(object));
   for (const auto& mesh : scene.meshes)
     header["meshes"].push_back(mesh_json(mesh, header["meshes"].size(), out));

@@ -15,8 +15,8 @@ import pytest
 
 from configs import tiny
 from program import PROGRAM, ROOT, Veldt
-from veldt.bake.arrays import BadBake
-from veldt.bake.baked import read_plan, read_scene, read_track
+from planner.bake.arrays import BadBake
+from planner.bake.baked import read_plan, read_scene, read_track
 
 ECHO = Path(os.environ.get("VELDT_PLAN_ECHO") or PROGRAM.parent / "plan_echo")
 SCHEMAS = ROOT / "configs" / "schema"

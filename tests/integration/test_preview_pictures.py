@@ -10,9 +10,9 @@ from configs import tiny
 from pictures import read_planes
 from program import Veldt
 from resolved import resolve
-from veldt.preview.colours import surface_colour
-from veldt.preview.map_layers import MapSheet, plan_map
-from veldt.world import World, plan_world
+from planner.preview.colours import surface_colour
+from planner.preview.map_layers import MapSheet, plan_map
+from planner.world import World, plan_world
 
 PICTURES = ["close_herd.png", "close_people.png", "close_zebras.png", "map.png", "overview.png"]
 

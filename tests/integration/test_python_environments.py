@@ -45,12 +45,12 @@ def test_a_blender_without_numpy_says_so(veldt, tmp_path_factory, blender):
     script = veldt.write("in_venv", f'#!/bin/sh\nPATH="{venv(prefix)["PATH"]}" exec {blender} "$@"\n')
     script.chmod(0o755)
     done = _generate(veldt, script)
-    imported = (ROOT / "blender_scripts" / "veldt" / "bake" / "baked.py").read_text().splitlines()
+    imported = (ROOT / "blender_scripts" / "planner" / "bake" / "baked.py").read_text().splitlines()
     line = imported.index("import numpy as np") + 1
     assert (done.code, done.out) == (1, "")
     assert done.err == (
         "veldt: Blender failed while building the scene: ModuleNotFoundError: No module named 'numpy'"
-        f" (blender_scripts/veldt/bake/baked.py:{line}); install NumPy for the Python"
+        f" (blender_scripts/planner/bake/baked.py:{line}); install NumPy for the Python"
         f" {sys.version_info.major}.{sys.version_info.minor} in {prefix} (apt-get install python3-numpy);"
         " log: out/passes/down.log\n"
     )

@@ -14,6 +14,8 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
+
 import passes
 from processes import HELD_S
 from program import Ended, Veldt
@@ -39,14 +41,19 @@ def generate(veldt: Veldt, blender: Path, *options, out="out", **how) -> Ended:
 
 
 def hold_after(folder: Path, clip: str, frame: int) -> None:
-    """Has the program of `folder` stop, once, after a frame of a clip; frame -1 is the manifest."""
+    """Has the program of `folder` stop, once, after a frame of a clip; -1 is before the first."""
     (folder / _HOLDS).write_text(f"{clip} {frame}", encoding="utf-8")
+
+
+def is_held(folder: Path) -> bool:
+    """Whether the program of `folder` has stopped as hold_after() ordered."""
+    return not (folder / _HOLDS).exists()
 
 
 def die_after(folder: Path, clip: str, frame: int, times: int = 1) -> None:
     """Makes the program of `folder` crash after a frame of a clip, as if out of memory.
 
-    Frame -1 is the manifest, clip `scene` the moment before the scene is built. If it is to die more often than once,
+    Frame -1 is before the first, clip `scene` the moment before the scene is built. If it is to die more than once,
     it does so after the next frame it renders.
     """
     (folder / _DIES).write_text(f"{clip} {frame} {times}", encoding="utf-8")
@@ -70,21 +77,35 @@ def _main() -> None:
         if options.preview:
             _preview(options.out, events)
         for clip in options.clip:
-            _render(options.out / clip, clips[clip], events)
+            _render(options, clips[clip], events)
 
 
-def _render(folder: Path, planned: dict, events) -> None:
-    folder.mkdir(parents=True, exist_ok=True)
+def _render(options: argparse.Namespace, planned: dict, events) -> None:
     clip, frames = planned["id"], planned["frames"]
-    passes.write_manifest(folder, passes.manifest(clip, frames) | {"of_flight": planned["of_flight"]})
+    folder = options.out / clip
+    folder.mkdir(parents=True, exist_ok=True)
+    scene = json.loads((options.plan / "scene.json").read_text())
+    height, width = (
+        options.supersample * (scene["camera"][side] + 2 * scene["view_margin_px"])
+        for side in ("height_px", "width_px")
+    )
+    kinds = {passes.OBJECTS: passes.object_index}
+    kinds |= {passes.ACTORS: passes.actor_index} if options.actor_layer else {}
     first = next(k for k in range(frames + 1) if not (folder / f"{k:06d}.exr").exists())
     print(json.dumps({"event": "clip", "clip": clip, "first_frame": first, "frames": frames}), file=events)
     _hold(clip, -1)
     for frame in range(first, frames):
-        write_exr(folder / "part.exr", {passes.OBJECTS: passes.object_index(frame)})
+        planes = {name: _stretched(index(frame), height, width) for name, index in kinds.items()}
+        write_exr(folder / "part.exr", planes)
         os.replace(folder / "part.exr", folder / f"{frame:06d}.exr")
         print(json.dumps({"event": "frame", "clip": clip, "index": frame}), file=events)
         _hold(clip, frame)
+
+
+def _stretched(plane: np.ndarray, height: int, width: int) -> np.ndarray:
+    """The same picture in another size."""
+    rows, columns = (np.arange(size) * own // size for size, own in zip((height, width), plane.shape))
+    return plane[np.ix_(rows, columns)]
 
 
 def _preview(folder: Path, events) -> None:

@@ -51,8 +51,8 @@ def _main() -> None:
 
 def _replace(moment: str, folder: Path) -> None:
     """Make the function that follows the moment hold."""
-    from veldt.bake import folder as plan_folder  # pylint: disable=import-outside-toplevel
-    from veldt.bake import scene  # pylint: disable=import-outside-toplevel
+    from planner.bake import folder as plan_folder  # pylint: disable=import-outside-toplevel
+    from planner.bake import scene  # pylint: disable=import-outside-toplevel
 
     bake_track = plan_folder.bake_track
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from veldt.flight.waypoint_files import read_waypoints
+from planner.flight.waypoint_files import read_waypoints
 
 FLIGHTS = Path(__file__).resolve().parents[1] / "data" / "flights"
 SURVEY = json.loads((FLIGHTS / "survey.plan").read_text(encoding="utf-8"))

@@ -12,8 +12,8 @@ import configs
 import passes
 from program import Veldt
 from resolved import resolve
-from veldt.land.road_plan import plan_road
-from veldt.land.terrain import Terrain, build_terrain
+from planner.land.road_plan import plan_road
+from planner.land.terrain import Terrain, build_terrain
 
 CLIPS = configs.CLIPS
 _VOID = {"meta", "link", "img", "br", "input"}

@@ -1,4 +1,4 @@
-"""Print the ten slowest tests of a run, and hold its processor time against the budget in tests/README.md.
+"""The ten slowest tests of a run, and its processor time against the budget in tests/README.md.
 
 Processors differ, so the budget is a multiple of a reference: work that never changes, done on all cores here and now.
 With VELDT_HOLD_BUDGET=1, a run that takes more than 25 % above the budget fails.
@@ -50,28 +50,25 @@ def reference_s() -> float:
     """Processor time of the reference, with all cores at it."""
     cores = len(os.sched_getaffinity(0))
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    running = [subprocess.Popen([sys.executable, "-B", __file__, "--work"]) for _ in range(cores)]
+    running = [subprocess.Popen([sys.executable, "-B", __file__]) for _ in range(cores)]
     assert not any(one.wait() for one in running)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return (after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime) / cores
 
 
-def main() -> int:
-    """Print what a run took; 1 if that is too much and matters."""
-    if sys.argv[1] == "--work":
-        work()
-        return 0
+def report(folder: Path, taken_s: float) -> bool:
+    """Print what a run took; whether that is within the budget, or does not matter."""
     print("\nthe ten slowest tests [s]:")
-    for seconds, name in slowest(Path(sys.argv[1])):
+    for seconds, name in slowest(folder):
         print(f"{seconds:8.1f}  {name}")
-    taken_s, reference, allowed = float(sys.argv[2]), reference_s(), budget()
+    reference, allowed = reference_s(), budget()
     used = taken_s / reference
     print(
         f"processor time: {taken_s:.0f} s, {used:.0f} times the reference of {reference:.2f} s on this machine;"
         f" the budget is {allowed:.0f}"
     )
-    return int(os.environ.get("VELDT_HOLD_BUDGET") == "1" and used > TOLERANCE * allowed)
+    return os.environ.get("VELDT_HOLD_BUDGET") != "1" or used <= TOLERANCE * allowed
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    work()

@@ -30,7 +30,7 @@ inline constexpr std::size_t kIouSteps = 10;
 /// Average precision of one category as COCO defines it (pycocotools 2.0, COCOeval, boxes, all areas, the 100
 /// detections of highest score per picture). Equal scores are ranked by the ids of their pictures, then in the order
 /// given.
-/// @param cells  all of this category, as EvaluationCells has them
+/// @param cells  all cells of this category, from EvaluationCells
 [[nodiscard]] AveragePrecision average_precision_of(std::span<const EvaluationCell> cells);
 
 /// Means over the categories with figures; empty without any.

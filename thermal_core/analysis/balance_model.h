@@ -19,7 +19,7 @@ struct LevelBounds {
 /// Those of a program.
 [[nodiscard]] LevelBounds level_bounds(const BalanceProgram& program);
 
-/// How a video enters a model.
+/// How a model represents a video.
 enum class VideoPart {
   whole,    ///< whole numbers of frames
   relaxed,  ///< any numbers of frames

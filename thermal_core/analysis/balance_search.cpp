@@ -33,10 +33,10 @@ std::vector<std::size_t> order_of_pass(const BalanceProgram& program, int pass) 
   return order;
 }
 
-/// Bounds first, then solutions, then both. With fractional numbers of frames the program is solved in seconds;
-/// because videos have many frames, its objective is a bound within a few labels of the optimum. Which videos it
-/// exhausts is kept, and frames are made whole a few videos at a time, exactly, while later videos remain free. The
-/// rest of the gap is left to the solver, with the whole program.
+/// Bounds first, then solutions, then both. With fractional numbers of frames the program is solved in seconds; because
+/// videos have many frames, its objective is a bound within a few labels of the optimum. The videos that it exhausts
+/// are fixed, and frames are rounded a few videos at a time, exactly, while later videos remain free. The solver closes
+/// the rest of the gap with the whole program.
 class Search {
  public:
   Search(const BalanceProgram& program, Frames taken, double gap, const Deadline& deadline)
@@ -68,7 +68,7 @@ class Search {
     if (!solved.values.empty()) used_up_ = model.used_up_in(solved.values);
   }
 
-  /// Bounds of the classes may be violated on the way; a final solution that violates them is discarded.
+  /// The bounds of the classes may be violated meanwhile; a final solution that violates them is discarded.
   void round_in_blocks(int pass) {
     if (used_up_.empty()) return;
     const std::vector<std::size_t> order = order_of_pass(program_, pass);

@@ -107,7 +107,7 @@ SolverResult solve(const IntegerProgram& program, const SolverLimits& limits) {
   const bool finished = Cbc_status(model.get()) == 0;
   const double* values = Cbc_bestSolution(model.get());
   if (Cbc_isProvenInfeasible(model.get()) != 0) {
-    // CBC 2.10 also says so when it runs out of time before it has solved the program without whole numbers.
+    // CBC 2.10 also reports this when it runs out of time before it has solved the relaxed program.
     if (taken.count() < limits.time_s) result.end = SolverEnd::infeasible;
     return result;
   }

@@ -6,7 +6,7 @@
 
 namespace thermal {
 
-/// A bound that does not bind.
+/// No bound.
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// minimise cost . x with lower <= x <= upper, some of x whole, and lower <= A x <= upper.
@@ -54,7 +54,7 @@ enum class SolverEnd {
   nothing,     ///< stopped at a limit without a solution
 };
 
-/// What a search found.
+/// Result of a search.
 struct SolverResult {
   SolverEnd end = SolverEnd::nothing;
   std::vector<double> values;  ///< one per column; empty without a solution. Whole ones to within 1e-6

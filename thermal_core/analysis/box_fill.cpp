@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kMostPictures = 1000;
 constexpr std::size_t kLeastBoxes = 20;
 
-/// Labels that count, by picture; pictures without any are left out.
+/// Labels that are not ignored, by picture; pictures without any are left out.
 std::vector<std::vector<const Label*>> labels_by_picture(const LabelSet& set) {
   std::vector<std::vector<const Label*>> pictures(set.images.size());
   for (const Label& label : set.labels)
@@ -45,7 +45,7 @@ Plane<float> levels_in(const LabelSet& set, const LabelImage& image) {
   return levels;
 }
 
-/// Empty if the target does not differ from what is around it.
+/// Empty if the target does not differ from its surroundings.
 std::optional<BoxFill> fill_of(const Plane<float>& levels, const LabelBox& box) {
   constexpr double kLeastDeviations = 4;
   const auto crop = target_crop(levels, box);

@@ -13,10 +13,10 @@
 
 namespace thermal {
 
-/// Which detections count, and what a match is.
+/// Options of an evaluation: which detections count, and what a match is.
 struct EvaluateOptions {
   double iou = 0.5;            ///< lowest IoU of a match, above 0, at most 1
-  double score = 0.5;          ///< detections below do not count, except in average precision
+  double score = 0.5;          ///< lower scores do not count, except in average precision
   bool count_ignored = false;  ///< count ignored targets like others
 
   /// ConfigError with the name of the command line option.
@@ -41,7 +41,7 @@ using SizeCounts = std::array<Counts, 3>;
 /// The sum over all sizes.
 [[nodiscard]] Counts total(const SizeCounts& counts) noexcept;
 
-/// How well detections agree with labels.
+/// Agreement of detections with labels.
 struct Evaluation {
   /// [video][category], as in the set.
   std::vector<std::vector<SizeCounts>> counts;

@@ -25,7 +25,7 @@ struct FrameType {
   std::vector<int> frames;  ///< indices in the video, from 0, ascending
 };
 
-/// A video, with its frames counted by what they show.
+/// A video, with its frames counted by type.
 struct BalanceVideo {
   std::string name;
   std::vector<FrameType> types;  ///< each with at least one label, no two alike, in the order of their counts

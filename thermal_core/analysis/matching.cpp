@@ -72,7 +72,7 @@ EvaluationCells::EvaluationCells(const LabelSet& truth, std::span<const Detectio
   const std::vector<std::size_t> ranks = ranks_of(truth.images);
   detections_ = sorted_detections(detections, ranks);
   targets_ = sorted_targets(truth, ranks, count_ignored);
-  // Category, rank of the picture, picture.
+  // Sort key: category, rank of the picture, picture.
   const auto place = [&ranks](const auto& item) {
     return std::tuple(item.category, ranks[item.image], item.image);
   };
@@ -98,7 +98,7 @@ double overlap(const LabelBox& detection, const Target& target) noexcept {
                            std::max(detection.y_px, box.y_px);
   if (width_px <= 0 || height_px <= 0) return 0;
   const double shared_px = width_px * height_px;
-  // The order of summation decides the last bit, and with it ties.
+  // The order of summation affects the last bit, and with it ties.
   const double whole_px =
       target.crowd ? detection.area_px() : detection.area_px() + box.area_px() - shared_px;
   return shared_px / whole_px;
@@ -114,7 +114,7 @@ std::vector<std::size_t> match(const EvaluationCell& cell, double iou) {
       if (taken[t] && !targets[t].crowd) continue;
       if (found[d] != kNoTarget && !targets[found[d]].ignored && targets[t].ignored) break;
       const double here = overlap(cell.detections[d].box, targets[t]);
-      if (!(here >= best)) continue;  // also false if areas too small or large to represent made it NaN
+      if (!(here >= best)) continue;  // also false for NaN, from areas too small or large to represent
       best = here;
       found[d] = t;
     }

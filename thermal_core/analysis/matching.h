@@ -10,7 +10,7 @@
 
 namespace thermal {
 
-/// A target, as matching uses it.
+/// A target, as used by matching.
 struct Target {
   LabelBox box;
   bool crowd = false;     ///< a group without separate boxes: any number of detections may match it
@@ -42,15 +42,15 @@ class EvaluationCells {
   std::vector<EvaluationCell> cells_;
 };
 
-/// Intersection over union, 0..1; over the detection's own area if the target is a crowd. 0 where they only touch.
+/// Intersection over union, 0..1; over the detection's own area if the target is a crowd. 0 if boxes only touch.
 [[nodiscard]] double overlap(const LabelBox& detection, const Target& target) noexcept;
 
 /// The index of a detection that matches no target.
 inline constexpr std::size_t kNoTarget = static_cast<std::size_t>(-1);
 
 /// Which target each detection matches, as an index into `cell.targets`, or kNoTarget: in order, each takes the
-/// unmatched target of largest overlap, at least `iou`; the last of equal ones. Targets that count take precedence
-/// over ignored ones, whatever the overlap. These are COCO's rules (pycocotools 2.0, COCOeval), to the bit.
+/// unmatched target of largest overlap, at least `iou`; the last of equal ones. Targets that count take precedence over
+/// ignored ones, regardless of overlap. These are COCO's rules (pycocotools 2.0, COCOeval), to the bit.
 /// @param iou  above 0, at most 1; like COCO, accepts an overlap of 1 - 1e-10 as 1
 [[nodiscard]] std::vector<std::size_t> match(const EvaluationCell& cell, double iou);
 

@@ -9,7 +9,7 @@
 namespace thermal {
 namespace {
 
-constexpr std::uint32_t kSelectionStream = 0x53454C45;  // far from the sensor's
+constexpr std::uint32_t kSelectionStream = 0x53454C45;  // apart from the sensor's
 
 SelectedVideo select_of(const BalanceVideo& video, const std::vector<std::int64_t>& taken,
                         std::uint32_t seed) {

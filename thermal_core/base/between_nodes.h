@@ -6,7 +6,7 @@
 
 namespace thermal {
 
-/// Where a place lies between two nodes of a row of evenly spaced ones; with a single node, both are that one.
+/// Two neighbouring nodes of an evenly spaced axis, to interpolate between; with a single node, both are that node.
 struct BetweenNodes {
   std::size_t low = 0;
   std::size_t high = 0;

@@ -10,10 +10,10 @@ void AnnotateIgnoreWritesEnd(const char* file, int line);
 
 namespace thermal {
 
-/// Says to ThreadSanitizer which order between threads TBB guarantees: all before give() happens before all after a
-/// later take(). It cannot see that order itself, because Debian's libtbb is compiled without it. Sources that include
-/// TBB's algorithms are compiled without it too: of their accesses, those by TBB's headers to tasks that threads hand
-/// on would be reported. What they call is watched. In other builds this does nothing.
+/// Declares to ThreadSanitizer a happens-before order that TBB guarantees: everything before give() happens before
+/// everything after a later take(). ThreadSanitizer cannot see that order, because Debian's libtbb is compiled without
+/// it. Sources that include TBB's algorithms are compiled without it too, as it would report TBB's own accesses to
+/// tasks that move between threads; what these sources call is checked. Does nothing in other builds.
 class HandOver {
  public:
 #if defined(VELDT_THREAD_SANITIZER)
@@ -25,7 +25,7 @@ class HandOver {
 #endif
 };
 
-/// For as long as it lives, this thread has what others had before it and will have after it.
+/// Calls take() when constructed and give() when destroyed.
 class Turn {
  public:
   explicit Turn(HandOver& hand_over) noexcept : hand_over_(hand_over) { hand_over_.take(); }
@@ -37,7 +37,7 @@ class Turn {
   HandOver& hand_over_;
 };
 
-/// Work that one thread divides into parts and waits for, also when a part throws. Parts have no order between them.
+/// Work that one thread divides into unordered parts and waits for, also when a part throws.
 class DividedWork {
  public:
   DividedWork() noexcept { begin_.give(); }
@@ -61,8 +61,8 @@ class DividedWork {
   HandOver end_;
 };
 
-/// For as long as it lives, ThreadSanitizer does not watch what this thread writes. For a call of a library that writes
-/// what its own threads then read, in an order that ThreadSanitizer cannot see.
+/// While it exists, ThreadSanitizer ignores what this thread writes: for calls of a library whose own threads read that
+/// in an order that ThreadSanitizer cannot see.
 class Unwatched {
  public:
   Unwatched() noexcept { begin(); }

@@ -19,7 +19,7 @@ class Plane {
     assert(width_px >= 0 && height_px >= 0);
   }
 
-  /// Makes it this large. One that is so already keeps its pixels; the others are new.
+  /// Changes the size. Keeps the pixels if it has that size already; otherwise all pixels are new.
   void resize(int width_px, int height_px) {
     if (width_px != width_px_ || height_px != height_px_) *this = Plane(width_px, height_px);
   }

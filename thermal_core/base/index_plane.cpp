@@ -17,7 +17,7 @@ bool is_index(Number value, int largest) {
          static_cast<Number>(static_cast<std::uint16_t>(value)) == value;
 }
 
-/// Converts numbers; false if one is not an index, which then differs from its number.
+/// Converts numbers; false if one is not a valid index.
 template <typename Number>
 bool convert(const Number* in, std::size_t count, int largest, std::uint16_t* out) {
   bool all = true;
@@ -29,7 +29,7 @@ bool convert(const Number* in, std::size_t count, int largest, std::uint16_t* ou
   return all;
 }
 
-/// The types that files have.
+/// The pixel types of files.
 VELDT_CLONES bool convert(const float* in, std::size_t count, int largest, std::uint16_t* out) {
   const auto most = static_cast<float>(largest);
   std::int32_t bad = 0;

@@ -20,7 +20,7 @@ void run_isolated(const std::function<void()>& work) { tbb::this_task_arena::iso
 
 void run_apart(const std::function<void()>& work) {
   tbb::task_arena arena(
-      thread_count(0));  // has a root of its own, to which work is tied no longer than it runs
+      thread_count(0));  // its root task ends with the call, so no work stays attached to it
   arena.execute(work);
 }
 

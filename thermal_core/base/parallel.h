@@ -7,13 +7,13 @@
 
 namespace thermal {
 
-/// `threads`, or if it is 0, how many the library's loops on this thread use: as run_with_threads() says, elsewhere
-/// one per core that this process may run on (CPU affinity).
+/// How many threads the library's loops use on this thread: `threads`, or if it is 0, the limit of run_with_threads(),
+/// without one a thread per core that this process may run on (CPU affinity).
 [[nodiscard]] int thread_count(int threads);
 
-/// Calls `work` on this thread; the library's loops in it use at most this many threads, this one among them, and at
-/// most thread_count(0), which `threads` = 0 stands for. Threads that `work` starts itself are not limited, nor is
-/// anything else in the program.
+/// Calls `work` on this thread. The library's loops in it use at most `threads` threads, this one included, and at most
+/// thread_count(0), which 0 stands for. Threads that `work` starts itself, and the rest of the program, are not
+/// limited.
 void run_with_threads(int threads, const std::function<void()>& work);
 
 /// The same for work with a result.
@@ -29,11 +29,11 @@ auto with_threads(int threads, const Work& work) {
   }
 }
 
-/// Calls `work` on this thread. While it waits in there for other threads, it takes on no work from outside.
+/// Calls `work` on this thread. While it waits for other threads, it takes on no unrelated work.
 void run_isolated(const std::function<void()>& work);
 
-/// The same for a library whose objects keep work of their own: none of it is tied to the loops around this call. Takes
-/// some microseconds more.
+/// The same for a library whose objects keep TBB tasks: none stays attached to the loops around this call. Takes some
+/// microseconds more.
 void run_apart(const std::function<void()>& work);
 
 /// Calls body(begin, end) on chunks that cover [0, count) exactly once, in any order and on any thread. Chunks depend

@@ -39,7 +39,7 @@ class Pipeline {
     return stages_[stage].in_order ? filter_mode::serial_in_order : filter_mode::parallel;
   }
 
-  /// Where an item hands over from stage to stage, and at its end to the one that enters then.
+  /// Orders the stages of an item, and its last stage before the entry of the item that reuses the slot.
   HandOver& slot(std::size_t item) { return slots_[item % slots_.size()]; }
 
   std::size_t next(tbb::flow_control& control) {

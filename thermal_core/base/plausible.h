@@ -2,8 +2,8 @@
 
 namespace thermal {
 
-/// What a physical quantity can be in what a drone's camera sees. A number outside has another unit, or stands for "no value":
-/// readers refuse it, or count it as unusable.
+/// Plausible range of a physical quantity in what a drone's camera sees. A number outside has another unit, or stands
+/// for "no value": readers refuse it, or count it as unusable.
 struct PlausibleRange {
   double least;
   double most;

@@ -13,7 +13,7 @@ bool is_safe_part(std::string_view part) {
          part.front() != '-';
 }
 
-/// "C:" of "C:/x" and "C:x", which lead elsewhere on Windows.
+/// Whether a text begins with a Windows drive, as "C:/x" and "C:x" do.
 bool has_drive(std::string_view text) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   return text.size() >= 2 && is_letter(text[0]) && text[1] == ':';

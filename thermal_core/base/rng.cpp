@@ -51,9 +51,9 @@ VELDT_DEFAULT_TARGET void generate_lanes(const RandomField& field, std::uint32_t
 }
 
 #if VELDT_HAS_CLONES
-/// The same bits. Compilers shuffle halves of 64-bit products about; here each counter keeps a lane of 64 bits, whose
-/// upper half is left undefined, because the multiplication ignores it. Even counters and odd ones have vectors of
-/// their own, which fit together in the end.
+/// The same bits, faster: each counter keeps a lane of 64 bits, whose upper half is undefined, because the
+/// multiplication ignores it; compilers shuffle halves of products instead. Even and odd counters have separate
+/// vectors, which are merged at the end.
 __attribute__((target("avx2"))) void generate_lanes(const RandomField& field, std::uint32_t block,
                                                     std::array<Words, 4>& words) noexcept {
   constexpr std::size_t kVector = 8;  // counters in an even and an odd vector

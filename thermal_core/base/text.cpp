@@ -35,7 +35,7 @@ std::string_view take_digits(std::string_view& text) noexcept {
   return digits;
 }
 
-/// Of numbers of any length, as digits.
+/// Compares digit strings of any length as numbers.
 int sign_of_difference(std::string_view one, std::string_view other) noexcept {
   one.remove_prefix(std::min(one.find_first_not_of('0'), one.size()));
   other.remove_prefix(std::min(other.find_first_not_of('0'), other.size()));

@@ -26,14 +26,14 @@ namespace thermal {
 /// The parts between separators, one more than there are of those; views into `text`.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// How two names compare by the numbers in them.
+/// Result of compare_names().
 struct NameOrder {
   int sign = 0;            ///< below 0: the first name precedes the second
   bool by_number = false;  ///< two numbers in the same place are what differs first
 };
 
-/// "frame 2" precedes "frame 10", whatever zeros are in front of them; what is no number is compared byte by byte.
-/// Names that differ in such zeros alone are equal.
+/// Natural order: "frame 2" precedes "frame 10", regardless of leading zeros; other text is compared byte by byte.
+/// Names that differ only in leading zeros are equal.
 [[nodiscard]] NameOrder compare_names(std::string_view one, std::string_view other) noexcept;
 
 /// Digits of a number that is certain to fit into 64 bits.

@@ -15,16 +15,16 @@
 namespace thermal {
 namespace {
 
-/// Random numbers of one video, one after another.
+/// Random numbers of one video, in order.
 class Dice {
  public:
   Dice(std::uint32_t seed, std::uint32_t video) : key_{seed, video} {}
 
-  /// In [low, high).
+  /// Uniform in [low, high).
   double uniform(double low, double high) {
     return low + (high - low) * 0x1p-32 * Philox4x32::generate({count_++, 0, 0, 0}, key_)[0];
   }
-  /// low … high
+  /// A whole number from low to high.
   int whole(int low, int high) { return low + static_cast<int>(uniform(0, high - low + 1)); }
   bool chance(double probability) { return uniform(0, 1) < probability; }
 
@@ -121,7 +121,7 @@ std::array<ClassBounds, kBalanceClasses> alike(const ClassCounts& there, double 
   return bounds;
 }
 
-/// Fractions of each class.
+/// Bounds as fractions of each class.
 std::array<ClassBounds, kBalanceClasses> shares(const ClassCounts& there, double low, double high) {
   std::array<ClassBounds, kBalanceClasses> bounds;
   for (std::size_t k = 0; k < kBalanceClasses; ++k) {

@@ -41,7 +41,7 @@ Manifest manifest_of(const CameraIntrinsics& camera, double height_m, double loo
   return manifest;
 }
 
-/// The surface at a place: patches a few metres across, a pond, an occasional shrub or animal.
+/// Object index at a position: patches a few metres across, a pond, an occasional shrub or animal.
 std::uint16_t index_at(double x_m, double y_m) {
   const double patches = std::sin(0.4 * x_m) + std::sin(0.31 * y_m + 1.3 * std::sin(0.11 * x_m));
   if (std::hypot(x_m + 14, y_m - 70) < 9) return kWater;

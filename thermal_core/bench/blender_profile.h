@@ -24,10 +24,10 @@ struct Profile {
   double objects = 0;
   double frame_s = 0;
   std::map<std::string, double> split_s;
-  double peak_mb = 0;  ///< of Blender's memory since it was started
+  double peak_mb = 0;  ///< of Blender's memory since its start
 };
 
-/// Those of a plan's clips, of each this many frames. The first of them is not counted.
+/// Frames to profile: so many of each clip of a plan, without the first.
 struct ProfileFrames {
   std::vector<std::string> clips = {};  ///< empty: the first
   std::vector<int> supersamples = {1};
@@ -35,10 +35,11 @@ struct ProfileFrames {
 };
 
 /// Runs profile_render.py to completion. Profiles of all clips with the first supersampling, then with the next; the
-/// frames are in CLIP/NxN. IoError with Blender's reason if it fails or reports something else.
+/// frames are in CLIP/NxN. IoError with Blender's reason on failure or unexpected output.
 [[nodiscard]] std::vector<Profile> profile_frames(const ProfileTask& task, const ProfileFrames& frames);
 
-/// Frames/s of render_passes.py with actor layers, from one complete frame to the next; they are in a folder of the clip's name.
+/// Frames/s of render_passes.py with actor layers, between complete frames, which are written to a folder of the clip's
+/// name.
 [[nodiscard]] double rendered_per_s(const ProfileTask& task, const std::string& clip);
 
 /// The steps of a frame, in order.

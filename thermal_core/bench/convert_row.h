@@ -13,9 +13,9 @@ struct ConvertRow {
   std::string name;
   double ms = 0;           ///< per frame
   double mb_per_s = 0;     ///< of input, 10^6 bytes
-  std::string limit;       ///< what it is compared with, measured in the same run; empty: nothing
+  std::string limit;       ///< lower bound measured in the same run; empty: none
   double times_limit = 0;  ///< its time / that of the limit
-  std::string bound;       ///< of a whole: what limits its speed
+  std::string bound;       ///< bottleneck of a whole conversion
   std::vector<Figure> figures = {};
 };
 

@@ -36,7 +36,7 @@ std::span<const std::byte> bytes_of(const Plane<T>& picture) {
   return std::as_bytes(picture.pixels());
 }
 
-/// ISA-L at level 3 on unfiltered pixels, all at once.
+/// ISA-L at level 3 on unfiltered pixels, in one call.
 class RawDeflate {
  public:
   explicit RawDeflate(std::span<const std::byte> pixels)
@@ -82,7 +82,7 @@ class Line {
       set_contrast(camera_, radiance, scene_.instances);
     });
   }
-  /// Its labels and its line of frames.jsonl; returns the number of bytes.
+  /// Writes its labels and its line of frames.jsonl; returns the number of bytes.
   std::size_t label_and_record() {
     ClipAnnotations annotations(manifest_);
     annotations.add_frame(0, scene_.instances);

@@ -28,7 +28,7 @@ struct Spent {
   double processor_ms = 0;
 };
 
-/// Cost per frame of a clip of that many.
+/// Cost per frame of a clip of `frames` frames.
 Spent make(const ConvertJob& job, const ClipTask& task, int frames) {
   ClipPasses passes{.manifest = job.scene.manifest,
                     .folder = job.file.parent_path(),
@@ -43,7 +43,7 @@ Spent make(const ConvertJob& job, const ClipTask& task, int frames) {
   return {.wall_ms = wall.count() / frames, .processor_ms = 1e3 * (processor_s() - before_s) / frames};
 }
 
-/// Stages of the model among the rows; rows that name no model belong to both.
+/// Rows of the stages of a model, and of both models.
 std::vector<ConvertRow> stages_of(bool physical, const std::vector<ConvertRow>& stages) {
   std::vector<ConvertRow> own = stages;
   std::erase_if(own, [physical](const ConvertRow& row) {
@@ -52,7 +52,7 @@ std::vector<ConvertRow> stages_of(bool physical, const std::vector<ConvertRow>& 
   return own;
 }
 
-/// The slowest of the stages that process frames in order: the camera, and the preview collected beside it.
+/// The slowest of the sequential stages: the camera, and the preview beside it.
 const ConvertRow& slowest_in_order(const std::vector<ConvertRow>& stages) {
   const auto in_order_ms = [](const ConvertRow& row) {
     return row.name.starts_with("expose") || row.name == "preview" ? row.ms : 0;

@@ -188,7 +188,7 @@ StageRow pattern_row() {
   });
 }
 
-/// Steps between neighbours have the variance of the gain errors: twice that of the half which is not smooth.
+/// Differences between neighbours have twice the variance of the half of the gain errors that is not smooth.
 StageRow housing_row() {
   const HousingParameters parameters = full_camera().housing;
   Housing housing(parameters, 1, kDetectorSeed, "bench", kSceneWidthPx, kSceneHeightPx, 1, 1);
@@ -208,7 +208,7 @@ StageRow housing_row() {
   });
 }
 
-/// Temperatures stand for radiances, so that means of neighbours are in kelvin. Applied behind the optics, as in a
+/// Temperatures are used as radiances, so that means of neighbours are in kelvin. Applied behind the optics, as in a
 /// camera.
 StageRow bad_pixel_row() {
   const SensorParameters camera = full_camera();

@@ -12,7 +12,7 @@
 namespace thermal {
 namespace {
 
-constexpr PassNeeds kNeeds = {.depth = true, .normals = true};  // what Blender renders
+constexpr PassNeeds kNeeds = {.depth = true, .normals = true};  // the planes that Blender renders
 
 double differing_pixels(const Plane<std::uint16_t>& one, const Plane<std::uint16_t>& other) {
   if (one.size() != other.size()) throw DataError("Blender's frames have another size or lack a plane");
@@ -79,17 +79,6 @@ EmbreeTimes EmbreeScene::times(const std::string& clip, int supersample) const {
     times.all_rays_share += static_cast<double>(out.fine.x_px.size()) / pixels() / (kEngineFrames - 1);
   }
   return times;
-}
-
-double EmbreeScene::bare_frame_s(BareTracer& tracer, const std::string& clip, int supersample) const {
-  const BakedTrack frames = track(clip);
-  double seconds = 0;
-  for (std::size_t frame = 1; frame < kEngineFrames; ++frame) {
-    tracer.aim(frames.camera_to_world[frame], finer(camera_, supersample));
-    (void)tracer.hits();
-    seconds += middle_run_s([&] { (void)tracer.hits(); });
-  }
-  return seconds / (kEngineFrames - 1);
 }
 
 Differing EmbreeScene::differing(const std::string& clip, const Path& blenders) const {

@@ -5,20 +5,19 @@
 #include <vector>
 
 #include "bench/engine_scenes.h"
-#include "raycast/bare_trace.h"
 #include "raycast/ray_caster.h"
 #include "scene/baked_scene.h"
 
 namespace thermal {
 
-/// What the engine `embree` takes for a frame of passes in memory.
+/// Time of the engine `embree` for a frame of passes in memory.
 struct EmbreeTimes {
   double full_s = 0;
   double adaptive_s = 0;      ///< that of `full_s` with one ray per pixel
   double all_rays_share = 1;  ///< of the pixels, with adaptive sampling
 };
 
-/// Pixels of a frame at one ray per pixel that differ from Blender's passes.
+/// Pixels that differ from Blender's passes, at one ray per pixel.
 struct DifferingPixels {
   double mean = 0;
   double most = 0;
@@ -29,7 +28,7 @@ struct Differing {
   DifferingPixels material;
 };
 
-/// What the engine `embree` needs for the clips of a planned config.
+/// A planned config, prepared for the engine `embree`.
 class EmbreeScene {
  public:
   EmbreeScene(const EngineScene& planned, const Assets& assets);
@@ -38,12 +37,9 @@ class EmbreeScene {
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
   [[nodiscard]] EmbreeTimes times(const std::string& clip, int supersample) const;
-  /// Embree alone, without actors.
-  [[nodiscard]] double bare_frame_s(BareTracer& tracer, const std::string& clip, int supersample) const;
   /// Compares all frames with the files in this folder.
   [[nodiscard]] Differing differing(const std::string& clip, const Path& blenders) const;
 
-  [[nodiscard]] const BakedScene& baked() const noexcept { return scene_; }
   [[nodiscard]] std::size_t plants() const noexcept;
   [[nodiscard]] double pixels() const noexcept;
 
@@ -57,8 +53,8 @@ class EmbreeScene {
   CameraIntrinsics camera_;
 };
 
-/// Seconds per frame after the first: the mean of what each takes, which is the middle one of three runs. Leaves the last
-/// frame in `out`.
+/// Seconds per frame after the first: mean over the frames of the median of three runs each. Leaves the last frame in
+/// `out`.
 [[nodiscard]] double frame_time_s(const ClipTracer& tracer, std::size_t frames, Passes& out);
 
 }  // namespace thermal

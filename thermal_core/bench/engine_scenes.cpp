@@ -38,7 +38,7 @@ class Planner {
   [[nodiscard]] EngineScene planned(const char* name, Json document, std::vector<EngineClip> clips) const {
     task_.announce(std::string(name) + ", planning");
     const Path plan = task_.folder / name;
-    document["scene"]["temperatures"] = "table_1";  // which needs no maps of the ground
+    document["scene"]["temperatures"] = "table_1";  // needs no maps of the ground
     (void)plan_into(plan, resolve_config(std::move(document), name, task_.assets), name,
                     {.assets = task_.assets, .threads = task_.threads});
     return {.name = name, .plan = plan, .clips = std::move(clips)};

@@ -9,7 +9,7 @@
 
 namespace thermal {
 
-/// Frames of each clip. The first is not counted: an engine builds what the others share.
+/// Frames of each clip. The first is not counted, because it includes building shared structures.
 inline constexpr int kEngineFrames = 4;
 
 struct EngineClip {
@@ -31,8 +31,8 @@ struct EngineScenesTask {
   std::function<void(const std::string&)> announce = {};
 };
 
-/// Plans the demo, the savanna from three views, and the savanna with ten times the plants, fewer where they would
-/// overlap. The views follow the group of the config's last clip, so that actors are in the picture.
+/// Plans the demo, the savanna from three views, and the savanna with up to ten times the plants, without overlaps. The
+/// views follow the group of the config's last clip, so that actors are in the picture.
 [[nodiscard]] std::vector<EngineScene> plan_engine_scenes(const EngineScenesTask& task);
 
 }  // namespace thermal

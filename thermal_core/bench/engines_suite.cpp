@@ -18,22 +18,20 @@ namespace {
 
 constexpr std::array kSupersamples = {1, 2, 4};
 
-/// What the engines need for frames of one clip.
+/// Cost of frames of one clip with both engines.
 struct Measured {
   std::string clip;
   int supersample = 1;
-  double rays = 0;  ///< of a frame
   double plants = 0;
   EmbreeTimes embree;
   double embree_peak_mb = 0;
-  double bare_s = 0;
   std::optional<Profile> cycles = {};
 
   [[nodiscard]] std::string name() const {
     const int count = supersample * supersample;
     return fmt::format("{}, {} {}", clip, count, count == 1 ? "ray" : "rays");
   }
-  /// Without the file, as `embree` has it.
+  /// Without writing the file, as for `embree`.
   [[nodiscard]] double cycles_s() const { return cycles->frame_s - cycles->split_s.at("write"); }
 };
 
@@ -58,16 +56,6 @@ RenderRow adaptive_row(const Measured& of) {
                     {"all_rays_share", of.embree.all_rays_share}}};
   if (of.cycles) row.figures.push_back({"cycles/embree", of.cycles_s() / adaptive_s});
   return row;
-}
-
-RenderRow rays_row(const Measured& of) {
-  constexpr double kMega = 1e6;
-  const double caster_s = of.embree.full_s;
-  return {"rays, million/s",
-          of.name(),
-          {{"caster", of.rays / kMega / caster_s},
-           {"embree_alone", of.rays / kMega / of.bare_s},
-           {"share", of.bare_s / caster_s}}};
 }
 
 RenderRow memory_row(const Measured& of) {
@@ -100,7 +88,7 @@ class EnginesSuite {
     const std::vector<RenderRow> memory = memory_rows();
     for (const EngineScene& scene : scenes) measure(scene);
     std::vector<RenderRow> rows;
-    for (const auto& row_of : {frame_row, adaptive_row, rays_row, memory_row}) {
+    for (const auto& row_of : {frame_row, adaptive_row, memory_row}) {
       for (const Measured& one : measured_) {
         if (row_of != adaptive_row || one.supersample > 1) rows.push_back(row_of(one));
       }
@@ -136,7 +124,7 @@ class EnginesSuite {
                           frames);
   }
 
-  /// In the order of Cycles' profiles. Rays for Embree alone are computed when memory has been measured.
+  /// In the order of Cycles' profiles.
   std::vector<Measured> embree(const EngineScene& planned, const Path& blenders) {
     task_.announce(planned.name + ", Embree");
     const PeakMemory memory;
@@ -146,16 +134,11 @@ class EnginesSuite {
       for (const EngineClip& clip : planned.clips) {
         all.push_back({.clip = clip.name,
                        .supersample = supersample,
-                       .rays = scene.pixels() * supersample * supersample,
                        .plants = static_cast<double>(scene.plants()),
                        .embree = scene.times(clip.id, supersample)});
         all.back().embree_peak_mb = memory.grown_mb();
       }
     }
-    BareTracer bare(scene.baked());
-    for (std::size_t k = 0; k < all.size(); ++k)
-      all[k].bare_s =
-          scene.bare_frame_s(bare, planned.clips[k % planned.clips.size()].id, all[k].supersample);
     if (task_.blender.empty()) return all;
     for (const EngineClip& clip : planned.clips)
       differing_.push_back(differing_row(clip.name, scene.differing(clip.id, blenders / clip.id / "1x1")));

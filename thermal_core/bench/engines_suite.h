@@ -10,7 +10,7 @@
 namespace thermal {
 
 struct EnginesSuiteTask {
-  Path blender;  ///< empty: there is none, and `embree` alone is measured
+  Path blender;  ///< empty: `embree` alone is measured
   Assets assets;
   int threads = 0;                                        ///< of each engine; 0: thread_count(0)
   std::function<void(const std::string&)> announce = {};  ///< the next measurement

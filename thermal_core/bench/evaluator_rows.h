@@ -6,7 +6,7 @@
 
 namespace thermal {
 
-/// Temperature to radiance and back, 8-14 um, 200 to 400 K: Veldt's, the published script's, and textbook methods.
+/// Temperature to radiance and back, 8-14 um, 200 to 400 K: Veldt's and the published script's.
 [[nodiscard]] std::vector<BenchRow> evaluator_rows();
 
 }  // namespace thermal

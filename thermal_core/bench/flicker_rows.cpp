@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "base/rng.h"
-#include "bench/ou_bank.h"
 #include "bench/sensor_scene.h"
 #include "bench/spectrum.h"
 #include "sensor/flicker_noise.h"
@@ -70,27 +69,6 @@ Generator ticking(double native_rate_hz, double video_rate_hz) {
           }};
 }
 
-Generator stepped(int count) {
-  const OuBank bank = OuBank::design(kSceneRateHz, count);
-  return {
-      .name = fmt::format("{} in every frame, {} Hz", count, kSceneRateHz),
-      .video_rate_hz = kSceneRateHz,
-      .native_rate_hz = kSceneRateHz,
-      .over_white =
-          [bank](double f_hz) { return 1 + kKneeHz * bank.density(f_hz, kSceneRateHz) * kSceneRateHz / 2; },
-      .variance = 1 + kKneeHz * bank.variance(),
-      .start = [bank](std::size_t pixels) -> AddNext {
-        const auto noise = std::make_shared<OuNoise>(kFlickerSeed, "bench", bank, pixels);
-        return
-            [noise, flicker = std::vector<float>(pixels)](std::uint32_t frame, std::span<float> out) mutable {
-              std::ranges::fill(flicker, 0.0F);
-              noise->add_next(frame, flicker);
-              add_white(frame, 1, out);
-              add_scaled(flicker, static_cast<float>(std::sqrt(kKneeHz)), out);
-            };
-      }};
-}
-
 double worst_db(const Generator& generator) {
   constexpr int kPoints = 600;
   constexpr double kFromHz = 3e-3;
@@ -102,8 +80,7 @@ double worst_db(const Generator& generator) {
   return worst;
 }
 
-/// Of a video: what lies above its Nyquist frequency is folded into its spectrum as by theory, so only videos of every
-/// frame are measured.
+/// The deviation in a video. Its spectrum aliases as by theory, so only videos with every native frame are measured.
 double measured_db(const Generator& generator) {
   constexpr std::size_t kSpectrumPixels = 128;
   constexpr std::uint32_t kFrames = 32768;
@@ -164,7 +141,6 @@ std::vector<StageRow> flicker_rows() {
   for (const double native_rate_hz : {60.0, 30.0, 9.0})
     rows.push_back(row_of(ticking(native_rate_hz, native_rate_hz)));
   for (const double video_rate_hz : {30.0, 9.0}) rows.push_back(row_of(ticking(60, video_rate_hz)));
-  rows.push_back(row_of(stepped(5)));
   return rows;
 }
 

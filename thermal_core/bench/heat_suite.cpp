@@ -25,7 +25,7 @@ namespace {
 
 using Materials = std::map<std::string, MaterialHeat>;
 
-/// Steps as fine as one can wait for, within 9 mK of those twice as fine.
+/// Finest practical steps, within 9 mK of those twice as fine.
 const HeatSteps kFinestSteps = {
     .per_day = 5760, .layers = {.first_m = 0.0005, .ratio = 1.1}, .settled_k = 1e-4};
 
@@ -136,7 +136,7 @@ std::vector<RenderRow> table_rows(const Materials& materials) {
           table_row("acacia and soil", only({"acacia"})), table_row("all materials", materials)};
 }
 
-/// One of many places: slopes up to 35 deg, a third of them shaded, a quarter moist at random; or bodies in the open
+/// One of many exposures: slopes up to 35 deg, a third of them shaded, a quarter moist at random; or bodies in the open
 /// that face any direction.
 SurfacePlace place_of(int number, bool is_body) {
   std::array<float, kRandomBatch> random{};
@@ -156,7 +156,7 @@ SurfacePlace place_of(int number, bool is_body) {
   return place;
 }
 
-/// What a table gives at places against the balance solved for each of them.
+/// Tables compared with the balance solved for each exposure.
 std::vector<RenderRow> look_up_rows(const Materials& materials) {
   constexpr int kPlaces = 150;
   const HeatSteps& frames = kTableSteps;
@@ -190,7 +190,7 @@ std::vector<RenderRow> look_up_rows(const Materials& materials) {
   return rows;
 }
 
-/// A kilometre of rolling ground with crowns every 9 m, as planning makes it.
+/// A kilometre of rolling ground with crowns every 9 m, with maps as in planning.
 std::shared_ptr<const GroundMaps> maps_of_crowns() {
   constexpr std::size_t kCells = 1024;
   auto maps = std::make_shared<GroundMaps>();
@@ -218,7 +218,8 @@ std::shared_ptr<const GroundMaps> maps_of_crowns() {
                   .kind = none,
                   .grass = std::vector<std::uint8_t>(none.size(), 128),
                   .trodden = none,
-                  .ash = none};
+                  .ash = none,
+                  .border = std::vector<std::uint8_t>(none.size(), 255)};
   return maps;
 }
 

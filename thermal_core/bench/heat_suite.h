@@ -10,8 +10,8 @@
 namespace thermal {
 
 /// The heat balance on one thread: the day of a column by steps and layers, with its error against much finer ones;
-/// tables of a day; what tables give against the balance solved for that very place; and the emission of a frame of
-/// 640 x 512 by tables and maps beside that of Table 1. Takes about ten seconds.
+/// tables of a day; their error against the balance solved for each exposure; and the emission of a frame of 640 x 512
+/// by tables and maps beside that of Table 1. Takes about ten seconds.
 [[nodiscard]] std::vector<RenderRow> run_heat_suite(const MaterialLibrary& materials,
                                                     const std::function<void(const std::string&)>& announce);
 

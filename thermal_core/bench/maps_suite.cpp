@@ -23,24 +23,24 @@ namespace thermal {
 namespace {
 
 constexpr std::size_t kReferenceRays = 2584;
-constexpr int kStridePx = 16;  // between the pixels that are looked at, along each axis
+constexpr int kStridePx = 16;  // between sampled pixels, along each axis
 
 struct Case {
   std::string name;
   Json document;
 };
 
-/// A square of cells whose mean a pixel reads: its south-western cell, and cells along its side.
+/// The square of cells that a pixel averages: its south-western cell, and cells along its side.
 using Square = std::pair<std::size_t, std::size_t>;
 
-/// As textures of the ground have them: the level whose cells are nearest to the pixel, of at most 8 cells.
+/// As in textures of the ground: the level whose cells are closest to the pixel, of at most 8 cells.
 std::size_t cells_for(double pixel_cells) noexcept {
   std::size_t cells = 1;
   while (cells < 8 && pixel_cells > 1.5 * static_cast<double>(cells)) cells *= 2;
   return cells;
 }
 
-/// How many of the pixels that are looked at read each square.
+/// Number of sampled pixels per square.
 std::map<Square, double> squares_in(const BakedScene& scene, const RayCaster& caster, const BakedTrack& track,
                                     const GroundMaps& maps) {
   std::set<std::uint16_t> ground;

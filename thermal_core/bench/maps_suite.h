@@ -16,8 +16,8 @@ struct MapsSuiteTask {
 };
 
 /// Maps of the ground of the demo, of the savanna, and of the savanna towards its horizon: processor time, the share of
-/// the cells that are traced, and the error of the sky view that pixels of ground read, against 2584 rays a cell that
-/// nothing is left out for. Takes minutes.
+/// the cells that are traced, and the error of the sky view that pixels of ground read, against 2584 rays a cell with
+/// nothing left out. Takes minutes.
 [[nodiscard]] std::vector<RenderRow> run_maps_suite(const MapsSuiteTask& task);
 
 }  // namespace thermal

@@ -66,7 +66,7 @@ Mesh plant() {
           .material_index = {}};
 }
 
-/// A terrain with this many plants on a grid, and an actor; kept as and where it is.
+/// A terrain with this many plants on a grid, and an actor; not copyable, because spans refer to it.
 class Grove {
  public:
   explicit Grove(std::size_t plants) : terrain_(terrain()), plant_(thermal::plant()) {
@@ -147,7 +147,7 @@ struct Cost {
   double peak_mb = 0;
 };
 
-/// Of building the structures of a scene and tracing frames. The scene itself is not counted.
+/// Cost of building the structures of a scene and tracing frames, without the scene itself.
 Cost cost_of(const BakedScene& scene) {
   const PeakMemory memory;
   const auto start = std::chrono::steady_clock::now();
@@ -175,8 +175,8 @@ RenderRow threads_row(const BakedScene& scene, int threads) {
           {{"build_s", cost.build_s}, {"frame_s", cost.frame_s}, {"peak_mb", cost.peak_mb}}};
 }
 
-/// Of a clip's poses and of tracing all its frames, one after another. They are small, because memory for one picture does
-/// not depend on how many there are.
+/// Cost of a clip's poses and of tracing its frames one after another. Frames are small, because one picture's memory
+/// does not depend on their number.
 RenderRow frames_row(const RayCaster& caster, std::size_t frames) {
   constexpr CameraIntrinsics kSmall = {
       .width_px = 160, .height_px = 128, .fx_px = 292, .fy_px = 292, .cx_px = 80, .cy_px = 64};

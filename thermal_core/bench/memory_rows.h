@@ -7,7 +7,7 @@
 namespace thermal {
 
 /// Memory and time of the engine `embree`: by plants, up to 1e6 on a terrain; by frames of a clip that are traced one
-/// after another; by threads, one and two where there are as many cores.
+/// after another; by threads, one and two if there are as many cores.
 [[nodiscard]] std::vector<RenderRow> memory_rows();
 
 }  // namespace thermal

@@ -66,7 +66,7 @@ StageRow round_row(const std::string& name, const OpticsParameters& optics, cons
                  [&](double across, double down) { return sampled_mtf(kernel, sampling, across, down); });
 }
 
-/// Temperatures stand for radiances, so that the error of linear interpolation is in kelvin.
+/// Temperatures are used as radiances, so that the error of linear interpolation is in kelvin.
 StageRow distortion_row() {
   constexpr double kFocalLengthPx = 0.013 / 17e-6;
   const CameraIntrinsics camera = {.width_px = kSceneWidthPx,

@@ -21,7 +21,7 @@ double status_mb(const std::string& name) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The peak is then what the process has now: proc(5).
+/// Resets the peak to the present use: proc(5).
 bool reset_peak() {
   std::ofstream file("/proc/self/clear_refs");
   file << "5" << std::flush;

@@ -95,7 +95,7 @@ StageRow agc_row(const std::string& name, AgcMode mode) {
   });
 }
 
-/// What headroom makes of a level, against what it does to pictures.
+/// Effect of headroom on levels, against the definition.
 StageRow headroom_row() {
   const AgcParameters full = {.mode = AgcMode::plateau};
   AgcParameters narrow = full;
@@ -168,7 +168,7 @@ double blurred(const Plane<float>& scene, const RoundKernel& kernel, int x, int 
                            [&](int dx, int dy) { return static_cast<double>(scene.at(x + dx, y + dy)); });
 }
 
-/// What the camera's optics make of a pixel of this scene.
+/// The camera's optics at a pixel of this scene, in double precision.
 std::function<double(int x, int y)> reference_blur(const SensorParameters& parameters,
                                                    const Plane<float>& scene) {
   const OpticsParameters& optics = parameters.optics;

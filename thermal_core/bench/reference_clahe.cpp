@@ -12,7 +12,7 @@ constexpr double kTileBinK = 0.04;
 constexpr std::size_t kTileBins = 16384;
 constexpr double kTileWhite = 255;
 
-/// Where a pixel lies among the middles of tiles.
+/// Position of a pixel among the centres of tiles.
 double tile_place(int at_px, int size_px, int tiles) {
   return std::clamp((at_px + 0.5) * tiles / size_px - 0.5, 0.0, tiles - 1.0);
 }

@@ -35,7 +35,7 @@ Passes read_all(const Path& file) {
   return read_passes(file, {.layer = "Scene"}, {.depth = true, .normals = true});
 }
 
-/// Time against size. Blender's time to write a file is among the steps of a frame.
+/// Time and size of files. Blender's time to write a file is among the steps of a frame.
 std::vector<RenderRow> file_rows(const Path& file) {
   constexpr double kMega = 1e6;
   const std::string content = read_file(file);
@@ -75,7 +75,7 @@ RenderRow process_row(const char* name, double frames_per_s, int differing_px) {
           {{"frames_per_s", frames_per_s}, {"differing_px", static_cast<double>(differing_px)}}};
 }
 
-/// Frames/s of one process with two threads and of two with one each, including actor layers; then a frame as a file.
+/// Frames/s of one process with two threads and of two with one each, with actor layers; then a frame as a file.
 std::vector<RenderRow> process_rows(const RenderSuiteTask& task, const Path& folder) {
   constexpr int kFrames = 12;
   Json document = read_json(task.assets.config("demo"));

@@ -89,7 +89,7 @@ class ExactChain {
   }
 
   [[nodiscard]] double surroundings_at(int x, int y, const Material& material, double cosine) const {
-    if (material.angular == AngularLaw::water) {
+    if (material.mirrors()) {
       const double mirrored = settings_.terms.angular || settings_.terms.sky ? cosine : 1;
       return air_.sky_emissivity(mirrored);
     }
@@ -141,7 +141,7 @@ BenchRow term_row(const std::string& name, const Terms& terms, const BenchScene&
   return row;
 }
 
-/// Radiance of the small picture with a person at one of many places between pixels.
+/// Radiance of the small picture with a person at one of many subpixel positions.
 Plane<float> person_radiance(int factor, int place, const FrameConverter& converter) {
   constexpr double kGolden = 0.6180339887498949;
   constexpr double kPlastic = 0.7548776662466927;
@@ -183,8 +183,8 @@ std::vector<BenchRow> term_rows(const MaterialLibrary& materials) {
   const BenchScene scene = rolling_ground();
   std::vector<BenchRow> rows = {term_row("emission alone", {}, scene, materials)};
   for (const TermInfo& term : kTerms) {
-    // Some change values, not the work per pixel; others need the heat balance, see --suite heat, or belong to the
-    // sensor.
+    // These terms change values, not the work per pixel; or they need the heat balance, see --suite heat; or belong to
+    // the sensor.
     if (term.name == "smear" || term.name == "parts" || term.name == "falloff" || term.name == "place" ||
         term.name == "facing")
       continue;

@@ -21,7 +21,7 @@ Plane<float> noise_frame(std::uint32_t number) {
 }
 
 double kept_variance(TemporalFilter& filter) {
-  constexpr std::uint32_t kFrames = 40;  // the first frame has a weight of 2^-39 by then
+  constexpr std::uint32_t kFrames = 40;  // the first frame's weight is 2^-39 by then
   Plane<float> signal;
   for (std::uint32_t number = 0; number < kFrames; ++number) {
     signal = noise_frame(number);

@@ -6,7 +6,7 @@
 
 namespace thermal {
 
-/// Noise reduction and sharpening, which cameras have beside gain control.
+/// Noise reduction and sharpening, the parts of a camera's processing besides gain control.
 [[nodiscard]] std::vector<StageRow> tone_rows();
 
 }  // namespace thermal

@@ -8,7 +8,7 @@ namespace {
 
 // By which a target's box grows: half a pixel and the first dark ring, 1.22 wavelengths x f-number / pitch = 0.95 px at f/1.25.
 constexpr double kPsfReachPx = 1.5;
-constexpr double kTrail = 3;             // time constants of motion that belong to a moving target
+constexpr double kTrail = 3;             // time constants of motion that count as part of a moving target
 constexpr double kSignalReachPx = 6;     // of the sum over a target's signal
 constexpr double kSaturationK = 655.35;  // of 16-bit frames
 
@@ -95,7 +95,7 @@ Plane<double> apparent_k(const TruthCase& measured, const Plane<double>& radianc
 }
 
 Plane<double> shipped_image_k(const TruthCase& measured, const TruthView& view) {
-  constexpr double kSettled = 14;  // time constants after which a pixel has forgotten its first frame
+  constexpr double kSettled = 14;  // time constants after which a pixel's first frame has no effect
   ShippedClip clip = {.sensor = measured.preset.sensor,
                       .sampling = measured.sampling,
                       .target = measured.target.surface,
@@ -112,7 +112,7 @@ Plane<double> shipped_image_k(const TruthCase& measured, const TruthView& view) 
   const double step_px = px_per_s(measured) / measured.frame_rate_hz;
   return shipped_temperature_k(clip, [&](int frames) {
     std::vector<TruthShape> shapes = view.shapes;
-    for (TruthShape& shape : shapes) shape.x += frames * step_px;  // it moves to the left
+    for (TruthShape& shape : shapes) shape.x += frames * step_px;  // motion to the left
     return shapes;
   });
 }

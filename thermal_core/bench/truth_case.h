@@ -8,7 +8,7 @@
 
 namespace thermal {
 
-/// A camera of the product, and the same in the truth's terms.
+/// A camera of the product, and the corresponding truth.
 struct TruthPreset {
   std::string name;
   SensorParameters sensor;
@@ -24,18 +24,18 @@ struct TruthCase {
   TruthPreset preset = truth_presets().front();
   ShippedSampling sampling = {"adaptive 4 x 4", ShippedSampling::Kind::adaptive, 4};  ///< a config's default
   double distance_m = 122;
-  double speed_m_s = 12;  ///< of the camera; the target walks towards it
+  double speed_m_s = 12;  ///< of the camera; the target walks in the opposite direction
   bool walks = true;
   double frame_rate_hz = 30;
-  int places = 32;  ///< between pixels
+  int places = 32;  ///< subpixel positions
 };
 
 /// Errors of one measurement.
 struct TruthErrors {
-  double rms_mk = 0;  ///< over the target's pixels, all places
+  double rms_mk = 0;  ///< over the target's pixels, at all positions
   double worst_mk = 0;
-  double signal_percent = 0;   ///< of the sum of radiance above the ground, mean over places
-  double scatter_percent = 0;  ///< its standard deviation over places
+  double signal_percent = 0;   ///< of the sum of radiance above the ground, mean over positions
+  double scatter_percent = 0;  ///< its standard deviation over positions
 };
 
 /// Differences of two images of apparent temperature over the target's pixels, and of their signal.
@@ -59,12 +59,12 @@ class ErrorSum {
 /// The bare ground of all measurements: soil of Table 1 on a winter night.
 inline constexpr GreySurface kTruthSoil = {278, 0.914};
 
-/// Pixels per metre at the target, and how far it moves in a second and in a time constant [px].
+/// Scale at the target, and its motion in a second and in a time constant [px].
 [[nodiscard]] double px_per_m(const TruthCase& measured);
 [[nodiscard]] double px_per_s(const TruthCase& measured);
 [[nodiscard]] double smear_px(const TruthCase& measured);
 
-/// The image around the target: its size, and the target's shapes in it at one of the places.
+/// The image around the target: its size, and the target's shapes at one subpixel position.
 struct TruthView {
   int width_px = 0;
   int height_px = 0;
@@ -72,10 +72,10 @@ struct TruthView {
 };
 [[nodiscard]] TruthView view_of_place(const TruthCase& measured, int place);
 
-/// Apparent temperature of each pixel; above the range of the 16-bit frames, its end.
+/// Apparent temperature of each pixel, clipped to the range of the 16-bit frames.
 [[nodiscard]] Plane<double> apparent_k(const TruthCase& measured, const Plane<double>& radiance);
 
-/// The shipped chain's image at a place.
+/// The shipped chain's image at a subpixel position.
 [[nodiscard]] Plane<double> shipped_image_k(const TruthCase& measured, const TruthView& view);
 
 /// The shipped chain against the truth. `still` is the truth's kernel without motion.

@@ -36,7 +36,7 @@ std::vector<double> emitted_by_wavelength(const TruthCamera& camera, const GreyS
   return emitted;
 }
 
-/// The image of a point by its distance, kTruthRadiiPerPx to a pixel.
+/// The image of a point by radius, kTruthRadiiPerPx to a pixel.
 std::vector<double> lens_by_radius(const TruthCamera& camera, const std::vector<double>& weights,
                                    double reach_px) {
   const auto radii = static_cast<std::size_t>(std::ceil(1.4143 * reach_px * kTruthRadiiPerPx)) + 2;
@@ -52,7 +52,7 @@ std::vector<double> lens_by_radius(const TruthCamera& camera, const std::vector<
   return table;
 }
 
-/// How much a pixel's square, or a plain Gaussian, takes of light at a distance along one axis, per px.
+/// Response of a pixel's square, or of a plain Gaussian, to light at a distance along one axis, per px.
 double detector_per_px(const TruthCamera& camera, double x_px) {
   if (camera.gaussian_sigma_px > 0) {
     const double x = x_px / camera.gaussian_sigma_px;
@@ -129,14 +129,14 @@ std::vector<double> summed_across(const double* in, const std::vector<double>& w
   return out;
 }
 
-/// Weights of four neighbouring values for the cubic through them, at a share of the way from the second to the third.
+/// Weights of four neighbouring values for cubic interpolation between the second and the third.
 std::array<double, 4> cubic_weights(double t) noexcept {
   return {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
           (t + 1) * t * (t - 1) / 6};
 }
 
-/// Running integrals from the left of a symmetric row that is given from its middle: the cubic through four neighbours,
-/// cell by cell.
+/// Running integrals from the left of a symmetric row given from its centre: cubic through four neighbours, cell by
+/// cell.
 void integrate_row(const std::vector<double>& half, double cell_px, double* sums, std::size_t columns) {
   const std::size_t middle = columns / 2;
   const auto value = [&](std::ptrdiff_t column) {
@@ -150,7 +150,7 @@ void integrate_row(const std::vector<double>& half, double cell_px, double* sums
   }
 }
 
-/// What a cell's four values add to the mean over the past, when the image has moved by that cell.
+/// Contribution of a cell's four values to the mean over the past, when the image has moved by that cell.
 std::array<double, 4> smear_weights(double cells_per_time_constant, int times) {
   std::array<double, 4> weights{};
   for (int i = 0; i < times; ++i) {
@@ -248,7 +248,7 @@ ContrastKernel ContrastKernel::smeared(double smear_px) const {
   for (std::size_t y = 0; y < rows; ++y) {
     const double* in = row(y);
     double* smeared = &out.sums_[y * columns_];
-    for (std::size_t x = 1; x <= last; ++x) {  // values are those of the left border before it
+    for (std::size_t x = 1; x <= last; ++x) {  // before it, values are those of the left border
       smeared[x] = kept * smeared[x - 1] + weights[0] * in[x < 2 ? 0 : x - 2] + weights[1] * in[x - 1] +
                    weights[2] * in[x] + weights[3] * in[std::min(x + 1, last)];
     }

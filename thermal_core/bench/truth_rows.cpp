@@ -15,7 +15,7 @@ double soil_radiance(const TruthCase& measured) {
          truth_band_radiance(camera.begin_um, camera.end_um, kTruthSoil.temperature_k);
 }
 
-/// An image of a place.
+/// Image at a subpixel position.
 using TruthImage = std::function<Plane<double>(const TruthView& view)>;
 
 RenderRow row_of(const std::string& group, const std::string& name, const TruthCase& measured,
@@ -41,14 +41,14 @@ TruthImage image_by(const TruthCase& measured, const ContrastKernel& kernel, int
   };
 }
 
-/// How much older the truth's image of a moving target is than that of mixed frames, on average [px].
+/// Mean additional delay of the truth's image of a moving target against mixed frames [px].
 double delay_px(const TruthCase& measured) {
   const double tau_s = measured.preset.truth.time_constant_s;
   return px_per_s(measured) *
          (tau_s - 1 / (measured.frame_rate_hz * std::expm1(1 / (measured.frame_rate_hz * tau_s))));
 }
 
-/// A still image of a frame, smeared as the shipped camera does.
+/// A still image, smeared as in the shipped camera.
 Plane<double> smeared(const TruthCase& measured, const Plane<double>& radiance, double step_px) {
   Plane<float> picture(radiance.width_px(), radiance.height_px());
   for (std::size_t i = 0; i < picture.size(); ++i)
@@ -62,7 +62,7 @@ Plane<double> smeared(const TruthCase& measured, const Plane<double>& radiance, 
   return out;
 }
 
-/// The still image of each frame, mixed as the shipped camera mixes frames, and moved; with its smear or without.
+/// The still image of each frame, mixed as in the shipped camera, and moved; with or without its smear.
 TruthImage image_with_lag(const TruthCase& measured, const ContrastKernel& still, double moved_px,
                           bool with_smear = false) {
   return [&measured, &still, moved_px, with_smear](const TruthView& view) {

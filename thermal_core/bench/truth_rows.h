@@ -8,14 +8,14 @@
 
 namespace thermal {
 
-/// What each term of the shipped chain is worth: the truth with that term as shipped, against the truth. Sampling: rays
-/// as shipped through exact optics. Band: wavelengths weighted as of 300 K. Lag: whole frames mixed instead of
-/// exposure; again with the image moved to where a pixel's mean delay puts it, so that only the smear's shape is
-/// missing. Optics: the shipped chain with 32 x 32 rays, nothing moving.
+/// Error of each term of the shipped chain: the truth with that term as shipped, against the truth. Sampling: rays as
+/// shipped through exact optics. Band: wavelengths weighted as for 300 K. Lag: whole frames mixed instead of exposure;
+/// again with the image moved by a pixel's mean delay, which leaves the smear's shape. Optics: the shipped chain with
+/// 32 x 32 rays, without motion.
 [[nodiscard]] std::vector<RenderRow> share_rows(const std::string& group, const TruthCase& usual,
                                                 const ContrastKernel& still);
 
-/// How much the truth changes when its steps are twice as fine, one by one and together.
+/// Convergence of the truth: changes with steps twice as fine, one by one and together.
 [[nodiscard]] std::vector<RenderRow> convergence_rows(const std::string& group, const TruthCase& usual,
                                                       const ContrastKernel& still);
 

@@ -93,7 +93,7 @@ Plane<std::uint16_t> index_plane(const ShippedClip& clip, const std::vector<Trut
   return plane;
 }
 
-/// All samples of the pixels within a pixel of the target's box, as the engine chooses them near actors.
+/// All samples of the pixels within a pixel of the target's box, as near actors in the engine.
 FineSamples samples_near(const ShippedClip& clip, const std::vector<TruthShape>& shapes) {
   const TruthShape box = bounds_of(shapes);
   FineSamples fine;
@@ -119,7 +119,7 @@ FineSamples samples_near(const ShippedClip& clip, const std::vector<TruthShape>&
   return fine;
 }
 
-/// Ground and target, each with its share of every pixel.
+/// Ground and target, each with its coverage of every pixel.
 std::vector<CoverageRank> shares_of(const ShippedClip& clip, const std::vector<TruthShape>& shapes) {
   const int factor = clip.sampling.factor;
   const Plane<std::uint16_t> fine = index_plane(clip, shapes, factor);

@@ -10,8 +10,8 @@
 
 namespace thermal {
 
-/// How the passes see a pixel: s x s rays, in all pixels or in those that show the target; or the share of it that the
-/// target covers, as in a cryptomatte.
+/// Sampling of the passes: s x s rays, in all pixels or in those that show the target; or the target's coverage, as in
+/// a cryptomatte.
 struct ShippedSampling {
   enum class Kind { full, adaptive, coverage };
   std::string name;
@@ -28,9 +28,9 @@ struct ShippedClip {
   int width_px = 0;
   int height_px = 0;
   double frame_rate_hz = 30;
-  int frames = 1;        ///< the last of which is looked at
-  double camera_px = 0;  ///< by which the camera's motion moves the picture to the left, a frame
-  double walk_px = 0;    ///< by which the target moves more
+  int frames = 1;        ///< the last one is compared
+  double camera_px = 0;  ///< motion of the picture to the left by the camera, per frame
+  double walk_px = 0;    ///< additional motion of the target
 };
 
 /// The target's shapes in the n-th frame before the last.
@@ -39,7 +39,7 @@ using ShapesBefore = std::function<std::vector<TruthShape>(int frames)>;
 /// Apparent temperature [K] of the clip's last frame: planes of indices -> FrameConverter -> ThermalCamera -> ir16.
 [[nodiscard]] Plane<double> shipped_temperature_k(const ShippedClip& clip, const ShapesBefore& shapes);
 
-/// Time [s] of a frame of the whole size through the same steps, from planes to both images, without noise.
+/// Time [s] of a full-size frame through the same steps, from planes to both images, without noise.
 [[nodiscard]] double shipped_frame_s(ShippedClip clip, const std::vector<TruthShape>& shapes);
 
 }  // namespace thermal

@@ -72,7 +72,7 @@ class TruthTable {
   [[nodiscard]] const std::vector<RenderRow>& rows() const noexcept { return rows_; }
 
  private:
-  /// Depends on sampling and optics alone, but for a few pixels.
+  /// Time depends on sampling and optics, and hardly on the target.
   double frame_ms(const TruthCase& measured) {
     const std::string name = measured.sampling.name + measured.preset.name;
     if (!ms_.contains(name)) ms_[name] = shipped_ms(measured);
@@ -103,7 +103,7 @@ void add_axes(TruthTable& table, const TruthCase& usual) {
   for (const TruthTarget& target : targets) {
     TruthCase one = usual;
     one.target = target;
-    if (target.name == "elephant" || target.name == "truck") one.places = 8;  // they have many pixels
+    if (target.name == "elephant" || target.name == "truck") one.places = 8;  // they cover many pixels
     table.add("target", target.name, one);
   }
   for (const double distance_m : {61.0, 122.0, 300.0, 1000.0}) {

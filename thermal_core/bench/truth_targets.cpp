@@ -22,14 +22,14 @@ double half_width_at(const TruthShape& shape, double y) noexcept {
   return shape.is_ellipse ? shape.half_x * std::sqrt(1 - down * down) : shape.half_x;
 }
 
-/// Half of a shape's width, integrated from its middle to a height; beyond its end: to the end.
+/// Half of a shape's width, integrated from its centre to a height, at most to its end.
 double half_area_to(const TruthShape& shape, double y) noexcept {
   const double v = std::clamp((y - shape.y) / shape.half_y, -1.0, 1.0);
   const double unit = shape.is_ellipse ? 0.5 * (v * std::sqrt(1 - v * v) + std::asin(v)) : v;
   return unit * shape.half_x * shape.half_y;
 }
 
-/// What a line sees of a part of the target, for a pixel with its middle at x_px.
+/// Response to a part of the target on a line, for a pixel centred at x_px.
 double of_stretch(const ContrastKernel& kernel, double x_px, const TruthStretch& stretch, int line) {
   return stretch.share *
          (kernel.up_to(x_px - stretch.begin_px, line) - kernel.up_to(x_px - stretch.end_px, line));
@@ -40,16 +40,16 @@ double from_lines(const ContrastKernel& kernel, const std::vector<std::vector<Tr
   const int per_px = kernel.steps().lines_per_px;
   double sum = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    // Line j is at (j + 1/2) / per_px, the pixel's middle at y + 1/2: between lines for an even per_px.
+    // Line j is at (j + 1/2) / per_px, the pixel's centre at y + 1/2: between lines for an even per_px.
     const int line = first_line + static_cast<int>(i) - (y * per_px + per_px / 2);
     for (const TruthStretch& stretch : lines[i]) sum += of_stretch(kernel, x + 0.5, stretch, line);
   }
   return sum / per_px;
 }
 
-/// A ray's worth, per px^2, at an offset of a pixel: the kernel itself, whose rows are beside the ray's.
+/// Response to a ray, per px^2, at an offset from a pixel: the kernel itself, whose rows are beside the ray's.
 double of_ray(const ContrastKernel& kernel, double dx_px, double dy_px) {
-  constexpr double kHalf = 1.0 / 64;  // of a stretch that stands for a point
+  constexpr double kHalf = 1.0 / 64;  // of a short stretch instead of a point
   const double place = -dy_px * kernel.steps().lines_per_px - 0.5;
   const auto line = static_cast<int>(std::floor(place));
   const double share = place - std::floor(place);
@@ -59,10 +59,10 @@ double of_ray(const ContrastKernel& kernel, double dx_px, double dy_px) {
          (2 * kHalf);
 }
 
-/// Where rays hit [px].
+/// Hit points of rays [px].
 using Rays = std::vector<std::pair<double, double>>;
 
-/// Those that hit the target, of so many across a pixel.
+/// Hits on the target of per_px rays across a pixel.
 Rays rays_on(const std::vector<TruthShape>& shapes, int per_px) {
   const TruthShape box = bounds_of(shapes);
   const auto ray = [per_px](double px) { return static_cast<int>(std::floor(px * per_px)); };

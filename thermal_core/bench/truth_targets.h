@@ -8,7 +8,7 @@
 
 namespace thermal {
 
-/// An ellipse or a rectangle about a middle; lengths are half sides.
+/// An ellipse or a rectangle about a centre; lengths are half sides.
 struct TruthShape {
   bool is_ellipse = true;
   double x = 0;
@@ -26,18 +26,19 @@ struct TruthTarget {
   bool in_px = false;
 };
 
-/// Person, impala, elephant, truck and fire, simple shapes of true size; of 1 and 0.3 px; an edge and bars of 6 px.
+/// Person, impala, elephant, truck and fire as simple shapes of true size; targets of 1 and 0.3 px; an edge and bars of
+/// 6 px.
 [[nodiscard]] std::vector<TruthTarget> truth_targets();
 [[nodiscard]] const TruthTarget& truth_target(const std::vector<TruthTarget>& targets,
                                               const std::string& name);
 
-/// The target in pixels, moved to a place.
+/// The target in pixels, moved to a position.
 [[nodiscard]] std::vector<TruthShape> placed(const TruthTarget& target, double px_per_m, double x_px,
                                              double y_px);
 
 [[nodiscard]] bool is_inside(const std::vector<TruthShape>& shapes, double x_px, double y_px) noexcept;
 
-/// Where a line of an image is on the target.
+/// Part of the target on a line of an image.
 struct TruthStretch {
   double begin_px = 0;
   double end_px = 0;
@@ -53,8 +54,8 @@ struct TruthStretch {
 [[nodiscard]] TruthShape bounds_of(const std::vector<TruthShape>& shapes);
 
 /// Radiance of each pixel [W m^-2 sr^-1] of a target in front of ground of this radiance.
-/// @param samples  0: lines with exact edges. Otherwise only this many rays across a pixel see the target, as those of a
-/// renderer, and the optics are still exact: what sampling alone is worth
+/// @param samples  0: lines with exact edges. Otherwise only this many rays across a pixel see the target, as in a
+/// renderer, with exact optics: the error of sampling alone
 [[nodiscard]] Plane<double> true_radiance(const ContrastKernel& kernel, const std::vector<TruthShape>& shapes,
                                           double ground_w_m2_sr, int width_px, int height_px,
                                           int samples = 0);

@@ -20,7 +20,7 @@ using Picture = Plane<std::uint8_t>;
 constexpr double kMegahertzPerCycle = kSceneWidthPx / 52.0;  // a cycle per pixel, in PAL
 constexpr std::size_t kLevelBytes = 2 * sizeof(std::uint8_t);
 
-/// What is left of the amplitude of a wave along rows.
+/// Attenuation of a wave along rows.
 template <typename T, typename Pass>
 double wave_left(double middle, double height, int period_px, const Pass& pass) {
   const auto phase = [&](int x) { return 2 * std::numbers::pi * x / period_px; };
@@ -34,7 +34,7 @@ double wave_left(double middle, double height, int period_px, const Pass& pass) 
   return 2 * sum / 320 / height;
 }
 
-/// The largest difference from a transfer, at waves of 4 to 80 px.
+/// Largest difference from a transfer, for waves of 4 to 80 px.
 template <typename T, typename Pass, typename Transfer>
 double worst_transfer(double middle, double height, const Pass& pass, const Transfer& transfer) {
   double worst = 0;
@@ -87,7 +87,7 @@ double mean_product(const Picture& picture, int right_px) {
   return sum / (kSceneHeightPx * (kSceneWidthPx - right_px));
 }
 
-constexpr double kWideMhz = 1000;  // no pixel gets anything of its neighbours
+constexpr double kWideMhz = 1000;  // pixels do not affect their neighbours
 
 StageRow motion_row() {
   Picture ramp(kSceneWidthPx, kSceneHeightPx);
@@ -154,7 +154,7 @@ StageRow whole_link_row() {
   return link_row("analogue_pal, all stages", link, {{"deviation_levels", std::sqrt(mean_product(sent, 0))}});
 }
 
-/// A frame of a video whose noise is another each time.
+/// A frame of a video with new noise.
 Picture frame_of(std::uint32_t number) {
   Picture frame(kSceneWidthPx, kSceneHeightPx);
   std::vector<float> noise(kScenePixels);
@@ -184,7 +184,7 @@ StageRow codec_row(const std::string& name) {
         squares += std::pow(frame.pixels()[i] - static_cast<double>(decoded.pixels()[i]), 2) / kFrames;
     }
   };
-  pass_all();  // the rate settles
+  pass_all();  // until the rate settles
   pass_all();
   const StageRow row = {.group = "codec",
                         .name = name + ", 4000 kbit/s at 30 Hz",

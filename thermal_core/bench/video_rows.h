@@ -6,7 +6,7 @@
 
 namespace thermal {
 
-/// What cameras, links and recorders do to pictures behind the sensor.
+/// Effects of cameras, links and recorders on pictures behind the sensor.
 [[nodiscard]] std::vector<StageRow> video_rows();
 
 }  // namespace thermal

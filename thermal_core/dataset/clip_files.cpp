@@ -30,7 +30,7 @@ bool is_segmentation(const Json& mask) {
          size[1].is_number_unsigned() && size[0] <= kMostMaskSidePx && size[1] <= kMostMaskSidePx;
 }
 
-/// The lists of labels.json, whose references are resolved at the end.
+/// Reads the lists of labels.json, whose references are resolved at the end.
 class LabelsReader {
  public:
   explicit LabelsReader(const Path& file) : file_(file.string()) {}

@@ -7,11 +7,11 @@
 
 namespace thermal {
 
-/// A clip's folder in a dataset that anyone may have made or changed. All functions: DataError with file, place and value for
-/// what is not as DATASET.md says, IoError if a file cannot be read, is no regular one, or is a link.
+/// A clip's folder in an untrusted dataset. All functions: DataError with file, location and value for departures from
+/// DATASET.md; IoError if a file cannot be read, is not regular, or is a link.
 
-/// Calls `take` with each line of frames.jsonl. No link is in the folder then. Checked: frame_index, which rises, time_s,
-/// ffc, and camera_to_world where it is not null.
+/// Calls `take` with each line of frames.jsonl, after checking that the folder contains no link. Checked: frame_index,
+/// which increases, time_s, ffc, and camera_to_world where it is not null.
 void for_clip_frames(const Path& folder,
                      const std::function<void(int frame_index, const Json& values)>& take);
 

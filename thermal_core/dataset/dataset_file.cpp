@@ -13,7 +13,7 @@
 namespace thermal {
 namespace {
 
-/// Read as data that may be damaged.
+/// Reads a file that may be damaged.
 Json read_as_data(const Path& file) {
   try {
     return read_json(file);
@@ -22,7 +22,7 @@ Json read_as_data(const Path& file) {
   }
 }
 
-/// A value that commands read without a check of their own: its place, and what it must be.
+/// A value that commands read without a check of their own: its key, and the rule for it.
 struct KnownValue {
   const char* place = "";
   bool (Json::*is_right)() const noexcept = nullptr;

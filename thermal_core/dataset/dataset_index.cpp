@@ -24,7 +24,7 @@ void check_same_config(const Layout& layout, const Json& config, const Json& the
                   layout.root.string(), list_names(found, kMost), expected_config(config, recorded)));
 }
 
-/// The dataset that a run is to go on with. Something else in its place is a fault of the request.
+/// The dataset that a run continues. ConfigError if the folder holds anything else.
 Json read_started(const Layout& layout) {
   try {
     return read_dataset_file(layout.root);
@@ -33,7 +33,7 @@ Json read_started(const Layout& layout) {
   }
 }
 
-/// False if a run was killed after it renamed a clip and before it recorded it, or before it joined the labels.
+/// False if a run was killed between renaming a clip and recording it, or before joining the labels.
 bool is_recorded(const Layout& layout, const DatasetIndex& index, const Json& there) {
   if (!there.contains("annotations_sha256")) return false;
   for (const Json& clip : there.at("clips")) {

@@ -12,7 +12,7 @@
 
 namespace thermal {
 
-/// A plane of a clip with values that no term can compute with.
+/// Share of a plane's values in a clip that no term can use.
 struct UnusableShare {
   std::string clip;
   std::string key;   ///< of dataset.json: unusable_depth_share or unusable_normal_share
@@ -38,24 +38,24 @@ struct DatasetIndex {
   [[nodiscard]] std::vector<UnusableShare> unusable(const std::vector<std::string>& ids) const;
 };
 
-/// Opens a dataset's folder: finds its complete clips, or starts a new one. ConfigError with the keys that differ if
-/// it was made from another config.
+/// Opens a dataset's folder: finds its complete clips, or starts a new one. ConfigError with the keys that differ from
+/// another config's dataset.
 [[nodiscard]] DatasetIndex open_dataset(const Layout& layout, const Config& config);
 
-/// Only the check: ConfigError with the keys that differ if the folder holds a dataset made from another config.
+/// The check alone: ConfigError with the keys that differ if the folder holds a dataset made from another config.
 void check_same_dataset(const Layout& layout, const Config& config);
 
-/// Adds what other runs have made of the dataset meanwhile. `own` clips belong to this run, which knows their state.
+/// Adds progress that other runs have made meanwhile. `own` clips belong to this run, which knows their state.
 void catch_up(const Layout& layout, const std::set<std::string>& own, DatasetIndex& index);
 
-/// Writes only dataset.json. Until write_dataset() it has no checksum of annotations.json, which may lack clips.
+/// Writes dataset.json alone. Until write_dataset() it has no checksum of annotations.json, which may lack clips.
 void write_progress(const Layout& layout, const DatasetIndex& index);
 
 /// Decides when to write dataset.json during a run: after each clip, but for at most a tenth of the run's time, since
-/// the file grows with the number of clips. A run that is killed loses nothing: the next one finds all complete clips.
+/// the file grows with the number of clips. A killed run loses no work: the next one finds all complete clips.
 class ProgressPace {
  public:
-  /// Calls `write` unless the last call was too short a time ago.
+  /// Calls `write` unless the last call was too recent.
   template <typename Write>
   void pass(const Write& write) {
     const Clock::time_point begin = Clock::now();
@@ -67,7 +67,7 @@ class ProgressPace {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr int kRest = 9;  ///< times as long as the last call
+  static constexpr int kRest = 9;  ///< pause in durations of the last call
   Clock::time_point next_;
 };
 

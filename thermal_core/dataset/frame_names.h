@@ -7,21 +7,21 @@
 
 namespace thermal {
 
-/// What the name of a frame's file says of the camera.
+/// Camera parameters in the name of a frame's file.
 struct NamedPose {
   std::optional<double> altitude_m;
   std::optional<double> look_angle_deg;
 };
 
-/// A pattern of names of frames, without their extension, such as "{_}_{altitude_m}_{look_angle_deg}_{_}_{_}": text
-/// between braces that are fields. A field takes letters up to the text that follows it, at least one.
+/// A pattern of names of frames, without their extension, such as "{_}_{altitude_m}_{look_angle_deg}_{_}_{_}": fields
+/// in braces, separated by text. A field matches one or more characters, up to the next text.
 class FrameNames {
  public:
   /// ConfigError, beginning with `where`, for a field other than {altitude_m}, {look_angle_deg} and {_}, for one that
   /// follows another without text between them, and for a pattern without {altitude_m} and {look_angle_deg}.
   FrameNames(std::string_view pattern, const std::string& where);
 
-  /// Empty for a name that does not match, or whose fields are no numbers.
+  /// Empty for a name that does not match, or whose fields are not numbers.
   [[nodiscard]] std::optional<NamedPose> read(std::string_view name) const;
 
  private:

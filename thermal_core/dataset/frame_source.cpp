@@ -22,7 +22,7 @@
 namespace thermal {
 namespace {
 
-/// Boxes by image, of one category, without crowds and ignored ones.
+/// Boxes of one category by image, without crowds and ignored ones.
 std::vector<std::vector<LabelBox>> boxes_of(const LabelSet& set, const std::string& category) {
   std::vector<std::vector<LabelBox>> boxes(set.images.size());
   for (const Label& label : set.labels) {
@@ -44,7 +44,7 @@ void say_if_none(const LabelSet& set, const std::string& category, FrameSource& 
 
 // --- a Veldt dataset
 
-/// Heights above ground by frame, as far as a clip's frames.jsonl states them.
+/// Heights above ground by frame, where a clip's frames.jsonl states them.
 std::map<int, double> altitudes_in(const Path& file) {
   std::map<int, double> altitudes;
   check_is_no_link(file);
@@ -130,7 +130,7 @@ void add_altitudes(const FrameRequest& request, FrameSource& source) {
   }
 }
 
-/// Of the labels' pictures with a frame's name, the one that is in its folder, if there are several.
+/// The picture of a frame among several with its name: the one in its folder.
 std::size_t picture_of_frame(const SourceFrame& frame, const std::vector<std::size_t>& named,
                              const LabelSet& set, const Path& labels) {
   if (named.size() == 1) return named.front();

@@ -12,20 +12,20 @@
 
 namespace thermal {
 
-/// Where frames come from: a Veldt dataset, whose ir8 they are, or a folder of pictures of grey levels.
-/// In kelvin, the ir16 of a dataset, or a folder of pictures that read_kelvin_picture() reads.
+/// Request for frames: the ir8 of a Veldt dataset, or a folder of grey pictures. In kelvin, the ir16 of a dataset, or a
+/// folder of pictures that read_kelvin_picture() reads.
 struct FrameRequest {
   Path source;
   Path labels = {};  ///< COCO file of a folder; empty: annotations.json in it or in its parent, if there
-  std::string names = {};                ///< of a folder: pattern as of FrameNames; empty: names say nothing
-  std::string names_option = "--names";  ///< what messages call it
+  std::string names = {};                ///< of a folder: pattern for FrameNames; empty: none
+  std::string names_option = "--names";  ///< option in messages
   std::string category = {};             ///< of the boxes, in any case; empty: people
   BoxStyle boxes = BoxStyle::visible;    ///< of a dataset
   bool kelvin = false;                   ///< frames are temperatures: a dataset's ir16
   StoredScale scale = {};                ///< of a folder's pictures
 };
 
-/// A picture to measure, and what is known about it.
+/// A picture to measure, with its metadata.
 struct SourceFrame {
   Path file;
   std::string name;
@@ -34,7 +34,7 @@ struct SourceFrame {
   std::vector<LabelBox> boxes;       ///< without crowds and ignored ones
 };
 
-/// What levels of temperatures mean: level 0 to 255 from the coldest to the warmest.
+/// Mapping of temperatures to levels: 0 is the coldest, 255 the warmest.
 struct KelvinLevels {
   StoredScale stored;
   double lowest_k = 0;
@@ -47,17 +47,16 @@ struct FrameSource {
   bool is_dataset = false;
   std::vector<SourceFrame> frames;
   std::optional<KelvinLevels> kelvin = {};  ///< empty: frames are grey levels
-  std::string no_boxes;                     ///< why there are none; empty if there are
+  std::string no_boxes;                     ///< reason why there are no boxes; empty if there are
 };
 
-/// Whether a category is the one that a request names, in any case; people if it names none.
+/// Whether a category is the requested one, in any case; people if the request names none.
 [[nodiscard]] bool is_requested(const std::string& category, const std::string& requested);
 
-/// Lists the frames of a source and reads its labels; opens no picture.
-/// ConfigError for labels, patterns of names and a scale for a Veldt dataset, and for drawn boxes of a folder; DataError
-/// for a folder without pictures, a name that does not match the pattern, labels that name none of the frames or have
-/// several pictures for one and none in its folder, and those of read_labels() and read_coco(); IoError if the source does
-/// not exist.
+/// Lists the frames of a source and reads its labels; opens no picture. ConfigError for labels, patterns of names and a
+/// scale for a Veldt dataset, and for drawn boxes of a folder; DataError for a folder without pictures, a name that
+/// does not match the pattern, labels without any of the frames or with an ambiguous one, and as read_labels() and
+/// read_coco(); IoError if the source does not exist.
 [[nodiscard]] FrameSource read_frame_source(const FrameRequest& request);
 
 }  // namespace thermal

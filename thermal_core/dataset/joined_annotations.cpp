@@ -17,7 +17,7 @@
 namespace thermal {
 namespace {
 
-/// What must be known of all clips before the first image is written.
+/// Facts about all clips that are needed before the first image is written.
 struct Survey {
   std::set<std::string> categories;
   std::vector<std::map<int, std::string>> names;  ///< of a clip's categories, by the clip's ids
@@ -26,7 +26,7 @@ struct Survey {
 
 struct HasSeenEnough {};
 
-/// Adds what precedes the images; a document that has it after them is read to its end.
+/// Adds a clip's lists that precede the images; a document that has them after the images is read to its end.
 void look_at(const ClipLabels& clip, Survey& survey) {
   std::map<int, std::string>& names = survey.names.emplace_back();
   std::size_t videos = 0;
@@ -81,7 +81,7 @@ class Joiner {
     });
   }
 
-  /// Skipped frames of a clip leave gaps in its ids: the last id counts, not the number of images.
+  /// A clip with skipped frames has gaps in its ids, so the last id is used, not the number of images.
   void add_image(Json image, const JsonEntry& given, std::size_t before, std::size_t number,
                  const std::string& clip) {
     const std::size_t id = before + static_cast<std::size_t>(given.count("id"));

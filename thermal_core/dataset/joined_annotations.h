@@ -13,8 +13,8 @@ namespace thermal {
 /// Labels of one clip of a dataset.
 struct ClipLabels {
   std::string clip;
-  std::string source;  ///< what faults name: a file
-  /// Passes on the elements of its document, as parse_json_elements() does; may be called twice.
+  std::string source;  ///< file, for messages
+  /// Reads its document like parse_json_elements(); may be called twice.
   std::function<void(const TakeElement& take)> read;
 };
 
@@ -23,9 +23,8 @@ struct ClipLabels {
 void join_annotations(const std::string& dataset, const std::vector<ClipLabels>& clips, Spool spool,
                       const TakeText& take);
 
-/// Writes a dataset's annotations.json: the labels of these complete clips, in this order. Memory does not grow with
-/// them. Returns the SHA-256 of the file. IoError with a file that cannot be read or written, TryAgainError if the
-/// disk is full.
+/// Writes a dataset's annotations.json: the labels of these complete clips, in this order. In constant memory. Returns
+/// the SHA-256 of the file. IoError with a file that cannot be read or written, TryAgainError if the disk is full.
 std::string write_joined_annotations(const Layout& layout, const std::string& dataset,
                                      const std::vector<std::string>& clips);
 

@@ -5,8 +5,8 @@
 
 namespace thermal {
 
-/// Path of the file that holds a picture of labels, which anybody may have written. DataError if its name leads out of
-/// the folder of the labels; IoError if a link does, or if it is no file.
+/// Path of the file of a picture in untrusted labels. DataError if its name leads out of the labels' folder; IoError if
+/// a link does, or if it is not a file.
 [[nodiscard]] Path picture_of(const LabelSet& set, const LabelImage& image);
 
 }  // namespace thermal

@@ -7,7 +7,7 @@ namespace thermal {
 
 /// Labels of a Veldt dataset (a folder with dataset.json), of a BIRDSAI folder (with annotations/*.csv) or of a COCO
 /// file (.json), with size classes.
-/// DataError with file and place for invalid data: repeated ids, boxes that are not numbers, unknown images or
+/// DataError with file and location for invalid data: repeated ids, boxes that are not numbers, unknown images or
 /// categories, a dataset with missing clips (unless `unfinished_too`: then of the existing ones); IoError if `source`
 /// is none of the three.
 [[nodiscard]] LabelSet read_labels(const Path& source, bool unfinished_too = false);

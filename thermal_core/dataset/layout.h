@@ -9,7 +9,7 @@ namespace thermal {
 /// Locations in a dataset's folder.
 struct Layout {
   Path root;
-  Path scratch = {};  ///< where clips are made and passes rendered; empty: in `root`
+  Path scratch = {};  ///< for unfinished clips and passes; empty: in `root`
 
   [[nodiscard]] Path dataset_json() const { return root / "dataset.json"; }
   /// Whether a dataset exists here.
@@ -17,16 +17,16 @@ struct Layout {
   [[nodiscard]] Path annotations_json() const { return root / "annotations.json"; }
   [[nodiscard]] Path clips() const { return root / "clips"; }
   [[nodiscard]] Path clip(const std::string& id) const { return clips() / id; }
-  /// Where a clip is made before it is complete and renamed.
+  /// Folder in which a clip is built before it is renamed.
   [[nodiscard]] Path unfinished_clip(const std::string& id) const {
     return (scratch.empty() ? clips() : scratch) / (id + ".part");
   }
   [[nodiscard]] Path passes() const { return (scratch.empty() ? root : scratch) / "passes"; }
   [[nodiscard]] Path passes(const std::string& id) const { return passes() / id; }
   [[nodiscard]] Path passes_config() const { return passes() / "config.json"; }
-  /// Marks a clip whose passes could not be converted: the next run renders them anew.
+  /// Marks a clip whose passes could not be converted: the next run renders them again.
   [[nodiscard]] Path unusable(const std::string& id) const { return passes(id) / "unusable.txt"; }
-  /// Where files are written before they are complete and moved to `root`.
+  /// Folder for incomplete files, which are then moved to `root`.
   [[nodiscard]] const Path& workplace() const { return scratch.empty() ? root : scratch; }
   [[nodiscard]] Path plan() const { return root / "plan"; }
   [[nodiscard]] Path preview() const { return root / "preview"; }

@@ -21,7 +21,7 @@ struct SelectedDataset {
   std::vector<SelectedVideo> videos;
 };
 
-/// The request for a class of targets, what is available and what was selected.
+/// Requested, available and selected labels of a class of targets.
 struct SelectedClass {
   std::string name;
   std::int64_t at_least = 0;
@@ -30,7 +30,7 @@ struct SelectedClass {
   std::int64_t taken = 0;
 };
 
-/// Which frames of which datasets make a balanced one.
+/// Frames of datasets that form a balanced selection.
 struct Selection {
   std::uint32_t seed = 0;
   std::vector<SelectedClass> classes;
@@ -43,7 +43,7 @@ struct Selection {
 /// Writes it as JSON, atomically; the same selection gives the same bytes. IoError or TryAgainError.
 void write_selection(const Path& file, const Selection& selection);
 
-/// DataError with the file and the place if it is not a selection, or contradicts itself: frames that are negative,
+/// DataError with the file and the location if it is not a selection, or contradicts itself: frames that are negative,
 /// not ascending or repeated, repeated videos or datasets; IoError if it cannot be read.
 [[nodiscard]] Selection read_selection(const Path& file);
 

@@ -11,7 +11,7 @@ namespace {
 using Vector = std::array<double, 3>;
 using Corners = std::array<Vector, 8>;  // bits 0, 1 and 2 of the index: which end along x, y and z
 
-/// A point in actor axes (x forward, y left, z up) to camera axes (x right, y down, z forward).
+/// Transforms a point from actor axes (x forward, y left, z up) to camera axes (x right, y down, z forward).
 Vector to_camera(const Vector& local_m, const ActorPose& pose,
                  const std::array<double, 16>& camera_to_world) {
   const double cosine = std::cos(pose.heading_rad);
@@ -26,7 +26,7 @@ Vector to_camera(const Vector& local_m, const ActorPose& pose,
   return seen_m;
 }
 
-/// Where the edge between two corners crosses the near plane.
+/// Intersection of the edge between two corners with the near plane.
 Vector cut(const Vector& before, const Vector& behind) {
   const double share = (before[2] - kNearestM) / (before[2] - behind[2]);
   return {before[0] + share * (behind[0] - before[0]), before[1] + share * (behind[1] - before[1]),
@@ -54,10 +54,10 @@ double farthest_corner(const CameraIntrinsics& camera) {
   return std::hypot(x, y);
 }
 
-/// Moves outwards from the axis to the point for as long as the lens shows that as outwards.
+/// Moves outwards from the axis towards the point as long as the distortion is monotonic.
 LensPoint shown_by(const LensDistortion& lens, LensPoint point, double reach) {
   if (lens.is_none()) return point;
-  constexpr int kSteps = 96;  // a 32nd of the way to the picture's corner, or less
+  constexpr int kSteps = 96;  // at most a 32nd of the way to the picture's corner
   const double share = std::min(1.0, reach / std::hypot(point.x, point.y));
   point = {share * point.x, share * point.y};
   LensPoint shown;
@@ -86,7 +86,7 @@ LabelBox box_about(const std::vector<Vector>& points, const CameraIntrinsics& ca
   return {.x_px = *left, .y_px = *top, .width_px = *right - *left, .height_px = *bottom - *top};
 }
 
-/// One side of a box, from low to high, within a frame from 0 to `size`.
+/// One side of a box within a frame from 0 to `size`.
 struct Side {
   double low = 0;
   double high = 0;

@@ -9,7 +9,7 @@
 
 namespace thermal {
 
-/// An actor's box in the world, as seen by the camera.
+/// An actor's box in the world, projected into the camera.
 struct SeenBox {
   double range_m = 0;  ///< from the camera to the box's centre
   std::optional<LabelBox>
@@ -17,20 +17,20 @@ struct SeenBox {
 };
 
 /// Projects an actor's box, by the manifest's bounds and poses; empty without bounds. Parts nearer than kNearestM or
-/// behind the camera are clipped, so that coordinates are finite. Beyond the picture, a distorting lens shows corners
-/// as far out as it shows anything in their direction: limited to where Brown and Conrady's polynomials fold over,
-/// and to three times the distance of the picture's farthest corner from the axis. Because the lens bends straight
-/// lines, the box of the corners may miss some of what lies between them.
+/// behind the camera are clipped, so that coordinates are finite. Beyond the picture, distorted corners are limited to
+/// where Brown and Conrady's polynomials stop being monotonic, and to three times the distance of the picture's
+/// farthest corner from the axis. Because the lens bends straight lines, the box of the corners may miss parts between
+/// them.
 [[nodiscard]] std::optional<SeenBox> see_box(const CameraIntrinsics& camera, const LensDistortion& lens,
                                              const ManifestObject& actor, const ActorPose& pose,
                                              const std::array<double, 16>& camera_to_world);
 
-/// What is nearer to the camera than this is not projected.
+/// Points nearer to the camera are not projected.
 inline constexpr double kNearestM = 0.05;
 
 /// The visible box of an actor within the picture, extended beyond each border it touches to the projected box of the
-/// actor, minus the margin by which that is wider than the actor on the opposite side, where that side is in the
-/// picture: a projected box is wider than the body, by about the same amount on both sides.
+/// actor, minus the projected box's margin on the opposite side, if that side is in the picture: a projected box is
+/// wider than the body by about the same amount on both sides.
 [[nodiscard]] LabelBox extended(const LabelBox& seen, const LabelBox& box, const CameraIntrinsics& camera);
 
 }  // namespace thermal

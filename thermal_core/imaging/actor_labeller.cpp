@@ -33,7 +33,7 @@ std::vector<std::uint16_t> indices_of(const std::vector<ManifestObject>& actors)
   return indices;
 }
 
-/// Whether each frame says where the camera and each actor's box are.
+/// Whether every frame has poses of the camera and of each actor's box.
 bool has_all_places(const Manifest& manifest) {
   const auto is_placed = [](const ManifestObject& object, const ManifestFrame& frame) {
     return object.object_class != ObjectClass::actor ||
@@ -47,7 +47,7 @@ bool has_all_places(const Manifest& manifest) {
   });
 }
 
-/// Looks up an ascending list; null if absent.
+/// Finds an entry of an ascending list; null if absent.
 template <typename List>
 auto* find_index(List& list, std::uint16_t index) {
   const auto found =
@@ -73,7 +73,7 @@ PixelBox around(const PixelBox& a, const PixelBox& b) {
 
 }  // namespace
 
-/// One index plane of a frame, as rendered and as in the picture.
+/// One index plane of a frame, as rendered and as resampled to the picture.
 struct ActorLabeller::Layer {
   const Plane<std::uint16_t>* fine = nullptr;
   std::span<const IndexUse> fine_uses;
@@ -132,7 +132,7 @@ Plane<std::uint16_t> ActorLabeller::in_picture(const Plane<std::uint16_t>& fine,
   return map_ ? map_->resample_nearest(coarse) : coarse;
 }
 
-/// Pixels of the passes with an index, each counted as often as the picture shows it.
+/// Pixels of the passes with an index, weighted by how often the picture shows each.
 double ActorLabeller::shown_px(const Layer& layer, std::uint16_t index) const {
   const IndexUse* coarse = find_use(layer.uses(), index);
   if (supersample_ == 1) return coarse != nullptr ? coarse->pixels : 0;
@@ -173,7 +173,7 @@ void ActorLabeller::set_visible(const Layer& all, const Layer* alone, Instance& 
   instance.whole_box = to_label(box);
 }
 
-/// From poses alone, where given.
+/// Sets members that follow from poses alone, where given.
 void ActorLabeller::set_places(const ManifestFrame& frame, std::vector<Instance>& instances) const {
   for (const ActorPose& pose : frame.actors) {
     Instance* instance = find_index(instances, pose.index);

@@ -18,8 +18,8 @@ class ActorLabeller {
   /// `map`: from passes at the camera's resolution to its picture; null where they are the same.
   ActorLabeller(const Manifest& manifest, const LensDistortion& lens, std::shared_ptr<const ResampleMap> map);
 
-  /// Whether label() finds some range only by depth: of an actor without a pose or bounds, or in a frame without a pose of
-  /// the camera. Passes must then have their depth, if there is any, whatever else needs it.
+  /// Whether label() needs depth for some range: of an actor without a pose or bounds, or in a frame without a pose of
+  /// the camera. Passes must then have their depth, if there is any.
   [[nodiscard]] bool wants_depth() const noexcept { return wants_depth_; }
 
   /// The actors with at least one pixel in the camera's picture, in ascending order of index. `uses` is a survey of

@@ -16,7 +16,7 @@ constexpr std::uint32_t kDressStream = 0x0D2E55;
 constexpr std::uint32_t kStopStream = 0x57095;
 constexpr std::size_t kMostStates = 250;  // a class is one byte
 
-/// Indices of actors that are not always at one place.
+/// Indices of actors that move.
 std::map<std::uint16_t, bool> movements(const Manifest& manifest) {
   constexpr double kStillM = 0.1;
   std::map<std::uint16_t, std::array<double, 3>> first;
@@ -36,7 +36,7 @@ double uniform_of(std::uint16_t index, std::uint32_t seed, std::uint32_t stream)
   return Philox4x32::generate({index, 0, 0, stream}, {seed, 0})[0] * kPerWord;
 }
 
-/// Middle of the one of `steps` equal parts of 0 to 1 that holds a uniform number.
+/// Middle of that of `steps` equal parts of [0, 1] which holds a uniform number.
 double in_steps(double uniform, int steps) {
   return (std::min(std::floor(uniform * steps), steps - 1.0) + 0.5) / steps;
 }

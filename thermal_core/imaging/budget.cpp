@@ -39,10 +39,10 @@ double spread(std::vector<Weighted> values) {
   return percentile(values, 0.95) - percentile(values, 0.05);
 }
 
-/// Radiance of one material in one night, term by term.
+/// Radiance of one material under one set of conditions, term by term.
 class MaterialModel {
  public:
-  /// @param air  the night's, as the response sees it; must outlive this object
+  /// @param air  in the sensor's response; must outlive this object
   MaterialModel(const Material& material, const SceneOutline::Night& night, const SpectralResponse& response,
                 const BandAir& air)
       : material_(material),
@@ -61,12 +61,11 @@ class MaterialModel {
 
   /// Emission and reflection at an angle; a fall-off factor of 1 ignores the angle.
   [[nodiscard]] double with_sky(double factor, double cosine) const {
-    const double sky =
-        material_.angular == AngularLaw::water ? air_.sky_emissivity(cosine) : air_.sky_emissivity();
+    const double sky = material_.mirrors() ? air_.sky_emissivity(cosine) : air_.sky_emissivity();
     return factor * emitted(temperature_k()) + (air_radiance_ - factor * emitted_as_air_) * sky;
   }
 
-  /// The same of a surface that mirrors another, of some radiance.
+  /// The same for a surface that mirrors another, of some radiance.
   [[nodiscard]] double with_mirrored(double factor, double radiance) const {
     return factor * emitted(temperature_k()) +
            (air_radiance_ - factor * emitted_as_air_) * radiance / air_radiance_;
@@ -77,7 +76,7 @@ class MaterialModel {
     return through * radiance + (1 - through) * air_radiance_ + from_inversion(range_m);
   }
 
-  /// What the path radiates more because of an inversion.
+  /// Additional radiance of the path by an inversion.
   [[nodiscard]] double from_inversion(double range_m) const {
     const Air& air = weather_.air;
     if (!(air.inversion_k > 0)) return 0;
@@ -96,9 +95,8 @@ class MaterialModel {
   double emitted_as_air_;
 };
 
-/// How much of a water mirrors what stands at its shore, seen at an angle of incidence: rays that rise from it as
-/// steeply reach the far shore below the height of what stands there. Of a disc, by 2 distance / (pi radius). Both
-/// lengths are estimates.
+/// Share of the pixels of water, at an angle of incidence, that mirror its shore: reflected rays reach the far shore
+/// below the height of the objects there. For a disc, 2 distance / (pi radius). Both lengths are estimates.
 double shore_share(double cosine) {
   constexpr double kHeightM = 4;
   constexpr double kRadiusM = 50;
@@ -106,7 +104,7 @@ double shore_share(double cosine) {
   return std::min(1.0, 2 * distance_m / (std::numbers::pi * kRadiusM));
 }
 
-/// Shifts that each term makes in one night.
+/// Shifts by each term under one set of conditions.
 class NightShifts {
  public:
   NightShifts(const SceneOutline& outline, const SceneOutline::Night& night)
@@ -116,7 +114,7 @@ class NightShifts {
         air_(night.weather.air, response_) {
     for (const SceneOutline::Cover& cover : outline.covers) {
       add_cover(cover);
-      if (cover.material->angular == AngularLaw::water) add_mirror(cover);
+      if (cover.material->mirrors()) add_mirror(cover);
     }
     add_smear();
     add_falloff();
@@ -144,7 +142,7 @@ class NightShifts {
     if (actor) actor_shifts_.at(index) = std::max(actor_shifts_.at(index), std::abs(shift_k));
   }
 
-  /// Adds what places or directions do to a cover. The percentiles of actors are over them alone.
+  /// Adds the shifts by exposures or directions of a cover. The percentiles of actors are over actors alone.
   void add_heat(std::string_view term,
                 const std::map<std::string, std::vector<SceneOutline::PlaceShift>>& by_material,
                 const SceneOutline::Cover& cover) {
@@ -179,11 +177,12 @@ class NightShifts {
     }
   }
 
-  /// Of water's pixels alone: those that mirror the sky are not shifted, the others mirror all that is not water.
+  /// For water's pixels alone: those that mirror the sky are not shifted, the others mirror everything that is not
+  /// water.
   void add_mirror(const SceneOutline::Cover& water) {
     const MaterialModel model = model_of(water);
     for (const SceneOutline::Cover& cover : outline_.covers) {
-      if (cover.material->angular == AngularLaw::water) continue;
+      if (cover.material->mirrors()) continue;
       const double mirrored = model_of(cover).with_sky(1, 1);
       for (const SceneOutline::Look& look : night_.looks) {
         const double factor = angular_factor(water.material->angular, look.ground_cosine);
@@ -215,13 +214,13 @@ class NightShifts {
     }
   }
 
-  /// Without reflection and path.
+  /// Apparent temperature without reflection and path.
   [[nodiscard]] double direct_k(const SceneOutline::Cover& cover) const {
     const MaterialModel model = model_of(cover);
     return model.apparent_k(model.emitted(model.temperature_k()));
   }
 
-  /// At the borders of a surface with the mean ground, as much of the contrast as the picture moves in pixels.
+  /// At the borders of a surface with the mean ground, as many pixels lose contrast as the picture moves.
   void add_smear() {
     if (!(outline_.smear_px > 0)) return;
     double ground_k = 0;
@@ -241,7 +240,7 @@ class NightShifts {
     }
   }
 
-  /// The signal keeps its level; the noise grows.
+  /// The signal is unchanged; the noise grows.
   void add_falloff() {
     for (const SceneOutline::Look& look : night_.looks) {
       add("falloff", outline_.netd_k * std::pow(look.axis_cosine, -4), 1, false);
@@ -254,7 +253,7 @@ class NightShifts {
   BandAir air_;
   std::array<std::vector<Weighted>, std::size(kTerms)> shifts_;
   std::array<std::vector<Weighted>, std::size(kTerms)>
-      on_actors_;  ///< those of actors again, where they count alone
+      on_actors_;  ///< those of actors again, for terms of actors alone
   std::array<double, std::size(kTerms)> actor_shifts_{};
 };
 
@@ -270,7 +269,7 @@ bool is_kept(const TermEffect& effect, double netd_k) {
   return effect.impossible.empty() && effect.spread_k > netd_k / 3;
 }
 
-/// Of all terms in the worst night, in the order of kTerms. Nights are independent.
+/// Effects of all terms under the worst conditions, in the order of kTerms. Conditions are evaluated in parallel.
 std::vector<TermEffect> effects_of(const SceneOutline& outline) {
   std::vector<std::vector<TermEffect>> of_nights(outline.nights.size());
   parallel_for(of_nights.size(), 1, [&](std::size_t begin, std::size_t end) {

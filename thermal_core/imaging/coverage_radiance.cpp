@@ -7,7 +7,7 @@
 namespace thermal {
 namespace {
 
-/// Uncovered fractions; empty if zero everywhere.
+/// Uncovered fractions; empty if all are zero.
 Plane<float> uncovered(const std::vector<CoverageRank>& ranks) {
   Plane<float> left(ranks.front().coverage.width_px(), ranks.front().coverage.height_px(), 1.0F);
   const auto pixels = left.pixels();
@@ -44,7 +44,7 @@ PassChecks coverage_radiance(const SceneRadiance& scene, const Passes& passes, c
   for (const CoverageRank& rank : passes.ranks) {
     one.object_index = rank.object_index;
     const PassChecks of_rank = scene.radiance(one, frame, radiance);
-    if (&rank == &passes.ranks.front()) checks = of_rank;  // depth and normals are those of what fills most
+    if (&rank == &passes.ranks.front()) checks = of_rank;  // depth and normals are those of rank 0
     add_weighted(radiance, rank.coverage, out);
     one.material_index = {};
   }

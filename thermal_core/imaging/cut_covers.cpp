@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kMostCuts = 4;
 constexpr std::size_t kMostCells = std::size_t{1} << 21U;
 
-/// Cells of the covers that hold some cells of the maps, along an axis: the first, and how many.
+/// Range of the covers' cells that contain some cells of the maps, along an axis: first and count.
 std::array<std::size_t, 2> covers_along(const GroundMaps& maps, std::size_t first, std::size_t count) {
   const double fine = static_cast<double>(maps.covers.cells) / static_cast<double>(maps.cells);
   const auto begin = static_cast<std::size_t>(std::floor(static_cast<double>(first) * fine));
@@ -88,8 +88,7 @@ std::uint8_t CutCovers::kind_at(const Near& rows, const Near& columns) const noe
         visit(rows.cell[j] * covers_.cells + columns.cell[i], rows.weight[j] * columns.weight[i]);
   };
   each([&](std::size_t cell, float weight) {
-    const float off = covers_.border.empty() ? 1.0F : static_cast<float>(covers_.border[cell]);
-    share[covers_.kind[cell]] += weight * off;
+    share[covers_.kind[cell]] += weight * static_cast<float>(covers_.border[cell]);
   });
   std::uint8_t largest = middle;
   each([&](std::size_t cell, float) {

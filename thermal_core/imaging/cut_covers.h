@@ -10,7 +10,7 @@
 
 namespace thermal {
 
-/// A window of the covers, each cell of which is cut into cuts x cuts; it counts cells of the cut covers.
+/// A window of the covers, subdivided into cuts x cuts per cell; counts are of subdivided cells.
 struct CutWindow {
   GroundWindow cells;
   std::size_t cuts = 1;
@@ -18,11 +18,11 @@ struct CutWindow {
   [[nodiscard]] bool operator==(const CutWindow&) const = default;
 };
 
-/// The covers of a window that holds the given cells of the maps, cut into 4 x 4 if they stay below two million cells,
-/// otherwise into 2 x 2 or not at all: where covers have half a metre, into 12 cm.
+/// The covers of a window that contains the given cells of the maps, subdivided by 4 x 4 if that stays below two
+/// million cells, otherwise by 2 x 2 or not at all: covers of half a metre become 12 cm.
 [[nodiscard]] CutWindow cut_window(const GroundMaps& maps, const GroundWindow& window);
 
-/// What covers a place: a kind, and shares of what lies on it.
+/// Cover of a point: a kind, and shares of what lies on it.
 struct Cover {
   std::uint8_t kind = 0;
   float grass = 0;
@@ -30,9 +30,10 @@ struct Cover {
   float ash = 0;
 };
 
-/// The covers between the middles of their cells, by cubic B-splines over 4 x 4 cells. Kinds meet in lines: a place has
-/// the kind with the largest weight times distance to its border, so that straight borders stay straight and where they
-/// are. Without these distances, the steps of the cells are only rounded, and borders are off by up to half a cell. Shares are means of the cells of that kind, and so do not fade at its border.
+/// Covers interpolated between the middles of their cells, by cubic B-splines over 4 x 4 cells. Kinds meet in lines: a
+/// point has the kind with the largest weight times distance to its border, which preserves straight borders. Without
+/// these distances, the steps of the cells are only rounded, and borders are off by up to half a cell. Shares are
+/// averaged over cells of that kind alone, so they do not fade at its border.
 class CutCovers {
  public:
   CutCovers(const GroundCovers& covers, const CutWindow& window);

@@ -20,7 +20,7 @@ SceneRadiance make_scene(const Manifest& manifest, const MaterialLibrary& materi
   return {manifest, materials, settings.season, radiance_of(settings.radiance, settings.response)};
 }
 
-/// What is left to do to passes whose rays follow the lens: at most to cut off their overscan.
+/// Remaining resampling of passes whose rays follow the lens: at most cropping of the overscan.
 std::shared_ptr<const ResampleMap> make_crop(const Manifest& manifest, const LensDistortion& lens) {
   if (lens != manifest.lens) {
     throw ConfigError(
@@ -112,7 +112,7 @@ void FrameConverter::convert(const Passes& passes, const ManifestFrame& frame, S
   reshape(std::move(fine), out);
 }
 
-/// Labels are those of planes with all samples everywhere.
+/// Labels are those of the expanded planes.
 void FrameConverter::convert_samples(const Passes& passes, const ManifestFrame& frame,
                                      SceneFrame& out) const {
   const FineSamples& fine = passes.fine;
@@ -134,14 +134,14 @@ void FrameConverter::convert_samples(const Passes& passes, const ManifestFrame& 
   if (map_) map_->resample_linear(radiance, out.radiance_w_m2_sr);
 }
 
-/// At the resolution of the passes.
+/// Radiance at the resolution of the passes.
 PassChecks FrameConverter::radiance(const Passes& passes, const ManifestFrame& frame,
                                     Plane<float>& out) const {
   if (passes.ranks.empty()) return scene_radiance_.radiance(passes, frame, out);
   return coverage_radiance(scene_radiance_, passes, frame, out);
 }
 
-/// From the passes' pixels to the camera's.
+/// Resamples the passes' pixels to the camera's.
 void FrameConverter::reshape(Plane<float> fine, SceneFrame& out) const {
   if (has_quarters_) {
     mean_quarters(fine, supersample_, out.radiance_w_m2_sr, out.detail);

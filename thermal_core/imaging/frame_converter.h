@@ -20,19 +20,18 @@ struct SceneFrame {
   Plane<float> radiance_w_m2_sr;
   std::vector<Instance> instances;
   SubpixelDetail detail = {};  ///< empty if pixel_sampling() has no quarters
-  PassChecks checks = {};      ///< of the planes that the terms read
+  PassChecks checks = {};      ///< usability of the planes that the terms read
   ImageMotion motion = {};     ///< as MotionFinder finds it; empty without the term `smear`
 };
 
-/// What a FrameConverter depends on besides a clip's manifest and materials: with equal settings, all frames are
-/// equal.
+/// Settings of a FrameConverter besides a clip's manifest and materials; equal settings give equal frames.
 struct SceneSettings {
   Season season = Season::winter;
   SpectralResponse response = SpectralResponse::flat(8, 14);
   RadianceModel radiance = RadianceModel::exact;
   bool table_is_brightest = false;  ///< level 255 is the most radiant row of Table 1: AgcMode::table_max
   std::optional<PhysicsSettings> physics;  ///< empty: the published model with the season's temperatures
-  LensDistortion lens;  ///< the camera's, applied to the passes unless their rays follow it already
+  LensDistortion lens;  ///< the camera's, applied to the passes unless their rays already follow it
 
   [[nodiscard]] bool operator==(const SceneSettings&) const = default;
 };
@@ -57,18 +56,17 @@ class FrameConverter {
   /// Planes that convert() needs besides the object index.
   [[nodiscard]] PassNeeds needs() const noexcept;
 
-  /// Converts the passes of one frame, `supersample` times finer than the camera and with overscan if the manifest says
-  /// so: physics first, then means of radiance, then the lens. Labels go through the lens like radiance. If the passes
-  /// have ranks, radiance combines all of them (coverage_radiance()), and labels use object_index. Passes that are
-  /// sampled where it matters (Passes::fine) give what those with all samples would, if the other pixels had one value
-  /// each. Actors are labelled by ActorLabeller. DataError if the passes hold an index missing from the manifest. Safe
-  /// to call from several threads.
+  /// Converts the passes of one frame, with the manifest's supersampling and overscan: physics first, then means of
+  /// radiance, then the lens. Labels are resampled for the lens like radiance. If the passes have ranks, radiance
+  /// combines all of them (coverage_radiance()), and labels use object_index. Adaptively sampled passes (Passes::fine)
+  /// give the result of fully sampled ones whose other pixels are uniform. Actors are labelled by ActorLabeller.
+  /// DataError if the passes hold an index missing from the manifest. Safe to call from several threads.
   [[nodiscard]] SceneFrame convert(const Passes& passes, const ManifestFrame& frame = {}) const;
 
   /// The same into a frame whose memory is reused.
   void convert(const Passes& passes, const ManifestFrame& frame, SceneFrame& out) const;
 
-  /// Radiance of count 255 [W m^-2 sr^-1].
+  /// Radiance of level 255 [W m^-2 sr^-1].
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
 
  private:
@@ -77,7 +75,7 @@ class FrameConverter {
   void reshape(Plane<float> fine, SceneFrame& out) const;
 
   int supersample_;
-  bool has_quarters_;                       ///< frames come with detail
+  bool has_quarters_;                       ///< frames have detail
   std::shared_ptr<const ResampleMap> map_;  ///< null: the passes show the camera's picture unchanged
   SceneRadiance scene_radiance_;
   float brightest_w_m2_sr_;

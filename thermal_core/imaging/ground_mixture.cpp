@@ -30,12 +30,12 @@ constexpr float kStrewnFrom = 1.96F;  // standard deviations: one cell in forty
 constexpr float kStones = 0.4F;       // for each further one
 constexpr float kMostStones = 0.7F;
 constexpr float kMeanStones = 0.01F;
-constexpr float kGathered = 0.8F;  // the same of litter, which is nearer to soil's temperature
+constexpr float kGathered = 0.8F;  // the same for litter, whose temperature is closer to soil's
 constexpr float kMostGathered = 0.9F;
 
 constexpr std::size_t kMixRowsAChunk = 32;
 
-/// Shares of what is left after each other, as bytes.
+/// Divides what is left by successive shares, as bytes.
 class Left {
  public:
   explicit Left(GroundMix& mix) : mix_(mix) {}
@@ -52,7 +52,7 @@ class Left {
   int left_ = 255;
 };
 
-/// What a cell has that the maps do not: tussocks as a standard normal number, and shares.
+/// Random properties of a cell beyond the maps: tussocks as a standard normal number, and shares.
 struct Roughness {
   float tussocks = 0;
   float stones = kMeanStones;
@@ -70,7 +70,7 @@ Roughness roughness_of(float noise, float tussocks) noexcept {
           .gathered = strewn(-stony, kGathered, kMostGathered)};
 }
 
-/// How much of a place is below crowns, 0 to 1: rounds the steps of the maps' cells.
+/// Share of a point below crowns, 0 to 1: smooths the steps of the maps' cells.
 class BelowCrowns {
  public:
   BelowCrowns(const GroundMaps& maps, const CutWindow& window)

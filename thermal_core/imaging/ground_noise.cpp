@@ -11,7 +11,7 @@
 namespace thermal {
 namespace {
 
-/// A standard normal number of a lattice point; cosine by a polynomial would change nothing that is seen.
+/// A standard normal number of a lattice point.
 float lattice_value(std::uint32_t seed, std::uint32_t stream, std::uint32_t octave, std::int64_t x,
                     std::int64_t y) {
   const auto words = Philox4x32::generate(
@@ -22,7 +22,7 @@ float lattice_value(std::uint32_t seed, std::uint32_t stream, std::uint32_t octa
   return static_cast<float>(sum * std::numbers::sqrt3);
 }
 
-/// Where a cell lies between lattice points.
+/// Position of a cell between lattice points.
 struct Position {
   std::int64_t point = 0;
   std::array<float, 4> weights{};
@@ -38,7 +38,7 @@ std::vector<Position> positions(std::size_t first, std::size_t count, double spa
   return all;
 }
 
-/// Variance of smooth noise on average over a cell of its lattice: (sum of squared weights, averaged)^2.
+/// Variance of smooth noise, averaged over a cell of its lattice: (sum of squared weights, averaged)^2.
 constexpr double kSmoothVariance = 0.4794 * 0.4794;
 
 /// The lattice of an octave, of which a block of rows is kept at a time.

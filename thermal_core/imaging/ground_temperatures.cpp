@@ -19,12 +19,12 @@ constexpr float kDampSpread = 0.02F;
 constexpr std::uint32_t kFabricStream = 68;
 constexpr double kFabricM = 2;
 constexpr double kFinestFabricM = 0.25;
-// Of a part's variation: what it has within 2 m, set so that ground is as uneven as in night frames of HIT-UAV.
+// Share of a part's variation within 2 m, set so that ground is as uneven as in night frames of HIT-UAV.
 constexpr float kFabricSpread = 0.5F;
 constexpr std::size_t kGroundRowsAChunk = 16;
 constexpr std::size_t kGroundCellsAChunk = 4096;
 
-/// Normals of level grids of heights, by the slopes between the neighbours of a cell.
+/// Normals of grids of heights, from the slopes between a cell's neighbours.
 class Slopes {
  public:
   explicit Slopes(const GroundMaps& maps)
@@ -53,7 +53,7 @@ class Slopes {
 
 double part_of(std::uint8_t byte) { return byte / 255.0; }
 
-/// The places of a window's cells.
+/// Coordinates of a window's cells.
 class Cells {
  public:
   Cells(const GroundMaps& maps, const GroundOfWindow& ground, double open_moisture, bool by_slope)
@@ -70,7 +70,7 @@ class Cells {
   }
 
   [[nodiscard]] std::size_t count() const noexcept { return window_.width * window_.height; }
-  /// Number among the cells of the maps.
+  /// Index among the cells of the maps.
   [[nodiscard]] std::size_t of_maps(std::size_t number) const noexcept {
     return row(number) * maps_.cells + column(number);
   }
@@ -105,7 +105,7 @@ class Cells {
   float per_relief_m_ = 0;
 };
 
-/// Temperature and warming of one part, by the cells of the maps.
+/// Temperature and warming rate of one part, by the cells of the maps.
 struct PartPlanes {
   std::vector<float> temperature_k;
   std::vector<float> per_h_k;
@@ -138,7 +138,7 @@ PartPlanes planes_of(std::size_t part, const Cells& cells, const GroundWarmth& h
   return planes;
 }
 
-/// Which parts some cell has.
+/// Which parts occur in any cell.
 std::vector<bool> present_parts(const std::vector<GroundMix>& mixes, std::size_t kinds) {
   std::vector<bool> present(kinds + kLoosePartNames.size());
   for (const GroundMix& mix : mixes) {
@@ -149,7 +149,7 @@ std::vector<bool> present_parts(const std::vector<GroundMix>& mixes, std::size_t
   return present;
 }
 
-/// Where rows or columns of the covers lie between the middles of cells of the maps, within a window of them.
+/// Positions of rows or columns of the covers between the middles of cells of the maps, within a window of them.
 std::vector<BetweenNodes> between_cells(std::size_t first_fine, std::size_t count, double coarse_a_fine,
                                         std::size_t first_coarse, std::size_t coarse_count) {
   std::vector<BetweenNodes> all;
@@ -187,7 +187,7 @@ class Mixing {
   Mixing(const std::vector<PartPlanes>& parts, const std::vector<float>& sky_view, std::size_t kinds)
       : parts_(parts), sky_view_(sky_view), kinds_(kinds) {}
 
-  /// Returns the standard deviation of what is uneven within the parts.
+  /// Returns the standard deviation of the variation within the parts.
   float mix(const GroundMix& mix, const NearCells& near, std::size_t i, GroundValues& values) const {
     constexpr float kAll = 255;
     float temperature_k = 0;
@@ -218,7 +218,7 @@ class Mixing {
   std::size_t kinds_;
 };
 
-/// Means of three neighbours along one axis, weighed 1, 2, 1; those beyond the border are as at the border.
+/// Means of three neighbours along one axis, weighted 1, 2, 1; edge values are replicated.
 std::vector<float> smoothed_along(const std::vector<float>& plane, std::size_t width, std::size_t step,
                                   std::size_t count) {
   std::vector<float> smooth(plane.size());
@@ -233,7 +233,7 @@ std::vector<float> smoothed_along(const std::vector<float>& plane, std::size_t w
   return smooth;
 }
 
-/// Without it, straight borders between kinds would follow the steps of their cells.
+/// Without smoothing, straight borders between kinds would follow the steps of their cells.
 std::vector<float> smoothed(const std::vector<float>& plane, const GroundWindow& window) {
   return smoothed_along(smoothed_along(plane, window.width, 1, window.width), window.width, window.width,
                         window.height);
@@ -251,7 +251,7 @@ double covers_a_m(const GroundMaps& maps, const CutWindow& covers) {
   return static_cast<double>(covers.cuts * maps.covers.cells) / maps.size_m;
 }
 
-/// Of the south-west corner of a grid that starts at a cell.
+/// Coordinate of the south-west corner of a grid that starts at a cell.
 double origin_m(const GroundMaps& maps, std::size_t first, double per_m) {
   return static_cast<double>(first) / per_m - maps.size_m / 2;
 }

@@ -27,7 +27,7 @@ std::int32_t texel_of(float temperature_steps, float warming_steps, float sky_vi
                                    (bits(warming_steps) & 0xFFU) << 8U | bits(sky_view * kSkyViewSteps));
 }
 
-/// Steps of temperature some time later.
+/// Temperature of a texel some time later, in steps.
 VELDT_INLINE float steps_of(std::int32_t texel, float later) noexcept {
   const auto warming = static_cast<std::int32_t>(static_cast<std::uint32_t>(texel) << 16U) >> 24;
   return static_cast<float>(texel >> 16) + later * static_cast<float>(warming);
@@ -36,7 +36,7 @@ VELDT_INLINE float view_of(std::int32_t texel) noexcept { return static_cast<flo
 
 VELDT_INLINE float between(float a, float b, float share) noexcept { return a + share * (b - a); }
 
-/// Means of blocks of 2 x 2; a last odd row or column counts twice.
+/// Means of blocks of 2 x 2; a last odd row or column is repeated.
 std::vector<float> halved(const std::vector<float>& fine, std::size_t width, std::size_t height) {
   const std::size_t half_width = (width + 1) / 2;
   std::vector<float> coarse(half_width * ((height + 1) / 2));
@@ -51,14 +51,14 @@ std::vector<float> halved(const std::vector<float>& fine, std::size_t width, std
   return coarse;
 }
 
-/// What the loops below read, the same for all pixels.
+/// Inputs of the loops below, the same for all pixels.
 struct Window {
   const std::int32_t* texels;
   float origin_x, origin_y, base_k;
-  float later;  ///< steps of temperature that a step of warming has added
+  float later;  ///< warming steps to temperature steps at this time
 };
 
-/// Levels, one entry each, in arrays.
+/// Per level, one entry in each array.
 struct LevelTables {
   const std::int32_t* first;
   const std::int32_t* width;
@@ -67,7 +67,7 @@ struct LevelTables {
   int last;
 };
 
-/// Whether a pixel has a place on the ground. False for NaN.
+/// Whether a pixel has a position on the ground. False for NaN.
 VELDT_INLINE bool has_place(std::int32_t is_ground, float x, float y, float footprint) noexcept {
   constexpr float kFarthest = 1e6F;
   const float far_x = std::abs(x);
@@ -86,7 +86,7 @@ VELDT_INLINE int level_of(float cells, int last) noexcept {
   return positive < last ? positive : last;
 }
 
-/// What the texels around a place give there.
+/// Values interpolated between the texels around a point.
 struct Blended {
   float temperature_k, sky_view;
 };
@@ -120,7 +120,7 @@ VELDT_INLINE Blended blend(const Window& window, std::int32_t first, std::int32_
           (1 / kSkyViewSteps) * between(low_view, high_view, up)};
 }
 
-/// By bits, so that a compiler computes both values and the loop vectorises.
+/// Bitwise selection, so that a compiler evaluates both values and the loop vectorises.
 VELDT_INLINE float chosen(bool first, float a, float b) noexcept {
   const std::uint32_t mask = 0U - static_cast<std::uint32_t>(first);
   return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) |

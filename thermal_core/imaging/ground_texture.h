@@ -18,34 +18,33 @@ struct GroundGrid {
   double origin_y_m = 0;
 };
 
-/// What the texture holds of each cell.
+/// Values of each cell of the texture.
 struct GroundValues {
   std::vector<float> temperature_k;
-  std::vector<float> per_h_k;   ///< what an hour adds
+  std::vector<float> per_h_k;   ///< change per hour
   std::vector<float> sky_view;  ///< share of the sky that level ground sees, 0 to 1
 };
 
-/// Temperatures of the ground and how much sky it sees, as a texture: four bytes a cell, in levels of which each is half
-/// as fine as the one before.
+/// Temperature and sky view of the ground as a mipmapped texture of four bytes a texel.
 class GroundTexture {
  public:
   GroundTexture(const GroundGrid& grid, GroundValues values);
 
-  /// Where to read: a row of places [m], the size of a pixel there [m], and which surfaces are ground: 1, others 0.
+  /// A row of positions on the ground [m], the size of a pixel there [m], and which surfaces are ground: 1, others 0.
   struct Places {
     std::span<const std::uint16_t> surface;
     std::span<const std::int32_t> is_ground;
     std::span<const float> x_m;
     std::span<const float> y_m;
     std::span<const float> footprint_m;
-    kernels::FootprintRange footprints;  ///< that holds all of footprint_m that are finite and not negative
+    kernels::FootprintRange footprints;  ///< contains all of footprint_m that are finite and not negative
   };
 
   /// Temperatures [K] of the pixels of ground, `later_h` after the moment of the grids, and the share of the sky that
-  /// level ground sees there: in straight lines between the middles of cells, detail smaller than a pixel averaged
-  /// out. Other pixels keep their temperature and get -1 as their sky view, as do those with a place or footprint that
-  /// is not finite or a negative footprint. Places beyond the grid have what is at its border. Steps of 1/512 K, of
-  /// 1/255, and of 1/127 of the fastest warming.
+  /// level ground sees there: interpolated linearly between the middles of cells, with detail smaller than a pixel
+  /// averaged out. Other pixels keep their temperature and get -1 as their sky view, as do those with a position or
+  /// footprint that is not finite or a negative footprint. Beyond the grid, its border is replicated. Steps of 1/512 K,
+  /// of 1/255, and of 1/127 of the fastest warming.
   void sample(const Places& places, float later_h, std::span<float> temperature_k,
               std::span<float> sky_view) const noexcept;
 

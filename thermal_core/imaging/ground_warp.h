@@ -7,18 +7,18 @@
 
 namespace thermal {
 
-/// Moves places on the ground by a decimetre, at random but always alike, so that the borders in maps of half a
-/// metre become uneven down to the pixel: fractal, of dimension 1.26, as what the maps hold at their own scale. Nothing
-/// gets warmer or colder than in the maps. The field repeats after 16 m, what it moves does not.
+/// Moves points on the ground by a decimetre, by a fixed random field, so that borders in maps of half a metre become
+/// uneven down to the pixel: fractal, of dimension 1.26, as the maps at their own scale. Temperatures are those of the
+/// maps. The field repeats after 16 m, the warped ground does not.
 class GroundWarp {
  public:
   explicit GroundWarp(std::uint32_t seed);
 
-  /// Standard deviation of a move along each axis (estimate).
+  /// Standard deviation of the displacement along each axis (estimate).
   static constexpr float kMoveM = 0.12F;
 
-  /// Places [m] and sizes of pixels there [m] to moved places; detail smaller than a pixel is averaged out. Places that
-  /// are not finite or beyond 100 km stay. All spans have one length.
+  /// Warps positions [m], with sizes of pixels there [m]; detail smaller than a pixel is averaged out. Positions that
+  /// are not finite or beyond 100 km are unchanged. All spans have one length.
   void move(std::span<const float> x_m, std::span<const float> y_m, std::span<const float> footprint_m,
             std::span<float> moved_x_m, std::span<float> moved_y_m) const noexcept;
 

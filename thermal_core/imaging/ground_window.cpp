@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMarginCells = 4;
 
-/// The part of the ground's plane that is seen so far [m].
+/// Bounds of the ground seen so far [m].
 struct Seen {
   std::array<double, 2> low = {std::numeric_limits<double>::infinity(),
                                std::numeric_limits<double>::infinity()};
@@ -18,8 +18,8 @@ struct Seen {
                                 -std::numeric_limits<double>::infinity()};
 };
 
-/// Adds where a ray from the camera meets the planes of the lowest and the highest ground. Returns false if it goes
-/// up, or so nearly level that it meets them far away.
+/// Adds the intersections of a ray from the camera with the planes of the lowest and the highest ground. False if it
+/// goes up, or is so nearly level that it meets them far away.
 bool add_ray(const std::array<double, 16>& pose, double x, double y, double lowest_m, double highest_m,
              Seen& seen) {
   constexpr double kLeastDown = 0.02;
@@ -39,7 +39,7 @@ bool add_ray(const std::array<double, 16>& pose, double x, double y, double lowe
   return true;
 }
 
-/// The first cell and how many, from the place of the seen part along an axis.
+/// Range of cells, first and count, that covers an interval along an axis.
 std::array<std::size_t, 2> cells_of(const GroundMaps& maps, double low_m, double high_m) {
   const double per_m = static_cast<double>(maps.cells) / maps.size_m;
   const auto last = static_cast<double>(maps.cells) - 1;
@@ -57,7 +57,7 @@ GroundWindow window_of(const GroundMaps& maps, const Manifest& manifest) {
   const auto lowest_m = static_cast<double>(*lowest);
   const auto highest_m = static_cast<double>(*highest);
   const CameraIntrinsics& camera = manifest.camera;
-  // Half a picture more on each side: lenses that distort, and overscan, see beyond a pinhole's picture.
+  // Half a picture more on each side, because distorting lenses and overscan exceed a pinhole's picture.
   const double reach_x = (1.0 * camera.width_px + manifest.overscan_px) / camera.fx_px;
   const double reach_y = (1.0 * camera.height_px + manifest.overscan_px) / camera.fy_px;
   const bool distorted = !manifest.lens.is_none() || manifest.overscan_px > 0;

@@ -17,7 +17,7 @@ struct GroundWindow {
   [[nodiscard]] bool operator==(const GroundWindow&) const = default;
 };
 
-/// The cells that a clip may show, with a margin for interpolation: at least one cell, all of them if a frame has no pose
+/// The cells that a clip may show, with a margin for interpolation: at least one cell; all cells if a frame has no pose
 /// or shows the horizon.
 [[nodiscard]] GroundWindow window_of(const GroundMaps& maps, const Manifest& manifest);
 

@@ -7,7 +7,7 @@
 
 namespace thermal {
 
-/// Temperatures by the heat balance: those of the weather's day, and what is known of the ground.
+/// Inputs of temperatures by the heat balance: the weather's day, and maps of the ground.
 struct HeatSettings {
   std::shared_ptr<const HeatOfDay> day;
   std::shared_ptr<const GroundMaps> ground;  ///< null: open level ground everywhere

@@ -19,7 +19,7 @@ float along(const kernels::CameraAxis& axis, const Row& row, std::size_t i) {
   return axis.right * row.ray_x[i] + axis.down * row.ray_y[i] + axis.forward;
 }
 
-/// Which surfaces are ground with maps: 1, others 0.
+/// Flags of surfaces that are ground with maps: 1, others 0.
 std::vector<std::int32_t> ground_among(const std::vector<HeatedSurface>& surfaces) {
   std::vector<std::int32_t> is_ground;
   for (const HeatedSurface& surface : surfaces)
@@ -105,10 +105,10 @@ class HeatedEmission {
   }
 
  private:
-  /// Than the middle of the span.
+  /// Offset of a frame from the middle of the span [h].
   [[nodiscard]] float later_h(const Row& row) const noexcept { return row.later_h - middle_h_; }
 
-  /// Where the tables end.
+  /// Emission beyond the range of the tables.
   void emit_hot(Row& row) const {
     for (std::size_t i = 0; i < row.surface.size(); ++i) {
       if (row.temperature_k[i] >= RadianceTable::kHottest)
@@ -142,7 +142,7 @@ class HeatedEmission {
     }
   }
 
-  /// Four pixels at a time, then one by one.
+  /// Compares four pixels at a time, then one by one.
   static std::size_t end_of_run(std::span<const std::uint16_t> surface, std::size_t begin) {
     constexpr std::uint64_t kEach = 0x0001000100010001;
     const std::uint64_t all_alike = kEach * surface[begin];
@@ -221,7 +221,7 @@ class HeatedEmission {
   std::vector<std::int32_t> first_node_;
   std::vector<const RadianceTable*> table_;
   bool varies_ = false;  ///< any of them
-  bool hot_ = false;     ///< something may be hotter than the tables
+  bool hot_ = false;     ///< something may exceed the tables' range
 };
 
 }  // namespace

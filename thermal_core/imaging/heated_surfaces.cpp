@@ -13,19 +13,22 @@ namespace {
 
 const std::string kWholeBody;
 
-/// What a crown leaves of sky and sun to the wood below it: an estimate.
+/// Share of sky and sun that a crown leaves to the wood below it: an estimate.
 constexpr double kBelowCrown = 0.6;
 
 /// Largest horizontal part of the normals of ground: 50 deg.
 constexpr float kSteepestGround = 0.77F;
 
+/// The material that animals bathe in.
+constexpr const char* kBath = "water";
+
 bool is_fire(const Material& material) {
   return material.body_heat && std::holds_alternative<FirePart>(*material.body_heat);
 }
 
-/// Materials whose tables a scene needs; bathing animals come out of water that nothing shows.
+/// Materials whose tables a scene needs, including what animals bathe in, which may not be visible.
 std::set<std::string> heated_materials(const std::vector<Surface>& surfaces, const HeatSettings& settings) {
-  std::set<std::string> names = {"water"};
+  std::set<std::string> names = {kBath};
   for (const Surface& surface : surfaces)
     if (surface.material->heat_of(surface.part) != nullptr)
       names.insert(surface.material->heat_name(surface.part));
@@ -52,7 +55,7 @@ HeatedSurfaces::HeatedSurfaces(const std::vector<Surface>& surfaces, const std::
       moment_(settings.day->at(weather.solar_h + later_s / 3600, heated_materials(surfaces, settings))) {
   std::size_t of_first_class = 1;
   for (const Surface& surface : surfaces) {
-    // What no actor's state concerns is the same in all classes.
+    // Surfaces that do not depend on an actor's state are the same in all classes.
     const bool concerned =
         surface.actor_class == 0 || surface.material->body_heat_of(surface.part) != nullptr;
     surfaces_.push_back(concerned ? heat_of(surface) : surfaces_[surfaces_.size() % of_first_class]);
@@ -125,7 +128,7 @@ BodyMoment HeatedSurfaces::moment_of(const ActorState& actor) const {
   moment.vehicle = actor.vehicle;
   moment.since_bath_s = actor.since_bath_s;
   moment.fire = actor.fire;
-  if (const auto water = moment_.materials.find("water"); water != moment_.materials.end())
+  if (const auto water = moment_.materials.find(kBath); water != moment_.materials.end())
     moment.refuge_k = water->second.temperature_k(open_place());
   return moment;
 }
@@ -154,7 +157,7 @@ void HeatedSurfaces::set_cover(const MaterialMoment& by_place, HeatedSurface& he
   heated.steepest = kSteepestGround;
   if (!terms_.place) return;
   heated.kind = HeatedSurface::Kind::ground;
-  heated.variation_stddev_k = 0;  // its mixture varies
+  heated.variation_stddev_k = 0;  // the ground's mixture has its own variation
 }
 
 }  // namespace thermal

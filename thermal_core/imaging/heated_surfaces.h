@@ -10,12 +10,12 @@
 
 namespace thermal {
 
-/// What the passes of a scene allow, and which terms it keeps.
+/// Inputs that the passes of a scene provide, and terms that it keeps.
 struct SceneHeatTerms {
   bool parts = false;
   bool variation = false;  ///< depths and poses are known
   bool place =
-      false;  ///< the same, and maps of the ground; otherwise all places are open, and leaves mid-crown
+      false;  ///< the same, and maps of the ground; otherwise the ground is open, and leaves are mid-crown
   bool facing = false;  ///< normals and poses are known; otherwise ground faces up, and bodies sideways
 };
 
@@ -25,8 +25,8 @@ struct SceneHeatTerms {
 /// The surfaces of a scene and their temperatures at one moment: `middle` of each.
 class HeatedSurfaces {
  public:
-  /// @param states  of actors in the middle of the clip, by the class of a surface
-  /// @param later_s  of the moment than the middle of the clip, whose weather is given
+  /// @param states  of actors at the clip's midpoint, by the class of a surface
+  /// @param later_s  offset of the moment from the clip's midpoint, whose weather is given
   HeatedSurfaces(const std::vector<Surface>& surfaces, const std::vector<ActorState>& states,
                  const HeatSettings& settings, const Weather& weather, double later_s,
                  const SceneHeatTerms& terms);

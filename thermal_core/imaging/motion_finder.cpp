@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::size_t kMotionRowsAChunk = 16;
 constexpr float kMostMotionPx = 4096;
-constexpr float kApartPx = 0.25F;  // by which an actor moves otherwise than its background
+constexpr float kApartPx = 0.25F;  // least difference between the motions of an actor and its background
 constexpr int kLongestTrailPx = 256;
 
 using Matrix = std::array<double, 9>;
 using Vector = std::array<double, 3>;
 
-/// A rigid motion: turn p + shift.
+/// A rigid motion: rotation `turn`, then `shift`.
 struct Rigid {
   Matrix turn{1, 0, 0, 0, 1, 0, 0, 0, 1};
   Vector shift{};
@@ -32,7 +32,7 @@ Vector turned(const Matrix& m, const Vector& v) {
 
 Matrix transposed(const Matrix& m) { return {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]}; }
 
-/// First `first`, then `next`.
+/// Composition: `first`, then `next`.
 Rigid then(const Rigid& first, const Rigid& next) {
   Rigid both;
   for (std::size_t row = 0; row < 3; ++row) {
@@ -94,7 +94,7 @@ struct Lens {
         p2(static_cast<float>(lens.p2)) {}
 };
 
-/// Where the lens shows a direction, from the principal point [px]; distort() in single precision.
+/// Position in the lens's picture of a direction, relative to the principal point [px]; distort() in single precision.
 VELDT_INLINE void shown_at(const Lens& lens, float x, float y, float& right_px, float& down_px) {
   const float r2 = x * x + y * y;
   const float radial = 1 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3));
@@ -102,7 +102,7 @@ VELDT_INLINE void shown_at(const Lens& lens, float x, float y, float& right_px, 
   down_px = lens.fy * (y * radial + lens.p1 * (r2 + 2 * y * y) + 2 * lens.p2 * x * y);
 }
 
-/// NaN and what is behind the other camera do not move.
+/// 0 for NaN and points behind the other camera.
 VELDT_INLINE void motion_at(const Lens& lens, const MotionFinder::Transform& to, float scale, float ray_x,
                             float ray_y, float depth_m, float& x_px, float& y_px) {
   const float depth = depth_m < kSkyFromM ? depth_m : kSkyFromM;
@@ -156,7 +156,7 @@ std::vector<std::int32_t> shown_pixels(const Manifest& manifest, const CameraInt
   return shown;
 }
 
-/// Depth and index of the samples that planes with all samples would be read at: those of finer pixels replaced.
+/// Depth and index of adaptively sampled passes at the samples that expanded planes would be read at.
 Passes read_at_samples(const Passes& passes) {
   Passes out;
   out.depth_m = passes.depth_m;
@@ -270,9 +270,9 @@ void MotionFinder::find_row(const Plane<float>& depth_m, const Step& step, int y
              depths, count, out.x_px.row(y).data(), out.y_px.row(y).data());
 }
 
-/// An actor's pixels, then the trails behind them, in the order of the picture: the last one keeps a pixel.
+/// An actor's pixels, then the trails behind them, in the order of the picture: the last actor wins.
 void MotionFinder::move_actors(const Passes& passes, const Step& step, ImageMotion& out) const {
-  std::vector<std::uint16_t> number_of(65536, 0);  // 1 + position among the step's actors
+  std::vector<std::uint16_t> number_of(65536, 0);  // 1 + index among the step's actors
   for (std::size_t i = 0; i < step.actors.size(); ++i)
     number_of[step.actors[i].index] = static_cast<std::uint16_t>(i + 1);
   struct Seen {

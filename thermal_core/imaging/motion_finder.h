@@ -13,13 +13,13 @@
 
 namespace thermal {
 
-/// How the picture of each frame moves, by depth, the camera's poses and those of the actors.
+/// Motion of the picture of each frame, from depth, the camera's poses and those of the actors.
 ///
-/// A pixel's motion is how far what it shows moved since the frame before; in a clip's first frame, until the next one.
-/// Frames are 1 / frame_rate_hz apart, whatever their times say, or if their times grow by more, moved in proportion.
-/// Actors move rigidly, as their poses do; limbs do not, nor do plants. Sky moves with the camera's rotation. Behind an
-/// actor that moves otherwise than its background, pixels that it has just left move as it does, so that they still see
-/// it. Pixels without a usable depth, and frames without a usable pose here or before, do not move.
+/// A pixel's motion is that of its surface since the frame before; in a clip's first frame, until the next one. Frames
+/// are taken to be 1 / frame_rate_hz apart; if their times grow by more, motion is scaled in proportion. Actors move
+/// rigidly with their poses; limbs and plants do not move. Sky moves with the camera's rotation. Pixels that a moving
+/// actor has just left move with it, so that they still show it. Pixels without a usable depth, and frames without a
+/// usable pose here or before, do not move.
 class MotionFinder {
  public:
   /// @param lens  as FrameConverter's, which has checked it
@@ -35,7 +35,7 @@ class MotionFinder {
   void find(const Passes& passes, const ManifestFrame& before, const ManifestFrame& now,
             ImageMotion& out) const;
 
-  /// From where a camera sees a point to where it was seen: p' = turn p + shift, in camera axes [m].
+  /// Transform of a point from a camera's axes to those of the other frame: p' = turn p + shift [m].
   struct Transform {
     std::array<float, 9> turn{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row-major
     std::array<float, 3> shift_m{};
@@ -46,12 +46,12 @@ class MotionFinder {
     std::uint16_t index = 0;
     Transform transform;
   };
-  /// From a frame to the one before, or of a first frame to the next.
+  /// From a frame to the one before, or from the first frame to the next.
   struct Step {
     bool moves = false;  ///< anything
     bool camera_moves = false;
     float scale = 0;            ///< of the motion; negative: the other frame is the next
-    Transform camera;           ///< of what does not move
+    Transform camera;           ///< of static surfaces
     std::vector<Moved> actors;  ///< those whose transform differs
   };
   struct Sources;

@@ -6,12 +6,12 @@
 
 namespace thermal {
 
-/// How many of the pixels that show a surface hold what a term can compute with.
+/// Usability of a plane at pixels that show a surface.
 struct PlaneCheck {
   std::int64_t pixels = 0;    ///< that show a surface, in frames whose plane was read
   std::int64_t unusable = 0;  ///< of those
 
-  /// 0 where no pixel was looked at.
+  /// 0 if no pixel was checked.
   [[nodiscard]] double share() const noexcept {
     return pixels == 0 ? 0 : static_cast<double>(unusable) / static_cast<double>(pixels);
   }
@@ -19,7 +19,7 @@ struct PlaneCheck {
   [[nodiscard]] bool operator==(const PlaneCheck&) const = default;
 };
 
-/// What the planes held that the terms read. Sky is not counted: renderers write anything there.
+/// Usability of the planes that the terms read. Sky is not counted: renderers write anything there.
 struct PassChecks {
   PlaneCheck depth;  ///< unusable: NaN, or outside of kDistanceM
   PlaneCheck
@@ -29,7 +29,7 @@ struct PassChecks {
   [[nodiscard]] bool operator==(const PassChecks&) const = default;
 };
 
-/// Counts a row: those of its planes that are there.
+/// Checks the planes that a row has.
 [[nodiscard]] PassChecks check_row(const Row& row) noexcept;
 
 }  // namespace thermal

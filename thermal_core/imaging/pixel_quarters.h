@@ -11,11 +11,11 @@
 
 namespace thermal {
 
-/// Samples of a clip's frames behind a lens. Quarters of pixels are known if samples are an even number along each side
-/// and no picture is resampled for the lens.
+/// Sampling of a clip's frames behind a lens. Quarters of pixels are known if there is an even number of samples along
+/// each side and no picture is resampled for the lens.
 [[nodiscard]] PixelSampling pixel_sampling(const Manifest& manifest, const LensDistortion& lens);
 
-/// Planes of this size, 0 everywhere. Memory is reused.
+/// Sets planes of this size to 0. Memory is reused.
 void clear_detail(int width_px, int height_px, SubpixelDetail& detail);
 
 /// A pixel's detail from the means of its quarters: top left, top right, bottom left, bottom right. 0 if one is not
@@ -28,9 +28,9 @@ class QuarterSums {
   /// @param factor  samples along each side of a pixel
   explicit QuarterSums(int factor);
 
-  /// A new row, of so many pixels.
+  /// Starts a row of so many pixels.
   void begin(std::size_t pixels);
-  /// Its next line of samples, `line` from 0.
+  /// Adds its next line of samples, `line` from 0.
   void add(int line, std::span<const float> samples);
 
   [[nodiscard]] float mean(std::size_t pixel) const noexcept;

@@ -36,7 +36,7 @@ VELDT_CLONES void interpolate(const float* __restrict in, Steps steps, const std
   }
 }
 
-/// The last pixel at or before a position that has a next one, and the fraction beyond it.
+/// Splits a position into the last pixel at or before it that has a successor, and the fraction beyond it.
 std::pair<int, float> split(double place_px, int size_px) noexcept {
   const double inside_px = std::clamp(place_px, 0.0, size_px - 1.0);
   const int first = std::min(static_cast<int>(inside_px), std::max(size_px - 2, 0));

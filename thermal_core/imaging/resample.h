@@ -19,14 +19,14 @@ class ResampleMap {
   [[nodiscard]] int width_px() const noexcept { return width_px_; }
   [[nodiscard]] int height_px() const noexcept { return height_px_; }
 
-  /// Radiance as the lens shows it: bilinear between the centres of four pixels. If one of the four is not finite,
-  /// neither is the result; other pixels are unaffected. A crop copies.
+  /// Radiance as shown by the lens: bilinear between the centres of four pixels; not finite if one of the four is not.
+  /// A crop copies.
   void resample_linear(const Plane<float>& in, Plane<float>& out) const;
 
-  /// Indices as the lens shows them: the nearest pixel's.
+  /// Indices as shown by the lens, from the nearest pixel.
   [[nodiscard]] Plane<std::uint16_t> resample_nearest(const Plane<std::uint16_t>& in) const;
 
-  /// How often resample_nearest() uses each pixel of the pinhole picture.
+  /// Number of uses of each pixel of the pinhole picture by resample_nearest().
   [[nodiscard]] Plane<std::uint16_t> times_shown() const;
 
  private:

@@ -19,7 +19,7 @@ inline float along(const CameraAxis& axis, float ray_x, float ray_y) noexcept {
   return axis.down * ray_y + axis.forward + axis.right * ray_x;
 }
 
-/// Of the absorption's polynomials at a range; those at the farthest beyond it, and for NaN.
+/// Value of the absorption's polynomials at a range; constant beyond the farthest, and for NaN.
 VELDT_INLINE float share_at(const Absorption& a, float range_m) noexcept {
   const float within_m = range_m < a.farthest_m ? range_m : a.farthest_m;
   const float clamped_m = within_m > 0 ? within_m : 0.0F;
@@ -28,7 +28,7 @@ VELDT_INLINE float share_at(const Absorption& a, float range_m) noexcept {
   return clamped_m < a.near_end_m ? near : far;
 }
 
-/// How far a normal points away from the camera, times the length of the ray.
+/// Component of a normal away from the camera, times the length of the ray.
 VELDT_INLINE float inward(const CameraAxis& x, const CameraAxis& y, const CameraAxis& z, float nx, float ny,
                           float nz, float ray_x, float ray_y) noexcept {
   return nx * along(x, ray_x, ray_y) + ny * along(y, ray_x, ray_y) + nz * along(z, ray_x, ray_y);
@@ -49,7 +49,7 @@ VELDT_CLONES void find_places(const PlaceInput& in, float* __restrict x, float* 
     const float depth = p.depth_m[i] * scale;
     x[i] = p.origin_x_m * scale + depth * along(p.x, p.ray_x[i], p.ray_y[i]);
     y[i] = p.origin_y_m * scale + depth * along(p.y, p.ray_x[i], p.ray_y[i]);
-    footprint[i] = depth > 0 ? depth * p.pixel_width : -1.0F;  // the field gives its mean there
+    footprint[i] = depth > 0 ? depth * p.pixel_width : -1.0F;  // where the field gives its mean
   }
 }
 
@@ -69,7 +69,7 @@ VELDT_CLONES void find_all_metres(const MetresInput& in, float* __restrict x_m, 
     footprint_m[i] = footprint;
     const auto bits = std::bit_cast<std::uint32_t>(footprint);
     const auto ordered = static_cast<std::int32_t>(bits);
-    smallest = bits < smallest ? bits : smallest;  // the sign makes a negative one large
+    smallest = bits < smallest ? bits : smallest;  // the sign bit makes a negative one large
     largest = ordered > largest ? ordered : largest;
   }
   range = {.smallest = smallest, .largest = largest};
@@ -99,7 +99,7 @@ VELDT_CLONES void emit_varied(const VariedInput& in, float* __restrict radiance,
 
 namespace {
 
-/// A smooth wave of period 1 and amplitude 1: parabolas in place of a sine.
+/// A smooth wave of period 1 and amplitude 1: parabolas instead of a sine.
 VELDT_INLINE float wave(float x) noexcept {
   const auto whole = static_cast<std::int32_t>(x);
   const float part = 2 * (x - static_cast<float>(whole));  // -2 to 2
@@ -111,7 +111,7 @@ VELDT_INLINE float wave(float x) noexcept {
 
 VELDT_CLONES void unsettle(const UnsettledInput& in, float* __restrict x, float* __restrict y,
                            float* __restrict footprint, std::size_t count) noexcept {
-  // In correlation lengths. Two oblique waves: together they stretch and shrink by at most 22 %.
+  // In correlation lengths. The sum of two oblique waves stretches and shrinks by at most 22 %.
   constexpr float kLong = 127.3F;
   constexpr float kLonger = 171.7F;
   constexpr float kSlant = 0.7F;

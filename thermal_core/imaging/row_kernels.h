@@ -17,7 +17,7 @@ struct CameraAxis {
   float right, down, forward;
 };
 
-/// Where the ray of each pixel meets a surface, and the pixel's size there, in correlation lengths.
+/// Intersections of pixels' rays with their surfaces, and the pixels' size there, in correlation lengths.
 struct PlaceInput {
   const std::uint16_t* surface;
   const float* per_correlation_length;  ///< by surface
@@ -30,8 +30,8 @@ struct PlaceInput {
 };
 void find_places(const PlaceInput& in, float* x, float* y, float* footprint, std::size_t count) noexcept;
 
-/// Smallest and largest footprint of pixels that have one, 0 or more: as bits, which positive floats are ordered as.
-/// NaN and infinity count as large. Without any the largest is negative.
+/// Smallest and largest footprint of pixels that have one, 0 or more, as IEEE-754 bits, which are monotonic for
+/// non-negative floats. NaN and infinity count as large. Without any, the largest is negative.
 struct FootprintRange {
   std::uint32_t smallest = 0xFFFFFFFF;
   std::int32_t largest = -1;
@@ -49,8 +49,8 @@ struct MetresInput {
 [[nodiscard]] FootprintRange find_metres(const MetresInput& in, float* x_m, float* y_m, float* footprint_m,
                                          std::size_t count) noexcept;
 
-/// Radiance of temperatures that vary about each surface's mean, linear between the nodes of its table. A surface
-/// with constant temperature has a single node, a position of 0 and a spread of 0.
+/// Radiance of temperatures that vary about each surface's mean, interpolated linearly in its table. A surface with
+/// constant temperature has a single node, a position of 0 and a spread of 0.
 struct VariedInput {
   const std::uint16_t* surface;
   const float* position;      ///< by surface: position of its mean temperature among its nodes
@@ -62,19 +62,19 @@ struct VariedInput {
 };
 void emit_varied(const VariedInput& in, float* radiance, std::size_t count) noexcept;
 
-/// Places and sizes in metres in correlation lengths, and turned so slowly that it is not visible, and by so much
-/// that a field which repeats itself no longer does so at the same distance everywhere.
+/// Converts positions and sizes from metres to correlation lengths, and warps them slowly and invisibly, so that a
+/// periodic field does not repeat at the same distance everywhere.
 struct UnsettledInput {
   const std::uint16_t* surface;
   const float* per_correlation_length;  ///< by surface [1/m]
   const float* x_m;
   const float* y_m;
-  const float* footprint_m;  ///< negative where there is no place
+  const float* footprint_m;  ///< negative where there is no surface
 };
 void unsettle(const UnsettledInput& in, float* x, float* y, float* footprint, std::size_t count) noexcept;
 
-/// Temperatures of one surface by its normals, as Orientation has them. Normals that face away from the camera are
-/// turned round; those that are far from unit length count as facing up, those steeper than `steepest` as that steep.
+/// Temperatures of one surface from its normals, see Orientation. Normals that face away from the camera are flipped;
+/// those far from unit length count as facing up, those steeper than `steepest` are clamped to it.
 struct FacingInput {
   const float* nx;
   const float* ny;
@@ -155,7 +155,7 @@ struct PathInput {
 };
 void pass_air(const PathInput& in, const Absorption& absorption, float* radiance, std::size_t count) noexcept;
 
-/// Adds `more_w_m2_sr` times a share of the path, in the form of an absorption, to pixels that show a surface.
+/// Adds `more_w_m2_sr` times the path's share from an absorption, to pixels that show a surface.
 struct WarmAirInput {
   const std::uint16_t* surface;
   const float* depth_m;

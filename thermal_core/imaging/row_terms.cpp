@@ -11,7 +11,7 @@
 namespace thermal {
 namespace {
 
-/// One figure of every surface, as a lookup table by surface number.
+/// One property of every surface, as a lookup table by surface number.
 template <typename T = float, typename Get>
 std::vector<T> column(const SurfaceOpticsList& surfaces, const Get& get) {
   std::vector<T> values;
@@ -24,7 +24,7 @@ kernels::CameraAxis axis_of(const Row& row, std::size_t axis) {
   return {.right = r[0], .down = r[1], .forward = r[2]};
 }
 
-/// A function of the cosine at which water or sky is seen, tabulated, because its functions are slow.
+/// A function of the cosine of viewing angle for water or sky, tabulated, because it is slow.
 class AngleCurve {
  public:
   template <typename Function>
@@ -214,9 +214,9 @@ RowTerm angular_emissivity(const SurfaceOpticsList& surfaces) {
 
 namespace {
 
-/// The surfaces that a row's water mirrors, as a row of their own.
+/// The surfaces that a row's water mirrors, as a separate row.
 struct MirroredRow {
-  /// Of the water pixels `from`.
+  /// For the water pixels `from`.
   MirroredRow(const Row& row, std::vector<std::size_t> from_pixels)
       : from(std::move(from_pixels)),
         pose(*row.pose),
@@ -268,7 +268,7 @@ struct MirroredRow {
   std::vector<float> ray_length;
   std::vector<float> depth_m;
   std::array<std::vector<float>, 3> normal;
-  std::vector<float> leg_m;  ///< of the depth, from the water on
+  std::vector<float> leg_m;  ///< part of the depth from the water on
   std::vector<float> origin_z_m;
   std::vector<float> radiance_w_m2_sr;
   Row seen;
@@ -300,7 +300,7 @@ RowTerm sky_reflection(const BandAir& air) {
   const auto sky_deficit = static_cast<float>(1 - air.sky_emissivity());
   const AngleCurve mirrored([&air](double cosine) { return air.sky_emissivity(cosine); });
   return [sky_deficit, mirrored](Row& row) {
-    // Water first: the diffuse kernel that follows then has nothing left to reflect there.
+    // Water first: nothing is left there for the diffuse kernel that follows.
     for (const std::size_t i : row.water) {
       row.radiance_w_m2_sr[i] += row.reflected_w_m2_sr[i] * mirrored.at(row.cosine[i]);
       row.reflected_w_m2_sr[i] = 0;

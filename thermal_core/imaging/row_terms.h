@@ -14,7 +14,7 @@
 
 namespace thermal {
 
-/// The figures of one surface that the terms read.
+/// Properties of one surface that the terms read.
 struct SurfaceOptics {
   float emitted_w_m2_sr = 0;         ///< at its mean temperature
   float emitted_as_air_w_m2_sr = 0;  ///< at air temperature
@@ -26,8 +26,8 @@ struct SurfaceOptics {
   const RadianceTable* table = nullptr;  ///< where the temperature varies
 };
 
-/// Some samples on one line of a frame as the terms process them, with buffers for intermediate results. Surface 0 is
-/// the sky.
+/// Some samples on one line of a frame, the input of the terms, with buffers for intermediate results. Surface 0 is the
+/// sky.
 struct Row {
   std::span<const std::uint16_t> surface;
   std::span<const float> ray_x;       ///< of the ray through each sample, z being 1, in camera axes
@@ -36,13 +36,13 @@ struct Row {
   float sample_width = 0;             ///< side of a sample at depth 1
   std::span<const float> depth_m;     ///< empty if no term needs it
   std::array<std::span<const float>, 3> normal;  ///< the same
-  /// What water mirrors, see Mirrored; surface 0 where that is the sky. Empty: nowhere anything else.
+  /// Surfaces mirrored by water, see Mirrored; 0: sky. Empty: only sky is mirrored.
   std::span<const std::uint16_t> mirrored_surface;
   std::span<const float> mirrored_depth_m;
   std::array<std::span<const float>, 3> mirrored_normal;
   const CameraPose* pose = nullptr;
   std::span<const float> origin_z_m;  ///< of the ray through each sample; empty: the pose's
-  float later_h = 0;                  ///< of the frame than the middle of its clip [h]
+  float later_h = 0;                  ///< offset of the frame from its clip's midpoint [h]
   std::span<float> radiance_w_m2_sr;
   std::vector<float> sky_view;           ///< fraction of the sky that a surface faces
   std::vector<float> cosine;             ///< of the viewing angle
@@ -53,33 +53,33 @@ struct Row {
   std::vector<float> footprint;
   std::array<std::vector<float>, 3> metres;  ///< the same three in metres, of heated_emission()
   std::vector<float> variation;
-  std::vector<float> even_k;           ///< of surfaces that are everywhere as warm, by surface
-  std::vector<float> temperature_k;    ///< where it follows the weather
+  std::vector<float> even_k;           ///< by surface: of those with a uniform temperature
+  std::vector<float> temperature_k;    ///< of heated_emission()
   std::vector<float> ground_sky_view;  ///< by maps of the ground; -1 where they have none
 };
 
 /// Adds one term to a row. A scene's chain is a list of these; dropped terms are not in it.
 using RowTerm = std::function<void(Row&)>;
 
-/// Those of each surface of a scene.
+/// Properties of each surface of a scene.
 using SurfaceOpticsList = std::vector<SurfaceOptics>;
 
 /// Emission of every surface at its mean temperature.
 [[nodiscard]] RowTerm emission(const SurfaceOpticsList& surfaces);
 
-/// Emission of the sky by the angle at which it is seen, for pixels without a surface; others stay as they are. See
-/// BandAir::sky_emissivity(); a ray that goes down meets the sky's rim.
+/// Emission of the sky by viewing angle, for pixels without a surface; others are unchanged. See
+/// BandAir::sky_emissivity(); rays below the horizon get the value at the horizon.
 [[nodiscard]] RowTerm sky_emission(const BandAir& air, float air_radiance_w_m2_sr);
 
 /// Emission with the fractal temperature field on the surfaces that have one. Where depth is not a positive finite
-/// number below 1e9, a surface has its mean; temperatures are clamped to the tables' 180 to 436 K.
+/// number below 1e9, the mean is used; temperatures are clamped to the tables' 180 to 436 K.
 [[nodiscard]] RowTerm varied_emission(const SurfaceOpticsList& surfaces, const VariationField& field);
 
 /// Computes sky_view and cosine from the normals. Normals that face away from the camera are flipped; those that are
 /// zero, NaN or far from unit length count as facing both sky and camera.
 [[nodiscard]] RowTerm orientation();
 
-/// Lists the row's water pixels, which reflect and fall off by functions of their own.
+/// Lists the row's water pixels, whose reflection and fall-off differ.
 [[nodiscard]] RowTerm water_pixels(const SurfaceOpticsList& surfaces);
 
 /// Applies the fall-off of emissivity with angle; the loss is added to `reflected`.
@@ -88,9 +88,8 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 /// Fills `reflected` with each surface's reflectivity at normal incidence. Must precede angular_emissivity.
 [[nodiscard]] RowTerm reflectivity(const SurfaceOpticsList& surfaces);
 
-/// Adds the reflection of surfaces by water that mirrors them: what `terms` make of these surfaces, and `path`, which
-/// may be empty, of the air between them and the water. They are then no longer in `reflected`. Must precede
-/// sky_reflection().
+/// Adds the reflection of surfaces in water: the radiance of these surfaces by `terms`, and `path`, which may be empty,
+/// for the air between them and the water. It is then removed from `reflected`. Must precede sky_reflection().
 [[nodiscard]] RowTerm mirrored_surfaces(std::vector<RowTerm> terms, RowTerm path, float air_radiance_w_m2_sr);
 
 /// Adds the reflection of sky and surroundings: diffuse surfaces see a fraction sky_view of sky, water the mirror
@@ -101,8 +100,8 @@ using SurfaceOpticsList = std::vector<SurfaceOptics>;
 /// counts as 1000 m; the sky is unaffected.
 [[nodiscard]] RowTerm path(const BandAir& air, float air_radiance_w_m2_sr);
 
-/// What the path radiates more because the air is warmer towards the camera, whose radiance is `more_w_m2_sr` higher
-/// there than at the ground; see BandAir::mean_path_absorption(). Must follow path().
+/// Additional radiance of a path whose air is warmer towards the camera, where its radiance is `more_w_m2_sr` higher
+/// than at the ground; see BandAir::mean_path_absorption(). Must follow path().
 [[nodiscard]] RowTerm path_inversion(const BandAir& air, float more_w_m2_sr);
 
 }  // namespace thermal

@@ -22,7 +22,7 @@ std::vector<float> sunlit_cells(const GroundMaps& maps, const DayWeather& day, d
   const auto found = std::ranges::find(maps.sunlit, day.sun, &SunlitHours::path);
   if (found == maps.sunlit.end()) return {};
   const SunMemory memory = sun_memory(day, solar_h);
-  // Cells share few patterns of hours; low and high half of a pattern are looked up.
+  // Cells share few patterns of hours; the low and high half of a pattern index tables.
   constexpr std::size_t kHalf = 12;
   std::vector<float> low(1U << kHalf);
   std::vector<float> high(1U << kHalf);
@@ -41,7 +41,7 @@ std::vector<float> sunlit_cells(const GroundMaps& maps, const DayWeather& day, d
   return share;
 }
 
-/// Ground around a fire. What it took up while the fire burnt, it gives back as a bed does.
+/// Ground around a fire. After the fire, it returns the heat that it took up, as a bed does.
 WarmSpot fireside(const FirePlace& place, double later_s, const Surroundings& around) {
   constexpr double kReachM = 12;
   constexpr std::size_t kSteps = 96;
@@ -55,12 +55,12 @@ WarmSpot fireside(const FirePlace& place, double later_s, const Surroundings& ar
     const double warm_k = fireside_ground_k(state.fire, around, ground, around.ground_k, distance_m);
     spot.excess_k.push_back(static_cast<float>(left * (warm_k - around.ground_k)));
   }
-  const float last_k = spot.excess_k.back();  // without a step at its end
+  const float last_k = spot.excess_k.back();  // no step at its end
   for (float& excess_k : spot.excess_k) excess_k = std::max(0.0F, excess_k - last_k);
   return spot;
 }
 
-/// Even below the body, and vague at its rim (estimate); none where the ground is warmer than an animal.
+/// Uniform below the body, fading at its rim (estimate); nothing where the ground is warmer than an animal.
 WarmSpot warm_bed(const WarmBed& bed, double later_s, double ground_k) {
   constexpr double kReach = 1.1;
   constexpr double kEven = 0.85;
@@ -94,13 +94,13 @@ WarmSpots warm_spots(const Manifest& manifest, const HeatOfMoment& moment) {
   return WarmSpots(std::move(spots));
 }
 
-/// The surfaces at a moment of a clip.
+/// The surfaces at one moment of a clip.
 struct Moment {
-  double later_h = 0;  ///< than the middle of the clip
+  double later_h = 0;  ///< offset from the clip's midpoint [h]
   std::shared_ptr<const HeatedSurfaces> surfaces;
 };
 
-/// Two moments, between which temperatures follow straight lines.
+/// Two moments, between which temperatures are linear.
 struct Ends {
   Moment first;
   Moment last;
@@ -109,7 +109,7 @@ struct Ends {
   [[nodiscard]] double middle_h() const noexcept { return (first.later_h + last.later_h) / 2; }
 };
 
-/// Cuts a clip into spans.
+/// Divides a clip into spans.
 class Spans {
  public:
   explicit Spans(std::function<Moment(double later_h)> moment_at) : moment_at_(std::move(moment_at)) {}
@@ -130,7 +130,7 @@ class Spans {
     cut({middle, ends.last}, halvings - 1);
   }
 
-  /// How far open level surfaces are from a straight line.
+  /// Deviation of open level surfaces from linear change.
   static float bend_k(const Ends& ends, const Moment& middle) {
     float most_k = 0;
     for (std::size_t i = 0; i < middle.surfaces->surfaces().size(); ++i) {
@@ -146,7 +146,7 @@ class Spans {
   std::vector<Ends> spans_;
 };
 
-/// What an hour adds, and what is half-way between the ends.
+/// Sets the rate of change, and the value half-way between the ends.
 void set_between(const SurfaceWarmth& first, const SurfaceWarmth& last, double hours,
                  HeatedSurface& surface) {
   const auto set = [per_hours = hours > 0 ? static_cast<float>(1 / hours) : 0.0F](
@@ -181,7 +181,7 @@ const MaterialMoment& heat_of(const HeatOfMoment& moment, const std::string& mat
       fmt::format("material {}: no heat; expected of everything that ground is made of", material));
 }
 
-/// Ground of a clip by its maps.
+/// Ground of a clip from its maps.
 class GroundOfClip {
  public:
   GroundOfClip(const HeatSettings& settings, const Weather& weather, const Manifest& manifest,
@@ -214,7 +214,7 @@ class GroundOfClip {
     return sunlit_cells(maps_, day_.weather(), solar_h_ + moment.later_h);
   }
 
-  /// Cold air drains once the sun is down, and the sun ends that within half an hour (estimate).
+  /// Cold air drains after sunset; the sun ends that within half an hour (estimate).
   [[nodiscard]] double cold_pool_k(const Forcing& forcing) const {
     constexpr double kEndedSine = 0.1;
     return cold_pool_k_ * std::clamp(1 - forcing.sun[2] / kEndedSine, 0.0, 1.0);

@@ -16,17 +16,17 @@
 
 namespace thermal {
 
-/// How a material of the ground looks at a temperature [K].
+/// Appearance of a material of the ground at a temperature [K].
 struct GroundLook {
   GroundShift shift;       ///< see SoilLook
   double variation_k = 0;  ///< see GroundPart
 };
-/// That of each material, by its name.
+/// The appearance of each material, by its name.
 using GroundLookOf = std::function<GroundLook(const std::string& material, double temperature_k)>;
 
-/// Works out how each surface's temperature is found. Surfaces whose material has no heat have the temperature of their
-/// part by Table 1's line. A clip is one span, or several where open level surfaces bend by more than 10 mK from a
-/// straight line, as at sunrise; none is shorter than a sixteenth of the clip.
+/// Temperatures of a clip's surfaces by the heat balance. Surfaces whose material has no heat properties have their
+/// part's temperature on Table 1's line. A clip is one span, or several where the change of open level surfaces is
+/// nonlinear by more than 10 mK, as at sunrise; none is shorter than a sixteenth of the clip.
 /// @param states  of actors, by the class of a surface
 [[nodiscard]] SceneHeat heat_of_scene(const std::vector<Surface>& surfaces,
                                       const std::vector<ActorState>& states, const HeatSettings& settings,

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kSceneRowsAChunk = 8;
 
-/// In the planes' precision, so that pixels of the brightest material have exactly the brightest count.
+/// In single precision, as the planes, so that pixels of the brightest material have exactly the brightest level.
 float emitted(const Material& material, Season season, const SceneRadiance::RadianceOf& radiance_of) {
   return static_cast<float>(material.emissivity * radiance_of(material.temperature_k(season)));
 }
@@ -40,7 +40,7 @@ void check_varied_range(const Material& material, double mean_k) {
                   material.name, mean_k, reach_k, kLow, kHigh));
 }
 
-/// Whether it is known where the camera points. Otherwise the sky has its mean everywhere.
+/// Whether camera poses are known. Otherwise the sky has its mean everywhere.
 bool has_poses(const Manifest& manifest) {
   return !manifest.frames.empty() && std::ranges::all_of(manifest.frames, [](const ManifestFrame& frame) {
     return frame.camera_to_world.has_value();
@@ -61,7 +61,7 @@ CameraPose pose_in(const ManifestFrame& frame) {
 
 bool knows_ground(const SceneHeat& heat) { return heat.ground.has_value(); }
 
-/// Adds what work(begin, end) returns for chunks of the rows; sums of any order are equal.
+/// Sums the results of work(begin, end) over chunks of the rows, in any order.
 template <typename Work>
 PassChecks sum_over_rows(int rows, const Work& work) {
   const auto count = static_cast<std::size_t>(rows);
@@ -139,7 +139,7 @@ SceneRadiance::SceneRadiance(const Manifest& manifest, const MaterialLibrary& ma
   find_brightest();
 }
 
-/// All ground with maps is drawn as bare soil, whose temperatures tell its kinds apart.
+/// All ground with maps is drawn as bare soil; its temperatures distinguish its kinds.
 const Material& SceneRadiance::drawn_as(std::size_t surface, const MaterialLibrary& materials,
                                         const PhysicsSettings& settings) const {
   const bool is_ground =
@@ -265,7 +265,7 @@ float SceneRadiance::later_h(const ManifestFrame& frame) const noexcept {
   return static_cast<float>((frame.time_s - middle_s_) / 3600);
 }
 
-/// What a row's water mirrors. `numbers` holds the surfaces of the row, and is empty if none are mirrored.
+/// Prepares what a row's water mirrors. `numbers` receives the surfaces of the row, and is empty if none are mirrored.
 void SceneRadiance::begin_mirrored(const Mirrored<Plane>& mirrored, int y, std::span<std::uint16_t> numbers,
                                    Row& row) const {
   if (numbers.empty()) return;
@@ -324,7 +324,7 @@ PassChecks SceneRadiance::radiance(const Passes& passes, const ManifestFrame& fr
   });
 }
 
-/// A line of fine samples as the terms process it, in memory that the next line reuses.
+/// A line of fine samples as input of the terms, in memory that the next line reuses.
 struct SceneRadiance::FineLine {
   void begin(const FineSamples& fine, int y, int line, const CameraRays* rays, const PassNeeds& needs);
   void begin_mirrored(const Mirrored<SampleList>& mirrored, const SurfaceMap& map);
@@ -407,7 +407,7 @@ PassChecks SceneRadiance::refine(const FineSamples& fine, const ManifestFrame& f
   });
 }
 
-/// Of a line of samples.
+/// For a line of samples.
 PassChecks SceneRadiance::radiance_of(const FineSamples& fine, int y, int number, FineLine& line) const {
   const std::span materials(fine.material_index);
   line.begin(fine, y, number, held_->rays.get(), needs_);

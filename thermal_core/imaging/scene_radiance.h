@@ -31,11 +31,11 @@ struct PhysicsSettings {
   [[nodiscard]] bool operator==(const PhysicsSettings&) const = default;
 };
 
-/// The weather of a clip. If it is to follow from the heat balance, and there is one, the inversion is that of StableAir at
-/// the mean height of the frames above the ground, or at 61 m where none is known; otherwise as given.
+/// The weather of a clip. If inversion_by_balance is set and there is a heat balance, the inversion is that of
+/// StableAir at the mean height of the frames above the ground, or at 61 m if unknown; otherwise as given.
 [[nodiscard]] Weather with_inversion(const PhysicsSettings& settings, const Manifest& manifest);
 
-/// Radiance at the camera from everything that a clip's manifest names.
+/// Radiance at the camera of all surfaces of a clip's manifest.
 class SceneRadiance {
  public:
   /// In-band radiance [W m^-2 sr^-1] of a blackbody.
@@ -59,16 +59,16 @@ class SceneRadiance {
   /// manifest's. Safe to call from several threads; the result does not depend on their number.
   [[nodiscard]] Plane<float> radiance(const Passes& passes, const ManifestFrame& frame = {}) const;
 
-  /// The same into a plane whose memory is reused if it has the right size. Returns how usable the planes were.
+  /// The same into a plane whose memory is reused if it has the right size. Returns the usability of the planes.
   PassChecks radiance(const Passes& passes, const ManifestFrame& frame, Plane<float>& out) const;
 
-  /// The samples of passes that are sampled where it matters (Passes::fine): the mean over those of each of their
-  /// pixels replaces the pixel's radiance, and their quarters its detail if `detail` is given, a cleared one of the same
-  /// size. Returns how usable the samples were. Otherwise as radiance().
+  /// Radiance of adaptively sampled passes (Passes::fine): the mean over each pixel's samples replaces the pixel's
+  /// radiance, and their quarters its detail if `detail` is given, a cleared one of the same size. Returns the
+  /// usability of the samples. Otherwise as radiance().
   PassChecks refine(const FineSamples& fine, const ManifestFrame& frame, Plane<float>& out,
                     SubpixelDetail* detail = nullptr) const;
 
-  /// Radiance of the most radiant surface that the manifest names; of the sky if it names none.
+  /// Radiance of the most radiant surface of the manifest; of the sky if there is none.
   [[nodiscard]] float brightest_w_m2_sr() const noexcept { return brightest_w_m2_sr_; }
 
  private:
@@ -89,7 +89,7 @@ class SceneRadiance {
                       Row& row) const;
   [[nodiscard]] bool mirrors(bool is_sky) const noexcept { return needs_.mirrored && !is_sky; }
 
-  // The chain's terms point to these members, so none of them may move.
+  // The chain's terms point to these members, so they must not move.
   struct Held {
     SurfaceOpticsList optics;
     std::vector<std::unique_ptr<RadianceTable>> tables;
@@ -104,7 +104,7 @@ class SceneRadiance {
   std::vector<RowTerm> chain_;
   PassNeeds needs_;
   float brightest_w_m2_sr_ = 0;
-  double middle_s_ = 0;  ///< time of the frame in the middle of the clip
+  double middle_s_ = 0;  ///< time of the clip's middle frame
 };
 
 /// Radiance of the most radiant of the rows of Table 1.

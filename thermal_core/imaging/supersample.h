@@ -9,7 +9,7 @@
 
 namespace thermal {
 
-/// Means of blocks of factor x factor pixels; sides must be multiples of it. NaN spreads to its block.
+/// Means of blocks of factor x factor pixels; sides must be multiples of it. NaN propagates to its block.
 [[nodiscard]] Plane<float> block_means(const Plane<float>& fine, int factor);
 
 /// Index plane for labels: in each block of factor x factor pixels, the actor that covers at least half of it,

@@ -13,7 +13,7 @@
 
 namespace thermal {
 
-/// One kind of surface a manifest names: a material, or a part of one, on actors of one class.
+/// A kind of surface of a manifest: a material, or a part of one, on actors of one class.
 struct Surface {
   const Material* material = nullptr;
   std::string part;
@@ -22,15 +22,15 @@ struct Surface {
   [[nodiscard]] bool operator==(const Surface&) const = default;
 };
 
-/// Classes of actors whose surfaces have temperatures of their own: by object index, below `count`; objects beyond the
-/// list are of class 0.
+/// Classes of actors by state, which have separate surfaces: by object index, below `count`; objects beyond the list
+/// are of class 0.
 struct ActorClasses {
   std::vector<std::uint8_t> of_object;
   std::uint8_t count = 1;
 };
 
-/// The surfaces of the pixels of index planes. A pixel has the material of its material index; where that is 0 or
-/// there is no material plane, the material of its object. Object index 0 is the material "sky".
+/// Maps pixels of index planes to surfaces. A pixel has the material of its material index; where that is 0 or there is
+/// no material plane, the material of its object. Object index 0 is the material "sky".
 class SurfaceMap {
  public:
   static constexpr std::uint16_t kSky = 0;  ///< the number of the sky among surfaces()

@@ -20,7 +20,7 @@ namespace {
 using Temperatures = std::map<std::string, std::map<std::string, double>>;
 using Shifts = std::vector<SceneOutline::PlaceShift>;
 
-/// Of an actor that stands on open soil.
+/// State of an actor on open soil.
 BodyMoment open_moment(const Weather& weather, const Temperatures& temperatures) {
   const auto soil = temperatures.find("soil");
   BodyMoment moment = {
@@ -63,7 +63,7 @@ EastNorthUp tilted(double slope_deg, double aspect_deg) {
 
 constexpr double kAspectsDeg[] = {0, 90, 180, 270};
 
-/// How much of the pictures crowns fill, and water.
+/// Shares of the pictures that crowns and water fill.
 struct Shares {
   double crowns = 0;
   double water = 0;
@@ -73,12 +73,12 @@ Shares shares_of(const std::vector<SceneOutline::Cover>& covers) {
   Shares shares;
   for (const SceneOutline::Cover& cover : covers) {
     if (is_crown(*cover.material)) shares.crowns += cover.share;
-    if (cover.material->angular == AngularLaw::water) shares.water += cover.share;
+    if (cover.material->mirrors()) shares.water += cover.share;
   }
   return shares;
 }
 
-/// Columns of heat at one moment, at places of which those that matter are few.
+/// Heat columns at one moment, at few exposures.
 class Columns {
  public:
   Columns(const MaterialLibrary& library, const Weather& weather)
@@ -112,7 +112,7 @@ class Columns {
   std::vector<double> ground_k_;
 };
 
-/// Estimates: beside crowns lies as much ground as they cover, half as much is seen between and below them, and the
+/// Estimates: as much ground lies beside crowns as below them, half as much is seen between and below them, and the
 /// shore that water moistens is as large as the water.
 Shifts cover_places(const Columns& columns, const MaterialHeat& heat, const Shares& shares) {
   SurfacePlace beside = columns.open();
@@ -130,7 +130,7 @@ Shifts cover_places(const Columns& columns, const MaterialHeat& heat, const Shar
           {columns.at_k(heat, shore) - open_k, shares.water}};
 }
 
-/// Of leaves at depths below the top of a crown; a camera above sees most of the highest (estimates).
+/// Leaves at depths below the top of a crown; a camera above sees mostly the highest (estimates).
 Shifts crown_places(const Columns& columns, const LeavesHeat& heat) {
   constexpr std::pair<double, double> kDepths[] = {{0, 0.4}, {0.25, 0.3}, {0.5, 0.2}, {1, 0.1}};
   SurfacePlace place = columns.open();
@@ -144,7 +144,7 @@ Shifts crown_places(const Columns& columns, const LeavesHeat& heat) {
   return shifts;
 }
 
-/// Of ground on slopes of 5 deg, of stones and trunks that face the four winds.
+/// Ground on slopes of 5 deg, and stones and trunks that face the four cardinal directions.
 Shifts facing_of(const Columns& columns, const MaterialHeat& heat, bool is_body) {
   const double up_k = columns.at_k(heat, columns.open());
   Shifts shifts;
@@ -164,7 +164,7 @@ Shifts facing_of(const BodyHeat& heat, const BodyMoment& moment) {
   return shifts;
 }
 
-/// What a camp fire adds to the ground a metre away.
+/// Excess that a camp fire gives the ground a metre away.
 double fireside_k(const Surroundings& around) {
   return fireside_ground_k(CampFire(), around, GroundProperties(), around.ground_k, 1) - around.ground_k;
 }

@@ -10,7 +10,7 @@
 namespace thermal {
 namespace {
 
-/// What this user may not look into is not there.
+/// Folders that this user may not read count as missing.
 bool is_home(const Path& folder) {
   std::error_code ignored;
   return std::filesystem::is_directory(folder / "assets", ignored) &&

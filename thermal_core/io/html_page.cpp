@@ -35,7 +35,7 @@ std::string as_html(const std::string& text) {
   return html;
 }
 
-/// JSON in which an HTML parser finds no end of the enclosing script.
+/// JSON without "</", which would end the enclosing script.
 std::string as_script_data(const Json& json) {
   const std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
   std::string safe;

@@ -8,7 +8,7 @@
 
 namespace thermal {
 
-/// What one kind of page is made of.
+/// Parts of one kind of page.
 struct HtmlPage {
   std::string title;
   std::string kind;                  ///< follows the title, such as "Veldt report"

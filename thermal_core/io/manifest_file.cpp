@@ -167,13 +167,13 @@ Json head_of(const Manifest& manifest) {
 
 }  // namespace
 
-void write_manifest(const Path& file, const Manifest& manifest) {
+std::string to_text(const Manifest& manifest) {
   std::string frames;  // one a line
   for (const ManifestFrame& frame : manifest.frames)
     frames += (frames.empty() ? "\n  " : ",\n  ") + to_json(frame).dump();
   std::string text = head_of(manifest).dump(1);
   text.erase(text.rfind('\n'));
-  write_file_atomically(file, fmt::format("{},\n \"frames\": [{}\n ]\n}}\n", text, frames));
+  return fmt::format("{},\n \"frames\": [{}\n ]\n}}\n", text, frames);
 }
 
 ManifestObject manifest_object_of(const Json& json) {

@@ -14,9 +14,9 @@ namespace thermal {
 /// The same of a document; `name` begins faults.
 [[nodiscard]] Manifest parse_manifest(Json document, const std::string& name, const Assets& assets);
 
-/// Writes a manifest of passes with index planes, as blender_scripts/veldt/manifest.py does; what is not such a manifest's
-/// (a cryptomatte, colours, names of channels, a sequence) is left out. IoError as write_file_atomically().
-void write_manifest(const Path& file, const Manifest& manifest);
+/// A manifest of passes with index planes as JSON, one frame a line; members of other manifests (a cryptomatte, colours,
+/// names of channels, a sequence) are left out.
+[[nodiscard]] std::string to_text(const Manifest& manifest);
 
 /// Entries of a manifest, or of a baked scene, that conform to its schema.
 [[nodiscard]] ManifestObject manifest_object_of(const Json& json);

@@ -18,7 +18,7 @@ struct IndexPixels {
 /// contents: also after a failed read, which leaves it in an unspecified state.
 struct PassBuffer {
   Passes passes;
-  /// Of objects, materials, actors, mirrored objects, their materials, and places sampled.
+  /// Indices of objects, materials, actors, mirrored objects and their materials, and the mask of sampled pixels.
   std::array<IndexPixels, 6> pixels;
 };
 

@@ -8,7 +8,7 @@
 namespace thermal {
 namespace {
 
-/// The part [from, from + length] widened by a margin, and cut to [0, size] unless it was beyond already.
+/// Widens [from, from + length] by a margin, clipped to [0, size] unless it exceeds that already.
 void widen(double& from, double& length, double margin_px, int size_px) {
   const double end =
       std::max(from + length, std::min(from + length + margin_px, static_cast<double>(size_px)));
@@ -16,7 +16,7 @@ void widen(double& from, double& length, double margin_px, int size_px) {
   length = end - from;
 }
 
-/// On each side, so that a target fills a share of the drawn box.
+/// Margin on each side for a target that fills a share of the drawn box.
 double filling_margin_px(double visible_px, double share) noexcept {
   constexpr double kBeyondTargetPx = 0.3;
   return std::max(0.0, 0.5 * ((visible_px - 2 * kBeyondTargetPx) / share - visible_px));

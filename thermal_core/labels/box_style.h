@@ -33,7 +33,7 @@ struct BoxFill {
   [[nodiscard]] bool operator==(const BoxFill&) const = default;
 };
 
-/// The same by kind of target, as the people draw who label one set.
+/// The same by kind of target, as the annotators of one data set draw.
 struct DrawnFills {
   BoxFill people;
   BoxFill animals;
@@ -43,7 +43,8 @@ struct DrawnFills {
   [[nodiscard]] bool operator==(const DrawnFills&) const = default;
 };
 
-/// Of sets by name; empty for others. Medians of measure_drawn_fills(); what a set has too few of is as people are.
+/// Of sets by name; empty for others. Medians of measure_drawn_fills(); kinds with too few targets in a set have the
+/// fills of people.
 /// - hit_uav: 776 people in 160 night frames of HIT-UAV (Suo et al., Scientific Data 10:227, 2023).
 /// - birdsai: 44 people and 79 elephants in 300 night frames of three flights of BIRDSAI (Bondi et al., WACV 2020).
 [[nodiscard]] std::optional<DrawnFills> drawn_fills_named(std::string_view name) noexcept;

@@ -76,8 +76,8 @@ RunLengths mask_of(const Plane<std::uint16_t>& plane, std::uint16_t index, const
   bool inside = false;
   for (int x = box.x_px; x < box.x_px + box.width_px; ++x) {
     for (int y = box.y_px; y <= box.y_px + box.height_px; ++y) {
-      // One row past the box ends a column's run, unless box and frame are equally high: then the next column
-      // carries the run on.
+      // A column's run ends one row below the box, unless the box is as high as the frame: then the run continues into
+      // the next column.
       const bool past = y == box.y_px + box.height_px;
       if (past && box.height_px == plane.height_px()) break;
       const bool set = !past && plane.at(x, y) == index;

@@ -12,8 +12,8 @@
 
 namespace thermal {
 
-/// The id that a file of labels gives to a picture, a label or a category: a whole number or text. 1 and "1" differ;
-/// numbers precede texts.
+/// Id in a label file of a picture, a label or a category: a whole number or text. 1 and "1" differ; numbers precede
+/// texts.
 using LabelId = std::variant<std::int64_t, std::string>;
 
 /// For messages: 7, or "site1/0001" with quotes.
@@ -66,7 +66,7 @@ struct LabelCategory {
 struct LabelVideo {
   std::string name;
   double frame_rate_hz = 0;  ///< 0: unknown
-  bool in_time = true;       ///< false: nothing says in which order its pictures were taken
+  bool in_time = true;       ///< false: the order of its pictures is unknown
 };
 
 /// A picture that has labels.
@@ -89,7 +89,7 @@ struct Label {
   double area_px = 0;  ///< of the mask if there is one, otherwise of the box
   bool crowd = false;
   bool ignore = false;     ///< ignored: neither a detection nor a miss counts
-  bool noisy = false;      ///< the picture is frozen or disturbed
+  bool noisy = false;      ///< the picture is frozen or corrupted
   bool truncated = false;  ///< extends beyond the picture
   SizeClass size = SizeClass::medium;
   std::optional<std::int64_t> track_id;  ///< unique within its video

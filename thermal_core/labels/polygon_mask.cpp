@@ -25,7 +25,7 @@ std::int64_t nearest(double value) {
   return static_cast<std::int64_t>(value + 0.5);  // NOLINT(bugprone-incorrect-roundings)
 }
 
-/// One edge of a polygon as a line of points, in the direction of its longer axis.
+/// One edge of a polygon, sampled along its longer axis.
 class Edge {
  public:
   Edge(Corner from, Corner to)
@@ -37,7 +37,7 @@ class Edge {
                : is_wide_  ? static_cast<double>(to_.y - from_.y) / static_cast<double>(steps_)
                            : static_cast<double>(to_.x - from_.x) / static_cast<double>(steps_)) {}
 
-  /// Columns whose middle the edge may cross: from the first up to, and not including, the second.
+  /// Columns whose middle the edge may cross, as a half-open range.
   [[nodiscard]] std::pair<std::int64_t, std::int64_t> columns(int width_px) const {
     const auto [low, high] = std::minmax({point(0).x, point(steps_).x});
     return {std::max<std::int64_t>(0, (low - kMiddle + kFifths - 1) / kFifths),
@@ -80,8 +80,8 @@ class Edge {
   double slope_;
 };
 
-/// Places in column-major order where a polygon changes between outside and inside, in rising order.
-/// `crossings` counts those of all polygons.
+/// Positions in column-major order where a polygon toggles between outside and inside, ascending. `crossings` counts
+/// those of all polygons.
 std::vector<std::int64_t> changes_of(const std::vector<double>& polygon, int width_px, int height_px,
                                      std::int64_t& crossings) {
   const std::size_t corners = polygon.size() / 2;

@@ -6,5 +6,6 @@ set(left_out
     dataset/videos/cell_painter.h dataset/videos/drawing.h
     io/exr/file.h io/exr/indices.h io/exr/pixels.h io/image/module/
     io/image/picture_module.h io/image/png_calls.h io/video/ffmpeg.h io/video/h264_writer.h
-    raycast/embree.h raycast/first_hit.h raycast/frame_tracer.h raycast/place.h raycast/ray_packets.h
+    raycast/embree.h raycast/first_hit.h raycast/frame_tracer.h raycast/mirrors.h raycast/place.h
+    raycast/ray_packets.h
     raycast/refinement.h raycast/seen_triangles.h raycast/shot.h)

@@ -78,7 +78,7 @@ Plane<std::uint8_t> levels_of(const py::handle& given, const char* what) {
 Plane<std::uint16_t> index_plane_of(const py::handle& given, const char* what) {
   const py::array array = plane_in(given, what);
   const char kind = array.dtype().kind();
-  // Debian 12's pybind11 reads the size of NumPy 2's elements in the wrong place.
+  // Debian 12's pybind11 reads the element size of NumPy 2 at the wrong offset.
   const auto bytes = array.attr("itemsize").cast<py::ssize_t>();
   if (kind == 'b' || (kind == 'u' && bytes <= 2)) return to_indices_of<std::uint16_t>(array, what);
   if (kind == 'u') return to_indices_of<std::uint64_t>(array, what);

@@ -16,16 +16,17 @@ namespace thermal::python {
 
 namespace py = pybind11;
 
-/// Numbers of one type in C's order.
+/// Numbers of one type in C order.
 template <typename T>
 using ArrayOf = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
-/// The only ways from what users hand over to numbers. They take what numpy.asarray() makes an array of booleans, whole
-/// or real numbers from, in any order and with any strides. ConfigError "WHAT = …; expected …" for all else: texts,
-/// objects, dates, complex numbers, lists of different lengths, and more numbers than the normals of the largest picture.
+/// The only conversions from users' objects to numbers. They accept whatever numpy.asarray() converts to an array of
+/// booleans, whole or real numbers, in any order and with any strides. ConfigError "WHAT = …; expected …" for anything
+/// else: texts, objects, dates, complex numbers, lists of different lengths, and more numbers than the normals of the
+/// largest picture.
 [[nodiscard]] py::array numbers_in(const py::handle& given, const char* what);
 
-/// As numbers of type T, which is real: copied where they are of another type or not in C's order.
+/// As numbers of real type T: copied if they are of another type or not in C order.
 template <typename T>
 [[nodiscard]] ArrayOf<T> numbers_of(const py::handle& given, const char* what) {
   return ArrayOf<T>(numbers_in(given, what));
@@ -40,7 +41,7 @@ template <typename T>
 /// The same with two axes, of 1 to 256 million elements in all.
 [[nodiscard]] py::array plane_in(const py::handle& given, const char* what);
 
-/// A plane of real numbers [row, column]: a copy, because arrays belong to Python, which may change them.
+/// A plane of real numbers [row, column]: a copy, because Python may change its arrays.
 template <typename T>
 [[nodiscard]] Plane<T> plane_of(const py::handle& given, const char* what) {
   const ArrayOf<T> array(plane_in(given, what));
@@ -52,7 +53,7 @@ template <typename T>
 /// A plane of grey levels: numpy.uint8 alone, as any other type would have to be scaled.
 [[nodiscard]] Plane<std::uint8_t> levels_of(const py::handle& given, const char* what);
 
-/// A plane of indices, by to_indices(): DataError for the first number that is none.
+/// A plane of indices, by to_indices(): DataError for the first number that is not an index.
 [[nodiscard]] Plane<std::uint16_t> index_plane_of(const py::handle& given, const char* what);
 
 /// The pixels of a plane [row, column], without a copy: the array owns the plane.

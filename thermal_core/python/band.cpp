@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kValuesAChunk = 256;
 
-/// `function` of every value, on all cores.
+/// Applies `function` to every value, on all cores.
 template <typename Function>
 py::array_t<double> mapped(const py::object& given, const char* what, const Function& function) {
   const ArrayOf<double> values = numbers_of<double>(given, what);
@@ -36,7 +36,7 @@ py::array_t<double> mapped(const py::object& given, const char* what, const Func
   return results;
 }
 
-/// A response, the integrals over it, and the table that frames are made with, which is tabulated when it is first used.
+/// A response, the integrals over it, and the table used for frames, which is built at its first use.
 class Band {
  public:
   explicit Band(SpectralResponse response) : response_(std::move(response)), reference_(response_) {}

@@ -20,7 +20,7 @@ double within(double least, double most, double value, const char* what, const c
   throw ConfigError(fault(what, fmt::format("{}", value), unit, fmt::format("{} to {}", least, most)));
 }
 
-/// A camera, and the room for one frame. Calls from several threads take turns.
+/// A camera, with memory for one frame. Calls from several threads are serialised.
 class Camera {
  public:
   Camera(const std::string& sections, const std::string& home, const std::string& clip, std::uint32_t seed,

@@ -19,7 +19,7 @@
 namespace thermal::python {
 namespace {
 
-/// Planes by name, as Python gives them; absent ones are empty.
+/// Planes by name, from Python; absent ones are empty.
 Passes passes_of(const py::dict& planes) {
   Passes passes;
   const auto take_indices = [&planes](const char* name, Plane<std::uint16_t>& plane) {
@@ -38,7 +38,8 @@ Passes passes_of(const py::dict& planes) {
   return passes;
 }
 
-/// A clip that is begun with its first frame, whose planes decide on its terms. Calls from several threads take turns.
+/// A clip that is opened with its first frame, whose planes decide on its terms. Calls from several threads are
+/// serialised.
 class Converter {
  public:
   Converter(const std::string& manifest, const std::string& name, const std::optional<std::string>& config,

@@ -15,10 +15,10 @@ namespace {
 /// Latitude, longitude [deg] and height [m].
 using Position = std::array<double, 3>;
 
-/// Latitudes beyond `most_deg` are refused.
+/// ConfigError for latitudes beyond `most_deg`.
 GeoPosition geo_position_of(const Position& position, double most_deg) {
   const auto [latitude_deg, longitude_deg, height_m] = position;
-  // Not a number is refused too.
+  // Also for NaN.
   if (!(std::abs(latitude_deg) <= most_deg))
     throw ConfigError(
         fault("latitude", fmt::format("{}", latitude_deg), "deg", fmt::format("-{0} to {0}", most_deg)));

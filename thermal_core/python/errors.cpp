@@ -11,7 +11,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// Named and pickled as veldt.`name`, where users find it. Messages may quote bytes of files that are no UTF-8.
+/// Named and pickled as veldt.`name`, where users find it. Messages may quote bytes that are not UTF-8.
 template <typename Exception>
 py::object add_error(py::module_& module, const char* name, const char* meaning, const py::object& base) {
   static py::object type;

@@ -14,7 +14,7 @@
 namespace thermal::python {
 namespace {
 
-/// Of a dataset: links are not followed.
+/// Reads from a dataset without following links.
 template <typename T>
 py::array_t<T> array_of_png(const std::string& file, Plane<T> (*read)(const Path&)) {
   Plane<T> plane;

@@ -7,8 +7,8 @@
 
 namespace thermal::python {
 
-/// A frame as Python has it: ir8, ir16, whether the shutter was closed, and its labels as JSON, each label_entry() with
-/// its category. The pictures are copied: the clip reuses its frame.
+/// A frame for Python: ir8, ir16, whether the shutter was closed, and its labels as JSON, each label_entry() with its
+/// category. The pictures are copied: the clip reuses its frame.
 [[nodiscard]] pybind11::tuple tuple_of(const ClipImager::Frame& frame, const LiveClip& clip);
 
 }  // namespace thermal::python

@@ -44,7 +44,7 @@ class Day {
     return result;
   }
 
-  /// `normals`: (…, 3) for places (…).
+  /// `normals`: (…, 3) for exposures of shape (…).
   [[nodiscard]] py::array_t<double> temperatures_k(const std::string& material, double solar_h,
                                                    const py::object& sky_views, const py::object& sunlits,
                                                    const py::object& moistures,

@@ -15,8 +15,8 @@
 namespace thermal::python {
 namespace {
 
-/// Column-major run lengths as a plane of 0 and 1. DataError unless they cover it exactly, and for more pixels than are read of
-/// a picture.
+/// Column-major run lengths as a plane of 0 and 1. DataError unless they cover it exactly, and above the limit of
+/// pixels in a picture.
 Plane<std::uint8_t> mask_of(const RunLengths& runs, int width_px, int height_px) {
   const std::int64_t size = static_cast<std::int64_t>(width_px) * height_px;
   if (width_px < 1 || height_px < 1 || size > ReadLimits{}.pixels)
@@ -32,7 +32,7 @@ Plane<std::uint8_t> mask_of(const RunLengths& runs, int width_px, int height_px)
   return mask;
 }
 
-/// `actors`: a plane too, or None.
+/// `actors`: a plane, or None.
 std::vector<Instance> instances_of(const py::object& index_plane, const py::object& actors) {
   const Plane<std::uint16_t> plane = index_plane_of(index_plane, "index_plane");
   const IndexSet labelled =

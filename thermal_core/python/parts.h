@@ -4,8 +4,8 @@
 
 namespace thermal::python {
 
-/// Each adds its part of the library to the module `veldt._core`. Docstrings for users are in the Python package, which
-/// is all that calls this module.
+/// Each adds a part of the library to the module `veldt._core`. Docstrings for users are in the Python package, the
+/// only caller of this module.
 void add_errors(pybind11::module_& module);
 void add_band(pybind11::module_& module);
 void add_camera(pybind11::module_& module);

@@ -25,10 +25,11 @@ namespace {
 
 namespace py = pybind11;
 
-/// Called with what is done ("planning", "ground maps" or "frames"), the clip at work, and counts of done and all.
+/// Called with a stage ("planning", "ground maps" or "frames"), the current clip, and counts of done and all.
 using Report = std::function<void(const std::string& stage, const std::string& clip, int done, int total)>;
 
-/// Python's side of a run without the interpreter's lock: reports go there, and what they raise, or Ctrl-C, ends the run.
+/// Connects a run, which does not hold the interpreter's lock, to Python: reports go there; exceptions raised there, or
+/// Ctrl-C, end the run.
 class Listener {
  public:
   explicit Listener(Report report) : report_(std::move(report)) {}
@@ -39,7 +40,7 @@ class Listener {
     keep_fault([&] { report_(stage, progress.clip, progress.done, progress.total); });
   }
 
-  /// Whether something was raised. Python looks for signals in its main thread alone.
+  /// Whether an exception is pending. Python checks signals in its main thread alone.
   [[nodiscard]] bool is_to_stop() {
     const py::gil_scoped_acquire python;
     keep_fault([] {
@@ -48,7 +49,7 @@ class Listener {
     return fault_ != nullptr;
   }
 
-  /// Raises again what was raised in Python, if anything.
+  /// Rethrows the pending exception, if there is one.
   void raise() const {
     if (fault_) std::rethrow_exception(fault_);
   }
@@ -65,7 +66,7 @@ class Listener {
   }
 
   Report report_;
-  std::exception_ptr fault_;  ///< written and read under the interpreter's lock
+  std::exception_ptr fault_;  ///< accessed under the interpreter's lock only
 };
 
 struct Sources {

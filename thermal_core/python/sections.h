@@ -7,8 +7,8 @@
 
 namespace thermal::python {
 
-/// Some sections of a config as a whole one, checked and filled in: with a clip "clip" of one frame, which nothing is
-/// made of. `sections`: a JSON object with any of camera, sensor, weather, terms and labels. ConfigError, starting with
+/// Completes some sections of a config to a whole config, checked and with defaults, with a dummy clip "clip" of one
+/// frame. `sections`: a JSON object with any of camera, sensor, weather, terms and labels. ConfigError, starting with
 /// `name`.
 [[nodiscard]] Config config_of_sections(const std::string& sections, const std::string& name,
                                         const Assets& assets);

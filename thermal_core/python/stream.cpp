@@ -24,7 +24,7 @@ FrameStream* open_stream(const std::string& video_url, const std::optional<std::
     check_is_loopback(target.video, "video_url", kPermit);
     if (target.lines) check_is_loopback(*target.lines, "labels_url", kPermit);
   }
-  silence_ffmpeg();                // counts say what becomes of a receiver
+  silence_ffmpeg();                // counts report a missing receiver
   return new FrameStream(target);  // pybind11 owns it
 }
 

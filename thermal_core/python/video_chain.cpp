@@ -22,7 +22,7 @@ namespace thermal::python {
 namespace {
 
 constexpr int kCountsPerLevel = 256;
-constexpr double kLeastCount = 1;  // 0 and 65535 are of pixels without a measurement
+constexpr double kLeastCount = 1;  // 0 and 65535 are pixels without a measurement
 constexpr double kMostCount = 65534;
 constexpr const char* kFieldMotion = "field_motion_px";
 constexpr const char* kNoise = "noise_levels";
@@ -65,7 +65,7 @@ void process(const ProcessingParameters& parameters, const Plane<std::uint16_t>&
     levels[i] = static_cast<std::uint8_t>(filtered[i] / kCountsPerLevel);
 }
 
-/// Passes pictures through what is drawn for each of them.
+/// Passes pictures through a chain drawn for each of them.
 class VideoChain {
  public:
   VideoChain(const std::string& settings, const std::string& home, std::uint32_t seed)

@@ -51,7 +51,7 @@ py::dict actors_of(const World& world) {
   return actors;
 }
 
-/// Calls from several threads take turns.
+/// Calls from several threads are serialised.
 class PythonWorld {
  public:
   PythonWorld(const std::string& plan, const std::string& clip, const std::string& home,

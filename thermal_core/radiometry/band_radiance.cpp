@@ -96,7 +96,7 @@ void BandRadiance::add_segment(const Segment& segment, double x_stop, ScaledInte
       const double from_begin = middle + half * node;
       const double x = x_begin + from_begin;
       const double nu = x * sum.nu_per_x;
-      // Shares of the way in wavelength, which goes as 1 / x, from one end of the segment to the other.
+      // Weights linear in wavelength, which is proportional to 1 / x, from one end of the segment to the other.
       const double begin_share = (x_width - from_begin) / x_width * (x_begin / x);
       const double end_share = from_begin / x_width * ((x_begin + x_width) / x);
       const double response =
@@ -173,7 +173,7 @@ double BandRadiance::temperature_from_ln(double ln_radiance) const noexcept {
     const double guarded = next > b / 10 ? next : b / 10;
     const double change = std::abs(guarded - b) / b;
     const bool settled = change <= 4 * std::numeric_limits<double>::epsilon();
-    // Rounding of a large logarithm moves hot bodies by more than that for ever: there a step no longer helps.
+    // For hot bodies, rounding of the large logarithm exceeds that tolerance: stop when a step no longer helps.
     const bool only_rounding = change < kRoundingOnly && change >= last_change;
     b = guarded;
     last_change = change;

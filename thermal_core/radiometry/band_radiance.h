@@ -8,11 +8,11 @@
 
 namespace thermal {
 
-/// What a blackbody of one temperature sends into a band.
+/// In-band radiance of a blackbody at one temperature.
 struct BandValue {
   double radiance_w_m2_sr = 0;
   double derivative_w_m2_sr_k = 0;  ///< with respect to temperature
-  double ln_radiance = 0;           ///< right where the radiance itself is below the smallest double
+  double ln_radiance = 0;           ///< accurate even where the radiance underflows
 };
 
 /// In-band radiance of a blackbody, the integral of response * Planck over wavelength: the reference every
@@ -54,8 +54,8 @@ class BandRadiance {
   [[nodiscard]] double temperature_from_ln(double ln_radiance) const noexcept;
 
  private:
-  /// A quantity that is straight in wavelength across a segment: its values at the ends. In between they are
-  /// weighted by shares that are both positive, so that nothing cancels where one of them is zero.
+  /// A quantity that is linear in wavelength across a segment: its values at the ends, interpolated with positive
+  /// weights, so that nothing cancels where one value is zero.
   struct Line {
     double begin;
     double end;
@@ -64,7 +64,7 @@ class BandRadiance {
       return begin * begin_share + end * end_share;
     }
   };
-  /// A piece of the band in which response and emissivity are straight, in wavenumber [1/m].
+  /// A piece of the band in which response and emissivity are linear in wavelength; bounds as wavenumbers [1/m].
   struct Segment {
     double begin_per_m;
     double width_per_m;

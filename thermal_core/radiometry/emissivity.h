@@ -33,7 +33,7 @@ class EmissivitySpectrum {
 
 /// How a surface's emissivity falls off with the angle it is seen at.
 enum class AngularLaw {
-  none,   ///< vegetation, animals: rough at every scale, no fall-off to speak of
+  none,   ///< vegetation, animals: rough at every scale, nearly no fall-off
   water,  ///< smooth dielectric: Fresnel
   soil    ///< 1 to 3 % by 60 deg
 };

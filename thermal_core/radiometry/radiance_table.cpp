@@ -19,8 +19,8 @@ constexpr std::size_t kNodesAKnot = 4;
 constexpr double kKnotSpacingK = static_cast<double>(kNodesAKnot) / RadianceTable::kNodesPerKelvin;
 
 /// Bound of what the cubics add to the relative error: h^4 / 384 times the fourth derivative of ln L, which is at most
-/// 24 x / T^4 at one wavelength, x = c2 / (wavelength T), and (x_1 - x_2)^4 / (8 T^4) where a band's ends weigh the
-/// same: h = 1/4 K, T = 180 K and x to 80 (1 um) make 4e-8 of it.
+/// 24 x / T^4 at one wavelength, x = c2 / (wavelength T), and (x_1 - x_2)^4 / (8 T^4) where both ends of a band have
+/// equal weight: 4e-8 for h = 1/4 K, T = 180 K and x to 80 (1 um).
 constexpr double kKnotError = 4e-8;
 
 /// Radiance at a share of the way from one knot to the next.
@@ -61,8 +61,8 @@ RadianceTable::RadianceTable(BandRadiance band) : band_(std::move(band)) {
 }
 
 void RadianceTable::measure(const std::vector<double>& radiance) {
-  // Radiance is convex, so a line between two nodes is furthest from it at the middle. Node and result are floats,
-  // half an eps off each at most, and so are, of itself, the step and what is taken of it.
+  // Radiance is convex, so a straight line between nodes errs most at the middle. Node and result are floats, each off
+  // by half an eps at most; so are, relative to the step, the step and the part of it that is added.
   constexpr double kRounding = static_cast<double>(std::numeric_limits<float>::epsilon()) / 2;
   for (std::size_t node = 0; node < kSteps; ++node) {
     const double here = radiance[2 * node];

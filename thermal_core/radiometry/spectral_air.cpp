@@ -198,7 +198,7 @@ BandAir::BandAir(const Air& air, const SpectralResponse& response)
       path_(path_cells(response, air)),
       published_path_(path_cells(SpectralResponse::flat(7.5, 14), air)) {
   Cells published = cells_of(SpectralResponse::flat(8, 14), air.temperature_k, Weighting::radiance);
-  Cells water = published;  // behind the other gases, which are as they are
+  Cells water = published;  // scaled last: the other gases are fixed
   for (Cell& cell : water) {
     cell.share *= std::exp(-lines_at(cell.at_um).sky);
     cell.depth = water_per_g(cell.at_um, air);

@@ -48,7 +48,7 @@ class BandAir {
   [[nodiscard]] double mean_path_absorption(double range_m) const noexcept;
 
  private:
-  /// A piece of a band: its share of what counts there, and its optical depth.
+  /// A piece of a band: its weight in the mean, and its optical depth.
   struct Cell {
     double share = 0;
     double at_um = 0;
@@ -67,7 +67,7 @@ class BandAir {
   Cells sky_;                      ///< of the response; depths of the zenith
   Cells path_;                     ///< of the response; depths of a metre, not scaled
   Cells published_path_;           ///< of the band of the path's figure
-  double hemisphere_ = 1;          ///< by how much longer than at the zenith the path to the whole sky is
+  double hemisphere_ = 1;          ///< length of the path to the whole sky over that to the zenith
   double near_transmittance_ = 1;  ///< where Beer's law ends
 };
 

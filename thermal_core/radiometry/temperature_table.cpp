@@ -24,7 +24,7 @@ struct Nodes {
   float nodes_per_w_m2_sr;
 };
 
-/// Where between which nodes radiances lie; false if one is outside, which then counts as at the first node.
+/// Position between nodes of each radiance; false if one is outside, which then counts as at the first node.
 VELDT_CLONES bool find_nodes(const Nodes& nodes, const float* radiances, std::size_t count,
                              std::int32_t* node, float* share) noexcept {
   constexpr auto kLast = static_cast<float>(kSteps);
@@ -41,8 +41,8 @@ VELDT_CLONES bool find_nodes(const Nodes& nodes, const float* radiances, std::si
 
 }  // namespace
 
-/// Nodes at floats whose last bits are 0: an octave of radiance has 1024, equally spaced within it. Place and share are
-/// bits of the radiance itself, without a logarithm and without rounding.
+/// Nodes at floats whose last bits are 0: an octave of radiance has 1024, equally spaced within it. The node and the
+/// position after it are bits of the radiance itself, without a logarithm and without rounding.
 class TemperatureTable::HotPart {
  public:
   HotPart(float low_w_m2_sr, float high_w_m2_sr)
@@ -54,7 +54,7 @@ class TemperatureTable::HotPart {
     return radiance_w_m2_sr > low_w_m2_sr_ && radiance_w_m2_sr <= high_w_m2_sr_;  // NaN is not
   }
 
-  /// Of a radiance it holds.
+  /// `radiance_w_m2_sr` must be within it.
   [[nodiscard]] float temperature_k(float radiance_w_m2_sr, const Inverse& inverse) {
     std::call_once(made_, [&] { make(inverse); });
     const auto bits = std::bit_cast<std::uint32_t>(radiance_w_m2_sr);

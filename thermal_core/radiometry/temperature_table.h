@@ -14,9 +14,9 @@ class TemperatureTable {
   /// Temperature [K] the exact inverse gives for a radiance [W m^-2 sr^-1]. Called from several threads at once.
   using Inverse = std::function<double(double radiance_w_m2_sr)>;
 
-  /// Tabulates `inverse` over [low, high], then measures the error between all nodes. The hot part, over
-  /// (high, hottest], is tabulated when the first radiance there comes: most clips have none, and it takes 0.05 s.
-  /// Requires 0 < low < high; no hot part unless high < hottest, finite in single precision.
+  /// Tabulates `inverse` over [low, high], then measures the error between all nodes. The hot part, over (high,
+  /// hottest], is tabulated at the first radiance there: most clips have none, and it takes 0.05 s. Requires 0 < low <
+  /// high; no hot part unless high < hottest, finite in single precision.
   TemperatureTable(Inverse inverse, double low_w_m2_sr, double high_w_m2_sr, double hottest_w_m2_sr = 0);
   ~TemperatureTable();
   TemperatureTable(const TemperatureTable&) = delete;

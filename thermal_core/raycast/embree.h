@@ -1,6 +1,6 @@
 #pragma once
 
-// The only file that knows which Embree this is: version 3 in Debian 12, version 4 in Debian 13.
+// The only file that depends on Embree's version: 3 in Debian 12, 4 in Debian 13.
 
 #include <array>
 #include <cstddef>
@@ -29,7 +29,7 @@ using EmbreeDevice = EmbreeHandle<RTCDevice, rtcReleaseDevice>;
 using EmbreeScene = EmbreeHandle<RTCScene, rtcReleaseScene>;
 using EmbreeGeometry = EmbreeHandle<RTCGeometry, rtcReleaseGeometry>;
 
-/// Error if a call on this device, or on none before there is one, has failed on this thread.
+/// Error if a call on this device, or one before a device exists, has failed on this thread.
 void check_device(RTCDevice device);
 
 /// Uses the largest vectors of this processor. Error if Embree cannot run on it.
@@ -40,14 +40,14 @@ inline constexpr std::size_t kPacketRays = 16;
 using RayPacket = RTCRayHit16;                    ///< aligned to 64 bytes
 using PacketMask = std::array<int, kPacketRays>;  ///< aligned like a packet; -1: trace this ray, 0: do not
 
-/// What Embree hands on to filter functions.
+/// The context that Embree passes to filter functions.
 #if VELDT_EMBREE == 3
 using EmbreeContext = RTCIntersectContext;
 #else
 using EmbreeContext = RTCRayQueryContext;
 #endif
 
-/// Of packets whose rays are close together.
+/// For packets of nearly parallel rays.
 inline EmbreeContext coherent_rays() noexcept {
   EmbreeContext context{};
 #if VELDT_EMBREE == 3
@@ -59,7 +59,7 @@ inline EmbreeContext coherent_rays() noexcept {
   return context;
 }
 
-/// Of packets whose rays go their own ways.
+/// For packets of diverging rays.
 inline EmbreeContext scattered_rays() noexcept {
   EmbreeContext context{};
 #if VELDT_EMBREE == 3
@@ -86,7 +86,7 @@ inline void find_nearest(RTCScene scene, const PacketMask& mask, EmbreeContext& 
 }
 
 /// Sets tfar of each ray to minus infinity if anything is between its tnear and tfar. No filter function is called.
-/// Each ray is traced alone, which takes half of the time where rays meet leaves.
+/// Rays are traced one by one, in half of the time among leaves.
 inline void find_any(RTCScene scene, const PacketMask& mask, RTCRay16& rays) noexcept {
   EmbreeContext context = scattered_rays();
 #if VELDT_EMBREE == 3

@@ -8,10 +8,11 @@
 namespace thermal {
 namespace {
 
-/// Distances that may be in another order elsewhere: their reciprocals differ by up to 2.4e-7.
+/// Tolerance for ties: distances this close may be in another order on other processors, whose reciprocals differ by up
+/// to 2.4e-7.
 constexpr float kTie = 1e-6F;
 
-/// The hits that a call of the filter function has found, by ray.
+/// Hits of one call of the filter function, by ray.
 struct Found {
   unsigned rays;
   int* valid;
@@ -81,7 +82,8 @@ void FirstHitSearch::keep_first(const RTCFilterFunctionNArguments* arguments) no
   }
 }
 
-/// `distance` becomes the ray's tfar: a little more, so that Embree also shows what is as far. `valid` 0: not kept.
+/// `distance` becomes the ray's tfar, slightly increased, so that Embree also reports hits at the same distance.
+/// `valid` 0: not kept.
 void FirstHitSearch::keep_one(unsigned lane, unsigned piece, unsigned triangle, float& distance,
                               int& valid) noexcept {
   if (distance > hits_.distance[lane] * (1 - kTie) && !is_first(lane, piece, triangle)) {
@@ -94,7 +96,7 @@ void FirstHitSearch::keep_one(unsigned lane, unsigned piece, unsigned triangle, 
   distance *= 1 + kTie;
 }
 
-/// Whether a triangle is before the ray's first one so far; of two in the same place, the one with the lower numbers.
+/// Whether a triangle precedes the ray's first one so far; coincident triangles are ordered by their numbers.
 bool FirstHitSearch::is_first(unsigned lane, unsigned piece, unsigned triangle) noexcept {
   const Vector3 ray{direction_[0][lane], direction_[1][lane], direction_[2][lane]};
   const double here = distance_along(ray, triangles_.at(piece, triangle).sight);

@@ -6,7 +6,7 @@
 
 namespace thermal {
 
-/// What each ray of a packet hits first.
+/// First hits of the rays of a packet.
 struct FirstHits {
   FirstHits() noexcept;
 
@@ -16,16 +16,16 @@ struct FirstHits {
 };
 
 /// A search of a packet's rays, piece set by piece set. Embree computes distances with approximate reciprocals, which
-/// differ between processors and instruction sets. Where two distances are that close, the triangle is first that is so
-/// in double precision, so that all of them show the same: AVX2 and AVX-512 in all of 240 frames of configs/savanna.json,
-/// where Embree alone has 2 other objects and 28 other depths. Processors without fused multiply-add (before 2013)
-/// also round the edges of triangles differently: 655 other objects. Costs 15 % of Embree's time.
+/// differ between processors and instruction sets. Nearly equal distances are compared again in double precision, so
+/// that results agree: AVX2 and AVX-512 in all of 240 frames of configs/savanna.json, where Embree alone has 2 other
+/// objects and 28 other depths. Processors without fused multiply-add (before 2013) also round the edges of triangles
+/// differently: 655 other objects. Costs 15 % of Embree's time.
 class FirstHitSearch : public EmbreeContext {
  public:
   /// The rays' directions, of any length, and the shot's triangles must outlive this object.
   FirstHitSearch(const VectorLanes<double>& direction, SeenTriangles& triangles) noexcept;
 
-  /// Searches pieces that are numbered from `first_piece`. A ray's tfar is brought to its first hit, or little beyond.
+  /// Searches pieces numbered from `first_piece`. Sets a ray's tfar to its first hit, or slightly beyond.
   void search(const PieceSet& set, unsigned first_piece, const PacketMask& mask, RayPacket& rays) noexcept;
 
   [[nodiscard]] const FirstHits& hits() const noexcept { return hits_; }

@@ -18,7 +18,7 @@ namespace {
 
 const SeenTriangle kSky;
 
-/// Where what is hit goes, by place; null where it is not needed.
+/// Destinations of hits, by pixel or sample; null: not needed.
 struct SightSink {
   std::uint16_t* object_index = nullptr;
   std::uint16_t* material_index = nullptr;
@@ -26,10 +26,11 @@ struct SightSink {
   std::array<float*, 3> normal{};
 };
 
-/// Where what is mirrored goes. Few frames show water that mirrors more than sky; room is made when the first one is found.
+/// Destinations of mirrored hits. Few frames show water that mirrors more than sky, so memory is allocated when the
+/// first one is found.
 class MirrorSink {
  public:
-  /// `make_room` is called at most once, and fills the room with sky.
+  /// `make_room` allocates the planes and fills them with sky; it is called at most once.
   MirrorSink(bool wanted, std::function<SightSink()> make_room)
       : wanted_(wanted), make_room_(std::move(make_room)) {}
 
@@ -38,7 +39,7 @@ class MirrorSink {
     std::call_once(made_, [this] { sink_ = make_room_(); });
     return sink_;
   }
-  /// Once all is traced.
+  /// Whether `make_room` was called; valid after tracing.
   [[nodiscard]] bool has_room() const noexcept { return sink_.object_index != nullptr; }
 
  private:
@@ -48,7 +49,7 @@ class MirrorSink {
   SightSink sink_;
 };
 
-/// Where results go.
+/// Destinations of all results.
 struct Sink {
   SightSink seen;
   MirrorSink& mirrored;
@@ -67,7 +68,7 @@ T* samples_of(std::vector<T>& list, bool wanted, std::size_t samples) {
   return wanted ? list.data() : nullptr;
 }
 
-/// Where planes or lists get what is hit; `place_in` makes room in one if it is wanted.
+/// Planes or lists as destinations; `place_in` allocates one if it is needed.
 template <typename Sights, typename PlaceIn>
 SightSink sink_for(Sights& out, bool indices, bool depth, bool normals, const PlaceIn& place_in) {
   return {.object_index = place_in(out.object_index, indices),
@@ -77,7 +78,7 @@ SightSink sink_for(Sights& out, bool indices, bool depth, bool normals, const Pl
                      place_in(out.normal[2], normals)}};
 }
 
-/// What one thread traces a shot with.
+/// One thread's caches of a shot's triangles.
 struct TriangleCaches {
   explicit TriangleCaches(const Shot& shot) : seen(shot), mirrors(shot) {}
 
@@ -89,7 +90,7 @@ class RayTracer {
  public:
   RayTracer(const Shot& shot, const Sink& sink) : shot_(shot), sink_(sink) {}
 
-  /// Actors first, which the actor layer shows; their hits then bound the search among the surroundings.
+  /// Actors first, for the actor layer; their hits then bound the search among the surroundings.
   void trace(const Packet& rays, TriangleCaches& caches) const {
     const VectorLanes<double> direction = directions(shot_.view, rays.x, rays.y);
     RayPacket packet = aimed(shot_.view, direction, shot_.place.scene().depth_range_m);
@@ -133,7 +134,7 @@ class RayTracer {
     }
   }
 
-  /// From the water on.
+  /// Traces rays from the water upwards.
   void trace_up(const Packet& rays, Mirror& mirror) const {
     const Shot& shot = mirror.shot();
     const VectorLanes<double> direction = directions(shot.view, rays.x, rays.y);

@@ -10,7 +10,7 @@ namespace thermal {
 void trace_pixels(const Shot& shot, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
                   const PassNeeds& needs, Passes& out);
 
-/// Fills the lists of `fine` that are needed, and both indices; the pixels are given. `rays` are those of samples,
+/// Fills the lists of `fine` that are needed, and both indices; its pixels are set. `rays` are those of samples,
 /// `near_actors` of pixels.
 void trace_samples(const Shot& shot, const PixelRays& rays, const Plane<std::uint8_t>& near_actors,
                    const PassNeeds& needs, FineSamples& fine);

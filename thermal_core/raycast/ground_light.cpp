@@ -28,7 +28,7 @@ constexpr float kLiftM = 0.01F;
 
 constexpr float kFarthestCellM = 1e9F;  // from the origin: Embree ends the program at huge numbers
 
-/// Cells that are traced together. At the map's border, cells are in it more than once.
+/// Cells that are traced together. At the map's border, some are repeated.
 struct Block {
   Lanes<std::size_t> cells{};
   RTCRay16 start{};  ///< without directions
@@ -138,7 +138,7 @@ class LightTracer {
   GroundMaps& maps_;
 };
 
-/// Where the rays of traced blocks start, by squares of them.
+/// Start points of the traced blocks' rays, by squares of blocks.
 std::vector<RayStart> starts_of(const GroundMaps& maps, const BlockRays& rays) {
   constexpr std::size_t kSquareBlocks = 8;
   constexpr double kEndless = std::numeric_limits<double>::infinity();
@@ -169,7 +169,7 @@ std::vector<EastNorthUp> suns_of(std::span<const SunDay> days) {
   return suns;
 }
 
-/// Of a block at the border, those that are in the maps.
+/// Number of a block's cells within the maps.
 std::size_t cells_in(std::size_t number, std::size_t cells) noexcept {
   const std::size_t side = blocks_along(cells);
   const auto along = [cells](std::size_t block) {
@@ -178,7 +178,7 @@ std::size_t cells_in(std::size_t number, std::size_t cells) noexcept {
   return along(number / side) * along(number % side);
 }
 
-/// Where no ground is drawn, its height is 0.
+/// Heights; 0 where no ground is drawn.
 void fill_heights(const TopHeights& tops, GroundMaps& maps) {
   maps.height_m = tops.ground_m;
   maps.crown_top_m.resize(maps.height_m.size());
@@ -205,7 +205,7 @@ GroundCovers covers_of(const BakedGround& ground) {
 }  // namespace
 
 BlockRays rays_for(const std::vector<float>& finest_pixels_m, double cell_m) {
-  // A pixel reads means of cells over at least two thirds of its width: 4, 16 or 64 cells.
+  // A pixel averages cells over at least two thirds of its width: 4, 16 or 64 cells.
   const auto rays = [cell_m](float pixel_m) -> std::size_t {
     if (!std::isfinite(pixel_m)) return 0;
     const double cells = static_cast<double>(pixel_m) / cell_m;

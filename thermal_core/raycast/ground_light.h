@@ -14,34 +14,34 @@ namespace thermal {
 
 class RayCaster;
 
-/// A day whose hours of sunlight are wanted.
+/// A day whose hours of sunlight are computed.
 struct SunDay {
   SunPath path;
   SunHours sun{};  ///< unit vectors; where `up` is not positive, it is night
 };
 
-/// Rays for the sky view of a cell, a number of Fibonacci's (SkyRays). Root-mean-square error: see ACCURACY.md.
+/// Rays for the sky view of a cell, a Fibonacci number (SkyRays). Root-mean-square error: see ACCURACY.md.
 inline constexpr std::size_t kSkyRays = 89;
 
 /// Rays for the sky view of the cells of each block, [row of y, column of x]; 0: the cells are not traced.
 using BlockRays = std::vector<std::size_t>;
 
-/// The rays that blocks need, by the finest pixels that show them: fewer where pixels show means of many cells, so that
-/// those means are as good; none where there is no pixel.
+/// Rays per block, by the finest pixels that show it: fewer where pixels average many cells, for the same error of
+/// their means; 0 where no pixel shows it.
 [[nodiscard]] BlockRays rays_for(const std::vector<float>& finest_pixels_m, double cell_m);
 
-/// Called with cells that are done, of how many; on the calling thread.
+/// Called with the numbers of finished and all cells; on the calling thread.
 using ShowCells = std::function<void(int done, int total)>;
 
-/// Fills in sky_view and sunlit of maps whose place and heights are known, by rays that start 1 cm above the middle of
-/// each cell and end at anything they hit: ground, water, crowns. The sun is a point. A cell that is not traced, or not
-/// within 1e9 m of the origin, sees all there is. Only whether a ray hits anything counts, so ties between triangles do
-/// not matter. The result depends on nothing else, such as threads or the processor's vectors.
+/// Fills in sky_view and sunlit of maps with area and heights, by rays that start 1 cm above the middle of each cell
+/// and end at anything they hit: ground, water, crowns. The sun is a point. A cell that is not traced, or not within
+/// 1e9 m of the origin, gets full sky view and sunlight. Only whether a ray hits anything counts, so ties between
+/// triangles do not matter. The result depends on nothing else, such as threads or the processor's vectors.
 void trace_ground_light(const RayCaster& caster, std::span<const SunDay> days, const BlockRays& rays,
                         GroundMaps& maps, const ShowCells& show = {});
 
-/// All maps of a scene, on all cores. Light is traced where `views` may show it; without them, everywhere. Error if there
-/// is not enough memory.
+/// All maps of a scene, on all cores. Light is traced where `views` may show it; without `views`, everywhere. Error if
+/// there is not enough memory.
 [[nodiscard]] GroundMaps make_ground_maps(const BakedScene& scene, std::span<const SunDay> days,
                                           const std::optional<std::vector<GroundView>>& views = {},
                                           const ShowCells& show = {});

@@ -19,7 +19,7 @@ Interval operator*(const Interval& a, const Interval& b) noexcept {
 
 Interval operator*(double factor, const Interval& a) noexcept { return Interval{factor, factor} * a; }
 
-/// Tighter than a product, which does not know that both factors are the same.
+/// Tighter than the product of two independent intervals.
 Interval square(const Interval& a) noexcept {
   const auto [low, high] = std::minmax({a.low * a.low, a.high * a.high});
   return {a.low < 0 && a.high > 0 ? 0 : low, high};

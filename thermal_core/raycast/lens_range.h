@@ -18,11 +18,11 @@ struct LensRange {
   [[nodiscard]] bool is_empty() const noexcept { return !(least.x <= most.x && least.y <= most.y); }
 };
 
-/// What two ranges share.
+/// The intersection of two ranges.
 [[nodiscard]] LensRange common(const LensRange& a, const LensRange& b) noexcept;
 
-/// A range that holds distort() of every point of a range which is not empty, by interval arithmetic. It is too wide by a
-/// share of the range's own size: 6 % for k1 = -0.2 at 0.4 from the axis.
+/// A range that contains distort() of every point of a non-empty range, by interval arithmetic. It is wider than
+/// necessary by a share of the range's size: 6 % for k1 = -0.2 at 0.4 from the axis.
 [[nodiscard]] LensRange distort(const LensDistortion& lens, const LensRange& range) noexcept;
 
 }  // namespace thermal

@@ -6,7 +6,7 @@
 
 namespace thermal {
 
-/// Makes planes this large that mirror nothing but sky. Memory is reused.
+/// Sets planes to this size, mirroring sky alone. Memory is reused.
 void set_to_sky(Mirrored<Plane>& mirrored, int width_px, int height_px);
 
 /// The same for lists of samples.

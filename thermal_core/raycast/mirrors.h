@@ -8,10 +8,10 @@
 
 namespace thermal {
 
-/// The view that sees directly what a view sees in level water at a height: as far below it as that is above.
+/// The view mirrored in level water at a height: as far below the water as the view is above it.
 [[nodiscard]] View mirrored(const View& view, double height_m) noexcept;
 
-/// A shot from below water of one height.
+/// A shot from the mirrored camera below water of one height.
 class Mirror {
  public:
   Mirror(const Shot& shot, double height_m)
@@ -25,7 +25,7 @@ class Mirror {
   [[nodiscard]] const Shot& shot() const noexcept { return shot_; }
   [[nodiscard]] SeenTriangles& triangles() noexcept { return triangles_; }
 
-  /// Depths at which rays leave the water: a millimetre above it, so that none of them hits it.
+  /// Depths at which rays leave the water: a millimetre above it, so that none hits the water itself.
   [[nodiscard]] Lanes<double> depths_m(const VectorLanes<double>& direction) const noexcept;
 
  private:
@@ -43,7 +43,7 @@ class Mirrors {
 
  private:
   const Shot& shot_;
-  std::list<Mirror> made_;  ///< a place has few heights of water
+  std::list<Mirror> made_;  ///< a scene has few heights of water
 };
 
 }  // namespace thermal

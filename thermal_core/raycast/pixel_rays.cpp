@@ -9,7 +9,8 @@
 namespace thermal {
 namespace {
 
-/// What the picture's border encloses. A lens that shows something everywhere is one to one from the axis to there.
+/// The range enclosed by the picture's border. A lens that shows something everywhere is one-to-one from the axis to
+/// there.
 LensRange range_of(const CameraIntrinsics& camera, const LensDistortion& lens) {
   LensRange range;
   bool complete = true;

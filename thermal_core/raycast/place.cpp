@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -20,15 +19,15 @@ EmbreeScene new_scene(RTCDevice device) {
   return scene;
 }
 
-/// While it waits, Embree would otherwise take on work of this thread's caller; and the scene would keep a task group that
-/// is tied to the caller's loop, at which oneTBB looks whenever something is cancelled, long after the loop is over.
+/// Isolated: while it waits, Embree would otherwise take on work of this thread's caller; and the scene would keep a
+/// task group of the caller's loop, which oneTBB reads at any later cancellation, after the loop has ended.
 void commit(RTCDevice device, RTCScene scene) {
   run_apart([scene] { rtcCommitScene(scene); });
   check_device(device);
 }
 
-/// Whether Embree can bring rays into a piece's axes: it ends the program where that gives NaN or huge numbers. Bodies
-/// and plants of a plan are far from these limits.
+/// Whether Embree can transform rays into a piece's axes: it ends the program where that gives NaN or huge numbers.
+/// Bodies and plants of a plan are far from these limits.
 bool can_be_entered(const Transform<double>& m) noexcept {
   constexpr double kLeastVolume = 1e-6;  // of a box with sides as long; several roundings of 6e-8
   constexpr double kLargestInverse = 1e8;
@@ -51,8 +50,8 @@ void fill_buffer(RTCDevice device, RTCGeometry geometry, RTCBufferType type, RTC
   for (const auto& value : values) buffer = std::copy(value.begin(), value.end(), buffer);
 }
 
-/// Builds a tree over the order of the triangles' places, in a third of the time. Those of ground lie evenly, and rays
-/// find them as fast as in a tree by costs.
+/// Builds a tree by Morton order, in a third of the time. Triangles of ground are evenly distributed, so rays find them
+/// as fast as in a tree built by costs.
 void build_fast(RTCGeometry geometry, RTCScene scene) {
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_LOW);
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
@@ -73,15 +72,7 @@ EmbreeScene scene_of(RTCDevice device, const BakedMesh& mesh, RTCFilterFunctionN
   return scene;
 }
 
-/// Which indices stand for water.
-template <typename Entry>
-std::vector<bool> water_among(const std::vector<Entry>& entries) {
-  std::vector<bool> wet(std::numeric_limits<std::uint16_t>::max() + std::size_t{1});
-  for (const Entry& entry : entries) wet[entry.index] = entry.material == "water";
-  return wet;
-}
-
-/// As Blender has it, which keeps the angle of a plant and its size, each in single precision.
+/// A plant's transform as Blender stores it: angle and size in single precision.
 Transform<double> upright(const Transform<double>& plant) noexcept {
   Transform<double> rounded = plant;
   const double size = plant[10];
@@ -121,11 +112,16 @@ std::vector<Piece> surroundings_of(const BakedScene& scene) {
 }  // namespace
 
 Place::Place(const BakedScene& scene, RTCFilterFunctionN filter)
-    : scene_(scene), device_(new_device()), meshes_(scene.meshes.size()), normals_(scene.meshes.size()) {
+    : scene_(scene),
+      device_(new_device()),
+      meshes_(scene.meshes.size()),
+      normals_(scene.meshes.size()),
+      mirrors_(scene),
+      has_water_(mirrors_.any()) {
   for (const BakedMesh& mesh : scene.meshes) boxes_.push_back(box_of(mesh));
   std::vector<bool> is_surface(scene.meshes.size());
   for (const BakedSurface& surface : scene.surfaces) is_surface[surface.mesh] = true;
-  // Normals beside trees, because each of the two has a part that runs on one thread.
+  // Normals in parallel with trees, because both have a serial part.
   parallel_for(2 * scene.meshes.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t task = begin; task < end; ++task) {
       const std::size_t k = task % scene.meshes.size();
@@ -138,10 +134,7 @@ Place::Place(const BakedScene& scene, RTCFilterFunctionN filter)
     }
   });
   surroundings_ = set_of(surroundings_of(scene));
-  water_objects_ = water_among(scene.objects);
-  water_materials_ = water_among(scene.materials);
-  has_water_ = std::ranges::count(water_objects_, true) + std::ranges::count(water_materials_, true) > 0;
-  if (!has_water_) return;
+  if (!has_water()) return;
   std::map<std::pair<std::uint16_t, std::uint32_t>, bool> wet;  // by object and mesh, which plants share
   for (const Piece& piece : surroundings_.pieces) {
     const auto [known, is_new] = wet.try_emplace({piece.object, piece.mesh}, false);

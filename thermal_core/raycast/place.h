@@ -16,20 +16,20 @@ struct Piece {
   Transform<double> to_world{};
 };
 
-/// Pieces, and the structure that finds which of them a ray hits first. A hit's instID is a piece's position here.
+/// Pieces and their acceleration structure. A hit's instID is an index into `pieces`.
 struct PieceSet {
   std::vector<Piece> pieces;
   EmbreeScene scene;
 };
 
-/// The least and the greatest coordinates of a mesh's points [m].
+/// Bounding box of a mesh's points [m].
 using MeshBox = std::array<std::array<double, 3>, 2>;
 
-/// A baked scene with everything that its frames share.
+/// A baked scene with the acceleration structures that all its frames share.
 class Place {
  public:
-  /// The scene must outlive this object. Embree calls `filter` for each hit that it finds; null: it keeps the first.
-  /// Error if there is not enough memory.
+  /// The scene must outlive this object. Embree calls `filter` for each hit; null: it keeps the first hit. Error if
+  /// there is not enough memory.
   Place(const BakedScene& scene, RTCFilterFunctionN filter);
 
   [[nodiscard]] const BakedScene& scene() const noexcept { return scene_; }
@@ -37,24 +37,24 @@ class Place {
   /// Ground, waters and plants.
   [[nodiscard]] const PieceSet& surroundings() const noexcept { return surroundings_; }
 
-  /// Of a mesh's points; empty if the mesh is not smooth.
+  /// Normals of a mesh's points; empty if the mesh is not smooth.
   [[nodiscard]] const std::vector<std::array<float, 3>>& normals(std::size_t mesh) const noexcept {
     return normals_[mesh];
   }
 
   [[nodiscard]] bool has_water() const noexcept { return has_water_; }
 
-  /// Those of the surroundings that have triangles of the material "water".
+  /// Pieces of the surroundings that have triangles that mirror.
   [[nodiscard]] const std::vector<Piece>& waters() const noexcept { return waters_; }
 
-  /// Whether triangles of this object and material are of the material "water".
+  /// Whether triangles of this object and material mirror.
   [[nodiscard]] bool is_water(std::uint16_t object, std::uint16_t material) const noexcept {
-    return has_water_ && (material != 0 ? water_materials_[material] : water_objects_[object]);
+    return has_water_ && mirrors_.has(object, material);
   }
 
   [[nodiscard]] const MeshBox& box(std::size_t mesh) const noexcept { return boxes_[mesh]; }
 
-  /// Builds the structure of these pieces, without those whose transform is not one of a body: flattened to less than
+  /// Builds the acceleration structure of pieces, leaving out those with a degenerate transform: flattened to less than
   /// 1e-6 of its size, smaller than 1e-8 or 1e9 m away. Safe to call from several threads.
   [[nodiscard]] PieceSet set_of(std::vector<Piece> pieces) const;
 
@@ -65,10 +65,9 @@ class Place {
   std::vector<std::vector<std::array<float, 3>>> normals_;
   std::vector<MeshBox> boxes_;
   PieceSet surroundings_;
+  MirrorIndices mirrors_;
   bool has_water_ = false;
   std::vector<Piece> waters_;
-  std::vector<bool> water_objects_;  ///< by index; by index
-  std::vector<bool> water_materials_;
 };
 
 }  // namespace thermal

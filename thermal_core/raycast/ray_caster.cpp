@@ -29,7 +29,7 @@ std::vector<Piece> actors_in(const BakedScene& scene, const BakedMoment& now) {
   return pieces;
 }
 
-/// Pixels and their samples both have what water mirrors, or neither does.
+/// Gives pixels and samples both the mirrored planes, if either has them.
 void even_out(Passes& passes) {
   if (passes.mirrored.empty() && !passes.fine.mirrored.empty())
     set_to_sky(passes.mirrored, passes.object_index.width_px(), passes.object_index.height_px());

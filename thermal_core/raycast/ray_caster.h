@@ -13,7 +13,7 @@ namespace thermal {
 class PixelRays;
 class Place;
 
-/// The engine `embree`: a baked scene, ready for rays.
+/// The engine `embree`: a baked scene prepared for ray casting.
 class RayCaster {
  public:
   /// Builds the structures that all frames share. The scene must outlive this object. Error if there is not enough
@@ -29,27 +29,27 @@ class RayCaster {
   std::unique_ptr<const Place> place_;
 };
 
-/// Where the rays of a picture go.
+/// Ray positions of a picture.
 struct Sampling {
   int supersample = 1;  ///< rays along each side of a pixel
   /// Only pixels that need them have all these rays, the others one through their centre: Passes::fine.
   bool adaptive = false;
-  LensDistortion lens = {};  ///< bends the rays, so that the picture is exact
+  LensDistortion lens = {};  ///< distortion of the rays, so that the picture is exact
 };
 
-/// Renders the passes of one camera in one place.
+/// Renders the passes of one camera in a scene.
 class CameraTracer {
  public:
-  /// Pixels where a lens shows nothing, those for which undistort() has NaN, are sky. The caster must outlive this object.
+  /// Pixels for which undistort() is NaN show sky. The caster must outlive this object.
   CameraTracer(const RayCaster& caster, const CameraIntrinsics& camera, const Sampling& sampling = {});
   ~CameraTracer();
 
-  /// The planes of a moment that are needed, and both indices, as Blender's passes have them: what each ray hits first
-  /// at the depths of BakedScene::depth_range_m; the sky has index 0, a depth of 1e10 m and a normal of 0. Depth and normals are
-  /// exact to single precision, indices to about 1e-4 px at silhouettes, by Embree's single precision.
-  /// Adaptive: a pixel has all rays if an actor may be in it, or if it differs from one of its eight neighbours in
-  /// object or material, seen or mirrored, or in depth by more than 2 %. A plant that no neighbour shows is missed between
-  /// rays. Water is what has the material "water"; it mirrors as a level surface.
+  /// The needed planes of a moment, and both indices, as in Blender's passes: the first hit of each ray within the
+  /// depths of BakedScene::depth_range_m; the sky has index 0, a depth of 1e10 m and a normal of 0. Depth and normals
+  /// are exact to single precision, indices to about 1e-4 px at silhouettes, by Embree's single precision. Adaptive: a
+  /// pixel has all rays if an actor may be in it, or if it differs from one of its eight neighbours in object or
+  /// material, seen or mirrored, or in depth by more than 2 %. A plant between rays that no neighbour shows is missed.
+  /// Materials of BakedScene::mirrors mirror as level surfaces.
   /// The result depends on nothing else. Memory of `out` is reused. Safe to call from several threads.
   void trace(const BakedMoment& now, const PassNeeds& needs, Passes& out) const;
 

@@ -17,8 +17,8 @@ bool is_valid(const RayPacket& packet, std::size_t k) noexcept {
   return place_m < kFarthestCameraM && size < 2;
 }
 
-/// Makes a ray that hits nothing. Embree ends the program at NaN and at huge numbers; and its version 3 ignores the
-/// mask of packets that are larger than the vectors of the instruction set.
+/// Disables a ray. Embree ends the program at NaN and at huge numbers; and its version 3 ignores the mask of packets
+/// that are larger than the vectors of the instruction set.
 void end_at_once(RayPacket& packet, std::size_t k) noexcept {
   packet.ray.org_x[k] = packet.ray.org_y[k] = packet.ray.org_z[k] = 0;
   packet.ray.dir_x[k] = packet.ray.dir_y[k] = 0;

@@ -14,7 +14,7 @@ namespace thermal {
 static_assert(kLanes == kPacketRays);
 inline constexpr unsigned kNothing = RTC_INVALID_GEOMETRY_ID;
 
-/// Rays that are traced together, and where their results go.
+/// Rays that are traced together, and the positions of their results.
 struct Packet {
   void add(const LensPoint& ray, std::size_t place) noexcept {
     mask[rays] = -1;
@@ -40,8 +40,8 @@ static_assert(kBlockPx * kBlockPx == static_cast<int>(kLanes));
 [[nodiscard]] Packet block_at(int x_px, int y_px, const PixelRays& rays,
                               const Plane<std::uint8_t>& near_actors);
 
-/// The rays of directions() as Embree takes them. As in Cycles, a ray has unit length and starts at the nearest depth, in
-/// single precision: silhouettes then agree to 1e-4 px. Rays that Embree cannot take hit nothing.
+/// Embree's rays for directions(). As in Cycles, a ray has unit length and starts at the nearest depth, in single
+/// precision: silhouettes then agree to 1e-4 px. Invalid rays hit nothing.
 [[nodiscard]] RayPacket aimed(const View& view, const VectorLanes<double>& direction,
                               const std::array<double, 2>& depth_range_m) noexcept;
 

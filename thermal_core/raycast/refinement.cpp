@@ -14,7 +14,7 @@ Vector3 to_world(const Transform<double>& m, const Vector3& p) noexcept {
           m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
 }
 
-/// A part of the picture, up to but not including its right and bottom.
+/// A rectangle of pixels, without its right and bottom edges.
 struct Range {
   int left = 0;
   int top = 0;
@@ -28,7 +28,7 @@ int clamped(double place_px, int most_px) {
   return static_cast<int>(std::clamp(place_px, 0.0, static_cast<double>(most_px)));
 }
 
-/// The pixels that directions may be in, and one more on every side.
+/// The pixels with directions in a range, and a margin of one pixel.
 Range pixels_at(const LensRange& directions, const PixelRays& rays) {
   const LensRange seen = common(directions, rays.range());
   if (seen.is_empty()) return {};
@@ -40,7 +40,7 @@ Range pixels_at(const LensRange& directions, const PixelRays& rays) {
           .bottom = clamped(camera.cy_px + camera.fy_px * most.y + 2, camera.height_px)};
 }
 
-/// The pixels that a piece may be in; all of them if that is unknown.
+/// The pixels that a piece may cover; all if unknown.
 Range pixels_of(const Piece& piece, const Place& place, const View& view, const PixelRays& rays) {
   constexpr double kLeastDepthM = 1e-3;
   const MeshBox& box = place.box(piece.mesh);
@@ -56,7 +56,7 @@ Range pixels_of(const Piece& piece, const Place& place, const View& view, const 
   return pixels_at(directions, rays);
 }
 
-/// 1 where a row's pixels differ from those above, or below, or beside: `out` is set, never cleared.
+/// Sets `out` to 1 where a row's pixels differ from those of a neighbouring row or column; never clears it.
 VELDT_CLONES void mark_differing(const std::uint16_t* a, const std::uint16_t* b, std::uint8_t* out_a,
                                  std::uint8_t* out_b, std::size_t count) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
@@ -77,7 +77,7 @@ VELDT_CLONES void mark_differing(const float* a, const float* b, std::uint8_t* o
   }
 }
 
-/// Compares a row with one of the rows beside it, or with itself, shifted by -1 to 1 pixels.
+/// Compares a row with a neighbouring row, or with itself, shifted by -1 to 1 pixels.
 template <typename T>
 void mark_pairs(const Plane<T>& plane, int row, int other, int shift, Plane<std::uint8_t>& marks) {
   const auto count = static_cast<std::size_t>(plane.width_px() - std::abs(shift));

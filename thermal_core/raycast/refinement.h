@@ -10,12 +10,12 @@
 
 namespace thermal {
 
-/// Pixels whose samples may show any of these pieces: 1. A piece's box is projected and widened by a pixel, so no piece
-/// is missed, however small. With a lens, or a box that reaches the camera's plane: all pixels.
+/// Pixels whose samples may show any of these pieces are 1. A piece's box is projected and widened by a pixel, so no
+/// piece is missed, however small. With a lens, or a box that reaches the camera's plane: all pixels.
 [[nodiscard]] Plane<std::uint8_t> pixels_near(const std::vector<Piece>& pieces, const Place& place,
                                               const View& view, const PixelRays& rays);
 
-/// Whether there are such pixels.
+/// Whether any pixel may show one of these pieces.
 [[nodiscard]] bool may_see(const std::vector<Piece>& pieces, const Place& place, const View& view,
                            const PixelRays& rays);
 

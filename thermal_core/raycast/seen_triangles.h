@@ -9,7 +9,7 @@
 
 namespace thermal {
 
-/// A triangle of a piece, as the camera of a shot sees it.
+/// A triangle of a piece, relative to the camera of a shot.
 struct SeenTriangle {
   unsigned piece = kNoPiece;
   unsigned number = 0;
@@ -19,13 +19,12 @@ struct SeenTriangle {
   TriangleSight sight;
 };
 
-/// The triangles of a shot. The last ones are kept, because rays beside each other often hit the same ones. For one
-/// thread.
+/// Cache of a shot's triangles, because neighbouring rays often hit the same ones. For one thread.
 class SeenTriangles {
  public:
   explicit SeenTriangles(const Shot& shot) : shot_(shot) {}
 
-  /// Of a piece of the shot; until the next call.
+  /// A triangle of a piece of the shot; valid until the next call.
   const SeenTriangle& at(unsigned piece, unsigned number) noexcept {
     SeenTriangle& place = kept_[(31 * piece + number) % kept_.size()];
     if (place.piece != piece || place.number != number) place = seen(piece, number);

@@ -16,7 +16,7 @@ constexpr double kRoundingM = 0.05;
 
 using Point = std::array<double, 3>;
 
-/// Something upright: its shadow on the ground, and its top.
+/// Bounds of an object that casts a shadow on the ground, and its top.
 struct Extent {
   std::array<double, 2> low_m = {std::numeric_limits<double>::infinity(),
                                  std::numeric_limits<double>::infinity()};
@@ -49,7 +49,7 @@ std::vector<LowSun> low_among(std::span<const EastNorthUp> suns) {
   return low;
 }
 
-/// Above which heights things in each tile of a place matter.
+/// Per tile of a scene, the height above which objects are relevant.
 class RelevantHeights {
  public:
   RelevantHeights(double size_m, std::span<const RayStart> starts, std::span<const EastNorthUp> suns)
@@ -71,7 +71,7 @@ class RelevantHeights {
   [[nodiscard]] bool matters(const Extent& extent) const noexcept {
     std::array<std::array<std::size_t, 2>, 2> range{};
     for (std::size_t axis = 0; axis < 2; ++axis) {
-      if (!(extent.low_m[axis] >= -half_m_ && extent.high_m[axis] <= half_m_)) return true;  // in no tile
+      if (!(extent.low_m[axis] >= -half_m_ && extent.high_m[axis] <= half_m_)) return true;  // no tile
       range[axis] = {tile_at(extent.low_m[axis]), tile_at(extent.high_m[axis])};
     }
     for (std::size_t row = range[1][0]; row <= range[1][1]; ++row)
@@ -85,11 +85,11 @@ class RelevantHeights {
     return std::min(static_cast<std::size_t>((place_m + half_m_) * per_m_), tiles_ - 1);
   }
 
-  /// From which height on things in a tile matter to a start.
+  /// Height above which objects in a tile are relevant to a start.
   [[nodiscard]] double from_height_m(std::size_t tile, const RayStart& start,
                                      const std::vector<LowSun>& suns) const noexcept {
     const std::array<std::size_t, 2> number = {tile % tiles_, tile / tiles_};
-    std::array<double, 2> least_m{};  // of what leads from the start to the tile
+    std::array<double, 2> least_m{};  // of the vectors from the start to the tile
     std::array<double, 2> most_m{};
     double square = 0;
     for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -105,7 +105,7 @@ class RelevantHeights {
     return start.height_m + above_m - kRoundingM;
   }
 
-  /// How far it is from the origin to a rectangle in a direction; infinite if it is not in that direction.
+  /// Distance from the origin to a rectangle in a direction; infinite if the ray misses it.
   static double distance_m(const std::array<double, 2>& towards, const std::array<double, 2>& least_m,
                            const std::array<double, 2>& most_m) noexcept {
     constexpr double kParallel = 1e-9;
@@ -195,7 +195,7 @@ ShadingPart::ShadingPart(const BakedScene& scene, double size_m, std::span<const
     part_.meshes.push_back(
         {.name = mesh.name, .points_m = mesh.points_m, .triangles = triangles_.back(), .material_index = {}});
   }
-  std::map<std::uint32_t, std::uint32_t> numbers;  // of the part's meshes, by those of the scene's
+  std::map<std::uint32_t, std::uint32_t> numbers;  // index of a mesh in the part, by that in the scene
   std::map<std::uint32_t, std::array<Point, 8>> boxes_m;
   for (const BakedPlants& plants : scene.plants) {
     auto& transforms = transforms_.emplace_back();

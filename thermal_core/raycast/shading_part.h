@@ -10,16 +10,16 @@
 
 namespace thermal {
 
-/// Where rays to the sky start: squares of maps of the ground, and from what height.
+/// Start of rays to the sky: squares of the ground's maps, and the lowest height.
 struct RayStart {
   std::array<double, 2> low_m{};  ///< corners
   std::array<double, 2> high_m{};
   double height_m = 0;  ///< of the lowest ray's start
 };
 
-/// The part of a scene that rays from some places to the sky can meet: ground, waters and plants, without what rises by
-/// less than 1.5 degrees above the horizon of all these places, unless it can hide a sun as low as that. What is left out
-/// hides at most sin^2(1.5 deg) = 0.0007 of the sky of a level surface.
+/// The part of a scene that rays from some starts to the sky can hit: ground, waters and plants, without whatever rises
+/// by less than 1.5 degrees above the horizon of all starts, unless it can hide a sun as low as that. The parts left
+/// out hide at most sin^2(1.5 deg) = 0.0007 of the sky of a level surface.
 class ShadingPart {
  public:
   /// The scene must outlive this object.

@@ -5,9 +5,9 @@
 
 namespace thermal {
 
-inline constexpr unsigned kNoPiece = ~0U;  ///< the number of none: a ray hits nothing
+inline constexpr unsigned kNoPiece = ~0U;  ///< number of a piece that does not exist: the ray hits nothing
 
-/// A frame to be traced: the place, the actors where they are, the camera.
+/// A frame to be traced: scene, actors in their poses, camera.
 struct Shot {
   const Place& place;
   const PieceSet& actors;

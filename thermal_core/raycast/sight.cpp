@@ -31,7 +31,7 @@ VELDT_INLINE void put_lane(const Vector3& vector, std::size_t k, VectorLanes<Num
   at(lanes[2], k) = static_cast<Number>(vector.z);
 }
 
-/// A transform by columns: its rotation and scale, and the rest.
+/// Columns of a transform: its linear part, and its translation.
 struct Axes {
   Vector3 x;
   Vector3 y;
@@ -50,13 +50,13 @@ Vector3 to_world(const Axes& axes, const Vector3& point) noexcept {
   return point.x * axes.x + point.y * axes.y + point.z * axes.z + axes.origin_m;
 }
 
-/// A normal under the inverse transpose, times the determinant.
+/// A normal transformed by the inverse transpose, times the determinant.
 Vector3 normal_to_world(const Axes& axes, const Vector3& normal) noexcept {
   return normal.x * cross(axes.y, axes.z) + normal.y * cross(axes.z, axes.x) +
          normal.z * cross(axes.x, axes.y);
 }
 
-/// A share of a side, within the rest of the whole. The comparisons also turn NaN, of a ray in the plane, into 0.
+/// Clamps a barycentric coordinate to [0, rest]. The comparisons also turn NaN, of a ray in the plane, into 0.
 VELDT_INLINE double share_of(double share, double rest) noexcept {
   return share > 0 ? (share < rest ? share : rest) : 0.0;
 }
@@ -127,7 +127,7 @@ void see_triangles(const VectorLanes<double>& direction, const TriangleLanes& tr
     const double a = 1 - b - c;
     at(out.depth_m, k) = static_cast<float>(at(triangle.depth_m[0], k) + b * at(triangle.depth_m[1], k) +
                                             c * at(triangle.depth_m[2], k));
-    // A mirror turns the order of corners around and, in `smooth`, the sign of the determinant: both cancel out.
+    // A mirror reverses the order of corners and, in `smooth`, the sign of the determinant: both cancel out.
     const Vector3 smooth = a * lane_of(triangle.normal[0], k) + b * lane_of(triangle.normal[1], k) +
                            c * lane_of(triangle.normal[2], k);
     const bool flat = !(dot(smooth, smooth) > 0);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kAzimuths = 2048;
 
-/// The number of Fibonacci's before this one.
+/// The preceding Fibonacci number.
 std::size_t one_before(std::size_t number) noexcept {
   std::size_t before = 1;
   std::size_t last = 2;
@@ -24,7 +24,7 @@ std::size_t one_before(std::size_t number) noexcept {
   return before;
 }
 
-/// Unit vectors at kAzimuths angles, by halving them.
+/// Unit vectors at kAzimuths angles, by repeated halving.
 std::vector<std::array<float, 2>> circle() {
   std::vector<std::array<double, 2>> corners = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   while (corners.size() < kAzimuths) {
@@ -65,10 +65,10 @@ std::array<Step, 2> shortest_steps(int count, int step) {
   return {first, *second};
 }
 
-/// What is left above a whole number; 0 to less than 1.
+/// Fractional part, from 0 to less than 1.
 VELDT_INLINE float wrapped(float number) noexcept {
   const float rest = number - std::floor(number);
-  return rest < 1 ? rest : 0;  // a small negative number is rounded up to 1
+  return rest < 1 ? rest : 0;  // a small negative number would be rounded up to 1
 }
 
 }  // namespace

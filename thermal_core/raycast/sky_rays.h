@@ -8,21 +8,21 @@
 
 namespace thermal {
 
-/// Directions above the horizon, as many in each part of the sky as its cosine from the vertical weighs: their points
-/// in the unit disc below are spread evenly. The share of them that is not blocked estimates the sky view.
+/// Directions above the horizon, distributed as the cosine from the vertical: their projections onto the unit disc are
+/// spread evenly. The share of them that is not blocked estimates the sky view.
 ///
 /// The set is a lattice in (u, v) = (sine of the angle from the vertical, squared; azimuth in turns), of k / n and
-/// frac(k g / n) with g and n that follow each other in Fibonacci's sequence. A lane shifts it by a vector of the
-/// lattice's own cell, so that direction k of all lanes lies in one cell: rays of a packet stay together, and errors of
-/// cells are independent of each other. Bits do not depend on the C library: only +, -, *, / and square roots.
+/// frac(k g / n) with consecutive Fibonacci numbers g and n. A lane shifts it by a vector of the lattice's own cell, so
+/// that direction k of all lanes lies in one cell: rays of a packet stay together, and errors of cells are independent
+/// of each other. Bits do not depend on the C library: only +, -, *, / and square roots.
 class SkyRays {
  public:
-  /// @param count  a number of Fibonacci's from 8 to 2584
+  /// @param count  a Fibonacci number from 8 to 2584
   explicit SkyRays(std::size_t count);
 
   [[nodiscard]] std::size_t count() const noexcept { return points_.size(); }
 
-  /// Where the shift of each lane is in the lattice's cell, each from 0 to less than 1.
+  /// Shift of each lane within the lattice's cell, from 0 to less than 1 along both sides.
   using Shift = std::array<Lanes<float>, 2>;
 
   /// Direction k of each lane: unit vectors.

@@ -24,17 +24,17 @@ struct Vector3 {
   }
 };
 
-/// The scalar product.
+/// Scalar product.
 [[nodiscard]] VELDT_INLINE constexpr double dot(const Vector3& a, const Vector3& b) noexcept {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// The vector product.
+/// Vector product.
 [[nodiscard]] VELDT_INLINE constexpr Vector3 cross(const Vector3& a, const Vector3& b) noexcept {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// The Euclidean length.
+/// Euclidean length.
 [[nodiscard]] VELDT_INLINE double length(const Vector3& a) noexcept { return std::sqrt(dot(a, a)); }
 
 /// A vector of three numbers of any type.
@@ -43,7 +43,7 @@ template <typename Number>
   return {static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2])};
 }
 
-/// Where the camera is in a frame, and its axes: columns of the pose.
+/// Position of the camera in a frame, and its axes: columns of the pose.
 struct View {
   Vector3 right;
   Vector3 down;

@@ -7,7 +7,7 @@
 namespace thermal {
 namespace {
 
-/// Transforms lie in a track actor by actor, frame by frame, bone by bone.
+/// A track stores transforms by actor, then frame, then bone.
 std::vector<std::size_t> first_bones(const BakedScene& scene, const BakedTrack& track) {
   std::vector<std::size_t> first;
   first.reserve(track.posed.size());

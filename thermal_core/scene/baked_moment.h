@@ -9,12 +9,12 @@
 
 namespace thermal {
 
-/// The camera and the actors of a place at one moment.
+/// Camera and actors of a scene at one moment.
 struct BakedMoment {
   std::array<double, 16> camera_to_world{};             ///< row-major 4 x 4, OpenCV camera axes
   std::vector<std::array<double, 3>> actor_position_m;  ///< [actor], on the ground
   std::vector<double> actor_heading_rad;                ///< [actor]
-  std::vector<std::uint8_t> posed;                      ///< [actor]: whether it may be in the picture
+  std::vector<std::uint8_t> posed;                      ///< whether the picture may show it
   std::vector<Transform<float>> bones;                  ///< of posed actors: actor by actor, bone by bone
 };
 
@@ -26,9 +26,9 @@ class TrackMoments {
   /// A frame as it is baked.
   [[nodiscard]] BakedMoment at_frame(std::size_t frame) const;
 
-  /// A moment between two frames, or a frame's own: positions and bones by straight lines, headings by the shorter way;
-  /// the camera as in the earlier frame. Actors that are not posed in both frames are not posed. Requires
-  /// first <= time_s <= last of BakedTrack::time_s.
+  /// A moment between two frames, or a frame's own: positions and bones are interpolated linearly, headings along the
+  /// shorter arc; the camera is that of the earlier frame. Actors that are not posed in both frames are not posed.
+  /// Requires first <= time_s <= last of BakedTrack::time_s.
   [[nodiscard]] BakedMoment at_time(double time_s) const;
 
  private:

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,7 +19,7 @@ namespace thermal {
 template <typename Number>
 using Transform = std::array<Number, 12>;
 
-/// Triangles that things of a scene share.
+/// Triangles that several parts of a scene share.
 struct BakedMesh {
   std::string name;
   bool smooth = false;                                      ///< normals are interpolated between vertices
@@ -25,7 +28,7 @@ struct BakedMesh {
   std::span<const std::uint16_t> material_index;            ///< of each triangle
 };
 
-/// A mesh in its place: the ground, a water surface.
+/// A mesh with its position: the ground, a water surface.
 struct BakedSurface {
   std::uint16_t object = 0;
   std::size_t mesh = 0;
@@ -72,15 +75,16 @@ struct BakedGround {
   std::span<const std::uint8_t> border = {};
 };
 
-/// A place with everything on it, as every engine draws it (configs/schema/scene.schema.json).
+/// A complete scene, as every engine draws it (configs/schema/scene.schema.json).
 struct BakedScene {
   std::string name;
   std::uint32_t seed = 0;
   CameraIntrinsics camera;
-  int view_margin_px = 0;                 ///< of the view beyond each side of a pinhole's picture
-  std::array<double, 2> depth_range_m{};  ///< along the axis: the nearest and the farthest that is seen
+  int view_margin_px = 0;                 ///< by which the view exceeds each side of a pinhole's picture
+  std::array<double, 2> depth_range_m{};  ///< along the axis: clipped nearer and farther
   std::vector<ManifestObject> objects;
   std::vector<ManifestMaterial> materials;
+  std::set<std::string> mirrors = {};  ///< materials in which the scene is seen
   std::vector<BakedMesh> meshes;
   std::vector<BakedSurface> surfaces;
   std::vector<BakedPlants> plants;
@@ -88,6 +92,34 @@ struct BakedScene {
   std::vector<WarmBed> beds = {};
   BakedGround ground;
   std::vector<std::byte> data;  ///< what the spans refer to
+};
+
+/// Which surfaces of a scene mirror.
+class MirrorIndices {
+ public:
+  explicit MirrorIndices(const BakedScene& scene)
+      : objects_(among(scene.objects, scene.mirrors)), materials_(among(scene.materials, scene.mirrors)) {}
+
+  /// Whether any may.
+  [[nodiscard]] bool any() const {
+    return std::ranges::count(objects_, true) + std::ranges::count(materials_, true) > 0;
+  }
+
+  /// Whether those of this object and material do.
+  [[nodiscard]] bool has(std::uint16_t object, std::uint16_t material) const {
+    return material != 0 ? materials_[material] : objects_[object];
+  }
+
+ private:
+  template <typename Entry>
+  static std::vector<bool> among(const std::vector<Entry>& entries, const std::set<std::string>& mirrors) {
+    std::vector<bool> found(std::numeric_limits<std::uint16_t>::max() + std::size_t{1});
+    for (const Entry& entry : entries) found[entry.index] = mirrors.contains(entry.material);
+    return found;
+  }
+
+  std::vector<bool> objects_;  ///< by index
+  std::vector<bool> materials_;
 };
 
 /// A clip's camera and actors, frame by frame (configs/schema/track.schema.json).
@@ -101,7 +133,7 @@ struct BakedTrack {
   std::span<const double> look_angle_deg;
   std::span<const std::array<double, 3>> actor_position_m;  ///< [actor, frame], on the ground
   std::span<const double> actor_heading_rad;                ///< [actor, frame]
-  std::span<const std::uint8_t> posed;      ///< [actor, frame]: whether it may be in the picture
+  std::span<const std::uint8_t> posed;                      ///< whether the picture may show it
   std::span<const Transform<float>> bones;  ///< of posed actors: actor by actor, frame by frame, bone by bone
   std::vector<std::byte> data;              ///< what the spans refer to
 };

@@ -29,7 +29,7 @@ CameraIntrinsics passes_camera(const Manifest& manifest) noexcept {
 }
 
 int samples_across_pixel(const Manifest& manifest) noexcept {
-  constexpr int kOfCoverage = 64;  // the transfer of more differs by less than 3e-4 up to Nyquist
+  constexpr int kOfCoverage = 64;  // more samples change the transfer by less than 3e-4 up to Nyquist
   return manifest.supersample * (manifest.cryptomatte.empty() ? 1 : kOfCoverage);
 }
 

@@ -14,17 +14,17 @@ namespace thermal {
 /// The manifest's camera with overscan: one pixel for each of the passes' blocks of supersample x supersample.
 [[nodiscard]] CameraIntrinsics pixels_camera(const Manifest& manifest) noexcept;
 
-/// The camera that the passes are a picture of: the manifest's, with overscan and supersampling.
+/// The camera of the passes: the manifest's, with overscan and supersampling.
 [[nodiscard]] CameraIntrinsics passes_camera(const Manifest& manifest) noexcept;
 
-/// How many evenly spread samples across a pixel of the camera its radiance is the mean of. A cryptomatte knows
-/// which share of a pixel each object covers, as if by a great many of them.
+/// Over how many evenly spread samples across a pixel the radiance is averaged. A cryptomatte states the share of a
+/// pixel that each object covers, as if by very many samples.
 [[nodiscard]] int samples_across_pixel(const Manifest& manifest) noexcept;
 
 /// The rays of a camera, the same for all its frames.
 class CameraRays {
  public:
-  /// Where the lens shows nothing, those for which undistort() has NaN, rays are NaN.
+  /// Rays are NaN where undistort() is.
   explicit CameraRays(const CameraIntrinsics& camera, const LensDistortion& lens = {});
 
   /// x and y of the rays through the pixels' centres, z being 1, in camera axes.
@@ -32,7 +32,7 @@ class CameraRays {
   [[nodiscard]] const Plane<float>& y() const noexcept { return y_; }
   /// Length of the ray with z = 1: range = depth * length.
   [[nodiscard]] const Plane<float>& length() const noexcept { return length_; }
-  /// Side of a pixel at depth 1, on the axis; of one that is not square, the mean (geometric) of its sides.
+  /// Side of a pixel at depth 1, on the axis; for pixels that are not square, the geometric mean of both.
   [[nodiscard]] float pixel_width() const noexcept { return pixel_width_; }
 
  private:
@@ -42,11 +42,11 @@ class CameraRays {
   float pixel_width_;
 };
 
-/// What a lens's cos^4 fall-off, once non-uniformity correction has evened out the signal, does to the noise of
-/// each pixel: its inverse, 1.37 at 22.5 deg off the axis.
+/// Gain of each pixel's noise by the lens's cos^4 fall-off, after non-uniformity correction has evened out the signal:
+/// its inverse, 1.37 at 22.5 deg off the axis.
 [[nodiscard]] Plane<float> falloff_noise_gain(const CameraIntrinsics& camera);
 
-/// Camera to world of one frame: where the camera is and where its axes point.
+/// Position and axes of the camera in one frame.
 struct CameraPose {
   std::array<float, 3> position_m{};
   std::array<std::array<float, 3>, 3> rotation{

@@ -7,7 +7,7 @@
 namespace thermal {
 namespace {
 
-/// Repeats each pixel factor x factor times, then puts the samples in their places.
+/// Repeats each pixel factor x factor times, then overwrites those that have samples.
 template <typename T>
 Plane<T> filled(const Plane<T>& pixels, const std::vector<T>& samples, const FineSamples& fine) {
   const auto side = static_cast<std::size_t>(fine.factor);

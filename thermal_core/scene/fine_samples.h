@@ -8,8 +8,8 @@
 
 namespace thermal {
 
-/// A plane of passes that are sampled where it matters, with all samples everywhere: each pixel's value factor x factor
-/// times, or its samples, which are a list of `fine`. An empty plane stays empty.
+/// Expands a plane of adaptively sampled passes to factor x factor values a pixel: its own samples, a list of `fine`,
+/// or its value repeated. An empty plane stays empty.
 [[nodiscard]] Plane<std::uint16_t> filled_in(const Plane<std::uint16_t>& pixels,
                                              const std::vector<std::uint16_t>& samples,
                                              const FineSamples& fine);
@@ -17,10 +17,10 @@ namespace thermal {
 [[nodiscard]] Plane<float> filled_in(const Plane<float>& pixels, const std::vector<float>& samples,
                                      const FineSamples& fine);
 
-/// All planes filled in, without samples of their own.
+/// All planes expanded, without `fine`.
 [[nodiscard]] Passes filled_in(const Passes& passes);
 
-/// Which pixels have samples of their own: 1 at each of them, 0 elsewhere, as large as the planes filled in.
+/// Which pixels have samples of their own: 1 there, 0 elsewhere, of the expanded size.
 [[nodiscard]] Plane<std::uint16_t> sampled_places(const FineSamples& fine, int width_px);
 
 /// The reverse: planes with factor x factor samples a pixel become those with one, and samples of the pixels for which

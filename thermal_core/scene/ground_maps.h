@@ -12,7 +12,7 @@ namespace thermal {
 /// In which hours of a day the sun reaches the ground.
 struct SunlitHours {
   SunPath path;
-  /// Of each cell: bit k is set where the sun's beam in the middle of hour k of local solar time reaches it.
+  /// Per cell: bit k is set if the sun's beam reaches it in the middle of hour k of local solar time.
   std::vector<std::uint32_t> hours;
 
   [[nodiscard]] bool operator==(const SunlitHours&) const = default;
@@ -23,20 +23,19 @@ struct SunlitHours {
 struct GroundCovers {
   std::size_t cells = 0;
   std::vector<std::string> kinds;     ///< materials; the first is bare soil
-  std::vector<std::uint8_t> kind;     ///< number among `kinds`; bare soil where grass grows
-  std::vector<std::uint8_t> grass;    ///< of bare soil alone; so are the others
+  std::vector<std::uint8_t> kind;     ///< index in `kinds`; bare soil where grass grows
+  std::vector<std::uint8_t> grass;    ///< on bare soil alone; so are the others
   std::vector<std::uint8_t> trodden;  ///< packed by feet or wheels
   std::vector<std::uint8_t> ash;
-  /// From the middle of a cell to the border of its kind, of which 255 is one and a half cells or more; empty: not known, and
-  /// borders are half-way between cells.
-  std::vector<std::uint8_t> border = {};
+  /// Distance from the middle of a cell to the border of its kind; 255 is one and a half cells or more.
+  std::vector<std::uint8_t> border;
 
   [[nodiscard]] bool operator==(const GroundCovers&) const = default;
 };
 
 /// What each square of the ground receives, [row of y, column of x], from south and west, of cells x cells squares. The
-/// place is that of BakedGround: a square of size_m around the origin. Values are those of the middle of a cell, on the
-/// drawn ground or water. Actors are not part of it. Where no clip of a plan can see the ground, sky and sun are those of
+/// area is that of BakedGround: a square of size_m around the origin. Values are those of the middle of a cell, on the
+/// drawn ground or water. Actors are not part of it. Where no clip of a plan sees the ground, sky and sun are those of
 /// an open plain: sky_view is 255, and all hours of the day are sunlit.
 struct GroundMaps {
   double size_m = 0;
@@ -54,11 +53,11 @@ struct GroundMaps {
   [[nodiscard]] bool operator==(const GroundMaps&) const = default;
 };
 
-/// Cells along a side: of at most 1 m, or coarser in places of more than 4096 m.
+/// Cells along a side: of at most 1 m, or coarser in scenes of more than 4096 m.
 /// @param size_m  greater than 0; at least one cell
 [[nodiscard]] std::size_t ground_map_cells(double size_m) noexcept;
 
-/// Where the middle of a cell's row or column is [m].
+/// Coordinate of the middle of a cell's row or column [m].
 [[nodiscard]] inline double cell_middle_m(double size_m, std::size_t cells, std::size_t number) noexcept {
   return size_m * ((static_cast<double>(number) + 0.5) / static_cast<double>(cells) - 0.5);
 }

@@ -13,8 +13,8 @@ namespace thermal {
 namespace {
 
 constexpr double kShoreM = 4;      // estimate: capillary rise and seepage wet the ground for a few metres
-constexpr double kNearShoreM = 2;  // beyond which there is no water: distances to the shore are approximate
-constexpr double kSideM = 30;      // from a place to the land beside it: an estimate
+constexpr double kNearShoreM = 2;  // no water beyond it: distances to the shore are approximate
+constexpr double kSideM = 30;      // distance at which the land beside a point is compared: an estimate
 constexpr double kHollowM = 2;     // estimate
 constexpr double kMostInHollows = 0.5;  // estimate
 
@@ -34,7 +34,7 @@ std::vector<std::uint8_t> map_of(std::size_t cells, const At& at) {
   return map;
 }
 
-/// Heights or distances on nodes x nodes places.
+/// Heights or distances at nodes x nodes points.
 struct Grid {
   std::span<const float> values;
   std::size_t nodes = 0;
@@ -50,8 +50,8 @@ struct Grid {
   }
 };
 
-/// How far the land on both of two opposite sides is above a place: of four pairs of sides, the most. Places are in
-/// steps of the grid, of which `side` are kSideM.
+/// Height of the lower of two opposite sides above a point, the most of four such pairs [m]. Positions are in steps of
+/// the grid; `side` is kSideM in steps.
 double depth_m(const Grid& height_m, double row, double column, double side) noexcept {
   constexpr double kDiagonal = 0.70710678;
   constexpr std::array<std::array<double, 2>, 4> kWays = {

@@ -31,7 +31,7 @@ Jacobian jacobian(const LensDistortion& lens, const LensPoint& point) noexcept {
           .yy = radial + slope * y * y + 6 * lens.p1 * y + 2 * lens.p2 * x};
 }
 
-/// Whether nothing folds over on the way from the axis to a point of the pinhole's picture.
+/// Whether the distortion is one-to-one from the axis to a point of the pinhole's picture.
 bool is_unfolded(const LensDistortion& lens, const LensPoint& point) noexcept {
   constexpr int kSteps = 32;  // the determinant is a polynomial of degree 12 along the way
   for (int i = 1; i <= kSteps; ++i) {
@@ -41,8 +41,8 @@ bool is_unfolded(const LensDistortion& lens, const LensPoint& point) noexcept {
   return true;
 }
 
-/// How far outside the camera's picture a pinhole shows what the lens shows at this place [px]; below 0 inside.
-/// ConfigError if that is nowhere.
+/// How far outside the camera's picture a pinhole shows what the lens shows at this pixel position [px]; negative
+/// inside. ConfigError if no such point exists.
 double excess_px(const CameraIntrinsics& camera, const LensDistortion& lens, double u_px, double v_px) {
   const LensPoint seen = unproject(camera, lens, {u_px, v_px});
   if (!is_unfolded(lens, seen)) {
@@ -70,7 +70,7 @@ LensPoint distort(const LensDistortion& lens, const LensPoint& point) noexcept {
 
 LensPoint undistort(const LensDistortion& lens, const LensPoint& point) noexcept {
   constexpr int kMostSteps = 50;
-  constexpr double kLastStep = 1e-9;  // the error after a step goes with its square
+  constexpr double kLastStep = 1e-9;  // convergence is quadratic: the error is about the square of this step
   LensPoint seen = point;
   for (int i = 0; i < kMostSteps; ++i) {
     const LensPoint shown = distort(lens, seen);
@@ -99,8 +99,8 @@ LensPoint unproject(const CameraIntrinsics& camera, const LensDistortion& lens,
                    {(place.u_px - camera.cx_px) / camera.fx_px, (place.v_px - camera.cy_px) / camera.fy_px});
 }
 
-// If the lens folds nothing over between the axis and the border, what it shows within the picture's border is what
-// lies within the border's own source, so the border alone is looked at.
+// A distortion that is one-to-one inside the border maps the inside of the picture into the inside of the border's
+// source, so checking the border is enough.
 int overscan_px(const CameraIntrinsics& camera, const LensDistortion& lens) {
   if (lens.is_none()) return 0;
   double most_px = 0;

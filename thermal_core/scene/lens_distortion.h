@@ -9,7 +9,7 @@ namespace thermal {
 /// Largest overscan on each side.
 inline constexpr int kMostOverscanPx = 4096;
 
-/// What a lens does to the picture of a pinhole, by Brown and Conrady: names, order and meaning are OpenCV's.
+/// Lens distortion of a pinhole's picture, Brown-Conrady model: names, order and meaning are OpenCV's.
 struct LensDistortion {
   double k1 = 0;  ///< radial, r^2; negative: barrel
   double k2 = 0;  ///< radial, r^4
@@ -17,7 +17,7 @@ struct LensDistortion {
   double p2 = 0;  ///< tangential
   double k3 = 0;  ///< radial, r^6
 
-  /// A pinhole's picture.
+  /// Whether there is no distortion.
   [[nodiscard]] bool is_none() const noexcept { return *this == LensDistortion(); }
   [[nodiscard]] bool operator==(const LensDistortion&) const = default;
 };
@@ -28,7 +28,7 @@ struct LensPoint {
   double y = 0;
 };
 
-/// A place in the picture [px]; the top left pixel's centre is (0.5, 0.5), where OpenCV has (0, 0).
+/// A position in the picture [px]; the top left pixel's centre is (0.5, 0.5), where OpenCV has (0, 0).
 struct PicturePoint {
   double u_px = 0;
   double v_px = 0;
@@ -37,32 +37,29 @@ struct PicturePoint {
 /// "k1 -0.2, k2 0.05, p1 0, p2 0, k3 0".
 [[nodiscard]] std::string name_of(const LensDistortion& lens);
 
-/// Where the lens shows the point that a pinhole would show at `point`:
-/// x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y' likewise with p1 and p2 exchanged.
-/// Source: OpenCV 4.6, Camera Calibration and 3D Reconstruction, "Detailed Description".
+/// Position in the lens's picture of the point that a pinhole shows at `point`:
+/// x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y' likewise with p1 and p2 exchanged. Source:
+/// OpenCV 4.6, Camera Calibration and 3D Reconstruction, "Detailed Description".
 [[nodiscard]] LensPoint distort(const LensDistortion& lens, const LensPoint& point) noexcept;
 
-/// The inverse: which point of a pinhole's picture the lens shows at `point`; Newton's method from the point itself.
-/// Where distort() is one to one from the axis to there, as overscan_px() checks, the error is at most 1e-12.
-/// NaN, NaN where the method finds no such point.
-/// Not cv::undistortPoints(): that iterates without the derivative, slowly, and its bits may differ
-/// between versions of OpenCV.
+/// The inverse, by Newton's method from the point itself. Where distort() is one-to-one from the axis to there, as
+/// overscan_px() checks, the error is at most 1e-12. NaN, NaN where the method does not converge.
+/// Not cv::undistortPoints(): that iterates without the derivative, slowly, and its bits may differ between versions of
+/// OpenCV.
 [[nodiscard]] LensPoint undistort(const LensDistortion& lens, const LensPoint& point) noexcept;
 
-/// Where the camera shows what lies in the direction (x, y, 1) of its axes: cv::projectPoints(), whose results are
-/// 0.5 px less.
+/// Position in the picture of the direction (x, y, 1) in camera axes: cv::projectPoints(), whose results are 0.5 px
+/// less.
 [[nodiscard]] PicturePoint project(const CameraIntrinsics& camera, const LensDistortion& lens,
                                    const LensPoint& point) noexcept;
 
-/// The inverse: direction of what the camera shows at a place of its picture, with the error and the NaN of
-/// undistort().
+/// The inverse: direction of a position in the picture, with the error and the NaN of undistort().
 [[nodiscard]] LensPoint unproject(const CameraIntrinsics& camera, const LensDistortion& lens,
                                   const PicturePoint& place) noexcept;
 
-/// How many pixels more than the camera's a pinhole's picture needs on every side, so that each of the camera's
-/// pixels finds in it what the lens shows there, between the centres of four pixels; 0 without distortion.
-/// ConfigError if the lens shows a point of the scene twice within the picture, or needs more than
-/// kMostOverscanPx.
+/// Pixels by which a pinhole's picture must exceed the camera's on every side, so that each of the camera's pixels can
+/// be interpolated from four of its; 0 without distortion. ConfigError if the lens shows a point of the scene twice
+/// within the picture, or needs more than kMostOverscanPx.
 [[nodiscard]] int overscan_px(const CameraIntrinsics& camera, const LensDistortion& lens);
 
 }  // namespace thermal

@@ -35,7 +35,7 @@ struct FirePlace {
   std::array<double, 2> place_m{};  ///< middle of its bed
   double diameter_m = 0.6;
   bool burning = true;  ///< has flames
-  double since_s = 0;   ///< for which it burns, or since its flames went out
+  double since_s = 0;   ///< since it was lit, or since its flames went out
 };
 
 /// Ground on which an animal lay until some time before time 0 of the scene: an ellipse.
@@ -44,7 +44,7 @@ struct WarmBed {
   double heading_rad = 0;           ///< of its length, counter-clockwise from +x
   std::array<double, 2> half_m{};   ///< half of its length and of its width
   double left_s = 0;                ///< since it got up
-  double lain_s = 3600;             ///< for which it had lain
+  double lain_s = 3600;             ///< duration of lying
 };
 
 /// What one object index stands for.
@@ -73,14 +73,14 @@ struct ManifestMaterial {
   std::string part;
 };
 
-/// Position of an actor in one frame.
+/// Pose of an actor in one frame.
 struct ActorPose {
   std::uint16_t index = 0;
   std::array<double, 3> position_m{};
   double heading_rad = 0;
 };
 
-/// A frame's file, and what is known about its moment.
+/// A frame's file, time and poses.
 struct ManifestFrame {
   std::string file;
   double time_s = 0;
@@ -106,7 +106,7 @@ struct Manifest {
   Colour sky_colour{};   ///< in pictures that identify objects by colour
   std::string sequence;  ///< pattern of the frames' names, used if `frames` does not list them
   CameraIntrinsics camera;
-  LensDistortion lens;  ///< that the passes' rays follow; none: they show a pinhole's picture
+  LensDistortion lens;  ///< distortion of the passes' rays; none: a pinhole's picture
   int supersample = 1;  ///< pixels of the passes per pixel of the camera, along each axis
   int overscan_px = 0;  ///< additional camera pixels on every side
   std::vector<ManifestObject> objects;
@@ -114,7 +114,7 @@ struct Manifest {
   std::vector<WarmBed> beds = {};
   std::vector<ManifestFrame> frames;
   std::string document_sha256 =
-      {};  ///< of the JSON it was read from, without its layout; empty if there is none
+      {};  ///< of the JSON it was read from, without whitespace; empty if there is none
 
   /// DataError if indices or track ids are repeated; an actor has no category or track; an actor in a frame is not
   /// among the objects; frames and a sequence are both given; or two objects have one colour, or an object the sky's.

@@ -18,10 +18,10 @@ struct MaterialPart {
   double excess_factor = 1;      ///< of the mean's excess over the air: 0 is at air temperature
   double offset_k = 0;           ///< added to that
   double cooling_excess_k = 0;   ///< when the engine stops; decays exponentially afterwards
-  double cooling_time_s = 3600;  ///< time of decay to 1/e
-  /// What its temperature follows from by the weather, instead of all of the above; the material's if there is none.
+  double cooling_time_s = 3600;  ///< time constant of that decay
+  /// How the weather sets its temperature, instead of all of the above; empty: as the material's.
   std::optional<BodyHeat> body_heat = {};
-  std::optional<MaterialHeat> heat = {};  ///< as of a material: of a plant's wood beside its leaves
+  std::optional<MaterialHeat> heat = {};  ///< for a plant's wood beside its leaves; empty: the material's
 };
 
 /// A fractal field of temperature, fixed to the ground: mean zero.
@@ -47,10 +47,13 @@ struct Material {
   std::optional<MaterialHeat> heat;   ///< how its temperature follows the weather; empty: as in Table 1
   std::optional<BodyHeat> body_heat;  ///< of an actor's parts that state none of their own
 
+  /// Whether what is beyond it is seen in it, as in still water.
+  [[nodiscard]] bool mirrors() const noexcept { return angular == AngularLaw::water; }
+
   /// ConfigError if a value is outside its domain.
   void validate() const;
 
-  /// Temperature in one of Table 1's nights.
+  /// Night-time temperature in one of Table 1's seasons [K].
   [[nodiscard]] double temperature_k(Season season) const noexcept;
 
   /// Temperature [K] at any air temperature: the straight line through both nights of Table 1, including the table's
@@ -60,13 +63,14 @@ struct Material {
   /// Temperature [K] of a part of an actor; of the whole actor if `part` is empty or not listed.
   [[nodiscard]] double part_temperature_k(const std::string& part, const Weather& weather) const noexcept;
 
-  /// What heats a part of an actor, or the whole actor if `part` is empty or not listed; nullptr if nothing is stated.
+  /// Heat model of a part of an actor, or of the whole actor if `part` is empty or not listed; nullptr if there is
+  /// none.
   [[nodiscard]] const BodyHeat* body_heat_of(const std::string& part) const noexcept;
 
-  /// How a part follows the weather: as it states itself, or as the whole; nullptr if neither states it.
+  /// Heat model of a part of a plant: its own, or else the material's; nullptr if there is none.
   [[nodiscard]] const MaterialHeat* heat_of(const std::string& part) const noexcept;
 
-  /// Name of that heat among those of all materials: "acacia", or "acacia wood" if the part states its own.
+  /// Name of that model among those of all materials: "acacia", or "acacia wood" if the part has its own.
   [[nodiscard]] std::string heat_name(const std::string& part) const;
 };
 

@@ -8,10 +8,10 @@
 
 namespace thermal {
 
-/// Renderers write this depth or more where there is no surface.
+/// Depths from here on mean that there is no surface.
 inline constexpr float kSkyFromM = 1e9F;
 
-/// What Blender writes there, and so do we.
+/// What Blender and our engine write there.
 inline constexpr float kSkyDepthM = 1e10F;
 
 /// Planes that a conversion needs besides the object index.
@@ -20,12 +20,12 @@ struct PassNeeds {
   bool normals = false;
   bool actors = false;          ///< the manifest's actor_layer
   bool mirrored = false;        ///< what water mirrors
-  bool depth_if_there = false;  ///< depth for labels, where passes have it
+  bool depth_if_there = false;  ///< depth for labels, if the passes have it
 };
 
-/// What level water mirrors, at the pixels or samples of the water: what the camera would see there from below the water,
-/// as far below it as it is above, of all that stands above the water. Elsewhere, and where water mirrors the sky, both
-/// indices are 0. `Of` is a plane or a list. All are empty if water mirrors nothing but sky.
+/// What level water mirrors, at the water's pixels or samples: the view of the camera mirrored in the water's surface,
+/// of everything above the water. Elsewhere, and where water mirrors the sky, both indices are 0. `Of` is a plane or a
+/// list. All are empty if water mirrors nothing but sky.
 template <template <typename> typename Of>
 struct Mirrored {
   Of<std::uint16_t> object_index;
@@ -45,9 +45,9 @@ struct CoverageRank {
   Plane<float> coverage;  ///< 0 to 1
 };
 
-/// The planes of passes at other places than pixel centres: more samples of some pixels of a frame, factor x factor
-/// each. Pixels are in rows, from left to right. Samples follow pixel row by pixel row; each has `factor` lines, with
-/// the samples of all its pixels from left to right. Lists that were not requested are empty.
+/// Additional samples of some pixels of a frame, factor x factor each, at other positions than pixel centres. Pixels
+/// are in rows, from left to right. Samples follow pixel row by pixel row; each has `factor` lines, with the samples of
+/// all its pixels from left to right. Lists that were not requested are empty.
 struct FineSamples {
   int factor = 1;                           ///< 1: no pixel has more than one sample
   std::vector<std::size_t> row_begin;       ///< [rows + 1]: where the pixels of a row begin in `x_px`
@@ -79,11 +79,11 @@ struct Passes {
   Plane<float> depth_m;                 ///< along the camera's axis, not along the ray; sky: 1e9 or more
   std::array<Plane<float>, 3> normal;   ///< x, y, z in world axes
   Mirrored<Plane> mirrored;
-  /// For files that list the objects sharing a pixel: radiance is the mean over these, the rest of a pixel is sky,
-  /// and `object_index` is the object that covers most of it. Empty: `object_index` is all there is.
+  /// For files that list the objects sharing a pixel: radiance is the mean over these, the rest of a pixel is sky, and
+  /// `object_index` is the object that covers most of it. Empty: each pixel is one object.
   std::vector<CoverageRank> ranks;
-  /// Of passes that are sampled where it matters: the planes above then have one sample per pixel of the camera, and
-  /// these samples replace those of their pixels.
+  /// Of adaptively sampled passes: the planes above then have one sample per pixel of the camera, and these samples
+  /// replace those of their pixels.
   FineSamples fine;
 };
 

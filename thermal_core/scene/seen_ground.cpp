@@ -17,13 +17,13 @@ constexpr float kUnseen = std::numeric_limits<float>::infinity();
 
 using Point = std::array<double, 3>;
 
-/// All that some squares of the ground hold is within a distance of a point.
+/// Bounding sphere of what some squares of the ground hold.
 struct Ball {
   Point middle_m{};
   double radius_m = 0;
 };
 
-/// The least and the greatest of some heights.
+/// Minimum and maximum of some heights.
 struct HeightRange {
   double low_m = std::numeric_limits<double>::infinity();
   double high_m = -std::numeric_limits<double>::infinity();
@@ -34,12 +34,12 @@ struct HeightRange {
   }
 };
 
-/// What a camera sees.
+/// The view of a camera.
 class Sight {
  public:
   Sight(const CameraIntrinsics& camera, const std::array<double, 2>& depth_range_m) noexcept
       : depth_range_m_(depth_range_m), pixel_width_(1 / std::sqrt(camera.fx_px * camera.fy_px)) {
-    // A point (x, y, z) is inside of a side where across * x or y + deeper * z is not negative.
+    // A point (x, y, z) is on the inner side where across * x or y + deeper * z >= 0.
     const auto side = [](double sign, double border) {
       const double length = std::sqrt(1 + border * border);
       return Side{.across = sign / length, .deeper = -sign * border / length};
@@ -49,7 +49,7 @@ class Sight {
         side(1, -camera.cy_px / camera.fy_px), side(-1, (camera.height_px - camera.cy_px) / camera.fy_px)};
   }
 
-  /// The width of the finest pixel [m] that may read something of a ball.
+  /// Width of the finest pixel [m] that may use a value in a sphere.
   [[nodiscard]] double pixel_m(const std::array<double, 16>& pose, const Ball& ball) const noexcept {
     const Point from_m = {ball.middle_m[0] - pose[3], ball.middle_m[1] - pose[7],
                           ball.middle_m[2] - pose[11]};
@@ -65,7 +65,7 @@ class Sight {
   }
 
  private:
-  /// A plane through the camera and a side of its picture, by its normal in camera axes.
+  /// A plane through the camera and a side of its picture, as a normal in camera axes.
   struct Side {
     double across = 0;  ///< of x for the left and the right one, of y for the others
     double deeper = 0;
@@ -76,25 +76,15 @@ class Sight {
   std::array<Side, 4> sides_;
 };
 
-/// Which indices stand for water.
-template <typename Entry>
-std::vector<bool> water_among(const std::vector<Entry>& entries) {
-  std::vector<bool> wet(std::numeric_limits<std::uint16_t>::max() + std::size_t{1});
-  for (const Entry& entry : entries) wet[entry.index] = entry.material == "water";
-  return wet;
-}
-
-/// Heights of each surface that is water.
+/// Heights of each surface that mirrors.
 std::vector<HeightRange> waters_of(const BakedScene& scene) {
-  const std::vector<bool> objects = water_among(scene.objects);
-  const std::vector<bool> materials = water_among(scene.materials);
+  const MirrorIndices mirrors(scene);
   std::vector<HeightRange> waters;
   for (const BakedSurface& surface : scene.surfaces) {
     const BakedMesh& mesh = scene.meshes[surface.mesh];
     HeightRange range;
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
-      const std::uint16_t material = mesh.material_index[k];
-      if (!(material != 0 ? materials[material] : objects[surface.object])) continue;
+      if (!mirrors.has(surface.object, mesh.material_index[k])) continue;
       for (const std::uint32_t corner : mesh.triangles[k]) range.add(mesh.points_m[corner][2]);
     }
     if (range.low_m <= range.high_m) waters.push_back(range);
@@ -102,7 +92,7 @@ std::vector<HeightRange> waters_of(const BakedScene& scene) {
   return waters;
 }
 
-/// Looks at the ground by balls around its squares.
+/// Tests bounding spheres of the ground's squares against views.
 class SeenGround {
  public:
   SeenGround(const BakedScene& scene, const GroundMaps& maps, std::span<const GroundView> views)
@@ -110,7 +100,7 @@ class SeenGround {
     for (const GroundView& view : views) sights_.emplace_back(view.camera, scene.depth_range_m);
   }
 
-  /// A tile of blocks from (row, column) on.
+  /// Visits a tile of blocks from (row, column) on.
   void look_at(std::size_t row, std::size_t column, std::vector<float>& pixels_m) const {
     const std::size_t side = blocks_along(maps_.cells);
     const std::size_t rows = std::min(kTileBlocks, side - row);
@@ -138,7 +128,7 @@ class SeenGround {
     return static_cast<float>(finest_m);
   }
 
-  /// Around a square of blocks, and around what each water mirrors of it.
+  /// Bounding spheres of a square of blocks, and of its mirror image in each water.
   [[nodiscard]] std::vector<Ball> balls_of(std::size_t row, std::size_t column, std::size_t blocks) const {
     const double cell_m = maps_.size_m / static_cast<double>(maps_.cells);
     const double half_m = cell_m * static_cast<double>(blocks * kBlockCells) / 2;
@@ -159,7 +149,7 @@ class SeenGround {
     return balls;
   }
 
-  /// Of cells, and of those beside them, between whose middles the ground goes on.
+  /// Heights of cells and of their neighbours, because the ground is interpolated between cells.
   [[nodiscard]] HeightRange heights_of(std::size_t row, std::size_t column,
                                        std::size_t cells) const noexcept {
     HeightRange range;

@@ -11,7 +11,7 @@
 
 namespace thermal {
 
-/// A camera, with all that it sees beyond a pinhole's picture, and its poses.
+/// A camera's full view, beyond a pinhole's picture too, and its poses.
 struct GroundView {
   CameraIntrinsics camera;
   std::vector<std::array<double, 16>> camera_to_world;  ///< row-major 4 x 4, OpenCV camera axes
@@ -25,9 +25,9 @@ inline constexpr std::size_t kBlockCells = 4;
   return (cells + kBlockCells - 1) / kBlockCells;
 }
 
-/// Of each block of cells, [row of y, column of x]: the width on the ground [m] of the finest pixel that may show one of
-/// its cells or read its values, also mirrored by water; infinite where there is none. Read are cells of a few pixels
-/// and of 4 cells around what is seen, because values are interpolated and means over pixels. Nothing hides the ground.
+/// Per block of cells, [row of y, column of x]: the width on the ground [m] of the finest pixel that may use one of its
+/// values, also mirrored by water; infinite where there is none. Pixels use cells within a few pixels and 4 cells of
+/// what they show, because values are interpolated and averaged. Occlusion is ignored.
 /// @param maps  with heights
 [[nodiscard]] std::vector<float> finest_pixels_m(const BakedScene& scene, const GroundMaps& maps,
                                                  std::span<const GroundView> views);

@@ -6,7 +6,7 @@ namespace thermal {
 
 /// Physical contributions to the signal besides the surface's own emission, which is always included.
 struct Terms {
-  bool place = false;      ///< sky view, shade and moisture of the ground by maps, depth in crowns
+  bool place = false;      ///< sky view, shade and moisture of the ground from maps, depth in crowns
   bool facing = false;     ///< the direction that a surface faces
   bool variation = false;  ///< fractal temperature field over ground and plants
   bool parts = false;      ///< parts of an actor at their own temperatures
@@ -29,7 +29,7 @@ enum class TermChoice { off, on, automatic };
   return choice == TermChoice::on ? "on" : "off";
 }
 
-/// A config's choices.
+/// A config's choice for each term.
 struct TermChoices {
   TermChoice place = TermChoice::off;
   TermChoice facing = TermChoice::off;

@@ -54,7 +54,7 @@ class Raster {
     std::size_t end = 0;
   };
 
-  /// Numbers of the rows or columns whose middle is between two coordinates, or a rounding beside them.
+  /// Range of the rows or columns whose middle is between two coordinates, with a tolerance for rounding.
   [[nodiscard]] Range middles_between(double least_m, double most_m) const noexcept {
     constexpr double kRounding = 1e-6;  // of a cell
     const auto cells = static_cast<double>(cells_);

@@ -106,7 +106,7 @@ inline float left_of(std::int32_t pair) noexcept {
 
 inline float right_of(std::int32_t pair) noexcept { return static_cast<float>(pair >> 16); }
 
-/// Interpolates a level's texels linearly at places. Branch-free, so that it vectorises.
+/// Interpolates a level's texels linearly at points. Branch-free, so that it vectorises.
 VELDT_CLONES void sample_all(const std::int32_t* __restrict texels, const float* __restrict x,
                              const float* __restrict y, const float* __restrict footprint,
                              float* __restrict value, std::size_t count) noexcept {
@@ -127,7 +127,7 @@ VELDT_CLONES void sample_all(const std::int32_t* __restrict texels, const float*
         static_cast<int>(std::bit_cast<std::uint32_t>(texel * (1 / 0.75F)) >> kMantissaBits) - kBias;
     const int level = exponent > 0 ? exponent : 0;
     const float shrink = std::bit_cast<float>(static_cast<std::uint32_t>(kBias - level) << kMantissaBits);
-    // A texel of a coarser level has its middle half a texel minus half a fine one further on.
+    // The middle of a coarser level's texel is shifted by half its width minus half a fine texel.
     const float shift = 0.5F - 0.5F * shrink;
     const float u = (usable ? x[i] : 0.0F) * (kTexelsPerLength * shrink) - shift;
     const float v = (usable ? y[i] : 0.0F) * (kTexelsPerLength * shrink) - shift;

@@ -8,15 +8,15 @@
 
 namespace thermal {
 
-/// The conditions of a clip, for everything in the scene.
+/// Conditions of a clip, for the whole scene.
 struct Weather {
   Air air;  ///< at the clip's time
   std::optional<double> vehicle_stopped_s =
-      {};                  ///< since engines were switched off; empty: of each vehicle its own
+      {};                  ///< since engines were switched off; empty: a value per vehicle
   DayWeather day = {};     ///< around the clip, for the heat balance
   double solar_h = 3;      ///< local solar time of the clip's middle
-  double cold_pool_k = 0;  ///< by which the lowest ground of the scene is colder at night than the highest
-  /// Whether the heat balance says what air.inversion_k is, by the heights of the cameras; see with_inversion().
+  double cold_pool_k = 0;  ///< how much colder the lowest ground of the scene is at night than the highest
+  /// Whether the heat balance computes air.inversion_k at the cameras' heights; see with_inversion().
   bool inversion_by_balance = false;
 
   [[nodiscard]] bool operator==(const Weather&) const = default;

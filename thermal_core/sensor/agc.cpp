@@ -58,7 +58,7 @@ Agc::Agc(const AgcParameters& parameters, AgcScene scene)
   }
 }
 
-/// Level k starts at (k - rounding) / 255 of the brightest radiance, at the count to which that temperature rounds.
+/// Level k starts at (k - rounding) / 255 of the brightest radiance, at the rounded count of that temperature.
 void Agc::make_radiance_curve(double rounding) {
   for (std::size_t level = 1; level < kLevels; ++level) {
     const double share = (static_cast<double>(level) - rounding) / kLargestLevel;
@@ -79,7 +79,7 @@ void Agc::make_linear_curve(double low_count, double high_count) {
   keep_headroom();
 }
 
-/// From levels 0 to 255 to those from black to white: each becomes the nearest.
+/// Maps levels 0 to 255 to the range from black to white, to the nearest.
 void Agc::keep_headroom() {
   if (parameters_.mode == AgcMode::table_max ||
       (parameters_.black_level == 0 && parameters_.white_level == 255))
@@ -153,7 +153,7 @@ void Agc::count_information(const Plane<std::uint16_t>& ir16) {
   for (std::size_t i = 0; i < ir16.size(); ++i) informed_[ir16.pixels()[i]] += marks_.pixels()[i];
 }
 
-/// Pixels of the counts [begin, end), of which flat ones have less weight in mode information.
+/// Number of pixels with counts in [begin, end); in mode information, flat ones have less weight.
 double Agc::weight_of(std::size_t begin, std::size_t end) const {
   const auto sum = [&](const Histogram& histogram) {
     const auto at = [&](std::size_t count) { return histogram.begin() + static_cast<std::ptrdiff_t>(count); };

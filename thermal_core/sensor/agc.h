@@ -16,17 +16,17 @@ namespace thermal {
 /// Of the 8-bit frame.
 inline constexpr std::size_t kLevels = 256;
 
-/// How one 8-bit frame was made from its 16-bit frame: thresholds[k] is the smallest 16-bit count shown as level k +
-/// 1 or higher (65535: only clipped pixels), so that
+/// Mapping of a 16-bit frame to its 8-bit frame: thresholds[k] is the smallest 16-bit count shown as level k + 1 or
+/// higher (65535: only clipped pixels), so that
 ///   level = number of thresholds <= count; black-hot shows 255 - level.
 /// Exact in every mode except two: table_max, whose levels are computed from radiance, as in the published script, so
 /// that the curve is within one level; and clahe, which has a curve for each pixel: is_local is set, and there are no
 /// thresholds.
 struct ToneCurve {
   std::array<std::uint16_t, kLevels - 1> thresholds{};
-  double low_k = 0;   ///< linear, percentile: start of level 0; others that adapt: end of the tail dropped
+  double low_k = 0;   ///< linear, percentile: start of level 0; other adaptive modes: end of the lower tail
   double high_k = 0;  ///< end of level 255; likewise
-  bool is_local = false;  ///< level depends on the pixel's place too
+  bool is_local = false;  ///< the level also depends on the pixel's position
 
   [[nodiscard]] bool operator==(const ToneCurve&) const = default;
 };
@@ -34,7 +34,7 @@ struct ToneCurve {
 /// In-band radiance [W m^-2 sr^-1] -> temperature [K], exact.
 using TemperatureOf = std::function<double(double radiance_w_m2_sr)>;
 
-/// What the modes need from the camera and the clip.
+/// Parameters of the modes that the camera and the clip set.
 struct AgcScene {
   double kelvin_per_count = 0.01;
   double frame_rate_hz = 9;
@@ -45,11 +45,10 @@ struct AgcScene {
 
 /// Automatic gain control of one clip: makes each frame's 8-bit picture from its 16-bit counts and earlier frames.
 ///
-/// Counts 0 (nothing measured: NaN, no light) and 65535 (clipped) are shown as levels 0 and 255, but the adaptive modes ignore
-/// them. All others are shown from black_level to white_level. A
-/// frame without any other count keeps the previous frame's curve; a first frame of that kind is black. The adaptive
-/// modes never spread one NETD over more than max_gain_dn_per_netd levels, so that a scene of low contrast stays near
-/// middle grey instead of showing its noise.
+/// Counts 0 (no signal: NaN, no light) and 65535 (clipped) are shown as levels 0 and 255, but the adaptive modes ignore
+/// them. All others are shown from black_level to white_level. A frame without any other count keeps the previous
+/// frame's curve, or is black if it is the first. The adaptive modes never spread one NETD over more than
+/// max_gain_dn_per_netd levels, so that a scene of low contrast stays near middle grey instead of showing its noise.
 class Agc {
  public:
   Agc(const AgcParameters& parameters, AgcScene scene);
@@ -84,8 +83,8 @@ class Agc {
   double high_count_ = 0;
   LevelBins bins_;                  ///< plateau, information, clahe
   std::vector<double> levels_;      ///< plateau, information: at the lower edge of each bin, damped
-  Histogram histogram_;             ///< of counts
-  Histogram informed_;              ///< information: of the counts of pixels that have some
+  Histogram histogram_;             ///< of all counts
+  Histogram informed_;              ///< information: of the counts of pixels with information
   Plane<std::uint8_t> marks_;       ///< information: those pixels
   std::optional<LocalTone> local_;  ///< clahe
   ToneCurve curve_;
@@ -96,7 +95,7 @@ class Agc {
 void truncate_to_levels(const Plane<float>& radiance_w_m2_sr, double brightest_w_m2_sr, Polarity polarity,
                         Plane<std::uint8_t>& ir8);
 
-/// The 8-bit frame a curve makes of a 16-bit one.
+/// The 8-bit frame of a 16-bit one by a curve.
 void apply_tone_curve(const ToneCurve& curve, Polarity polarity, const Plane<std::uint16_t>& ir16,
                       Plane<std::uint8_t>& ir8);
 

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kLinesAChunk = 16;
 constexpr float kWhiteLevel = 255;
 
-/// Standard deviation [px] of the Gaussian that leaves half of the amplitude at the bandwidth.
+/// Standard deviation [px] of the Gaussian that attenuates amplitudes at the bandwidth to a half.
 double bandwidth_sigma_px(const AnalogueLinkParameters& link, int width_px) {
   const double cycles_per_px = link.bandwidth_mhz * link.active_line_us / width_px;
   return std::sqrt(0.5 * std::numbers::ln2) / (std::numbers::pi * cycles_per_px);
@@ -30,7 +30,7 @@ std::size_t random_line(int width_px) {
   return (static_cast<std::size_t>(width_px) + kRandomBatch - 1) / kRandomBatch * kRandomBatch;
 }
 
-/// Where a row's centre lies among so many rows of the same picture.
+/// Position of a row's centre among `others` rows of the same picture.
 BetweenNodes between_rows(int row, int rows, int others) {
   return between_nodes((row + 0.5) * others / rows - 0.5, static_cast<std::size_t>(others));
 }
@@ -53,7 +53,7 @@ VELDT_CLONES void mix_with_left(const float* in, std::size_t count, float share,
   for (std::size_t i = 0; i < count; ++i) out[i] = in[i] + share * (in[i - 1] - in[i]);
 }
 
-/// Moves a line to the right. What comes in from beyond its ends repeats them.
+/// Shifts a line to the right. Beyond its ends, the end values are replicated.
 void shift(double right_px, std::vector<float>& line) {
   if (right_px == 0) return;
   const auto width = static_cast<std::ptrdiff_t>(line.size());
@@ -86,7 +86,7 @@ float level_between(const Plane<std::uint8_t>& picture, float x, float y) {
   return above + down * (below - above);
 }
 
-/// How many events a uniform number stands for, of a Poisson process with this mean.
+/// Number of events of a Poisson process with this mean, from a uniform number.
 int poisson(double mean, double uniform) {
   double probability = std::exp(-mean);
   double sum = probability;
@@ -98,7 +98,7 @@ int poisson(double mean, double uniform) {
   return count;
 }
 
-/// When a line of this field is sent, from the frame's time, in fields.
+/// Time at which a line's field is sent, relative to the frame's time, in fields.
 double field_time(int line) { return line % 2 == 0 ? -0.5 : 0.5; }
 
 }  // namespace
@@ -120,9 +120,9 @@ AnalogueLink::AnalogueLink(const AnalogueLinkParameters& parameters, const Clip&
   hum_turns_ = static_cast<double>(turns);
 }
 
-/// White noise n plus an exponentially correlated s, s' = follows s + u, is a process of order (1, 1): with one fresh
-/// random number e a pixel, n + s = (what is carried) + e, and next time (follows (what is carried) + carried e). Spectral
-/// factorisation gives the variance of e, and a standard deviation for what the first pixel is ahead.
+/// White noise n plus an exponentially correlated s, s' = follows s + u, is an ARMA(1, 1) process: with one new random
+/// number e a pixel, n + s = carried state + e, and the next state is follows (carried state) + carried e. Spectral
+/// factorisation gives the variance of e, and the standard deviation of the initial state.
 AnalogueLink::Noise AnalogueLink::noise_of(const AnalogueLinkParameters& link, double px_us) {
   const double step = px_us / link.streak_us;
   const double follows = std::exp(-step);
@@ -131,7 +131,7 @@ AnalogueLink::Noise AnalogueLink::noise_of(const AnalogueLinkParameters& link, d
   const double driven = link.streak_levels * link.streak_levels * forgotten;
   if (driven <= 0) return {.fresh = static_cast<float>(link.noise_levels)};
   const auto spectrum = [&](double cosine_part) { return driven + white * cosine_part * cosine_part; };
-  const double low = spectrum(-std::expm1(-step));  // at frequency 0 and at Nyquist's, times (1 -+ follows)^2
+  const double low = spectrum(-std::expm1(-step));  // at frequency 0 and at Nyquist, times (1 -+ follows)^2
   const double high = spectrum(1 + follows);
   const double moving = (std::sqrt(low) - std::sqrt(high)) / (std::sqrt(low) + std::sqrt(high));
   const double fresh = 0.5 * (std::sqrt(low) + std::sqrt(high));
@@ -200,7 +200,7 @@ void AnalogueLink::transmit(const Scan& scan, Plane<std::uint8_t>& picture) {
   parallel_rows(height_px_, kLinesAChunk, [&](int y) { record(y, picture.row(y)); });
 }
 
-/// Errors of a frame's lines: those of a field follow each other.
+/// Draws errors of a frame's lines: those of a field are correlated in time.
 void AnalogueLink::draw_lines(std::uint32_t frame) {
   line_streaks_ = drawn(static_cast<double>(noise_.first), kLinkStreakStream, frame);
   line_px_ = drawn(parameters_.jitter_px, kLinkJitterStream, frame);
@@ -223,7 +223,7 @@ void AnalogueLink::draw_lines(std::uint32_t frame) {
   }
 }
 
-/// What arrives of a line.
+/// The received levels of a line.
 void AnalogueLink::send(std::uint32_t frame, int line, std::vector<float>& levels) {
   const auto at = static_cast<std::size_t>(line);
   if (noise_.fresh > 0) add_noise(frame, line, levels);
@@ -246,7 +246,7 @@ void AnalogueLink::add_noise(std::uint32_t frame, int line, std::vector<float>& 
   }
 }
 
-/// Loses pieces of lines.
+/// Replaces pieces of lines by dropouts.
 void AnalogueLink::drop(std::uint32_t frame) {
   if (parameters_.dropouts_per_s <= 0) return;
   const RandomField pieces = field(kLinkDropoutStream, frame);
@@ -270,7 +270,7 @@ void AnalogueLink::drop(std::uint32_t frame) {
   }
 }
 
-/// A row of the recorder's frame.
+/// A row of the recorded frame.
 void AnalogueLink::record(int y, std::span<std::uint8_t> row) const {
   const BetweenNodes lines = between_rows(y, height_px_, lines_);
   const auto share = static_cast<float>(lines.share_of_high);
@@ -280,7 +280,7 @@ void AnalogueLink::record(int y, std::span<std::uint8_t> row) const {
   round_levels(levels.data(), levels.size(), 0, row.data());
 }
 
-/// A line as the recorder makes it of both fields.
+/// Adds a line that the recorder computes from both fields.
 void AnalogueLink::add_recorded(int line, float weight, std::vector<float>& levels) const {
   const auto add = [&](int of, float share) {
     add_weighted(received_.row(of).data(), levels.size(), share * weight, levels.data());

@@ -13,45 +13,44 @@
 
 namespace thermal {
 
-/// How a recorder makes frames of two fields, the even and the odd lines.
+/// How a recorder combines two fields, the even and the odd lines, into a frame.
 enum class Deinterlace {
-  weave,  ///< as they come: what moves is combed
-  bob,    ///< the even lines, and means of two of them between
+  weave,  ///< unchanged: moving objects are combed
+  bob,    ///< the even lines, interpolated in between
   blend   ///< each line averaged with its neighbours, 1 : 2 : 1
 };
 
-/// See AnalogueLink. Levels are those of 8-bit frames; all standard deviations.
+/// See AnalogueLink. Levels are 8-bit; all are standard deviations.
 struct AnalogueLinkParameters {
   double field_rate_hz = 50;   ///< PAL: 50, NTSC: 60 / 1.001
-  double active_line_us = 52;  ///< what a line of the picture takes. PAL: 52, NTSC: 52.66
+  double active_line_us = 52;  ///< active time of a line. PAL: 52, NTSC: 52.66
   int lines = 0;               ///< of the picture. PAL: 576, NTSC: 480; 0: as many as the frame has rows
-  double bandwidth_mhz = 5;    ///< at which half of the amplitude is left
+  double bandwidth_mhz = 5;    ///< where the amplitude falls to a half
   Deinterlace deinterlace = Deinterlace::weave;
   double noise_levels = 0;   ///< of a pixel, white, ahead of the bandwidth
   double streak_levels = 0;  ///< of noise that is correlated along a line by exp(-t / streak_us)
   double streak_us = 1;      ///< > 0
-  double row_levels = 0;     ///< of each line by itself
+  double row_levels = 0;     ///< of each line, independent
   double drift_levels = 0;   ///< of lines, from one to the next of a field correlated by exp(-1 / drift_rows)
   double drift_rows = 40;    ///< > 0
   double hum_levels = 0;     ///< of a sine of the mains
   double hum_hz = 50;        ///< of the mains
-  double jitter_px = 0;      ///< of each line's place
+  double jitter_px = 0;      ///< of each line's position
   double dropouts_per_s = 0;  ///< pieces of lines that are black or white, at most 1000
   double dropout_us = 4;      ///< their mean length; exponentially distributed
 
   [[nodiscard]] bool operator==(const AnalogueLinkParameters&) const = default;
 };
 
-/// An analogue video link from the camera to a recorder, interlaced: what night footage of the 2010s passed through. Its
-/// two fields are half a field ahead of the frame's time and half a field behind: what moves by v pixels a frame interval
-/// T is combed by v / (T x field rate). In this order: lines of the frame's rows, in two fields; noise and streaks;
-/// bandwidth; level errors; jitter; 8 bits; dropouts; frames of fields, with the rows and columns of before. Bandwidth is
-/// a Gaussian along lines, exp(-ln 2 (f / bandwidth)^2), within 0.015. Rows become lines by linear interpolation, and lines
-/// rows, which is without loss if there are as many. Pixels are a function of the parameters, the clip, the number of the
-/// frame and its picture.
+/// An interlaced analogue video link from the camera to a recorder, as in night footage of the 2010s. The two fields
+/// are half a field before and after the frame's time: motion of v pixels per frame interval T is combed by v / (T x
+/// field rate). In this order: the frame's rows become lines of two fields; noise and streaks; bandwidth; level errors;
+/// jitter; 8 bits; dropouts; fields become a frame of the original size. Bandwidth is a Gaussian along lines, exp(-ln 2
+/// (f / bandwidth)^2), within 0.015. Rows and lines are converted by linear interpolation, which is lossless if there
+/// are as many. Pixels are a function of the parameters, the clip, the number of the frame and its picture.
 class AnalogueLink {
  public:
-  /// What a link's errors depend on.
+  /// Determines a link's errors.
   struct Clip {
     std::uint32_t seed = 1;
     std::string_view id;
@@ -62,13 +61,13 @@ class AnalogueLink {
 
   AnalogueLink(const AnalogueLinkParameters& parameters, const Clip& clip);
 
-  /// Replaces the next frame by what the recorder has. `motion` may be empty: then nothing is combed.
+  /// Replaces the next frame by the recorded one. `motion` may be empty: nothing is combed.
   void pass(const ImageMotion& motion, Plane<std::uint8_t>& picture);
 
-  /// The same where everything moves this far to the right from even lines to odd ones.
+  /// The same for one motion to the right of the whole picture, from even lines to odd ones.
   void pass(float field_motion_px, Plane<std::uint8_t>& picture);
 
-  /// Advances the clock past a frame that is unknown.
+  /// Advances the clock past a frame without a picture.
   void skip() noexcept { ++frame_; }
 
  private:
@@ -105,8 +104,8 @@ class AnalogueLink {
   double hum_turns_;  ///< at the clip's beginning
   std::uint32_t frame_ = 0;
   std::vector<float> line_levels_;   ///< errors of this frame's lines,
-  std::vector<float> line_streaks_;  ///< what streaks have of a standard deviation ahead of them
-  std::vector<float> line_px_;       ///< and how far they are to the right
+  std::vector<float> line_streaks_;  ///< initial state of the streaks, in standard deviations
+  std::vector<float> line_px_;       ///< and their shift to the right
   Plane<std::uint8_t> received_;     ///< lines
 };
 

@@ -9,7 +9,7 @@
 namespace thermal {
 namespace {
 
-/// Pixels whose uniform number is below the fraction.
+/// Pixels whose uniform number is below `share`.
 std::vector<std::size_t> chosen(const RandomField& field, double share, std::size_t pixels) {
   std::vector<std::size_t> list;
   if (share <= 0) return list;
@@ -39,7 +39,8 @@ BadPixels::BadPixels(const BadPixelParameters& parameters, std::uint32_t seed, s
   if (parameters.late_dead_per_hour > 0) draw_late_dead(frame_rate_hz, pixels);
 }
 
-/// Lifetimes are exponential. A uniform number has 24 bits, too few for the early ones, so a second one continues it.
+/// Lifetimes are exponential. The 24 bits of a uniform number are too few for early failures, so a second number
+/// extends them.
 void BadPixels::draw_late_dead(double frame_rate_hz, std::size_t pixels) {
   constexpr double kSecondsAnHour = 3600;
   std::vector<float> numbers(pixels);
@@ -67,7 +68,7 @@ void BadPixels::apply(std::uint32_t frame, float noise_stddev, Plane<float>& sig
     if (late.frame > frame) break;
     signal.pixels()[late.pixel] = 0;
   }
-  std::vector<float> shown;  // all are computed before any is changed; dead neighbours do not count
+  std::vector<float> shown;  // all are computed before any is replaced; dead neighbours are left out
   for (const std::size_t pixel : dead_) {
     shown.push_back(parameters_.replace_dead ? living_mean(pixel, signal) : 0.0F);
   }

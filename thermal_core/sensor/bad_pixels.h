@@ -9,17 +9,17 @@
 
 namespace thermal {
 
-/// Defective pixels, and how the camera corrects them. Which pixels they are is a function of (seed, clip). Dead
-/// pixels measure nothing; the camera knows them and replaces them by the mean of their working neighbours, or shows
-/// 0 if replacement is off. Blinking pixels (random telegraph noise) jump between two levels at random; the camera
-/// does not know them. Nor does it know, before it starts again, those that fail during the clip: these show 0 from
-/// then on, as a broken circuit does (estimate).
+/// Defective pixels, and how the camera corrects them. Which pixels they are is a function of (seed, clip). Dead pixels
+/// measure nothing; the camera knows them and replaces them by the mean of their working neighbours, or shows 0 if
+/// replacement is off. Blinking pixels (random telegraph noise) jump between two levels at random; the camera does not
+/// know them. Nor does it know, until a restart, pixels that fail during the clip: these show 0 from then on, as an
+/// open circuit does (estimate).
 class BadPixels {
  public:
   BadPixels(const BadPixelParameters& parameters, std::uint32_t seed, std::string_view clip,
             double frame_rate_hz, int width_px, int height_px);
 
-  /// Modifies a frame's signal; frames must increase, and some may be left out. `noise_stddev` is that of the white
+  /// Modifies a frame's signal; frame numbers must increase; gaps are allowed. `noise_stddev` is that of the white
   /// temporal noise, in the signal's unit.
   void apply(std::uint32_t frame, float noise_stddev, Plane<float>& signal);
 
@@ -27,11 +27,11 @@ class BadPixels {
 
   /// A pixel that fails during the clip.
   struct LateDead {
-    double frame = 0;  ///< from which on
+    double frame = 0;  ///< first frame in which it has failed
     std::size_t pixel = 0;
   };
 
-  /// In order of time, of the first kLateDeadHours of the clip.
+  /// In order of time, within the first kLateDeadHours of the clip.
   [[nodiscard]] const std::vector<LateDead>& late_dead() const noexcept { return late_dead_; }
   static constexpr double kLateDeadHours = 100;
 
@@ -51,7 +51,7 @@ class BadPixels {
   std::vector<LateDead> late_dead_;
   std::vector<std::size_t> blinking_;
   std::vector<bool> is_up_;  ///< of the blinking ones
-  std::uint32_t next_ = 0;   ///< the first frame whose jumps are not made
+  std::uint32_t next_ = 0;   ///< the first frame whose jumps are not applied yet
 };
 
 }  // namespace thermal

@@ -7,7 +7,7 @@
 
 namespace thermal {
 
-/// Index inside [0, size) that a picture mirrored at its border (edge pixel repeated) shows at `at`.
+/// Index in [0, size) of the pixel that a picture mirrored at its border (edge pixel repeated) has at `at`.
 [[nodiscard]] int mirrored(int at, int size) noexcept;
 
 /// Weights of a symmetric kernel at distances 0, 1, …, radius. With the mirrored half they sum to 1.

@@ -64,7 +64,7 @@ void repeat_ends(std::vector<T>& padded, int radius) {
   std::fill_n(padded.end() - radius, beyond, padded[padded.size() - beyond - 1]);
 }
 
-/// Rows and columns of a picture within a radius; beyond the border, the border's.
+/// Rows and columns within a radius; beyond the border, edge pixels are replicated.
 struct Window {
   int width_px;
   int height_px;
@@ -75,7 +75,7 @@ struct Window {
   [[nodiscard]] double pixels() const { return (2.0 * radius_px + 1) * (2.0 * radius_px + 1); }
 };
 
-/// Of a row of windows.
+/// Fits a row of windows.
 void fit_row(const Plane<std::uint16_t>& ir16, const Window& window, int y, double edge_counts2, float* gain,
              float* offset) {
   std::vector<double> sum(window.padded());

@@ -77,7 +77,7 @@ void FlickerNoise::tick(std::size_t block, std::uint64_t tick) {
   for (; k < design_.processes.size(); ++k) {
     const FlickerProcess& process = design_.processes[k];
     const std::uint64_t ratio = process.period_frames / period_;
-    if (tick % ratio != 0) break;  // slower ones do not tick either
+    if (tick % ratio != 0) break;  // nor do slower ones tick
     field.stream = kFlickerStream + static_cast<std::uint32_t>(k);
     field.frame = static_cast<std::uint32_t>(tick / ratio);
     fill_normal(field, block * kBlockPixels, normals);

@@ -11,7 +11,7 @@
 namespace thermal {
 
 /// 1/f noise of every pixel over time: the processes of a design, without its white part. A frame is a function of
-/// (seed, clip, frame) and of the last restart alone, whichever frames are asked for. It is stationary from the first
+/// (seed, clip, frame) and of the last restart alone, whichever frames are requested. It is stationary from the first
 /// frame on. Blocks of pixels tick at random phases, so that all frames cost the same.
 class FlickerNoise {
  public:
@@ -19,14 +19,14 @@ class FlickerNoise {
 
   FlickerNoise(std::uint32_t seed, std::string_view clip, const FlickerDesign& design, std::size_t pixels);
 
-  /// Begins again at a frame, independent of all before it: as a shutter's closing does, which measures and removes
-  /// what each pixel has gathered. `event` numbers the closing; each has its own random numbers. Event 0 begins at
-  /// frame 0 without a call.
+  /// Restarts at a frame, independent of all before it: as after a shutter closing, which measures and removes each
+  /// pixel's accumulated offset. `event` numbers the closing; each has its own random numbers. Event 0 begins at frame
+  /// 0 without a call.
   void restart_at(std::uint32_t frame, std::uint32_t event);
 
-  /// Takes pixels [first, first + out.size()) to a frame and adds `stddev` times the noise. `first` is a multiple of
-  /// kBlockPixels. Frames must not decrease; those that are left out cost their ticks alone. Safe to call from several
-  /// threads on different pixels.
+  /// Advances pixels [first, first + out.size()) to a frame and adds `stddev` times the noise. `first` is a multiple of
+  /// kBlockPixels. Frame numbers must not decrease; gaps cost their ticks alone. Safe to call from several threads on
+  /// different pixels.
   void add(std::uint32_t frame, std::size_t first, float stddev, std::span<float> out);
 
  private:
@@ -42,10 +42,10 @@ class FlickerNoise {
   std::uint32_t begins_ = 0;
   std::uint32_t event_ = 0;
   std::vector<std::uint32_t> phases_;  ///< by block: native frames from a tick of all processes to frame 0
-  std::vector<std::uint64_t> ticks_;   ///< by block: the last one of the fastest process, or none
+  std::vector<std::uint64_t> ticks_;   ///< by block: last tick of the fastest process, or none
   std::vector<float> states_;          ///< by block, process and pixel
   std::vector<float> slow_;            ///< by pixel: sum of all processes but the fastest
-  std::vector<float> sums_;            ///< by pixel: sum of all, which add() adds until the next tick
+  std::vector<float> sums_;  ///< by pixel: sum of all processes, which add() adds until the next tick
 };
 
 }  // namespace thermal

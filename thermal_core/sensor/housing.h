@@ -10,19 +10,19 @@
 
 namespace thermal {
 
-/// What a camera's housing does to its pixels, which see it around the lens. Two patterns:
+/// Two patterns of the camera's housing, which its pixels see around the lens:
 ///
-/// Gain: a pixel's gain is off by an error that is fixed for a clip, half of its variance from pixel to pixel and half
-/// smooth. A closing of the shutter, which has the housing's temperature, removes what the error does at that
-/// temperature, so that error times (scene - housing) is left.
+/// Gain: a pixel's gain has an error that is fixed for a clip, half of its variance from pixel to pixel and half
+/// smooth. A closing of the shutter, which has the housing's temperature, removes its effect at that temperature, so
+/// that error times (scene - housing) is left.
 ///
-/// Halo: lens and housing drift away from the shutter's temperature. The pixels see more of the housing the farther
-/// they are from the centre: 0 there, growing with the square of the distance. Its size at the corners is drawn
-/// at each closing, and grows as PatternNoise's drift does.
+/// Halo: lens and housing drift away from the shutter's temperature. Pixels see the more of the housing the farther
+/// they are from the centre: nothing at the centre, growing with the square of the distance. Its size at the corners is
+/// drawn at each closing, and grows as PatternNoise's drift does.
 class Housing {
  public:
   /// @param housing_w_m2_sr  in-band radiance of the housing
-  /// @param w_m2_sr_per_k  by which the halo is converted
+  /// @param w_m2_sr_per_k  converts the halo
   /// @param amount  factor on both patterns
   Housing(const HousingParameters& parameters, double amount, std::uint32_t seed, std::string_view clip,
           int width_px, int height_px, double housing_w_m2_sr, double w_m2_sr_per_k);
@@ -33,7 +33,7 @@ class Housing {
   /// Adds the patterns to the radiance of pixels [first, first + signal.size()). Safe to call from several threads.
   void apply(std::size_t first, std::span<float> signal) const;
 
-  /// Standard deviation, from pixel to pixel, of what the gain adds to a scene of this radiance.
+  /// Standard deviation between pixels that the gain errors cause in a scene of this radiance.
   [[nodiscard]] double pixel_stddev_w_m2_sr(double scene_w_m2_sr) const noexcept;
 
   [[nodiscard]] bool has_gain() const noexcept { return !gain_errors_.empty(); }

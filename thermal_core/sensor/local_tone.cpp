@@ -25,7 +25,7 @@ std::uint64_t pixels_in(const std::vector<std::uint32_t>& histogram) {
 
 float mixed(float one, float other, float share) { return one + share * (other - one); }
 
-/// Within a bin, whose edges have these levels.
+/// Level at a position within a bin, from the levels of its edges.
 float level_at(const float* edges, float share) { return mixed(edges[0], edges[1], share); }
 
 }  // namespace

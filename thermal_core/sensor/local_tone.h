@@ -14,9 +14,9 @@ namespace thermal {
 /// Contrast-limited adaptive histogram equalisation (Zuiderveld, Graphics Gems IV, 1994): each tile of the picture has
 /// a tone curve of its own, and a pixel's level is interpolated bilinearly between those of the four nearest tiles.
 ///
-/// An own kernel: cv::CLAHE takes 16-bit pictures with a bin for each of 65,536 counts, of which a night uses 3000,
-/// so that its clip limit is a whole pixel or none; it limits no gain in counts per NETD; and `veldt::core`, which has
-/// the sensor, needs no OpenCV.
+/// Our own kernel: cv::CLAHE has a bin for each of 65,536 counts, of which a night uses 3000, so that its clip limit is
+/// a whole pixel or none; it cannot limit the gain in counts per NETD; and `veldt::core`, which has the sensor, needs
+/// no OpenCV.
 class LocalTone {
  public:
   /// Counts of the whole frame between the tails.
@@ -25,11 +25,11 @@ class LocalTone {
     std::size_t high = 0;
   };
 
-  /// @param share_of_new  weight of a frame's own curves; the rest is the curves before
+  /// @param share_of_new  weight of a frame's own curves; the rest is the previous curves
   LocalTone(const AgcParameters& parameters, const LevelBins& bins, double share_of_new);
 
-  /// Follows the next frame. Counts 0 and 65535 are ignored; a tile without any other takes the frame's curve. A frame
-  /// without any other leaves all as it was; before the first one that has some, pictures are black.
+  /// Updates the curves with the next frame. Counts 0 and 65535 are ignored; a tile without any other takes the frame's
+  /// curve. A frame without any other changes nothing; before the first one that has some, pictures are black.
   void adapt(const Plane<std::uint16_t>& ir16);
 
   /// The 8-bit frame, white-hot. Count 0 shows as 0 and 65535 as 255.
@@ -40,7 +40,7 @@ class LocalTone {
  private:
   using Histogram = std::vector<std::uint32_t>;  ///< by bin
 
-  /// Two tiles that a coordinate lies between, and the weight of the second.
+  /// Two tiles around a coordinate, and the weight of the second.
   struct Between {
     std::size_t first = 0;
     std::size_t second = 0;

@@ -14,7 +14,7 @@ struct NativeRate {
   /// @param native_rate_hz  the sensor's; 0: the video's. The step is the nearest one, so that the rate may differ:
   ///   a video of 9 Hz from a sensor of 60 Hz is every seventh frame at 63 Hz.
   [[nodiscard]] static NativeRate of(double native_rate_hz, double video_rate_hz) noexcept {
-    constexpr double kRounding = 1e-12;  // of a quotient that a config states in decimals or as 60 / 7
+    constexpr double kRounding = 1e-12;  // of a quotient of decimals, or of a rate such as 60 / 7
     constexpr double kMostFrames = 1e6;
     const double step = std::round(std::clamp(native_rate_hz / video_rate_hz, 1.0, kMostFrames));
     const double rate_hz = step * video_rate_hz;

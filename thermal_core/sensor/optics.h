@@ -12,9 +12,8 @@
 
 namespace thermal {
 
-/// The lens and the pixels' footprint: from the radiance of the scene to that which each pixel receives. A plain
-/// Gaussian, as published, acts along rows and columns (gaussian_psf()); a physical point spread is round
-/// (round_kernel()).
+/// Lens and pixel footprint: from the radiance of the scene to that of each pixel. A plain Gaussian, as published, acts
+/// along rows and columns (gaussian_psf()); a physical point spread is round (round_kernel()).
 class Optics {
  public:
   Optics(const OpticsParameters& optics, const SpectralResponse& response, const PixelSampling& sampling);

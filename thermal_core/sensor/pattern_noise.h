@@ -13,11 +13,11 @@
 
 namespace thermal {
 
-/// Noise shared by whole rows, columns or frames, and fixed noise: all components of NVESD's model except the
-/// temporal noise of single pixels. In units of that noise's standard deviation.
+/// Noise shared by whole rows, columns or frames, and fixed noise: all components of NVESD's model except the temporal
+/// noise of single pixels. In units of that noise's standard deviation.
 ///
-/// The fixed part (vh, v, h) is the residue of the last shutter correction, drawn anew at every closing. Since then a
-/// second pattern has grown by ShutterState::growth().
+/// The fixed part (vh, v, h) is the residue of the last shutter correction, drawn anew at every closing. A second
+/// pattern grows from then on, by ShutterState::growth().
 class PatternNoise {
  public:
   PatternNoise(const NoiseParameters& parameters, std::uint32_t seed, std::string_view clip, int width_px,

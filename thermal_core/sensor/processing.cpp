@@ -36,7 +36,7 @@ void convolve_columns(const Plane<std::uint16_t>& ir16, int y, const HalfKernel&
                         kernel[static_cast<std::size_t>(offset)], out.data());
 }
 
-/// One after the other.
+/// Both kernels in sequence.
 HalfKernel convolved(const HalfKernel& one, const HalfKernel& other) {
   const auto reach = static_cast<int>(one.size()) - 1;
   const auto others = static_cast<int>(other.size());

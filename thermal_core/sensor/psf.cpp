@@ -24,7 +24,7 @@ double gaussian_mtf(double cycles_per_px, double sigma_px) {
   return std::exp(-2 * phase * phase);
 }
 
-/// Of a square pixel as wide as the pitch.
+/// Transfer of a square pixel as wide as the pitch.
 double footprint_mtf(double cycles_per_px) {
   const double x = pi * cycles_per_px;
   return std::abs(x) < 1e-6 ? 1 : std::sin(x) / x;
@@ -45,7 +45,7 @@ double band_diffraction_mtf(const OpticsParameters& optics, const SpectralRespon
   return sum / weights;
 }
 
-/// Of all that is round.
+/// Transfer of the round parts: lens and Gaussian.
 double lens_mtf(const OpticsParameters& optics, const SpectralResponse& response, double cycles_per_px) {
   if (optics.psf == Psf::gaussian) return gaussian_mtf(cycles_per_px, optics.blur_sigma_px);
   return band_diffraction_mtf(optics, response, cycles_per_px) *
@@ -67,8 +67,8 @@ double defocused_overlap(double v, double phase) {
   return 2 * top * sum / points;
 }
 
-/// Least squares over all frequencies is the Fourier series; to make H(0) = 1, the remainder is shared equally by all
-/// taps, which is the nearest such kernel.
+/// Least squares over all frequencies is the Fourier series; to make H(0) = 1, the remainder is distributed equally
+/// over all taps, which gives the nearest such kernel.
 std::vector<double> fit_kernel(const std::vector<double>& transfer, int radius) {
   std::vector<double> half(static_cast<std::size_t>(radius) + 1, 0);
   const auto count = static_cast<double>(transfer.size());
@@ -143,7 +143,7 @@ double OpticsTransfer::at(double across_cycles_per_px, double down_cycles_per_px
 }
 
 HalfKernel gaussian_psf(double sigma_px) {
-  // Samples of a Gaussian narrower than this have aliases; with 0 there is nothing to fit.
+  // A sampled Gaussian narrower than this has aliases; 0 needs no fit.
   constexpr double kSampledWellPx = 1;
   return sigma_px == 0 || sigma_px >= kSampledWellPx ? gaussian_kernel(sigma_px) : fitted_gaussian(sigma_px);
 }

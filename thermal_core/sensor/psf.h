@@ -22,8 +22,8 @@ namespace thermal {
 [[nodiscard]] double optics_mtf(const OpticsParameters& optics, const SpectralResponse& response,
                                 double cycles_per_px);
 
-/// The same at any two-dimensional frequency, fast: what is round is tabulated. Within 2e-5 of optics_mtf(), up to 4.4
-/// cycles per pixel, beyond which it is 0.
+/// The same at any two-dimensional frequency, fast: the round parts are tabulated. Within 2e-5 of optics_mtf(), up to
+/// 4.4 cycles per pixel; 0 beyond.
 class OpticsTransfer {
  public:
   OpticsTransfer(const OpticsParameters& optics, const SpectralResponse& response);

@@ -10,9 +10,9 @@
 
 namespace thermal {
 
-/// By how much all apparent temperatures of a clip are off, as those of uncooled cameras are by 2 to 5 K: an error of
-/// the clip, and a drift since the last closing of the shutter. Both are normal. Data sheets are taken to state two
-/// standard deviations; that the drift grows to a quarter of the clip's error is an estimate.
+/// Error of all apparent temperatures of a clip, 2 to 5 K for uncooled cameras: a constant of the clip, plus a drift
+/// since the last closing of the shutter. Both are normal. Data sheets are taken to state two standard deviations; that
+/// the drift grows to a quarter of the clip's error is an estimate.
 class RadiometricError {
  public:
   RadiometricError(double accuracy_k, std::uint32_t seed, std::string_view clip)
@@ -21,7 +21,7 @@ class RadiometricError {
     if (accuracy_k > 0) clip_k_ = 0.5 * accuracy_k * normal(kAccuracyStream, 0);
   }
 
-  /// What is added to every temperature in a state of the shutter.
+  /// Error in a state of the shutter, to be added to every temperature [K].
   [[nodiscard]] double at_k(const ShutterState& shutter) const noexcept {
     if (drift_k_ == 0 || shutter.since_intervals == 0) return clip_k_;
     return clip_k_ + drift_k_ * normal(kAccuracyDriftStream, shutter.event) * shutter.growth();

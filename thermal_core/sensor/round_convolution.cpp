@@ -12,19 +12,19 @@ namespace {
 
 constexpr std::size_t kRoundRowsAChunk = 16;
 
-/// Whether a pattern keeps its sign in a mirror.
+/// Parity of a pattern under mirroring.
 enum class Parity { even, odd };
 
 bool is_outside(int at, int size) { return at < 0 || at >= size; }
 
-/// Sign of what a mirrored picture shows at `at`.
+/// Sign of a mirrored picture's values at `at`.
 float sign_at(int at, int size, Parity parity) {
   return parity == Parity::odd && is_outside(at, size) ? -1.0F : 1.0F;
 }
 
 }  // namespace
 
-/// The rows at some distance above and below one, added (or the upper one subtracted), with mirrored margins.
+/// Sums (or differences) of the rows at some distance above and below one, with mirrored margins.
 class RoundConvolution::RowSums {
  public:
   RowSums(int width_px, int margin_px)
@@ -65,7 +65,7 @@ class RoundConvolution::RowSums {
 
 namespace {
 
-/// A picture's rows by an even kernel.
+/// Convolves a picture's rows with an even kernel.
 template <typename Sums>
 void convolve_row(const Plane<float>& picture, int y, const QuadrantKernel& kernel, Sums& sums,
                   std::span<float> out) {
@@ -99,7 +99,7 @@ void RoundConvolution::find_extents(const SubpixelDetail& detail) {
   });
 }
 
-/// Columns of a row that the detail of the rows around it reaches.
+/// Columns of a row that are affected by detail of the rows around it.
 RoundConvolution::Extent RoundConvolution::extent_around(int y) const {
   if (extents_.empty()) return {};
   const int reach = kernel_.across.radius;
@@ -168,7 +168,7 @@ void RoundConvolution::add_detail(const SubpixelDetail& detail, int y, RowSums& 
   }
 }
 
-/// Linear between the middles of blocks; beyond those at the edge, as they are.
+/// Interpolates linearly between the middles of blocks; constant beyond the outermost ones.
 void RoundConvolution::add_halo(int y, std::vector<float>& blocks, std::span<float> out) const {
   const auto place = [](int px) { return (static_cast<float>(px) + 0.5F) / kHaloBlockPx - 0.5F; };
   const float at = place(y % kHaloBlockPx);

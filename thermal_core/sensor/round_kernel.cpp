@@ -18,7 +18,7 @@ constexpr double kGoodMisfit = 0.01;
 constexpr int kHaloRadius = 4;  // blocks
 constexpr std::array kReachesPx = {2, 3, 4, 6, 9};
 
-/// Frequencies along one axis with their widths, in cycles per pixel: narrow ones where a transfer has its corner.
+/// Frequencies along one axis with their widths, in cycles per pixel: denser where a transfer has its corner.
 struct Frequencies {
   std::vector<double> at;
   std::vector<double> width;
@@ -38,13 +38,13 @@ struct Frequencies {
   }
 };
 
-/// How much a frequency weighs; flat below a fiftieth of a cycle per pixel.
+/// Weight of a frequency; flat below a fiftieth of a cycle per pixel.
 double scene_power(double cycles_per_px) {
   constexpr double kFlatBelow = 0.02;
   return 1 / (kFlatBelow * kFlatBelow + cycles_per_px * cycles_per_px);
 }
 
-/// Of the mean of samples evenly spread over `extent_px`.
+/// Transfer of the mean of samples evenly spread over `extent_px`.
 double mean_transfer(double cycles_per_px, int samples, double extent_px) {
   const double x = pi * cycles_per_px * extent_px / samples;
   const double sine = std::sin(x);
@@ -52,32 +52,32 @@ double mean_transfer(double cycles_per_px, int samples, double extent_px) {
   return std::sin(samples * x) / (samples * sine);
 }
 
-/// Of the samples that a weight of `core` applies to.
+/// Transfer of the samples that a weight of `core` applies to.
 double sample_transfer(const PixelSampling& sampling, double cycles_per_px) {
   return sampling.quarters ? mean_transfer(cycles_per_px, sampling.across / 2, 0.5)
                            : mean_transfer(cycles_per_px, sampling.across, 1);
 }
 
-/// Of a pixel's mean, relative to that of the samples.
+/// Transfer of a pixel's mean, relative to that of the samples.
 double pixel_transfer(const PixelSampling& sampling, double cycles_per_px) {
   return sampling.quarters ? std::cos(pi * cycles_per_px / 2) : 1;
 }
 
-/// Of a mean over a block of pixels, and of linear interpolation between blocks.
+/// Transfer of a mean over a block of pixels, and of linear interpolation between blocks.
 double block_transfer(double cycles_per_px) {
   const double x = pi * kHaloBlockPx * cycles_per_px;
   const double tent = x == 0 ? 1 : std::pow(std::sin(x) / x, 2);
   return mean_transfer(cycles_per_px, kHaloBlockPx, kHaloBlockPx) * tent;
 }
 
-/// Places of a kernel that symmetry makes equal: (a, b) and (b, a) with all signs.
+/// Kernel offsets with equal weights by symmetry: (a, b) and (b, a) with all signs.
 struct Orbit {
   bool is_halo = false;
-  int a = 0;  ///< steps from the middle, b <= a
+  int a = 0;  ///< steps from the centre, b <= a
   int b = 0;
 };
 
-/// The places of core and halo, as multiples of a step.
+/// Offsets of core and halo, as multiples of a step.
 class Places {
  public:
   Places(int reach_px, bool quarters) : quarters_(quarters), radius_(quarters ? 2 * reach_px - 1 : reach_px) {
@@ -90,13 +90,13 @@ class Places {
   [[nodiscard]] const std::vector<Orbit>& orbits() const noexcept { return orbits_; }
   [[nodiscard]] int radius() const noexcept { return radius_; }
 
-  /// In pixels; a quarter's middle is a quarter of a pixel from its pixel's.
+  /// In pixels; a quarter's centre is a quarter of a pixel from its pixel's.
   [[nodiscard]] double offset_px(int step) const noexcept { return quarters_ ? (step + 0.5) / 2 : step; }
   [[nodiscard]] double offset_px(const Orbit& orbit, int step) const noexcept {
     return orbit.is_halo ? 1.0 * kHaloBlockPx * step : offset_px(step);
   }
 
-  /// How many places there are.
+  /// Number of offsets in an orbit.
   [[nodiscard]] double count(const Orbit& orbit) const noexcept {
     const auto signs = [&](int step) { return offset_px(orbit, step) == 0 ? 1 : 2; };
     return signs(orbit.a) * signs(orbit.b) * (orbit.a == orbit.b ? 1 : 2);
@@ -117,13 +117,13 @@ class Places {
   std::vector<Orbit> orbits_;
 };
 
-/// Sums of squares over all frequencies, from which any choice of places is solved.
+/// Sums of squares over all frequencies, from which any subset of offsets is solved.
 struct NormalEquations {
   std::vector<double> matrix;
   std::vector<double> right;
 };
 
-/// A frequency's row of the least squares: the transfer of each orbit's places.
+/// One row of the least squares per frequency: the transfer of each orbit's offsets.
 class Rows {
  public:
   Rows(const OpticsTransfer& lens, const PixelSampling& sampling, const Places& places)
@@ -142,7 +142,7 @@ class Rows {
   [[nodiscard]] std::size_t size() const noexcept { return frequencies_.at.size(); }
   [[nodiscard]] double at(std::size_t i) const noexcept { return frequencies_.at[i]; }
 
-  /// Those of both (i, j) and (j, i), j <= i; returns what they should sum to.
+  /// Rows of both (i, j) and (j, i), j <= i; returns their target.
   double fill(std::size_t i, std::size_t j, std::vector<double>& row) const {
     const double samples = samples_[i] * samples_[j];
     const double blocks = blocks_[i] * blocks_[j];
@@ -199,7 +199,7 @@ NormalEquations normal_equations(const Rows& rows, std::size_t count) {
   return sums;
 }
 
-/// Weights of the chosen places, all others 0, with a sum over all places of 1.
+/// Weights of the chosen orbits, all others 0, with a sum over all offsets of 1.
 std::vector<double> solve_chosen(const NormalEquations& sums, const std::vector<double>& counts,
                                  const std::vector<std::size_t>& chosen) {
   std::vector<double> matrix(chosen.size() * chosen.size());
@@ -217,7 +217,7 @@ std::vector<double> solve_chosen(const NormalEquations& sums, const std::vector<
   return all;
 }
 
-/// The same without negative weights: places that would have one are left out, until there is none.
+/// The same with weights of at least 0: orbits with a negative weight are left out until there is none.
 std::vector<double> solve_positive(const NormalEquations& sums, const std::vector<double>& counts) {
   std::vector<std::size_t> chosen(counts.size());
   for (std::size_t k = 0; k < chosen.size(); ++k) chosen[k] = k;
@@ -227,7 +227,7 @@ std::vector<double> solve_positive(const NormalEquations& sums, const std::vecto
   }
 }
 
-/// A fit of one reach.
+/// Fit for one radius.
 struct Fit {
   Places places;
   std::vector<double> weights;  ///< of its orbits
@@ -277,13 +277,13 @@ QuadrantKernel quadrant(int radius, const Weight& weight) {
   return kernel;
 }
 
-/// Weight of the quarter whose middle is (2 pixels + side) / 4 pixels away; side is 1 or -1.
+/// Weight of the quarter whose centre is (2 pixels + side) / 4 pixels away; side is 1 or -1.
 double quarter_weight(const Fit& fit, int right_px, int right_side, int down_px, int down_side) {
   const auto step = [](int px, int side) { return (std::abs(4 * px + side) - 1) / 2; };
   return fit.weight_of(false, step(right_px, right_side), step(down_px, down_side));
 }
 
-/// Of a pixel's quarters, with a sign for its right or lower ones.
+/// Sum over a pixel's quarters, with a sign for its right or lower ones.
 template <typename Sign>
 QuadrantKernel of_quarters(const Fit& fit, int reach_px, const Sign& sign) {
   return quadrant(reach_px, [&](int right, int down) {
@@ -296,7 +296,7 @@ QuadrantKernel of_quarters(const Fit& fit, int reach_px, const Sign& sign) {
   });
 }
 
-/// Sum over all quadrants, without the middle.
+/// Sum over all quadrants, without the centre.
 double sum_around(const QuadrantKernel& kernel) {
   double sum = 0;
   for (int down = 0; down <= kernel.radius; ++down) {
@@ -325,7 +325,7 @@ RoundKernel kernel_of(const Fit& fit, int reach_px, bool quarters) {
   return kernel;
 }
 
-/// Transfer of a kernel that is even (or odd, by sines) both ways.
+/// Transfer of a kernel that is even (or odd, by sines) along both axes.
 template <typename Right, typename Down>
 double sum_of_waves(const QuadrantKernel& kernel, const Right& right_wave, const Down& down_wave) {
   double sum = 0;

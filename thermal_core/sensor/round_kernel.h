@@ -19,7 +19,7 @@ struct QuadrantKernel {
   }
 };
 
-/// Samples of the scene that a picture is made of.
+/// How the scene is sampled.
 struct PixelSampling {
   int across = 1;  ///< samples whose mean is a pixel's radiance, along each side
   bool quarters =
@@ -32,10 +32,10 @@ struct PixelSampling {
 ///   `pixel` over the pixels around one, symmetric both ways;
 ///   `across` over their SubpixelDetail::across, odd to the right and even down; transposed, over `down`;
 ///   `crossed` over their SubpixelDetail::crossed, odd both ways;
-///   `halo` over means of kHaloBlockPx x kHaloBlockPx pixels, interpolated linearly between their middles: the light
-///   that a round aperture sends far.
+///   `halo` over means of kHaloBlockPx x kHaloBlockPx pixels, interpolated linearly between their middles: the far
+///   tail of a round aperture.
 /// All weights of pixels, quarters and blocks are at least 0, and those of `pixel` and `halo` sum to 1 within 6e-8: no
-/// result is below the coldest or above the warmest part of the scene, whatever is beside it.
+/// result is below the coldest or above the warmest part of the scene.
 struct RoundKernel {
   QuadrantKernel pixel;
   QuadrantKernel across;
@@ -46,11 +46,11 @@ struct RoundKernel {
 /// Side of the blocks of pixels that the wide halo is made of.
 inline constexpr int kHaloBlockPx = 4;
 
-/// Finds the weights by least squares over all two-dimensional frequencies f that they tell apart, up to 1 cycle per
-/// pixel along each axis with quarters and up to 1/2 without: the least sum over f of P(f) (K(f) S(f) - M(f))^2. M is
-/// the transfer from scene to signal (optics_mtf()), S that of the samples' mean, K that of the weights; P ~ |f|^-2, as
-/// spectra of scenes fall. Reach grows until the transfer is within 0.01 up to Nyquist in all directions, or hardly
-/// gets nearer.
+/// Finds the weights by least squares over all two-dimensional frequencies f that they resolve, up to 1 cycle per pixel
+/// along each axis with quarters and up to 1/2 without: the least sum over f of P(f) (K(f) S(f) - M(f))^2. M is the
+/// transfer from scene to signal (optics_mtf()), S that of the samples' mean, K that of the weights; P ~ |f|^-2, as
+/// spectra of scenes. The radius grows until the transfer is within 0.01 up to Nyquist in all directions, or hardly
+/// improves.
 ///
 /// With quarters the transfer is within 0.01 (round_kernel_test.cpp has the errors). Without, it is within 0.06: up to
 /// Nyquist of whole pixels, M falls to 0 at no frequency, and weights of at least 0 follow it less well.

@@ -10,7 +10,7 @@ enum class RadianceModel {
   script  ///< the 600-point trapezoid of the authors' published script, 8-14 um
 };
 
-/// How the camera spreads a point of the scene over pixels.
+/// Model of the point spread.
 enum class Psf {
   gaussian,  ///< a plain Gaussian, as in the paper
   physical   ///< diffraction, the pixel's footprint and a Gaussian for all other imperfections
@@ -51,15 +51,15 @@ struct NoiseParameters {
 
 /// The shutter that the camera closes to correct its pixels (flat-field correction).
 struct ShutterParameters {
-  double interval_s = 0;  ///< from closing to closing; 0: never
-  double freeze_s = 0.5;  ///< how long the picture is frozen
+  double interval_s = 0;  ///< from closing to closing; 0: no shutter
+  double freeze_s = 0.5;  ///< duration of the frozen picture
 
   [[nodiscard]] bool operator==(const ShutterParameters&) const = default;
 };
 
 /// The camera's housing, which the pixels see around the lens; see Housing. Factors of the noise apply here too.
 struct HousingParameters {
-  double excess_k = 0;          ///< how much warmer than the air around the camera
+  double excess_k = 0;          ///< excess over the air around the camera
   double gain_error_share = 0;  ///< standard deviation of the pixels' gains
   double halo_k =
       0;  ///< standard deviation of the halo at the corners one shutter interval after a closing, at 300 K
@@ -67,20 +67,19 @@ struct HousingParameters {
   [[nodiscard]] bool operator==(const HousingParameters&) const = default;
 };
 
-/// Pixels that do not work.
+/// Defective pixels.
 struct BadPixelParameters {
-  double dead_share = 0;       ///< of all pixels; dead pixels measure nothing
-  bool replace_dead = true;    ///< by the mean of their working neighbours, as cameras do
-  double blinking_share = 0;   ///< of all pixels; they jump up and back
-  double blinking_ratio = 10;  ///< height of the jump / white temporal noise
-  double blinking_hz = 1;      ///< jumps per second
-  double late_dead_per_hour =
-      0;  ///< share of all pixels that fail during the clip, which the camera does not know
+  double dead_share = 0;          ///< of all pixels; dead pixels measure nothing
+  bool replace_dead = true;       ///< by the mean of their working neighbours, as cameras do
+  double blinking_share = 0;      ///< of all pixels; they jump up and back
+  double blinking_ratio = 10;     ///< height of the jump / white temporal noise
+  double blinking_hz = 1;         ///< jumps per second
+  double late_dead_per_hour = 0;  ///< share of all pixels that fail during the clip, unknown to the camera
 
   [[nodiscard]] bool operator==(const BadPixelParameters&) const = default;
 };
 
-/// How the 8-bit picture is made from apparent temperature.
+/// Gain control: mapping from apparent temperature to the 8-bit picture.
 enum class AgcMode {
   scene_max,    ///< proportional to radiance; 255 is the most radiant material of the clip, as in the paper
   table_max,    ///< the same; 255 is the most radiant row of Table 1; counts are truncated, as in the script
@@ -91,13 +90,13 @@ enum class AgcMode {
   clahe         ///< histogram equalisation in tiles, with a clip limit, damped in time
 };
 
-/// Whether warm things are bright or dark in the 8-bit frame.
+/// Whether warm objects are bright or dark in the 8-bit frame.
 enum class Polarity { white_hot, black_hot };
 
 /// Sharpening of the 8-bit picture.
 struct DetailParameters {
   double gain_dn_per_netd = 0;  ///< 8-bit counts added per NETD of detail; 0: none
-  int radius_px = 3;            ///< of the window in which detail is what differs from its surroundings
+  int radius_px = 3;            ///< of the window around a pixel, whose mean is not detail
   double edge_netd = 10;        ///< standard deviation of a window beyond which it holds an edge, not detail
   double noise_netd = 4;        ///< of detail, that may be noise and is not added
 
@@ -107,7 +106,7 @@ struct DetailParameters {
 /// Temporal noise reduction.
 struct DenoiseParameters {
   double share_of_new = 1;  ///< weight of a frame in the mean of a pixel, in (0, 1]; 1: no noise reduction
-  double motion_sigma = 4;  ///< change, in standard deviations of white noise, that a pixel follows at once
+  double motion_sigma = 4;  ///< change, in standard deviations of white noise, that is taken as motion
 
   [[nodiscard]] bool operator==(const DenoiseParameters&) const = default;
 };
@@ -115,7 +114,7 @@ struct DenoiseParameters {
 /// Filters of the 8-bit frames alone, ahead of gain control; see Processing.
 struct ProcessingParameters {
   double noise_filter_sigma_px = 0;  ///< of a Gaussian; 0: none
-  double unsharp_amount = 0;         ///< of the unsharp mask: how much of what it finds is added; 0: none
+  double unsharp_amount = 0;         ///< share of the detail that is added; 0: none
   double unsharp_sigma_px = 2;       ///< of its Gaussian
 
   [[nodiscard]] bool operator==(const ProcessingParameters&) const = default;
@@ -134,7 +133,7 @@ struct AgcParameters {
   double linear_percent = 0;  ///< plateau, information: of a straight line in their curve
   double max_gain_dn_per_netd = 8;        ///< largest number of 8-bit counts per NETD
   double damping_s = 0.5;                 ///< time constant
-  double information_threshold_netd = 3;  ///< information: change across a pixel that is more than noise
+  double information_threshold_netd = 3;  ///< information: change across a pixel that exceeds noise
   double flat_weight = 0.1;               ///< information: of pixels with less than that; 1: as plateau
   double clip_limit = 2;                  ///< clahe: largest bin / mean bin of a tile
   int tiles_across = 8;                   ///< clahe
@@ -146,13 +145,13 @@ struct AgcParameters {
   [[nodiscard]] bool operator==(const AgcParameters&) const = default;
 };
 
-/// A camera's parameters, from its lens to its files.
+/// Parameters of a whole camera.
 struct SensorParameters {
   SpectralResponse response = SpectralResponse::flat(8, 14);
   RadianceModel radiance = RadianceModel::exact;
   OpticsParameters optics;
   double time_constant_s = 0;  ///< thermal time constant of a pixel; 0: none
-  double readout_s = 0;        ///< from reading the first row to reading the last; 0: all at once
+  double readout_s = 0;        ///< from reading the first row to reading the last; 0: simultaneous
   double netd_mk = 40;         ///< white temporal noise of a pixel as a temperature difference at 300 K …
   double native_rate_hz = 0;   ///< of the sensor; a video shows every n-th of its frames; 0: every frame
   double netd_f_number = 1;    ///< … behind a lens of this f-number
@@ -164,7 +163,8 @@ struct SensorParameters {
   DenoiseParameters denoise;
   ProcessingParameters processing;
   double kelvin_per_count = 0.01;  ///< step of the 16-bit frames
-  double saturation_k = 0;         ///< apparent temperature of the hottest pixels; 0: where those frames end
+  double saturation_k = 0;  ///< apparent temperature at which pixels saturate; 0: the maximum of the 16-bit
+                            ///< frames
   AgcParameters agc;
 
   /// NETD [K] with the camera's own lens: a pixel gets the light of a cone whose sine, squared, is 1 / (4 F^2 + 1).

@@ -8,16 +8,16 @@
 
 namespace thermal {
 
-/// Position of a frame between closings of the shutter.
+/// State of the shutter at a frame.
 struct ShutterState {
-  std::uint32_t event = 0;  ///< closings since some time before the clip; frames of one event share a pattern
+  std::uint32_t event = 0;  ///< closings since a moment before the clip; frames of one event share a pattern
   double since_intervals =
       0;                ///< time since the closing as a fraction of the interval, 0 to 1; 0 without a shutter
   bool closed = false;  ///< the picture is frozen
 
-  /// How far patterns that start at a closing have grown, 1 at the next one: sqrt(t) / 2 + t / 2, with t the elapsed
-  /// fraction of the interval: a power law plus a linear part, as measured on uncooled cameras (SPIE 12533); the
-  /// weights are an estimate.
+  /// Growth of patterns since a closing, 1 at the next one: sqrt(t) / 2 + t / 2, with t the elapsed fraction of the
+  /// interval: a power law plus a linear part, as measured on uncooled cameras (SPIE 12533); the weights are an
+  /// estimate.
   [[nodiscard]] double growth() const noexcept {
     return 0.5 * std::sqrt(since_intervals) + 0.5 * since_intervals;
   }
@@ -32,8 +32,8 @@ class Shutter {
   /// A frame is frozen if the shutter closed at its time or less than freeze_s before.
   [[nodiscard]] ShutterState at(double time_s) const noexcept;
 
-  /// The first frame of an event at a rate of frames, 0 if it began before the clip. Requires an interval, if the event
-  /// is not 0.
+  /// The first frame of an event at a frame rate, 0 if the event began before the clip. Requires an interval, if the
+  /// event is not 0.
   [[nodiscard]] std::uint32_t first_frame(std::uint32_t event, double rate_hz) const noexcept;
 
   /// Time from the last closing to the start of the clip [s].

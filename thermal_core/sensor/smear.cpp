@@ -17,20 +17,20 @@ constexpr int kTileWidth = 32;
 constexpr int kTileHeight = 16;
 constexpr std::size_t kTileRowsAChunk = 4;
 // Of motion within Smear's reach:
-constexpr float kStillPx = 1.0F / 64;  // that is not worth mixing
+constexpr float kStillPx = 1.0F / 64;  // ignored
 constexpr float kAlikePx = 1.0F / 8;   // difference within a tile that has one motion
-constexpr int kStepsPerPx = 16;        // to which it is rounded, so that its samples can be used again
+constexpr int kStepsPerPx = 16;        // to which motion is rounded, so that its samples can be reused
 
-constexpr float kFarthestPx = 4096;  // motion counts as this at most
+constexpr float kFarthestPx = 4096;  // longer motion counts as this
 constexpr int kMarginPx = 44;        // kept beyond the edges: the reach of all but long motion
-constexpr double kSettled = 8;       // time constants after which a pixel has forgotten what was
+constexpr double kSettled = 8;       // time constants after which a pixel's response has decayed
 constexpr std::size_t kMostRemembered = 4096;
 constexpr int kReadSteps = 64;  // of an interval, to which a row's time of reading is rounded
 constexpr std::int64_t kReadTimes = 2 * kReadSteps;     // in one number with a motion
 constexpr std::int64_t kAxis = std::int64_t{1} << 32U;  // between the axes of a motion in one number
 
-/// Adds four weighted samples to each sum, and finds the least of all. A function of its own: within the loop over the
-/// samples, GCC 12 joins two rounds into one that it cannot vectorise.
+/// Adds four weighted samples to each sum, and finds the minimum of all. A function of its own: within the loop over
+/// the samples, GCC 12 fuses two iterations into one that it cannot vectorise.
 VELDT_CLONES void mix_four(const float* from, const std::ptrdiff_t* offsets, const float* weights,
                            std::size_t count, float* __restrict sum, float* __restrict least) {
   const float* a = from + offsets[0];
@@ -54,7 +54,7 @@ VELDT_CLONES void greater(const float* one, const float* other, std::size_t coun
   for (std::size_t i = 0; i < count; ++i) out[i] = one[i] > other[i] ? one[i] : other[i];
 }
 
-/// The sum of weighted samples, but not less than the least of them. `count` is at most kTileWidth.
+/// The sum of weighted samples, at least their minimum. `count` is at most kTileWidth.
 void mix_line(const float* from, const std::ptrdiff_t* offsets, const float* weights, std::size_t taps,
               std::size_t count, float* out) {
   std::array<float, kTileWidth> sum{};
@@ -65,7 +65,7 @@ void mix_line(const float* from, const std::ptrdiff_t* offsets, const float* wei
   greater(sum.data(), least.data(), count, out);
 }
 
-/// The picture, with a margin that goes on as it ends.
+/// The picture with a margin of replicated edge pixels.
 void copy_with_margin(const Plane<float>& picture, Plane<float>& out) {
   const int width = picture.width_px() + 2 * kMarginPx;
   const int height = picture.height_px() + 2 * kMarginPx;
@@ -79,13 +79,13 @@ void copy_with_margin(const Plane<float>& picture, Plane<float>& out) {
   }
 }
 
-/// What is not finite is 0.
+/// Clamped; 0 if not finite.
 float limited(float px) { return std::isfinite(px) ? std::clamp(px, -kFarthestPx, kFarthestPx) : 0; }
 
 struct Steps {
   std::int64_t x = 0;
   std::int64_t y = 0;
-  std::int64_t read = 0;  ///< later than the frame's time
+  std::int64_t read = 0;  ///< position in the readout, relative to the frame's time
 
   [[nodiscard]] std::int64_t packed() const noexcept {
     return (x * kAxis + y) * kReadTimes + read + kReadTimes / 2;
@@ -105,7 +105,7 @@ Steps steps_of(float x_px, float y_px, float steps_per_px) {
   return {.x = std::lround(limited(x_px) * steps_per_px), .y = std::lround(limited(y_px) * steps_per_px)};
 }
 
-/// Least and greatest value of a tile, by column and in all. NaN is left out.
+/// Minimum and maximum of a tile, by column and in total. NaN is left out.
 class Range {
  public:
   Range() {
@@ -133,7 +133,7 @@ class Range {
 
 }  // namespace
 
-/// Cuts a row of tiles into pieces.
+/// Divides a row of tiles into pieces.
 class Smear::Cutter {
  public:
   /// @param reach, readout  in intervals
@@ -163,7 +163,7 @@ class Smear::Cutter {
   }
 
  private:
-  /// Neighbours that move alike are one piece.
+  /// Neighbours with one motion are one piece.
   void cut_row(int begin, int y, int end) {
     while (begin < end) {
       const float x_px = motion_.x_px.at(begin, y);
@@ -177,12 +177,12 @@ class Smear::Cutter {
     }
   }
 
-  /// NaN is still.
+  /// NaN counts as still.
   [[nodiscard]] bool is_still(float x_px, float y_px) const noexcept {
     return !(reach_ * std::abs(x_px) >= kStillPx) && !(reach_ * std::abs(y_px) >= kStillPx);
   }
 
-  /// Cut where the time of reading changes.
+  /// Adds a piece, divided where the readout time changes.
   void add(Piece piece, float x_px, float y_px) {
     Steps steps = steps_of(x_px, y_px, kStepsPerPx * reach_);
     if (steps.x == 0 && steps.y == 0) return;
@@ -299,7 +299,7 @@ void Smear::mix(const Piece& piece, Plane<float>& picture) const {
              static_cast<std::size_t>(piece.width), &picture.at(piece.x, piece.y + line));
 }
 
-/// Beyond the margin too: copies the samples of each line.
+/// For motion beyond the margin: copies the samples of each line.
 void Smear::mix_far(const Piece& piece, Plane<float>& picture) const {
   const Samples& samples = *piece.samples;
   const auto width = static_cast<std::size_t>(piece.width);

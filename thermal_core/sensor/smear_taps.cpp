@@ -12,8 +12,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kOldest = 16;         // time constants: what is older weighs 1e-7
-constexpr double kLongPx = 40;         // motion from here on is sampled with less effort
+constexpr double kOldest = 16;         // time constants: older samples weigh 1e-7
+constexpr double kLongPx = 40;         // longer motion is sampled more coarsely
 constexpr int kMostNodes = 66;         // of the quadrature of shorter motion
 constexpr int kMostSteps = 256;        // of longer motion
 constexpr int kReachPx = 3;            // of the interpolation
@@ -56,7 +56,7 @@ const std::vector<Node>& nodes_of(int count) {
 }
 
 constexpr std::size_t kSamples = 2 * kReachPx;
-constexpr std::size_t kLanes = 8;  // that fill the processor's registers; those past the samples are 0
+constexpr std::size_t kLanes = 8;  // fills the processor's registers; lanes past the samples are 0
 using Weights = std::array<double, kLanes>;
 
 /// Adds the products of weights down and across to a part of a grid.
@@ -70,15 +70,15 @@ VELDT_CLONES void mix_weights(const double* one, const double* other, double sha
   for (std::size_t i = 0; i < kLanes; ++i) out[i] = (1 - share) * one[i] + share * other[i];
 }
 
-/// Integral of cos(2 pi f x) over the frequencies that are interpolated best, over their number.
+/// Mean of cos(2 pi f x) over the frequencies that the interpolation is optimised for.
 double correlation(double px) {
   constexpr double kBand = 0.32;  // cycles per pixel
   const double x = 2 * pi * kBand * px;
   return std::abs(x) < 1e-9 ? 1 : std::sin(x) / x;
 }
 
-/// Weights whose sum is 1 and whose transfer is nearest, by least squares over these frequencies, to that of a shift by
-/// a fraction of a pixel.
+/// Weights with a sum of 1 whose transfer is closest, by least squares over these frequencies, to a shift by a fraction
+/// of a pixel.
 Weights shift_weights(double fraction) {
   std::vector<double> matrix;
   std::vector<double> right;
@@ -91,7 +91,7 @@ Weights shift_weights(double fraction) {
   return weights;
 }
 
-/// The interpolation's weights of the 6 samples around a place, by its fraction of a pixel.
+/// Interpolation weights of the 6 samples around a position, by its fraction of a pixel.
 class Interpolation {
  public:
   Interpolation() {
@@ -113,7 +113,7 @@ class Interpolation {
   std::array<Weights, kSteps + 1> all_{};
 };
 
-/// Where the samples of a pixel lie, from the youngest (place 0) to the oldest (1).
+/// Path of a pixel's samples, from the youngest (0) to the oldest (1).
 struct Way {
   double from_x_px = 0;
   double from_y_px = 0;

@@ -20,7 +20,7 @@ enum SensorStream : std::uint32_t {
   kDeadPixelStream = 12,
   kBlinkingPixelStream = 13,
   kBlinkStream = 14,
-  // 15 was an earlier 1/f noise.
+  // Do not reuse 15, an earlier 1/f noise.
   kFlickerStartStream = 16,  ///< and the 31 numbers after it, one for each process
   kFlickerPhaseStream = 48,
   kGainPixelStream = 49,

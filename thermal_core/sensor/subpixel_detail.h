@@ -4,9 +4,9 @@
 
 namespace thermal {
 
-/// How the quarters of each pixel differ [W m^-2 sr^-1]. With the pixel's mean m, its quarters are m - across - down +
-/// crossed (top left), m + across - down - crossed, m - across + down - crossed and m + across + down + crossed (bottom
-/// right). 0 where a pixel has one value. Empty planes: nothing is known within pixels.
+/// Differences between the quarters of each pixel [W m^-2 sr^-1]. With the pixel's mean m, its quarters are, from the
+/// top left to the bottom right, m - across - down + crossed, m + across - down - crossed, m - across + down - crossed
+/// and m + across + down + crossed. 0 where a pixel has one value. Empty planes: no subpixel data.
 struct SubpixelDetail {
   Plane<float> across;
   Plane<float> down;

@@ -64,7 +64,7 @@ void TemporalFilter::take_changes(const Plane<float>& signal_w_m2_sr) {
   });
 }
 
-/// Beyond the border, the border's changes repeat.
+/// Changes are replicated beyond the border.
 void TemporalFilter::follow_row(int y, Plane<float>& signal_w_m2_sr) {
   const std::span<const float> here = change_.row(y);
   std::vector<float> columns(here.size() + 2);

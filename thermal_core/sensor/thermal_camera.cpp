@@ -52,7 +52,7 @@ VELDT_CLONES void follow(float* signal, std::size_t count, float share, float* s
   for (std::size_t i = 0; i < count; ++i) signal[i] = state[i] += share * (signal[i] - state[i]);
 }
 
-/// With an offset to all but 0, which is no light.
+/// Rounds to counts, with an offset to all values but 0, which is no light.
 VELDT_CLONES void round_to_counts(const float* in, std::size_t count, float offset, float counts_per_unit,
                                   std::uint16_t* out) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -64,7 +64,7 @@ VELDT_CLONES void round_to_counts(const float* in, std::size_t count, float offs
   }
 }
 
-/// Sum, and sum of squares about a middle value, of a chunk of pixels.
+/// Sum, and sum of squares about a reference value, of a chunk of pixels.
 struct Moments {
   double sum = 0;
   double squares = 0;
@@ -127,7 +127,7 @@ double noise_variance(const SensorParameters& parameters, double native_rate_hz)
   return variance;
 }
 
-/// Apparent temperature [K] above which all pixels are alike.
+/// Apparent temperature [K] at which pixels saturate.
 double saturation_of(const SensorParameters& parameters) {
   const double end_k = (static_cast<double>(kLargestCount) + 1) * parameters.kelvin_per_count;
   return parameters.saturation_k > 0 ? std::min(parameters.saturation_k, end_k) : end_k;
@@ -267,7 +267,7 @@ std::uint32_t ThermalCamera::shown_at(std::uint32_t native) const noexcept {
   return shown;
 }
 
-/// Shows what the detector measures as it does at a native frame.
+/// Makes pictures of the detector's signal at a native frame.
 void ThermalCamera::make_picture(std::uint32_t native, SensorFrame& out) {
   const double time_s = native / native_.rate_hz;
   const ShutterState shutter = shutter_.at(time_s);
@@ -300,7 +300,7 @@ void ThermalCamera::show(SensorFrame& frame) {
   sharpener_.sharpen(filtered, frame.ir8);
 }
 
-/// Radiance at the detector.
+/// Radiance at the detector, behind the optics.
 void ThermalCamera::take_in(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail) {
   assert(radiance_w_m2_sr.size() == signal_.size());
   assert(detail.empty() || clip_.sampling.quarters);
@@ -312,11 +312,11 @@ void ThermalCamera::take_in(const Plane<float>& radiance_w_m2_sr, const Subpixel
   optics_.apply(detail, signal_);
 }
 
-/// The states of the first frame that is exposed.
+/// Initial states, at the first exposed frame.
 void ThermalCamera::begin() {
   const auto signal = signal_.pixels();
   begun_ = true;
-  if (follow_ < 1) membrane_.assign(signal.begin(), signal.end());  // at rest
+  if (follow_ < 1) membrane_.assign(signal.begin(), signal.end());  // in equilibrium
   if (housing_.has_gain()) gain_w_m2_sr_ = housing_.pixel_stddev_w_m2_sr(statistics_of(signal_).mean);
   const double ratio = parameters_.noise.amount * parameters_.noise.first_frame_ratio;
   if (ratio > 0) {
@@ -329,7 +329,7 @@ void ThermalCamera::lag(std::size_t first, std::span<float> signal) {
   if (!membrane_.empty()) follow(signal.data(), signal.size(), follow_, &membrane_[first]);
 }
 
-/// Passes the signal on in blocks that stay in the L1 cache.
+/// Processes the signal in blocks that stay in the L1 cache.
 template <typename Work>
 void ThermalCamera::for_blocks(const Work& work) {
   const auto signal = signal_.pixels();

@@ -33,17 +33,17 @@ namespace thermal {
 /// The same by the parameters of a sensor.
 [[nodiscard]] std::function<double(double temperature_k)> radiance_of(const SensorParameters& parameters);
 
-/// Inverse of exact Planck radiance for a ThermalCamera with this response, tabulated from 180 K to 420 K and, once
-/// something hotter is seen, to 2000 K. Building it takes about 16,000 exact inverses, so cameras with the same
-/// response may share it.
+/// Inverse of exact Planck radiance for a ThermalCamera with this response, tabulated from 180 K to 420 K and, once a
+/// hotter pixel occurs, to 2000 K. Building it takes about 16,000 exact inverses, so cameras with the same response may
+/// share it.
 [[nodiscard]] std::shared_ptr<const TemperatureTable> apparent_temperatures(const SpectralResponse& response);
 
 /// The output of the camera for one frame.
 struct SensorFrame {
   Plane<std::uint8_t>
-      ir8;  ///< `curve` applied to ir16; in mode table_max, to radiance; in clahe, a curve by place
-  /// Apparent temperature, with the camera's radiometric error, / kelvin_per_count, rounded; clipped to 0..65535, which is
-  /// 655.35 K and more at the default of 0.01 K. Pixels that saturate have saturation_k, if there is one.
+      ir8;  ///< `curve` applied to ir16; in mode table_max, to radiance; in clahe, a curve that varies over the picture
+  /// Apparent temperature, with the camera's radiometric error, / kelvin_per_count, rounded; clipped to 0..65535
+  /// (655.35 K at the default of 0.01 K). Saturated pixels have saturation_k, if it is set.
   Plane<std::uint16_t> ir16;
   ToneCurve curve;
   bool shutter_closed = false;  ///< the picture is the last one before the shutter closed
@@ -56,7 +56,7 @@ struct SensorFrame {
 /// 16-bit pictures at the native rate / n are every n-th of those at the native rate, bit for bit.
 class ThermalCamera {
  public:
-  /// What a camera's noise, size and surroundings depend on.
+  /// Determines a camera's noise, size and surroundings.
   struct Clip {
     std::string id;
     std::uint32_t seed = 1;
@@ -77,13 +77,12 @@ class ThermalCamera {
                 std::shared_ptr<const TemperatureTable> temperatures = nullptr);
 
   /// Makes the pictures of the next frame from its radiance plane [W m^-2 sr^-1]; `out` is reused if it has the right
-  /// size. NaN and negative radiance count as 0, and radiance above that of 6000 K as that: nothing that is not finite
-  /// reaches the optics or the camera's state. Count 0 and level 0 mean no light; the 16-bit picture ends at 65535.
-  /// `detail` is what is known within pixels, finite, or empty; with it, `sampling` must have quarters.
-  /// `look` receives what the detector would measure without lag and noise: the radiance behind the optics at this
-  /// frame's time, even while the shutter is closed.
-  /// `motion` smears the picture within the exposure, if there is a time constant. The pictures are then of the past,
-  /// by a time constant on average, as a membrane's are; without it, of this frame's time and those before.
+  /// size. NaN and negative radiance count as 0, and radiance above that of 6000 K as that of 6000 K, so that optics
+  /// and state stay finite. Count 0 and level 0 mean no light; the 16-bit picture ends at 65535. `detail` is subpixel
+  /// data, finite, or empty; with it, `sampling` must have quarters. `look` receives the signal without lag and noise:
+  /// the radiance behind the optics at this frame's time, even while the shutter is closed. `motion` smears the picture
+  /// within the exposure, if there is a time constant. The pictures are then late by a time constant on average, as a
+  /// membrane's signal is; without it, they mix this frame and those before.
   void expose(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail, const ImageMotion& motion,
               SensorFrame& out, const Look& look = {});
 
@@ -102,19 +101,19 @@ class ThermalCamera {
   /// the camera's radiometric error.
   [[nodiscard]] double temperature_k(double radiance_w_m2_sr) const;
 
-  /// Standard deviation [W m^-2 sr^-1] of a pixel's noise in the frames exposed so far: of white noise, times sqrt(1
-  /// + k f + vh^2 + v^2 + h^2 + tv^2 + th^2 + band^2 + g drift^2), plus the paper's pattern in quadrature, times the
-  /// pixel's noise gain. Parts are independent, so variances add: k is the knee of the 1/f noise and f its variance
-  /// for a knee at 1 Hz; vh to drift are ratios of NoiseParameters; g is the mean square of the drift's growth over a
+  /// Standard deviation [W m^-2 sr^-1] of a pixel's noise in the frames exposed so far: of white noise, times sqrt(1 +
+  /// k f + vh^2 + v^2 + h^2 + tv^2 + th^2 + band^2 + g drift^2), plus the paper's pattern in quadrature, times the
+  /// pixel's noise gain. Parts are independent, so variances add: k is the knee of the 1/f noise and f its variance for
+  /// a knee at 1 Hz; vh to drift are ratios of NoiseParameters; g is the mean square of the drift's growth over a
   /// shutter interval, 0 without one; the paper's pattern is uniform, so its standard deviation is its half width /
-  /// sqrt(3). The errors of the pixels' gains count by their standard deviation at the mean of the first frame. What is
-  /// shared by whole frames or smooth is excluded, because it shifts a target and its surroundings alike. So are bad
-  /// pixels. It is the noise before denoise, which what moves keeps.
+  /// sqrt(3). The errors of the pixels' gains count by their standard deviation at the mean of the first frame. Smooth
+  /// noise and that of whole frames is excluded, because it shifts a target and its surroundings alike. So are bad
+  /// pixels. It is the noise before noise reduction, which moving objects keep.
   [[nodiscard]] double noise_w_m2_sr(int x_px, int y_px) const;
 
  private:
-  /// The native frame that the camera shows at one: itself, or the last one before a closing of the shutter; anything up
-  /// to seen_ stands for what was shown then.
+  /// The native frame whose picture the camera shows at `native`: itself, or the last one before a closing of the
+  /// shutter; any number up to seen_ stands for the picture shown then.
   [[nodiscard]] std::uint32_t shown_at(std::uint32_t native) const noexcept;
   void make_picture(std::uint32_t native, SensorFrame& out);
   void take_in(const Plane<float>& radiance_w_m2_sr, const SubpixelDetail& detail);
@@ -135,9 +134,9 @@ class ThermalCamera {
   float white_w_m2_sr_;            ///< standard deviation of white temporal noise …
   float fast_w_m2_sr_;             ///< … with what 1/f noise adds to it
   float flicker_w_m2_sr_;          ///< of 1/f noise in units of FlickerDesign's
-  float brightest_taken_w_m2_sr_;  ///< what is brighter counts as this
+  float brightest_taken_w_m2_sr_;  ///< brighter radiance counts as this
   float saturation_w_m2_sr_;       ///< of the 16-bit picture
-  float follow_;                   ///< fraction of a new radiance that a pixel reaches within one frame
+  float follow_;                   ///< fraction of a change that a pixel follows within one frame
   Optics optics_;
   std::optional<Smear> smear_;  ///< none without a time constant
   Shutter shutter_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "accuracy/heat_bodies/nights.h"
 #include "base/error.h"
@@ -16,6 +17,29 @@ namespace {
 
 constexpr double kMet = 58.15;
 constexpr double kCelsius = 273.15;
+
+/// Temperature of the skin of a person in comfort [K]: 35.7 deg C - 0.028 (M - W) (ISO 7730:2005, equation 1's term).
+/// @param heat_w_m2  M - W, the metabolic rate without the work done
+double comfortable_skin_k(double heat_w_m2) { return 308.85 - 0.028 * heat_w_m2; }
+
+/// Surface of the clothes of a person in comfort [K], the balance of ISO 7730:2005 (in kelvin; its computer program takes
+/// 273 K for 0 deg C, which changes the result by less than 0.02 K from 10 to 30 deg C):
+/// (skin - t) / (0.155 clo) = f [h (t - air) + 3.96e-8 (t^4 - radiant^4)].
+/// @param wind_m_s  past the person
+double comfortable_clothing_k(double insulation_clo, double heat_w_m2, double air_k, double radiant_k,
+                              double wind_m_s) {
+  constexpr double kRadiating = 3.96e-8 / kStefanBoltzmann;  // emissivity 0.97, and 0.72 of the view is open
+  const BodySurface surface = {.emissivity = 0.97,
+                               .open_view = kRadiating / 0.97,
+                               .area_factor = clothing_area_factor(insulation_clo)};
+  const HeatWithin within = {.inside_k = comfortable_skin_k(heat_w_m2),
+                             .w_m2_k = insulation_clo > 0 ? 1 / (kCloM2KW * insulation_clo)
+                                                          : std::numeric_limits<double>::infinity()};
+  // Without vapour, no dew.
+  const Forcing forcing = {.air_k = air_k, .wind_m_s = wind_m_s, .pressure_hpa = 1013.25};
+  return body_surface_k(surface, within, forcing,
+                        {.longwave_w_m2 = kStefanBoltzmann * std::pow(radiant_k, 4)});
+}
 
 /// Predicted mean vote, ISO 7730:2005, equations 1 to 4, with the clothing's temperature from here.
 double predicted_mean_vote(double air_c, double radiant_c, double wind, double humidity, double met,

@@ -25,6 +25,7 @@ GroundMaps place(std::size_t cells) {
   maps.covers.grass.assign(count, 102);
   maps.covers.trodden.assign(count, 51);
   maps.covers.ash.assign(count, 0);
+  maps.covers.border.assign(count, 255);
   return maps;
 }
 
@@ -79,7 +80,7 @@ TEST_CASE("Kinds meet in lines that keep their place, and shares do not fade the
   CHECK(std::sqrt(squares / 224) < 0.29);
 }
 
-TEST_CASE("Where distances to borders are known, straight borders stay straight") {
+TEST_CASE("By their distances from cells, straight borders stay straight") {
   GroundMaps maps = place(32);
   const double slope = GENERATE(0.0, 0.13, 0.37, 0.77);
   const auto line = [slope](double x) { return 12.1 + slope * x; };
@@ -88,7 +89,7 @@ TEST_CASE("Where distances to borders are known, straight borders stay straight"
     const double x = static_cast<double>(i % 64) + 0.5;
     const double y = static_cast<double>(i / 64) + 0.5;
     const double off = std::abs(y - line(x)) / std::sqrt(1 + slope * slope);
-    maps.covers.border.push_back(static_cast<std::uint8_t>(std::lround(std::min(255.0, off / 1.5 * 255))));
+    maps.covers.border[i] = static_cast<std::uint8_t>(std::lround(std::min(255.0, off / 1.5 * 255)));
   }
   const CutWindow window = cut_window(maps, {.width = 32, .height = 32});
   const CutCovers covers(maps.covers, window);

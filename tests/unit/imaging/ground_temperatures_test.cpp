@@ -31,7 +31,8 @@ GroundCovers bare(std::vector<std::string> kinds = {"soil"}) {
           .kind = none,
           .grass = none,
           .trodden = none,
-          .ash = none};
+          .ash = none,
+          .border = std::vector<std::uint8_t>(none.size(), 255)};
 }
 
 /// Level ground of 64 m with open sky, whose moisture rises from west to east.

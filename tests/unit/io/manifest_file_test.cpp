@@ -157,11 +157,10 @@ TEST_CASE("A written manifest is read back the same") {
   document["frames"][1]["actors"] = Json::array();
   const Manifest manifest = read_manifest(folder.file("manifest.json", document.dump()), kAssets);
   const Path copy = folder / "copy.json";
-  write_manifest(copy, manifest);
+  write_file_atomically(copy, to_text(manifest));
   CHECK(differences(read_json(copy), document).empty());
   CHECK(read_manifest(copy, kAssets).frames.size() == manifest.frames.size());
-  write_manifest(copy, Manifest());  // without frames, which no schema accepts
-  CHECK(read_json(copy).at("frames").empty());
+  CHECK(Json::parse(to_text(Manifest())).at("frames").empty());  // which no schema accepts
 }
 
 }  // namespace manifest_file_test

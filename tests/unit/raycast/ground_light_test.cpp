@@ -240,7 +240,8 @@ class GroveGround {
                      .kind = none_,
                      .grass = all_,
                      .trodden = none_,
-                     .ash = none_};
+                     .ash = none_,
+                     .border = all_};
   }
 
   [[nodiscard]] GroundMaps maps(const std::optional<std::vector<thermal::GroundView>>& views = {}) const {
@@ -267,7 +268,7 @@ TEST_CASE("Any number of threads makes the same maps") {
   CHECK(made_by(2) == one);
   CHECK(made_by(0) == one);
   CHECK(one.cells == 40);
-  CHECK(one.covers == thermal::GroundCovers{1, {"grass"}, {0}, {255}, {0}, {0}});
+  CHECK(one.covers == thermal::GroundCovers{1, {"grass"}, {0}, {255}, {0}, {0}, {255}});
   CHECK(std::ranges::max(one.crown_top_m) > 4.5F);
   CHECK(std::ranges::min(one.sky_view) < 100);
 }

@@ -30,6 +30,7 @@ thermal::ManifestObject named(std::uint16_t index, const std::string& material) 
 thermal::BakedScene with_objects(const Scenery& place) {
   thermal::BakedScene scene = place.baked();
   scene.objects = {named(kGround, "soil"), named(kWater, "water"), named(kTree, "wood")};
+  scene.mirrors = {"water"};
   return scene;
 }
 

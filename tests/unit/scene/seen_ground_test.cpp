@@ -139,6 +139,7 @@ TEST_CASE("Ground that water mirrors is seen, at the length of the whole way") {
   thermal::BakedScene scene = dry.baked();
   CHECK(at(finest_pixels_m(scene, ground(hill), views), 120, 0) == kNever);
   scene.materials = {{.index = 1, .material = "water", .part = {}}};
+  scene.mirrors = {"water"};
   const float pixel_m = at(finest_pixels_m(scene, ground(hill), views), 120, 0);
   CHECK(pixel_m > 1.5F);  // 130 m away, less what the ball around a block has of it
   CHECK(pixel_m < 130 / 64.0F);

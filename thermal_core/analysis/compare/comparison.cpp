@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kHalvings = 20;       // whose mean scatters by about a tenth; estimate
 constexpr std::uint32_t kToldHalvings = 5;    // each trains five forests
-constexpr std::uint32_t kFirstHalving = 100;  // draws below are the classifiers'
+constexpr std::uint32_t kFirstHalving = 100;  // classifiers use the draws below
 
 MeasuredFrames all_of(const SetFigures& set) {
   MeasuredFrames frames;
@@ -61,7 +61,7 @@ std::vector<ComparedMeasure> compared(const SetFigures& real, const SetFigures& 
 
 using TableOf = FeatureTable (*)(const MeasuredFrames&);
 
-/// Fills in averages over halvings; importances are those of no one forest, and are left out.
+/// Fills in averages over halvings; importances differ from forest to forest, and are left out.
 void classify_halves(const SetFigures& real, TableOf table_of, std::size_t features, std::uint32_t seed,
                      Classification& classified) {
   Discrimination mean = {.auc = 0, .error = 0};

@@ -13,7 +13,7 @@
 
 namespace thermal {
 
-/// What is compared.
+/// Options of a comparison.
 struct CompareOptions {
   FrameRequest real;
   FrameRequest other;
@@ -25,7 +25,7 @@ struct CompareOptions {
   void validate() const;
 };
 
-/// A difference is a good one up to this many times that of one half of the real frames from the other.
+/// A difference is good up to this many times the difference between two halves of the real frames.
 inline constexpr double kGoodRatio = 2;
 
 /// One measure of both sets.
@@ -48,7 +48,7 @@ struct Classification {
   std::vector<double> halves_alone = {};  ///< the AUC of each feature alone, likewise; empty likewise
 };
 
-/// How far one set of frames is from another.
+/// All differences between two sets of frames.
 struct Comparison {
   SetFigures real;
   SetFigures other;
@@ -61,7 +61,7 @@ struct Comparison {
 /// Faults are those of read_frame_source() and measure_set().
 [[nodiscard]] Comparison compare(const CompareOptions& options);
 
-/// One half and the other of frames, by units in a random order; the first half has the unit more.
+/// Two halves of frames, by units in a random order; the first half has one unit more if they are odd.
 struct Halves {
   MeasuredFrames first;
   MeasuredFrames second;

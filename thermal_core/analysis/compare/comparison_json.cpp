@@ -104,7 +104,7 @@ Json histogram_json(const SetFigures& set) {
   return shares;
 }
 
-/// Power between curve_edges(), averaged over the frames that have any there.
+/// Power between curve_edges(), averaged over the frames that have any frequency there.
 Json curve_json(const SetFigures& set) {
   Json powers = Json::array();
   for (std::size_t bin = 0; bin + 1 < curve_edges().size(); ++bin) {

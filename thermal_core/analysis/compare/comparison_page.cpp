@@ -28,7 +28,7 @@ std::string png_of(const Plane<std::uint8_t>& picture) {
   return "data:image/png;base64," + base64_of(text);
 }
 
-/// A frame as it is, or of temperatures its levels.
+/// A frame, or for temperatures its grey levels, as a data URL.
 std::string shown(const FrameSource& source, std::size_t frame) {
   constexpr int kMostPx = 640;
   if (!source.kelvin)
@@ -55,7 +55,7 @@ Json frames_json(const SetFigures& set) {
   return frames;
 }
 
-/// A target and what is around it, as a PNG of one pixel for each.
+/// A target and its surroundings, as a PNG with their original pixels.
 Json crop_json(const Plane<float>& frame, const LabelBox& box) {
   const auto inside = [](double place, int most) {
     return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(most)));

@@ -19,7 +19,7 @@ constexpr std::size_t kMostRows = 400;
 constexpr std::size_t kParts = 5;
 constexpr int kTrees = 100;
 constexpr int kDepth = 8;
-constexpr std::uint32_t kShuffles = 5;  // of a feature, whose falls are averaged
+constexpr std::uint32_t kShuffles = 5;  // of a feature, over which its decrease is averaged
 
 /// Rows of both sets with all values known.
 struct Cases {
@@ -34,7 +34,7 @@ std::size_t units_in(const FeatureTable& table) {
   return table.units.empty() ? 0 : *std::max_element(table.units.begin(), table.units.end()) + 1;
 }
 
-/// The median of what is known of a feature in both tables.
+/// Median of the known values of a feature in both tables.
 float typical_of(const FeatureTable& first, const FeatureTable& second, std::size_t feature) {
   std::vector<double> known = known_values(first, feature);
   for (const double value : known_values(second, feature)) known.push_back(value);
@@ -89,7 +89,7 @@ WonPairs won_by(const cv::ml::RTrees& forest, const cv::Mat& features, const std
   return won_pairs(negative, positive);
 }
 
-/// Results of one part: with the features as they are, and with each shuffled.
+/// Results of one part: with the original features, and with each one shuffled.
 struct PartResult {
   WonPairs plain;
   std::vector<double> shuffled_won;
@@ -143,7 +143,7 @@ Discrimination summed_up(const std::vector<PartResult>& results) {
   return found;
 }
 
-/// Falls below the shuffles' own scatter count as equal.
+/// Decreases below the shuffles' own scatter count as equal.
 void sort_importances(std::vector<Importance>& importances) {
   const auto rank = [](const Importance& one) { return std::pair(std::lround(1000 * one.fall), one.alone); };
   std::stable_sort(importances.begin(), importances.end(),

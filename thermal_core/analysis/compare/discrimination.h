@@ -8,7 +8,7 @@
 
 namespace thermal {
 
-/// Features of frames or crops of one set. Rows of one unit belong together: a classifier learns from all or none.
+/// Features of frames or crops of one set. Rows of one unit are never split between training and test.
 struct FeatureTable {
   std::vector<std::vector<std::optional<double>>> rows;
   std::vector<std::size_t> units;  ///< of the rows; numbers from 0
@@ -17,37 +17,35 @@ struct FeatureTable {
 /// Whether its rows are of two units or more.
 [[nodiscard]] bool has_two_units(const FeatureTable& table);
 
-/// Those values of a feature that are known.
+/// The known values of a feature.
 [[nodiscard]] std::vector<double> known_values(const FeatureTable& table, std::size_t feature);
 
-/// Area under the curve of one feature alone, whichever way its known values differ: .5 or more.
+/// Area under the curve of one feature alone, in the direction that separates better: .5 or more.
 [[nodiscard]] double told_alone(const FeatureTable& first, const FeatureTable& second, std::size_t feature);
 
-/// What a feature contributes.
+/// Contribution of a feature.
 struct Importance {
   std::size_t feature = 0;
-  double fall =
-      0;  ///< of the area under the curve when its values are shuffled among the rows that are tested
+  double fall = 0;  ///< decrease of the area under the curve when its values are shuffled among the test rows
   double alone = 0.5;  ///< told_alone()
 };
 
-/// How well a classifier separates two sets.
+/// Separability of two sets by a classifier.
 struct Discrimination {
-  double auc =
-      0.5;  ///< area under the receiver operating characteristic: .5 if it cannot, 1 if it always can
-  double error = 0;  ///< standard error (Hanley and McNeil 1982), with a unit for a case
-  std::vector<Importance> importances = {};  ///< by fall, then by what they tell alone
+  double auc = 0.5;  ///< area under the receiver operating characteristic: .5 no separation, 1 complete
+  double error = 0;  ///< standard error (Hanley and McNeil 1982), with one case per unit
+  std::vector<Importance> importances = {};  ///< by decrease, then by `alone`
 };
 
 /// A random forest (OpenCV's) of 100 trees, cross-validated in five parts of whole units, or fewer if a set has fewer
-/// units. Pairs within a part are compared; so a part's own level does not matter. Unknown values count as the median.
-/// Features that say the same stand in for each other: none falls by much then, and the AUC of each alone says more. The result depends on `seed` and the tables alone. At most
-/// 400 rows of each table are used, evenly spaced.
-/// Both tables need two units or more.
+/// units. Only scores within a part are compared, because levels differ between parts. Unknown values count as the
+/// median. Redundant features replace each other: none decreases much when shuffled, and the AUC of each alone is more
+/// informative. The result depends on `seed` and the tables alone. At most 400 rows of each table are used, evenly
+/// spaced. Both tables need two units or more.
 [[nodiscard]] Discrimination discriminate(const FeatureTable& first, const FeatureTable& second,
                                           std::size_t features, std::uint32_t seed);
 
-/// Share of pairs in which the positive has the higher score; equal scores count half. `pairs` says of how many.
+/// Share of pairs in which the positive has the higher score; equal scores count half. `pairs` is their number.
 struct WonPairs {
   double won = 0;
   double pairs = 0;

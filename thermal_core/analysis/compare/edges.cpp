@@ -9,12 +9,12 @@ namespace {
 
 constexpr int kCellPx = 32;
 constexpr int kReachPx = 10;   // across an edge
-constexpr int kPlateauPx = 6;  // from here to kReachPx the sides are level
+constexpr int kPlateauPx = 6;  // from here to kReachPx the sides must be level
 constexpr double kAlongPx = 4.5;
 constexpr int kMarginPx = 12;          // from the frame's border to an edge: reach and width of the window
 constexpr double kStraight = 0.9;      // coherence of the gradients; estimate
 constexpr double kLevelShare = 0.125;  // largest deviation of a side over the step; estimate
-constexpr double kLeastStep = 4;  // grey levels: above what rounding and codecs leave of flat areas; estimate
+constexpr double kLeastStep = 4;       // grey levels: above residues of rounding and codecs; estimate
 constexpr double kBinPx = 0.5;
 
 struct Gradient {
@@ -40,7 +40,7 @@ double steepness_at(const Plane<float>& frame, int x, int y) {
   return std::hypot(gradient.x, gradient.y);
 }
 
-/// Whether no neighbour is steeper: the steepest place of a cell may be the flank of an edge in the next one.
+/// Whether no neighbour is steeper: the steepest pixel of a cell may be the flank of an edge in the next cell.
 bool is_peak(const Plane<float>& frame, const Steepest& place) {
   constexpr double kRounding = 1 + 1e-6;
   for (int dy = -1; dy <= 1; ++dy) {
@@ -75,7 +75,7 @@ std::vector<Steepest> candidates_of(const Plane<float>& frame) {
   return found;
 }
 
-/// The direction across an edge, towards its higher side; empty if gradients around point several ways.
+/// The direction across an edge, towards its higher side; empty if the gradients around it vary.
 std::optional<Gradient> normal_at(const Plane<float>& frame, const Steepest& place) {
   constexpr int kHalf = 4;
   double xx = 0;
@@ -141,10 +141,10 @@ Side side_of(const std::vector<Sample>& profile, double sign) {
   return {level, std::sqrt(std::max(0.0, squares / count - level * level))};
 }
 
-/// Levels from 0 to 1 as their log-odds, which for a Gaussian blur are nearly straight along the profile: a line between
-/// samples a pixel apart then crosses levels where the edge does.
+/// Levels from 0 to 1 as their log-odds, which for a Gaussian blur are nearly linear along the profile: interpolation
+/// between samples a pixel apart is then accurate.
 std::vector<Sample> in_log_odds(std::vector<Sample> profile, double low, double step) {
-  constexpr double kLeast = 1e-3;  // what lies beyond the sides is noise
+  constexpr double kLeast = 1e-3;  // values beyond the sides are noise
   for (Sample& sample : profile) {
     const double share = std::clamp((sample.level - low) / step, kLeast, 1 - kLeast);
     sample.level = std::log(share / (1 - share));
@@ -152,7 +152,7 @@ std::vector<Sample> in_log_odds(std::vector<Sample> profile, double low, double 
   return profile;
 }
 
-/// The last sample below half of the step before it is passed, closest to the middle.
+/// The last sample below half of the step before it is crossed, closest to the middle.
 std::optional<std::size_t> rise_in(const std::vector<Sample>& profile) {
   std::optional<std::size_t> closest;
   for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
@@ -163,7 +163,8 @@ std::optional<std::size_t> rise_in(const std::vector<Sample>& profile) {
   return closest;
 }
 
-/// Where a profile first crosses a level, followed from a sample on to lower places (`sign` -1) or higher ones (1).
+/// Position where a profile first crosses a level, followed from a sample towards lower positions (`sign` -1) or higher
+/// ones (1).
 std::optional<double> crossing_px(const std::vector<Sample>& profile, std::size_t from, double level,
                                   int sign) {
   for (auto at = static_cast<std::ptrdiff_t>(from); at + sign >= 0 && at + sign < std::ssize(profile);
@@ -177,7 +178,7 @@ std::optional<double> crossing_px(const std::vector<Sample>& profile, std::size_
   return {};
 }
 
-/// How far a profile leaves its sides between them and the middle of its rise, as a share of the step.
+/// Largest excursions of a profile from its sides, up to the middle of its rise, as shares of the step.
 void find_halos(const std::vector<Sample>& profile, double low, double step, std::size_t rise, Edge& edge) {
   for (std::size_t k = 0; k < profile.size(); ++k) {
     if (std::abs(profile[k].place_px) >= kPlateauPx) continue;

@@ -6,7 +6,7 @@
 namespace thermal {
 namespace {
 
-/// The level at and below which this share of the pixels is.
+/// Smallest level with at least this share of the pixels at or below it.
 std::size_t level_at(const std::array<double, kGreyLevels>& shares, double share) {
   double sum = 0;
   for (std::size_t level = 0; level < kGreyLevels; ++level) {

@@ -19,7 +19,7 @@ std::optional<double> logarithm(double power) {
   return power > 0 ? std::optional(std::log10(power)) : std::nullopt;
 }
 
-/// A frame's or a crop's figure, and what it is called.
+/// A figure of a frame or crop, and its name.
 template <typename Of>
 struct Figure {
   const char* name;
@@ -44,7 +44,7 @@ std::optional<double> median_halo(const FrameFigures& frame) {
   return halos.empty() ? std::nullopt : std::optional(median_of(std::move(halos)));
 }
 
-/// Power where people are seen against that of larger things.
+/// Power at the scale of people over that of larger structures.
 std::optional<double> fine_over_coarse(const FrameFigures& frame) {
   const double fine = frame.power.bands[4];  // of kBandEdges: .08 to .16, and .02 to .04
   const double coarse = frame.power.bands[2];
@@ -152,7 +152,7 @@ std::optional<double> crop_median(const MeasuredFrames& frames, const Figure<Tar
   return quantile_if_any(values, 0.5);
 }
 
-/// The units of a table numbered from 0, without gaps.
+/// Renumbers the units of a table from 0, without gaps.
 void renumber(FeatureTable& table) {
   std::map<std::size_t, std::size_t> numbers;
   for (std::size_t& unit : table.units) unit = numbers.emplace(unit, numbers.size()).first->second;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kBlockPx = 16;
 
-/// A block less the plane that fits it best; empty if it holds black or white.
+/// A block minus its best-fitting plane; empty if it holds black or white.
 using Block = std::array<double, std::size_t{kBlockPx} * kBlockPx>;
 std::optional<Block> flattened(const Plane<float>& frame, int left, int top) {
   constexpr double kMiddle = 0.5 * (kBlockPx - 1);
@@ -133,7 +133,7 @@ class VideoMeans {
     return squares;
   }
 
-  /// Of rows' or columns' means, less those of their frame and of their place.
+  /// Squares of the means of rows or columns, minus those of their frame and of their position.
   [[nodiscard]] double squares_of(const std::vector<double>& lines, const std::vector<double>& still) const {
     double squares = 0;
     for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -156,7 +156,7 @@ class VideoMeans {
   double mean_ = 0;
 };
 
-/// A frame without its finest details, which are noise, as a mean of 0 and a deviation of 1; 0 where it has none.
+/// A frame without its finest details, which are noise, scaled to a mean of 0 and a deviation of 1; 0 if it has none.
 cv::Mat smoothed(const Plane<float>& frame) {
   constexpr double kBlurPx = 2;
   cv::Mat mat(frame.height_px(), frame.width_px(), CV_32F);
@@ -168,8 +168,8 @@ cv::Mat smoothed(const Plane<float>& frame) {
   return (mat - mean) / std::max(deviation[0], 1e-9);
 }
 
-/// How far the second of two smoothed frames is moved, by least squares: its difference from the first is the gradient
-/// times the shift. For shifts of up to about the blur.
+/// Shift between two smoothed frames, by least squares: their difference is the gradient times the shift. For shifts of
+/// up to about the blur.
 double shift_px(const cv::Mat& first, const cv::Mat& second) {
   cv::Mat across;
   cv::Mat down;
@@ -226,7 +226,7 @@ VideoNoise video_noise(const std::vector<Plane<float>>& frames) {
 
 bool is_still(const std::vector<Plane<float>>& frames) {
   constexpr double kMostShiftPx = 0.1;
-  constexpr double kLeastCorrelation = 0.9;  // other scenes, and those that turn, have less; estimate
+  constexpr double kLeastCorrelation = 0.9;  // cuts and rotations have less; estimate
   const Plane<float>& first = frames.front();
   for (const Plane<float>& frame : frames) {
     if (frame.width_px() != first.width_px() || frame.height_px() != first.height_px()) return false;

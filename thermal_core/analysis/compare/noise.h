@@ -7,23 +7,23 @@
 
 namespace thermal {
 
-/// Noise within the flattest parts of a frame, and how pixels at a distance of 1 share it: what has passed a filter or a
-/// codec is correlated, what comes from a detector is not.
+/// Noise within the flattest parts of a frame, and its correlation between neighbouring pixels: filters and codecs
+/// correlate noise, detectors do not.
 struct FlatNoise {
   double deviation = 0;                   ///< grey levels
   std::optional<double> along_rows = {};  ///< correlation of neighbours in a row; empty: no noise
   std::optional<double> diagonal = {};    ///< of neighbours across a corner
 };
 
-/// Of blocks of 16 x 16 px, less a plane fitted to each: the deviation that a tenth of them is below, and the median
-/// correlations of that tenth. Of white noise the deviation is 6 % below its own (4.4 % of scatter between blocks), and
-/// correlations are 0. A Gaussian filter of sigma leaves exp(-d^2 / (4 sigma^2)), of which the planes and the choice of
-/// flat blocks take a share: .59 is left of .68, for sigma = 0.8 px.
-/// Blocks that are black or white in part are left out. Empty without 10 blocks.
+/// Computed from blocks of 16 x 16 px, minus a plane fitted to each: the first decile of their deviations, and the
+/// median correlations of that decile. For white noise the deviation is 6 % too low (scatter between blocks is 4.4 %),
+/// and correlations are 0. A Gaussian filter of sigma leaves exp(-d^2 / (4 sigma^2)), of which the planes and the
+/// choice of flat blocks remove a share: .59 is left of .68, for sigma = 0.8 px. Blocks that are partly black or white
+/// are left out. Empty with fewer than 10 blocks.
 [[nodiscard]] std::optional<FlatNoise> flat_noise(const Plane<float>& frame);
 
 /// Temporal components of the three-dimensional noise model (D'Agostino and Webb, Proc. SPIE 1488, 1991), deviations in
-/// grey levels. What stays over the frames is the scene, and not noise.
+/// grey levels. Whatever is constant over the frames counts as scene.
 struct VideoNoise {
   double random = 0;   ///< sigma_tvh: each pixel and frame
   double rows = 0;     ///< sigma_tv: each row and frame
@@ -34,8 +34,8 @@ struct VideoNoise {
 /// Frames of one size, at least 2 in number, rows and columns. Unbiased in variance; a negative one counts as 0.
 [[nodiscard]] VideoNoise video_noise(const std::vector<Plane<float>>& frames);
 
-/// Whether frames show a scene that stands still: they are of one size, and the first and the last, blurred by 2 px,
-/// correlate to .9 or more and are less than a tenth of a pixel apart, by least squares.
+/// Whether frames show a static scene: they are of one size, and the first and the last, blurred by 2 px, correlate to
+/// .9 or more and are less than a tenth of a pixel apart, by least squares.
 [[nodiscard]] bool is_still(const std::vector<Plane<float>>& frames);
 
 }  // namespace thermal

@@ -9,10 +9,10 @@ namespace thermal {
 /// @param share  0 to 1
 [[nodiscard]] double quantile_of(std::vector<double> values, double share);
 
-/// The same of half of them.
+/// Median of values, likewise.
 [[nodiscard]] double median_of(std::vector<double> values);
 
-/// The arithmetic mean.
+/// Arithmetic mean.
 [[nodiscard]] double mean_of(const std::vector<double>& values);
 
 /// Standard deviation with n - 1; 0 of fewer than two.

@@ -34,7 +34,7 @@ cv::Mat windowed(const Plane<float>& frame) {
   return weighted;
 }
 
-/// Means of what falls between edges.
+/// Means of values between edges.
 class BinnedMeans {
  public:
   explicit BinnedMeans(const std::vector<double>& edges)

@@ -23,7 +23,7 @@ FrameFigures measured(const FrameSource& source, std::size_t frame) {
   return figures;
 }
 
-/// Of one frame: what was measured, or why it was rejected.
+/// Figures of a frame, or why it was rejected.
 struct Attempt {
   std::optional<FrameFigures> figures;
   std::string fault;
@@ -51,9 +51,9 @@ std::vector<Attempt> attempts_of(const FrameSource& source, const std::vector<st
   return attempts;
 }
 
-// --- footage of a still scene
+// --- footage of a static scene
 
-/// Indices of the first frames of runs that may show a still scene: at the start of some clips, or spread over a folder.
+/// First frames of runs that may show a static scene: at the start of some clips, or spread over a folder.
 std::vector<std::size_t> starts_of(const FrameSource& source) {
   constexpr std::size_t kMostRuns = 4;
   std::vector<std::size_t> starts;
@@ -67,7 +67,7 @@ std::vector<std::size_t> starts_of(const FrameSource& source) {
   return chosen;
 }
 
-/// Noise of a run, if its scene stands still and all its frames can be read.
+/// Noise of a run, if its scene is static and all its frames can be read.
 std::optional<VideoNoise> noise_of_run(const FrameSource& source, std::size_t start) {
   std::vector<Plane<float>> frames;
   try {
@@ -117,7 +117,7 @@ Plane<float> kelvin_levels(const Path& file, const KelvinLevels& scale) {
 
 void widen_range(const FrameSource& source, double& lowest_k, double& highest_k) {
   constexpr std::size_t kFrames = 16;
-  constexpr std::size_t kOutside = 1000;  // one pixel of so many at each end
+  constexpr std::size_t kOutside = 1000;  // one pixel in this many is outside at each end
   for (const std::size_t frame : evenly(source.frames.size(), kFrames)) {
     try {
       Plane<float> kelvin = read_kelvin_picture(source.frames[frame].file, source.kelvin->stored);
@@ -126,7 +126,7 @@ void widen_range(const FrameSource& source, double& lowest_k, double& highest_k)
       lowest_k = std::min(lowest_k, static_cast<double>(kelvin.pixels()[out]));
       highest_k = std::max(highest_k, static_cast<double>(kelvin.pixels()[kelvin.size() - 1 - out]));
     } catch (const DataError&) {
-      continue;  // named when it is measured
+      continue;  // reported when it is measured
     }
   }
 }
@@ -172,7 +172,7 @@ void set_common_levels(FrameSource& one, FrameSource& other) {
 
 std::vector<std::size_t> units_of(const FrameSource& source, const std::vector<std::size_t>& frames) {
   constexpr std::size_t kLeastUnits = 10;
-  std::map<std::size_t, std::size_t> frames_in;  // by clip, of those that are given
+  std::map<std::size_t, std::size_t> frames_in;  // by clip, number of the given frames
   for (const std::size_t frame : frames) ++frames_in[source.frames[frame].video];
   const std::size_t runs =
       source.is_dataset ? (kLeastUnits + frames_in.size() - 1) / frames_in.size() : frames.size();

@@ -17,7 +17,7 @@
 
 namespace thermal {
 
-/// What is measured in one frame.
+/// Figures of one frame.
 struct FrameFigures {
   std::size_t frame = 0;  ///< index into FrameSource::frames
   std::size_t unit = 0;   ///< frames that are drawn together: see units_of()
@@ -31,41 +31,42 @@ struct FrameFigures {
   std::vector<TargetCrop> crops;
 };
 
-/// Measures a frame of levels from 0 to 255; `frame` and `unit` stay 0.
+/// Measures a frame of levels from 0 to 255; `frame` and `unit` of the result are 0.
 [[nodiscard]] FrameFigures measure_frame(const Plane<float>& levels, const std::vector<LabelBox>& boxes);
 
-/// Noise of footage of a still scene.
+/// Noise of footage of a static scene.
 struct StillFootage {
   VideoNoise noise;  ///< medians over the runs of frames
   std::size_t runs = 0;
 };
 
-/// A set of frames, and what was measured on each.
+/// A set of frames and their figures.
 struct SetFigures {
   FrameSource source;
   std::vector<FrameFigures> frames;
   std::vector<std::string> rejected;  ///< messages: pictures that could not be read
-  std::optional<StillFootage> still;  ///< empty: no run of frames shows a still scene
+  std::optional<StillFootage> still;  ///< empty: no run of frames shows a static scene
 };
 
-/// Frames of a run that is checked for a still scene.
+/// Frames of a run that is checked for a static scene.
 inline constexpr std::size_t kStillFrames = 8;
 
-/// Of frames in kelvin, levels from 0 at KelvinLevels::lowest_k to 255. Otherwise grey levels on the scale of 8 bits; those of 16 bits are divided by 257. DataError with the file for frames below
-/// 16 x 16 px, and those of read_grey_picture() and read_kelvin_picture().
+/// Levels of a frame: kelvins are mapped from KelvinLevels::lowest_k to levels from 0 to 255; other frames have their
+/// grey levels on the scale of 8 bits, those of 16 bits divided by 257. DataError with the file for frames below 16 x
+/// 16 px, and those of read_grey_picture() and read_kelvin_picture().
 [[nodiscard]] Plane<float> read_levels(const FrameSource& source, std::size_t frame);
 
-/// Gives two sources in kelvin common levels, which reach from the 0.1 to the 99.9 % points of the temperatures of up to
-/// 16 frames of each, evenly spaced. Pictures that cannot be read are left out.
+/// Sets common levels for two sources in kelvin, from the 0.1 to the 99.9 % points of the temperatures of up to 16
+/// frames of each, evenly spaced. Pictures that cannot be read are left out.
 void set_common_levels(FrameSource& one, FrameSource& other);
 
-/// Reads and measures at most `most_frames` of a source, evenly spaced. Frames of different sizes are measured each as
-/// it is. `show` is called as frames are done. DataError if fewer than 4 can be read.
+/// Reads and measures at most `most_frames` of a source, evenly spaced. Frames keep their sizes. `show` is called as
+/// frames are done. DataError if fewer than 4 can be read.
 [[nodiscard]] SetFigures measure_set(FrameSource source, std::size_t most_frames,
                                      const std::function<void(std::size_t done, std::size_t total)>& show);
 
-/// Units of frames: each by itself if the frames are pictures of a folder. Those of a dataset are its clips if it has at
-/// least 10; otherwise clips are cut into equal runs of frames, so that there are about 10.
+/// Units of frames: each picture of a folder is one. Those of a dataset are its clips if it has at least 10; otherwise
+/// clips are split into equal runs of frames, for about 10 units.
 [[nodiscard]] std::vector<std::size_t> units_of(const FrameSource& source,
                                                 const std::vector<std::size_t>& frames);
 

@@ -20,7 +20,7 @@ cv::Mat mat_of(const Plane<float>& frame) {
   return mat;
 }
 
-/// Mean square of the second differences of means over this many pixels each, times those.
+/// Mean square of the second differences of means over this many pixels each, times `pixels`.
 double roughness_of_means(const cv::Mat& means, int pixels) {
   double squares = 0;
   const auto count = static_cast<int>(means.total());

@@ -13,7 +13,7 @@
 namespace thermal {
 namespace {
 
-/// Whole pixels: from `left` to before `right`.
+/// Half-open pixel ranges: from `left` to before `right`.
 struct Window {
   int left = 0;
   int top = 0;
@@ -75,13 +75,13 @@ double gradient_variance_of(const Plane<float>& frame, const Window& window) {
   return deviation * deviation;
 }
 
-/// Bounds of a part of a mask, in the mask.
+/// Bounding box of a connected part of a mask.
 cv::Rect bounds_of(const cv::Mat& statistics, int part) {
   return {statistics.at<int>(part, cv::CC_STAT_LEFT), statistics.at<int>(part, cv::CC_STAT_TOP),
           statistics.at<int>(part, cv::CC_STAT_WIDTH), statistics.at<int>(part, cv::CC_STAT_HEIGHT)};
 }
 
-/// Bounds of the connected part of a mask with most pixels in the box; empty if none has any.
+/// Bounding box of the part of a mask with most pixels in the box; empty if none has any.
 std::optional<cv::Rect> blob_in(const cv::Mat& mask, const Window& grown, const Window& inner) {
   cv::Mat parts;
   cv::Mat statistics;

@@ -21,7 +21,7 @@ struct AltitudeRow {
 /// Bands of 20 m around 20, 40, 60 … m that have targets; empty without known heights.
 [[nodiscard]] std::vector<AltitudeRow> targets_by_altitude(const SetFigures& set);
 
-/// Of one figure over targets.
+/// Of one figure of targets.
 struct MeanAndDeviation {
   double mean = 0;
   double deviation = 0;
@@ -38,19 +38,19 @@ struct MarginRow {
   MeanAndDeviation bottom_px;
 };
 
-/// By what targets are put into rows: the longer side of the blob, or of the box.
+/// Size by which targets are grouped: the longer side of the blob, or of the box.
 enum class MarginsBy { blob, box };
 
-/// Rows with targets, from 0, 6, 9, 12, 16, 20, 26 and 40 px up.
+/// Non-empty rows, from 0, 6, 9, 12, 16, 20, 26 and 40 px up.
 [[nodiscard]] std::vector<MarginRow> margins_by_size(const SetFigures& set, MarginsBy by);
 
-/// Targets of all frames, those whose margins are known, and the labelled boxes that are no targets: too small.
+/// Targets of all frames, those with known margins, and labelled boxes too small to be targets.
 struct TargetCounts {
   std::size_t boxes = 0;
   std::size_t targets = 0;
   std::size_t with_margins = 0;
 };
-/// How many targets a set has.
+/// Counts of a set's targets.
 [[nodiscard]] TargetCounts target_counts(const SetFigures& set);
 
 }  // namespace thermal

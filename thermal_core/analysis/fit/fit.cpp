@@ -68,7 +68,7 @@ std::vector<double> quantiles_of(std::vector<double> values) {
   return quantiles;
 }
 
-/// Mean distance of quantiles of two sets that are not empty.
+/// Mean distance of the quantiles of two non-empty sets.
 double distance_of(const std::vector<double>& one, const std::vector<double>& other) {
   const std::vector<double> first = quantiles_of(one);
   const std::vector<double> second = quantiles_of(other);
@@ -79,7 +79,7 @@ double distance_of(const std::vector<double>& one, const std::vector<double>& ot
 
 // --- the search
 
-/// Calls a function with the coordinates of one stage, the others as they are best.
+/// Calls a function with the coordinates of one stage, the others at their best values so far.
 class StageTrials : public cv::MinProblemSolver::Function {
  public:
   StageTrials(const std::vector<std::size_t>& coordinates, std::vector<double> place,
@@ -104,8 +104,8 @@ class StageTrials : public cv::MinProblemSolver::Function {
   std::function<double(const std::vector<double>&)> cost_;
 };
 
-/// The search for the place with the least cost: Nelder and Mead's simplex on one stage after the other, round by round
-/// with smaller steps. Stages that clips may lack are tried with and without them first.
+/// Minimises the cost: Nelder and Mead's simplex on one stage after the other, round by round with smaller steps.
+/// Stages that clips may lack are tried with and without them first.
 class SettingsSearch {
  public:
   SettingsSearch(const FittedSpace& space, int trials, std::function<double(const std::vector<double>&)> cost,
@@ -185,7 +185,7 @@ class SettingsSearch {
 
 // --- configs
 
-/// Fewer clips of a config with counts, the first of each, and of few frames.
+/// A config with fewer clips, the first of each entry, and few frames.
 Json with_few_clips(Json document, int most) {
   if (!document.contains("clips") || !document["clips"].is_array()) return document;
   double all = 0;
@@ -205,7 +205,7 @@ Json with_few_clips(Json document, int most) {
   return document;
 }
 
-/// Config, plan and radiance of a document.
+/// Config, plan and stored radiance of a document.
 struct Footage {
   Config config;
   DatasetPlan plan;
@@ -273,11 +273,11 @@ class Fitter {
     return std::make_unique<Footage>(Footage{std::move(cut), std::move(plan), std::move(radiance)});
   }
 
-  /// Changes the focal length if targets are larger or smaller than real ones. Whether it did.
+  /// Adjusts the focal length if targets are larger or smaller than real ones. Returns whether it did.
   bool fit_size(const std::vector<FrameFigures>& real, const std::vector<FrameFigures>& made,
                 const Footage& footage, Fit& found) {
     constexpr std::size_t kLeastTargets = 20;
-    constexpr double kRightSize = 0.06;  // of ln: about what the medians of a hundred people scatter by
+    constexpr double kRightSize = 0.06;  // of ln: about the scatter of the medians of a hundred people
     const auto heights = [](const std::vector<FrameFigures>& frames) {
       std::vector<double> all;
       for (const FrameFigures& frame : frames)

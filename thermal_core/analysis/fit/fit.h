@@ -15,15 +15,15 @@
 
 namespace thermal {
 
-/// What a fit is given.
+/// Options of a fit.
 struct FitOptions {
   Assets assets;
   FrameRequest real = {};
-  Json config = {};              ///< document, not resolved; its files are relative to its own folder
+  Json config = {};              ///< document, not resolved; paths are relative to its own folder
   std::string config_name = {};  ///< for messages, and of that folder
   int clips = 18;                ///< of the config, two frames of each
   int most_frames = 200;         ///< of the real ones
-  int trials = 300;              ///< of settings
+  int trials = 300;              ///< number of settings that are tried
   std::uint32_t seed = 1;
   std::function<void(std::size_t done, std::size_t total)> show_real = {};  ///< called as frames are measured
   RunHooks rendering = {};                                                  ///< of frames
@@ -36,8 +36,8 @@ struct FitOptions {
 /// Plans a config into a folder.
 using PlanInto = std::function<DatasetPlan(const Path& folder, const Config& config)>;
 
-/// A feature of frames or targets: medians, and how well it alone separates frames from the half of the real ones that was not
-/// fitted (area under the curve, .5 or more).
+/// A feature of frames or targets: medians, and how well it alone separates frames from the held-out half of the real
+/// ones (area under the curve, .5 or more).
 struct FittedFeature {
   std::string name;
   bool of_targets = false;
@@ -46,13 +46,13 @@ struct FittedFeature {
   std::optional<double> after;
   double told_before = 0.5;
   double told_after = 0.5;
-  double told_halves = 0.5;  ///< the half that was fitted
+  double told_halves = 0.5;  ///< separation of the fitted half from the held-out one
 
-  /// Separated by more than what counts as unlike, and more than the real halves are from each other.
+  /// Whether it separates by more than a threshold, and more than it separates the real halves.
   [[nodiscard]] bool is_unlike() const;
 };
 
-/// The classifier of frames or targets, before and after; empty: too few clips or targets.
+/// Separation by the classifier of frames or targets, before and after; empty: too few clips or targets.
 struct FittedForest {
   std::optional<Discrimination> before;
   std::optional<Discrimination> after;
@@ -65,35 +65,35 @@ struct ChangedKey {
   Json after;
 };
 
-/// A config whose frames are most like real ones.
+/// The fitted config: its frames resemble the real ones most.
 struct Fit {
   Json document;  ///< as given, with the fitted keys
   std::vector<ChangedKey> changed;
   std::vector<FittedFeature> features;
   FittedForest frames;
   FittedForest targets;
-  double distance_before = 0;  ///< from the real frames that were fitted; see RealFeatures
+  double distance_before = 0;  ///< from the fitted half of the real frames; see RealFeatures
   double distance_after = 0;
   std::size_t real_fitted = 0;  ///< frames
   std::size_t real_judging = 0;
   std::size_t made = 0;
   int trials = 0;
-  std::string no_size;  ///< why the size of targets was not fitted; empty: it was, or was right
+  std::string no_size;  ///< why the size of targets was not fitted; empty: fitted, or already right
 };
 
 /// Fits the sensor, the link, the codec and, if both sets have targets, the focal length of a config to real frames.
-/// Half of them, by units, are fitted; the others judge. The result depends on the frames, the config and the options
-/// alone. ConfigError as check_can_be_exposed(); faults of read_frame_source() and measure_set().
+/// One half of them, by units, is fitted, the other is held out to judge. The result depends on the frames, the config
+/// and the options alone. ConfigError as check_can_be_exposed(); faults of read_frame_source() and measure_set().
 [[nodiscard]] Fit fit(const FitOptions& options, const PlanInto& plan);
 
-/// Features of some real frames, and how far others are from them.
+/// Features of some real frames, and the distance of others from them.
 class RealFeatures {
  public:
-  /// At least two units.
+  /// @param frames  of at least two units
   RealFeatures(std::vector<FrameFigures> frames, std::uint32_t seed);
 
-  /// Mean over the features that are known of ln(1 + d / h): d is the mean distance of quantiles (5 to 95 %), h the same
-  /// of random halves of the real frames, at least a hundredth of their deviation. A feature that the others lack counts
+  /// Mean over the known features of ln(1 + d / h): d is the mean distance of quantiles (5 to 95 %), h the same of
+  /// random halves of the real frames, at least a hundredth of their deviation. A feature that the others lack counts
   /// as 100 h.
   [[nodiscard]] double distance(const std::vector<FrameFigures>& others) const;
 

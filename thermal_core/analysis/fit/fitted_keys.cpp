@@ -25,7 +25,7 @@ bool is_choice(const Json& value) {
   return value.is_object() && value.contains("choice") && value["choice"].is_array();
 }
 
-/// The value of a key below `value`, in a choice that of the first entry that has it; null: none.
+/// The value of a key below `value`, in a choice that of the first entry that has it; null: absent.
 const Json* found_in(const Json& value, const Keys& keys, std::size_t depth = 0) {
   if (is_choice(value)) {
     for (const Json& entry : value["choice"])
@@ -49,7 +49,7 @@ void set_in(Json& value, const Keys& keys, const Json& what, std::size_t depth =
     set_in(value[keys[depth]], keys, what, depth + 1);
 }
 
-/// The lowest and the highest of a number or a distribution; of a normal one, those of a uniform one as wide.
+/// Minimum and maximum of a number or a distribution; for a normal one, of a uniform one with the same deviation.
 std::optional<std::pair<double, double>> ends_of(const Json& value) {
   if (value.is_number()) return std::pair(value.get<double>(), value.get<double>());
   if (!value.is_object()) return {};
@@ -67,7 +67,7 @@ std::optional<std::pair<double, double>> ends_of(const Json& value) {
   return {};
 }
 
-/// Of a key in a document or, if that leaves it out, in the resolved one.
+/// Ends of a key in a document or, if the document leaves it out, in the resolved one.
 std::optional<std::pair<double, double>> known_ends(const FittedKey& key, const Json& document,
                                                     const Json& resolved) {
   for (const Json* one : {&document, &resolved}) {
@@ -78,9 +78,9 @@ std::optional<std::pair<double, double>> known_ends(const FittedKey& key, const 
   return {};
 }
 
-// --- stages that some clips have
+// --- optional stages
 
-/// The section of a stage as a choice: its entries that are not null, and their weights.
+/// The section of a stage as a choice: its non-null entries, and their weights.
 struct Entries {
   std::vector<Json> entries = {};
   std::vector<double> weights = {};
@@ -129,13 +129,13 @@ double share_of(const Json* section) {
   return sum > 0 ? sum / (sum + found.nothing) : 0;
 }
 
-/// What a stage is that a config lacks; null: there is no such thing in general.
+/// Defaults of a stage that a config lacks; null: there are none.
 Json stage_of(std::string_view path) {
   if (path == "/output/link") return {{"standard", "pal"}};
   return {{"name", "h264"}, {"bitrate_kbit_s", 500}};
 }
 
-/// Below this share of the clips a stage is left out, and none is without it above 1 less this.
+/// Below this share of the clips a stage is left out; above 1 minus this, all clips have it.
 constexpr double kLeastShare = 0.02;
 
 Json section_with(const Json* section, const std::string& path, double share) {
@@ -169,7 +169,7 @@ void set_section(Json& document, const std::string& path, double share) {
     document[place.parent_pointer()].erase(place.back());
 }
 
-/// Whether a key's stage is there to set it in; those of the sensor always are.
+/// Whether a document has the stage of a key; those of the sensor always exist.
 bool has_stage(const Json& document, const std::string& path) {
   return !path.starts_with("/output/") || share_of(member(document, path.substr(0, path.rfind('/')))) > 0;
 }
@@ -182,7 +182,7 @@ double rounded_to_three(double value) {
 }
 
 const std::vector<FittedKey>& fitted_keys() {
-  // Ranges: what uncooled cameras and links between "none" and "useless" have; estimates.
+  // Ranges: between no effect and a useless picture, for uncooled cameras and links; estimates.
   static const std::vector<FittedKey> kKeys = {
       {.stage = "gain", .path = "/sensor/agc/max_gain_dn_per_netd", .low = 0.2, .high = 12, .by_ratio = true},
       {.stage = "gain",

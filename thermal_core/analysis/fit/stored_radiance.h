@@ -16,7 +16,7 @@
 
 namespace thermal {
 
-/// Which targets are measured in frames that are exposed, and how their boxes are drawn.
+/// Which targets are measured in exposed frames, and the style of their boxes.
 struct TargetChoice {
   std::string category = {};  ///< in any case; empty: people
   BoxStyle boxes = BoxStyle::visible;
@@ -25,7 +25,7 @@ struct TargetChoice {
 /// ConfigError, starting with `name`, unless a config has the physical model and the engine `embree`.
 void check_can_be_exposed(const Config& config, const std::string& name);
 
-/// What some clips show, rendered once, to be exposed again and again by other cameras, links and codecs.
+/// Radiance of some clips, rendered once, to be exposed repeatedly by other cameras, links and codecs.
 class StoredRadiance {
  public:
   /// Renders the frames of clips that are spread evenly over those of a config, `most_clips` at most. `plan`: the config's,
@@ -33,8 +33,8 @@ class StoredRadiance {
   StoredRadiance(const Config& config, const DatasetPlan& plan, const Path& folder, std::size_t most_clips,
                  const Assets& assets, const RunHooks& hooks);
 
-  /// The frames as the same clips of `config` have them, with its sensor, link and codec; all else is that of the config
-  /// rendered. A clip is a unit.
+  /// The frames exposed with the sensor, link and codec of `config`'s clips; everything else is that of the rendered
+  /// config. A clip is a unit.
   [[nodiscard]] std::vector<FrameFigures> measured(const Config& config, const TargetChoice& targets) const;
 
   [[nodiscard]] std::size_t clips() const noexcept { return clips_.size(); }

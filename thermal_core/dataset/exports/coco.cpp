@@ -51,7 +51,7 @@ class Splitter {
     const auto image = images_.find(label_id_in(element.at("image_id")));
     if (image == images_.end()) return;
     const std::size_t split = split_of(image->second);
-    const bool is_empty = element.value("bbox", Json()).is_null();  // its picture has no targets
+    const bool is_empty = element.value("bbox", Json()).is_null();  // an empty picture's annotation
     if (is_empty || (!input_.boxes_changed && segments_ == nullptr))
       return add(split, "annotations", element);
     Json annotation = element;
@@ -98,7 +98,7 @@ class Splitter {
   }
 
   const ExportInput& input_;
-  SegmentMaker* segments_;                                 ///< null: masks stay as they are
+  SegmentMaker* segments_;                                 ///< null: masks are unchanged
   std::unordered_map<LabelId, std::size_t> images_;        ///< index in the set, by id
   std::unordered_map<LabelId, LabelBox> boxes_;            ///< those that changed, by the label's id
   std::vector<std::map<std::string, std::string>> lists_;  ///< by split and key

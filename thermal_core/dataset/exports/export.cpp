@@ -52,7 +52,7 @@ ExportPlan make_yolo_plan(const ExportOptions& options, const ExportSource& sour
   return plan_yolo(source.input, folder, &outlines);
 }
 
-/// `segments`: null if masks stay as they are.
+/// `segments`: null if masks are unchanged.
 ExportPlan make_plan(const ExportOptions& options, const ExportSource& source, SegmentMaker* segments) {
   switch (options.format) {
     case ExportFormat::coco:
@@ -154,7 +154,7 @@ bool is_empty_or_new(const Path& folder) {
          (std::filesystem::is_directory(folder) && std::filesystem::is_empty(folder));
 }
 
-/// Whether a folder holds tar files of such an export alone, as a killed run leaves it that puts one by one.
+/// Whether a folder holds nothing but tar files of such an export, left by a killed run that copies shards one by one.
 bool is_half_put(const Path& out, const ExportInput& input) {
   if (!std::filesystem::is_directory(out)) return false;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
@@ -162,7 +162,7 @@ bool is_half_put(const Path& out, const ExportInput& input) {
   return true;
 }
 
-/// Whether `out` holds this very export. ConfigError if it holds anything else.
+/// Whether `out` holds an export of the same request. ConfigError if it holds anything else.
 bool is_there(const ExportOptions& options, const Path& out, const Json& request, const ExportInput& input) {
   if (is_empty_or_new(out)) return false;
   if (!options.scratch.empty() && is_half_put(out, input)) return false;
@@ -243,7 +243,7 @@ void check_segmentation(const ExportOptions& options) {
     refuse(fmt::format("none with --format {}: only coco and yolo have masks", format_name(options.format)));
 }
 
-/// Options of TIFFs alone, and those that they cannot have.
+/// Checks options of TIFFs, and those that exclude each other.
 void check_tiffs(const ExportOptions& options) {
   if (options.format == ExportFormat::tiff) {
     if (options.linking)
@@ -301,7 +301,7 @@ ExportOutcome export_dataset(const ExportOptions& options, const RunHooks& hooks
   plan.texts.push_back({.to = kRecord, .content = record_of(request, outcome)});
   check_targets(plan, source.input.set);
   ExportFolder folder(out, options.scratch);
-  // Made by another run in the meantime?
+  // Whether another run has made it in the meantime.
   outcome.already_there = is_there(options, out, request, source.input);
   if (outcome.already_there) return outcome;
   if (options.format == ExportFormat::tiff)
@@ -311,7 +311,7 @@ ExportOutcome export_dataset(const ExportOptions& options, const RunHooks& hooks
     outcome.copied =
         link_pictures(plan, source.input.set, folder.path(), options.linking.value_or(Linking::hard), hooks);
   write_shards(plan, source.input.set, folder, hooks);
-  write_texts(plan, folder, hooks);  // last of all the record
+  write_texts(plan, folder, hooks);  // the record last
   folder.finish();
   return outcome;
 }

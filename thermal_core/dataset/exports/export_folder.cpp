@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kExportLock = ".lock";
 
-/// A folder left by a killed run has a lock in it; one without belongs to the user.
+/// A killed run's folder has a lock in it; one without belongs to the user.
 Path part_of(const Path& out, const Path& scratch) {
   Path part = scratch.empty() ? out : scratch / out.filename();
   part += ".part";

@@ -7,32 +7,32 @@
 
 namespace thermal {
 
-/// A folder's path with a name at its end, without a trailing slash, so that OUT.part is beside OUT.
+/// A folder's path without a trailing slash, so that OUT.part is beside OUT.
 [[nodiscard]] Path named_folder(const Path& folder);
 
-/// The folder in which an export, or the page of `veldt view`, is made; nothing of it stays unless it was finished. It
-/// is OUT.part, which becomes OUT, or NAME.part in a scratch folder: then each file is copied to OUT when it is complete,
-/// and removed, because OUT need not be a place that can rename or lock. Whoever reads OUT then takes it for complete
-/// when it has the file that was put last.
+/// The folder in which an export, or the page of `veldt view`, is built; removed unless finished. It is OUT.part, which
+/// is renamed to OUT, or NAME.part in a scratch folder: then each file is copied to OUT when it is complete, and
+/// removed, because OUT may be on a file system that cannot rename or lock. Readers of OUT then treat it as complete
+/// once it has the file that is put last.
 class ExportFolder {
  public:
-  /// What a killed run has left in the folder is removed. ConfigError if what is there is not of such a run;
-  /// TryAgainError if another run is at work in it.
+  /// Removes a killed run's leftovers. ConfigError if the folder has other contents; TryAgainError if another run is
+  /// using it.
   ExportFolder(const Path& out, const Path& scratch);
   ~ExportFolder();
   ExportFolder(const ExportFolder&) = delete;
   ExportFolder& operator=(const ExportFolder&) = delete;
 
-  /// Where the next files are made.
+  /// The folder for the next files.
   [[nodiscard]] const Path& path() const noexcept { return part_; }
 
-  /// Takes a complete file, relative to path(). The first one that is copied to OUT replaces what is there.
+  /// Accepts a complete file, relative to path(). The first one that is copied to OUT replaces existing contents.
   void put(const std::string& file);
 
-  /// After the last file. IoError if OUT is a folder with anything in it.
+  /// To be called after the last file. IoError if OUT is a folder with anything in it.
   void finish();
 
-  /// The same, without a scratch folder, in place of what is at OUT, in one step: see replace_folder().
+  /// The same, without a scratch folder: replaces OUT in one step, see replace_folder().
   void finish_in_place_of_old();
 
  private:
@@ -44,7 +44,7 @@ class ExportFolder {
   bool in_scratch_;
   Path part_;
   FolderLock lock_;
-  bool begun_ = false;  ///< OUT is ours
+  bool begun_ = false;  ///< whether OUT was created by this object
   bool done_ = false;
 };
 

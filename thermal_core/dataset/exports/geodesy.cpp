@@ -23,7 +23,7 @@ LocalVector along(const std::array<LocalVector, 3>& axes, const LocalVector& ste
   return sum;
 }
 
-/// East, north and up of a place in Earth-centred axes.
+/// East, north and up at a position, in Earth-centred axes.
 std::array<LocalVector, 3> axes_at(const GeoPosition& place) {
   const double latitude = radians_of(place.latitude_deg);
   const double longitude = radians_of(place.longitude_deg);
@@ -34,7 +34,7 @@ std::array<LocalVector, 3> axes_at(const GeoPosition& place) {
            {cos_lat * cos_lon, cos_lat * sin_lon, sin_lat}}};
 }
 
-/// Radius of curvature across the meridian [m] (TR8350.2, section 3.2).
+/// Radius of curvature in the prime vertical [m] (TR8350.2, section 3.2).
 double across_m(double sin_latitude) {
   return kSemiMajorM / std::sqrt(1 - kEccentricity2 * sin_latitude * sin_latitude);
 }
@@ -59,7 +59,7 @@ GeoPosition geodetic(const LocalVector& earth_m) {
     reduced = std::atan2((1 - kFlattening) * std::sin(latitude), std::cos(latitude));
   }
   const double sine = std::sin(latitude);
-  // Stable at all latitudes: along the normal, from the ellipsoid.
+  // Stable at all latitudes: height along the normal of the ellipsoid.
   const double height_m =
       from_axis_m * std::cos(latitude) + earth_m[2] * sine - kSemiMajorM * kSemiMajorM / across_m(sine);
   return {.latitude_deg = degrees_of(latitude),
@@ -92,7 +92,7 @@ LocalVector PlaceOnEarth::direction_at(const GeoPosition& place, const LocalVect
 
 CameraAttitude attitude_of(const LocalVector& right, const LocalVector& down,
                            const LocalVector& forward) noexcept {
-  constexpr double kLevel = 1e-9;  // [rad]: nearer to the horizon, yaw and roll are one angle
+  constexpr double kLevel = 1e-9;  // [rad]: nearer to the horizon, yaw and roll are degenerate
   const LocalVector front = {-down[0], -down[1], -down[2]};
   const double level = std::hypot(front[0], front[1]);
   const double pitch = std::atan2(front[2], level);

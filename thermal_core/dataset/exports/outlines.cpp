@@ -11,11 +11,11 @@
 namespace thermal {
 namespace {
 
-/// Points of a mask enlarged twice: pixel x has the columns 2 x and 2 x + 1. Followed there, a border turns at corners of
+/// Contour of a mask enlarged twice: pixel x has the columns 2 x and 2 x + 1, so that contours turn at corners of
 /// pixels, and not at their centres.
 using Ring = std::vector<cv::Point>;
 
-/// A part of a mask: its outer ring, with its holes joined to it, and its number of pixels.
+/// A connected part of a mask: its outer contour, with holes joined to it, and its number of pixels.
 struct Part {
   Ring ring;
   int area_px = 0;
@@ -28,7 +28,7 @@ cv::Mat enlarged(const TargetMask& mask) {
   return large;
 }
 
-/// Inserts a ring at point `at` of another: there, around, back.
+/// Inserts a ring into another at point `at`, with a bridge there and back.
 template <typename Points>
 void join(Points& whole, std::size_t at, const Points& ring, std::size_t from) {
   Points around(ring.begin() + static_cast<std::ptrdiff_t>(from), ring.end());
@@ -43,8 +43,8 @@ std::size_t leftmost(const Ring& ring) {
   return static_cast<std::size_t>(found - ring.begin());
 }
 
-/// Joins holes to the ring around them, along the mask to the left: from the left-most hole on, so that what ends a run of
-/// pixels there is joined already.
+/// Joins holes to the contour to their left, along the mask, in the order of their left edges: whatever ends a run of
+/// pixels on the left is then joined already.
 void join_holes(const cv::Mat& large, std::vector<Ring> holes, Ring& ring) {
   std::ranges::sort(holes, {}, [](const Ring& hole) { return hole[leftmost(hole)].x; });
   for (const Ring& hole : holes) {
@@ -79,11 +79,11 @@ std::vector<Part> parts_of(const TargetMask& mask) {
   return parts;
 }
 
-/// Without points that repeat the one before or lie on a horizontal or vertical line between their neighbours.
+/// Removes points that repeat the one before or lie on a horizontal or vertical line between their neighbours.
 Ring without_middles(const Ring& ring) {
   Ring kept;
   const auto straight = [](const cv::Point& a, const cv::Point& b, const cv::Point& c) {
-    // Not where a cut turns back.
+    // Not where a bridge reverses direction.
     return (a.x == b.x && b.x == c.x && (b.y - a.y) * (c.y - b.y) > 0) ||
            (a.y == b.y && b.y == c.y && (b.x - a.x) * (c.x - b.x) > 0);
   };
@@ -93,15 +93,15 @@ Ring without_middles(const Ring& ring) {
     kept.push_back(point);
   }
   while (kept.size() > 1 && kept.back() == kept.front()) kept.pop_back();
-  // Where the ring closes.
+  // At the ring's start and end.
   while (kept.size() > 2 && straight(kept[kept.size() - 2], kept.back(), kept.front())) kept.pop_back();
   if (kept.size() > 2 && straight(kept.back(), kept[0], kept[1])) kept.erase(kept.begin());
   return kept;
 }
 
 struct Bridge {
-  std::size_t from = 0;  ///< point of the whole
-  std::size_t to = 0;    ///< point of the part
+  std::size_t from = 0;  ///< index in `whole`
+  std::size_t to = 0;    ///< index in `part`
   int between_px = std::numeric_limits<int>::max();
 };
 
@@ -118,7 +118,7 @@ Bridge nearest(const Ring& whole, const Ring& part) {
   return best;
 }
 
-/// The part of a polygon where `coordinate` is at most `most`, or at least that with `sign` -1 (Sutherland and Hodgman,
+/// Clips a polygon to `coordinate` at most `most`, or at least that with `sign` -1 (Sutherland and Hodgman,
 /// Communications of the ACM 17:32, 1974).
 Outline cut_at(const Outline& polygon, double OutlinePoint::*coordinate, double most, double sign) {
   Outline kept;
@@ -146,7 +146,7 @@ Outline cut_to_picture(Outline polygon, int width_px, int height_px) {
   return cut_at(polygon, &OutlinePoint::y_px, 0, -1);
 }
 
-/// The corners of two polygons that are nearest to each other.
+/// The nearest corners of two polygons.
 std::pair<std::size_t, std::size_t> nearest_corners(const Outline& one, const Outline& other) {
   std::pair<std::size_t, std::size_t> best;
   double least = std::numeric_limits<double>::infinity();
@@ -221,7 +221,7 @@ Outline joined_outline(const std::vector<Outline>& polygons, int width_px, int h
 double edge_iou(const TargetMask& mask, std::span<const Outline> outlines) {
   int common_px = 0, area_px = 0, drawn_px = 0;
   for (int y = 0; y < mask.pixels.height_px(); ++y) {
-    std::vector<double> crossings;  // of the ray through the centres of this row
+    std::vector<double> crossings;  // of the ray through the centres of this row's pixels
     const double ray_y = mask.top_px + y + 0.5;
     for (const Outline& outline : outlines)
       for (std::size_t k = 0; k < outline.size(); ++k) {

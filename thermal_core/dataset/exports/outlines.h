@@ -8,7 +8,7 @@
 
 namespace thermal {
 
-/// A target's pixels, 1 of 0 and 1, in a frame of background around them.
+/// A target's mask, 0 or 1, with a border of background.
 struct TargetMask {
   int left_px = 0;  ///< of the plane's first column in the picture
   int top_px = 0;
@@ -26,25 +26,25 @@ struct OutlinePoint {
 using Outline = std::vector<OutlinePoint>;  ///< closed: the last point is joined to the first
 
 /// Outlines along the edges of pixels, one for each part of a mask (pixels that touch at a corner are one part), by
-/// OpenCV's findContours. A hole is joined to the outline around it by a cut of no width, there and back. Filled where
-/// rays cross an odd number of edges, their union is the mask.
+/// OpenCV's findContours. A hole is joined to the outline around it by a zero-width bridge. Filled by the even-odd
+/// rule, their union is the mask.
 [[nodiscard]] std::vector<Outline> edge_outlines(const TargetMask& mask);
 
-/// One outline for formats that have no more: its corners are within their pixels, 0.02 px from the edge. Rounded down to
-/// whole pixels and drawn with its border, as cv::fillPoly does, it is the mask, holes too, if the mask has one part.
-/// Other parts are joined to the largest by a line of one pixel width between the nearest corners, there and back; one
-/// that is smaller than this line, or as small, is left out.
+/// A single outline for formats that allow no more: its corners are within their pixels, 0.02 px from the edge. Rounded
+/// down to whole pixels and drawn with its border, as cv::fillPoly does, it reproduces a mask of one part exactly, with
+/// holes. Other parts are joined to the largest by a bridge of one pixel width between the nearest corners; parts no
+/// larger than their bridge are left out.
 [[nodiscard]] Outline filled_outline(const TargetMask& mask);
 
-/// One outline of polygons for formats that have no more, cut to their picture. Several are joined by lines of no width
-/// between their nearest corners, there and back, in their order. Empty if nothing is inside the picture, and for several
-/// polygons of more than 5000 corners in all, because the search compares all with all.
+/// A single outline of polygons for formats that allow no more, clipped to their picture. Several are joined in order
+/// by zero-width bridges between their nearest corners. Empty if nothing is inside the picture, and for several
+/// polygons of more than 5000 corners in all, because the search is quadratic.
 [[nodiscard]] Outline joined_outline(const std::vector<Outline>& polygons, int width_px, int height_px);
 
-/// Intersection over union of a mask with outlines, filled where rays through centres of pixels cross an odd number of edges.
+/// Intersection over union of a mask with outlines, filled by the even-odd rule at centres of pixels.
 [[nodiscard]] double edge_iou(const TargetMask& mask, std::span<const Outline> outlines);
 
-/// The same with what cv::fillPoly draws of an outline rounded down.
+/// The same with cv::fillPoly's drawing of an outline rounded down.
 [[nodiscard]] double filled_iou(const TargetMask& mask, const Outline& outline);
 
 }  // namespace thermal

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMostAwayM = 100'000;
 
-/// A section of a config with what a clip changes of it.
+/// A section of a config with a clip's changes.
 Json section_of(const Json& config, const std::string& clip, const char* name) {
   Json section = config.value(name, Json::object());
   for (const Json& entry : config.value("clips", Json::array()))
@@ -29,7 +29,7 @@ std::optional<double> number_of(const Json& section, const char* key) {
   return section[key].get<double>();
 }
 
-/// Empty where this machine has no such response.
+/// Empty if this machine does not have that response.
 std::optional<SpectralResponse> response_of(const Json& sensor) {
   const auto name = RelativeName::part_of(sensor.value("response", std::string()));
   if (!name) return std::nullopt;
@@ -72,7 +72,7 @@ std::string xmp_of(const TaggedCamera& camera, const std::optional<CameraAttitud
   std::string attributes;
   std::string elements = sequence("BandName", "LWIR");
   if (attitude)
-    // Positions are exact; without an accuracy OpenDroneMap takes 10 m.
+    // Positions are exact; without an accuracy, OpenDroneMap assumes 10 m.
     attributes = fmt::format(
         " Camera:Yaw=\"{:.6f}\" Camera:Pitch=\"{:.6f}\" Camera:Roll=\"{:.6f}\""
         " Camera:GPSXYAccuracy=\"0.01\" Camera:GPSZAccuracy=\"0.01\"",
@@ -91,7 +91,7 @@ std::string xmp_of(const TaggedCamera& camera, const std::optional<CameraAttitud
       attributes, elements);
 }
 
-/// As GDAL writes scale and unit of a band.
+/// Scale and unit of a band, in GDAL's format.
 std::string gdal_metadata_of(TiffType type, double kelvin_per_count) {
   std::string items;
   if (type == TiffType::uint16)
@@ -104,8 +104,8 @@ std::string gdal_metadata_of(TiffType type, double kelvin_per_count) {
       items);
 }
 
-/// Local solar time of a frame, to a millisecond: EXIF's date and the digits after the second. Days count on from the
-/// date; a clip lasts less than two.
+/// Local solar time of a frame, to a millisecond: EXIF's date and the digits after the second. Times past midnight are
+/// on the following date; a clip is shorter than two days.
 void set_time(const TaggedCamera& camera, double time_s, TiffTags& tags) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0;
   if (std::sscanf(camera.date.c_str(), "%4d-%2d-%2d", &year, &month, &day) != 3 ||

@@ -10,13 +10,13 @@
 
 namespace thermal {
 
-/// When a frame was taken and from where, as a line of frames.jsonl says.
+/// Time and camera pose of a frame, from a line of frames.jsonl.
 struct FramePose {
   double time_s = 0;                                      ///< of the scene
   std::optional<std::array<double, 16>> camera_to_world;  ///< row-major, OpenCV camera axes
 };
 
-/// What the TIFFs of a clip say of their camera.
+/// Metadata of a clip's camera for TIFFs.
 struct TaggedCamera {
   std::string model;                     ///< preset of the sensor
   std::optional<double> fx_px;           ///< of the pinhole camera
@@ -33,11 +33,12 @@ struct TaggedCamera {
 [[nodiscard]] TaggedCamera tagged_camera(const Json& config, const std::string& clip, const Json& intrinsics);
 
 /// Tags of a frame. Position and attitude as OpenDroneMap (opendm/photo.py) and Pix4D ("Specifications of XMP camera
-/// tags") read them: EXIF's GPS tags, and XMP's Camera:Yaw, Camera:Pitch and Camera:Roll of attitude_of(), with north
-/// of the place of the camera. No drone-dji tags: OpenDroneMap prefers their GimbalPitchDegree to Camera:Pitch, and
-/// corrects its -90 degrees of straight down only for pictures whose Make is DJI. Camera:BandName is LWIR,
+/// tags") read them: EXIF's GPS tags, and XMP's Camera:Yaw, Camera:Pitch and Camera:Roll of attitude_of(), relative to
+/// north at the camera. No drone-dji tags: OpenDroneMap prefers their GimbalPitchDegree to Camera:Pitch, and corrects
+/// its -90 degrees of straight down only for pictures whose Make is DJI. Camera:BandName is LWIR,
 /// Camera:CentralWavelength and Camera:WavelengthFWHM [nm] are those of the response.
-/// GDAL's metadata have unit and, of counts, the scale. DataError if the camera is more than 100 km from the origin.
+/// GDAL's metadata have the unit and, for counts, the scale. DataError if the camera is more than 100 km from the
+/// origin.
 [[nodiscard]] TiffTags picture_tags(const TaggedCamera& camera, const FramePose& pose,
                                     const PlaceOnEarth& place, TiffType type, double kelvin_per_count);
 

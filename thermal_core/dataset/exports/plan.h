@@ -9,13 +9,13 @@
 
 namespace thermal {
 
-/// What is exported, and the split of each video.
+/// Input of an export, and the split of each video.
 struct ExportInput {
   LabelSet set;                       ///< its pictures have sizes, if the format needs them
   std::vector<std::string> splits;    ///< names; a single one without splits
   std::vector<std::size_t> of_video;  ///< for each video with pictures, its index into `splits`
   bool split_asked = false;
-  bool boxes_changed = false;  ///< those of the set are not those of the file it was read from
+  bool boxes_changed = false;  ///< boxes of the set differ from those of its file
 };
 
 /// A picture that goes into an export.
@@ -28,7 +28,7 @@ struct PlannedPicture {
 struct PlannedText {
   std::string to;
   std::string content;
-  std::string of = {};  ///< the picture that it is named after, for messages; empty: none
+  std::string of = {};  ///< the picture that it belongs to, for messages; empty: none
 };
 
 /// A tar file of pictures with their labels.
@@ -37,8 +37,7 @@ struct PlannedShard {
   std::vector<std::size_t> images;  ///< indices into the set's images
 };
 
-/// All files of an export: each picture, with labels or without, by itself or in a shard, and the text files beside
-/// them.
+/// All files of an export: pictures, with or without labels, single or in shards, and text files.
 struct ExportPlan {
   std::vector<PlannedPicture> pictures;
   std::vector<PlannedShard> shards;
@@ -57,7 +56,7 @@ struct ExportPlan {
 /// DataError with the labels unless all have tracks, unique within a picture. `format` is the format that needs them.
 void check_tracks(const LabelSet& set, std::string_view format);
 
-/// DataError if nothing says in which order the pictures of an image's video were taken. `format` needs to know.
+/// DataError if the order of the pictures of an image's video is unknown. `format` is the format that needs it.
 void check_in_time(const LabelSet& set, const LabelImage& image, std::string_view format);
 
 /// DataError if a file would be written outside the export's folder, or over another one.

@@ -13,7 +13,7 @@
 
 namespace thermal {
 
-/// How well outlines reproduce masks: intersection over union, by size class.
+/// Accuracy of outlines against masks: intersection over union, by size class.
 class OutlineFigures {
  public:
   /// Intersection over union of outlines with masks, over targets.
@@ -29,34 +29,34 @@ class OutlineFigures {
 
   [[nodiscard]] const Figures& of(SizeClass size) const { return figures_[static_cast<std::size_t>(size)]; }
 
-  /// {"small": {"targets": 3, "mean": 1.0, "least": 1.0}, …} of the classes that there are.
+  /// {"small": {"targets": 3, "mean": 1.0, "least": 1.0}, …} for the classes that occur.
   [[nodiscard]] Json json() const;
 
  private:
   std::array<Figures, 3> figures_{};
 };
 
-/// The mask of an annotation of COCO, cut to its box of pixels with a border of 1 px.
-/// DataError with the annotation's id unless its `segmentation` is run lengths of a mask that is not empty, of a picture of at
-/// most 64 million pixels.
+/// The mask of a COCO annotation, clipped to its box with a border of 1 px. DataError with the annotation's id unless
+/// its `segmentation` is run lengths of a non-empty mask, of a picture of at most 64 million pixels.
 [[nodiscard]] TargetMask mask_of(const Json& annotation);
 
-/// Turns masks into what an export has, while a file of COCO is read. `segmentation` is read as run lengths, {"size",
+/// Converts masks to the wanted kind while a COCO file is read. `segmentation` is read as run lengths, {"size",
 /// "counts"} with compressed counts or a list, or as polygons, lists of x, y, x, y, … of three corners or more, all
 /// within 1e8 px. DataError "annotation 3: segmentation = …; expected …" for anything else, and for none.
 class SegmentMaker {
  public:
-  /// The set's pictures have sizes.
+  /// @param set  its pictures have sizes
   SegmentMaker(const LabelSet& set, Segmentation wanted);
 
   /// `segmentation` as wanted. Polygons are lists of x, y, x, y, … for each part (edge_outlines()); crowds, which have
-  /// run lengths always, keep them. Run lengths are those of mask_of_polygons(). What is as wanted already stays.
+  /// run lengths always, keep them. Run lengths are those of mask_of_polygons(). Segmentations of the wanted kind are
+  /// unchanged.
   [[nodiscard]] Json segmentation_of(const Json& annotation);
 
   /// The single outline of an annotation: filled_outline() of run lengths, joined_outline() of polygons.
   [[nodiscard]] Outline outline_of(const Json& annotation);
 
-  /// Whether a `segmentation` was not as wanted.
+  /// Whether any `segmentation` was converted.
   [[nodiscard]] bool has_changed() const noexcept { return has_changed_; }
 
   [[nodiscard]] const OutlineFigures& figures() const noexcept { return figures_; }

@@ -5,7 +5,7 @@
 
 namespace thermal {
 
-/// The pictures of a selection, with their labels; all videos and categories stay. `file` is the selection's file.
+/// The pictures of a selection, with their labels; all videos and categories are kept. `file` is the selection's file.
 /// DataError with it if it selects from an unknown video or frame, or selects nothing.
 [[nodiscard]] LabelSet take_selected(const LabelSet& set, const SelectedDataset& selected, const Path& file);
 

@@ -57,7 +57,7 @@ void use_ir16(LabelSet& set, const Path& source, ExportFormat format) {
   for (LabelImage& image : set.images) image.file = ir16_file(image.file);
 }
 
-/// A name or a link that leads out of the folder could add any file of this machine to an export that is given away.
+/// Names or links that lead out of the folder could add any file of this machine to an export that is published.
 void check_pictures(const LabelSet& set) {
   std::vector<std::string> missing;
   for (const LabelImage& image : set.images) {

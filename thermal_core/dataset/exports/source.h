@@ -13,7 +13,7 @@ struct ExportSource {
   std::string coco;                ///< the COCO file of the labels, complete, if the format has one
   std::string coco_name;           ///< for messages
   bool all = true;                 ///< nothing is removed, renamed or split
-  bool has_foreign_masks = false;  ///< they may be polygons: the file is not of a Veldt dataset
+  bool has_foreign_masks = false;  ///< may be polygons: the file is not of a Veldt dataset
   std::string labels_sha256;
   std::uint32_t seed = 1;  ///< of the splits
 };

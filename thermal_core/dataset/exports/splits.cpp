@@ -27,7 +27,7 @@ struct Cost {
     error += other.error;
     return *this;
   }
-  /// By more than rounding errors, so that a search always ends.
+  /// By more than rounding errors, so that a search terminates.
   [[nodiscard]] bool is_better_than(const Cost& other) const {
     constexpr double kRoundings = 1e-12;
     return missing != other.missing ? missing < other.missing : error < other.error - kRoundings;
@@ -76,7 +76,7 @@ std::vector<std::size_t> shuffled(const LabelSet& set, const Clips& clips, std::
   return order;
 }
 
-/// With few clips there are few good solutions, which a search may miss; with many, all results are nearly as good.
+/// With few clips there are few good solutions, which a search may miss; with many, all results are similar.
 std::size_t starts_for(std::size_t clips) { return std::clamp<std::size_t>(4000 / clips, 4, 100); }
 
 /// A solution that is being improved.
@@ -89,7 +89,7 @@ class Assignment {
         got_(shares.size(), Counts(clips.total.size(), 0)),
         clips_in_(shares.size(), 0) {}
 
-  /// Greedy start: each clip goes to the split that it brings nearest to its shares.
+  /// Greedy start: each clip goes to the split whose shares it improves most.
   void fill(const std::vector<std::size_t>& order) {
     for (std::size_t left = order.size(); const std::size_t clip : order) {
       put(clip, best_split_for(clip, left));
@@ -135,7 +135,7 @@ class Assignment {
     ++clips_in_[split];
   }
 
-  /// Leaves no split without a clip: once only as many clips are left as splits are empty, only those are candidates.
+  /// Gives every split a clip: when as many clips are left as splits are empty, only empty splits are candidates.
   [[nodiscard]] std::size_t best_split_for(std::size_t clip, std::size_t clips_left) {
     const auto empty = static_cast<std::size_t>(std::ranges::count(clips_in_, 0));
     std::optional<std::pair<double, std::size_t>> best;
@@ -177,7 +177,7 @@ class Assignment {
   }
 
   bool swap_some() {
-    constexpr std::size_t kMostClips = 500;  // with more, single moves come close enough
+    constexpr std::size_t kMostClips = 500;  // with more, single moves suffice
     if (of_clip_.size() > kMostClips) return false;
     bool swapped = false;
     for (std::size_t a = 0; a < of_clip_.size(); ++a) {

@@ -9,7 +9,7 @@
 
 namespace thermal {
 
-/// The split of a video without pictures: none.
+/// For videos without pictures.
 inline constexpr std::size_t kNoSplit = static_cast<std::size_t>(-1);
 
 /// The split of each video, as index into `shares`: whole videos, never their frames, because neighbouring frames are

@@ -33,7 +33,7 @@ std::string folder_of(const ExportInput& input, std::size_t video) {
   return input.split_asked ? input.splits[input.of_video[video]] + "/" + clip : clip;
 }
 
-/// Each clip as a split of its own, for their COCO files, with the names that pictures get.
+/// Each clip as a separate split, for their COCO files, with the names of exported pictures.
 ExportInput by_clip(const ExportInput& input) {
   ExportInput clips;
   clips.boxes_changed = input.boxes_changed;
@@ -72,7 +72,7 @@ std::map<std::string, Json> intrinsics_in(const std::string& coco) {
   return found;
 }
 
-/// What `read` takes from a dataset's record. DataError with the file if it is not of the right kinds.
+/// Reads from a dataset's record. DataError with the file for a value of another type.
 template <typename Read>
 auto from_record(const Path& dataset, const Read& read) {
   try {
@@ -83,7 +83,7 @@ auto from_record(const Path& dataset, const Read& read) {
   }
 }
 
-/// A clip at work: what its pictures have in common.
+/// A clip being written: the shared properties of its pictures.
 struct TaggedClip {
   std::string name;
   TaggedCamera camera;

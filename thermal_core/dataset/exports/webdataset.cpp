@@ -16,7 +16,7 @@
 namespace thermal {
 namespace {
 
-/// "winter_000012": up to the first dot of a name, which is what makes files one sample.
+/// "winter_000012": a name up to its first dot; files with one key are one sample.
 std::string key_of(const LabelSet& set, const LabelImage& image) {
   std::string key = flat_name(set, image);
   std::ranges::replace(key, '.', '_');
@@ -31,7 +31,7 @@ void check_ending(const LabelImage& image) {
                         "the extension of a picture, such as .png, as --format webdataset requires"));
 }
 
-/// Samples of one key would be one sample with two pictures, if they are neighbours.
+/// Adjacent samples with one key would be merged.
 void check_keys(const LabelSet& set) {
   std::map<std::string, std::size_t> images;
   for (std::size_t i = 0; i < set.images.size(); ++i) {

@@ -10,7 +10,7 @@
 namespace thermal {
 namespace {
 
-/// The part of a box inside its picture; sides are 0 or less if it is outside.
+/// Clips a box to its picture; sides are 0 or less if it is outside.
 LabelBox cut(const LabelBox& box, const LabelImage& image) {
   const double left_px = std::max(box.x_px, 0.0);
   const double top_px = std::max(box.y_px, 0.0);

@@ -12,7 +12,7 @@
 namespace thermal {
 namespace {
 
-/// An unknown material, and every place that names it.
+/// An unknown material, and all manifest entries with it.
 using MaterialUses = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 void add_use(MaterialUses& uses, const std::string& material, std::string where) {

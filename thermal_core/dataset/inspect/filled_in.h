@@ -6,11 +6,10 @@
 
 namespace thermal {
 
-/// Stands in a starter manifest for each value that only the user knows.
+/// Placeholder in a starter manifest for values that only the user knows.
 inline constexpr const char* kFillIn = "FILL IN";
 
-/// DataError that lists every such value that is still missing in `file`, and every unknown material; entries with the same fault
-/// share a line.
+/// DataError with all placeholders left in `file`, and all unknown materials; entries with the same fault share a line.
 void check_filled_in(const Manifest& manifest, const Path& file, const MaterialLibrary& materials);
 
 }  // namespace thermal

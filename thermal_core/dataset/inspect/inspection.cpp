@@ -32,7 +32,7 @@ std::optional<Manifest> manifest_of(const PassesGroup& group, const InspectOptio
   return read_manifest(beside, options.assets);
 }
 
-/// Named files, whatever a manifest lists: inspection is meant for users who do not know what their files hold.
+/// Named files override the manifest's list: inspection is for users who do not know the contents of their files.
 FrameSequence sequence_to_inspect(const PassesGroup& group, const std::optional<Manifest>& manifest) {
   const bool says = manifest && (!manifest->frames.empty() || !manifest->sequence.empty());
   if (!says || !group.files.empty()) return frames_of(group);
@@ -42,7 +42,7 @@ FrameSequence sequence_to_inspect(const PassesGroup& group, const std::optional<
   return sequence;
 }
 
-/// As the user would type it: without the folder where one is given.
+/// A path as the user would type it: without the folder if one is given.
 Path file_in(const PassesGroup& group, const std::string& name) {
   return group.folder == "." ? Path(name) : group.folder / name;
 }
@@ -92,7 +92,7 @@ void read_header(Inspection& inspection, const ReadLimits& limits) {
   if (inspection.header.data_window != whole) inspection.window = inspection.header.data_window;
 }
 
-/// The cryptomatte to read without an object index: that of objects, if one is named so.
+/// The cryptomatte to read without an object index: one named as that of objects, if there is one.
 std::string best_cryptomatte(const std::vector<Cryptomatte>& all, const std::string& layer) {
   const Cryptomatte* best = nullptr;
   for (const Cryptomatte& one : all) {
@@ -110,7 +110,7 @@ std::vector<std::string> index_layers(const ExrHeader& header) {
   return {layers.begin(), layers.end()};
 }
 
-/// Decides what a conversion of EXR files would read, or why it is impossible.
+/// Decides which planes a conversion of EXR files would read, or why it is impossible.
 class Choice {
  public:
   Choice(Inspection& inspection, const InspectOptions& options)
@@ -131,7 +131,7 @@ class Choice {
     }
   }
 
-  /// An index plane that is all sky has never been set.
+  /// An index plane of sky alone has never been set.
   void reconsider() {
     const auto& objects = inspection_.survey.objects;
     const bool only_sky = objects.size() == 1 && objects.begin()->first == kSkyIndex;
@@ -162,7 +162,7 @@ class Choice {
     }
   }
 
-  /// Other planes are in its layer.
+  /// The other planes are in the same layer.
   void take_cryptomatte(const std::string& name) {
     inspection_.cryptomatte = name;
     const std::size_t dot = name.rfind('.');

@@ -14,18 +14,18 @@
 
 namespace thermal {
 
-/// Which passes are examined, and how.
+/// Options of an inspection.
 struct InspectOptions {
   Assets assets;
   std::vector<Path> passes;  ///< a folder, or files and patterns of one folder
   Path manifest;             ///< empty: the folder's, if any
   std::string layer;         ///< empty: the manifest's
   bool all_frames = false;   ///< read the pixels of every frame, not only of the first
-  bool for_starter = false;  ///< ignore any manifest, and accept the only likely index plane as one
+  bool for_starter = false;  ///< ignore any manifest, and accept the only likely index plane
   ReadLimits limits;
 };
 
-/// Contents of passes, and what a conversion would do with them.
+/// Contents of passes, and how a conversion would use them.
 struct Inspection {
   PassesGroup group;
   FrameSequence sequence;            ///< gaps: frames without a file
@@ -37,10 +37,10 @@ struct Inspection {
   std::vector<std::string> cryptomatte_faults;
   PassSurvey survey;
   ChosenPlanes planes;              ///< empty if the conversion has no object index
-  std::string cryptomatte;          ///< that a conversion would read instead of an object index
+  std::string cryptomatte;          ///< read by a conversion instead of an object index
   std::string obstacle;             ///< why these passes cannot be converted; empty if they can
   std::vector<std::string> layers;  ///< candidates to choose from; empty: unambiguous
-  std::vector<std::string> likely;  ///< channels that could be an object index although none is named so
+  std::vector<std::string> likely;  ///< channels that could be an object index despite their names
 };
 
 /// Inspects passes; reports faults of their contents instead of throwing. ConfigError for names that match no files,
@@ -48,7 +48,7 @@ struct Inspection {
 /// counts frames.
 [[nodiscard]] Inspection inspect(const InspectOptions& options, const RunHooks& hooks);
 
-/// All of it, as JSON.
+/// The complete inspection as JSON.
 [[nodiscard]] Json to_json(const Inspection& inspection);
 
 /// Name of an object index; empty: unknown.

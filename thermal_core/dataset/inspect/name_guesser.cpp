@@ -9,10 +9,10 @@
 namespace thermal {
 namespace {
 
-/// Ground has no asset files of its own: materials that are ground.
+/// Materials that are ground; ground has no asset files.
 constexpr std::array<const char*, 4> kGrounds = {"soil", "wet_soil", "grass", "road"};
 
-/// Common names for things in the assets; estimates, all of them reported to the user as guesses.
+/// Common names for objects in the assets; estimates, reported to the user as guesses.
 constexpr std::array<std::pair<const char*, const char*>, 24> kOtherWords = {{
     {"person", "human"},     {"people", "human"}, {"man", "human"},        {"woman", "human"},
     {"poacher", "human"},    {"ranger", "human"}, {"pedestrian", "human"}, {"hippo", "hippopotamus"},
@@ -33,7 +33,7 @@ void for_each_json(const Path& folder, const Take& take) {
     if (entry.path().extension() == ".json") take(entry.path().stem().string(), read_json(entry.path()));
 }
 
-/// Of a plant or structure: the one it is made of, or that of what is seen from above, the first.
+/// Main material of a plant or structure: its own, or the first of those seen from above.
 std::string main_material(const Json& standing) {
   if (standing.contains("material")) return standing["material"];
   const Json& slot = *standing.at("materials").begin();

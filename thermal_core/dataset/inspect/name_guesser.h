@@ -12,7 +12,7 @@
 
 namespace thermal {
 
-/// What an object most likely is, in terms of a manifest.
+/// Likely meaning of an object, in terms of a manifest.
 struct KnownThing {
   ObjectClass object_class = ObjectClass::ground;
   std::string material;
@@ -25,13 +25,14 @@ struct KnownThing {
 /// The words of a name, in lower case: "Elephant_bull.001" and "elephantBull" have elephant and bull.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view name);
 
-/// Guesses what things are from their names.
+/// Guesses the meaning of objects from their names.
 class NameGuesser {
  public:
-  /// Knows the species and plants among the assets, kinds of ground, and common words for them.
+  /// Knows the assets' species and plants, kinds of ground, and common words for them.
   explicit NameGuesser(const Assets& assets);
 
-  /// By one or two words of the name: the first known, two before one; plurals too. Empty if none is known.
+  /// Searches by one or two words of the name, also plurals: the first known word, pairs before single words. Empty if
+  /// none is known.
   [[nodiscard]] std::optional<KnownThing> find(std::string_view name) const;
 
  private:

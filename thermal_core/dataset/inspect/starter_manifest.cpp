@@ -28,7 +28,7 @@ std::vector<StarterObject> objects_by_index(const PassSurvey& survey) {
 std::vector<StarterObject> objects_by_colour(const PassSurvey& survey) {
   std::vector<StarterObject> objects;
   for (const auto& [colour, pixels] : survey.colours) {
-    if (colour == Colour{}) continue;  // the sky's, unless its colour is changed
+    if (colour == Colour{}) continue;  // the sky's default
     StarterObject object{.index = 0, .name = "", .pixels = pixels};
     object.name = fmt::format("colour_{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
     object.colour = colour;
@@ -45,11 +45,11 @@ std::string original(const std::string& name) {
   return copy ? name.substr(0, dot) : name;
 }
 
-/// Mattes that make one object, by its name.
+/// Mattes of one object, by the object's name.
 using Groups = std::map<std::string, std::map<std::string, std::int64_t>>;
 
-/// Groups `mattes` into objects: everything of one kind of ground or plant, otherwise single names unless a name has
-/// many copies.
+/// Groups `mattes` into objects: all of one kind of ground or plant; otherwise by name, with copies together if there
+/// are many.
 Groups group_mattes(const std::map<std::uint32_t, PassSurvey::Matte>& mattes, const NameGuesser& known) {
   std::map<std::string, std::size_t> copies;
   for (const auto& [hash, matte] : mattes) ++copies[original(matte.name)];
@@ -85,7 +85,7 @@ std::vector<StarterObject> objects_by_matte(const std::map<std::uint32_t, PassSu
   return objects;
 }
 
-/// Most pixels first, numbered from 1.
+/// Numbers objects from 1, most pixels first.
 void number(std::vector<StarterObject>& objects) {
   std::sort(objects.begin(), objects.end(), [](const StarterObject& a, const StarterObject& b) {
     return std::tuple(-a.pixels, a.name) < std::tuple(-b.pixels, b.name);
@@ -93,7 +93,7 @@ void number(std::vector<StarterObject>& objects) {
   for (std::size_t i = 0; i < objects.size(); ++i) objects[i].index = static_cast<int>(i) + 1;
 }
 
-/// If none of several things is known as ground, the one that covers most is taken as ground.
+/// If no object is known as ground, takes the largest as ground.
 void guess_ground(std::vector<StarterObject>& objects) {
   const auto is_ground = [](const StarterObject& object) {
     return object.known && object.known->object_class == ObjectClass::ground;
@@ -133,7 +133,7 @@ constexpr double kLensMm = 50;
 constexpr double kSensorMm = 36;  // of the picture's longer side
 constexpr double kFrameRateHz = 24;
 
-/// A word to name clips by, from a folder's name.
+/// A clip name from a folder's name.
 std::string clip_name(const Path& folder) {
   const Path whole = std::filesystem::absolute(folder).lexically_normal();
   std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
@@ -250,7 +250,7 @@ class Writer {
   void add_materials() {
     Json& materials = made_.document["materials"] = Json::array();
     for (const auto& [index, pixels] : inspection_.survey.materials) {
-      if (index == 0) continue;  // means that of the object
+      if (index == 0) continue;  // 0: the object's material
       made_.to_fill_in.push_back(fmt::format("materials[{}]: material of material index {} ({} px)",
                                              materials.size(), index, pixels));
       materials.push_back({{"index", index}, {"material", kFillIn}});
@@ -270,7 +270,7 @@ class Writer {
     return hashes;
   }
 
-  /// Names cannot be found from hashes, only hashes from names.
+  /// Hashes cannot be inverted to names.
   void check_names() {
     const std::vector<std::string> unnamed = unnamed_mattes();
     if (unnamed.empty()) return;

@@ -17,13 +17,12 @@ struct StarterObject {
   std::int64_t pixels = 0;
   std::optional<Colour> colour = {};
   std::vector<std::string> mattes = {};  ///< empty: its name
-  std::optional<KnownThing> known = {};  ///< what it most likely is
-  std::string reason = {};               ///< what the guess is based on
+  std::optional<KnownThing> known = {};  ///< likely meaning
+  std::string reason = {};               ///< basis of the guess
 };
 
-/// The objects that an inspection found: indices unchanged, names of a cryptomatte and colours numbered from 1, most
-/// pixels first. Mattes of one kind of ground or plant are one object, and so are more than twenty copies of
-/// anything.
+/// The objects of an inspection: indices unchanged, names of a cryptomatte and colours numbered from 1, most pixels
+/// first. Mattes of one kind of ground or plant are one object, as are more than twenty copies of one name.
 [[nodiscard]] std::vector<StarterObject> starter_objects(const Inspection& inspection,
                                                          const NameGuesser& known);
 
@@ -35,9 +34,9 @@ struct StarterManifest {
   std::vector<std::string> to_fill_in;  ///< entries that are kFillIn
 };
 
-/// Writes what an inspection of all frames found, and guesses what it can: an object's material, class and category
-/// by words in its name, the ground by its area, the camera's lens and frame rate by Blender's defaults. Everything
-/// else is kFillIn, which a conversion reports.
+/// A manifest from an inspection of all frames. Guesses an object's material, class and category from its name, the
+/// ground from its area, the camera's lens and frame rate from Blender's defaults. Everything else is kFillIn, which a
+/// conversion reports.
 /// DataError if the passes cannot be converted, or show only sky.
 [[nodiscard]] StarterManifest starter_manifest(const Inspection& inspection, const NameGuesser& known);
 

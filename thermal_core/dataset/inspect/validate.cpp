@@ -61,7 +61,7 @@ class Checker {
     }
     const Path record = folder / "clip.json";
     for (const Path& place : {folder, record})
-      check_is_no_link(place);  // read_clip_record() looks at the rest
+      check_is_no_link(place);  // read_clip_record() checks the files
     if (!check_file(record, clip.at("record_sha256"))) return;
     for (const auto& [name, sum] : read_clip_record(record).files) check_file(folder / name, sum);
   }

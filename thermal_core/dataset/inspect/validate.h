@@ -11,12 +11,12 @@ namespace thermal {
 /// Result of checking a dataset on disk.
 struct DatasetCheck {
   int clips = 0;
-  int files = 0;                    ///< checked
+  int files = 0;                    ///< number of checked files
   std::vector<std::string> faults;  ///< each naming its file
 };
 
-/// Checks that a dataset is complete and every file unchanged: SHA-256 of all of them. Never throws for faults inside
-/// the dataset; IoError if there is none. The frames of `hooks.progress` are those of dataset.json.
+/// Checks that a dataset is complete and every file unchanged: SHA-256 of all of them. Faults inside the dataset are
+/// collected, not thrown; IoError if there is no dataset. The frames of `hooks.progress` are those of dataset.json.
 [[nodiscard]] DatasetCheck validate_dataset(const Path& root, const RunHooks& hooks = {});
 
 }  // namespace thermal

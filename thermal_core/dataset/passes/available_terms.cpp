@@ -14,8 +14,8 @@
 namespace thermal {
 namespace {
 
-/// What the first readable frame provides: other frames of a clip are like it, and unreadable ones are reported when they
-/// are converted. `fault` gets the first fault.
+/// Result for the first readable frame: a clip's frames are alike, and unreadable ones are reported when they are
+/// converted. `fault` receives the first fault.
 template <typename Look>
 auto of_a_frame(const ClipPasses& source, std::string& fault, const Look& look)
     -> std::optional<decltype(look(0))> {
@@ -40,14 +40,17 @@ std::string pose_lacking(const Manifest& manifest) {
   return "";
 }
 
-bool shows_water(const Manifest& manifest) {
-  const auto is_water = [](const auto& entry) { return entry.material == "water"; };
-  return std::ranges::any_of(manifest.objects, is_water) || std::ranges::any_of(manifest.materials, is_water);
+bool shows_mirrors(const Manifest& manifest, const MaterialLibrary& materials) {
+  const auto mirrors = [&materials](const auto& entry) {
+    const auto found = materials.all().find(entry.material);
+    return found != materials.all().end() && found->second.mirrors();
+  };
+  return std::ranges::any_of(manifest.objects, mirrors) || std::ranges::any_of(manifest.materials, mirrors);
 }
 
-/// What each term needs. The first missing input is reported; among several clips, that of the first.
+/// Checks the inputs of each term. The first missing input is reported; of several clips, that of the first.
 void add_impossible(const ClipPasses& source, const PassesView& view, const Config& config,
-                    SceneOutline& outline) {
+                    const MaterialLibrary& materials, SceneOutline& outline) {
   const PassNeeds& planes = *view.planes;
   const std::string depth = planes.depth ? "" : "no depth";
   const std::string normals = planes.normals ? "" : "no normals";
@@ -66,17 +69,18 @@ void add_impossible(const ClipPasses& source, const PassesView& view, const Conf
   add("angular", normals.empty() ? poses : normals);
   add("path", depth);
   if (config.sensor.time_constant_s > 0) add("smear", depth.empty() ? poses : depth);
-  if (shows_water(source.manifest)) add("mirror", planes.mirrored ? poses : "no mirrored planes");
+  if (shows_mirrors(source.manifest, materials))
+    add("mirror", planes.mirrored ? poses : "no mirrored planes");
 }
 
-/// Angle of incidence of a ray on level ground; without a pose, as if perpendicular.
+/// Cosine of the angle of incidence of a ray on level ground; without a pose, as if perpendicular.
 double ground_cosine(const ManifestFrame& frame, const LensPoint& ray, double length) {
   if (!frame.camera_to_world) return 1;
   const auto& m = *frame.camera_to_world;
   return -(m[8] * ray.x + m[9] * ray.y + m[10]) / length;
 }
 
-/// Five by five rays over the picture to their depths in the depth plane.
+/// Viewing directions of five by five rays, with ranges from the depth plane.
 std::vector<SceneOutline::Look> looks_in(const Plane<float>& depth_m, const Manifest& manifest,
                                          const ManifestFrame& frame) {
   const CameraIntrinsics camera = passes_camera(manifest);
@@ -101,7 +105,7 @@ std::vector<SceneOutline::Look> looks_in(const Plane<float>& depth_m, const Mani
   return looks;
 }
 
-/// Means over the frames that tell their height, as of a plan's clips.
+/// Adds the mean height and angle over the frames that state their height, as for planned clips.
 void add_told_height(const Manifest& manifest, const ClipConfig& clip, Nights& nights) {
   constexpr double kStraightDown = 90;
   double sum_agl_m = 0;
@@ -116,7 +120,7 @@ void add_told_height(const Manifest& manifest, const ClipConfig& clip, Nights& n
   if (count > 0) nights.add(clip, sum_agl_m / count, sum_look_deg / count, manifest.camera);
 }
 
-/// Viewing directions of a clip's camera, by the depths of a frame; empty without depths.
+/// Viewing directions of a clip's camera, from a frame's depths; empty without depths.
 std::vector<SceneOutline::Look> looks_of(const ClipPasses& source, const PassReader& reader) {
   const auto look = [&](int number) {
     const Passes passes =
@@ -128,7 +132,7 @@ std::vector<SceneOutline::Look> looks_of(const ClipPasses& source, const PassRea
   return of_a_frame(source, ignored, look).value_or(std::vector<SceneOutline::Look>());
 }
 
-/// The longest step of an actor between two frames [m].
+/// The longest displacement of an actor between two frames [m].
 double longest_step_m(const ManifestFrame& before, const ManifestFrame& now) {
   double longest = 0;
   for (const ActorPose& pose : now.actors) {
@@ -141,7 +145,8 @@ double longest_step_m(const ManifestFrame& before, const ManifestFrame& now) {
   return longest;
 }
 
-/// How fast the poses move the picture [px / s]: the fastest step over level ground, of an actor too, and turn.
+/// Motion of the picture by the poses [px / s]: the fastest translation over level ground, also of an actor, and the
+/// fastest rotation.
 double motion_px_per_s(const Manifest& manifest, const std::vector<SceneOutline::Look>& looks) {
   constexpr double kUsualHeightM = 100;
   double fastest = 0;
@@ -159,7 +164,7 @@ double motion_px_per_s(const Manifest& manifest, const std::vector<SceneOutline:
   return fastest * manifest.frame_rate_hz * manifest.camera.fx_px;
 }
 
-/// Whether a frame gives the height of its camera.
+/// Whether a frame states the height of its camera.
 bool tells_height(const Manifest& manifest) {
   return std::ranges::any_of(manifest.frames,
                              [](const ManifestFrame& frame) { return frame.agl_m.has_value(); });
@@ -187,7 +192,7 @@ PassesView view_passes(const ClipPasses& source, bool looks) {
                        : no_frame_left(fault, static_cast<int>(source.manifest.frames.size()));
     if (looks && view.planes && view.planes->depth && !tells_height(source.manifest))
       view.looks = looks_of(source, reader);
-  } catch (const DataError& error) {  // no frame of such a manifest can be read
+  } catch (const DataError& error) {  // the manifest makes every frame unreadable
     view.fault = error.what();
   }
   return view;
@@ -218,7 +223,7 @@ SceneOutline outline_of(const Config& config, const MaterialLibrary& materials,
     const SensorParameters& sensor = settings_of(config, clip).sensor;
     add_told_height(manifest, clip, nights);
     if (!config.physical) continue;
-    if (views[i].planes) add_impossible(sources[i], views[i], config, outline);
+    if (views[i].planes) add_impossible(sources[i], views[i], config, materials, outline);
     nights.add(clip, views[i].looks);
     outline.smear_px =
         std::max(outline.smear_px, motion_px_per_s(manifest, views[i].looks) * sensor.time_constant_s);

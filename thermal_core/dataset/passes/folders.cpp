@@ -19,13 +19,13 @@ namespace {
 
 constexpr const char* kManifest = "manifest.json";
 
-/// Whether something of that name exists, whatever it is.
+/// Whether a file of any kind exists.
 bool is_there(const Path& file) {
   std::error_code ignored;
   return std::filesystem::symlink_status(file, ignored).type() != std::filesystem::file_type::not_found;
 }
 
-/// The clips inside a folder without passes of its own, each in a folder of its own; otherwise the group.
+/// The clips in a folder without passes of its own, each in its own folder; otherwise the group.
 std::vector<PassesGroup> clips_of(const PassesGroup& group) {
   if (!group.files.empty() || is_there(group.folder / kManifest)) return {group};
   std::vector<PassesGroup> inside;
@@ -55,7 +55,7 @@ std::vector<PassesGroup> groups_of(const std::vector<Path>& named, const Path& m
 
 Manifest read_meaning(const PassesGroup& group, const Path& file, const Assets& assets) {
   if (is_there(file)) {
-    if (file.parent_path() == group.folder) check_is_file(file);  // --manifest may well name a pipe: <(…)
+    if (file.parent_path() == group.folder) check_is_file(file);  // --manifest may also be a pipe: <(…)
     return read_manifest(file, assets);
   }
   throw IoError(
@@ -64,18 +64,18 @@ Manifest read_meaning(const PassesGroup& group, const Path& file, const Assets& 
                   file.string(), group.folder.string(), file.string()));
 }
 
-/// Frames that are not listed get their files, and times by position.
+/// Frames without a list get their files, and times by position.
 void take_frames(Manifest& manifest, const FrameSequence& sequence) {
   if (!manifest.frames.empty()) return;
   for (const auto& [name, is_gap] : sequence.frames) {
     ManifestFrame frame;
-    frame.file = name.name;  // of a gap, too: it is reported when it cannot be read
+    frame.file = name.name;  // also for gaps, which are reported as unreadable
     frame.time_s = static_cast<double>(manifest.frames.size()) / manifest.frame_rate_hz;
     manifest.frames.push_back(std::move(frame));
   }
 }
 
-/// DataError if two folders have one clip.
+/// DataError if a clip has two folders.
 void check_clips(const std::vector<ClipPasses>& all) {
   std::map<std::string, Path> seen;
   for (const ClipPasses& passes : all) {

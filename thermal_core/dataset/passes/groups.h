@@ -9,16 +9,16 @@
 
 namespace thermal {
 
-/// Passes that are given together: a folder, or files in it.
+/// Passes given together: a folder, or files in it.
 struct PassesGroup {
   Path folder;
   std::vector<FrameName> files;  ///< empty: the folder itself is given
   std::string named;             ///< the first path given, verbatim
 };
 
-/// Resolves paths: folders, and files or patterns of file names ("r/f_####.exr", "r/f_%06d.exr", "r/*.exr"), grouped
-/// by folder, in the order of the first of each. An existing file is taken by its name, even if that contains
-/// wildcards. ConfigError for paths that do not exist, patterns that match nothing, and invalid patterns.
+/// Resolves paths: folders, and files or patterns of file names ("r/f_####.exr", "r/f_%06d.exr", "r/*.exr"), grouped by
+/// folder, in the order of the first of each. An existing file is found by its name, even if that contains wildcards.
+/// ConfigError for paths that do not exist, patterns that match nothing, and invalid patterns.
 [[nodiscard]] std::vector<PassesGroup> group_passes(const std::vector<Path>& named);
 
 /// Assigns files to frames: those given, or those that the manifest lists or has a pattern for. Without either, all

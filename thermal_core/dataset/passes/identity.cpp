@@ -13,14 +13,14 @@
 namespace thermal {
 namespace {
 
-/// "-" if there is no such file: a frame that is skipped.
+/// "-" if there is no such file: a skipped frame.
 std::string bytes_text(const Path& file) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
   return error ? "-" : std::to_string(bytes);
 }
 
-/// Other files that a frame is made from. Those of one that cannot be read do not matter.
+/// Other files that a frame is made from; none for an unreadable frame.
 std::vector<Path> files_beside(const ClipPasses& passes, const Path& frame) {
   if (passes.manifest.cryptomatte.empty() || is_index_picture(frame)) return {};
   try {

@@ -82,7 +82,7 @@ void Nights::add(const ClipConfig& clip, double mean_height_m, double mean_look_
   const double look_angle_deg = std::round(mean_look_angle_deg);
   Night& night = night_of(clip);
   const bool is_new = night.seen.insert({height_m, look_angle_deg, camera.fx_px, camera.fy_px}).second;
-  if (!is_new) return;  // many clips fly alike
+  if (!is_new) return;  // many clips have similar flights
   const double angle = look_angle_deg * std::numbers::pi / 180;
   add(clip, looks_from(height_m, angle, camera));
 }

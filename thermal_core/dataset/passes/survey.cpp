@@ -48,7 +48,7 @@ bool hold_indices(const Path& file, const ExrHeader& header, const std::vector<c
     const auto planes = read_exr_channels(file, header, channels, 0, {.pixels = limits.pixels});
     return could_be_indices(planes.front()) &&
            std::ranges::all_of(planes, [&](const Plane<float>& plane) { return plane == planes.front(); });
-  } catch (const Error&) {  // faults of the file are reported by the survey
+  } catch (const Error&) {  // reported by the survey
     return false;
   }
 }
@@ -117,7 +117,7 @@ void PassSurveyor::add_mattes(const Path& file, const ExrHeader& header) {
   }
 }
 
-/// Things that never fill most of a pixel still exist, and a conversion must know them.
+/// Adds objects that never cover most of a pixel, because a conversion must know them.
 void PassSurveyor::add_lower_ranks(const Path& file, const ExrHeader& header,
                                    const Cryptomatte& cryptomatte) {
   auto& found = survey_.cryptomattes[cryptomatte.name];

@@ -29,7 +29,7 @@ struct PassSurvey {
     std::string name;  ///< empty: the file does not name it
     std::int64_t pixels = 0;
   };
-  /// Depths that are usable.
+  /// Range of usable depths.
   struct DepthRange {
     float nearest_m = 0;
     float farthest_m = 0;

@@ -24,7 +24,8 @@ SceneOutline outline_of(const Config& config, const DatasetPlan& plan, const Mat
   SceneOutline outline = empty_outline(config);
   for (const auto& [name, share] : plan.cover_shares)
     outline.covers.push_back({.material = &materials.find(name, "plan: covers"), .share = share});
-  if (config.engine != Engine::embree && plan.cover_shares.contains("water"))
+  if (config.engine != Engine::embree &&
+      std::ranges::any_of(outline.covers, [](const auto& cover) { return cover.material->mirrors(); }))
     outline.impossible.emplace("mirror", "the engine blender does not trace what water mirrors");
   add_actors({plan.actor_materials.begin(), plan.actor_materials.end()}, materials, outline);
   Nights nights(config);

@@ -102,8 +102,8 @@ Json planned_part(const Config& config) {
   const Json& all = config.resolved;
   Json scene = all.at("scene");
   scene.erase("temperatures");
-  Json render = {{"view_margin_px", config.view_margin_px}};
-  if (config.poses_all) render["posed_actors"] = "all";  // older plans lack the key
+  Json render = {{"view_margin_px", config.view_margin_px},
+                 {"posed_actors", all.at("render").at("posed_actors")}};
   return {{"name", all.at("name")},
           {"seed", all.at("seed")},
           {"scene", std::move(scene)},

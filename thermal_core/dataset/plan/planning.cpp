@@ -14,6 +14,7 @@
 #include "dataset/plan/ground_planning.h"
 #include "dataset/plan/plan_checksums.h"
 #include "io/assets.h"
+#include "io/config/asset_files.h"
 #include "io/system/child_process.h"
 #include "io/system/files.h"
 #include "io/system/held_folder.h"
@@ -58,6 +59,11 @@ std::string run_planning(const Config& config, const std::string& name, const Pl
                          const std::vector<std::string>& arguments) {
   const Path python = find_python();
   if (python.empty()) throw IoError("no python3 on PATH; install it (apt-get install python3-numpy)");
+  try {
+    check_asset_files(planned_part(config).at("scene"), options.assets);
+  } catch (const ConfigError& fault) {
+    throw_faults(fault.what(), name);
+  }
   const Path script = options.assets.script("plan_scene.py");
   std::vector<std::string> command = {python.string(),
                                       "-I",

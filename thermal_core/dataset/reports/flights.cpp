@@ -61,7 +61,7 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t most) {
   return places;
 }
 
-/// The `camera` of a config, with what a clip has of its own.
+/// The `camera` of a config, with a clip's changes.
 Json camera_of_clip(const Json& config, const std::string& id) {
   Json camera = config.at("camera");
   for (const Json& clip : config.value("clips", Json::array()))
@@ -96,7 +96,7 @@ Json track_json(const FlightTrack& track, const Json& config) {
   return json;
 }
 
-/// Input of draw_map.py: positions below the camera with the height of ground or water, then the positions it sees.
+/// Input of draw_map.py: positions below the camera with the height of ground or water, then the corners of its view.
 Json ground_points(const std::vector<FlightTrack>& tracks, const Json& config) {
   constexpr std::size_t kMostPoints = 400;
   Json points = Json::array();
@@ -121,7 +121,7 @@ Json picture(const Path& folder, const char* name, const Json& answer) {
 }
 
 Json drawn(const Json& answer, const Path& folder) {
-  constexpr double kMostOffM = 0.5;  // roads' cuts and rounding differ by centimetres; other places by metres
+  constexpr double kMostOffM = 0.5;  // road cuts and rounding differ by centimetres; other terrain by metres
   const double off_m = answer.at("off_m");
   if (off_m > kMostOffM) {
     return absent(fmt::format(

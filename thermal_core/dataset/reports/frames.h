@@ -5,7 +5,7 @@
 
 namespace thermal {
 
-/// A picture to show, and what it represents.
+/// A picture to show, and why.
 struct SampleFrame {
   std::size_t image = 0;  ///< index into LabelSet::images
   std::string why;        ///< "most labels", "median", "no labels"
@@ -17,7 +17,7 @@ struct SampleFrame {
 [[nodiscard]] std::vector<SampleFrame> choose_samples(const LabelSet& set);
 
 /// The pictures of samples as JPEGs in data URIs, with their boxes, as JSON. An unreadable picture is a DataError or
-/// IoError if `all` is set; otherwise it is left out, and listed in `missing`.
+/// IoError if `all` is set; otherwise it is listed in `missing`.
 [[nodiscard]] Json sample_figures(const LabelSet& set, bool all);
 
 }  // namespace thermal

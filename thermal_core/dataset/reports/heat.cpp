@@ -7,7 +7,7 @@
 namespace thermal {
 namespace {
 
-/// Cells of a picture of any size.
+/// A grid of cells over pictures of any size.
 class Heat {
  public:
   explicit Heat(double height_to_width)

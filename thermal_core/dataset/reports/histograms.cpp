@@ -17,10 +17,10 @@ double round_width(double width) {
   return power;
 }
 
-/// Values that hardly differ get fewer bins, so that the numbers of the bins stay exact.
+/// Nearly equal values get fewer bins, so that edges remain distinct numbers.
 std::vector<double> linear_edges(double low, double high) {
   constexpr double kBins = 15;      // at least, and fewer than 40
-  constexpr double kFinest = 1e-9;  // share of the larger value or of the unit: nothing is measured finer
+  constexpr double kFinest = 1e-9;  // least bin width, as a share of the larger value or of 1
   const double finest = kFinest * std::max({1.0, std::abs(low), std::abs(high)});
   const double step = high > low ? round_width(std::max(high / kBins - low / kBins, finest))
                                  : round_width(std::max(1e-3, 0.1 * std::abs(low)));

@@ -15,7 +15,7 @@ enum class Bins {
   linear,       ///< about 25 of a round width
 };
 
-/// A label's value, if known, and which category it counts for.
+/// A label's value, if known, and its category.
 struct HistogramValue {
   std::optional<double> value;
   std::size_t category = 0;
@@ -24,9 +24,9 @@ struct HistogramValue {
 /// Edges (n + 1) of the bins that hold all values except half a percent at either end; {} without values.
 [[nodiscard]] std::vector<double> bin_edges(std::vector<double> values, Bins bins);
 
-/// `known` values `of` all; `least`, `median` and `most` of them; `edges` (n + 1); `counts`, for each category n of
-/// them. Values beyond the edges count for the nearest bin, and `below` and `above` give their number. Without values
-/// only `known` and `of`.
+/// A histogram as JSON: `known` (values) and `of` (labels); `least`, `median` and `most`; `edges` (n + 1); `counts`,
+/// for each category n. Values beyond the edges count for the nearest bin, with their numbers in `below` and `above`.
+/// Without values only `known` and `of`.
 [[nodiscard]] Json histogram_of(const std::vector<HistogramValue>& values, std::size_t categories, Bins bins);
 
 }  // namespace thermal

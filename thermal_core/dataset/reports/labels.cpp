@@ -92,7 +92,7 @@ Json videos_of(const LabelSet& set) {
   return json;
 }
 
-/// Known widths and heights, each once.
+/// Known picture sizes, without repetition.
 Json sizes_of(const LabelSet& set) {
   std::set<std::pair<int, int>> sizes;
   for (const LabelImage& image : set.images) {

@@ -9,17 +9,17 @@
 
 namespace thermal {
 
-/// What a report is about, and where it goes.
+/// Options of a report.
 struct ReportRequest {
   Path source;  ///< anything that read_labels() reads
   Path out;     ///< the page; empty: report.html in the dataset, or beside a COCO file
   Assets assets;
   bool unfinished_too = false;  ///< accept a dataset with missing clips
-  /// Called for each clip of a Veldt dataset, when its track is read.
+  /// Called for each clip of a Veldt dataset whose track is read.
   std::function<void(const Progress&)> show = {};
 };
 
-/// What a report shows.
+/// Result of a report.
 struct ReportOutcome {
   Path out;
   std::size_t clips = 0;  ///< or videos
@@ -28,8 +28,8 @@ struct ReportOutcome {
   std::size_t bytes = 0;
 };
 
-/// Writes one self-contained HTML page about a dataset, atomically. The same dataset gives the same bytes. Faults are
-/// those of read_labels(); also DataError or IoError for frames of a Veldt dataset that cannot be read.
+/// Writes one self-contained HTML page about a dataset, atomically. The same dataset gives the same bytes. Errors as
+/// read_labels(); also DataError or IoError for frames of a Veldt dataset that cannot be read.
 ReportOutcome write_report(const ReportRequest& request);
 
 }  // namespace thermal

@@ -11,7 +11,7 @@ namespace thermal {
 /// A failure that a script in Blender reported with an event "error".
 struct ReportedFailure {
   std::string message;  ///< "ModuleNotFoundError: No module named 'numpy'"
-  std::string where;    ///< "blender_scripts/veldt/noise.py:8"; may be empty
+  std::string where;    ///< "blender_scripts/planner/noise.py:8"; may be empty
   std::string hint;     ///< what to do about it; may be empty
   bool config = false;  ///< the config is at fault, and not Blender
 

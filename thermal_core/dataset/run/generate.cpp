@@ -83,6 +83,7 @@ class Generator {
       for (const ClipConfig& clip : pending_) try_make(clip, tracer, monitor);
       return;
     }
+    write_manifests(config_, plan_, options_, ids_of(pending_));
     const ClipWork work = [this, &monitor](const std::string& id, RenderJob& job, const Stop& stop_wanted) {
       try_make(config_.clip(id, "clips"), job, stop_wanted, monitor);
     };
@@ -141,7 +142,6 @@ class Generator {
   ClipRecord make(const ClipConfig& clip, RenderJob& job, const Stop& stop_wanted, RunMonitor& monitor) {
     monitor.begin(clip);
     RoomWatch room(config_, clip, layout_, {}, [&](std::int64_t bytes) { monitor.needs(clip.id, bytes); });
-    job.wait_for_frame(clip.id, -1, stop_wanted);
     const Path folder = layout_.passes(clip.id);
     const ClipPasses passes = {.manifest = read_manifest(folder / "manifest.json", options_.assets),
                                .folder = folder};

@@ -6,7 +6,10 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "dataset/run/tracing.h"
 #include "dataset/run/worker_pool.h"
+#include "io/bake/baked_files.h"
+#include "io/manifest_file.h"
 #include "io/system/files.h"
 
 namespace thermal {
@@ -57,6 +60,24 @@ std::vector<LeftOver> end_passes(const Layout& layout, const Config& config,
   for (const std::string& clip : clips) sweep(layout.passes(clip));
   if (!has_clips(layout.passes())) sweep(layout.passes());
   return left_over;
+}
+
+void write_manifests(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
+                     const std::vector<std::string>& clips) {
+  const Layout layout{options.out, options.scratch};
+  const BakedScene scene = read_baked_scene(options.plan, options.assets);
+  for (const std::string& clip : clips) {
+    const BakedTrack track = read_baked_track(options.plan, clip, scene, options.assets);
+    const ClipPlan& planned = *std::ranges::find(plan.clips, clip, &ClipPlan::id);
+    const ClipSettings& settings = settings_of(config, config.clip(clip, "clips"));
+    const std::string text = to_text(manifest_of(scene, track, planned, config, settings));
+    const Path file = layout.passes(clip) / "manifest.json";
+    if (std::filesystem::exists(layout.passes(clip) / passes_name(0)) &&
+        !(std::filesystem::exists(file) && read_file(file) == text))
+      throw ConfigError(
+          fault("--out", layout.passes(clip).string(), "", "no frames there, or frames of this plan"));
+    write_file_atomically(file, text);
+  }
 }
 
 std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,

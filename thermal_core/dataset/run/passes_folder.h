@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dataset/layout.h"
+#include "dataset/plan/plan.h"
 #include "dataset/run/monitor.h"
 #include "dataset/run/options.h"
 #include "dataset/run/render_job.h"
@@ -21,6 +22,11 @@ void check_same_passes(const Layout& layout, const Config& config);
 /// another config stay. Returns what could not be removed.
 std::vector<LeftOver> end_passes(const Layout& layout, const Config& config,
                                  const std::vector<std::string>& clips);
+
+/// Writes the manifests of clips that Blender is to render. ConfigError if a folder holds frames of another manifest;
+/// DataError or IoError as read_baked_scene().
+void write_manifests(const Config& config, const DatasetPlan& plan, const GenerateOptions& options,
+                     const std::vector<std::string>& clips);
 
 /// The render jobs for these clips, one task each. They report restarts to the monitor.
 [[nodiscard]] std::vector<RenderJob::Task> passes_tasks(const Config& config, const GenerateOptions& options,

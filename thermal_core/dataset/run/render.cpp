@@ -107,6 +107,7 @@ RunOutcome render(const Config& config, const DatasetPlan& plan, const GenerateO
     outcome.complete = true;
     return outcome;
   }
+  write_manifests(config, plan, options, ids_of(clips));
   const ClipWork work = [&](const std::string& id, RenderJob& job, const std::function<bool()>& stop_wanted) {
     const ClipConfig& clip = config.clip(id, "clips");
     monitor.begin(clip);
@@ -130,8 +131,7 @@ int preview(const Config& config, const GenerateOptions& options, const RunHooks
   const FolderLock lock(options.out);
   RenderJob job(preview_task(config, options));
   const std::string clip = RenderJob::kPreview;
-  job.wait_for_frame(clip, -1, hooks.cancelled);
-  Progress progress{.clip = clip, .done = 0, .total = job.frames_of(clip)};
+  Progress progress{.clip = clip, .done = 0, .total = job.wait_for_count(clip, hooks.cancelled)};
   hooks.report(progress);
   while (progress.done < progress.total) {
     job.wait_for_frame(clip, progress.done, hooks.cancelled);

@@ -111,13 +111,13 @@ void RenderJob::take_event(const Json& event) {
     run_.scene_built = true;
     if (!left_.empty()) run_.doing = "rendering clip " + left_.front();
   } else if (kind == "clip") {
-    ready_[event.at("clip")] = 1 + event.at("first_frame").get<int>();
+    ready_[event.at("clip")] = event.at("first_frame").get<int>();
     frames_[event.at("clip")] = event.value("frames", 0);
     run_.doing = fmt::format("rendering clip {}", event.at("clip").get<std::string>());
     leave_if_whole(event.at("clip"));
   } else if (kind == "frame") {
     const int index = event.at("index");
-    ready_[event.at("clip")] = 2 + index;
+    ready_[event.at("clip")] = 1 + index;
     run_.doing = fmt::format("rendering clip {} after frame {}", event.at("clip").get<std::string>(), index);
     leave_if_whole(event.at("clip"));
   } else if (kind == "error") {
@@ -134,7 +134,7 @@ void RenderJob::take_event(const Json& event) {
 /// Another Blender is not to render again what may be converted and gone by then.
 void RenderJob::leave_if_whole(const std::string& clip) {
   const int frames = frames_[clip];  // 0 if Blender did not report it
-  if (frames == 0 || ready_[clip] <= frames || left_.empty() || left_.front() != clip) return;
+  if (frames == 0 || ready_[clip] < frames || left_.empty() || left_.front() != clip) return;
   left_.pop_front();
   deaths_in_clip_ = 0;
 }
@@ -196,17 +196,18 @@ void RenderJob::wait_until(const std::function<bool()>& done, const std::functio
 }
 
 void RenderJob::wait_for_frame(const std::string& clip, int frame, const std::function<bool()>& cancelled) {
-  wait_until([&] { return ready_[clip] > frame + 1; }, cancelled, clip);
+  wait_until([&] { return ready_[clip] > frame; }, cancelled, clip);
 }
 
-int RenderJob::frames_of(const std::string& clip) {
+int RenderJob::wait_for_count(const std::string& clip, const std::function<bool()>& cancelled) {
+  wait_until([&] { return frames_.contains(clip); }, cancelled, clip);
   const std::lock_guard lock(mutex_);
   return frames_[clip];
 }
 
 int RenderJob::frames_ready(const std::string& clip) {
   const std::lock_guard lock(mutex_);
-  return std::max(0, ready_[clip] - 1);
+  return ready_[clip];
 }
 
 void RenderJob::wait_for_end(const std::function<bool()>& cancelled) {

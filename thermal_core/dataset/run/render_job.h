@@ -59,13 +59,12 @@ class RenderJob {
   RenderJob(const RenderJob&) = delete;
   RenderJob& operator=(const RenderJob&) = delete;
 
-  /// Returns when the frame's file is whole (frame -1: when the clip's manifest is). Otherwise says in words
-  /// why it never will be: ClipLost; or what ends the job, of which no clip is to blame: ConfigError; TryAgainError if
+  /// Returns when the frame's file is whole. Otherwise says in words why it never will be: ClipLost; or what ends the job, of which no clip is to blame: ConfigError; TryAgainError if
   /// Blender was killed as it built the scene or the disk is full; else IoError. Cancelled when `cancelled` says so.
   void wait_for_frame(const std::string& clip, int frame, const std::function<bool()>& cancelled);
 
-  /// How many frames a clip has, as Blender reported with its manifest; 0 before.
-  [[nodiscard]] int frames_of(const std::string& clip);
+  /// How many frames a clip has, as Blender reports when it begins with the clip. Waits for that as above.
+  [[nodiscard]] int wait_for_count(const std::string& clip, const std::function<bool()>& cancelled);
 
   /// How many leading frames of a clip are whole.
   [[nodiscard]] int frames_ready(const std::string& clip);
@@ -105,7 +104,7 @@ class RenderJob {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::string> left_;      ///< clips that are not rendered, in order
-  std::map<std::string, int> ready_;  ///< leading whole frames of a clip, counting the manifest as one
+  std::map<std::string, int> ready_;  ///< leading whole frames of a clip
   std::map<std::string, int> frames_;
   std::map<std::string, ClipLost> lost_;
   Run run_;

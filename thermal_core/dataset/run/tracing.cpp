@@ -18,20 +18,13 @@
 namespace thermal {
 namespace {
 
-/// The nearest decimal number, as Python's round() has it.
+/// The nearest decimal number.
 double round_decimal(double value, int digits) {
   return number_in<double>(fmt::format("{:.{}f}", value, digits)).value_or(value);
 }
 
-/// As NumPy's round() has it, which is faster; without negative zeros.
+/// The same of many numbers, faster: some differ in their last bit. Without negative zeros.
 double round_scaled(double value, double scale) { return std::nearbyint(value * scale) / scale + 0.0; }
-
-bool has_water(const BakedScene& scene) {
-  return std::ranges::any_of(scene.objects,
-                             [](const ManifestObject& one) { return one.material == "water"; }) ||
-         std::ranges::any_of(scene.materials,
-                             [](const ManifestMaterial& one) { return one.material == "water"; });
-}
 
 /// Where kept frames are written.
 struct Kept {
@@ -111,10 +104,14 @@ Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const Cli
   manifest.frame_rate_hz = clip.frame_rate_hz;
   manifest.layer = "Scene";
   if (config.actor_layer) manifest.actor_layer = "Actors";
-  if (has_water(scene)) manifest.mirror_layer = kMirrorLayer;
   manifest.camera = track.camera.value_or(scene.camera);
   manifest.supersample = config.supersample;
-  manifest.lens = settings.distortion;
+  if (config.engine == Engine::embree) {
+    if (MirrorIndices(scene).any()) manifest.mirror_layer = kMirrorLayer;
+    manifest.lens = settings.distortion;
+  } else {  // a pinhole's picture, to which conversion applies the lens, without rays beyond the water
+    manifest.overscan_px = scene.view_margin_px;
+  }
   manifest.objects = scene.objects;
   manifest.materials = scene.materials;
   manifest.beds = scene.beds;
@@ -151,7 +148,7 @@ ClipPasses PlanTracer::trace(const std::string& clip, const Path& folder, bool k
   std::optional<Kept> kept;
   if (keep) {
     make_folder(folder);
-    write_manifest(folder / "manifest.json", passes.manifest);
+    write_file_atomically(folder / "manifest.json", to_text(passes.manifest));
     kept = {.folder = folder, .layer = passes.manifest.layer, .actor_layer = passes.manifest.actor_layer};
   }
   const Sampling sampling = {.supersample = config_.supersample,

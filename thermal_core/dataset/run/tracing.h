@@ -11,12 +11,11 @@
 
 namespace thermal {
 
-/// A frame of a manifest, as blender_scripts/veldt/manifest.py has it, with the same roundings; without a file, and
-/// without the camera's height and angle.
+/// A frame of a manifest, rounded to the micrometre or finer: far less than a pixel, and more than the cosines of two
+/// machines differ by. Without a file, and without the camera's height and angle.
 [[nodiscard]] ManifestFrame manifest_frame_of(const BakedScene& scene, const BakedMoment& now, double time_s);
 
-/// The manifest of a clip of a plan, as blender_scripts/veldt/manifest.py has it, with the same roundings.
-/// `settings`: the clip's.
+/// The manifest of a clip of a plan, whose passes the config's engine renders. `settings`: the clip's.
 [[nodiscard]] Manifest manifest_of(const BakedScene& scene, const BakedTrack& track, const ClipPlan& clip,
                                    const Config& config, const ClipSettings& settings);
 

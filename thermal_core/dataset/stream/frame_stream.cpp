@@ -62,10 +62,10 @@ void check_frame_rate(double frame_rate_hz, const std::string& where) {
 
 struct FrameStream::Impl {
   StreamTarget target;
-  std::function<bool()> stopped;      ///< asked until there is a receiver
-  std::atomic<bool> cut = false;      ///< no call waits any longer
+  std::function<bool()> stopped;      ///< called while there is no receiver
+  std::atomic<bool> cut = false;      ///< all waits end
   std::unique_ptr<H264Stream> video;  ///< the sender's; null while there is no receiver
-  mutable std::mutex mutex;           ///< of all below
+  mutable std::mutex mutex;           ///< protects all members below
   std::condition_variable changed;
   std::unique_ptr<LineSender> lines;
   std::deque<Item> waiting;
@@ -134,7 +134,7 @@ struct FrameStream::Impl {
     waiting.clear();
   }
 
-  /// `patience`: for the last frames and lines, beside each other; then the stream is cut.
+  /// `patience`: time limit for the last frames and lines together; then the stream is cut.
   void close(Clock::duration patience) {
     if (!sender.joinable()) return;
     const Clock::time_point end = Clock::now() + patience;

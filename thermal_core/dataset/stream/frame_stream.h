@@ -12,7 +12,7 @@
 
 namespace thermal {
 
-/// Where the frames of a FrameStream go.
+/// Destination of a FrameStream.
 struct StreamTarget {
   NetAddress video;                      ///< udp or rtsp
   std::optional<NetAddress> lines = {};  ///< udp or tcp
@@ -29,34 +29,34 @@ struct StreamTarget {
 /// ConfigError with `where` unless a stream may have this rate: 0.1 to 240 Hz.
 void check_frame_rate(double frame_rate_hz, const std::string& where);
 
-/// Sends frames as video, and a line of text with each, on a thread of its own: whoever makes frames never waits. If more
-/// than a few wait to be sent, the next is dropped. If the receiver of the video goes away, or reads nothing for 5 s, frames
-/// are dropped while the stream tries each second to reach it again. Lines leave at once, whatever becomes of the video.
+/// Sends frames as video, and a line of text with each, on a separate thread, without ever blocking the caller. If more
+/// than a few are queued, the next is dropped. If the receiver of the video goes away, or does not read for 5 s, frames
+/// are dropped while the stream reconnects each second. Lines are sent at once, independently of the video.
 class FrameStream {
  public:
   struct Counts {
     std::int64_t sent = 0;
-    std::int64_t dropped = 0;          ///< no room, or no receiver
-    std::int64_t waiting = 0;          ///< neither yet; at most a few
+    std::int64_t dropped = 0;          ///< queue full, or no receiver
+    std::int64_t waiting = 0;          ///< queued; at most a few
     std::int64_t lines_missed = 0;     ///< LineSender::Counts::missed
     std::int64_t clients_refused = 0;  ///< LineSender::Counts::refused
-    std::string fault = {};            ///< why the last frame without a receiver had none; stays
+    std::string fault = {};            ///< why the last frame without a receiver had none; kept
   };
 
-  /// `stopped`: asked until the receiver has answered; true ends the wait with an IoError.
-  /// ConfigError for a rate or size out of range; IoError as of H264Stream and LineSender.
+  /// `stopped`: called until the receiver has answered; true ends the wait with an IoError. ConfigError for a rate or
+  /// size out of range; IoError as H264Stream and LineSender.
   explicit FrameStream(const StreamTarget& target, std::function<bool()> stopped = {});
-  /// Sends nothing more; close() does.
+  /// Discards queued frames; close() sends them.
   ~FrameStream();
   FrameStream(const FrameStream&) = delete;
   FrameStream& operator=(const FrameStream&) = delete;
 
-  /// Hands over a frame, which is copied, and its line. `time`: in frames since the stream's begin; later than that of the
-  /// frame before. False if it is dropped because there is no room; its line leaves nevertheless. ConfigError for another
-  /// size than the target's.
+  /// Queues a copy of a frame, and its line. `time`: in frames since the stream's start; increasing. False if the frame
+  /// is dropped because the queue is full; its line is sent nevertheless. ConfigError for a size other than the
+  /// target's.
   bool send(const Plane<std::uint8_t>& frame, std::int64_t time, std::string_view line);
 
-  /// Sends what waits, two seconds at most, and ends the stream.
+  /// Sends queued frames for at most two seconds, and ends the stream.
   void close();
 
   [[nodiscard]] Counts counts() const;

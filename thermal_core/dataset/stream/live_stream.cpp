@@ -24,7 +24,7 @@ Clock::duration duration_of(double seconds) {
 
 double seconds_of(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-/// False if the run is stopped before.
+/// False if the run is stopped meanwhile.
 bool sleep_until(Clock::time_point time, const std::function<bool()>& stopped) {
   constexpr std::chrono::milliseconds kLook(50);
   while (!stopped()) {
@@ -35,7 +35,7 @@ bool sleep_until(Clock::time_point time, const std::function<bool()>& stopped) {
   return false;
 }
 
-/// A stream for cameras of one size and rate, which begins with the first frame.
+/// A stream for cameras of one size and rate, which starts with the first frame.
 struct Outlet {
   StreamTarget target;
   FrameStream stream;
@@ -48,12 +48,12 @@ struct Outlet {
            target.height_px == other.height_px;
   }
 
-  /// In frames since the stream's begin.
+  /// In frames since the stream's start.
   [[nodiscard]] std::int64_t count_at(Clock::time_point due) const {
     return std::llround(seconds_of(due - *begin) * target.frame_rate_hz);
   }
 
-  /// The first whole frame of the stream from now on.
+  /// Time of the next whole frame of the stream.
   [[nodiscard]] Clock::time_point next_frame() {
     const Clock::time_point now = Clock::now();
     if (!begin) begin = now;
@@ -71,7 +71,7 @@ StreamTarget target_for(const LiveStreamOptions& options, const World& world) {
           .height_px = camera.height_px};
 }
 
-/// What is known of a frame beside its pixels.
+/// A frame's metadata as a line of JSON.
 std::string line_of(const World& world, const StreamedClip& clip, std::int64_t count, int frame,
                     const ClipImager::Frame& made) {
   Json pose = Json::array();
@@ -161,7 +161,7 @@ class Flight {
   std::vector<double> late_s_;
 };
 
-/// Flies clips one after the other, through one stream as long as their cameras allow.
+/// Flies clips one after another, through one stream while their cameras are compatible.
 class Flights {
  public:
   Flights(const LiveStreamOptions& options, const std::function<bool()>& stopped)
@@ -223,7 +223,7 @@ void stream_flights(const LiveStreamOptions& options, const std::function<bool()
       }
     } while (options.repeat);
   } catch (const IoError&) {
-    if (!stopped()) throw;  // a wait for the receiver has ended
+    if (!stopped()) throw;  // the wait for the receiver was interrupted
   }
 }
 

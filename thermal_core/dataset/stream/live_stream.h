@@ -13,21 +13,21 @@
 namespace thermal {
 
 struct LiveStreamOptions {
-  Path plan;  ///< as World needs it
+  Path plan;  ///< a plan's folder for World
   Assets assets;
   std::vector<std::string> clips = {};  ///< in the plan's order; empty: all
   NetAddress video;
   std::optional<NetAddress> lines = {};
   std::optional<double> frame_rate_hz = {};  ///< of all cameras; empty: each clip's
-  bool repeat = false;                       ///< from the first clip again, until the run is stopped
+  bool repeat = false;                       ///< repeat all clips until the run is stopped
 };
 
-/// What became of a clip's frames.
+/// Counts of a clip's frames.
 struct StreamedClip {
   std::string clip;
   double frame_rate_hz = 0;
   int sent = 0;
-  int late = 0;     ///< left out, because those before took too long
+  int late = 0;     ///< skipped, because earlier frames took too long
   int dropped = 0;  ///< made, but not sent
   std::int64_t lines_missed = 0;
   std::int64_t clients_refused = 0;
@@ -37,16 +37,16 @@ struct StreamedClip {
   [[nodiscard]] int frames() const noexcept { return sent + late + dropped; }
 };
 
-/// Flies the planned flights as they are timed, and sends what their cameras take, with a line of JSON each. A frame that
-/// cannot be made in time is left out: the camera's clock goes on. `done` is called after each clip, and after one that is
-/// stopped; `state` every five seconds while it is sent. Returns when all is sent, or stopped().
+/// Flies the planned flights in real time, and sends the frames of their cameras, with a line of JSON each. A frame
+/// that cannot be made in time is skipped: the camera's clock continues. `done` is called after each clip, also after a
+/// stopped one; `state` every five seconds while a clip is sent. Returns when everything is sent, or stopped().
 ///
-/// Between clips nothing is sent while the next one's place is built, for seconds; a single clip that is repeated begins
-/// again at once.
+/// Between clips nothing is sent for the seconds that the next one's scene takes to build; a single repeated clip
+/// restarts at once.
 ///
-/// With each clip's own frame rate, frames are those of `generate`, bit for bit, before the first that is left out. At
-/// another rate the camera moves on straight lines between the planned frames.
-/// ConfigError as of World and FrameStream; IoError as of FrameStream.
+/// At a clip's own frame rate, frames equal those of `generate`, bit for bit, up to the first skipped one. At another
+/// rate, camera positions are interpolated linearly between the planned frames.
+/// ConfigError as World and FrameStream; IoError as FrameStream.
 void stream_flights(const LiveStreamOptions& options, const std::function<bool()>& stopped,
                     const std::function<void(const StreamedClip&)>& state,
                     const std::function<void(const StreamedClip&)>& done);

@@ -13,15 +13,14 @@
 namespace thermal {
 namespace {
 
-constexpr double kTrailSeconds = 5;
 constexpr const char* kShutterText = "shutter closed (FFC)";
-constexpr double kShade = 0.62;  // of what lies behind text on a picture
+constexpr double kShade = 0.62;  // opacity of the shade behind text on a picture
 
 PixelRect padded(const PixelRect& rect, int by_px) {
   return {rect.x_px - by_px, rect.y_px - by_px, rect.width_px + 2 * by_px, rect.height_px + 2 * by_px};
 }
 
-/// Text in the middle of a line's height.
+/// Baseline that centres text in a rectangle's height.
 int baseline_in(const PixelRect& rect, int capital_px) {
   return rect.y_px + (rect.height_px + capital_px) / 2;
 }
@@ -30,13 +29,13 @@ cv::Mat enlarged(const Plane<std::uint8_t>& levels, const cv::Size& size) {
   cv::Mat source(levels.height_px(), levels.width_px(), CV_8UC1);
   std::copy(levels.pixels().begin(), levels.pixels().end(), source.data);
   cv::Mat result;
-  // Neither makes levels that are not between those of neighbours, as cubic ones do around hot targets.
+  // Neither overshoots, as cubic interpolation does around hot targets.
   const bool smaller = size.width < source.cols || size.height < source.rows;
   cv::resize(source, result, size, 0, 0, smaller ? cv::INTER_AREA : cv::INTER_LINEAR_EXACT);
   return result;
 }
 
-/// The palette as OpenCV takes it.
+/// The palette as an OpenCV colour map.
 cv::Mat colour_map(const PaletteTable& palette) {
   cv::Mat map(256, 1, CV_8UC3);
   for (int k = 0; k < 256; ++k) {
@@ -92,7 +91,7 @@ void CellPainter::paint_frame(std::size_t number, cv::Mat& picture) const {
   cv::applyColorMap(levels, part, colour_map(style_.palette));
 }
 
-/// What is least missed is last.
+/// Least important last.
 std::vector<std::string> CellPainter::facts_of(const FilmFrame& frame) const {
   std::vector<std::string> facts = {fmt::format("{:.1f} s", frame.time_s)};
   if (frame.agl_m) facts.push_back(fmt::format("{:.0f} m AGL", *frame.agl_m));
@@ -102,7 +101,7 @@ std::vector<std::string> CellPainter::facts_of(const FilmFrame& frame) const {
   return facts;
 }
 
-/// The clip's name on the left, and on the right as many facts as there is space for.
+/// The clip's name on the left, and on the right as many facts as fit.
 void CellPainter::paint_caption(const FilmFrame& frame, cv::Mat& picture) {
   fill(picture, cell_.caption, {kBackground, 1});
   const int size_px = style_.text_px;
@@ -174,7 +173,7 @@ PixelRect CellPainter::box_of(std::size_t number, std::int64_t track) const {
   return {};
 }
 
-/// The target itself stays free.
+/// Does not cover the target itself.
 void CellPainter::paint_tracks(std::size_t number, cv::Mat& picture) const {
   for (const Trail& trail : trails_->at(number)) {
     std::vector<LinePoint> points;
@@ -212,7 +211,7 @@ void CellPainter::paint_tags(const std::vector<const Label*>& labels, bool shutt
     tags.push_back({.box = shown(label->box),
                     .tag = {letters_.width_px(tag_of(*label), size_px) + 2 * pad_px,
                             letters_.capital_px(size_px) + 2 * pad_px + 1},
-                    .track = label->track_id.value_or(first - label - 1)});  // without: its own
+                    .track = label->track_id.value_or(first - label - 1)});  // without a track: unique
   constexpr std::int64_t kNoTrack = std::numeric_limits<std::int64_t>::min();
   if (shutter_closed) tags.push_back({.box = shutter_plate(), .tag = {0, 0}, .track = kNoTrack});
   const std::vector<TagPlace> places = placer_.place(tags);
@@ -243,7 +242,7 @@ PixelRect CellPainter::shutter_plate() {
           width_px, 2 * size_px};
 }
 
-/// The frame is one of before: labels, which are of now, may not fit it.
+/// The frame is an earlier one, so the current labels may not fit it.
 void CellPainter::paint_shutter(cv::Mat& picture) {
   const PixelRect plate = shutter_plate();
   cv::Mat part = picture(to_cv(cell_.picture));

@@ -23,30 +23,30 @@ inline constexpr PaletteColour kBackground = {14, 17, 22};
 inline constexpr PaletteColour kBright = {236, 240, 243};
 inline constexpr PaletteColour kDim = {150, 161, 172};
 
-/// What is shown of clips.
+/// Options for drawing clips.
 struct CellStyle {
   PaletteTable palette{};
   bool boxes = false;
   bool tracks = false;
-  std::optional<KelvinRange> range;  ///< else each frame's own gain control
+  std::optional<KelvinRange> range;  ///< otherwise each frame's own gain control
   int text_px = 16;
 };
 
 /// Draws one clip into its cell of the video, frame by frame in order.
 class CellPainter {
  public:
-  /// All must outlive this. `camera`: its name, and `kelvin_per_count` of the clip's dataset.
+  /// Arguments must outlive this. `dataset`: for the camera's name, and the clip's `kelvin_per_count`.
   CellPainter(const ClipFilm& film, const GridCell& cell, const CellStyle& style,
               const FilmedDataset& dataset, Letters& letters);
 
-  /// `number`: of the film's frames.
+  /// `number`: index of a frame of the film.
   void paint(std::size_t number, cv::Mat& picture);
 
  private:
   [[nodiscard]] Plane<std::uint8_t> levels_of(std::size_t number) const;
   [[nodiscard]] KelvinScale scale_of(const FilmFrame& frame) const;
   [[nodiscard]] PixelRect shown(const LabelBox& box) const;
-  /// Of a track's label in a frame; empty without one.
+  /// Box of a track's label in a frame; empty without one.
   [[nodiscard]] PixelRect box_of(std::size_t number, std::int64_t track) const;
   void paint_frame(std::size_t number, cv::Mat& picture) const;
   [[nodiscard]] std::vector<std::string> facts_of(const FilmFrame& frame) const;
@@ -65,9 +65,9 @@ class CellPainter {
   const CellStyle& style_;
   const FilmedDataset& dataset_;
   Letters& letters_;
-  double scale_;  ///< pixels of the video for one of the frame
+  double scale_;  ///< pixels of the video per pixel of the frame
   int line_px_;
-  std::vector<std::uint8_t> levels_of_counts_;  ///< where there is a range
+  std::vector<std::uint8_t> levels_of_counts_;  ///< empty without a range
   std::optional<Trails> trails_;
   TagPlacer placer_;
 };

@@ -23,7 +23,7 @@ std::string camera_name(const Json& config) {
   return sensor.value("preset", sensor.value("model", ""));
 }
 
-/// Json's own conversion of a fraction, or of a number that is too large, says nothing.
+/// Json's own conversion accepts fractions and numbers that are too large.
 int whole_number(const Json& value, const char* name, int most) {
   const bool is_whole = value.is_number_integer() && value.get<std::int64_t>() >= 0;
   if (!is_whole || value.get<std::int64_t>() > most)
@@ -93,7 +93,7 @@ std::optional<FilmCamera> read_camera(const Path& labels) {
   return camera;
 }
 
-/// Where the labels of each frame begin.
+/// Index of the first label of each frame.
 std::vector<std::size_t> places_of_labels(const LabelSet& set, const std::vector<FilmFrame>& frames) {
   std::vector<std::size_t> first;
   std::size_t label = 0;

@@ -14,7 +14,7 @@
 
 namespace thermal {
 
-/// A dataset as far as videos need to know it.
+/// The properties of a dataset that videos use.
 struct FilmedDataset {
   Layout layout;
   std::string name;
@@ -22,18 +22,18 @@ struct FilmedDataset {
   std::map<std::string, std::string> own_cameras;  ///< of clips that have another, by id
   double kelvin_per_count = 0;
   std::vector<std::string> clips;  ///< all ids
-  std::vector<std::string> made;   ///< those that are finished
+  std::vector<std::string> made;   ///< finished ones
 
   [[nodiscard]] const std::string& camera_of(const std::string& clip) const;
 
-  /// Throws unless all these clips are there: ConfigError "--clips = …" for an unknown id, DataError for one not made.
+  /// ConfigError "--clips = …" for an unknown id, DataError for a clip that is not finished.
   void check_clips(const std::vector<std::string>& ids) const;
 };
 
 /// Reads dataset.json. IoError if `root` is not a dataset, DataError if its record is damaged.
 [[nodiscard]] FilmedDataset read_filmed_dataset(const Path& root);
 
-/// What frames.jsonl says of a frame.
+/// A frame's entry of frames.jsonl.
 struct FilmFrame {
   int frame_index = 0;
   double time_s = 0;
@@ -63,11 +63,11 @@ struct ClipFilm {
   bool black_hot = false;
   std::string agc_mode;
   std::vector<FilmFrame> frames;
-  LabelSet labels;                       ///< empty unless asked for
-  std::vector<std::size_t> first_label;  ///< of each of `frames` in `labels`, and the number of labels
+  LabelSet labels;                       ///< empty unless requested
+  std::vector<std::size_t> first_label;  ///< of each of `frames`, in `labels`; and the number of labels
   std::optional<FilmCamera> camera;      ///< where labels.json has it
 
-  /// The 8-bit frame as levels of its tone curve: hot is high, whatever the polarity.
+  /// The 8-bit frame as white-hot levels.
   [[nodiscard]] Plane<std::uint8_t> read_levels(std::size_t frame) const;
   /// The 16-bit frame.
   [[nodiscard]] Plane<std::uint16_t> read_counts(std::size_t frame) const;

@@ -7,10 +7,10 @@
 
 namespace thermal {
 
-/// Which clips of which dataset a command shows.
+/// Selected clips of a dataset.
 struct ClipSource {
   FilmedDataset dataset;
-  std::vector<std::string> clips;  ///< ids, in the dataset's order or in the one asked for; at least one
+  std::vector<std::string> clips;  ///< ids, in the dataset's order or in the requested one; at least one
   bool chosen = false;             ///< by their ids, or by the path of a clip's folder
 
   /// Clips left out because they are not finished; none if clips were chosen.
@@ -18,8 +18,8 @@ struct ClipSource {
 };
 
 /// `path`: a dataset, or a clip's folder in one (DIR/clips/CLIP). `ids`: clips of the dataset; none: all that are
-/// finished. ConfigError "--clips = …" for unknown ids, or for any beside a clip's folder; DataError if a clip that is
-/// asked for is not made, or none is; and those of read_filmed_dataset().
+/// finished. ConfigError "--clips = …" for unknown ids, or for ids together with a clip's folder; DataError if a
+/// requested clip, or every clip, is unfinished; errors of read_filmed_dataset().
 [[nodiscard]] ClipSource find_clip_source(const Path& path, const std::vector<std::string>& ids);
 
 }  // namespace thermal

@@ -16,9 +16,9 @@ cv::Rect inside(const cv::Mat& picture, const cv::Rect& rect) {
   return rect & cv::Rect(0, 0, picture.cols, picture.rows);
 }
 
-constexpr double kFarthest = 20'000;  // px; OpenCV's lines count in 32 bits
+constexpr double kFarthest = 20'000;  // px; OpenCV's line coordinates have 32 bits
 
-/// The least rectangle of whole pixels that holds points and a margin.
+/// Bounding rectangle in whole pixels of points and a margin.
 cv::Rect around(const std::vector<LinePoint>& points, int margin_px) {
   const auto [left, right] = std::ranges::minmax(points, {}, &LinePoint::x_px);
   const auto [top, bottom] = std::ranges::minmax(points, {}, &LinePoint::y_px);
@@ -34,7 +34,7 @@ cv::Rect around(const std::vector<LinePoint>& points, int margin_px) {
 
 cv::Mat mask_of(const TextPicture& text) {
   const auto& coverage = text.coverage;
-  // OpenCV has no read-only view; the copy is what makes this safe.
+  // OpenCV has no read-only view, hence the copy.
   cv::Mat mask(coverage.height_px(), coverage.width_px(), CV_8UC1);
   std::copy(coverage.pixels().begin(), coverage.pixels().end(), mask.data);
   return mask;
@@ -80,7 +80,7 @@ void fill(cv::Mat& picture, const PixelRect& rect, const Ink& ink) {
   blend(picture, cv::Mat(area.size(), CV_8UC1, cv::Scalar(255)), area.tl(), ink);
 }
 
-/// Whole numbers, rounded to nearest: the same on every machine.
+/// Integer arithmetic, rounded to nearest: the same on every machine.
 void blend(cv::Mat& picture, const cv::Mat& mask, const cv::Point& at, const Ink& ink) {
   const cv::Rect area = inside(picture, {at.x, at.y, mask.cols, mask.rows});
   const int opacity = static_cast<int>(std::lround(256 * std::clamp(ink.opacity, 0.0, 1.0)));

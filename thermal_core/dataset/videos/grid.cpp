@@ -14,7 +14,7 @@ int even_down(int size_px) { return size_px - size_px % 2; }
 int even_up(int size_px) { return size_px + size_px % 2; }
 int rounded_px(double size_px) { return static_cast<int>(std::lround(size_px)); }
 
-/// Width over height of the widest and of the tallest frame: cells have room for both.
+/// Aspect ratio of a cell that holds the widest and the tallest frame.
 double flattest_ratio(const std::vector<PixelSize>& frames) {
   double ratio = std::numeric_limits<double>::infinity();
   for (const PixelSize& frame : frames)
@@ -24,7 +24,7 @@ double flattest_ratio(const std::vector<PixelSize>& frames) {
 
 int rows_of(int cells, int columns) { return (cells + columns - 1) / columns; }
 
-/// Full rows win among equals, for an empty cell is a hole.
+/// Prefers full rows among equals, to avoid empty cells.
 int best_columns(int cells, double ratio) {
   const auto badness = [&](int columns) {
     const int rows = rows_of(cells, columns);
@@ -38,12 +38,12 @@ int best_columns(int cells, double ratio) {
   return best;
 }
 
-/// Lengths that follow from how wide a cell is.
+/// Lengths that follow from a cell's width.
 struct Measures {
   int margin_px;
   int text_px;
   int caption_px;  ///< height
-  int bar_px;      ///< width with labels, and the gap before it
+  int bar_px;      ///< width including labels and the gap before it
   int gap_px;      ///< between picture and bar
 
   Measures(int width_px, int columns, bool bar) {
@@ -56,7 +56,7 @@ struct Measures {
   }
 };
 
-/// The frame's shape, as large as fits, in the middle of a row and at its top.
+/// The largest rectangle of the frame's shape in an area, centred at its top.
 PixelRect fitted(const PixelSize& frame, const PixelRect& room) {
   const double scale = std::min(static_cast<double>(room.width_px) / frame.width_px,
                                 static_cast<double>(room.height_px) / frame.height_px);

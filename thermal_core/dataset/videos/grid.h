@@ -22,25 +22,25 @@ struct PixelSize {
   int height_px = 0;
 };
 
-/// What a video shows at once.
+/// Request for the layout of a video.
 struct GridRequest {
   std::vector<PixelSize> frames;  ///< of each clip, row by row; at least one
-  int columns = 0;                ///< 0: as many as make the whole nearest to 16:9
+  int columns = 0;                ///< 0: for an aspect ratio of the whole closest to 16:9
   int width_px = 0;               ///< of the whole; 0: 1280 for one column, else 1920; at least 160 a column
   bool bar = false;               ///< a bar of temperatures beside each picture
   bool headings = false;          ///< a line of text over each column
 };
 
-/// Where one clip is shown.
+/// Layout of one clip.
 struct GridCell {
   PixelRect caption;  ///< over the picture
-  PixelRect picture;  ///< of the frame's shape
-  PixelRect bar;      ///< with its labels, to the right of the picture; empty if there is none
+  PixelRect picture;  ///< of the frame's aspect ratio
+  PixelRect bar;      ///< including its labels, to the right of the picture; empty if there is none
 };
 
-/// Where clips stand in a video.
+/// Layout of all clips of a video.
 struct Grid {
-  int width_px = 0;  ///< of the whole; both even, as video wants them
+  int width_px = 0;  ///< of the whole; both even, for video
   int height_px = 0;
   int text_px = 0;  ///< size of letters
   int columns = 0;
@@ -48,7 +48,7 @@ struct Grid {
   std::vector<PixelRect> headings;  ///< of each column; empty if there are none
 };
 
-/// Places of everything in a video. Cells are equally large; a picture fills as much of its cell as its shape lets it.
+/// Computes the layout of a video. Cells have equal sizes; a picture is as large as its shape allows.
 [[nodiscard]] Grid make_grid(const GridRequest& request);
 
 }  // namespace thermal

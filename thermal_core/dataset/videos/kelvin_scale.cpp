@@ -14,11 +14,11 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Temperatures are whole multiples of this while ticks are chosen, so that sums are exact.
+/// Temperatures are multiples of this while ticks are chosen, so that sums are exact.
 constexpr double kUnitsPerKelvin = 100;
 constexpr long kWidestUnits = 100'000;  // 1000 K
 
-/// Chooses ticks by dividing intervals as long as all parts are wide enough.
+/// Chooses ticks by dividing intervals while all parts are wide enough.
 class TickFinder {
  public:
   TickFinder(const KelvinScale& scale, double least_gap)
@@ -63,13 +63,13 @@ class TickFinder {
            });
   }
 
-  /// Places of both ends are known.
+  /// Whether both ends are on the scale.
   [[nodiscard]] bool is_inside(long from, long width) const {
     return place_of(from).has_value() && place_of(from + width).has_value();
   }
 
-  /// `leading`: the first digit of the width, 1, 2 or 5. Into as many parts as fit, or else, where the scale is
-  /// stretched unevenly, with those ticks alone that are far enough from others.
+  /// `leading`: the first digit of the width, 1, 2 or 5. Divides into as many parts as fit or, where the scale is
+  /// nonlinear, adds only ticks far enough from others.
   void divide(long from, long width, long leading) {
     const double low_k = static_cast<double>(from) / kUnitsPerKelvin;
     const double high_k = static_cast<double>(from + width) / kUnitsPerKelvin;

@@ -12,7 +12,7 @@
 
 namespace thermal {
 
-/// A range of apparent temperatures that a video shows.
+/// A range of apparent temperatures of a video.
 struct KelvinRange {
   double low_k = 0;
   double high_k = 0;
@@ -21,22 +21,22 @@ struct KelvinRange {
 /// "270:300". ConfigError "--range = …" unless 0 <= LO < HI <= 10000.
 [[nodiscard]] KelvinRange parse_kelvin_range(std::string_view text);
 
-/// Which apparent temperatures each of 256 levels stands for.
+/// Apparent temperatures of each of 256 levels.
 struct KelvinScale {
-  /// Level k is shown from edges_k[k] to edges_k[k + 1]; the first may be minus infinity, the last ones infinity.
-  /// They do not fall.
+  /// Level k covers edges_k[k] to edges_k[k + 1], non-decreasing; the first edge may be minus infinity, the last ones
+  /// infinity.
   std::array<double, kLevels + 1> edges_k{};
 
-  /// Where a temperature is on a bar of 256 bands of equal height, from 0 at the coldest end to 1; between the edges
-  /// of a level in proportion. Empty where that is not known: below the first finite edge or above the last.
+  /// Position of a temperature on a bar of 256 bands of equal height, from 0 at the coldest end to 1; linear between
+  /// the edges of a level. Empty below the first finite edge and above the last.
   [[nodiscard]] std::optional<double> place_of(double temperature_k) const;
 
-  /// Ends of what place_of() knows; the same twice where it knows nothing.
+  /// Range of place_of(); two equal ends if it is empty.
   [[nodiscard]] KelvinRange known() const;
 };
 
-/// That of a frame's tone curve: thresholds in counts of ir16, of kelvin_per_count each; all that is measured reaches a
-/// level of 1, nothing one of 65535.
+/// The scale of a frame's tone curve: thresholds in counts of ir16, of kelvin_per_count each. Everything measured reaches
+/// a threshold of 1, nothing reaches 65535.
 [[nodiscard]] KelvinScale scale_of_curve(const std::array<std::uint16_t, kLevels - 1>& thresholds,
                                          double kelvin_per_count);
 

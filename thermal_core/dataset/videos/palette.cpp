@@ -23,13 +23,13 @@ PaletteTable grey(bool white_hot) {
   return table;
 }
 
-/// A colour at a share of the way from cold to hot.
+/// A colour at a position from cold (0) to hot (1).
 struct ColourStop {
   double share;
   std::array<double, 3> colour;
 };
 
-/// Thermal cameras' usual "iron": estimates by eye of what vendors show, chosen so that lightness rises steadily.
+/// Thermal cameras' usual "iron": estimated from vendors' pictures, with steadily rising lightness.
 constexpr std::array<ColourStop, 8> kIronbow = {{{0.00, {0, 0, 12}},
                                                  {0.12, {34, 4, 104}},
                                                  {0.28, {112, 8, 150}},
@@ -71,15 +71,15 @@ PaletteTable of_opencv(cv::ColormapTypes map) {
   return table;
 }
 
-/// OpenCV's begins with red, which thermal cameras show as the hottest.
+/// OpenCV's begins with red, which thermal cameras use for the hottest.
 PaletteTable rainbow() {
   PaletteTable table = of_opencv(cv::COLORMAP_RAINBOW);
   std::ranges::reverse(table);
   return table;
 }
 
-/// Light, and as far apart in hue as so many can be, so that they differ from each other and from every palette; by a
-/// category's id, so that a species has one colour in all videos.
+/// Light, and as different as possible in hue from each other and from every palette; by category id, so that a species
+/// has one colour in all videos.
 constexpr std::array<PaletteColour, 18> kCategoryColours = {{{0, 229, 255},      // human
                                                              {124, 255, 107},    // elephant
                                                              {255, 214, 10},     // rhinoceros

@@ -6,15 +6,15 @@
 namespace thermal {
 namespace {
 
-/// Where a tag may be, seen from its box: which of its points (shares of its size) lies on which point of the box,
-/// and how many tag heights it is moved away from there.
+/// A candidate position of a tag relative to its box: the point of the tag, as a share of its size, that coincides with
+/// a point of the box, and an offset in tag heights.
 struct Position {
   double of_tag_x, of_tag_y;
   double of_box_x, of_box_y;
   double away_x, away_y;
 };
 
-/// The best ones first.
+/// In order of preference.
 constexpr std::array<Position, 16> kPositions = {{
     {0, 1, 0, 0, 0, 0},         // above, left edges in line
     {1, 1, 1, 0, 0, 0},         // above, right edges in line
@@ -22,7 +22,7 @@ constexpr std::array<Position, 16> kPositions = {{
     {1, 0, 1, 1, 0, 0},         //
     {0, 0.5, 1, 0.5, 0, 0},     // to the right
     {1, 0.5, 0, 0.5, 0, 0},     // to the left
-    {0, 1, 1, 0, 0.8, -0.8},    // off the corners, with a line that leads there
+    {0, 1, 1, 0, 0.8, -0.8},    // off the corners, with a leader line
     {1, 1, 0, 0, -0.8, -0.8},   //
     {0, 0, 1, 1, 0.8, 0.8},     //
     {1, 0, 0, 1, -0.8, 0.8},    //
@@ -39,7 +39,7 @@ int moved(int start_px, int length_px, double of_box, double of_tag, int tag_px,
   return static_cast<int>(start_px + of_box * length_px - of_tag * tag_px + away_px);
 }
 
-/// As near as it gets without leaving the picture.
+/// Clamped into the picture.
 int kept_inside(int start_px, int length_px, int from_px, int to_px) {
   return std::max(from_px, std::min(start_px, to_px - length_px));
 }
@@ -67,7 +67,7 @@ TagPlace TagPlacer::candidate(const Tagged& tagged, std::size_t number) const {
           .led = number >= kFirstLed};
 }
 
-/// Shares of the tag that cover something, weighed: the target itself, other tags and other targets.
+/// Weighted share of the tag that covers the target itself, other tags and other targets.
 double TagPlacer::cost_of(const TagPlace& place, const Tagged& owner, const std::vector<Tagged>& tags,
                           const std::vector<TagPlace>& placed) const {
   constexpr double kOwnBox = 8;
@@ -82,7 +82,7 @@ double TagPlacer::cost_of(const TagPlace& place, const Tagged& owner, const std:
 
 std::size_t TagPlacer::best_for(const Tagged& owner, const std::vector<Tagged>& tags,
                                 const std::vector<TagPlace>& placed) const {
-  constexpr double kStep = 0.02;  // each position is a little worse than the one before
+  constexpr double kStep = 0.02;  // earlier candidates are preferred
   constexpr double kMoving = 0.3;
   constexpr double kLed = 0.2;
   const auto last = last_.find(owner.track);

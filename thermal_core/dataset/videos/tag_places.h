@@ -10,27 +10,27 @@
 
 namespace thermal {
 
-/// A box of a target in the picture shown, and the tag that belongs to it.
+/// A target's box in the displayed picture, and its tag.
 struct Tagged {
   PixelRect box;
   PixelSize tag;
   std::int64_t track = 0;  ///< the same target in other frames
 };
 
-/// Where a tag is shown.
+/// Position of a tag.
 struct TagPlace {
   PixelRect tag;
-  bool led = false;  ///< it is so far off that a line leads to its box
+  bool led = false;  ///< so far off that a leader line connects it to its box
 };
 
-/// Finds places for tags beside boxes, inside a picture, so that they cover neither boxes nor each other where that
-/// can be avoided; a place is kept from frame to frame where it is still free.
+/// Places tags beside boxes, inside a picture, so that they cover neither boxes nor each other if possible; a tag keeps
+/// its position from frame to frame while that is free.
 class TagPlacer {
  public:
-  /// `picture`: tags stay within. `gap_px`: between box and tag.
+  /// `picture`: bounds of tags. `gap_px`: between box and tag.
   TagPlacer(const PixelRect& picture, int gap_px) : picture_(picture), gap_px_(gap_px) {}
 
-  /// Places of the tags of one frame, in their order. A tag larger than the picture starts at its top left.
+  /// Positions of the tags of one frame, in their order. A tag larger than the picture starts at its top left.
   [[nodiscard]] std::vector<TagPlace> place(const std::vector<Tagged>& tags);
 
  private:
@@ -42,10 +42,10 @@ class TagPlacer {
 
   PixelRect picture_;
   int gap_px_;
-  std::map<std::int64_t, std::size_t> last_;  ///< number of the candidate by track
+  std::map<std::int64_t, std::size_t> last_;  ///< candidate used last, by track
 };
 
-/// Pixels that two rectangles have in common.
+/// Area of the intersection of two rectangles.
 [[nodiscard]] double overlap_px(const PixelRect& a, const PixelRect& b) noexcept;
 
 }  // namespace thermal

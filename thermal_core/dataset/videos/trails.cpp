@@ -15,7 +15,7 @@ cv::Matx33d matrix_of(const FilmCamera& camera) {
   return {camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1};
 }
 
-/// The ray through a point of the picture in camera axes, z being 1.
+/// Direction of the ray through a point of the picture in camera axes, z being 1.
 cv::Vec3d ray_of(const FilmCamera& camera, const cv::Point2d& point) {
   const std::vector<cv::Point2d> shown = {point};
   std::vector<cv::Point2d> normalised;
@@ -33,7 +33,7 @@ cv::Vec3d to_world(const Pose& pose, const cv::Vec3d& camera_m) {
   return world;
 }
 
-/// The inverse, for the pose is a rotation and a shift.
+/// World to camera axes, by the inverse of a rigid motion.
 cv::Vec3d to_camera(const Pose& pose, const std::array<double, 3>& world_m) {
   cv::Vec3d camera;
   for (int c = 0; c < 3; ++c) {
@@ -43,7 +43,7 @@ cv::Vec3d to_camera(const Pose& pose, const std::array<double, 3>& world_m) {
   return camera;
 }
 
-/// How far along the ray the target is, in lengths of the ray; nothing where that is not known.
+/// Distance to the target along the ray, in lengths of the ray; empty if unknown.
 std::optional<double> reach_of(const FilmFrame& frame, const Label& label, const cv::Vec3d& ray) {
   if (label.range_m) return *label.range_m / cv::norm(ray);
   const Pose& pose = *frame.camera_to_world;
@@ -52,11 +52,11 @@ std::optional<double> reach_of(const FilmFrame& frame, const Label& label, const
   return *frame.agl_m / fall;
 }
 
-/// Where a camera shows a point of the place; nothing behind it or far out of the picture.
+/// Projection of a point of the scene; empty behind the camera or far out of the picture.
 std::optional<cv::Point2d> shown_at(const FilmCamera& camera, const Pose& pose,
                                     const std::array<double, 3>& world_m) {
   const cv::Vec3d point = to_camera(pose, world_m);
-  constexpr double kWidest = 2;  // tangent of the angle off the axis; distortion means nothing beyond
+  constexpr double kWidest = 2;  // tangent of the angle off the axis; the distortion model is invalid beyond
   if (point[2] <= 0 || std::hypot(point[0], point[1]) > kWidest * point[2]) return std::nullopt;
   std::vector<cv::Point2d> shown;
   cv::projectPoints(std::vector<cv::Point3d>{{point[0], point[1], point[2]}}, cv::Vec3d(), cv::Vec3d(),

@@ -9,38 +9,40 @@
 
 namespace thermal {
 
-/// Where a target was.
+inline constexpr double kTrailSeconds = 5;  ///< of the trails in videos and on pages
+
+/// An earlier position of a target.
 struct TrailPoint {
   double x_px = 0;  ///< in the frame that is shown
   double y_px = 0;
   double age_s = 0;  ///< 0: now
 };
 
-/// The way of one target, oldest first.
+/// Earlier positions of one target, oldest first.
 struct Trail {
   std::int64_t track = 0;
   std::size_t category = 0;  ///< place in LabelSet::categories
   std::vector<TrailPoint> points;
 };
 
-/// The ways of a clip's targets over the last seconds.
+/// Trails of a clip's targets over the last seconds.
 ///
-/// Where a frame's pose and a label's range are known, the middle of its box is a point of the place, which is shown
-/// where the camera of a later frame sees it: the trail lies on the ground as the camera moves on. Without a range the
-/// ground counts as level, agl_m below the camera. Without poses points stay where they were in the picture.
-/// Boxes that the edge of the picture cuts are left out: their middles are not those of targets.
+/// Where a frame's pose and a label's range are known, the centre of its box is a point of the scene, which is
+/// projected into later frames: the trail stays on the ground as the camera moves. Without a range, the ground is taken
+/// as level, agl_m below the camera. Without poses, points keep their position in the picture. Boxes cut by the edge of
+/// the picture are left out, because their centres are not those of targets.
 class Trails {
  public:
   /// `film`, with labels, must outlive this.
   Trails(const ClipFilm& film, double seconds);
 
-  /// Of one of the film's frames, in the order of tracks; those with two points or more.
+  /// Trails in one of the film's frames, in the order of tracks; those with two points or more.
   [[nodiscard]] std::vector<Trail> at(std::size_t frame) const;
 
  private:
   struct Mark {
     std::size_t frame = 0;
-    double x_px = 0;  ///< the middle of the box in its own frame
+    double x_px = 0;  ///< centre of the box in its own frame
     double y_px = 0;
     std::array<double, 3> world_m{};
     bool anchored = false;  ///< world_m is known

@@ -48,7 +48,7 @@ void check_count(const std::vector<std::string>& ids, const Path& source) {
                                 source.string(), ids.size(), kMostClips));
 }
 
-/// Those that another dataset has, too. Clips that were asked for must all be there.
+/// Clips that another dataset has as well. Requested clips must all exist there.
 std::vector<std::string> common_clips(const std::vector<std::string>& ids, const FilmedDataset& other,
                                       bool asked) {
   if (asked) {
@@ -65,7 +65,7 @@ std::vector<std::string> common_clips(const std::vector<std::string>& ids, const
   return common;
 }
 
-/// All that is shown, in the order of the grid's cells.
+/// Everything that is shown, in the order of the grid's cells.
 struct Programme {
   std::vector<FilmedDataset> datasets;  ///< one, or two side by side
   std::vector<ClipFilm> films;
@@ -117,7 +117,7 @@ Programme read_programme(const VideoRequest& request) {
   return programme;
 }
 
-/// Names over the columns: those of the datasets, or of their folders where both have one name.
+/// Headings over the columns: the datasets' names, or those of their folders if both have one name.
 std::vector<std::string> headings_of(const Programme& programme) {
   std::vector<std::string> headings;
   for (const FilmedDataset& dataset : programme.datasets) headings.push_back(dataset.name);
@@ -138,7 +138,7 @@ Grid grid_of(const Programme& programme, const VideoRequest& request) {
   return make_grid(what);
 }
 
-/// The last of a film's frames that was taken by then; the first before that.
+/// The last frame of a film that was taken at or before a time; otherwise the first.
 std::size_t frame_at(const ClipFilm& film, double time_s) {
   constexpr double kRounding = 1e-6;  // of a frame
   const double index = std::floor(time_s * film.frame_rate_hz + kRounding);
@@ -197,7 +197,7 @@ class Painter {
   std::vector<CellPainter> cells_;
 };
 
-/// Y, U and V of a whole frame.
+/// Copies Y, U and V of a whole frame.
 void copy_planes(const cv::Mat& i420, const H264File::Planes& out) {
   const std::uint8_t* from = i420.data;
   for (std::size_t plane = 0; plane < 3; ++plane) {
@@ -211,7 +211,7 @@ void copy_planes(const cv::Mat& i420, const H264File::Planes& out) {
 void write_video(Painter& painter, const Programme& programme, const VideoRequest& request,
                  const RunHooks& hooks) {
   TemporaryFile part(request.out);
-  // Four threads whatever the machine has. At 20, noise and thin lines look as in the frames.
+  // Four threads on every machine. At 20, noise and thin lines look as in the frames.
   H264File file(part.path(), {.frame_rate_hz = programme.rate_hz(),
                               .width_px = painter.grid().width_px,
                               .height_px = painter.grid().height_px,

@@ -12,13 +12,13 @@
 
 namespace thermal {
 
-/// Most clips that one video shows.
+/// Maximum number of clips in a video.
 inline constexpr std::size_t kMostClips = 16;
 
-/// What a video shows, and how.
+/// Contents and options of a video.
 struct VideoRequest {
   Path source;  ///< a dataset, or a clip's folder in one
-  Path beside;  ///< another dataset, whose clips of the same ids are shown beside; empty: none
+  Path beside;  ///< another dataset, whose clips of the same ids are shown side by side; empty: none
   Path out;     ///< .mp4: a video; .png, .jpg, .jpeg: one frame of it
   std::vector<std::string> clips;  ///< ids; none: all that are finished
   std::string palette = "white_hot";
@@ -26,12 +26,12 @@ struct VideoRequest {
   bool tracks = false;
   bool scale = false;                ///< a bar of temperatures
   std::optional<KelvinRange> range;  ///< ir16 on a fixed scale, instead of ir8
-  std::optional<int> frame;          ///< of pictures: which; none: the middle one
+  std::optional<int> frame;          ///< of pictures: index; none: the middle one
   int width_px = 0;                  ///< of the whole; 0: 1280 for one column of clips, else 1920
   Assets assets;
 };
 
-/// What was written.
+/// Result of make_video().
 struct VideoOutcome {
   int frames = 0;  ///< written
   double seconds = 0;
@@ -42,11 +42,10 @@ struct VideoOutcome {
   std::vector<std::string> not_made;  ///< clips left out because they are not finished
 };
 
-/// Makes a video, or a picture of one frame, for people to look at. The frame rate is the fastest of the clips; slower
-/// ones hold their frames, and shorter ones their last. Memory does not grow with the frames but by what is said of
-/// each. The same request gives the same bytes with the same versions of x264 and FreeType.
-/// ConfigError for what cannot be asked for, DataError or IoError naming a file that is damaged or not there,
-/// TryAgainError when the disk is full, Cancelled.
+/// Makes a video, or a picture of one frame, for viewing. The frame rate is the highest of the clips; slower ones
+/// repeat frames, and shorter ones their last. Memory grows only with the frames' metadata. The same request gives the
+/// same bytes with the same versions of x264 and FreeType. ConfigError for invalid requests, DataError or IoError for
+/// damaged or missing files, TryAgainError when the disk is full, Cancelled.
 VideoOutcome make_video(const VideoRequest& request, const RunHooks& hooks);
 
 }  // namespace thermal

@@ -18,7 +18,7 @@
 namespace thermal {
 namespace {
 
-/// Whether run lengths, which anybody may have written, are those of one frame.
+/// Whether untrusted run lengths cover exactly one frame.
 bool covers_frame(const Json& segmentation, const ClipFilm& film) {
   if (segmentation.value("size", Json()) != Json{film.height_px, film.width_px}) return false;
   const Json counts = segmentation.value("counts", Json());
@@ -57,7 +57,7 @@ Json categories_of_clip(const LabelSet& set) {
   return categories;
 }
 
-/// A label without a track is a target of its own.
+/// A label without a track is a separate target.
 Json targets_of_clip(const LabelSet& set) {
   std::map<std::size_t, std::set<std::pair<bool, LabelId>>> targets;
   for (const Label& label : set.labels)
@@ -88,8 +88,8 @@ Json label_in_view(const Label& label, const ClipMasks& masks) {
   return json;
 }
 
-/// x, y and age, one point after another: the first of each half second of the clip, so that a trail does not waver
-/// from frame to frame, and the newest.
+/// x, y and age, one point after another: the first of each half second of the clip, so that a trail is stable from
+/// frame to frame, and the newest.
 Json trail_in_view(const Trail& trail, double now_s) {
   constexpr double kStepSeconds = 0.5;
   constexpr double kRounding = 1e-6;
@@ -153,7 +153,7 @@ Json clip_figures(const ClipFilm& film, const std::string& camera, const std::st
 Json frame_figures(const FrameParts& parts, std::size_t number) {
   const ClipFilm& film = parts.film;
   const FilmFrame& frame = film.frames[number];
-  (void)film.read_levels(number);  // to find damage now, and not in the page
+  (void)film.read_levels(number);  // reports damage now, and not in the page
   (void)film.read_counts(number);
   Json json = {{"clip", film.id}, {"frame", frame.frame_index}, {"time_s", frame.time_s}};
   if (frame.agl_m) json["agl_m"] = *frame.agl_m;

@@ -15,18 +15,18 @@
 #include "dataset/exports/export_folder.h"
 #include "dataset/videos/clip_source.h"
 #include "dataset/videos/palette.h"
+#include "dataset/videos/trails.h"
 #include "dataset/view/clip_figures.h"
 #include "io/system/base64.h"
 
 namespace thermal {
 namespace {
 
-constexpr double kViewTrailSeconds = 5;
 constexpr const char* kViewRecord = "view.json";
 constexpr const char* kViewFormat = "veldt-view";
 constexpr const char* kPage = "index.html";
 
-/// Files of the page as they are in assets/, by their folder there; the page names them.
+/// Files of the page, copied from assets/, by their folder there.
 constexpr std::array<std::pair<const char*, const char*>, 11> kCode = {{{"report", "style.css"},
                                                                         {"report", "elements.js"},
                                                                         {"view", "view.css"},
@@ -39,7 +39,7 @@ constexpr std::array<std::pair<const char*, const char*>, 11> kCode = {{{"report
                                                                         {"view", "screen.js"},
                                                                         {"view", "page.js"}}};
 
-/// A script that hands JSON to a function of the page. ASCII, so that its bytes mean the same in any encoding.
+/// A script that passes JSON to a function of the page. ASCII, so that its bytes mean the same in any encoding.
 std::string call_of(const char* function, const Json& json) {
   return fmt::format("{}({});\n", function, json.dump(-1, ' ', true, Json::error_handler_t::replace));
 }
@@ -105,12 +105,13 @@ class ViewWriter {
     for (std::size_t k = 0; k < ids.size(); ++k) write_clip(ids[k], records[k].season);
   }
 
-  /// The list of clips, and last of all the record.
+  /// Writes the list of clips, and finally the record.
   ViewOutcome finish(const std::vector<std::string>& not_made) {
     write_text(Path("data") / "dataset.js",
                call_of("takeDataset", {{"name", dataset_.name},
                                        {"kelvin_per_count", dataset_.kelvin_per_count},
                                        {"palettes", palettes_of_page()},
+                                       {"trail_s", kTrailSeconds},
                                        {"clips", clips_},
                                        {"not_made", not_made}}));
     write_text(kViewRecord, to_text({{"format", kViewFormat},
@@ -130,7 +131,7 @@ class ViewWriter {
   void write_clip(const std::string& id, const std::string& season) {
     const ClipFilm film = read_clip_film(dataset_, id, true);
     const ClipMasks masks = read_clip_masks(film);
-    const Trails trails(film, kViewTrailSeconds);
+    const Trails trails(film, kTrailSeconds);
     const FrameParts parts{
         .film = film, .masks = masks, .trails = trails, .kelvin_per_count = dataset_.kelvin_per_count};
     make_folder(folder_ / "data" / id);

@@ -11,7 +11,7 @@
 
 namespace thermal {
 
-/// What a page shows, and where it goes.
+/// Options of a page.
 struct ViewRequest {
   Path source;  ///< a dataset, or a clip's folder in one
   Path out;     ///< folder of the page; new, empty, or of an earlier page, which is replaced
@@ -19,7 +19,7 @@ struct ViewRequest {
   Assets assets;
 };
 
-/// What was written.
+/// Result of write_view().
 struct ViewOutcome {
   Path page;  ///< to be opened in a browser
   std::size_t clips = 0;
@@ -30,11 +30,10 @@ struct ViewOutcome {
 
 /// Writes a page to look through a dataset's frames, for a browser without a server: index.html, its scripts in `code`,
 /// and in `data` one script per frame, which the page loads when it shows the frame, with its labels and both PNG files
-/// (4/3 of their size): a page from a file may run the files beside it, but not fetch them. Memory does not grow with
-/// the frames but by what is said of each. OUT is complete or unchanged; the same dataset gives the same bytes.
-/// ConfigError for an OUT that holds anything but such a page and for what cannot be asked for; DataError or IoError
-/// naming a file that is damaged or not there; TryAgainError when the disk is full or another run writes OUT;
-/// Cancelled.
+/// (4/3 of their size): a page opened from a file may run scripts beside it, but not fetch files. Memory grows only
+/// with the frames' metadata. OUT is complete or unchanged; the same dataset gives the same bytes. ConfigError for an
+/// OUT that holds anything but such a page, and for invalid requests; DataError or IoError for damaged or missing
+/// files; TryAgainError when the disk is full or another run writes OUT; Cancelled.
 ViewOutcome write_view(const ViewRequest& request, const RunHooks& hooks);
 
 }  // namespace thermal

@@ -12,7 +12,7 @@
 
 namespace thermal {
 
-/// A thing without heat of its own that follows the weather within minutes: horns, a rifle.
+/// An unheated object that follows the weather within minutes: horns, a rifle.
 struct Unheated {
   BodySurface surface = {.albedo = 0.3, .emissivity = 0.95, .diameter_m = 0.1};
 
@@ -27,7 +27,7 @@ struct EngineWarmed {
   [[nodiscard]] bool operator==(const EngineWarmed&) const = default;
 };
 
-/// A thing that is warmed at a constant rate, by electricity, decay or a small fire: a lamp, a generator, a dung heap.
+/// An object with constant heating, by electricity, decay or a small fire: a lamp, a generator, a dung heap.
 struct Powered {
   Sheet sheet = {};
   double excess_k = 0;  ///< above what the weather alone gives it, 0 to 900
@@ -47,42 +47,42 @@ struct FirePart {
   [[nodiscard]] bool operator==(const FirePart&) const = default;
 };
 
-/// What a camp fire does.
+/// State of a camp fire.
 struct FireState {
-  CampFire fire = {};   ///< its burning_s is that until the moment, or until its flames went out
+  CampFire fire = {};   ///< until now, or until its flames went out
   bool burning = true;  ///< has flames
   double since_s = 0;   ///< since its flames went out
 
   [[nodiscard]] bool operator==(const FireState&) const = default;
 };
 
-/// What heats or cools a part of an actor, or of what stands in a place; std::monostate: it has the temperature of the air.
+/// What sets the temperature of a part of an actor or of a structure; std::monostate: that of the air.
 using BodyHeat = std::variant<std::monostate, Clothing, Coat, ColdBlooded, Unheated, Sheet, EngineWarmed,
                               Powered, FirePart>;
 
 /// ConfigError with `where` if a value is outside its domain.
 void validate(const BodyHeat& heat, const std::string& where);
 
-/// What the temperature of an actor's parts depends on at a moment. A part takes what concerns it.
+/// Inputs for the temperatures of an actor's parts at one moment; each part uses some of them.
 struct BodyMoment {
   Surroundings around;
   Activity activity = Activity::standing;
-  double dress = 0.5;  ///< of the person, 0 (thin clothes) to 1: where in its ranges
+  double dress = 0.5;  ///< of the person, 0 (light clothes) to 1: position in its ranges
   double since_bath_s = std::numeric_limits<double>::infinity();  ///< since it left the water
-  /// Temperature of what a cold-blooded animal came from, water or ground; without, that of the ground around.
+  /// Temperature of the water or ground that a cold-blooded animal rested in; empty: that of the ground around it.
   std::optional<double> refuge_k = {};
   VehicleState vehicle = {};
   FireState fire = {};
   std::optional<double> roof_k = {};  ///< of a level sheet of metal, from day_of_slab(); without, its balance
 };
 
-/// Temperature of a part where its surface has a slope [K], as the mean over all azimuths. Total for finite moments: air
-/// of 230 K to 325 K, wind 0 to 20 m/s and beyond.
+/// Temperature of a part where its surface has a slope [K], averaged over all azimuths. Defined for all finite moments:
+/// air of 230 K to 325 K, wind 0 to 20 m/s and beyond.
 /// @param normal_z  of the surface's unit normal, 1 (facing the sky) to -1, clamped
 [[nodiscard]] double part_temperature_k(const BodyHeat& heat, const BodyMoment& moment,
                                         double normal_z) noexcept;
 
-/// The same where its surface faces a direction, a unit vector; different only in sunlight.
+/// The same for a surface with a unit normal; different only in sunlight.
 [[nodiscard]] double part_temperature_k(const BodyHeat& heat, const BodyMoment& moment,
                                         const EastNorthUp& normal) noexcept;
 

@@ -7,19 +7,8 @@ namespace thermal {
 
 inline constexpr double kCloM2KW = 0.155;  ///< insulation of 1 clo [m^2 K W^-1]
 
-/// Temperature of the skin of a person in comfort [K]: 35.7 deg C - 0.028 (M - W) (ISO 7730:2005, equation 1's term).
-/// @param heat_w_m2  M - W, the metabolic rate without the work done
-[[nodiscard]] double comfortable_skin_k(double heat_w_m2) noexcept;
-
 /// Area of clothes over that of the skin below (ISO 7730:2005): 1 + 1.29 I up to I = 0.078 m^2 K/W, 1.05 + 0.645 I above.
 [[nodiscard]] double clothing_area_factor(double insulation_clo) noexcept;
-
-/// Surface of the clothes of a person in comfort [K], the balance of ISO 7730:2005 (in kelvin; its computer program takes
-/// 273 K for 0 deg C, which changes the result by less than 0.02 K from 10 to 30 deg C):
-/// (skin - t) / (0.155 clo) = f [h (t - air) + 3.96e-8 (t^4 - radiant^4)].
-/// @param wind_m_s  past the person
-[[nodiscard]] double comfortable_clothing_k(double insulation_clo, double heat_w_m2, double air_k,
-                                            double radiant_k, double wind_m_s) noexcept;
 
 /// Clothes on a part of a person, or what a person carries. Outdoors the skin below is not in comfort: it has the
 /// temperature at which the body's heat passes through tissue and clothes.

@@ -19,13 +19,13 @@ struct Coat {
   [[nodiscard]] bool operator==(const Coat&) const = default;
 };
 
-/// Share of what a wet surface evaporates: what the skin gives off itself, and what is left of the bath.
+/// Evaporation as a share of a wet surface's: from the skin itself, and what is left of the bath.
 /// @param since_bath_s  at least 0; infinite: never
 [[nodiscard]] double wet_share(const Coat& coat, double since_bath_s) noexcept;
 
-/// What the tissue of an animal at rest insulates more than that of one that forages [m^2 K/W]: 0.1 in air up to 283 K, in a
-/// straight line to 0 at 293 K. An estimate: an elephant then gives off 1.7 times its basal rate in air of 273 K, not 2.7; adult
-/// cattle have 0.12 to 0.25 in all (Nutrient Requirements of Beef Cattle, NRC 1996).
+/// Additional insulation by the tissue of an animal at rest, against one that forages [m^2 K/W]: 0.1 in air up to 283
+/// K, falling linearly to 0 at 293 K. An estimate: an elephant then gives off 1.7 times its basal rate in air of 273 K,
+/// not 2.7; adult cattle have 0.12 to 0.25 in all (Nutrient Requirements of Beef Cattle, NRC 1996).
 [[nodiscard]] double resting_tissue_m2_k_w(double air_k) noexcept;
 
 /// Surface of a coat or of bare skin [K]. A person's air moves past it as past clothes; an animal that walks is cooled by
@@ -33,7 +33,7 @@ struct Coat {
 [[nodiscard]] double coat_surface_k(const Coat& coat, Activity activity, double since_bath_s,
                                     const Forcing& forcing, const Incoming& incoming) noexcept;
 
-/// A cold-blooded body: what it lay in or on has warmed it.
+/// A cold-blooded body, warmed by the water or ground that it rested in.
 struct ColdBlooded {
   double above_k = 1;          ///< core above the water or ground that it came from, -20 to 20
   double tissue_m2_k_w = 0.1;  ///< from the core to the surface, above 0 to 10

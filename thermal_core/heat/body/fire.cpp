@@ -63,7 +63,7 @@ double fireside_ground_k(const CampFire& fire, const Surroundings& around, const
                          double undisturbed_k, double distance_m) noexcept {
   const BodySurface surface = as_body(ground);
   const Incoming incoming = incoming_on_slope(around, 1);
-  // Heat from below that keeps the ground as it is without the fire.
+  // Heat from below in equilibrium without the fire.
   const double from_below = -body_flux(surface, {}, around.forcing, incoming, undisturbed_k).flux_w_m2;
   const HeatWithin within = {
       .inside_k = undisturbed_k,
@@ -78,10 +78,10 @@ double ash_bed_k(const CampFire& fire, const Surroundings& around, const GroundP
   surface.emissivity = fire.emissivity;
   const Incoming incoming = incoming_on_slope(around, 1);
   const double from_below = -body_flux(surface, {}, around.forcing, incoming, undisturbed_k).flux_w_m2;
-  // What embers give when the flames go out is what keeps the bed as hot as it is then.
+  // Power of the embers when the flames go out: what keeps the bed at its temperature at that moment.
   const double full =
       -body_flux(surface, {}, around.forcing, incoming, bed_mean_k(fire)).flux_w_m2 - from_below;
-  // Ground of bed_mean_k for the time of burning conducts back what erfc has left of it.
+  // Heat that the ground took up at bed_mean_k while the fire burnt, and returns.
   const double since = std::max(1.0, since_s);
   const double inertia = thermal_inertia(ground);
   const double back = inertia / std::sqrt(kPi) * (bed_mean_k(fire) - undisturbed_k) *

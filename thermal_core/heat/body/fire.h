@@ -17,7 +17,7 @@ struct CampFire {
   double ash_k = 620;         ///< surface of ash above embers, 300 to 1000
   double emissivity =
       0.95;  ///< of embers and ash, above 0 to 1; charcoal powder 0.96 (Craftsman 81998 manual)
-  double burning_s = 7200;  ///< for which it has burnt or did burn, at least 0
+  double burning_s = 7200;  ///< duration of burning, at least 0
 
   /// ConfigError with `where` if a value is outside its domain.
   void validate(const std::string& where) const;
@@ -34,22 +34,22 @@ struct CampFire {
 /// Emissivity of its flames seen across the bed: 1 - exp(-absorption * diameter).
 [[nodiscard]] double flame_emissivity(const CampFire& fire) noexcept;
 
-/// Blackbody temperature that radiates as much over all wavelengths as the burning bed does, embers and ash [K].
+/// Temperature of a blackbody that radiates as much over all wavelengths as the burning bed of embers and ash [K].
 [[nodiscard]] double bed_mean_k(const CampFire& fire) noexcept;
 
-/// Radiation that level ground gets at a distance from the middle [W m^-2]: a point source of the radiant power at half
-/// of the flames' height, at least 0.1 m. Within the bed as at its edge.
+/// Irradiance of level ground at a distance from the bed's centre [W m^-2]: a point source of the radiant power at half
+/// of the flames' height, at least 0.1 m. Within the bed, that at its edge.
 [[nodiscard]] double fire_irradiance_w_m2(const CampFire& fire, double distance_m) noexcept;
 
-/// Temperature of the ground around a fire that burns [K]: balance of its radiation with air, sky and what has passed into
-/// the ground, inertia / sqrt(pi time) per kelvin, within 1000 K. An infinite time: steady, nothing passes into the ground.
+/// Temperature of the ground around a burning fire [K]: balance of its radiation with air, sky and the heat conducted
+/// into the ground, inertia / sqrt(pi time) per kelvin, within 1000 K. An infinite time: steady state, no conduction.
 /// @param undisturbed_k  without the fire
 [[nodiscard]] double fireside_ground_k(const CampFire& fire, const Surroundings& around,
                                        const GroundProperties& ground, double undisturbed_k,
                                        double distance_m) noexcept;
 
-/// Temperature of the ash bed's surface after the flames went out [K]. Embers below burn down to 1/e of their heat in
-/// `ember_s`; the ground below gives back what it took up while it burnt.
+/// Temperature of the ash bed's surface after the flames went out [K]. The embers' power decays to 1/e in `ember_s`;
+/// the ground below returns heat that it took up during the fire.
 /// @param since_s  at least 0
 [[nodiscard]] double ash_bed_k(const CampFire& fire, const Surroundings& around,
                                const GroundProperties& ground, double undisturbed_k, double since_s,

@@ -28,10 +28,10 @@ struct DrawnRange {
 /// Speed of the air past a person [m/s]: 0.3 m/s more for each met above 1 (as in pythermalcomfort 4.8.1, v_relative).
 [[nodiscard]] double relative_wind_m_s(double wind_m_s, double metabolic_w_m2) noexcept;
 
-/// The way of a body's heat from its core to its skin. Vessels are narrow in the cold: the resistance goes in a straight
-/// line from `cold` in air of 283 K to `warm` in air of 303 K and stays beyond. Walking acts as air that is 10 K warmer
-/// (estimate, from hands in the JOS-3 model, pythermalcomfort 4.8.1). It depends on the air and not on the skin so that a
-/// balance has one solution.
+/// Thermal resistance from a body's core to its skin. Vessels narrow in the cold: the resistance is linear in the air's
+/// temperature from `cold` at 283 K to `warm` at 303 K, and constant beyond. Walking acts as air that is 10 K warmer
+/// (estimate, from hands in the JOS-3 model, pythermalcomfort 4.8.1). It depends on the air and not on the skin, so
+/// that a balance has one solution.
 struct Tissue {
   double core_k = 310;        ///< 270 to 320
   double warm_m2_k_w = 0.04;  ///< 0 to 10

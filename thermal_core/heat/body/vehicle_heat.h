@@ -15,7 +15,7 @@ enum class EngineState {
   parked   ///< off
 };
 
-/// What a vehicle's engine does.
+/// State of a vehicle's engine.
 struct VehicleState {
   EngineState engine = EngineState::parked;
   double since_s = 1e9;  ///< since when, at least 0
@@ -47,14 +47,14 @@ struct Sheet {
 [[nodiscard]] double sheet_k(const Sheet& sheet, const Surroundings& around, std::optional<double> roof_k,
                              const Incoming& incoming) noexcept;
 
-/// Warmth of a part of a vehicle above what the weather gives it.
+/// Excess temperature of a part of a vehicle over what the weather gives it.
 struct EngineWarmth {
   double driving_k = 0;  ///< after a long drive, 0 to 900
   double idling_k = 0;   ///< after a long time with the engine running while it stands, 0 to 900
   double parked_k = 0;  ///< to which it tends just after stopping, when no wind of driving cools it, 0 to 900
-  double soak_s = 300;  ///< time of that to 1/e, 1 to 1e5; shorter than cooling_s
-  double cooling_s = 3600;  ///< time of its decay to 1/e, 1 to 1e6
-  double warming_s = 600;   ///< time of warming up to 1/e of what is missing, 1 to 1e6
+  double soak_s = 300;  ///< time constant of that rise, 1 to 1e5; shorter than cooling_s
+  double cooling_s = 3600;  ///< time constant of its decay, 1 to 1e6
+  double warming_s = 600;   ///< time constant of warming up, 1 to 1e6
 
   /// ConfigError with `where` if a value is outside its domain.
   void validate(const std::string& where) const;

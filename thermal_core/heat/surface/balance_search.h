@@ -6,16 +6,15 @@
 
 namespace thermal {
 
-/// Heat that something gets [W m^-2], and how that changes with its temperature, or nearly so.
+/// Net heat flux into a surface [W m^-2], and its exact or approximate derivative by temperature.
 struct SurfaceFlux {
   double flux_w_m2 = 0;
   double slope_w_m2_k = 0;  ///< negative
 };
 
-/// Temperature at which a flux that falls with temperature is 0. A step by the slope from `guess_k`, then by the secant,
-/// until one is below 1e-6 K; bisection where steps leave what is known, or after 20 of them. Within 100 K to 2000 K; NaN
-/// for NaN.
-/// @param flux_at  SurfaceFlux(double temperature_k); its slope may leave small parts out
+/// Root of a flux that falls with temperature [K]: a Newton step from `guess_k`, then the secant method until a step is
+/// below 1e-6 K; bisection where a step leaves the bracket, or after 20 steps. Within 100 K to 2000 K; NaN for NaN.
+/// @param flux_at  SurfaceFlux(double temperature_k); its derivative may neglect small parts
 template <typename FluxAt>
 [[nodiscard]] double balanced_temperature_k(const FluxAt& flux_at, double guess_k) noexcept {
   constexpr double kSettledK = 1e-6;

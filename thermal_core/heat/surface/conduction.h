@@ -26,10 +26,10 @@ class Conduction {
   /// All layers start at `start_k`. `step_s` above 0.
   Conduction(const GroundProperties& properties, const Layers& layers, double step_s, double start_k);
 
-  /// What the body takes up in the next step, by the temperature of its surface at the step's end.
+  /// Heat uptake in the next step, as a function of the surface's temperature at the step's end.
   [[nodiscard]] HeatUptake prepare() noexcept;
 
-  /// Ends the step that was prepared, with that temperature. Returns the heat that went in [W m^-2].
+  /// Ends the prepared step with that surface temperature. Returns the heat flux into the body [W m^-2].
   double finish(double surface_k) noexcept;
 
   /// Temperatures of the layers [K].

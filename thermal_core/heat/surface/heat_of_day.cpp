@@ -81,7 +81,7 @@ Weights smooth_weights(const std::vector<double>& nodes, double value) noexcept 
   return weights;
 }
 
-/// Level ground at a node; leaves deep in a crown get as little sun as sky.
+/// Level ground at a node; leaves deep in a crown get the same share of sun as of sky.
 SurfacePlace level_place(const HeatNodes& nodes, std::size_t node) {
   const std::size_t moistures = nodes.moisture.size();
   const std::size_t suns = nodes.sunlit.size();
@@ -93,15 +93,15 @@ SurfacePlace level_place(const HeatNodes& nodes, std::size_t node) {
           .depth_m = nodes.is_water ? nodes.moisture[node % moistures] : 1};
 }
 
-/// Of a layer as deep as a metre of water that is mixed all through. What its wet bed takes up in a day counts as 6 cm
-/// more: 2.8 MJ/(m^3 K) times 0.13 m, to which heat gets, over the root of 2.
+/// Properties of a depth of water, mixed all through, from those of one metre. The heat uptake of its wet bed in a day
+/// counts as 6 cm more: 2.8 MJ/(m^3 K) times the penetration depth of 0.13 m, over sqrt(2).
 SlabProperties at_depth(SlabProperties metre, double depth_m) noexcept {
   constexpr double kBedM = 0.06;
   metre.heat_capacity_j_m2_k *= (depth_m + kBedM) / (1 + kBedM);
   return metre;
 }
 
-/// Number of the level column in full sun below an open sky.
+/// Index of the level column in full sun below an open sky.
 std::size_t open_node(const HeatNodes& nodes, std::size_t moisture) {
   return (nodes.sky_view.size() * nodes.sunlit.size() - 1) * nodes.moisture.size() + moisture;
 }
@@ -114,7 +114,7 @@ const GroundHeat& ground_of(const std::map<std::string, MaterialHeat>& materials
   throw ConfigError(fault(user, fmt::format("\"{}\"", name), "", "a material with heat.ground"));
 }
 
-/// What leaves grow on, and soil for all else.
+/// What leaves grow on; soil for all other materials.
 const GroundHeat& ground_below(const std::map<std::string, MaterialHeat>& materials,
                                const std::string& name) {
   if (const auto* leaves = std::get_if<LeavesHeat>(&materials.at(name)))
@@ -254,7 +254,7 @@ HeatOfMoment HeatOfDay::at(double solar_h, const std::set<std::string>& material
                          .sun = sun_of_surfaces(weather_.sun, solar_h),
                          .materials = {}};
   const std::scoped_lock lock(mutex_);
-  // While it waits for the columns, this thread must not take on work that asks for some itself.
+  // While it waits, this thread must not take on work that needs columns itself.
   run_isolated([&] { compute(materials); });
   for (const std::string& name : materials) {
     if (const auto found = columns_.find(name); found != columns_.end())

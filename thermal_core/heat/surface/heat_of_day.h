@@ -13,7 +13,7 @@
 
 namespace thermal {
 
-/// What a place does to a surface there.
+/// Exposure of a surface to sky, sun and water.
 struct SurfacePlace {
   EastNorthUp normal = {0, 0, 1};
   double sky_view = 1;  ///< share of the sky that its slope leaves and nothing hides, 0 to 1
@@ -41,10 +41,10 @@ struct HeatNodes {
   }
 };
 
-/// Temperatures of one material at one moment, by place: those of level surfaces, and what slopes add in full sun.
+/// Temperatures of one material at one moment, by exposure: those of level surfaces, and what slopes add in full sun.
 class MaterialMoment {
  public:
-  /// `level_k` by sky view, in it by sunlit, in it by moisture; `slopes_k` by node of moisture.
+  /// `level_k` by sky view, then sunlit, then moisture; `slopes_k` by moisture.
   MaterialMoment(HeatNodes nodes, std::vector<double> level_k, std::vector<Orientation> slopes_k);
 
   /// Values outside of the nodes count as the nearest node's.
@@ -70,7 +70,7 @@ struct HeatOfMoment {
   std::map<std::string, MaterialMoment> materials;
 };
 
-/// Of the days of tables, between whose nodes temperatures are a fifth of a kelvin off: half of the usual steps.
+/// For tables, whose interpolation is a fifth of a kelvin off: half of the usual steps.
 inline constexpr HeatSteps kTableSteps = {.per_day = 144};
 
 /// The temperatures of materials over a day that repeats itself. The columns of heat of a material are computed when it is

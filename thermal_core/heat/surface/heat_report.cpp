@@ -14,11 +14,11 @@ using Materials = std::map<std::string, MaterialHeat>;
 
 constexpr double kSeenInCrown = 0.6;
 
-/// Weather and sky as one variant of a report has them.
+/// Weather and sky of one variant of a report.
 struct Conditions {
   DayWeather weather;
   double more_sky_w_m2 = 0;
-  bool even_air = false;  ///< as warm at all heights
+  bool even_air = false;  ///< the same temperature at all heights
 };
 
 std::vector<Forcing> forcing_of(const Conditions& conditions, int steps) {
@@ -77,7 +77,7 @@ DayWeather sheltered(DayWeather weather) {
 
 // --- properties -------------------------------------------------------------------------------------------------------
 
-/// Ways in which a material's properties may differ from what is assumed, each by one standard deviation.
+/// Variants of a material's properties, each changed by one standard deviation.
 std::vector<MaterialHeat> other_properties(const MaterialHeat& heat) {
   std::vector<MaterialHeat> others;
   const auto add = [&](const auto& change) {

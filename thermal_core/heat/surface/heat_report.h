@@ -21,7 +21,7 @@ struct Crossover {
   std::string colder;
 };
 
-/// What a change of one input does to the materials at a moment.
+/// Sensitivity of the materials' temperatures at a moment to one input.
 struct InputWorth {
   std::string input;                       ///< in words, such as "wind + 1 m/s"
   std::map<std::string, double> change_k;  ///< by material
@@ -34,17 +34,17 @@ struct HeatReport {
   std::vector<InputWorth> inputs;     ///< at the moment that was asked for
   /// One standard deviation of each material's temperature at that moment that its properties' sources leave [K]. The
   /// spread of each property is an estimate: conductivity 35 %, heat capacity 12 %, albedo 0.04, emissivity 0.02,
-  /// roughness a factor 2.5, evaporation 0.1, leaf area 35 %, leaf width a factor 2; the sky 10 W m^-2. Of leaves also what
-  /// the place of a tree leaves open: half of the wind, and half of what the air at their height is warmer by.
+  /// roughness a factor 2.5, evaporation 0.1, leaf area 35 %, leaf width a factor 2; the sky 10 W m^-2. For leaves also
+  /// a tree's unknown exposure: half of the wind, and half of the excess of the air at their height.
   std::map<std::string, double> uncertainty_k;
 };
 
-/// The curves alone, a column a material. ConfigError as HeatOfDay.
+/// The curves alone: one computation per material. ConfigError as HeatOfDay.
 [[nodiscard]] std::vector<HeatCurve> open_curves(const DayWeather& weather,
                                                  const std::map<std::string, MaterialHeat>& materials,
                                                  const HeatSteps& steps = {});
 
-/// All of it, about fifteen columns a material, on all cores. ConfigError as HeatOfDay.
+/// The whole report: about fifteen computations per material, on all cores. ConfigError as HeatOfDay.
 [[nodiscard]] HeatReport heat_report(const DayWeather& weather,
                                      const std::map<std::string, MaterialHeat>& materials, double solar_h,
                                      const HeatSteps& steps = {});

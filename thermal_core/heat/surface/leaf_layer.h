@@ -12,8 +12,7 @@ namespace thermal {
 /// @param leaf_area_index  area of leaves above an area of ground, 0 to 100
 [[nodiscard]] double diffuse_through_leaves(double leaf_area_index) noexcept;
 
-/// How leaves stand: as what covers the ground, or as plants apart from each other, through which the air of the open
-/// ground around blows.
+/// How leaves stand: as a cover of the ground, or as single plants, through which the air of the open ground blows.
 enum class Stand { cover, alone };
 
 /// The balance of a layer of leaves above ground, per area of ground.
@@ -28,11 +27,11 @@ class LeafLayer {
   /// The weather among the leaves of a plant that stands alone on open ground: the air half-way up the plant.
   [[nodiscard]] Forcing among(const Forcing& forcing, double open_ground_k) const noexcept;
 
-  /// What leaves get from above and below, and how it changes with their temperature.
+  /// Net heat flux into the leaves, and its derivative by their temperature.
   [[nodiscard]] SurfaceFlux flux(const Forcing& forcing, const Incoming& above, double ground_k,
                                  double leaves_k) const noexcept;
 
-  /// What arrives at the ground below.
+  /// Radiation that arrives at the ground below.
   [[nodiscard]] Incoming below(const Incoming& above, double leaves_k) const noexcept;
 
  private:

@@ -34,8 +34,8 @@ class OrientationFit {
 
   [[nodiscard]] const std::vector<EastNorthUp>& directions() const noexcept { return directions_; }
 
-  /// The function nearest to the values at the directions, by least squares; for ground, up counts as much as all others
-  /// and is then exact: it is what a drone sees most of.
+  /// The function nearest to the values at the directions, by least squares; for ground, up, which a drone sees most
+  /// of, weighs as much as all others together and is then exact.
   /// @param sun  its direction, or 0 if it is not up
   [[nodiscard]] Orientation fit(std::span<const double> values, const EastNorthUp& sun) const;
 
@@ -47,7 +47,7 @@ class OrientationFit {
   std::vector<double> weights_;     ///< of the directions
 };
 
-/// Direction to the sun a little before a moment, whose light surfaces still hold; 0 if it was not up then.
+/// Direction to the sun shortly before a moment, because surfaces respond late; 0 if it was below the horizon.
 [[nodiscard]] EastNorthUp sun_of_surfaces(const SunPath& path, double solar_h) noexcept;
 
 }  // namespace thermal

@@ -7,7 +7,7 @@
 
 namespace thermal {
 
-/// Where a piece of a surface is: which way it faces, and what stands around it.
+/// Orientation and exposure of a piece of a surface.
 struct Site {
   EastNorthUp normal = {0, 0, 1};  ///< of unit length
   double sky_view = 1;             ///< share of the sky that its slope leaves and nothing hides, 0 to 1
@@ -20,8 +20,8 @@ struct Incoming {
   double longwave_w_m2 = 0;
 };
 
-/// What arrives at a site. What hides its sky has the temperature of the air; where its slope turns away from the sky it
-/// sees ground at `ground_k`. Both reflect a fifth of the sunlight that they get (estimate).
+/// Radiation that arrives at a site. Obstacles before the sky have the temperature of the air; the share of the view
+/// below the horizon is ground at `ground_k`. Both reflect a fifth of their sunlight (estimate).
 [[nodiscard]] Incoming incoming_at(const Forcing& forcing, const Site& site, double ground_k) noexcept;
 
 /// Heat that goes into a body below its surface at the end of a step: slope_w_m2_k * surface_k - offset_w_m2.
@@ -35,11 +35,11 @@ class SurfaceBalance {
  public:
   explicit SurfaceBalance(const SurfaceProperties& surface) noexcept;
 
-  /// What the surface gets from all above it; the slope is that of an exchange with the air that stays as it is.
+  /// Net heat flux from above; its derivative neglects the change of the exchange with air.
   [[nodiscard]] SurfaceFlux flux(const Forcing& forcing, const Incoming& incoming,
                                  double surface_k) const noexcept;
 
-  /// Temperature at which the surface gets from above what goes into it: see balanced_temperature_k().
+  /// Temperature at which the flux from above equals the uptake: see balanced_temperature_k().
   [[nodiscard]] double balanced_k(const Forcing& forcing, const Incoming& incoming, const HeatUptake& uptake,
                                   double guess_k) const noexcept;
 

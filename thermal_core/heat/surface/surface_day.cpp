@@ -28,14 +28,14 @@ class GroundBody {
         surface_k_(mean_air_k(around)),
         before_k_(surface_k_) {}
 
-  /// Also guesses that the surface warms on as it did in the step before.
+  /// Also extrapolates the surface's temperature from the step before, as a first guess.
   void prepare() {
     uptake_ = conduction_.prepare();
     const double before_k = std::exchange(before_k_, surface_k_);
     surface_k_ += surface_k_ - before_k;
   }
 
-  /// The surface's temperature if this arrives at it in the step that was prepared.
+  /// Surface temperature with this incoming radiation in the prepared step.
   double balance(const Forcing& forcing, const Incoming& incoming) {
     surface_k_ = balance_.balanced_k(forcing, incoming, uptake_, surface_k_);
     return surface_k_;
@@ -50,7 +50,7 @@ class GroundBody {
 
   [[nodiscard]] double surface_k() const { return surface_k_; }
 
-  /// Moves each layer to the surface's mean of the day: what every depth has on a day that repeats itself.
+  /// Moves each layer to the surface's daily mean, which all depths have on a day that repeats itself.
   void end_day(std::size_t steps, bool settle) {
     std::vector<double> layers_k = conduction_.layers_k();
     for (std::size_t i = 0; i < layers_k.size(); ++i) {
@@ -103,8 +103,7 @@ void settle(const HeatSteps& steps, std::span<SurfaceDay*> days, const Step& ste
   }
 }
 
-/// Finds the value with which a day must begin so that it ends with it, from days computed so far: where the line through
-/// the last two meets the one of equal values.
+/// Finds the start value that a day also ends with, by the secant method on the days computed so far.
 class FixedPoint {
  public:
   explicit FixedPoint(double begin) : begin_(begin) {}
@@ -115,7 +114,7 @@ class FixedPoint {
     const double slope = begin_ == old_begin_ ? 0 : (end - old_end_) / (begin_ - old_begin_);
     old_begin_ = begin_;
     old_end_ = end;
-    // After the first day, and where the line says nothing, the next day goes on.
+    // After the first day, and where the secant is degenerate, the next day continues.
     begin_ = known_ ? begin_ + (end - begin_) / (1 - std::clamp(slope, 0.0, kNearlyOne)) : end;
     known_ = true;
     return begin_;

@@ -34,8 +34,8 @@ struct SurfaceDay {
   [[nodiscard]] double at_k(double solar_h) const noexcept;
 };
 
-/// The weather of a day as these functions take it, step by step, and the temperature of open level ground, which slopes
-/// and standing bodies face and which cools the air near it; empty: that of the air.
+/// The weather of a day, step by step, and the temperature of open level ground, which slopes and standing bodies face
+/// and which cools the air near it; empty: that of the air.
 struct DayAround {
   std::span<const Forcing> forcing;
   std::span<const double> ground_k = {};

@@ -14,7 +14,7 @@ class StableAir {
   /// @param roughness_m  of it; 0.03: grass with few obstacles (Wieringa, J. Wind Eng. Ind. Aerodyn. 41, 357, 1992)
   StableAir(const Forcing& forcing, double ground_k, double roughness_m = 0.03) noexcept;
 
-  /// Heights over the Obukhov length, at the forcing's 2 m; 0 where ground is not colder than air.
+  /// z / L at the forcing's height, 2 m; 0 where ground is not colder than air.
   [[nodiscard]] double stability() const noexcept { return stability_; }
 
   /// How much warmer air is at a height above the ground than at 2 m [K], with the dry adiabatic lapse: at least 0.

@@ -7,7 +7,7 @@
 
 namespace thermal {
 
-/// What the weather does to surfaces at one moment.
+/// The weather that acts on surfaces at one moment.
 struct Forcing {
   double air_k = 0;       ///< at 2 m above the ground
   double wind_m_s = 0;    ///< the same

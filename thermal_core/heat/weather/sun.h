@@ -7,7 +7,7 @@ namespace thermal {
 /// A unit vector or a normal: east, north, up.
 using EastNorthUp = std::array<double, 3>;
 
-/// The day on which the sun is looked at, and from where.
+/// Latitude and day of the sun's path.
 struct SunPath {
   double latitude_deg = -19;  ///< -90 (south pole) to 90
   int day_of_year = 190;      ///< 1 to 366
@@ -26,8 +26,8 @@ struct SunPath {
 /// 1998), equation 23.
 [[nodiscard]] double sun_nearness(int day_of_year) noexcept;
 
-/// From sunrise to sunset [h], of the sun's centre and without refraction; 0 in the polar night, 24 where the sun does
-/// not set. FAO-56, equations 25 and 34.
+/// Time from sunrise to sunset [h], of the sun's centre and without refraction; 0 in the polar night, 24 where the sun
+/// does not set. FAO-56, equations 25 and 34.
 [[nodiscard]] double day_length_h(const SunPath& path) noexcept;
 
 /// Direction to the sun's centre, also below the horizon.

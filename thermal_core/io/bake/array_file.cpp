@@ -38,7 +38,7 @@ std::vector<std::byte> read_binary(const Path& file, std::uintmax_t expected) {
 
 std::size_t bytes_of_type(const std::string& type) { return static_cast<std::size_t>(type.back() - '0'); }
 
-/// The product of the lengths, or nothing if it is more than any file has.
+/// The product of the lengths, or nothing if it exceeds any file.
 std::optional<std::uintmax_t> bytes_of_array(const Json& entry) {
   std::uintmax_t bytes = bytes_of_type(entry.at("type"));
   for (const Json& length : entry.at("shape")) {

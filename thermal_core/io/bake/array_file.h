@@ -24,7 +24,7 @@ class ArrayFile {
   [[nodiscard]] const Json& header() const { return header_; }
 
   /// An array of `count` elements of a type that the description gives as `type` and `shape`, such as "<f4" and [n, 3].
-  /// DataError if it is described otherwise. In the shape, kAny stands for the length to be found out.
+  /// DataError if it is described otherwise. In the shape, kAny stands for any length.
   template <typename Element>
   [[nodiscard]] std::span<const Element> array(const std::string& name, std::string_view type,
                                                const std::vector<std::size_t>& shape) const {
@@ -49,7 +49,7 @@ class ArrayFile {
   /// The same for a fault in words.
   [[nodiscard]] DataError fault_of(const std::string& words) const;
 
-  /// The bytes that all arrays refer to, which move on with the caller.
+  /// The bytes that all arrays refer to; the caller becomes their owner.
   [[nodiscard]] std::vector<std::byte> take_data() { return std::move(data_); }
 
  private:

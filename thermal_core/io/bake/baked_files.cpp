@@ -43,6 +43,7 @@ class SceneReader {
     for (const Json& object : json.at("objects")) scene_.objects.push_back(manifest_object_of(object));
     for (const Json& material : json.at("materials"))
       scene_.materials.push_back(manifest_material_of(material));
+    scene_.mirrors = json.value("mirrors", std::set<std::string>());
     check_header();
     for (const ManifestObject& object : scene_.objects) {
       objects_.insert(object.index);
@@ -66,7 +67,7 @@ class SceneReader {
   }
 
  private:
-  /// What manifests made from the scene promise, and rays rely on.
+  /// Checks what manifests and ray casting rely on.
   void check_header() const {
     const auto [nearest, farthest] = scene_.depth_range_m;
     if (nearest >= farthest)
@@ -179,7 +180,7 @@ class SceneReader {
     ground.grass = fine("grass");
     ground.trodden = fine("trodden");
     ground.ash = fine("ash");
-    if (json.contains("border")) ground.border = fine("border");
+    ground.border = fine("border");
     file_.check_below(json.at("kind"), ground.kind, ground.covers.size());
     if (!json.contains("shore_m")) return ground;
     const std::string shore = json.at("shore_m");
@@ -206,7 +207,7 @@ std::size_t count_bones(const BakedScene& scene, std::size_t frames, std::span<c
   return count;
 }
 
-/// Of a track whose camera is not the scene's.
+/// The camera of a track, if it differs from the scene's.
 std::optional<CameraIntrinsics> camera_of(const Json& header) {
   if (!header.contains("camera")) return std::nullopt;
   return intrinsics_of(header.at("camera"));

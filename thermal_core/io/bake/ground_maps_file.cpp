@@ -30,7 +30,7 @@ class MapsReader {
   MapsReader(const Path& folder, const Assets& assets)
       : file_(header_in(folder), assets.schema("ground_maps")), cells_(file_.header().at("cells")) {}
 
-  /// `size_m` of the scene, if there is one.
+  /// `size_m` of the scene, if known.
   [[nodiscard]] GroundMaps read(std::optional<double> size_m) const {
     GroundMaps maps;
     maps.size_m = file_.header().at("size_m");
@@ -80,7 +80,7 @@ class MapsReader {
     covers.grass = share("grass");
     covers.trodden = share("trodden");
     covers.ash = share("ash");
-    if (has("border")) covers.border = share("border");
+    covers.border = share("border");
     file_.check_below("kind", covers.kind, covers.kinds.size());
     return covers;
   }
@@ -160,7 +160,7 @@ void write_ground_maps(const GroundMaps& maps, const Path& folder, const Path& s
   file.add<std::uint8_t>("grass", "|u1", fine, maps.covers.grass);
   file.add<std::uint8_t>("trodden", "|u1", fine, maps.covers.trodden);
   file.add<std::uint8_t>("ash", "|u1", fine, maps.covers.ash);
-  if (!maps.covers.border.empty()) file.add<std::uint8_t>("border", "|u1", fine, maps.covers.border);
+  file.add<std::uint8_t>("border", "|u1", fine, maps.covers.border);
   std::vector<std::uint32_t> hours;
   for (const SunlitHours& sunlit : maps.sunlit)
     hours.insert(hours.end(), sunlit.hours.begin(), sunlit.hours.end());

@@ -12,24 +12,23 @@ namespace thermal {
 /// Whether a plan's folder has maps of the ground.
 [[nodiscard]] bool has_ground_maps(const Path& folder);
 
-/// The days whose hours of sun the maps in a folder have, from their header alone. DataError as read_ground_maps().
+/// The days of the maps' hours of sun, from the header alone. DataError as read_ground_maps().
 [[nodiscard]] std::vector<SunPath> sun_paths_of_maps(const Path& folder, const Assets& assets);
 
 /// Reads the ground maps of a plan: ground.json and ground.bin in `folder`. DataError with the file's name, the place,
 /// the value and what is expected if they are of another version, truncated or inconsistent: an array outside the file,
-/// a height that is not finite, an hour that no day has, a place of another size than the scene's. IoError if they
-/// cannot be read.
+/// a height that is not finite, an hour past 23, a size other than the scene's. IoError if they cannot be read.
 [[nodiscard]] GroundMaps read_ground_maps(const Path& folder, const BakedGround& ground,
                                           const Assets& assets);
 
-/// The same for maps beside passes, where no scene is.
+/// The same for maps beside passes, without a scene.
 [[nodiscard]] GroundMaps read_ground_maps(const Path& folder, const Assets& assets);
 
-/// Copies the maps of a plan, if it has any, to a folder of passes, whose conversion then knows them.
+/// Copies a plan's maps, if any, to a folder of passes, for their conversion.
 void copy_ground_maps(const Path& plan, const Path& passes);
 
-/// Writes them, ground.json last; each file is complete or unchanged. `scratch` is a folder for files that are not
-/// complete, on the same disk. IoError with the file and the system's reason; TryAgainError if the disk is full.
+/// Writes maps, ground.json last; each file is complete or unchanged. `scratch` is a folder for incomplete files, on
+/// the same disk. IoError with the file and the system's reason; TryAgainError if the disk is full.
 void write_ground_maps(const GroundMaps& maps, const Path& folder, const Path& scratch);
 
 }  // namespace thermal

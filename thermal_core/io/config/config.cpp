@@ -37,24 +37,26 @@ ClipConfig read_clip(const Json& json, const Config& config) {
   return clip;
 }
 
-void check_ids(const char* list, const std::vector<std::string>& ids, std::vector<std::string>& faults) {
+/// One fault for each entry as the config lists them.
+void check_ids(const std::vector<std::string>& ids, const std::vector<std::string>& places,
+               std::vector<std::string>& faults) {
   std::set<std::string> seen;
+  std::set<std::string> at_fault;
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (seen.insert(ids[i]).second) continue;
-    faults.push_back(
-        fault(fmt::format("{}[{}].id", list, i), fmt::format("\"{}\"", ids[i]), "", "each id once"));
+    if (seen.insert(ids[i]).second || !at_fault.insert(places[i]).second) continue;
+    faults.push_back(fault(places[i] + ".id", fmt::format("\"{}\"", ids[i]), "", "each id once"));
   }
 }
 
 /// Checks that there is something to make, and that ids are unique.
 void check_flown(const std::vector<std::string>& flights, const std::vector<ClipConfig>& clips,
-                 std::vector<std::string>& faults) {
+                 EntryNames& places, std::vector<std::string>& faults) {
   if (clips.empty() && flights.empty())
     faults.emplace_back("clips and flights are empty; expected at least one of either");
   std::vector<std::string> ids;
   for (const ClipConfig& clip : clips) ids.push_back(clip.id);
-  check_ids("clips", ids, faults);
-  check_ids("flights", flights, faults);
+  check_ids(ids, places["clips"], faults);
+  check_ids(flights, places["flights"], faults);
 }
 
 /// One step of a setting's key: "clips[0]" is the member "clips", then entry 0.
@@ -274,7 +276,7 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
   DrawnConfig drawn = draw_config(std::move(document), schema, name);
   document = std::move(drawn.document);
   apply_preset(document, schema, name + ": ", assets);
-  std::vector<std::string> faults = check_and_fill(document, schema);
+  std::vector<std::string> faults = check_and_fill(document, schema, "", drawn.places);
   throw_faults(faults, name);
   apply_lens(document, schema, faults);
   throw_faults(faults, name);
@@ -297,7 +299,7 @@ Config resolve_config(Json document, const std::string& name, const Assets& asse
       put_back_sections(drawn.own_flights, drawn.places["flights"], sections, document["flights"]);
   for (const Json& clip : document["clips"]) config.clips.push_back(read_clip(clip, config));
   for (const Json& flight : document["flights"]) config.flights.push_back(flight["id"]);
-  check_flown(config.flights, config.clips, faults);
+  check_flown(config.flights, config.clips, drawn.places, faults);
   check_intrinsics(config.camera, faults);
   config.engine_reason = choose_engine(document["render"]);
   fill_sampling(document["render"], config.physical);

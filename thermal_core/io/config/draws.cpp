@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -166,21 +167,26 @@ class Draws {
     std::vector<std::string>& places = found_.places[list];
     Json all = Json::array();
     for (std::size_t k = 0; k < entries.size(); ++k) {
-      const std::string place = fmt::format("{}[{}]", list, k);
+      std::string place = fmt::format("{}[{}]", list, k);
       Json& entry = entries[k];
       const std::size_t count = take_count(entry, place);
       if (all.size() + count > kMostEntries)
         throw_faults({fault(place + ".count", std::to_string(count), "",
                             fmt::format("at most {} clips in all", kMostEntries))});
+      if (is_counted_) place += fmt::format(" ({}, {})", entry["id"].dump(), in_words(count, list));
       for (std::size_t n = 0; n < count; ++n) {
         Json one = entry;
         if (is_counted_) one["id"] = fmt::format("{}_{:04}", entry["id"].get<std::string>(), n);
         all.push_back(std::move(one));
-        places.push_back(is_counted_ ? fmt::format("{} ({})", place, all.back()["id"].get<std::string>())
-                                     : place);
+        places.push_back(place);
       }
     }
     return all;
+  }
+
+  /// "20 clips", "1 flight".
+  static std::string in_words(std::size_t count, std::string_view list) {
+    return fmt::format("{} {}", count, count == 1 ? list.substr(0, list.size() - 1) : list);
   }
 
   /// Sets is_counted_. What the schema rejects stays there.
@@ -189,8 +195,11 @@ class Draws {
         entry.is_object() && entry.contains("count") && entry.contains("id") && entry["id"].is_string();
     if (!is_counted_) return 1;
     Json count = std::move(entry["count"]);
-    throw_faults(check_and_fill(count, schema_["properties"]["clips"]["items"]["properties"]["count"],
-                                place + ".count"));
+    const Json& rules = schema_["properties"]["clips"]["items"]["properties"];
+    std::vector<std::string> faults = check_and_fill(entry["id"], rules["id"], place + ".id");
+    for (std::string& one : check_and_fill(count, rules["count"], place + ".count"))
+      faults.push_back(std::move(one));
+    throw_faults(faults);
     entry.erase("count");
     return count.get<std::size_t>();
   }

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <map>
 #include <string>
-#include <vector>
 
 #include "io/json/file.h"
+#include "io/json/schema.h"
 
 namespace thermal {
 
@@ -14,8 +13,8 @@ struct DrawnConfig {
   Json given;      ///< its sections of the dataset, without those values that each clip draws
   Json own_clips;  ///< sections of each clip, with what it has drawn of the dataset's
   Json own_flights;
-  std::map<std::string, std::vector<std::string>>
-      places;  ///< of the entries of "clips" and "flights": "clips[2]"
+  EntryNames
+      places;  ///< of clips and flights, as the config lists them: `clips[2]`, `clips[2] ("p", 20 clips)`
 };
 
 /// Draws all distributions of a config's document before it is checked: those of `scene`, and of what all clips share,

@@ -116,7 +116,7 @@ ExrChannelList read_channel_list(std::string_view bytes, const std::string& what
     ++channels.count;
     at = end + 1 + kBytesAfterName;
   }
-  // A library stops at the first empty name, and reads what follows as the next attribute.
+  // A library stops at the first empty name, and parses the rest as the next attribute.
   if (at + 1 != bytes.size())
     throw DataError(what + " continues after its end; expected a zero byte only at the end");
   return channels;

@@ -9,9 +9,9 @@
 
 namespace thermal {
 
-// Checks of attributes of EXR headers from untrusted files. `what` starts the messages. All faults are DataErrors.
-// For most types a library reads as many bytes as the type has, whatever size the file states, and continues after
-// them: where the two differ, it sees a different file than a reader that trusts the size.
+// Checks of attributes of EXR headers from untrusted files. `what` starts the messages. All faults are DataErrors. For
+// most types a library reads the type's own size, ignoring the size in the file, and continues after that: if the two
+// differ, it reads a different file than a reader that trusts the stated size.
 // Source: Technical Introduction to OpenEXR, "Attribute Layout".
 
 /// Checks that an attribute that a library interprets by name has the right type, and that a type of known size has
@@ -25,7 +25,7 @@ void check_preview(std::string_view bytes, const std::string& what);
 /// Strings, each preceded by its length.
 void check_texts(std::string_view bytes, const std::string& what);
 
-/// What memory use depends on in a channel list.
+/// Properties of a channel list that determine memory use.
 struct ExrChannelList {
   int count = 0;
   std::int64_t bytes_per_pixel = 0;

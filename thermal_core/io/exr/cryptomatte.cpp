@@ -235,7 +235,7 @@ std::vector<Path> sidecars_of(const ExrHeader& header) {
     try {
       if (!name.empty()) files.push_back(sidecar_of(header.folder, name));
     } catch (const Error&) {
-      continue;  // never read, and said to be refused by cryptomattes_in()
+      continue;  // never read, and refused by cryptomattes_in()
     }
   }
   return files;

@@ -21,7 +21,7 @@ struct Cryptomatte {
   std::map<std::uint32_t, std::string> names;  ///< from its manifest, by hash; empty: it has none
   std::vector<const ExrChannel*> channels;     ///< hash, coverage, hash, coverage, …: two per rank
   std::string names_fault;                     ///< why `names` is empty although it has a manifest; or empty
-  std::string fault;  ///< why it cannot be read, without the file's name; empty if it can
+  std::string fault;  ///< why it cannot be read, without the file's name; empty if it can be read
 };
 
 /// All cryptomattes of a file, by name; their channels point into `header`. Reads no pixels and never fails: faults

@@ -196,7 +196,7 @@ class PartDecoder {
     pipeline_.decompress_fn = inflate;
   }
 
-  /// Sets where the library writes a chunk's pixels; channels without a target are not unpacked.
+  /// Sets destinations for a chunk's pixels; channels without a target are not unpacked.
   void aim(std::int64_t x, std::int64_t y) {
     for (int i = 0; i < pipeline_.channel_count; ++i) {
       exr_coding_channel_info_t& channel = pipeline_.channels[i];
@@ -213,8 +213,8 @@ class PartDecoder {
     }
   }
 
-  /// Called from C, so nothing may be thrown. The library has allocated memory for the bytes or, if they are not
-  /// compressed, uses what was read.
+  /// Called from C, so it must not throw. The library has allocated memory for the bytes or, if they are not
+  /// compressed, uses the bytes read.
   static exr_result_t inflate(exr_decode_pipeline_t* pipeline) noexcept {
     if (pipeline->unpacked_buffer == pipeline->packed_buffer) return EXR_ERR_SUCCESS;
     if (pipeline->unpacked_alloc_size < pipeline->chunk.unpacked_size) return EXR_ERR_CORRUPT_CHUNK;

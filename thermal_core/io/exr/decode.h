@@ -21,12 +21,12 @@ class ExrInflater {
   ExrInflater(const ExrInflater&) = delete;
   ExrInflater& operator=(const ExrInflater&) = delete;
 
-  /// Takes memory for chunks of this size; false if there is none.
+  /// Allocates memory for chunks of this size; false if there is not enough.
   [[nodiscard]] bool reserve(std::size_t size) noexcept;
 
-  /// Fills `bytes`, for which there must be memory; false if the chunk does not hold exactly as many.
-  /// Source: Technical Introduction to OpenEXR, ZIP: differences of neighbouring bytes, first all even bytes, then
-  /// all odd ones, deflated.
+  /// Fills `bytes`, for which memory must be reserved; false if the chunk does not hold exactly as many. Source:
+  /// Technical Introduction to OpenEXR, ZIP: differences of neighbouring bytes, first all even bytes, then all odd
+  /// ones, deflated.
   [[nodiscard]] bool inflate(std::span<const std::byte> packed, std::span<std::byte> bytes) noexcept;
 
  private:
@@ -52,7 +52,7 @@ struct ChannelTarget {
 /// Decodes channels of one part, scanlines or the finest tiles, each chunk of the file once: the whole data window,
 /// which the targets must have memory for. Bits of float and uint channels are kept; half becomes float exactly. For
 /// uncompressed 640 x 512 pixels and seven planes this takes a seventh of the time of Imf::InputPart; ZIP is inflated
-/// by libdeflate in half of zlib's time. This file can go when the oldest OpenEXR in use is as fast: 3.2 inflates with
+/// by libdeflate in half of zlib's time. Delete this file when the oldest OpenEXR in use is as fast: 3.2 inflates with
 /// libdeflate, and 3.3 builds its C++ interface on the one used here.
 /// IoError (without the file's name) with the library's reason; pixels are then undefined.
 void decode_part(const Path& file, int part, std::span<const ChannelTarget> targets);

@@ -82,7 +82,8 @@ ExrHeader header_of(const Imf::MultiPartInputFile& opened) {
   return header;
 }
 
-/// The file's name, once a library may safely open it. Reading something that is not a regular file might never end.
+/// The file's name, after checks that make it safe to open by a library. Reading a file that is not regular might never
+/// end.
 std::string checked(const Path& file, const ExrLimits& limits) {
   if (!std::filesystem::exists(file)) throw IoError("no such file");
   if (!std::filesystem::is_regular_file(file)) throw IoError("it is not a regular file");

@@ -36,8 +36,7 @@ class ExrFile {
   ExrHeader header_;
 };
 
-/// The result of `work` on an open file; errors, ours and the library's, name the file. Running out of memory is none of
-/// the file's.
+/// The result of `work` on an open file; errors, ours and the library's, name the file, except running out of memory.
 template <typename Work>
 auto with_exr_file(const Path& file, const ExrLimits& limits, const Work& work) {
   try {

@@ -284,7 +284,7 @@ void separate_parts(std::vector<ExrChannel>& channels, const ExrParts& file) {
   }
 }
 
-/// Views of the parts, if there are several; names of the parts, if there are several.
+/// Views and names of the parts, each only if there are several.
 ExrParts telling(ExrParts file) {
   std::set<std::string> views;
   for (const ExrParts::Part& part : file.parts) views.insert(part.view);

@@ -29,7 +29,7 @@ struct ExrChannel {
   [[nodiscard]] std::string full_name() const;
 };
 
-/// What a pass holds.
+/// The content of a pass.
 enum class PassKind { object_index, material_index, depth, normal };
 
 /// Kind of a pass by its name, in the spellings in use, whatever their case and with or without spaces, "_" and "-":

@@ -7,7 +7,7 @@
 
 namespace thermal {
 
-/// Where to find the planes of a clip's EXR files.
+/// Location of the planes of a clip's EXR files.
 struct ExrLayout {
   std::string layer = {};         ///< empty: the only one
   std::string actor_layer = {};   ///< empty: none

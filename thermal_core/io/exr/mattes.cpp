@@ -49,7 +49,7 @@ std::uint32_t hash_in_float(std::uint32_t hash) noexcept {
 std::uint32_t cryptomatte_hash(std::string_view name) noexcept { return hash_in_float(murmur_hash(name)); }
 
 bool matches_matte(std::string_view pattern, std::string_view name) noexcept {
-  // After a mismatch, the last star takes one more letter, so that the time is at most the product of both lengths.
+  // After a mismatch, the last star matches one more letter, so that the time is at most the product of both lengths.
   std::size_t in_pattern = 0;
   std::size_t in_name = 0;
   std::size_t after_star = std::string_view::npos;
@@ -137,7 +137,7 @@ struct Share {
   double coverage = 0;
 };
 
-/// Caches the results, with the last one at hand: neighbouring pixels mostly show the same object.
+/// Caches the results, and separately the last one: neighbouring pixels mostly show the same object.
 class IndexCache {
  public:
   explicit IndexCache(const MatteIndex& index_of) : index_of_(index_of) {}
@@ -198,7 +198,7 @@ class Ranker {
     }
   }
 
-  /// Returns the sum.
+  /// Normalises coverages; returns their sum.
   double normalise() {
     double covered = 0;
     for (const Share& share : shares_) covered += share.coverage;

@@ -21,10 +21,11 @@ namespace thermal {
 /// 2015; Cryptomatte specification 1.2.0; A. Appleby, MurmurHash3 (public domain).
 [[nodiscard]] std::uint32_t cryptomatte_hash(std::string_view name) noexcept;
 
-/// Its last step: a hash as stored in a float. Blender's manifests have hashes from before this step.
+/// The last step of cryptomatte_hash(): a hash as stored in a float. Blender's manifests have hashes from before this
+/// step.
 [[nodiscard]] std::uint32_t hash_in_float(std::uint32_t hash) noexcept;
 
-/// Whether a name matches a pattern, in which * matches any letters, or none.
+/// Whether a name matches a pattern, in which * matches any number of letters.
 [[nodiscard]] bool matches_matte(std::string_view pattern, std::string_view name) noexcept;
 
 /// Maps mattes to objects.
@@ -79,14 +80,14 @@ struct MatteSpot {
 /// Index of a hash's object; called once for each hash with coverage. Its exceptions pass through.
 using MatteIndex = std::function<std::uint16_t(std::uint32_t hash)>;
 
-/// Where a hash first has coverage, in row-major order and then by rank.
+/// First position where a hash has coverage, in row-major order and then by rank.
 [[nodiscard]] MatteSpot spot_matte(const MatteChannels& mattes, std::uint32_t hash);
 
-/// Fills object_index and ranks, as Passes has them, from a cryptomatte. Hashes of one object are summed, and a
-/// pixel's objects sorted, most coverage first: files may list them otherwise (Cryptomatte specification,
-/// "Alternative ranking"), and Blender 3.4.1 sometimes does. Hash 0 is nothing. Coverages with a sum above 1 are
-/// scaled to 1. object_index is rank 0's, or sky where more is uncovered. DataError with channel and pixel for a
-/// coverage that is negative, infinite or NaN.
+/// Fills object_index and ranks of Passes from a cryptomatte. Hashes of one object are summed, and a pixel's objects
+/// sorted, most coverage first: files may list them otherwise (Cryptomatte specification, "Alternative ranking"), and
+/// Blender 3.4.1 sometimes does. Hash 0 is nothing. Coverages with a sum above 1 are scaled to 1. object_index is rank
+/// 0's, or sky where more is uncovered. DataError with channel and pixel for a coverage that is negative, infinite or
+/// NaN.
 void rank_mattes(const MatteChannels& mattes, const MatteIndex& index_of, Passes& passes);
 
 }  // namespace thermal

@@ -16,12 +16,12 @@ namespace {
 
 using IndexPlanes = std::array<std::optional<ExrIndexPlane>, 6>;  // as in PassBuffer
 
-/// Where the planes of what water mirrors are.
+/// Layout of the planes of mirrored surfaces.
 ExrLayout mirror_of(const ExrLayout& layout) {
   return {.layer = layout.mirror_layer, .width_px = layout.width_px, .height_px = layout.height_px};
 }
 
-/// Whether to read what water mirrors. Frames that show no water lack the layer.
+/// Whether to read mirrored surfaces. Frames without water lack the layer.
 bool has_mirror(const ExrHeader& header, const ExrLayout& layout, const PassNeeds& needs) {
   return needs.mirrored && !layout.mirror_layer.empty() &&
          std::ranges::any_of(header.channels,

@@ -55,7 +55,7 @@ Planes planes_of(const Passes& passes, const std::string& layer, const std::stri
   return planes;
 }
 
-/// A file in memory. OpenEXR writes its table of offsets in a destructor, and would say nothing if the disk refused it.
+/// A file in memory. OpenEXR writes its table of offsets in a destructor, and would not report a disk error there.
 class MemoryFile : public Imf::OStream {
  public:
   explicit MemoryFile(const Path& name) : Imf::OStream(name.c_str()) {}

@@ -105,7 +105,7 @@ struct LinePlace {
   std::size_t bytes_a_line = 0;
 };
 
-/// The slow path: the library's interface for everything.
+/// The slow path, for all files: the library's own interface.
 void read_strip(Imf::MultiPartInputFile& file, int number, const Strip& strip,
                 const Imf::FrameBuffer& buffer) {
   if (strip.tiled) {
@@ -119,7 +119,7 @@ void read_strip(Imf::MultiPartInputFile& file, int number, const Strip& strip,
   part.readPixels(strip.window.min.y, strip.window.max.y);
 }
 
-/// The fast path for most files: all of a part, in a lossless compression.
+/// The fast path for most files: a whole part, in a lossless compression.
 void read_whole_part(const Source& source, int number, const std::vector<Job>& jobs,
                      const std::vector<LinePlace>& places) {
   std::vector<ChannelTarget> targets;

@@ -26,8 +26,7 @@ class ExrPlanes {
   [[nodiscard]] const ExrChannel* materials() const;  ///< null if there is none
   [[nodiscard]] const ExrChannel* depth() const;
   [[nodiscard]] const ExrChannel* normal(std::string_view axis) const;  ///< "X", "Y" or "Z"
-  /// Null for a frame without that layer. DataError if the frame has a different one instead, which is probably a
-  /// typing error.
+  /// Null for a frame without that layer. DataError if the frame has a different one instead, probably misspelt.
   [[nodiscard]] const ExrChannel* actors() const;
 
   [[nodiscard]] const ExrChannel* sampled() const;  ///< kSampledPass; null if there is none

@@ -40,7 +40,7 @@ struct Window {
   [[nodiscard]] std::int64_t height() const noexcept { return std::int64_t{bottom} - top + 1; }
 };
 
-/// What memory use depends on in a part's header.
+/// Fields of a part's header that determine memory use.
 struct PartHeader {
   std::optional<Window> data_window;
   std::optional<Window> display_window;
@@ -243,7 +243,7 @@ class HeaderScan {
         fmt::format("at most {} (see --max-megapixels)", static_cast<double>(limits_.pixels) / kMillion)));
   }
 
-  /// No compression reduces a part to less than 1/65536 of its pixels plus a few bytes per chunk.
+  /// No compression makes a part smaller than 1/65536 of its pixels plus a few bytes per chunk.
   void check_plausible(std::int64_t bytes, const std::string& where) const {
     constexpr std::int64_t kMostRatio = 65536;
     constexpr std::int64_t kAlwaysFine = 1 << 20;

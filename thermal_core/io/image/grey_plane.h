@@ -12,7 +12,7 @@ struct GreyPicture {
   int bits = 8;  ///< of a level: 8 or 16
 };
 
-/// Levels of 8 bits by which the channels of a grey picture may differ: those of a conversion to luminance and back.
+/// Levels of 8 bits by which the channels of a grey picture may differ, as after a conversion to luminance and back.
 inline constexpr int kMostGreyTint = 2;
 
 }  // namespace thermal

@@ -128,7 +128,7 @@ class IndexRows {
     for (std::size_t x = 0; x < row.size(); ++x) out[x] = index_of(row[x], static_cast<int>(x), y);
   }
 
-  /// Colours that match no object are counted to the end of the picture.
+  /// Reports colours that match no object, counted to the end of the picture.
   void finish() const {
     if (unknown_pixels_ == 0) return;
     throw DataError(
@@ -167,7 +167,7 @@ class IndexRows {
     return kSkyIndex;
   }
 
-  /// Least sum of squared differences; of two equal ones, the lower colour.
+  /// The colour with the least sum of squared differences; the lower of two equal ones.
   [[nodiscard]] std::string nearest() const {
     std::pair<int, std::uint32_t> best = {std::numeric_limits<int>::max(), 0};
     for (const auto& [colour, index] : *index_of_) {

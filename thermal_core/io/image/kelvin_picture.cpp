@@ -32,7 +32,7 @@ StoredTemperatures stored_in(const Path& file) {
   return naming(file, [&file] { return picture_module().read_temperatures(file); });
 }
 
-/// By the letters of its name: "deg C", "°C" and "Celsius" are alike. Empty without one.
+/// Ignores everything but letters: "deg C", "°C" and "Celsius" are alike. Empty for an unknown unit.
 std::optional<TemperatureUnit> unit_named(const std::string& name) {
   std::string letters;
   for (const char c : lower_case(name))
@@ -45,7 +45,7 @@ std::optional<TemperatureUnit> unit_named(const std::string& name) {
   throw DataError(fault("UNITTYPE of its tags", fmt::format("\"{}\"", name), "", "K or C"));
 }
 
-/// How stored values become kelvin: value x scale + offset.
+/// Conversion of stored values to kelvin: value x scale + offset.
 struct ToKelvin {
   double scale = 1;
   double offset = 0;
@@ -71,7 +71,7 @@ ToKelvin to_kelvin(const StoredTemperatures& stored, const StoredScale& said) {
   return conversion;
 }
 
-/// Pixels that are no temperatures: how many, and the first.
+/// Pixels that are not temperatures: their number, and the first.
 struct Misfits {
   std::size_t count = 0;
   std::size_t first = 0;
@@ -104,7 +104,7 @@ void check_all_have_values(const StoredTemperatures& stored) {
       in_words(empty, stored.values, fmt::format("have no value (GDAL_NODATA = {:g})", *stored.no_data))));
 }
 
-/// Of the finite values; NaN if there are none.
+/// Median of the finite values; NaN if there are none.
 double median_of_finite(const Plane<float>& plane) {
   std::vector<float> values;
   std::ranges::copy_if(plane.pixels(), std::back_inserter(values),
@@ -115,7 +115,7 @@ double median_of_finite(const Plane<float>& plane) {
   return static_cast<double>(*middle);
 }
 
-/// Before single pixels: with another unit or scale, all of them are wrong.
+/// Checked before single pixels: with another unit or scale, all of them are wrong.
 void check_median(const Plane<float>& kelvin, const ToKelvin& conversion, const StoredScale& said) {
   const double median_k = median_of_finite(kelvin);
   if (kSceneMedianK.holds(median_k)) return;

@@ -10,8 +10,8 @@
 namespace thermal {
 namespace {
 
-/// In ../lib/veldt from the program, built or installed. By its path, because under AddressSanitizer the loader does not
-/// look in the folders that a program was linked with. The module stays until the program ends.
+/// In ../lib/veldt from the program, built or installed. Loaded by its path, because under AddressSanitizer the loader
+/// ignores the program's run path. It is never unloaded.
 const PictureModule& load() {
   const Path program = std::filesystem::read_symlink("/proc/self/exe");
   const Path file = program.parent_path().parent_path() / "lib" / "veldt" / "libveldt_pictures.so";

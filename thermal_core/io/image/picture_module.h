@@ -13,8 +13,8 @@
 
 namespace thermal {
 
-/// What OpenImageIO, libtiff and OpenCV's imgcodecs do for Veldt. They bring 230 libraries that take .3 s to load, so they are in
-/// a module (io/pictures/), and programs load it when they need it. These functions throw as their callers say.
+/// Functions that use OpenImageIO, libtiff and OpenCV's imgcodecs. These need 230 libraries, which take .3 s to load,
+/// so they are in a module (io/pictures/) that is loaded on first use. Exceptions are those of the functions' callers.
 struct PictureModule {
   /// As as_jpeg() in io/image/jpeg.h, with faults of the file without its name.
   std::string (*as_jpeg)(const Path& picture, int most_px);
@@ -30,7 +30,7 @@ struct PictureModule {
   std::string (*openimageio_version)();
 };
 
-/// The module, loaded by the first call. IoError if it is not where the program was built or installed.
+/// The module, loaded by the first call. IoError if it is missing.
 [[nodiscard]] const PictureModule& picture_module();
 
 }  // namespace thermal

@@ -4,7 +4,7 @@
 
 namespace thermal {
 
-/// Of a picture file.
+/// Size of a picture file.
 struct PictureSize {
   int width_px = 0;
   int height_px = 0;

@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "io/image/png.h"
 #include "io/image/png_file.h"
-#include "io/pass_reader.h"
 #include "io/system/naming.h"
+#include "io/system/read_limits.h"
 
 namespace thermal {
 namespace {

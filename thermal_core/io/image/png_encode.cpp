@@ -81,7 +81,7 @@ class PixelChunks {
     empty();
   }
 
-  /// Levels 1 and 2 find other repetitions in about one picture of a thousand when they work at another address.
+  /// Levels 1 and 2 find other repetitions at another memory address, in about one picture of a thousand.
   static constexpr std::uint32_t kLevel = 3;
 
   std::vector<std::byte>& out_;
@@ -90,7 +90,7 @@ class PixelChunks {
   std::array<std::uint8_t, 1 << 16> chunk_{};
 };
 
-/// A pixel's bytes in the standard's order.
+/// A pixel's bytes in PNG's order.
 std::uint8_t as_written(std::uint8_t pixel) { return pixel; }
 std::uint16_t as_written(std::uint16_t pixel) {
   if constexpr (std::endian::native == std::endian::big) return pixel;

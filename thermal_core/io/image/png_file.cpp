@@ -134,7 +134,8 @@ class PngFile::Reading {
   }
 
  private:
-  /// Any fault is an error, also in ancillary chunks, and only pixels take memory in proportion to their length.
+  /// Makes every fault an error, also in ancillary chunks, and lets only pixels take memory in proportion to their
+  /// length.
   void be_strict() {
     constexpr png_uint_32 kNoLimit = PNG_UINT_31_MAX;  // of sides: the caller checks the header
     constexpr png_alloc_size_t kMostChunkBytes = 1 << 26;
@@ -147,7 +148,7 @@ class PngFile::Reading {
     png_set_benign_errors(png_, 0);
   }
 
-  /// Returns the number of passes of libpng over the rows.
+  /// Returns libpng's number of passes over the rows.
   int begin_rows() {
     const auto calls = [this] {
       png_set_packing(png_);

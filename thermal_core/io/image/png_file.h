@@ -24,9 +24,9 @@ struct PngHeader {
   bool alpha = false;   ///< a channel of it
   std::int64_t file_bytes = 0;
 
-  /// As stored: one with a palette.
+  /// Stored channels: one with a palette.
   [[nodiscard]] std::size_t channels() const noexcept;
-  /// Of all pixels before compression, saturated.
+  /// Bytes of all pixels before compression, saturated.
   [[nodiscard]] std::int64_t raw_bytes() const noexcept;
 };
 

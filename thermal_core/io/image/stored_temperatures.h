@@ -7,7 +7,7 @@
 
 namespace thermal {
 
-/// A picture of one channel as stored.
+/// Stored values of a picture of temperatures, and their scale.
 struct StoredTemperatures {
   Plane<float> values;            ///< exact: floats, or counts of 16 bits
   bool counts = false;            ///< of 16 bits

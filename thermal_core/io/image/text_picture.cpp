@@ -7,12 +7,12 @@
 namespace thermal {
 namespace {
 
-/// A "?" for each character of UTF-8 that is not printable ASCII.
+/// Replaces each UTF-8 character that is not printable ASCII by "?".
 std::string ascii_of(std::string_view text) {
   std::string ascii;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    const bool inner = (byte & 0xC0U) == 0x80U;  // of a character that has begun
+    const bool inner = (byte & 0xC0U) == 0x80U;  // continuation byte
     if (!inner) ascii += byte >= ' ' && byte < 0x7F ? c : '?';
   }
   return ascii;

@@ -7,8 +7,8 @@
 
 namespace thermal {
 
-/// Draws a line of text with FreeType, anti-aliased. The bits depend on FreeType's version. A character that is not ASCII
-/// shows as "?": OpenImageIO 2.4 takes "·" for "7".
+/// Draws a line of text with FreeType, anti-aliased. The bits depend on FreeType's version. A character that is not
+/// ASCII shows as "?": OpenImageIO 2.4 would draw "·" as "7".
 /// @param line  its text, UTF-8
 /// @param font  a TrueType or OpenType file
 /// @param size_px  of the letter em, 4 to 400

@@ -8,14 +8,14 @@
 
 namespace thermal {
 
-/// A place on the WGS 84 ellipsoid.
+/// A position on the WGS 84 ellipsoid.
 struct GeoPosition {
   double latitude_deg = 0;   ///< -90 to 90, south is negative
   double longitude_deg = 0;  ///< -180 to 180, west is negative
   double height_m = 0;       ///< above the ellipsoid
 };
 
-/// What a TIFF says beside its pixels. Empty texts and members are not written.
+/// Tags of a TIFF. Empty texts and members are not written.
 struct TiffTags {
   std::string description = {};
   std::string make = {};
@@ -32,8 +32,8 @@ struct TiffTags {
 };
 
 /// A grey TIFF in memory, compressed without loss (deflate; integers with the horizontal predictor). The picture must
-/// not be empty. It has no time of writing: the bytes depend on picture, tags, and the versions of libtiff and of the
-/// library that it compresses with. IoError with libtiff's reason.
+/// not be empty. It contains no time stamp: the bytes depend on picture, tags, and the versions of libtiff and its
+/// compression library. IoError with libtiff's reason.
 [[nodiscard]] std::string encode_tiff(const Plane<float>& picture, const TiffTags& tags);
 /// The same with 16 bits.
 [[nodiscard]] std::string encode_tiff(const Plane<std::uint16_t>& picture, const TiffTags& tags);

@@ -6,7 +6,7 @@
 
 namespace thermal {
 
-// Cameras as configs, manifests, plans and baked scenes have them.
+// Cameras in JSON: configs, manifests, plans and baked scenes.
 
 /// From width_px, height_px, fx_px, fy_px, cx_px and cy_px.
 [[nodiscard]] CameraIntrinsics intrinsics_of(const Json& json);

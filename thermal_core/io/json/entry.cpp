@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMostExact = 9007199254740992;  // 2^53: floats past it skip whole numbers
 
-/// Empty for what is none, or is past 64 bits.
+/// Empty for other values, and beyond 64 bits.
 std::optional<std::int64_t> whole_number_in(const Json& value) {
   if (value.is_number_float()) {
     const double number = value.get<double>();

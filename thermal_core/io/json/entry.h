@@ -16,7 +16,8 @@ namespace thermal {
 /// A number or text.
 [[nodiscard]] Json json_of(const LabelId& id);
 
-/// Checks the version of one of our own files. DataError with the file if it states another; without one, it is the first.
+/// Checks the version of one of our own files. DataError with the file if it states another; without a version, it is
+/// the first.
 void check_version(const Json& document, const std::string& file, int version);
 
 /// One object of a list in an external JSON file, or the file's only one, read key by key. A wrong value, or a missing
@@ -30,7 +31,7 @@ class JsonEntry {
   JsonEntry(const Json& json, const std::string& file);
 
   [[nodiscard]] bool has(const char* key) const { return json_.contains(key) && !json_[key].is_null(); }
-  /// Up to 2^63 - 1. 1.0 is 1, up to 2^53: pandas writes whole numbers so where others are missing.
+  /// Up to 2^63 - 1. 1.0 is 1, up to 2^53: pandas writes whole numbers so in columns with missing values.
   [[nodiscard]] std::int64_t integer(const char* key) const;
   /// The same, or text that is not empty.
   [[nodiscard]] LabelId id(const char* key) const;
@@ -40,7 +41,7 @@ class JsonEntry {
   [[nodiscard]] int count(const char* key) const;
   /// Not empty.
   [[nodiscard]] std::string text(const char* key) const;
-  /// Always finite: JSON has no NaN and no infinity.
+  /// Always finite: JSON has no NaN or infinity.
   [[nodiscard]] double number(const char* key) const;
   [[nodiscard]] std::optional<double> optional_number(const char* key) const;
   /// COCO writes 0 and 1, others false and true; missing is false.

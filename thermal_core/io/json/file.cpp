@@ -21,7 +21,7 @@ std::string position(std::string_view text, std::size_t byte, const std::string&
   return fmt::format("{}:{}:{}", name, line, before.size() - line_begin + 1);
 }
 
-/// The library's message without its own numbering and position: what follows "syntax error", or otherwise the
+/// The library's message without its own numbering and position: the text after "syntax error", or otherwise after the
 /// number. Python writes NaN and Infinity unquoted; the library stops at their first letter.
 std::string reason(const std::string& what) {
   const std::size_t begin = what.find("syntax error");
@@ -52,7 +52,7 @@ class Elements {
  public:
   explicit Elements(const TakeElement& take) : take_(take) {}
 
-  /// Whether the parser should keep what it has just read.
+  /// Whether the parser should keep the value that it has just parsed.
   bool operator()(int depth, Json::parse_event_t event, const Json& value) {
     using Event = Json::parse_event_t;
     if (event == Event::key && depth == 1) key_ = value.get<std::string>();
@@ -77,7 +77,8 @@ class Elements {
   int inside_ = 0;  ///< depth of the elements of the open array; 0: none is open
 };
 
-/// Trees are copied, compared and written recursively, and the stack is small. Our own documents are 8 deep.
+/// Limits depth: trees are copied, compared and written recursively, and the stack is small. Our own documents are 8
+/// deep.
 void check_depth(int depth, Json::parse_event_t event, const std::string& name) {
   constexpr int kDeepest = 64;
   const bool begins = event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;

@@ -42,7 +42,7 @@ using TakeElement = std::function<void(const std::string& array, std::size_t pla
 /// Indented by two, newline at the end.
 [[nodiscard]] std::string to_text(const Json& json);
 
-/// Each place where two documents differ: "sensor.netd_mk is 40 here and 50 there".
+/// All differences between two documents: "sensor.netd_mk is 40 here and 50 there".
 [[nodiscard]] std::vector<std::string> differences(const Json& here, const Json& there);
 
 }  // namespace thermal

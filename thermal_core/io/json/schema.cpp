@@ -6,6 +6,7 @@
 #include <locale>
 #include <map>
 #include <regex>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -50,8 +51,8 @@ std::string key_of(std::string_view where) {
   return key;
 }
 
-/// Compiles a pattern on any thread. libstdc++ keeps each character that it has narrowed for a pattern in a table of
-/// all threads, without a lock (GCC's bug 77704). Narrowing a range fills the whole table, which is then only read.
+/// Compiles a pattern on any thread. libstdc++ caches each character narrowed for a pattern in a global table, without
+/// a lock (GCC's bug 77704). Narrowing a range fills the whole table, which is then only read.
 std::regex compiled(const std::string& pattern) {
   [[maybe_unused]] static const char kNarrowed = [] {
     const char letter = 'a';
@@ -77,7 +78,7 @@ constexpr std::size_t kMostPatternBytes = 4096;
 /// Checks one document against one schema.
 class Checker {
  public:
-  explicit Checker(const Json& root) : root_(root) {}
+  Checker(const Json& root, const EntryNames& names) : root_(root), names_(names) {}
 
   void check(Json& value, const Json& given, const std::string& where) {
     const Json& schema = meant_by(given);
@@ -96,7 +97,7 @@ class Checker {
   [[nodiscard]] std::vector<std::string> faults() && { return std::move(faults_); }
 
  private:
-  /// Resolves a "$ref" to a place in the same schema.
+  /// Resolves a "$ref" within the same schema.
   [[nodiscard]] const Json& meant_by(const Json& schema) const {
     const auto reference = schema.find("$ref");
     if (reference == schema.end()) return schema;
@@ -106,7 +107,11 @@ class Checker {
   void add(const Json& value, const std::string& rule) {
     const std::string unit = value.is_number() ? unit_of_key(key_of(where_)) : "";
     const std::string where = where_.empty() ? "document" : where_;
-    faults_.push_back(fault(where, shortened(value), unit, rule));
+    add_at(where, fault("", shortened(value), unit, rule));
+  }
+
+  void add_at(const std::string& where, const std::string& fault) {
+    if (at_fault_.insert(where).second) faults_.push_back(where + fault);
   }
 
   static std::string shortened(const Json& value) {
@@ -187,6 +192,7 @@ class Checker {
 
   void check_object(Json& value, const Json& schema, const std::string& where) {
     const std::string prefix = where.empty() ? "" : where + ".";
+    if (value.size() < schema.value("minProperties", std::size_t{0})) add(value, "at least one entry");
     const Json& properties = member_or(schema, "properties", kNone);
     const Json& others = member_or(schema, "additionalProperties", kAnything);
     for (const auto& [key, member] : value.items()) {
@@ -200,17 +206,17 @@ class Checker {
     }
     for (const Json& key : member_or(schema, "required", kNone)) {
       const auto name = key.get<std::string>();
-      if (!value.contains(name)) faults_.push_back(prefix + name + " is missing; expected a value");
+      if (!value.contains(name)) add_at(prefix + name, " is missing; expected a value");
     }
     for (const auto& [key, property] : properties.items()) fill_preset(value, key, property);
     for (const auto& [key, property] : properties.items()) {
       if (value.contains(key) || !property.contains("default")) continue;
       value[key] = property["default"];
-      check_at(value[key], property, prefix + key);  // fills in defaults of what is inside
+      check_at(value[key], property, prefix + key);  // fills in nested defaults
     }
   }
 
-  /// Some keys are shorthand for several others: "presets" lists, for each value, the defaults of those.
+  /// Some keys are shorthand for several others: "presets" lists the others' defaults for each value.
   static void fill_preset(Json& value, const std::string& key, const Json& property) {
     const auto presets = property.find("presets");
     if (presets == property.end() || !value.contains(key) || !value[key].is_string()) return;
@@ -223,7 +229,7 @@ class Checker {
   void add_unknown_key(const std::string& where, const std::string& key, const Json& properties) {
     std::vector<std::string> known;
     for (const auto& [name, property] : properties.items()) known.push_back(name);
-    faults_.push_back(where + " is not a known key; expected " +
+    add_at(where, " is not a known key; expected " +
                       (known.empty() ? "none" : "one of " + list_names(known, 40)) +
                       did_you_mean(key, known));
   }
@@ -239,20 +245,28 @@ class Checker {
     }
     if (!schema.contains("items")) return;
     for (std::size_t i = 0; i < value.size(); ++i) {
-      check_at(value[i], schema["items"], fmt::format("{}[{}]", where, i));
+      check_at(value[i], schema["items"], entry_name(where, i));
     }
   }
 
+  [[nodiscard]] std::string entry_name(const std::string& list, std::size_t entry) const {
+    const auto named = names_.find(list);
+    return named == names_.end() ? fmt::format("{}[{}]", list, entry) : named->second.at(entry);
+  }
+
   const Json& root_;
+  const EntryNames& names_;
   std::string where_;
   std::vector<std::string> faults_;
+  std::set<std::string> at_fault_;  ///< places that have one
   std::map<std::string, std::regex> patterns_;
 };
 
 }  // namespace
 
-std::vector<std::string> check_and_fill(Json& document, const Json& schema, const std::string& where) {
-  Checker checker(schema);
+std::vector<std::string> check_and_fill(Json& document, const Json& schema, const std::string& where,
+                                        const EntryNames& names) {
+  Checker checker(schema, names);
   checker.check_at(document, schema, where);
   return std::move(checker).faults();
 }

@@ -14,8 +14,8 @@ using TakeText = std::function<void(std::string_view text)>;
 /// Layout of a document: like to_text(), or all in one line.
 enum class JsonLayout { indented, compact };
 
-/// Writes an object whose last members are arrays, element by element, so that it is never in memory as a whole. The
-/// text is the same as that of the whole document, with a newline at the end.
+/// Writes an object whose last members are arrays, element by element, so that it is never completely in memory. The
+/// text equals that of the complete document, with a newline at the end.
 class JsonStream {
  public:
   /// `head`: the members before the arrays, at least one.
@@ -36,7 +36,7 @@ class JsonStream {
   JsonLayout layout_;
   TakeText take_;
   bool in_array_ = false;
-  bool empty_ = true;  ///< the array, so far
+  bool empty_ = true;  ///< whether the current array has no element yet
 };
 
 /// The text of an element at its indentation.

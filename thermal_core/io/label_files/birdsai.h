@@ -20,7 +20,7 @@ struct BirdsaiKind {
   int animal_or_human = 0;
   int species = -1;
 };
-/// How BIRDSAI numbers a category.
+/// BIRDSAI's numbers of a category.
 [[nodiscard]] BirdsaiKind birdsai_kind(const std::string& category);
 
 }  // namespace thermal

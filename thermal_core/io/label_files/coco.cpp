@@ -39,7 +39,7 @@ std::string in_one_word(std::string folder) {
   return folder;
 }
 
-/// Category 0 of COCO Camera Traps says that a picture has no targets.
+/// Category 0 of COCO Camera Traps marks a picture without targets.
 bool is_empty(const LabelCategory& category) {
   return category.id == LabelId(0) && lower_case(category.name) == "empty";
 }
@@ -101,7 +101,7 @@ class CocoReader {
 
   using Places = std::unordered_map<LabelId, std::size_t>;
 
-  /// Records an id, which must be new.
+  /// Records an id; DataError if it is repeated.
   static LabelId new_id(const JsonEntry& entry, Places& places) {
     LabelId id = entry.id("id");
     if (const auto [there, fresh] = places.emplace(id, places.size()); !fresh)
@@ -217,7 +217,7 @@ class CocoReader {
     return {there->second, fresh};
   }
 
-  /// The video of folder a/b is called a_b, unless another one is, too.
+  /// Names the video of folder a/b a_b, unless that is ambiguous.
   void name_folders(const std::map<std::string, std::size_t>& folders) {
     std::map<std::string, int> uses;
     const auto usual_name = [this](const std::string& folder) {
@@ -238,7 +238,7 @@ class CocoReader {
   }
 
   void place_labels() {
-    std::map<std::size_t, std::size_t> empty;  // annotation by picture
+    std::map<std::size_t, std::size_t> empty;  // index of an annotation, by picture
     for (UnresolvedLabel& read : labels_) {
       read.label.image = place_of(image_places_, read.place, "image_id", read.image_id, "images");
       read.label.category =

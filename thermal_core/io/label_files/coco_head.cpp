@@ -8,7 +8,7 @@
 namespace thermal {
 namespace {
 
-/// Ends the reading.
+/// Thrown to end reading.
 struct ImagesBegin {};
 
 void take(const std::string& file, const std::string& list, std::size_t place, const Json& json,

@@ -41,7 +41,7 @@ std::string fault_of_place(const LabelBox& box, const LabelImage& image) {
   return fmt::format("a box that touches its picture, {} x {} px", image.width_px, image.height_px);
 }
 
-/// The picture of an entry of a results file, and how it is named.
+/// The picture of an entry of a results file, and by what it was named.
 struct NamedPicture {
   std::size_t image = 0;
   bool by_name = false;  ///< and not by its id
@@ -91,7 +91,7 @@ class PictureFinder {
                          "the id or the name of one of the truth's pictures" + names().suggestion_for(name));
   }
 
-  /// Made for the first name alone: most files have ids.
+  /// Built at the first use: most files have ids.
   const PictureNames& names() {
     if (!names_) names_.emplace(truth_);
     return *names_;
@@ -102,15 +102,15 @@ class PictureFinder {
   std::optional<PictureNames> names_;
 };
 
-/// A category_id of a results file, and which category it is if it is an id, or a place in the truth's list from 1.
+/// A category_id of a results file, and its two possible meanings: an id, or an index into the truth's list from 1.
 struct CategoryNumber {
   LabelId number;
   std::optional<std::size_t> by_id = {};
   std::optional<std::size_t> by_place = {};
 };
 
-/// Reads a COCO results file one entry at a time. Ultralytics numbers categories from 1 in the order of its classes, where
-/// COCO has ids; its files show in how they name pictures.
+/// Reads a COCO results file one entry at a time. Ultralytics numbers categories from 1 in the order of its classes
+/// instead of by id; its files are recognized by how they name pictures.
 class ResultsReader {
  public:
   ResultsReader(const LabelSet& truth, const std::string& file)
@@ -143,7 +143,7 @@ class ResultsReader {
  private:
   using Reading = std::optional<std::size_t> CategoryNumber::*;
 
-  /// The one reading of the file's numbers that gives each a category.
+  /// The only interpretation of the file's numbers in which each is a category.
   [[nodiscard]] Reading reading() const {
     const auto first_without = [this](Reading reading) {
       const auto found = std::ranges::find_if(numbers_, [reading](const auto& n) { return !(n.*reading); });
@@ -203,8 +203,8 @@ class ResultsReader {
   const std::string& file_;
   PictureFinder pictures_;
   std::unordered_map<LabelId, std::size_t> ids_;
-  bool may_be_places_ = true;    ///< all entries name pictures as Ultralytics does
-  bool must_be_places_ = false;  ///< and some as no other program does
+  bool may_be_places_ = true;    ///< all entries name pictures as Ultralytics does: indices are possible
+  bool must_be_places_ = false;  ///< some entries name pictures as only Ultralytics does: ids are impossible
   std::vector<CategoryNumber> numbers_;
   std::vector<Detection> detections_;
 };
@@ -299,7 +299,7 @@ void read_yolo_file(const Path& file, const LabelSet& truth, std::size_t image,
   }
 }
 
-/// The .txt files of a folder by name. DataError if it holds only other files, which are not results.
+/// The .txt files of a folder, sorted by name. DataError if it holds only other files, which are not results.
 std::vector<Path> text_files(const Path& folder) {
   std::vector<Path> files;
   bool others = false;

@@ -36,7 +36,7 @@ void take_stated(const std::string& file, const Places& places, std::size_t firs
   }
 }
 
-/// Whether nothing but numbers orders the names.
+/// Numbers pictures by names; returns whether names differ in numbers alone.
 bool number_by_names(Places& places, std::vector<StatedImage>& images) {
   const auto name_of = [&images](std::size_t place) { return std::string_view(images[place].image.file); };
   std::ranges::stable_sort(places, [&name_of](std::size_t a, std::size_t b) {

@@ -9,7 +9,7 @@
 
 namespace thermal {
 
-/// A picture as an entry of a COCO file states it.
+/// A picture as stated by an entry of a COCO file.
 struct StatedImage {
   LabelImage image;
   std::optional<LabelId> video_id = {};
@@ -22,9 +22,9 @@ struct StatedImage {
 /// of them differ.
 void read_frame_of(const JsonEntry& entry, StatedImage& image);
 
-/// Gives each picture its index in its video, which is known already: the one that is stated, or else its place in the
-/// order of the names' numbers (compare_names()). A COCO file gives no meaning to the order of its pictures. Where names
-/// differ in something else than a number, the video is not `in_time`.
+/// Sets each picture's index in its video, which is known already: the stated index, or else its rank in the natural
+/// order of names (compare_names()). The order of pictures in a COCO file has no meaning. If names differ in more than
+/// numbers, the video is not `in_time`.
 /// DataError "FILE: images[3].frame_id = …; expected …" if a video states one frame twice, or only some of its frames.
 void order_frames(const std::string& file, std::vector<StatedImage>& images, std::vector<LabelVideo>& videos);
 

@@ -20,7 +20,7 @@ std::string with_slashes(std::string name) {
 
 std::string last_part(const std::string& name) { return name.substr(name.find_last_of('/') + 1); }
 
-/// Whether the last folders and the name of `whole` are `end`.
+/// Whether the last folders and the file name of `whole` are `end`.
 bool ends_with(const std::string& whole, const std::string& end) {
   return whole == end || whole.ends_with("/" + end);
 }

@@ -12,17 +12,17 @@ namespace thermal {
 /// "night/000000" of "night\000000.png".
 [[nodiscard]] std::string name_without_ending(std::string name);
 
-/// Pictures of labels by the names that results of a detector may use: flat_name(), the name with its folders, and if it
-/// is unique the name alone; with an ending or without, with "/" or "\" between folders.
+/// Pictures of labels by the names that results of a detector may use: flat_name(), the name with its folders, and the
+/// file name alone if it is unique; with or without extension, with "/" or "\" between folders.
 class PictureNames {
  public:
   /// `set` must outlive this.
   explicit PictureNames(const LabelSet& set);
 
-  /// Empty if it names no picture. DataError, beginning with `where`, if it names two.
+  /// Empty for an unknown name. DataError, beginning with `where`, for an ambiguous one.
   [[nodiscard]] std::optional<std::size_t> find(const std::string& name, const std::string& where) const;
 
-  /// Whether a name, perhaps with more or fewer folders, is one of this picture.
+  /// Whether a name, with any number of its folders, is one of this picture.
   [[nodiscard]] bool is_name_of(const std::string& name, std::size_t image) const;
 
   /// "; did you mean "x"?", or empty without a near miss.

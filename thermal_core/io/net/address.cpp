@@ -14,7 +14,7 @@
 namespace thermal {
 namespace {
 
-/// What follows "://", split at its last colon before the path.
+/// Splits the part after "://" at its last colon before the path.
 std::optional<NetAddress> split(std::string_view text) {
   const auto is_blank = [](unsigned char letter) { return letter <= ' ' || letter == 0x7f; };
   if (std::ranges::any_of(text, is_blank)) return {};

@@ -7,21 +7,21 @@
 
 namespace thermal {
 
-/// Where to send, as of a URL: scheme://host:port/path.
+/// A destination as a URL: scheme://host:port/path.
 struct NetAddress {
   std::string scheme;  ///< in small letters
   std::string host;    ///< without the brackets of IPv6
   std::uint16_t port = 0;
   std::string path;  ///< with its slash, or empty
 
-  /// Whether the host is this machine, and no other machine can be reached by it: 127.0.0.0/8, ::1 or "localhost".
+  /// Whether the host is this machine, unreachable from others: 127.0.0.0/8, ::1 or "localhost".
   [[nodiscard]] bool is_loopback() const;
 
   /// "udp://[::1]:5600".
   [[nodiscard]] std::string url() const;
 };
 
-/// ConfigError for an address that others can reach; `permit` is what allows it, such as "--allow-remote".
+/// ConfigError for an address that others can reach; `permit` is the option that allows it, such as "--allow-remote".
 void check_is_loopback(const NetAddress& address, const std::string& where, const std::string& permit);
 
 /// ConfigError with `where` (such as "--video") for another text, one with spaces or control characters, a scheme that is

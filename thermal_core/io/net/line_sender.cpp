@@ -73,7 +73,7 @@ struct Client {
 
   [[nodiscard]] bool is_done() const noexcept { return begun == waiting.size(); }
 
-  /// Sends what it can without waiting. False if the client is gone.
+  /// Sends as much as possible without blocking. False if the client is gone.
   bool push() {
     while (!is_done()) {
       const ssize_t sent = ::send(socket.number(), waiting.data() + begun, waiting.size() - begun,
@@ -86,7 +86,7 @@ struct Client {
     return true;
   }
 
-  /// False if there is no room.
+  /// False if the queue is full.
   bool queue(std::string_view line) {
     waiting.erase(0, begun);
     begun = 0;
@@ -114,7 +114,7 @@ struct LineSender::Impl {
       if (connect(socket.number(), found->ai_addr, found->ai_addrlen) != 0) throw failure(address, "send to");
       return;
     }
-    const int yes = 1;  // a server that ended a moment ago does not hold the port
+    const int yes = 1;  // allows to bind the port right after another server has closed it
     setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     setsockopt(socket.number(), SOL_SOCKET, SO_RCVBUF, &kUnreadBytes,
                sizeof kUnreadBytes);  // clients inherit it
@@ -122,7 +122,7 @@ struct LineSender::Impl {
       throw failure(address, "listen at");
   }
 
-  /// Whoever cannot be accepted now, because there are no descriptors left, waits for the next line.
+  /// Clients that cannot be accepted now, for lack of descriptors, are accepted at the next line.
   void accept_clients() {
     for (int k = 0; k < kMostAccepted; ++k) {
       Socket client(accept4(socket.number(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
@@ -136,7 +136,7 @@ struct LineSender::Impl {
 
   void send_datagram(std::string_view line) {
     const std::string text = std::string(line) + '\n';
-    // No listener is no fault; neither is a buffer that is full.
+    // A missing listener is no error; neither is a full buffer.
     const ssize_t sent = ::send(socket.number(), text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
     ++(sent < 0 && errno != ECONNREFUSED ? counts.missed : counts.sent);
   }

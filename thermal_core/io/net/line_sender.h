@@ -8,17 +8,17 @@
 
 namespace thermal {
 
-/// Sends lines of text to whoever listens, and never waits for them. `udp`: a datagram a line. `tcp`: a server for 16
-/// clients at most; a further one is closed at once. Clients are taken when a line is sent, 64 at most for each line, and
-/// get the lines from then on. A client that reads more slowly than lines come misses whole lines once 1 MiB wait for it,
-/// or a single longer line. What clients send is not read.
+/// Sends lines of text without ever blocking. `udp`: a datagram a line. `tcp`: a server for 16 clients at most; a
+/// further one is closed at once. Clients are accepted when a line is sent, 64 at most for each line, and receive lines
+/// from then on. A slow client misses whole lines while 1 MiB, or a single longer line, waits for it. Input from
+/// clients is ignored.
 class LineSender {
  public:
   struct Counts {
     std::int64_t sent = 0;     ///< lines, to each client
-    std::int64_t missed = 0;   ///< lines that a slow client did not get, and those too long for a datagram
-    int clients = 0;           ///< now
-    std::int64_t refused = 0;  ///< clients that were one too many
+    std::int64_t missed = 0;   ///< lines that a slow client missed, and those too long for a datagram
+    int clients = 0;           ///< at present
+    std::int64_t refused = 0;  ///< clients beyond the limit
   };
 
   static constexpr int kMostClients = 16;
@@ -32,7 +32,7 @@ class LineSender {
   /// Sends a line, to which a line end is added.
   void send(std::string_view line);
 
-  /// Gives slow clients `seconds` at most to read what waits for them.
+  /// Gives slow clients at most `seconds` to receive their queues.
   void finish(double seconds);
 
   [[nodiscard]] Counts counts() const noexcept;

@@ -4,8 +4,8 @@
 
 namespace thermal {
 
-/// While it exists, libraries that this thread calls write and read numbers as C does, and take names for UTF-8,
-/// whatever locale the process has.
+/// While it exists, libraries called on this thread use C's number format and UTF-8 names, regardless of the process's
+/// locale.
 class CLocale {
  public:
   CLocale() : locale_(::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr)), before_(::uselocale(locale_)) {}

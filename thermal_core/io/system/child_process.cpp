@@ -31,7 +31,7 @@ constexpr const char* kReproducibleNumpy = "NPY_DISABLE_CPU_FEATURES=AVX512F AVX
 constexpr std::array<std::string_view, 7> kHandedDown = {
     "HOME", "TMPDIR", "LANG", "LANGUAGE", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"};
 
-/// Whether NumPy may choose its functions for AVX-512. Telling it to leave out what a processor lacks makes it warn.
+/// Whether NumPy may use AVX-512. Disabling features that a processor lacks would make NumPy warn.
 bool has_avx512() {
 #ifdef __x86_64__
   return __builtin_cpu_supports("avx512dq") != 0;  // implies AVX512F
@@ -82,13 +82,13 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
                          int parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(kCannotRun);  // the parent died before the line above
+  if (::getppid() != parent) ::_exit(kCannotRun);  // the parent ended before the line above
   ::dup2(in, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(error, STDERR_FILENO);
   if (events >= 0) ::dup2(events, ChildProcess::kEventDescriptor);
   const int first_foreign = events >= 0 ? ChildProcess::kEventDescriptor + 1 : STDERR_FILENO + 1;
-  ::close_range(static_cast<unsigned>(first_foreign), ~0U, 0);  // what this process itself was given
+  ::close_range(static_cast<unsigned>(first_foreign), ~0U, 0);  // descriptors that this process inherited
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -97,7 +97,8 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   ::_exit(kCannotRun);
 }
 
-/// Moves a descriptor above those the child gives a meaning to, so that no dup2 there hits it; negative if it cannot.
+/// Moves a descriptor above those with a fixed meaning in the child, so that no dup2 there overwrites it; negative on
+/// failure.
 int moved_up(int descriptor) {
   constexpr int kLowest = 10;
   const int high = ::fcntl(descriptor, F_DUPFD_CLOEXEC, kLowest);
@@ -123,7 +124,7 @@ int open_high(const char* file, int flags) {
   return moved_up(low);
 }
 
-/// A descriptor that reads this text, of any length, without a file that a killed run would leave behind.
+/// A descriptor for reading this text, of any length, without a temporary file.
 int open_text(std::string_view text) {
   const int low = ::memfd_create("input", MFD_CLOEXEC);
   if (low < 0) fail("make a file in memory");
@@ -147,7 +148,7 @@ std::optional<std::string> first_line(std::string& text) {
 
 constexpr std::size_t kStreams = 3;  // output, error, events
 
-/// Kills what a program that has ended has started: it may hold the pipes open for ever. Options: of waitid().
+/// Kills the children of a program that has ended: they may hold the pipes open for ever. Options: of waitid().
 void end_group_of(int process, int options) {
   siginfo_t end = {};
   int result = 0;
@@ -157,7 +158,7 @@ void end_group_of(int process, int options) {
   if (result == 0 && end.si_pid == process) ::kill(-process, SIGKILL);
 }
 
-/// Reads all pipes to their ends, whatever the order in which they fill; `look` is called after each piece.
+/// Reads all pipes to their ends, in any order; `look` is called after each piece.
 void read_all(int process, const std::array<Pipe, kStreams>& pipes, std::array<std::string, kStreams>& texts,
               const std::function<void()>& look) {
   constexpr int kSilenceMs = 100;
@@ -229,7 +230,7 @@ ChildProcess::~ChildProcess() {
 
 std::optional<std::string> ChildProcess::take_line() {
   std::optional<std::string> line = first_line(buffer_);
-  if (!line && closed_) buffer_.clear();  // half a line, of a program that was killed: worthless
+  if (!line && closed_) buffer_.clear();  // an incomplete line of a killed program: discarded
   return line;
 }
 

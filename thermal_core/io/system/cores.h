@@ -8,7 +8,7 @@
 
 namespace thermal {
 
-/// How many cores a control group may keep busy, from "QUOTA PERIOD" [us], as in cpu.max of version 2. Empty if it is
+/// Number of cores that a control group may use, from "QUOTA PERIOD" [us], as in cpu.max of version 2. Empty if it is
 /// not limited ("max", or a quota of -1 as in version 1) or the text has another form.
 [[nodiscard]] std::optional<double> cpu_limit(std::string_view quota_and_period);
 
@@ -18,11 +18,11 @@ struct CpuGroup {
   Path path;  ///< from the root of its hierarchy, without "..": "" or "a/b"
 };
 
-/// The groups of a process, from the content of /proc/PID/cgroup; lines of another form are left out.
+/// The groups of a process, from the content of /proc/PID/cgroup; unknown lines are left out.
 [[nodiscard]] std::vector<CpuGroup> cpu_groups(std::string_view content);
 
 /// The smallest cpu_limit() of the groups that this process is in and of those around them. Empty if no file under
-/// `root`/sys/fs/cgroup says one; files that are missing or cannot be read are no error.
+/// `root`/sys/fs/cgroup states a limit; missing or unreadable files are no error.
 [[nodiscard]] std::optional<double> smallest_cpu_limit(const Path& root = "/");
 
 /// The cores of this machine, and those that this process may use.

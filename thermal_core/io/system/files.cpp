@@ -57,7 +57,7 @@ void write_bytes(const Descriptor& out, const Path& file, std::span<const std::b
   }
 }
 
-/// Creates a file; one that exists, or a link, is an error, and not written to.
+/// Creates a file; an existing file or link is an error, and not written to.
 void write_new(const Path& file, std::span<const std::byte> bytes, const Writing& how) {
   Descriptor out(file, O_WRONLY | O_CREAT | O_EXCL, "write");
   write_bytes(out, file, bytes);
@@ -153,14 +153,14 @@ void check_has_no_links(const Path& folder) {
 
 namespace {
 
-/// Renames a file. False, with nothing changed, where that cannot be done: on an object store, or to another file system.
+/// Renames a file. False, with nothing changed, where that is impossible: on an object store, or across file systems.
 bool can_rename(const Path& from, const Path& place) {
   if (::rename(from.c_str(), place.c_str()) == 0) return true;
   if (errno != ENOSYS && errno != EOPNOTSUPP && errno != EXDEV) fail_at("rename to", place, errno);
   return false;
 }
 
-/// Writes by `write` under a temporary name, then renames; where that cannot be done, writes to the place itself.
+/// Writes by `write` under a temporary name, then renames; where that is impossible, writes to the final name.
 void write_in_place(const Path& file, const std::function<void(const Path& as)>& write) {
   Path temporary = file;
   temporary += ".tmp";  // always the same, so that leftovers of a killed run are overwritten
@@ -236,7 +236,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::add(std::string_view text) {
-  if (text.empty()) return;  // an empty view may point nowhere, which fwrite() does not allow
+  if (text.empty()) return;  // the pointer of an empty view may be null, which fwrite() does not allow
   sum_.add(text);
   if (std::fwrite(text.data(), 1, text.size(), stream_.get()) != text.size()) fail_at("write", file_, errno);
 }
@@ -278,7 +278,7 @@ std::error_code rename_with(const Path& from, const Path& to, unsigned flags) {
   return {errno, std::generic_category()};
 }
 
-/// Not every file system can exchange; then there is a moment with neither.
+/// For file systems that cannot exchange names: for a moment there is neither folder.
 std::error_code rename_after_removal(const Path& from, const Path& to) {
   std::error_code error;
   std::filesystem::remove_all(to, error);

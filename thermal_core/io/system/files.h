@@ -16,7 +16,7 @@
 
 namespace thermal {
 
-/// Of a file or a folder.
+/// Path of a file or folder.
 using Path = std::filesystem::path;
 
 /// An error of the system by its number: "cannot DOING PLACE: reason". TryAgainError if the disk is full, otherwise
@@ -47,14 +47,14 @@ void check_is_own_file(const Path& file);
 /// check_is_no_link() for a folder with all that is in it and in the folders in it. What does not exist is no link.
 void check_has_no_links(const Path& folder);
 
-/// Writes under a temporary name beside `file`, syncs, renames: the file is complete or unchanged. Links of either
-/// name are replaced, not followed. Where files cannot be renamed, as on object stores, it is written whole: such a file
+/// Writes under a temporary name beside `file`, syncs, renames: the file is complete or unchanged. Links of either name
+/// are replaced, not followed. Where files cannot be renamed, as on object stores, it is written directly: such a file
 /// appears when it is closed.
 /// IoError with the file and the system's reason; TryAgainError if the disk is full.
 void write_file_atomically(const Path& file, std::string_view content);
 
-/// A new file, without the temporary name, inside a folder that is itself renamed when complete. IoError as above, also
-/// if there is a file or a link of this name.
+/// A new file, without a temporary name, inside a folder that is itself renamed when complete. IoError as above, also
+/// for an existing file or link of this name.
 void write_file(const Path& file, std::span<const std::byte> content);
 
 /// A new file with the content of another, of any size, in constant memory. Errors as read_pieces() and write_file().
@@ -88,7 +88,7 @@ class OutputFile {
   /// Ends the file. Returns its SHA-256.
   std::string close();
 
-  /// close(), with the file flushed to disk and moved to `place`, which is complete or unchanged, as of
+  /// close(), with the file flushed to disk and moved to `place`, which is complete or unchanged, as in
   /// write_file_atomically(); `place` may be on another file system.
   std::string close_as(const Path& place);
 
@@ -112,14 +112,14 @@ void make_fresh_folder(const Path& folder);
 /// anything in it at any depth, is a link to elsewhere, or with the system's reason; TryAgainError if the disk is full.
 void make_own_folder(const Path& folder);
 
-/// Renames a complete folder to `place`, replacing an existing one in one step: a reader, or a run killed in between,
-/// finds either the old one or the new one. What of the old one cannot be removed stays at `whole`. IoError or
-/// TryAgainError with the place.
+/// Renames a complete folder to `place`, replacing an existing one in one step: readers see either the old or the new
+/// folder, also after a crash. Parts of the old one that cannot be removed stay at `whole`. IoError or TryAgainError
+/// with `place`.
 void replace_folder(const Path& whole, const Path& place);
 
-/// Copies the files of a complete folder to `place` one by one, `last` last, then removes the folder, as far as possible.
-/// What was in `place` is removed first. For places that cannot rename folders: a reader takes the folder for complete when
-/// it has `last`, which appears there with its whole content.
+/// Copies the files of a complete folder to `place` one by one, `last` last, then removes the folder, as far as
+/// possible. Existing contents of `place` are removed first. For file systems that cannot rename folders: readers treat
+/// the folder as complete once it has `last`, which appears with its whole content.
 /// IoError with the file and the system's reason; TryAgainError if the disk is full.
 void put_folder(const Path& whole, const Path& place, const Path& last);
 
@@ -132,13 +132,13 @@ struct LeftOver {
 /// Removes a folder with its contents, or a file; of links, only the links. Returns what could not be removed.
 std::optional<LeftOver> sweep_folder(const Path& place);
 
-/// How to give a file a second location.
+/// How to create a second name of a file.
 enum class Linking { hard, symlink, copy };
 
-/// Makes `as` the same file as `file`, creating missing folders: a hard link, a symbolic link to its absolute path,
-/// or a copy. If `file` is a symbolic link, its target is linked. Falls back to a copy where the file system cannot
-/// link: across file systems, past its limit of links. Returns what was done. Never replaces or writes through what is at
-/// `as`. IoError with the file and the system's reason; TryAgainError if the disk is full.
+/// Makes `as` the same file as `file`, creating missing folders: a hard link, a symbolic link to its absolute path, or
+/// a copy. If `file` is a symbolic link, its target is linked. Falls back to a copy where the file system cannot link:
+/// across file systems, beyond its limit of links. Returns the method used. Never replaces or writes through an
+/// existing `as`. IoError with the file and the system's reason; TryAgainError if the disk is full.
 Linking link_file(const Path& file, const Path& as, Linking wanted);
 
 }  // namespace thermal

@@ -15,7 +15,7 @@ namespace {
 
 /// Meaning of the bytes of a lock file; they are locked, not written. These are locks of open files (OFD), because
 /// locks of processes are lost when any other descriptor of the file is closed.
-constexpr off_t kTurnByte = 0;    // held exclusively to change what all runs write
+constexpr off_t kTurnByte = 0;    // held exclusively to change files that all runs write
 constexpr off_t kSharedByte = 1;  // held by runs that share the folder, so that no run can lock it completely
 constexpr off_t kFirstPlace = 2;
 constexpr off_t kToTheEnd = 0;  // as a length

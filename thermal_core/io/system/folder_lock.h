@@ -14,14 +14,14 @@ class FolderLock {
  public:
   /// Locks all of it. Creates `folder` if needed. TryAgainError if another run holds any of it.
   explicit FolderLock(const Path& folder);
-  /// Locks these parts of it, possibly none. TryAgainError if another run holds all of it or one of them.
+  /// Locks some of its parts, possibly none. TryAgainError if another run holds all of it or one of them.
   FolderLock(const Path& folder, const std::vector<std::size_t>& places);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// Waits for exclusive access to the files that all runs sharing the folder write, then calls the function. Not for
-  /// two threads at once.
+  /// Waits for exclusive access to the files that all runs sharing the folder write, then calls the function. Not
+  /// thread-safe.
   void in_turn(const std::function<void()>& change) const;
 
  private:

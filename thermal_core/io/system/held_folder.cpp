@@ -12,12 +12,12 @@
 namespace thermal {
 namespace {
 
-/// Negative if there is no such folder.
+/// Negative if the folder does not exist.
 int open_folder(const Path& folder) noexcept {
   return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
 }
 
-/// Makes a folder, and opens it. What else is in its place is removed.
+/// Creates and opens a folder. Another file of that name is removed.
 int make_and_open(const Path& folder) {
   make_folder(folder.parent_path().empty() ? Path(".") : folder.parent_path());
   for (int tries = 0; tries < 2; ++tries) {
@@ -28,7 +28,8 @@ int make_and_open(const Path& folder) {
   fail_at("open", folder, errno);
 }
 
-/// Whether another run holds it: then waits, if so wanted. Other errors mean that folders cannot be locked here.
+/// Whether another run holds it; if `wait`, waits for it first. Other errors mean that the file system cannot lock
+/// folders.
 bool is_held(int descriptor, bool wait) noexcept {
   while (::flock(descriptor, wait ? LOCK_EX : LOCK_EX | LOCK_NB) != 0) {
     if (errno == EINTR) continue;
@@ -37,7 +38,7 @@ bool is_held(int descriptor, bool wait) noexcept {
   return false;
 }
 
-/// False if the open folder was moved or removed by the run that held it.
+/// False if the run that held the open folder has moved or removed it.
 bool is_at(int descriptor, const Path& folder) noexcept {
   struct stat open = {};
   struct stat there = {};

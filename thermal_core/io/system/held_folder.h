@@ -6,14 +6,13 @@
 
 namespace thermal {
 
-/// An empty folder in which something is made before it is moved to its place. One run holds it; the system releases
-/// it when the process ends. Where the file system cannot lock folders, it is not held.
+/// An empty, locked folder in which a result is built before it is renamed. The system releases the lock when the
+/// process ends. Where the file system cannot lock folders, it is not locked.
 class HeldFolder {
  public:
-  /// Waits until no other run holds it. Creates it, or empties it: a run that was killed may have left files. IoError
-  /// if that fails.
+  /// Waits until no other run holds it. Creates it, or removes files of a killed run. IoError if that fails.
   explicit HeldFolder(const Path& folder);
-  /// Removes it, if it is still there and not moved.
+  /// Removes the folder, unless it was moved.
   ~HeldFolder();
   HeldFolder(const HeldFolder&) = delete;
   HeldFolder& operator=(const HeldFolder&) = delete;
@@ -23,7 +22,7 @@ class HeldFolder {
   int descriptor_ = -1;
 };
 
-/// Removes what a killed run has left of such a folder, unless a run holds it. Returns what could not be removed.
+/// Removes such a folder of a killed run, unless a run holds it. Returns what could not be removed.
 std::optional<LeftOver> sweep_unless_held(const Path& folder);
 
 }  // namespace thermal

@@ -5,7 +5,7 @@
 
 namespace thermal {
 
-/// The result of `work`; the file's name is put before what a DataError says.
+/// The result of `work`; messages of DataErrors are prefixed with the file's name.
 template <typename Work>
 auto naming(const Path& file, const Work& work) {
   try {

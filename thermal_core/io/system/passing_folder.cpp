@@ -18,9 +18,9 @@
 namespace thermal {
 namespace {
 
-constexpr std::string_view kPrefix = ".veldt-passing-";  // no other program's: what has this name is removed
+constexpr std::string_view kPrefix = ".veldt-passing-";  // ours alone: folders with it are removed
 
-/// The descriptor of a folder that no other process has locked; -1 if one has, or if it is gone.
+/// Locks a folder; returns its descriptor, or -1 if another process has locked it, or it is gone.
 int lock_folder(const Path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
@@ -28,7 +28,7 @@ int lock_folder(const Path& folder) {
   return -1;
 }
 
-/// Removes what killed runs have left. Of other users' folders nothing can be removed.
+/// Removes leftovers of killed runs; other users' folders cannot be removed.
 void sweep(const Path& temporary) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(temporary, ignored)) {
@@ -40,10 +40,10 @@ void sweep(const Path& temporary) {
   }
 }
 
-/// Waits for the end of the process that holds the other end of the pipe, then becomes "rm -rf FOLDER". Between fork and
-/// exec: nothing but system calls that are safe there.
+/// Waits until the process at the other end of the pipe ends, then becomes "rm -rf FOLDER". Between fork and exec:
+/// nothing but system calls that are safe there.
 [[noreturn]] void guard(int pipe, char* const* removal) {
-  ::setpgid(0, 0);  // Ctrl-C is not for it
+  ::setpgid(0, 0);  // so that Ctrl-C does not reach it
   ::dup2(pipe, STDIN_FILENO);
   ::close_range(STDIN_FILENO + 1, ~0U, 0);
   char byte = 0;
@@ -59,7 +59,7 @@ void sweep(const Path& temporary) {
 PassingFolder::PassingFolder() {
   const Path temporary = std::filesystem::temp_directory_path();
   sweep(temporary);
-  while (lock_ < 0) {  // again if another run sweeps the folder before it is locked
+  while (lock_ < 0) {  // again if another run removed the folder before it was locked
     std::string name = (temporary / kPrefix).string() + "XXXXXX";
     if (::mkdtemp(name.data()) == nullptr)
       throw IoError("cannot make a folder " + name + ": " + std::strerror(errno));
@@ -81,7 +81,7 @@ PassingFolder::~PassingFolder() {
   ::close(life_);
 }
 
-/// Without a guard, where the system refuses one, the next run removes the folder.
+/// If the system refuses to start a guard, the next run removes the folder.
 void PassingFolder::start_guard() {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;

@@ -4,8 +4,8 @@
 
 namespace thermal {
 
-/// A new temporary folder; removed with its contents at the end of the object's life. If this process is interrupted or
-/// killed, a guard process removes it; what that could not remove, the next run that makes one does.
+/// A new temporary folder; removed with its contents by the destructor. If this process is interrupted or killed, a
+/// guard process removes it; if that fails, the next run that creates one does.
 class PassingFolder {
  public:
   /// IoError if it cannot be created.
@@ -19,9 +19,9 @@ class PassingFolder {
   void start_guard();
 
   Path path_;
-  int lock_ = -1;   ///< held as long as the folder is in use, by this process alone
+  int lock_ = -1;   ///< lock, held by this process while the folder is in use
   int guard_ = -1;  ///< process
-  int life_ = -1;   ///< of a pipe whose end the guard waits for; the system closes it with this process
+  int life_ = -1;   ///< end of a pipe on which the guard waits; the system closes it with this process
 };
 
 }  // namespace thermal

@@ -97,7 +97,7 @@ NamePattern::Range NamePattern::takes(const Piece& piece, std::string_view rest)
   return {.least = 1, .most = 1, .none = !takes_one};
 }
 
-/// How many letters of name[i, …) piece k takes so that the rest matches: numbers are greedy, stars are not.
+/// Number of letters of name[i, …) that piece k takes so that the rest matches: numbers are greedy, stars are not.
 std::optional<std::size_t> NamePattern::length_at(const Fits& fits, std::string_view name, std::size_t k,
                                                   std::size_t i) const {
   const Range range = takes(pieces_[k], name.substr(i));
@@ -114,7 +114,7 @@ NamePattern::Fits NamePattern::fits_of(std::string_view name) const {
   fits.back().back() = true;
   for (std::size_t k = pieces_.size(); k-- > 0;) {
     for (std::size_t i = name.size() + 1; i-- > 0;) {
-      // Whether a star's rest matches one letter on is known already, so patterns with many stars are no slower.
+      // Whether the rest of a star matches one letter later is known already, so many stars cost no additional time.
       const bool star = pieces_[k].kind == Kind::any_letters;
       fits[k][i] = star ? fits[k + 1][i] || (i < name.size() && fits[k][i + 1])
                         : length_at(fits, name, k, i).has_value();
@@ -137,8 +137,7 @@ std::optional<NumberPlace> NamePattern::match(std::string_view name) const {
 
 namespace {
 
-constexpr std::int64_t kMostGapsAFile =
-    10;  // more is probably a mistake: two names with time stamps of a recording, say
+constexpr std::int64_t kMostGapsAFile = 10;  // more is probably a mistake, such as two time stamps
 
 struct Numbered {
   FrameName frame;
@@ -242,7 +241,7 @@ void check_gaps(const std::vector<Numbered>& frames, std::int64_t step, const st
       where, files, first, last, step, gaps, kMostGapsAFile * files));
 }
 
-/// The name a frame would have: another frame's with its number, in as many digits.
+/// The name of a missing frame: another frame's with its number, in as many digits.
 FrameName name_with(FrameName frame, std::int64_t number) {
   const std::string digits = fmt::format("{:0{}}", number, frame.number.digits);
   frame.name.replace(frame.number.at, frame.number.digits, digits);

@@ -11,7 +11,7 @@
 
 namespace thermal {
 
-/// Position of the frame number in a file's name; without a number, no digits.
+/// Position of the frame number in a file's name; no digits if there is none.
 struct NumberPlace {
   std::size_t at = 0;
   std::size_t digits = 0;
@@ -44,7 +44,7 @@ class NamePattern {
   };
   struct Reader;
 
-  /// How many letters of `rest` a piece can take: any number from `least` to `most`.
+  /// Number of letters that a piece can take: from `least` to `most`.
   struct Range {
     std::size_t least = 0;
     std::size_t most = 0;
@@ -72,7 +72,7 @@ struct FrameName {
 struct FrameSequence {
   /// A step of a sequence.
   struct Frame {
-    FrameName name;  ///< of a gap: the name it would have
+    FrameName name;  ///< for a gap: the name it would have
     bool is_gap = false;
   };
   std::vector<Frame> frames;

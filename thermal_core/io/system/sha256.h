@@ -18,7 +18,7 @@ class Sha256 {
 
   void add(std::span<const std::byte> bytes);
   void add(std::string_view text);
-  /// 64 lower-case hexadecimal digits. Ends the sum.
+  /// The sum as 64 lower-case hexadecimal digits; ends the sum.
   [[nodiscard]] std::string hex();
 
  private:

@@ -23,7 +23,7 @@ Spool::Spool(Path file) : file_(std::move(file)) {
 }
 
 Spool::~Spool() {
-  std::error_code error;  // at worst it is left over
+  std::error_code error;  // if this fails, the file stays
   if (!file_.empty()) std::filesystem::remove(file_, error);
 }
 

@@ -14,13 +14,13 @@ class Spool {
  public:
   using TakeLine = std::function<void(std::string_view line)>;
 
-  /// In `file`, which exists as long as this object. Empty: in memory, for few lines.
+  /// Writes to `file`, which is removed with this object. Empty: in memory, for few lines.
   explicit Spool(Path file = {});
   ~Spool();
   Spool(Spool&&) noexcept = default;
   Spool& operator=(Spool&&) noexcept = delete;
 
-  /// Faults as of OutputFile.
+  /// Errors as OutputFile.
   void add(std::string_view line);
 
   /// Returns every line in order, without its end; then the file is removed. Call once. IoError if the file cannot be

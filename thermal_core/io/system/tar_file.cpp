@@ -70,7 +70,7 @@ struct TarFile::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  /// For libarchive, to which no failure is reported: after one it would not free what it holds.
+  /// Callback of libarchive. Always reports success, because libarchive does not free its memory after a failure.
   static la_ssize_t take(archive*, void* self, const void* bytes, std::size_t count) noexcept {
     static_cast<Impl*>(self)->write({static_cast<const char*>(bytes), count});
     return static_cast<la_ssize_t>(count);

@@ -4,12 +4,12 @@
 
 namespace thermal {
 
-/// A file that some library writes under a temporary name, so that whoever looks finds the file whole or as it was.
+/// A file that a library writes under a temporary name, so that readers find the file either complete or unchanged.
 class TemporaryFile {
  public:
-  /// What becomes `place`. Removes what an earlier run has left under the temporary name, a link alone.
+  /// `place`: the final name. Removes a leftover under the temporary name, of a link the link alone.
   explicit TemporaryFile(const Path& place);
-  /// Removes the file unless it was kept.
+  /// Removes the file unless keep() was called.
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;

@@ -19,7 +19,7 @@ extern "C" {
 namespace thermal {
 namespace {
 
-/// Its version and what `output.codec` of a config can name.
+/// FFmpeg's version, and the values of `output.codec` that it supports.
 std::string ffmpeg_with_codecs() {
   const std::vector<std::string> codecs = installed_video_codecs();
   return fmt::format("{}, output.codec: {}", av_version_info(), codecs.empty() ? "none" : list_names(codecs));

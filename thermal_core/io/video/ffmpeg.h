@@ -10,13 +10,13 @@ extern "C" {
 #include <libavutil/log.h>
 }
 
-/// What the modules here share. Only their sources may include it: FFmpeg is private to them.
+/// Shared by the modules here. Only their sources may include it: FFmpeg is private to them.
 namespace thermal::ffmpeg {
 
-/// Keeps an encoder's messages below any level that FFmpeg prints; an exception reports what goes wrong.
+/// Log level below all of FFmpeg's; errors are reported by exceptions.
 inline constexpr int kSilent = 100;
 
-/// Colour is stored at half size, so sides are even; a picture of odd size shows its edge twice.
+/// Chroma has half the size, so sides are even; a picture of odd size repeats its edge.
 constexpr int even(int size_px) { return size_px + size_px % 2; }
 
 inline std::string reason_of(int error) {

@@ -22,7 +22,7 @@ class H264File {
   /// The next frame, which `draw` fills in. Faults as of the constructor.
   void add(const std::function<void(const Planes&)>& draw);
 
-  /// Ends the file, which is none before. Faults as of the constructor.
+  /// Completes the file. Faults as the constructor.
   void close();
 
  private:

@@ -6,18 +6,18 @@
 
 namespace thermal {
 
-/// How a video is encoded. Its bytes depend on this, the frames and the encoder's version alone.
+/// Encoder settings of a video. Its bytes depend on these, the frames and the encoder's version alone.
 struct H264Settings {
   double frame_rate_hz = 9;  ///< > 0
   int width_px = 0;          ///< > 0; an odd side becomes one pixel longer
   int height_px = 0;
   std::string preset = "ultrafast";  ///< of x264
-  int quality = 26;                  ///< x264's constant rate factor: 0 without loss, 51 worst
+  int quality = 26;                  ///< x264's constant rate factor: 0 lossless, 51 worst
   int threads = 1;  ///< of the encoder: a constant, because the bytes depend on it, never the number of cores
-  bool streamable = false;  ///< the index comes first, so that a browser plays while it loads
+  bool streamable = false;  ///< index first, so that browsers play while loading
 };
 
-/// Where the pixels of a frame of video go: Y, then U and V of half the size each way. Sides are even.
+/// Destination of a video frame's pixels: Y, then U and V of half the size each way. Sides are even.
 struct VideoPlanes {
   std::array<std::uint8_t*, 3> data{};
   std::array<int, 3> stride_px{};

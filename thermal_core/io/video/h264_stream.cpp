@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a receiver may take to answer, or to read a frame.
+/// Timeout for a receiver's answer, and for reading a frame.
 constexpr std::chrono::seconds kPatience(5);
 
 /// MPEG-TS packets of 188 bytes, as many as fit an Ethernet frame.
@@ -56,7 +56,7 @@ struct H264Stream::Impl {
     return interrupted() ? "stopped" : fmt::format("no answer within {} s", kPatience.count());
   }
 
-  /// FFmpeg's codes tell little of a wait that is given up: it may report another fault, or none.
+  /// FFmpeg's error codes do not identify a timeout: it may report another error, or none.
   template <typename Send>
   void in_time(const Send& send) {
     give_up = Clock::now() + kPatience;

@@ -9,12 +9,12 @@
 
 namespace thermal {
 
-/// Sends grey frames as H.264 video: MPEG-TS by `udp`, which needs no receiver, or pushed to a server by `rtsp`.
-/// Each frame leaves at once, a keyframe is among every second's, and whoever joins later waits for it.
+/// Sends grey frames as H.264 video: MPEG-TS by `udp`, which needs no receiver, or pushed to a server by `rtsp`. Frames
+/// are sent without delay, with a keyframe each second, from which new receivers can start.
 class H264Stream {
  public:
   /// @param frame_rate_hz  > 0
-  /// @param interrupted  asked while the stream waits, from the thread that uses it: true ends the wait with an IoError
+  /// @param interrupted  called while the stream waits, on the calling thread: true ends the wait with an IoError
   /// IoError if there is no answer within 5 s, or FFmpeg has no encoder.
   H264Stream(const NetAddress& address, double frame_rate_hz, int width_px, int height_px,
              std::function<bool()> interrupted);
@@ -22,11 +22,11 @@ class H264Stream {
   H264Stream(const H264Stream&) = delete;
   H264Stream& operator=(const H264Stream&) = delete;
 
-  /// Sends a frame of the size given at first. `time`: in frames since the first; later than the one before. Waits for a
-  /// server that reads slowly, 5 s at most. IoError if it is gone; the stream is of no use then.
+  /// Sends a frame of the constructor's size. `time`: in frames since the first; increasing. Waits for a slow server, 5
+  /// s at most. IoError if it is gone; the stream is unusable then.
   void add(const Plane<std::uint8_t>& frame, std::int64_t time);
 
-  /// Ends the stream. IoError as of add().
+  /// Ends the stream. IoError as add().
   void close();
 
  private:

@@ -32,7 +32,7 @@ void H264Writer::open_encoder(const H264Settings& settings) {
   encoder_->log_level_offset = kSilent;
   encoder_->width = even(settings.width_px);
   encoder_->height = even(settings.height_px);
-  encoder_->pix_fmt = AV_PIX_FMT_YUV420P;  // what every browser plays
+  encoder_->pix_fmt = AV_PIX_FMT_YUV420P;  // supported by every browser
   encoder_->framerate = av_d2q(settings.frame_rate_hz, 100000);
   encoder_->time_base = av_inv_q(encoder_->framerate);
   if (container_.global_header) encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
@@ -43,7 +43,7 @@ void H264Writer::open_encoder(const H264Settings& settings) {
     encoder_->gop_size = std::max(1, static_cast<int>(std::lround(settings.frame_rate_hz)));
     check(av_opt_set(encoder_->priv_data, "tune", "zerolatency", 0));
   }
-  const CLocale numbers;  // in the text of its settings, which x264 puts into the video
+  const CLocale numbers;  // for the text of x264's settings in the video
   check(avcodec_open2(encoder_.get(), codec, nullptr));
   picture_->format = encoder_->pix_fmt;
   picture_->width = encoder_->width;
@@ -77,7 +77,7 @@ void H264Writer::open_container(const H264Settings& settings, std::function<bool
 
 H264Writer::~H264Writer() {
   if (connected_)
-    av_write_trailer(format_.get());  // frees what only the trailer frees, whether it can be sent or not
+    av_write_trailer(format_.get());  // also needed to free memory if the trailer cannot be sent
 }
 
 void H264Writer::add(const std::function<void(const VideoPlanes&)>& draw, std::int64_t time) {
@@ -90,7 +90,7 @@ void H264Writer::add(const std::function<void(const VideoPlanes&)>& draw, std::i
   encode(picture_.get());
 }
 
-/// `what` null: there are no more.
+/// `what` null: end of the stream.
 void H264Writer::encode(const AVFrame* what) {
   check(avcodec_send_frame(encoder_.get(), what));
   for (;;) {

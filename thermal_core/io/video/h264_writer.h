@@ -8,29 +8,29 @@
 
 namespace thermal::ffmpeg {
 
-/// An H.264 encoder and the container that its packets go to. Faults are FFmpeg's codes, which `fault` turns into
-/// exceptions.
+/// An H.264 encoder and its container. Faults are FFmpeg's codes, which `fault` turns into exceptions.
 class H264Writer {
  public:
   using Fault = std::function<void(int error)>;  ///< throws
 
   struct Container {
     std::string format;         ///< of FFmpeg: "mp4", "mpegts", "rtsp"
-    std::string url;            ///< a file, or where to send
-    bool global_header = true;  ///< once, and not with each keyframe
-    bool live = false;          ///< each frame leaves at once; a keyframe each second
+    std::string url;            ///< a file, or a destination
+    bool global_header = true;  ///< once, instead of with each keyframe
+    bool live = false;          ///< no delay; a keyframe each second
   };
 
-  /// `interrupted`: asked while FFmpeg waits; true ends the wait. Must outlive this object, as must what it uses.
+  /// `interrupted`: called while FFmpeg waits; true ends the wait. Must outlive this object, together with its
+  /// captures.
   H264Writer(Container container, const H264Settings& settings, Fault fault,
              std::function<bool()>* interrupted);
 
-  /// A file that is not closed is none; a stream ends, and its connection with it.
+  /// Without close(), a file is incomplete; a stream ends with its connection.
   ~H264Writer();
   H264Writer(const H264Writer&) = delete;
   H264Writer& operator=(const H264Writer&) = delete;
 
-  /// The next frame, which `draw` fills in. `time`: in frames since the first; later than the one before.
+  /// The next frame, which `draw` fills in. `time`: in frames since the first; increasing.
   void add(const std::function<void(const VideoPlanes&)>& draw, std::int64_t time);
 
   /// Ends the file or stream.
@@ -50,7 +50,7 @@ class H264Writer {
   Codec encoder_;
   Picture picture_{av_frame_alloc()};
   Packet packet_{av_packet_alloc()};
-  bool connected_ = false;  ///< a stream that FFmpeg must end
+  bool connected_ = false;  ///< a stream that needs FFmpeg to end it
 };
 
 }  // namespace thermal::ffmpeg

@@ -3,7 +3,7 @@
 #include "io/video/video_levels.h"
 
 namespace thermal {
-// "medium" takes twenty times as long as "ultrafast" for half the bytes, and the frames are there without loss.
+// "medium" takes twenty times as long as "ultrafast" for half the bytes, and lossless frames exist anyway.
 PreviewVideo::PreviewVideo(const Path& file, double frame_rate_hz, int width_px, int height_px)
     : file_(file, {.frame_rate_hz = frame_rate_hz,
                    .width_px = width_px,

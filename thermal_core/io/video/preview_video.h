@@ -7,18 +7,18 @@
 
 namespace thermal {
 
-/// Writes an H.264 video (MP4) to look at, frame by frame. Lossy, and not among the pixels that are hashed; yet its
-/// bytes depend on the frames and the encoder's version alone, not on the number of cores.
+/// Writes an H.264 preview (MP4), frame by frame. Lossy, and not part of the hashed pixels; yet its bytes depend on the
+/// frames and the encoder's version alone, not on the number of cores.
 class PreviewVideo {
  public:
   /// @param frame_rate_hz  > 0
   /// IoError if the file or the encoder cannot be opened, TryAgainError if the disk is full.
   PreviewVideo(const Path& file, double frame_rate_hz, int width_px, int height_px);
 
-  /// The next frame, of the size given at first. Faults as of the constructor.
+  /// The next frame, of the constructor's size. Faults as the constructor.
   void add(const Plane<std::uint8_t>& frame);
 
-  /// Ends the file, which is none before. Faults as of the constructor.
+  /// Completes the file. Faults as the constructor.
   void close();
 
  private:

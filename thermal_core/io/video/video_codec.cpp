@@ -49,7 +49,7 @@ const VideoKind& find_video_kind(const std::string& name) {
                         installed.empty() ? "it has none" : list_names(installed))));
 }
 
-/// Rows beyond the frame repeat its last, and so do columns.
+/// Replicates the last row and column beyond the frame.
 void fill_video_picture(const Plane<std::uint8_t>& frame, AVFrame& picture) {
   for (int y = 0; y < picture.height; ++y) {
     const auto row = frame.row(std::min(y, frame.height_px() - 1));
@@ -83,7 +83,7 @@ struct VideoCodec::Impl {
   ffmpeg::Picture decoded{av_frame_alloc()};
   ffmpeg::Packet packet{av_packet_alloc()};
 
-  /// Bits must not depend on the number of cores, nor, for FFmpeg's own codecs, on the processor's kind.
+  /// Makes bits independent of the number of cores and, for FFmpeg's own codecs, of the processor.
   static void make_repeatable(AVCodecContext& codec) {
     codec.log_level_offset = ffmpeg::kSilent;
     codec.thread_count = 1;
@@ -119,14 +119,14 @@ struct VideoCodec::Impl {
       check_video_call(av_opt_set(encoder->priv_data, "tune", "zerolatency", 0));
       check_video_call(av_opt_set(encoder->priv_data, "x264-params", "cpu-independent=1", 0));
     } else {
-      encoder->qmin = 1;  // FFmpeg's own codecs otherwise stop at 2, whatever the rate
+      encoder->qmin = 1;  // FFmpeg's own codecs otherwise use at least 2, regardless of the rate
       encoder->mb_lmin = FF_QP2LAMBDA;
       check_video_call(av_opt_set_int(encoder->priv_data, "lmin", FF_QP2LAMBDA, 0));
     }
     open(encoder, codec);
   }
 
-  /// At most the rate, over a buffer of a second, as for a radio link.
+  /// Limits the rate over a buffer of a second, as for a radio link.
   void set_rate(double frame_rate_hz) const {
     const double share = settings.bitrate_at_hz > 0 ? frame_rate_hz / settings.bitrate_at_hz : 1;
     encoder->bit_rate = std::max(1000LL, std::llround(1e3 * share * settings.bitrate_kbit_s));

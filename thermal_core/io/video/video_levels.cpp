@@ -6,7 +6,7 @@
 namespace thermal {
 namespace {
 
-/// Black to white as video has them: 16 to 235 (ITU-R BT.601).
+/// Scales to video range: 16 to 235 (ITU-R BT.601).
 std::uint8_t video_level(std::uint8_t level) {
   const auto scaled = static_cast<std::uint16_t>(219 * level + 127);  // at most 55,972
   return static_cast<std::uint8_t>(16 + scaled / 255);

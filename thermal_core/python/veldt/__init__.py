@@ -1,7 +1,7 @@
-"""Veldt in Python: radiance, cameras, temperatures by the weather, labels and datasets, as the command `veldt` computes
-them, bit for bit. NumPy arrays in, NumPy arrays out; no function holds the interpreter's lock while it computes.
+"""Veldt in Python: radiance, cameras, temperatures by the weather, labels and datasets, equal to the results of the
+command `veldt`, bit for bit. NumPy arrays in, NumPy arrays out; computations release the interpreter's lock.
 
-Errors are those of the command, with the same words: `ConfigError`, `DataError`, `IoError`, `TryAgainError` and
+Errors are those of the command, with the same messages: `ConfigError`, `DataError`, `IoError`, `TryAgainError` and
 `Cancelled`, all of them `Error`.
 """
 

@@ -11,7 +11,7 @@ import veldt._core as _core
 
 
 class Band:
-    """What a camera sees of a spectrum: a flat band, or a response curve.
+    """The spectral response of a camera: a flat band, or a response curve.
 
     >>> Band(8, 14).temperature(Band(8, 14).radiance(300.0))
     array(300.)
@@ -45,8 +45,8 @@ class Band:
         return self._band.radiances(temperature_k)
 
     def table_radiance(self, temperature_k: ArrayLike) -> NDArray[np.float32]:
-        """The same in single precision, by the table that frames are made with: a hundred times as fast from 180 K to
-        436 K, the reference elsewhere. Off by at most 5e-8 of the radiance before it is rounded to single precision.
+        """The same in single precision, by the table used for frames: a hundred times as fast from 180 K to 436 K, the
+        reference elsewhere. Off by at most 5e-8 of the radiance before rounding to single precision.
         """
         return self._band.table_radiances(temperature_k)
 

@@ -18,7 +18,7 @@ _LONGEST_REST_S = 86_400
 
 
 class Exposure(NamedTuple):
-    """What the camera makes of one frame."""
+    """The camera's output for one frame."""
 
     ir8: NDArray[np.uint8]
     """Grey levels after gain control, (height, width)."""
@@ -29,8 +29,8 @@ class Exposure(NamedTuple):
 
 
 class Camera:
-    """One camera through one clip: optics, thermal lag, noise, shutter, bad pixels and gain control go on from frame to
-    frame. The same arguments and radiances give the same bits as `veldt generate` for a clip of that id.
+    """One camera through one clip: optics, thermal lag, noise, shutter, bad pixels and gain control continue from frame
+    to frame. The same arguments and radiances give the same bits as `veldt generate` for a clip of that id.
 
     >>> camera = Camera("boson_640_14mm", seed=3)
     >>> frame = camera.expose(numpy.full((512, 640), 40, numpy.float32))
@@ -47,11 +47,11 @@ class Camera:
         brightest_w_m2_sr: float = 1,
         settings: dict[str, Any] | None = None,
     ) -> None:
-        """A preset of assets/sensors, and sections of a config, such as {"sensor": {"netd_mk": 30}}, that change it.
+        """A preset of assets/sensors, and overrides by sections of a config, such as {"sensor": {"netd_mk": 30}}.
 
-        clip, seed: what the noise is a function of. air_k: temperature around the camera [K]. brightest_w_m2_sr:
-        radiance of level 255, which only the gain controls `scene_max` and `table_max` of the published model use.
-        ConfigError for unknown presets and keys, with the nearest name.
+        clip, seed: determine the noise. air_k: temperature around the camera [K]. brightest_w_m2_sr: radiance of level
+        255, which only the gain controls `scene_max` and `table_max` of the published model use. ConfigError for
+        unknown presets and keys, with the nearest name.
         """
         sections = json.loads(json_of(settings or {}, "settings"))
         sections.setdefault("sensor", {}).setdefault("preset", preset)
@@ -65,8 +65,8 @@ class Camera:
         """The picture of the next frame, from radiance [W m^-2 sr^-1] of shape (height_px, width_px), which is copied
         once, as single precision. NaN and negative radiance count as 0.
 
-        time_s: of the frame, from the first one at 0. Frames in between pass unseen: noise and shutter go on, lag and
-        gain control rest. ConfigError unless it is the next frame's time or later, by a day at most, on the clock of
+        time_s: of the frame, from the first one at 0. Frames in between are skipped: noise and shutter advance, lag and
+        gain control do not. ConfigError unless it is the next frame's time or later, by a day at most, on the clock of
         the frame rate.
         """
         if time_s is not None:

@@ -29,7 +29,7 @@ class MadeFrame(NamedTuple):
 
 
 class Converter:
-    """Turns the planes of one clip into what `veldt convert` makes of the same planes in files, bit for bit.
+    """Converts the planes of one clip in memory, with the results of `veldt convert` for files, bit for bit.
 
     >>> converter = Converter("passes/manifest.json", "night.json")
     >>> for number, plane in enumerate(index_planes):
@@ -43,7 +43,7 @@ class Converter:
         settings: Iterable[str] = (),
     ) -> None:
         """`manifest`: a manifest or its file; its frames need no files. `config`: a config or its file; None: defaults,
-        in winter. `settings`: "key=value", as of --set. Faults of the config are found with the first frame.
+        in winter. `settings`: "key=value", as of --set. Faults of the config are reported at the first frame.
 
         DataError for a manifest, ConfigError for a config that violates its schema; IoError if one cannot be read.
         """
@@ -54,7 +54,7 @@ class Converter:
         )
 
     def __len__(self) -> int:
-        """How many frames the manifest has."""
+        """Number of frames of the manifest."""
         return self._converter.frames
 
     def convert(
@@ -67,14 +67,14 @@ class Converter:
         depth_m: ArrayLike | None = None,
         normal: ArrayLike | None = None,
     ) -> MadeFrame:
-        """Frame `number` of the manifest, in order; those left out pass unseen.
+        """Convert frame `number` of the manifest. Numbers increase; gaps are skipped frames.
 
-        All planes are (height, width) as the manifest's renderer has them, indices whole from 0 to 32767, of any type
-        of numbers; normal is (height, width, 3), in world axes; depth_m is along the camera's axis, 1e9 or more for
-        sky. They are copied once. The first frame's planes decide which physical terms are kept: a plane that they
-        need must not be missing later. DataError for planes of another size, missing planes, and indices that the
-        manifest lacks; the camera has then not moved on, and the frame can be converted again. ConfigError for a
-        number that has passed.
+        All planes are (height, width) of the manifest's renderer, indices whole from 0 to 32767, of any numeric type;
+        normal is (height, width, 3), in world axes; depth_m is along the camera's axis, 1e9 or more for sky. They are
+        copied once. The first frame's planes decide which physical terms are kept: a plane that they need must not be
+        missing later. DataError for planes of another size, missing planes, and indices that the manifest lacks; the
+        camera has then not advanced, and the frame can be converted again. ConfigError for a number that does not
+        increase.
         """
         given = {
             "object_index": object_index,
@@ -92,7 +92,7 @@ class Converter:
 
 
 def made_frame(made: tuple[NDArray[np.uint8], NDArray[np.uint16], bool, str]) -> MadeFrame:
-    """What the library makes of a frame, as users have it."""
+    """The library's result as a MadeFrame."""
     ir8, ir16, shutter_closed, labels = made
     return MadeFrame(
         ir8, ir16, shutter_closed, [Label.of(each, each.pop("category")) for each in json.loads(labels)]

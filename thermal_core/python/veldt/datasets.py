@@ -1,5 +1,4 @@
-"""Datasets that `veldt generate` and `veldt convert` wrote, as sequences of clips and frames. Files are read when asked
-for."""
+"""Datasets of `veldt generate` and `veldt convert`, as sequences of clips and frames. Files are read lazily."""
 
 from __future__ import annotations
 
@@ -25,13 +24,13 @@ class Label:
     category: str
     track_id: int
     box_px: tuple[float, float, float, float]
-    """Of its visible pixels: x, y, width and height."""
+    """Bounding box of its visible pixels: x, y, width and height."""
     values: dict[str, Any] = field(repr=False)
     """All keys of its annotation, such as range_m and contrast_k; thermal_core/DATASET.md explains them."""
 
     @classmethod
     def of(cls, annotation: dict[str, Any], category: str) -> Label:
-        """That of an annotation."""
+        """The label of an annotation."""
         return cls(category, annotation["track_id"], tuple(annotation["bbox"]), annotation)
 
     def mask(self) -> NDArray[np.bool_]:
@@ -48,11 +47,11 @@ class Frame:
     clip: Clip = field(repr=False)
     index: int
     line: str = field(repr=False)
-    """Of frames.jsonl, as text: a fifth of the memory."""
+    """Its line of frames.jsonl as text, in a fifth of the memory."""
 
     @property
     def values(self) -> dict[str, Any]:
-        """Its line of frames.jsonl: gain curve, checksums and all that follows."""
+        """Its line of frames.jsonl: gain curve, checksums and further keys."""
         return json.loads(self.line)
 
     @property
@@ -67,7 +66,7 @@ class Frame:
 
     @property
     def shutter_closed(self) -> bool:
-        """The picture is frozen."""
+        """Whether the picture is frozen."""
         return self.values["ffc"]
 
     @property
@@ -94,7 +93,7 @@ class Frame:
         return self.clip.labels_of(self.index)
 
     def file(self, kind: str) -> Path:
-        """That of its "ir8" or "ir16"."""
+        """Path of its "ir8" or "ir16" file."""
         return self.clip.folder / kind / f"{self.index:06d}.png"
 
 
@@ -122,7 +121,7 @@ class Clip(Sequence[Frame]):
         return self._labels.get(frame_index, [])
 
     def __getitem__(self, at: int) -> Frame:
-        """A frame by its place; a slice gives a list."""
+        """A frame by index; a slice gives a list."""
         return self._frames[at]
 
     def __len__(self) -> int:
@@ -170,7 +169,7 @@ class Dataset(Sequence[Clip]):
         return dict(categories)
 
     def category_id(self, name: str) -> int:
-        """That of a category in annotations.json; DataError if it has none of this name."""
+        """Id of a category in annotations.json; DataError for an unknown name."""
         if name in self.categories:
             return self.categories[name]
         known = ", ".join(self.categories)
@@ -180,7 +179,7 @@ class Dataset(Sequence[Clip]):
 
     @cached_property
     def images_before(self) -> dict[str, int]:
-        """By clip: the largest id of an image in annotations.json before its own. Frames that were skipped have one."""
+        """By clip: the largest id of an image in annotations.json before its own. Skipped frames count."""
         largest = accumulate((clip[-1].index + 1 if len(clip) else 0 for clip in self), initial=0)
         return dict(zip((clip.id for clip in self), largest))
 
@@ -190,7 +189,7 @@ class Dataset(Sequence[Clip]):
             yield from clip
 
     def __getitem__(self, at: int | str) -> Clip:
-        """A clip by its place or its id, ConfigError for an unknown one; a slice gives a list."""
+        """A clip by index or id, ConfigError for an unknown one; a slice gives a list."""
         if not isinstance(at, str):
             return self._clips[at]
         for clip in self._clips:
@@ -207,14 +206,16 @@ class Dataset(Sequence[Clip]):
 
 
 def open_dataset(folder: str | PathLike[str]) -> Dataset:
-    """A dataset's clips. What is in it is checked when it is first asked for: IoError if a file cannot be read, is no
-    regular one, or a link; DataError, with file, place and value, if it is none of a dataset."""
+    """A dataset's clips. Contents are checked when they are first read: IoError if a file cannot be read, is not
+    regular, or a link; DataError, with file, location and value, for invalid contents.
+    """
     return Dataset(Path(folder))
 
 
 def splits_of(export: str | PathLike[str]) -> dict[str, list[str]]:
-    """The ids of the clips in each split of what `veldt export --format coco --split` wrote. IoError unless it has a
-    folder annotations/ with a file for each split, which is no link; DataError if one is none of COCO."""
+    """The ids of the clips in each split of an export by `veldt export --format coco --split`. IoError unless it has a
+    folder annotations/, not a link, with a file for each split; DataError if one is not a COCO file.
+    """
     files = sorted(Path(export).glob("annotations/*.json"))
     if not files:
         raise _core.IoError(

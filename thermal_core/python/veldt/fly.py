@@ -1,4 +1,4 @@
-"""Fly a planned place by the poses that arrive over UDP, and send what the camera sees (`python -m veldt.fly`)."""
+"""Fly through a planned scene by poses received over UDP, and send the camera's frames (`python -m veldt.fly`)."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from .rejections import Rejections, Unusable
 from .world import Capture, World
 
 _MOST_BYTES = 4_096  # of a datagram
-_MOST_HELD = 256  # datagrams, about what a socket holds
+_MOST_HELD = 256  # datagrams, about the capacity of a socket
 _TAKE_S = 0.002
 _PAUSE_S = 0.03
 _REPORT_EACH_S = 60.0
@@ -35,24 +35,23 @@ def _nothing(_: str) -> None:
 
 
 class Sink(Protocol):
-    """Where frames go: veldt.Stream."""
+    """Destination of frames: veldt.Stream."""
 
     def send(self, ir8: NDArray[np.uint8], line: dict, number: int) -> bool:
         """False if the frame was dropped."""
 
 
 class Poses:
-    """The poses that arrive as datagrams: MAVLink, as Vehicle takes it, or JSON, as pose_of_json() does. The last kind
-    that came counts. A datagram that cannot be used, or has more than 4,096 bytes, changes nothing: it is counted in
-    `rejected`, and reported.
+    """Poses received as datagrams: MAVLink for Vehicle, or JSON for pose_of_json(), whichever arrived last. Unusable
+    datagrams, and those of more than 4,096 bytes, are counted in `rejected`, reported, and otherwise ignored.
     """
 
     def __init__(
         self, address: tuple[str, int], vehicle: Vehicle, report: Callable[[str], None] = _nothing
     ) -> None:
-        """report: takes a line of text about what is rejected, at most once a minute for each reason.
+        """report: receives a line of text about rejected datagrams, at most once a minute for each reason.
 
-        IoError if nothing can be received at the address.
+        IoError if the address cannot be bound.
         """
         try:
             self._socket = _bound_socket(address)
@@ -65,13 +64,14 @@ class Poses:
         self._held: deque[bytes] = deque(maxlen=_MOST_HELD)
         self.received = 0
         self.of_no_use = 0
-        """Datagrams of whole MAVLink messages that say no pose."""
+        """Datagrams of valid MAVLink messages without a pose."""
         self.rejected = Rejections(report)
 
     def receive_until(self, time_s: float, clock: Callable[[], float]) -> None:
-        """Take the datagrams that arrive until a time of the clock; if that is over, those that are there already. A
-        flood holds up no frame, and leaves the processor to others: 256 datagrams wait at most, the newest, and after
-        2 ms of taking them comes a pause of 30 ms or until the time."""
+        """Process datagrams until a time of the clock; if that has passed, those that are queued. A flood does not
+        delay frames or occupy the processor: at most the newest 256 datagrams are queued, and 2 ms of processing are
+        followed by a pause of 30 ms or until the time.
+        """
         wait_s = 0.0
         while True:
             self._hold(wait_s, clock)
@@ -86,7 +86,7 @@ class Poses:
             if self._held:
                 time.sleep(min(_PAUSE_S, left_s))
                 if left_s <= _PAUSE_S:
-                    return  # rested, a frame begins at once also where the processor is busy
+                    return  # after a pause, a frame starts at once even on a busy processor
                 wait_s = 0.0
 
     def pose_at(self, time_s: float) -> NDArray[np.float64] | None:
@@ -94,11 +94,11 @@ class Poses:
         return self._vehicle.pose_at(time_s) if self._given is None else self._given
 
     def close(self) -> None:
-        """Receive nothing more."""
+        """Close the socket."""
         self._socket.close()
 
     def _hold(self, wait_s: float, clock: Callable[[], float]) -> None:
-        """Wait for a datagram, and hold it and those that are there too, twice the most at once: the oldest go."""
+        """Wait for a datagram, and queue it and those behind it, up to twice the limit; the oldest are dropped."""
         before, dropped = self.received, 0
         self._socket.settimeout(wait_s)
         while self.received < before + 2 * _MOST_HELD:
@@ -148,13 +148,13 @@ def _bound_socket(address: tuple[str, int]) -> socket.socket:
 
 
 class Flight(NamedTuple):
-    """What became of a flight's frames."""
+    """Counts of a flight's frames."""
 
     sent: int
     dropped: int
     """Not made in time, or not sent."""
     worst_s: float
-    """The longest that a frame was late, when it was handed over."""
+    """Largest lateness of a frame, when it was queued."""
 
 
 def fly(
@@ -165,9 +165,9 @@ def fly(
     seconds: float | None = None,
     report: Callable[[str], None] = _nothing,
 ) -> Flight:
-    """Send the camera's frames at their true rate from the first pose on, until the plan's time or `seconds` are over.
-    A frame that is late by more than a frame is dropped, and the camera goes on. While the first pose is missing,
-    `report` takes a line of text each minute; nothing but an exception, such as by Ctrl-C, ends the wait.
+    """Send the camera's frames in real time from the first pose on, until the plan's time or `seconds` are over. A
+    frame that is late by more than a frame is dropped, and the camera continues. While the first pose is missing,
+    `report` receives a line of text each minute; only an exception, such as by Ctrl-C, ends the wait.
 
     ConfigError unless `seconds` are above 0.
     """
@@ -203,7 +203,7 @@ def _wait_for_pose(poses: Poses, clock: Callable[[], float], report: Callable[[s
 
 
 def line_of(time_s: float, pose: NDArray[np.float64], capture: Capture) -> dict:
-    """What is known of a frame, as `veldt stream` says it."""
+    """Metadata of a frame, in the format of `veldt stream`."""
     return {
         "time_s": time_s,
         "camera_to_world": pose.tolist(),
@@ -234,7 +234,7 @@ def _origin(text: str) -> tuple[float, float, float]:
 
 
 def _number(option: str, unit: str, expected: str, fits: Callable[[float], bool]) -> Callable[[str], float]:
-    """A reader of an option's finite number."""
+    """A parser of an option's finite number."""
 
     def read(text: str) -> float:
         try:
@@ -249,7 +249,7 @@ def _number(option: str, unit: str, expected: str, fits: Callable[[float], bool]
 
 
 def _check_addresses(given: argparse.Namespace) -> None:
-    """ConfigError for an address that others can reach, unless that is allowed, and for poses of an unknown host."""
+    """ConfigError for an address that others can reach, unless allowed, and for an unknown host for poses."""
     host, port = given.poses
     addresses = {"--poses": f"udp://{host}:{port or 1}", "--video": given.video, "--labels": given.labels}
     for option, url in addresses.items():
@@ -312,7 +312,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _report(text: str) -> None:
-    with suppress(OSError):  # a terminal that has gone ends no flight
+    with suppress(OSError):  # a closed terminal does not end a flight
         print(f"veldt.fly: {text}", file=sys.stderr, flush=True)
 
 
@@ -337,7 +337,7 @@ def _run(given: argparse.Namespace) -> int:
 
 
 def _summary(done: Flight, poses: Poses, stream: Stream) -> int:
-    """Print what became of frames and datagrams; the exit code."""
+    """Print counts of frames and datagrams; returns the exit code."""
     counts, refused, rejected = stream.counts, stream.clients_refused, poses.rejected
     dropped = done.sent + done.dropped - counts.sent
     text = (

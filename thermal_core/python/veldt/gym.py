@@ -1,4 +1,4 @@
-"""A world to fly in as an environment for Gymnasium, which must be installed."""
+"""A Gymnasium environment to fly in a scene; needs Gymnasium."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from .poses import pose_looking
 from .world import Capture, World
 
 _STEEPEST_RAD = np.pi / 2
-_SPEEDS = 3  # of an action: forward, right and up; then turning left, and looking down
+_SPEEDS = 3  # of an action: forward, right and up; the others are rates of turning left and down
 
 
 class FlightEnv(gymnasium.Env[NDArray[np.uint8], NDArray[np.float32]]):
     """Fly a camera over a planned clip, and keep actors in view.
 
     Action: five numbers from -1 to 1: speeds forward, to the right and up, as shares of max_speed_m_s, and rates of
-    turning left and of looking further down, as shares of max_turn_rad_s. Observation: the 8-bit frame (height,
-    width). Reward: the share of the followed actors that are labelled in the frame, 0 to 1. An episode begins with
-    the planned flight's first pose, and is truncated when the plan's time is over. It never terminates before.
+    turning left and of looking further down, as shares of max_turn_rad_s. Observation: the 8-bit frame (height, width).
+    Reward: the share of the followed actors that are labelled in the frame, 0 to 1. An episode begins with the planned
+    flight's first pose, and is truncated when the plan's time is over. It never terminates before.
 
-    `gymnasium.make("Veldt/Flight-v0", plan_folder=…, clip=…)` makes one too, once this module is imported.
-    `info` has `capture`: the whole Capture, and `camera_to_world`.
+    `gymnasium.make("Veldt/Flight-v0", plan_folder=…, clip=…)` works once this module is imported. `info` has `capture`:
+    the whole Capture, and `camera_to_world`.
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 9}
@@ -42,8 +42,9 @@ class FlightEnv(gymnasium.Env[NDArray[np.uint8], NDArray[np.float32]]):
         frame_rate_hz: float | None = None,
         render_mode: str | None = None,
     ) -> None:
-        """plan_folder, clip, frame_rate_hz: as World's. follow: the category that is to be kept in view.
-        least_height_m: of the camera above the lowest actor; it flies no lower."""
+        """plan_folder, clip, frame_rate_hz: as World's. follow: the category to keep in view. least_height_m: lower
+        limit of the camera's height above the lowest actor.
+        """
         self._world = World(plan_folder, clip, frame_rate_hz=frame_rate_hz)
         self._follow = follow
         self._rates = np.array([max_speed_m_s] * _SPEEDS + [max_turn_rad_s] * 2)
@@ -66,7 +67,7 @@ class FlightEnv(gymnasium.Env[NDArray[np.uint8], NDArray[np.float32]]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.uint8], dict[str, Any]]:
-        """Begin with the planned flight's first pose. The seed is the camera's."""
+        """Start at the planned flight's first pose. The seed is the camera's."""
         super().reset(seed=seed, options=options)
         self._world.restart(seed)
         pose = self._world.flight_poses[0]
@@ -74,7 +75,7 @@ class FlightEnv(gymnasium.Env[NDArray[np.uint8], NDArray[np.float32]]):
         self._frame = 0
         self._place_m = pose[:3, 3].copy()
         self._down_rad = float(np.arcsin(np.clip(-forward[2], -1, 1)))
-        # Straight down, the top of the picture says where the camera heads.
+        # Looking straight down, the top of the picture is the heading.
         ahead = forward if np.hypot(*forward[:2]) > 1e-6 else -pose[:3, 1]
         self._heading_rad = float(np.arctan2(ahead[1], ahead[0]))
         return self._take()
@@ -82,7 +83,7 @@ class FlightEnv(gymnasium.Env[NDArray[np.uint8], NDArray[np.float32]]):
     def step(
         self, action: NDArray[np.float32]
     ) -> tuple[NDArray[np.uint8], float, bool, bool, dict[str, Any]]:
-        """Move for one frame, and take the next."""
+        """Move for one frame, and capture the next."""
         moved = np.clip(action, -1, 1) * self._rates / self._world.frame_rate_hz
         cos, sin = np.cos(self._heading_rad), np.sin(self._heading_rad)
         self._place_m += [moved[0] * cos + moved[1] * sin, moved[0] * sin - moved[1] * cos, moved[2]]

@@ -13,14 +13,14 @@ from .runs import json_of
 
 
 class HeatOfDay:
-    """The temperatures of all materials over a day that repeats itself, by their heat balances. The columns of heat of
-    a material are computed when it is first asked for (about a tenth of a second), and kept.
+    """The temperatures of all materials over a day that repeats itself, by their heat balances. A material's
+    temperatures are computed at its first use (about a tenth of a second), and cached.
 
     >>> HeatOfDay("winter").temperature_k("soil", solar_h=3)
     """
 
     def __init__(self, season: str = "winter", weather: dict[str, Any] | None = None) -> None:
-        """`weather`: keys of a config's section of that name that differ from the season's. ConfigError if invalid."""
+        """`weather`: keys of a config's section `weather` that override the season's. ConfigError if invalid."""
         self._day = _core.Day(season, json_of({"weather": weather or {}}, "weather"), home())
 
     @property
@@ -44,11 +44,10 @@ class HeatOfDay:
     ) -> NDArray[np.float64]:
         """Temperature [K] of surfaces of one material; all arguments but `material` broadcast as in NumPy.
 
-        solar_h: local solar time [h]. sky_view: share of the sky that is seen, 0 to 1. sunlit: share of the day's
-        sunbeams that arrive, 0 to 1. moisture: 0 dry to 1 saturated; None: of open ground after the last rain.
-        normal: (…, 3) unit vectors east, north, up. Values outside count as the nearest inside. Interpolated between
-        days that are computed: off by up to a fifth of a kelvin. ConfigError for an unknown material, numbers that are
-        not finite, and shapes that do not broadcast.
+        solar_h: local solar time [h]. sky_view: visible share of the sky, 0 to 1. sunlit: share of the day's direct
+        sunlight, 0 to 1. moisture: 0 dry to 1 saturated; None: that of open ground after the last rain. normal: (…, 3)
+        unit vectors east, north, up. Values outside are clamped. Interpolated in tables: off by up to a fifth of a
+        kelvin. ConfigError for an unknown material, numbers that are not finite, and shapes that do not broadcast.
         """
         given = {
             "solar_h": solar_h,

@@ -1,4 +1,4 @@
-"""Where the files are that come with Veldt: materials, sensors, schemas."""
+"""Location of the files that come with Veldt: materials, sensors, schemas."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Datasets as Hugging Face's `datasets` reads them, which must be installed."""
+"""Datasets for Hugging Face's `datasets`, which must be installed."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ import veldt._core as _core
 from .datasets import Clip, Dataset, Frame
 
 _PIXELS = ("ir8", "ir16")
-# Folders that `datasets` takes for splits without being asked.
+# Folders that `datasets` recognizes as splits.
 _SPLITS = ("train", "validation", "test")
 
 
@@ -31,11 +31,11 @@ def write_image_folder(
 
     splits: the ids of the clips in train, validation and test; `val` is validation. None: all clips in train. Frames
     are linked, or copied where that is impossible. metadata.parquet has the rows with their types: with JSON lines,
-    `datasets` rejects splits without targets, whose types it cannot guess.
+    `datasets` rejects splits without targets, whose types it cannot infer.
 
     ConfigError for a folder that exists, other splits, one without frames, an unknown clip, and a clip in two of them;
-    open_dataset()'s errors: no link of the dataset is followed. The folder appears when it is whole; a killed run
-    leaves one beside it whose name goes on with `.part_`.
+    open_dataset()'s errors: no link of the dataset is followed. The folder appears when it is complete; a killed run
+    leaves one beside it with the suffix `.part_`.
     """
     out = Path(folder)
     if out.exists():

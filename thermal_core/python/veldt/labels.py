@@ -30,7 +30,7 @@ class Instance:
 
     @property
     def area_px(self) -> int:
-        """How many pixels it has."""
+        """Number of its pixels."""
         return self._found.area_px
 
     @property
@@ -52,8 +52,8 @@ class Instance:
 def instances(index_plane: ArrayLike, actors: Iterable[int]) -> list[Instance]:
     """The actors of an index plane (height, width) with their boxes and masks, in ascending order of index.
 
-    index_plane: numbers of any type. actors: indices that are labelled; others are not. DataError for the first number
-    that is not whole, from 0 to 32767, Blender's limit.
+    index_plane: numbers of any type. actors: indices to label. DataError for the first number that is not whole, from 0
+    to 32767, Blender's limit.
     """
     listed = list(actors)
     found = _core.instances(index_plane, [listed] if listed else None)

@@ -1,4 +1,4 @@
-"""Where a drone's camera is, by the MAVLink messages that its autopilot sends; needs pymavlink."""
+"""Poses of a drone's camera from its autopilot's MAVLink messages; needs pymavlink."""
 
 from __future__ import annotations
 
@@ -13,48 +13,47 @@ from veldt._core import PlaceOnEarth
 from .poses import checked_place, pose_of_rotation, rotation_of_attitude, rotation_of_quaternion
 from .rejections import Unusable, number_within
 
-_LONGEST_S = 1.0  # that a message is carried on by its speeds; afterwards the drone stays
-_MOST_LATITUDE_DEG = 89.0  # nearer to a pole, east turns
+_LONGEST_S = 1.0  # how long a message is extrapolated by its speeds; then the drone is taken to stand still
+_MOST_LATITUDE_DEG = 89.0  # nearer to a pole, east is ill-defined
 _HEIGHTS_M = (-1_000.0, 20_000.0)
 _MOST_M_S = 200.0
 _MOST_RAD_S = 100.0
 _MOST_RAD = 200 * np.pi  # a hundred turns
-_UNKNOWN_SPEEDS = (32_767, -32_768)  # [cm/s] the ends of the field's type
+_UNKNOWN_SPEEDS = (32_767, -32_768)  # [cm/s] the limits of the field's type
 
 
 class Received(NamedTuple):
-    """What became of a datagram's messages."""
+    """Counts of a datagram's messages."""
 
     used: int
-    """Messages that say where the drone or its camera is."""
+    """Messages with a position or an attitude."""
     faults: list[Unusable]
-    """What was dropped. Whole messages of other kinds are neither."""
+    """Dropped messages. Valid messages of other kinds are not counted."""
 
 
 class _Motion(NamedTuple):
-    """What a message says."""
+    """State from one message."""
 
     arrived_s: float
     now: NDArray[np.float64]
-    """A place (3,) [m], or a rotation (3, 3)."""
+    """A position (3,) [m], or a rotation (3, 3)."""
     rates: NDArray[np.float64]
-    """Of change (3,) a second."""
+    """Rates of change (3,) per second."""
     from_north: bool = False
 
 
 class Vehicle:
-    """A drone: position by GLOBAL_POSITION_INT, attitude by ATTITUDE, and its camera by
-    GIMBAL_DEVICE_ATTITUDE_STATUS or MOUNT_ORIENTATION. Between messages it goes on with their
-    speeds, for a second at most.
+    """A drone: position by GLOBAL_POSITION_INT, attitude by ATTITUDE, and its camera by GIMBAL_DEVICE_ATTITUDE_STATUS
+    or MOUNT_ORIENTATION. Between messages it is extrapolated by their speeds, for a second at most.
 
-    The first system that says where it is counts; the poses of others are dropped. A camera without a gimbal's messages
-    is fixed to the body, and looks `down_rad` below its front.
+    The first system with a position is used; poses of others are dropped. A camera without gimbal messages is fixed to
+    the body, and looks `down_rad` below its front.
 
-    A message is dropped whole, and what was known before stays, if its position is 0/0 (no fix), beyond 89 degrees of
-    latitude or 180 of longitude, not -1 to 20 km high, or 10 km from the scene's (0, 0, 0) along an axis; if it moves
-    by more than 200 m/s along an axis, or turns by more than 100 rad/s; if an angle is not a number or beyond a hundred
-    turns, or a quaternion not of length 1 to within a tenth. Unknown speeds and rates (not a number, or the ends of a
-    whole number's type) count as 0.
+    A message is dropped, and the previous state kept, if its position is 0/0 (no fix), beyond 89 degrees of latitude or
+    180 of longitude, not -1 to 20 km high, or 10 km from the scene's (0, 0, 0) along an axis; if it moves by more than
+    200 m/s along an axis, or turns by more than 100 rad/s; if an angle is not a number or beyond a hundred turns, or a
+    quaternion not of length 1 to within a tenth. Unknown speeds and rates (not a number, or the ends of a whole
+    number's type) count as 0.
     """
 
     def __init__(
@@ -63,17 +62,17 @@ class Vehicle:
         origin: tuple[float, float, float] | None = None,
         down_rad: float = np.pi / 4,
     ) -> None:
-        """origin: latitude, longitude [deg] and height [m] of the scene's (0, 0, 0), of the heights that the autopilot
-        sends (above the sea). None: the first position is start_m, east, north and up [m].
+        """origin: latitude, longitude [deg] and height [m] of the scene's (0, 0, 0), in the autopilot's heights (above
+        the sea). None: the first position is start_m, east, north and up [m].
 
-        ConfigError for a latitude beyond 89 deg and the like.
+        ConfigError for invalid positions, such as a latitude beyond 89 deg.
         """
         self._start_m = np.asarray(start_m, float) if origin is None else np.zeros(3)
         self._place = None if origin is None else PlaceOnEarth(origin)
         self._fixed = rotation_of_attitude(0, -down_rad, 0)
         self._system: int | None = None
         self._last: dict[str, _Motion] = {}
-        self._early: dict[int, dict[str, _Motion]] = {}  # by system, until one says where it is
+        self._early: dict[int, dict[str, _Motion]] = {}  # by system, until one has a position
         self._readers = {
             "GLOBAL_POSITION_INT": self._position,
             "ATTITUDE": _attitude,
@@ -82,8 +81,8 @@ class Vehicle:
         }
 
     def receive(self, data: bytes, arrived_s: float) -> Received:
-        """Take a datagram that arrived at a time [s] of the caller's clock: whole messages."""
-        parser = common.MAVLink(None)  # a new one: what a broken datagram leaves must not spoil the next
+        """Process a datagram of complete messages that arrived at a time [s] of the caller's clock."""
+        parser = common.MAVLink(None)  # a new one, because a broken datagram leaves state behind
         parser.robust_parsing = True
         used, faults, is_whole = 0, [], True
         for message in parser.parse_buffer(data) or []:
@@ -107,7 +106,7 @@ class Vehicle:
         return pose_of_rotation(place_m, self._camera_at(time_s, _turned(attitude, time_s)))
 
     def _take(self, message: Any, arrived_s: float) -> bool:
-        """Whether it is of use."""
+        """Process a message; whether it is used."""
         kind, system = message.get_type(), message.get_srcSystem()
         if kind not in self._readers:
             return False
@@ -182,7 +181,7 @@ def _speed(where: str, speed_cm_s: int) -> float:
 
 
 def _rates(kind: str, message: Any, names: Iterable[str]) -> NDArray[np.float64]:
-    """Those of a body about its axes [rad/s]; unknown ones are 0."""
+    """Rates of a body about its axes [rad/s]; unknown ones are 0."""
     given = {name: getattr(message, name) for name in names}
     return np.array([
         0.0 if np.isnan(rate) else number_within(f"{kind}.{name}", rate, "rad/s", -_MOST_RAD_S, _MOST_RAD_S)
@@ -195,14 +194,15 @@ def _age_s(motion: _Motion, time_s: float) -> float:
 
 
 def _turned(body: _Motion, time_s: float) -> NDArray[np.float64]:
-    """A body's rotation, carried on by its rates. For the small angles of a few frames: the error is a twelfth of the
-    angle cubed."""
+    """A body's rotation, extrapolated by its rates. For the small angles of a few frames: the error is a twelfth of the
+    angle cubed.
+    """
     half = body.rates * _age_s(body, time_s) / 2
     return body.now @ rotation_of_quaternion(1, *half)
 
 
 def _yaw_is_from_north(flags: int) -> bool:
-    """As the message's definition says: by the flags of the frame, else by the lock of yaw."""
+    """By the message's definition: from the flags of the frame, else from the lock of yaw."""
     if flags & (
         common.GIMBAL_DEVICE_FLAGS_YAW_IN_EARTH_FRAME | common.GIMBAL_DEVICE_FLAGS_YAW_IN_VEHICLE_FRAME
     ):

@@ -1,4 +1,4 @@
-"""Poses as objects of JSON."""
+"""Poses as JSON objects."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ _EXPECTED = "camera_to_world, or position_m with yaw_deg, pitch_deg and roll_deg
 
 def pose_of_json(text: bytes | str) -> NDArray[np.float64]:
     """A pose (4, 4) of one JSON object with `camera_to_world` (4 x 4), or with `position_m` (east, north, up) and
-    `yaw_deg` (from north, clockwise), `pitch_deg` (up) and `roll_deg`, which are 0 if they are missing. A matrix is
-    made a rotation if it is one to within 1e-3.
+    `yaw_deg` (from north, clockwise), `pitch_deg` (up) and `roll_deg`, which are 0 if they are missing. A matrix within
+    1e-3 of a rotation is orthonormalised.
 
-    Other keys are ignored, but for those that begin as words of poses do ("yaw", "heading_deg", "rotation", …):
-    these are refused. Numbers are JSON's own: no text, true, NaN or Infinity. Places are within 10 km of the scene's
-    (0, 0, 0) along each axis, angles within 36,000 degrees. ConfigError for anything else.
+    Other keys are ignored, except those that look like poses ("yaw", "heading_deg", "rotation", …), which are errors.
+    Numbers are JSON's own: no text, true, NaN or Infinity. Positions are within 10 km of the scene's (0, 0, 0) along
+    each axis, angles within 36,000 degrees. ConfigError for anything else.
     """
     given = _object_of(text)
     for key in given.keys() - _USED:

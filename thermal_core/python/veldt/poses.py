@@ -17,19 +17,19 @@ _CAMERA_TO_BODY = np.array(
 
 
 def pose_looking(place_m: ArrayLike, heading_rad: float, down_rad: float) -> NDArray[np.float64]:
-    """Without roll: heading counter-clockwise from east, `down_rad` below the horizon."""
+    """A pose without roll: heading counter-clockwise from east, `down_rad` below the horizon."""
     return pose_of_attitude(place_m, 0, -down_rad, np.pi / 2 - heading_rad)
 
 
 def pose_of_attitude(
     place_m: ArrayLike, roll_rad: float, pitch_rad: float, yaw_rad: float
 ) -> NDArray[np.float64]:
-    """As aviation counts angles: yaw clockwise from north, then pitch up from the horizon, then roll to the right."""
+    """A pose from aviation angles: yaw clockwise from north, then pitch up from the horizon, then roll to the right."""
     return pose_of_rotation(place_m, rotation_of_attitude(roll_rad, pitch_rad, yaw_rad))
 
 
 def rotation_of_attitude(roll_rad: float, pitch_rad: float, yaw_rad: float) -> NDArray[np.float64]:
-    """From a body's axes (front, right, down) to north, east, down (3, 3)."""
+    """Rotation from a body's axes (front, right, down) to north, east, down (3, 3)."""
     (cos_r, cos_p, cos_y), (sin_r, sin_p, sin_y) = (
         f([roll_rad, pitch_rad, yaw_rad]) for f in (np.cos, np.sin)
     )
@@ -40,7 +40,7 @@ def rotation_of_attitude(roll_rad: float, pitch_rad: float, yaw_rad: float) -> N
 
 
 def rotation_of_quaternion(w: float, x: float, y: float, z: float) -> NDArray[np.float64]:
-    """Of a quaternion of any length but 0, real part first (3, 3)."""
+    """Rotation of a quaternion of any length but 0, real part first (3, 3)."""
     w, x, y, z = np.array([w, x, y, z]) / np.linalg.norm([w, x, y, z])
     return np.array(
         [
@@ -52,12 +52,12 @@ def rotation_of_quaternion(w: float, x: float, y: float, z: float) -> NDArray[np
 
 
 def checked_place(where: str, place_m: Iterable[object]) -> NDArray[np.float64]:
-    """A place (3,) that arrived, east, north, up [m]. Unusable if it is none, or beyond FARTHEST_M along an axis."""
+    """A received position (3,), east, north, up [m]. Unusable if it is invalid, or beyond FARTHEST_M along an axis."""
     return np.array([number_within(where, one, "m", -FARTHEST_M, FARTHEST_M) for one in place_m])
 
 
 def pose_of_rotation(place_m: ArrayLike, body_to_ned: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Of a camera that looks to the front of a body at a place (3,) east, north, up [m]."""
+    """Pose of a camera that looks to the front of a body at a position (3,) east, north, up [m]."""
     pose = np.eye(4)
     pose[:3, :3] = _NED_TO_ENU @ body_to_ned @ _CAMERA_TO_BODY
     pose[:3, 3] = place_m

@@ -16,19 +16,19 @@ Source = dict[str, Any] | str | PathLike[str]
 
 
 class Progress(NamedTuple):
-    """How far a run is."""
+    """Progress of a run."""
 
     stage: str
-    """"planning", "ground maps" or "frames": what is counted."""
+    """Unit of the counts: "planning", "ground maps" or "frames"."""
     clip: str
-    """The one at work."""
+    """The current clip."""
     done: int
     total: int
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run did."""
+    """Result of a run."""
 
     made: list[str]
     """Clips made in this run."""
@@ -49,8 +49,9 @@ def plan(
     threads: int = 0,
     progress: Callable[[Progress], None] | None = None,
 ) -> list[str]:
-    """Work out what a config means, into `folder`, as `veldt plan` does; the ids of its clips. A plan that is already
-    there is used again if nothing has changed. Arguments and errors are those of generate()."""
+    """Plan a config into `folder`, as `veldt plan` does; returns the ids of its clips. An unchanged existing plan is
+    reused. Arguments and errors are those of generate().
+    """
     return _core.plan_config(_sources(config, settings), fspath(folder), threads, _report_to(progress))
 
 
@@ -67,12 +68,12 @@ def generate(
     blender: str | PathLike[str] = "",
     progress: Callable[[Progress], None] | None = None,
 ) -> Outcome:
-    """Make a dataset, or the rest of one, as `veldt generate` does.
+    """Make or complete a dataset, as `veldt generate` does.
 
-    config: a config or its file, or `plan_folder`: what plan() wrote. settings: "key=value", as of --set, such as
-    "render.engine=blender". clips: only these. jobs: Blender processes. threads: of everything together; 0: all cores.
-    progress: called from time to time, never twice at once; what it raises ends the run. So does Ctrl-C. Finished clips
-    stay, and the next call goes on.
+    config: a config or its file, or `plan_folder`: the folder of plan(). settings: "key=value", as of --set, such as
+    "render.engine=blender". clips: only these. jobs: Blender processes. threads: in total; 0: all cores. progress:
+    called from time to time, never concurrently; its exceptions end the run. So does Ctrl-C. Finished clips are kept,
+    and the next call continues.
 
     ConfigError for an invalid config, before anything is made; IoError, TryAgainError. Clips that cannot be made are in
     the outcome.
@@ -99,7 +100,7 @@ def _sources(config: Source, settings: Iterable[str]) -> _core.Sources:
 
 
 def document_of(source: Source, name: str) -> tuple[str, str]:
-    """The JSON of a document or its file, and what to call it in messages."""
+    """The JSON of a document or its file, and its name in messages."""
     if isinstance(source, dict):
         return json_of(source, name), name
     file = fspath(source)
@@ -107,7 +108,7 @@ def document_of(source: Source, name: str) -> tuple[str, str]:
 
 
 def json_of(document: Any, name: str) -> str:
-    """Its JSON; ConfigError for what JSON cannot hold."""
+    """A document as JSON text; ConfigError for values that JSON cannot represent."""
     try:
         return json.dumps(document, allow_nan=False)
     except (TypeError, ValueError, RecursionError) as error:

@@ -11,31 +11,31 @@ from numpy.typing import ArrayLike
 import veldt._core as _core
 
 
-_LAST = 2**40  # 145 years at 240 Hz: times in a video's own ticks stay whole numbers of 64 bits
+_LAST = 2**40  # 145 years at 240 Hz: times in a video's ticks stay within 64 bits
 
 
 class StreamCounts(NamedTuple):
-    """What became of frames."""
+    """Counts of frames."""
 
     sent: int
     dropped: int
-    """No room, or no receiver."""
+    """Queue full, or no receiver."""
     waiting: int
-    """Neither yet; at most a few."""
+    """Queued; at most a few."""
     lines_missed: int
-    """Lines that slow clients did not get, and those too long for a datagram."""
+    """Lines that slow clients missed, and those too long for a datagram."""
     fault: str
     """Why the last frame without a receiver had none."""
 
 
 class Stream:
-    """Sends frames as H.264 video on a thread of its own, and a line of JSON with each: send() never waits. If more
-    than a few frames wait to be sent, the next is dropped. If the receiver of an RTSP stream goes away, or reads
-    nothing for 5 s, frames are dropped while the stream tries each second to reach it again. Lines leave at once,
-    whatever becomes of the video. FFmpeg prints no messages of its own from the first stream on.
+    """Sends frames as H.264 video on a separate thread, and a line of JSON with each: send() never blocks. If more than
+    a few frames are queued, the next is dropped. If the receiver of an RTSP stream goes away, or does not read for 5 s,
+    frames are dropped while the stream reconnects each second. Lines are sent at once, independently of the video.
+    FFmpeg prints no messages of its own from the first stream on.
 
-    >>> with veldt.Stream("udp://127.0.0.1:5600", width_px=640, height_px=512, frame_rate_hz=9) as stream:
-    ...     stream.send(capture.ir8, {"time_s": time_s})
+    >>> with veldt.Stream("udp://127.0.0.1:5600", width_px=640, height_px=512, frame_rate_hz=9) as stream: ...
+    stream.send(capture.ir8, {"time_s": time_s})
     """
 
     def __init__(
@@ -60,10 +60,10 @@ class Stream:
         self._next = 0
 
     def send(self, ir8: ArrayLike, line: dict[str, Any], number: int | None = None) -> bool:
-        """Hand over a frame (height, width) of 8 bits and what its line says. number: in frames since the stream began,
-        later than the last, 2^40 at most; None: the next. False if there was no room; the line leaves nevertheless.
+        """Queue a frame (height, width) of 8 bits and its line. number: in frames since the stream's start, increasing,
+        2^40 at most; None: the next. False if the queue was full; the line is sent nevertheless.
 
-        ConfigError for another size, another number, and for NaN, infinity and what JSON cannot hold in the line.
+        ConfigError for another size, another number, and for NaN, infinity and other values that JSON cannot represent.
         """
         number = self._next if number is None else number
         if not isinstance(number, (int, np.integer)) or number < self._next:
@@ -82,7 +82,7 @@ class Stream:
 
     @property
     def counts(self) -> StreamCounts:
-        """Up to now."""
+        """Counts up to now."""
         return StreamCounts(*self._stream.counts)
 
     @property
@@ -91,7 +91,7 @@ class Stream:
         return self._stream.clients_refused
 
     def close(self) -> None:
-        """Send what waits, two seconds at most, and end the stream."""
+        """Send queued frames for at most two seconds, and end the stream."""
         self._stream.close()
 
     def __enter__(self) -> Stream:

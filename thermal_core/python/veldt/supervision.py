@@ -1,4 +1,4 @@
-"""Labels as Roboflow's `supervision` takes them, which must be installed."""
+"""Labels for Roboflow's `supervision`, which must be installed."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from .datasets import Label
 
 
 def detections(labels: Sequence[Label], categories: Sequence[str], *, masks: bool = True) -> sv.Detections:
-    """Boxes, masks and tracks of a frame's labels, those marked `ignore` too. `class_id` is the place in `categories`,
-    as list(dataset.categories) and the YOLO export number them; ConfigError for a category that it lacks.
+    """Boxes, masks and tracks of a frame's labels, those marked `ignore` too. `class_id` is the index in `categories`,
+    as in list(dataset.categories) and the YOLO export; ConfigError for a missing category.
 
     >>> found = detections(frame.labels, list(dataset.categories))
     >>> picture = supervision.MaskAnnotator().annotate(cv2.cvtColor(frame.ir8(), cv2.COLOR_GRAY2BGR), found)

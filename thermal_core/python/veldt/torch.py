@@ -1,5 +1,4 @@
-"""Frames and labels as torchvision's detection models and transforms take them; `torch` and `torchvision` must be
-installed."""
+"""Frames and labels for torchvision's detection models and transforms; `torch` and `torchvision` must be installed."""
 
 from __future__ import annotations
 
@@ -17,7 +16,7 @@ from .datasets import Dataset, Frame, Label, open_dataset
 Target = dict[str, Any]
 Transforms = Callable[[tv_tensors.Image, Target], tuple[tv_tensors.Image, Target]]
 
-# PyTorch computes little with uint16; int32 holds all counts, and torchvision's transforms take it.
+# PyTorch supports few operations on uint16; int32 holds all counts, and torchvision's transforms support it.
 _TYPES = {"ir8": np.uint8, "ir16": np.int32, "ir16_k": np.float32}
 
 
@@ -26,10 +25,10 @@ class FrameDataset(torch.utils.data.Dataset[tuple[tv_tensors.Image, Target]]):
 
     The image is (1, height, width). The target has `boxes` (n, 4): XYXY [px], float32; `labels` (n): ids of
     `categories`, from 1 as 0 is torchvision's background; `track_ids` (n); `masks` (n, height, width), bool;
-    `image_id`: as in annotations.json. Worker processes read files for themselves, after fork and spawn.
+    `image_id`: as in annotations.json. Worker processes read files themselves, after fork and spawn.
 
-    >>> frames = FrameDataset("build/demo", clips=["winter_zigzag_61m"], transforms=v2.RandomHorizontalFlip())
-    >>> batches = torch.utils.data.DataLoader(frames, batch_size=4, shuffle=True, num_workers=2, collate_fn=collate)
+    >>> frames = FrameDataset("build/demo", clips=["winter_zigzag_61m"], transforms=v2.RandomHorizontalFlip()) >>>
+    batches = torch.utils.data.DataLoader(frames, batch_size=4, shuffle=True, num_workers=2, collate_fn=collate)
     """
 
     def __init__(
@@ -43,10 +42,10 @@ class FrameDataset(torch.utils.data.Dataset[tuple[tv_tensors.Image, Target]]):
         transforms: Transforms | None = None,
     ) -> None:
         """clips: only these, such as those of a split (splits_of()). pixels: "ir16_k", apparent temperature [K] in
-        float32, from which every count of ir16 can be had back; "ir16", counts in int32; "ir8", grey levels in uint8.
+        float32, from which every count of ir16 can be restored; "ir16", counts in int32; "ir8", grey levels in uint8.
         masks: whether targets have them. ignored: whether targets have labels that are marked `ignore` too. transforms:
-        of image and target, such as those of torchvision.transforms.v2; boxes and masks follow them. What they pad
-        and rotate in is 0 K, unless their `fill` says otherwise.
+        of image and target, such as those of torchvision.transforms.v2; boxes and masks follow them. They pad with 0 K,
+        unless `fill` is set.
 
         ConfigError for other pixels and an unknown clip; open_dataset()'s errors.
         """
@@ -61,11 +60,11 @@ class FrameDataset(torch.utils.data.Dataset[tuple[tv_tensors.Image, Target]]):
 
     @property
     def categories(self) -> dict[str, int]:
-        """Names with the ids that `labels` has. A model needs as many classes as the largest, and one more."""
+        """Names with the ids in `labels`. A model needs one class more than the largest id."""
         return self.dataset.categories
 
     def frame(self, at: int) -> Frame:
-        """The frame that an item is made of."""
+        """The frame of an item."""
         return self._frames[at]
 
     def __len__(self) -> int:
@@ -99,13 +98,15 @@ class FrameDataset(torch.utils.data.Dataset[tuple[tv_tensors.Image, Target]]):
 
 
 def collate(samples: list[tuple[tv_tensors.Image, Target]]) -> tuple[list[tv_tensors.Image], list[Target]]:
-    """A batch of a DataLoader as detection models take it: a list of images and one of targets."""
+    """A batch for detection models, from a DataLoader: a list of images and one of targets."""
     images, targets = zip(*samples)
     return list(images), list(targets)
 
 
 def per_label(sample: tuple[tv_tensors.Image, Target]) -> tuple[torch.Tensor, torch.Tensor]:
-    """What v2.SanitizeBoundingBoxes(labels_getter=per_label) removes with each box: labels and track ids."""
+    """The parts of a target that v2.SanitizeBoundingBoxes(labels_getter=per_label) removes with each box: labels and
+    track ids.
+    """
     return sample[1]["labels"], sample[1]["track_ids"]
 
 

@@ -1,4 +1,4 @@
-"""What cameras and video links do to pictures after the detector, drawn anew for each picture of a training set."""
+"""Effects of cameras and video links on pictures after the detector, drawn for each picture of a training set."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ class VideoChain:
 
     def __init__(self, settings: Mapping[str, Any], *, seed: int = 1) -> None:
         """settings: any of `noise_levels` (0 to 100), the deviation of white noise that is added first, in levels;
-        `processing`; `link`; and `field_motion_px` (-100 to 100), how far to the right all moves from even rows to odd
-        ones. ConfigError for unknown keys, values out of range, and distributions that are none.
+        `processing`; `link`; and `field_motion_px` (-100 to 100), the motion to the right from even rows to odd ones.
+        ConfigError for unknown keys, values out of range, and invalid distributions.
         """
         self._chain = _core.VideoChain(json_of(dict(settings), "settings"), home(), seed)
         self._next = 0
 
     def __call__(self, picture: ArrayLike, number: int | None = None) -> NDArray[np.uint8]:
-        """A copy of a picture (height, width) of numpy.uint8, through a chain that is drawn for it.
+        """A copy of a picture (height, width) of numpy.uint8, through a chain drawn for it.
 
-        number: 0 to 2^32 - 1, what the draw and all noise are a function of, with the seed; give it where several
-        processes load one set. None: one more than the call before. ConfigError for pictures of another type or shape.
+        number: 0 to 2^32 - 1, determines the draw and all noise, together with the seed; set it if several processes
+        load one set. None: one more than in the call before. ConfigError for pictures of another type or shape.
         """
         if number is None:
             number = self._next

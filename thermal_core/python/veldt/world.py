@@ -1,4 +1,4 @@
-"""A planned place to fly in."""
+"""A planned scene to fly in."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .home import home
 
 
 class Actor(NamedTuple):
-    """Where an actor is."""
+    """Pose of an actor."""
 
     category: str
     position_m: tuple[float, float, float]
@@ -25,7 +25,7 @@ class Actor(NamedTuple):
 
 
 class Capture(NamedTuple):
-    """What the camera took."""
+    """A captured frame."""
 
     ir8: NDArray[np.uint8]
     """Grey levels after gain control, (height, width)."""
@@ -36,11 +36,11 @@ class Capture(NamedTuple):
     labels: list[Label]
     """The actors in it."""
     object_index: NDArray[np.uint16]
-    """What each pixel shows, as the passes have it."""
+    """Object index of each pixel, as in passes."""
     depth_m: NDArray[np.float32]
     """Along the camera's axis, 1e10 for sky; (0, 0) if no physical term needs it."""
     actors: dict[int, Actor]
-    """Where all actors are at that time, by track id."""
+    """Poses of all actors at that time, by track id."""
 
 
 class Intrinsics(NamedTuple):
@@ -55,8 +55,8 @@ class Intrinsics(NamedTuple):
 
 
 class World:
-    """A clip's place, with its actors where they are planned to be, and a camera wherever you put it. The camera's
-    noise, lag, shutter and gain control go on from capture to capture.
+    """A clip's scene, with its actors as planned, and a camera with any pose. The camera's noise, lag, shutter and gain
+    control continue from capture to capture.
 
     >>> veldt.plan("night.json", "plan", settings=["render.posed_actors=all"])
     >>> world = veldt.World("plan", "camp", roam=False)
@@ -72,11 +72,11 @@ class World:
         frame_rate_hz: float | None = None,
         roam: bool = True,
     ) -> None:
-        """plan_folder: what plan() wrote, from a config with the engine `embree` and render.posed_actors "all".
-        frame_rate_hz: of the camera; None: the clip's. roam: whether the camera may leave the planned flight.
-        Without, the ground beyond what the flight shows is as at its border, and the frames of the flight are those
-        of `veldt generate` bit for bit; with it, single pixels round to the next count (0.2 %), and places of more
-        than 180 m a side have coarser ground (25 cm, from 360 m on 50 cm).
+        """plan_folder: the folder of plan(), from a config with the engine `embree` and render.posed_actors "all".
+        frame_rate_hz: of the camera; None: the clip's. roam: whether the camera may leave the planned flight. Without
+        it, the ground beyond the flight's view is replicated from its border, and the frames of the flight are those of
+        `veldt generate` bit for bit; with it, single pixels round to the next count (0.2 %), and scenes of more than
+        180 m a side have coarser ground (25 cm, from 360 m on 50 cm).
 
         ConfigError for another plan and an unknown clip; DataError and IoError if the plan cannot be read.
         """
@@ -89,11 +89,11 @@ class World:
         self.camera = Intrinsics(*self._world.camera)
 
     def capture(self, camera_to_world: ArrayLike, time_s: float) -> Capture:
-        """The frame that the camera takes from a pose (4, 4) at a time [s], after the capture before: on the clock of
-        its frame rate from flight_s[0] on. Frames in between pass unseen. Actors are interpolated between the frames of
-        the planned flight.
+        """The camera's frame from a pose (4, 4) at a time [s], after the previous capture: on the clock of its frame
+        rate from flight_s[0] on. Frames in between are skipped. Actors are interpolated between the frames of the
+        planned flight.
 
-        ConfigError for another time and for a pose that is no rotation and place; nothing has then changed.
+        ConfigError for another time and for a pose that is not a rotation and a position; nothing has changed then.
         """
         frame, object_index, depth_m, actors = self._world.capture(camera_to_world, time_s)
         return Capture(
@@ -104,6 +104,7 @@ class World:
         )
 
     def restart(self, seed: int | None = None) -> None:
-        """Begin again at flight_s[0], as if nothing had been captured; in a thirtieth of the time that opening takes.
-        seed: of a camera of the same kind with other noise; None: the same one."""
+        """Restart at flight_s[0], as if nothing had been captured; in a thirtieth of the time to open a world. seed: of
+        a camera of the same kind with other noise; None: the same one.
+        """
         self._world.restart(self._world.seed if seed is None else seed)

@@ -13,10 +13,10 @@ TEST_CASE("A reported failure is its message, its place and its hint, as far as 
   const Json event = {{"event", "error"},
                       {"kind", "internal"},
                       {"message", "ModuleNotFoundError: No module named 'numpy'"},
-                      {"where", "blender_scripts/veldt/noise.py:8"},
+                      {"where", "blender_scripts/planner/noise.py:8"},
                       {"hint", "install it"}};
   CHECK(reported_failure(event).in_words() ==
-        "ModuleNotFoundError: No module named 'numpy' (blender_scripts/veldt/noise.py:8); install it");
+        "ModuleNotFoundError: No module named 'numpy' (blender_scripts/planner/noise.py:8); install it");
   CHECK_FALSE(reported_failure(event).config);
   CHECK(reported_failure({{"message", "no mesh"}}).in_words() == "no mesh");
   CHECK(reported_failure({{"event", "error"}}).in_words() == "unknown reason");

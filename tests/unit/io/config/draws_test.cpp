@@ -95,6 +95,45 @@ TEST_CASE("Faults in a clip's sections start with its place") {
                  "night.json: clips[1].weather.wimd is not a known key; expected one of date, "));
 }
 
+TEST_CASE("A fault in an entry with a count is reported once, where the config has it") {
+  Json document = night();
+  document["clips"].push_back(parse_json(
+      R"({"id": "p", "count": 20, "season": "winter", "frames": 3, "flight": {"pattern": "zigzag"}})", ""));
+  const auto fault_with = [&](const char* changes) {
+    Json changed = document;
+    changed["clips"][2].merge_patch(parse_json(changes, ""));
+    return fault_in(changed);
+  };
+  const std::string place = R"(night.json: clips[2] ("p", 20 clips))";
+  CHECK(fault_with(R"({"flight": {"altitude_m": 9000}, "frames": 0})") ==
+        place + ".frames = 0; expected at least 1 and at most 1000000\n" + place +
+            ".flight.altitude_m = 9000 m; expected at least -1000 and at most 5000 m");
+  CHECK_THAT(fault_with(R"({"flight": {"altitude": 60}})"),
+             StartsWith(place + ".flight.altitude is not a known key; expected one of pattern, ") &&
+                 EndsWith("did you mean \"altitude_m\"?"));
+  CHECK(fault_with(R"({"season": null})") == place + ".season is missing; expected a value");
+  CHECK(fault_with(R"({"weather": {"wind_m_s": 70}})") ==
+        place + ".weather.wind_m_s = 70 m/s; expected at least 0 and at most 60 m/s");
+  CHECK(fault_with(R"({"flight": {"altitude_m": {"uniform": [70, 60]}}})") ==
+        place + ".flight.altitude_m.uniform = [70,60]; expected the lowest first");
+  CHECK(fault_with(R"({"count": 0, "id": "a.b"})") ==
+        "night.json: clips[2].id = \"a.b\"; expected 1 to 200 letters, digits, _ or -, not beginning with -\n"
+        "night.json: clips[2].count = 0; expected at least 1 and at most 100000");
+  CHECK(fault_with(R"({"count": 1, "frames": 0})") ==
+        R"(night.json: clips[2] ("p", 1 clip).frames = 0; expected at least 1 and at most 1000000)");
+}
+
+TEST_CASE("Ids that entries with counts share are reported once for each entry") {
+  Json document = night();
+  const Json counted = parse_json(
+      R"({"id": "p", "count": 3, "season": "winter", "frames": 3, "flight": {"pattern": "zigzag"}})", "");
+  document["clips"] = {counted, counted, document["clips"][0]};
+  document["clips"][2]["id"] = "p_0002";
+  CHECK(fault_in(document) ==
+        "night.json: clips[1] (\"p\", 3 clips).id = \"p_0000\"; expected each id once\n"
+        "night.json: clips[2].id = \"p_0002\"; expected each id once");
+}
+
 TEST_CASE("Each clip draws its own values, and numbers are all that is left") {
   const Config config = resolved(night(R"({"weather": {"air_temperature_k": {"uniform": [270, 290]}}})"));
   const double a_k = settings(config, "a").weather[0].air.temperature_k;

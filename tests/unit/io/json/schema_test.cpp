@@ -209,6 +209,18 @@ TEST_CASE("The unit is that of the longest matching suffix") {
   CHECK(unit_of_key("").empty());
 }
 
+TEST_CASE("Faults of entries with one name are one fault") {
+  const Json schema = parse_json(
+      R"({"type": "object", "properties": {"clips": {"type": "array", "items": {"type": "object",
+          "properties": {"speed_m_s": {"type": "number"}}}}}})",
+      "");
+  Json document =
+      parse_json(R"({"clips": [{"speed_m_s": "a"}, {"speed_m_s": "b"}, {"speed_m_s": "c"}]})", "");
+  CHECK(check_and_fill(document, schema, "", {{"clips", {"clips[0]", "the others", "the others"}}}) ==
+        std::vector<std::string>{"clips[0].speed_m_s = \"a\"; expected a number",
+                                 "the others.speed_m_s = \"b\"; expected a number"});
+}
+
 TEST_CASE("A schema's references are resolved, checked and filled in") {
   CHECK(faults_in(R"("first": {"turn_deg": "x"}, "later": [{"to": "a"}, {}])") ==
         Faults{"first.turn_deg = \"x\"; expected a number", "first.to is missing; expected a value",

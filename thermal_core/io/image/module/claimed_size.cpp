@@ -12,7 +12,7 @@
 namespace thermal::pictures {
 namespace {
 
-/// Zstandard, which packs best, makes 128 kB of 4 bytes.
+/// Zstandard, the densest compression, stores 128 kB in 4 bytes.
 constexpr std::uint64_t kMostPerByte = 1U << 15U;
 
 struct Claim {
@@ -25,7 +25,7 @@ void check_fits(const Claim& claim, const OIIO::ImageSpec& spec, std::int64_t mo
                 std::uint64_t file_bytes) {
   const std::int64_t pixels = std::int64_t{claim.width_px} * claim.height_px;
   const bool countable =
-      claim.width_px >= 0 && claim.height_px >= 0;  // from 2^31 on, they come as negative ones
+      claim.width_px >= 0 && claim.height_px >= 0;  // from 2^31 on, OpenImageIO reports negative ones
   const std::uint64_t bytes = static_cast<std::uint64_t>(pixels) * spec.pixel_bytes(true);
   if (countable && pixels <= most_pixels && bytes / kMostPerByte <= file_bytes) return;
   throw DataError(fmt::format("{} = {} x {} px of {} bytes each; expected what a file of {} bytes can hold",
@@ -43,8 +43,9 @@ void check_claimed_size(const OIIO::ImageSpec& spec, const Path& file) {
                                 spec.depth, most_pixels));
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-  if (error) return;  // of no regular file
-  // OpenImageIO takes address space for all rows of a strip, which may be more than there are: 65,535 is usual.
+  if (error) return;  // not a regular file
+  // OpenImageIO reserves address space for all rows of a strip, of which 65,535 are usual, even if the picture has
+  // fewer.
   const int strip_rows = spec.get_int_attribute("tiff:RowsPerStrip");
   check_fits({"size", spec.width, spec.height}, spec, most_pixels, bytes);
   check_fits({"tiles", spec.tile_width, spec.tile_height}, spec, most_pixels, bytes);

@@ -14,7 +14,7 @@
 namespace thermal::pictures {
 namespace {
 
-/// fault() of base, which this module is not linked with.
+/// fault() of base, to which this module is not linked.
 [[noreturn]] void refuse(const std::string& what, const std::string& rule) {
   throw DataError(fmt::format("{}; expected {}", what, rule));
 }
@@ -25,7 +25,7 @@ void check_depth(const OIIO::ImageSpec& spec) {
     refuse(fmt::format("pixels = {}", spec.format.c_str()), "grey of 8 or 16 bits");
 }
 
-/// The first of the channels that are no alpha; DataError if they are not alike.
+/// The first colour channel; DataError if the others differ from it.
 std::uint16_t grey_of(const std::uint16_t* pixel, int channels, int tint) {
   const auto [least, most] = std::minmax_element(pixel, pixel + (channels < 3 ? 1 : 3));
   if (*most - *least > tint) refuse("pixels = colours", "grey levels");
@@ -44,7 +44,7 @@ GreyPicture read_grey(const Path& file) {
                                      static_cast<std::size_t>(channels));
   read_channels(*in, file, channels, OIIO::TypeDesc::UINT16, samples.data());
   const int bits = spec.format == OIIO::TypeDesc::UINT8 ? 8 : 16;
-  const int scale = bits == 8 ? 257 : 1;  // OpenImageIO takes 255 of 8 bits for 65535 of 16
+  const int scale = bits == 8 ? 257 : 1;  // OpenImageIO maps 255 of 8 bits to 65535 of 16
   GreyPicture picture = {.levels = Plane<std::uint16_t>(spec.width, spec.height), .bits = bits};
   const auto out = picture.levels.pixels();
   for (std::size_t k = 0; k < out.size(); ++k) {

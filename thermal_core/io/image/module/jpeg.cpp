@@ -15,7 +15,7 @@
 namespace thermal::pictures {
 namespace {
 
-/// The value below which a share of the finite pixels lies.
+/// Quantile of the finite pixels.
 float quantile_of(std::vector<float> pixels, double share) {
   std::erase_if(pixels, [](float value) { return !std::isfinite(value); });
   if (pixels.empty()) return 0;
@@ -24,7 +24,7 @@ float quantile_of(std::vector<float> pixels, double share) {
   return *place;
 }
 
-/// Grey levels of temperatures, or of counts of more than 8 bits, which fill a small part of their scale: black and
+/// Grey levels of temperatures, or of counts of more than 8 bits, which use a small part of their range: black and
 /// white at the 0.5 and 99.5 % points.
 OIIO::ImageBuf stretched(const OIIO::ImageBuf& picture) {
   constexpr double kTail = 0.005;
@@ -42,7 +42,8 @@ OIIO::ImageBuf stretched(const OIIO::ImageBuf& picture) {
 
 /// 8 bits, grey or red, green and blue.
 OIIO::ImageBuf read_picture(const Path& file) {
-  // No ImageBuf of the file: that takes the size from a cache, which may be older than the file, and writes beyond it.
+  // Not an ImageBuf of the file: its size comes from a cache, which may be older than the file, and it would write out
+  // of bounds.
   const auto in = open_picture(file);
   const OIIO::ImageSpec spec = in->spec();
   const bool deep = spec.nchannels == 1 && spec.format.basesize() > 1;

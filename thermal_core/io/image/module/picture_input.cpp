@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// OpenImageIO's decoder, and the bytes that its files begin with.
+/// OpenImageIO's decoder, and the magic bytes of its files.
 struct Decoder {
   const char* name;
   std::string_view begins;
@@ -28,7 +28,7 @@ constexpr std::array<Decoder, 6> kDecoders = {{{"png", "\x89PNG\r\n\x1a\n"sv},
                                                {"tiff", "II+\0"sv},  // BigTIFF
                                                {"tiff", "MM\0+"sv}}};
 
-/// Opening a pipe would wait for whoever writes to it.
+/// Reads regular files only, since opening a pipe would wait for a writer.
 std::string first_bytes(const Path& file) {
   if (!std::filesystem::is_regular_file(file))
     throw IoError(fmt::format("cannot read {}: {}", file.string(),
@@ -38,7 +38,7 @@ std::string first_bytes(const Path& file) {
   return bytes;
 }
 
-/// Asked by its name, so that no other decoder sees the file.
+/// Requested by name, so that no other decoder opens the file.
 std::unique_ptr<OIIO::ImageInput> decoder_for(const Path& file) {
   const std::string bytes = first_bytes(file);
   for (const Decoder& one : kDecoders)

@@ -20,14 +20,14 @@ namespace {
 constexpr std::uint32_t kMetadataTag = 42112;
 constexpr std::uint32_t kNoDataTag = 42113;
 
-/// A text of GDAL's in a TIFF, which OpenImageIO does not read; empty without.
+/// Text of a GDAL tag in a TIFF, which OpenImageIO does not read; empty if there is none.
 std::string text_of(const Path& file, std::uint32_t tag) {
   std::string reason;
   const Tiff tiff = open_tiff(file, reason);
   const TIFFField* field = tiff ? TIFFFindField(tiff.get(), tag, TIFF_ANY) : nullptr;
   if (field == nullptr) return {};
   const char* text = nullptr;
-  // libtiff gives the length of tags that it does not know; to GDAL, which may be in this process, this one is known.
+  // libtiff passes the length of tags that are unknown to it; GDAL, if it is in this process, registers this one.
   if (TIFFFieldPassCount(field) == 0)
     return TIFFGetField(tiff.get(), tag, &text) == 1 && text != nullptr ? std::string(text) : std::string();
   std::uint32_t count = 0;
@@ -36,7 +36,7 @@ std::string text_of(const Path& file, std::uint32_t tag) {
   return {text, count};
 }
 
-/// The text of the first item of a role; empty without.
+/// The text of the first item with a role; empty if there is none.
 std::string_view item(std::string_view xml, std::string_view role) {
   const std::size_t found = xml.find(fmt::format("role=\"{}\">", role));
   if (found == std::string_view::npos) return {};
@@ -91,7 +91,7 @@ StoredTemperatures read_temperatures(const Path& file) {
         fmt::format("pixels = {} x {}; expected one channel of floats of 32 or 64 bits, or of 16-bit counts",
                     spec.nchannels, spec.format.c_str()));
   constexpr int kWhiteIsZero =
-      0;  // for which OpenImageIO turns values round, as is right for grey levels alone
+      0;  // then OpenImageIO would convert values to another order, as for grey levels
   if (spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == kWhiteIsZero)
     throw DataError("PhotometricInterpretation = 0 (white is zero); expected 1: larger values are warmer");
   check_is_single(file);

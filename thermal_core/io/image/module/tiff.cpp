@@ -9,12 +9,13 @@
 #include "io/image/module/functions.h"
 #include "io/image/module/tiff_library.h"
 
-// libtiff and not OpenImageIO: OpenImageIO 2.4 writes no GPS directory, no XMP but what it knows, and the time of writing.
+// libtiff and not OpenImageIO: OpenImageIO 2.4 cannot write a GPS directory or arbitrary XMP, and always writes the
+// time.
 
 namespace thermal::pictures {
 namespace {
 
-/// A file in memory, as libtiff's callbacks see it.
+/// A file in memory, for libtiff's callbacks.
 struct TiffMemory {
   std::string bytes;
   std::size_t place = 0;
@@ -61,7 +62,7 @@ class TiffWriter {
     check(tiff_ != nullptr);
   }
 
-  /// IoError unless libtiff did it.
+  /// IoError if libtiff failed.
   void check(bool done) const {
     if (!done) throw IoError(fmt::format("cannot encode a TIFF: {}", memory_.reason));
   }
@@ -75,7 +76,7 @@ class TiffWriter {
     if (!text.empty()) set(tag, text.c_str());
   }
 
-  /// Writes the current directory, which is none of pixels. Returns its place.
+  /// Writes the current directory, which has no pixels. Returns its offset.
   std::uint64_t end_directory() {
     std::uint64_t place = 0;
     check(TIFFWriteCustomDirectory(tiff_.get(), &place) == 1);
@@ -116,7 +117,7 @@ std::uint64_t write_exif(TiffWriter& writer, const TiffTags& tags) {
   return writer.end_directory();
 }
 
-/// Degrees, minutes and seconds of an angle's size, rounded once.
+/// Degrees, minutes and seconds of an angle's magnitude, rounded once.
 std::array<double, 3> sexagesimal(double angle_deg) {
   constexpr std::int64_t kMicro = 1'000'000;
   const std::int64_t micro_seconds = std::llround(std::abs(angle_deg) * 3600 * kMicro);
@@ -184,10 +185,10 @@ void write_pixels(TiffWriter& writer, const Plane<T>& picture) {
   writer.set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   writer.set(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
   writer.set(TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
-  // Kelvin from counts have full mantissas: the predictor for floats makes them a third larger.
+  // Kelvin from counts have full mantissas: the floating-point predictor makes them a third larger.
   if (kInteger) writer.set(TIFFTAG_PREDICTOR, PREDICTOR_HORIZONTAL);
   writer.set(TIFFTAG_ROWSPERSTRIP, height_px);
-  // One strip in one call, which libtiff may change: then it compresses with libdeflate, in half of the time.
+  // One strip in one call, which libtiff may modify: then it compresses with libdeflate, in half of the time.
   Plane<T> strip = picture;
   const auto bytes = std::as_writable_bytes(strip.pixels());
   const auto size = static_cast<tmsize_t>(bytes.size());

@@ -1,0 +1,1 @@
+"""Flights: paths and viewing directions of the camera."""

@@ -1,0 +1,1 @@
+"""Groups of actors: members, positions and behaviours."""

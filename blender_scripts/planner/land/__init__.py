@@ -1,0 +1,1 @@
+"""The ground: its shape, waters, road and covers."""

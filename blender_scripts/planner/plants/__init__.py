@@ -1,0 +1,26 @@
+"""Plants, and other objects that stand or lie about: placement and shapes.
+
+A plant or another static object is a file in `assets/plants`.
+
+form          how it is drawn (`plant_shapes.FORMS`), at exactly `height_m` and `crown_diameter_m`; of the forms
+              `umbrella` and `many_stemmed`, stems and limbs are the part `wood` of its material; `leaves` facets of
+              about `leaf_m` are clusters of leaves along twigs
+scale_range   sizes of instances, relative to that
+foot_m        radius that no other plant stands on
+spacing_m     least distance to the next plant of its kind
+clearance_m   least distance to walking actors
+patch_m       size of rich and poor patches
+slope_deg     two slopes: full density up to the first, none above the second
+cover_m2      ground it hides from above, for the budget of physical terms
+model         a 3D model instead of `form`: see assets/README.md
+
+Instead of a `form`, it can have `shapes` and `materials` as a structure has. A structure is a file in
+`assets/structures`. The rules of a site place it, at its drawn size.
+
+shapes        solids (`geometry/solids.py`) in m, x along its front, z up, the origin on the ground, each with a `part`
+materials     by part: a file in `assets/materials`, or `[material, part]` for a part of it; the first is what is seen
+              from above
+foot_m        radius that nothing else of the site stands on, and no plant grows on
+clearance_m   least distance to walking actors, from there
+cover_m2      ground it hides from above, for the budget of physical terms
+"""

@@ -1,0 +1,1 @@
+"""Plans of the preview: a map of a scene and colour stills."""

@@ -1,1 +1,0 @@
-"""Flights: where the camera goes and where it looks."""

@@ -1,1 +1,0 @@
-"""Groups of actors: who is in the scene, where, and what they do."""

@@ -1,1 +1,0 @@
-"""The ground: its shape, its waters, its road and what covers it."""

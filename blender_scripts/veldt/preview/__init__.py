@@ -1,1 +1,0 @@
-"""Plans of the preview: a map of a place and colour stills."""
